@@ -1,0 +1,56 @@
+/// Instance, device and queue; headless. No extension is required; Vulkan 1.2.
+#pragma once
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace splatray {
+
+/// A physical device and what we think of it.
+struct DeviceInfo {
+  std::string name;
+  std::string type;      ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
+  std::string driver;    ///< name and version string of the driver
+  std::string api;       ///< "1.3.230"
+  std::string refused;   ///< why it cannot be used; empty = usable
+};
+
+class Context {
+ public:
+  /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or part of a name
+  /// (case-insensitive). Throws Error (no_device) with every device's reason when none fits.
+  /// Validation layers and their messages are on when `validation` (or the environment variable SPLATRAY_VALIDATION=1) is set; a
+  /// validation error message is counted and printed on stderr.
+  explicit Context(const std::string& wanted = "", bool validation = false);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  [[nodiscard]] const DeviceInfo& device_info() const { return info_; }
+  [[nodiscard]] std::uint32_t validation_messages() const { return validation_messages_; }
+
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  std::uint32_t queue_family = 0;
+  VkQueue queue = VK_NULL_HANDLE;
+  VkCommandPool command_pool = VK_NULL_HANDLE;
+  VkPhysicalDeviceProperties properties{};
+  VkPhysicalDeviceMemoryProperties memory{};
+
+  std::uint32_t validation_messages_ = 0;
+
+ private:
+  DeviceInfo info_;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+/// All devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver at all.
+[[nodiscard]] std::vector<DeviceInfo> list_devices();
+
+/// Throws Error (failed, or out_of_memory for the two memory results) naming `what` unless the result is VK_SUCCESS.
+void check(VkResult result, const char* what);
+
+}  // namespace splatray

@@ -1,0 +1,17 @@
+/// The picture: linear float RGBA and, when asked for, auxiliary values per pixel.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "shaders/layout.h"
+
+namespace splatray {
+
+struct Image {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<vec4> rgba;      ///< top row first; linear radiance, not premultiplied by A = coverage
+  std::vector<AovPixel> aov;   ///< empty unless Settings::aov
+};
+
+}  // namespace splatray

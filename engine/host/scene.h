@@ -1,0 +1,97 @@
+/// The scene in memory: splats in their octree, one material per object, lights, camera. Plain arrays, exactly what the
+/// scene file stores and what the engine uploads. shaders/layout.h draws the words.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shaders/layout.h"
+
+namespace splatray {
+
+/// world = origin_world + root * unit_world; root in lattice units, [0, 2^LATTICE_BITS) per axis.
+struct RootTransform {
+  glm::dvec3 origin_world{0.0};  ///< world position of the root's lowest corner
+  double unit_world = 1.0;       ///< world length of a lattice unit, > 0
+
+  [[nodiscard]] glm::dvec3 to_world(glm::dvec3 root) const { return origin_world + root * unit_world; }
+  [[nodiscard]] glm::dvec3 to_root(glm::dvec3 world) const { return (world - origin_world) / unit_world; }
+};
+
+/// Camera in world space, float64. Right-handed; the image's top row is towards `up`.
+struct Camera {
+  glm::dvec3 eye{0.0, 0.0, 1.0};
+  glm::dvec3 target{0.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};  ///< need not be orthogonal to the view direction, must not be parallel to it
+  double fov_y_deg = 40.0;       ///< vertical field of view, (0, 180); ignored when ortho_height > 0
+  double ortho_height = 0.0;     ///< world height of an orthographic picture; 0 = perspective
+};
+
+/// A light in world space. Intensities are linear rgb.
+struct SceneLight {
+  std::uint32_t kind = LIGHT_DIRECTIONAL;  ///< LIGHT_*
+  glm::dvec3 position{0.0, 1.0, 0.0};      ///< point: position; directional: unit vector towards the light
+  glm::vec3 power{1.0F};                   ///< directional: irradiance facing it; point: intensity (irradiance * distance^2)
+};
+
+enum class Insertion : std::uint32_t { overlap = 0, probe = 1, centre = 2 };
+enum class RadiusRule : std::uint32_t { coverage = 0, knn = 1, given = 2 };
+
+/// How the octree was built; kept in the file so that a build can be repeated.
+struct BuildParams {
+  std::uint32_t leaf_size = 10;                     ///< k: most splat centres in a leaf above MAX_DEPTH, >= 1
+  Insertion insertion = Insertion::overlap;
+  std::uint32_t probes = 32;                        ///< probe rays per leaf, insertion == probe only
+  RadiusRule radius_rule = RadiusRule::coverage;    ///< for points without a radius of their own
+  double radius_scale = 1.0;                        ///< factor on every radius, > 0
+  std::uint64_t samples = 0;                        ///< points sampled on meshes in all; 0 = mesh vertices
+  std::uint64_t seed = 1;
+};
+
+/// A splat in full precision, root space; what 128 bits decode to.
+struct Splat {
+  glm::dvec3 center;        ///< lattice units, integers
+  glm::dvec3 normal;        ///< unit
+  double radius_squared;    ///< lattice units^2
+  std::uint32_t object;
+};
+
+/// Packs a splat: centre rounded to the lattice (must lie in [0, 2^21 - 1]), normal to 16-bit octahedral,
+/// squared radius rounded up. Asserts on non-finite input and on an object index above OBJECT_MASK.
+[[nodiscard]] uvec4 pack_splat(const Splat& splat);
+/// The exact splat of 128 bits. The reference implementation of the decoding, in float64.
+[[nodiscard]] Splat unpack_splat(const uvec4& words);
+
+/// 8 bits a channel, square-root encoded: byte = round(255 sqrt(linear)); r lowest, then g, b, a = 255.
+[[nodiscard]] std::uint32_t pack_color(glm::vec3 linear);
+[[nodiscard]] glm::vec3 unpack_color(std::uint32_t color);
+
+struct Scene {
+  RootTransform root;
+  BuildParams build;
+  std::uint64_t splat_count = 0;            ///< different splats; data_pool.size() counts references
+  std::vector<std::uint32_t> node_pool;     ///< node words; the root is word 0, never empty
+  std::vector<std::uint32_t> begin_end;     ///< filled leaves + 1 entries, ascending, last = data_pool.size()
+  std::vector<uvec4> data_pool;             ///< splats, leaf by leaf
+  std::vector<std::uint32_t> color_pool;    ///< beside data_pool, or empty (no colours)
+  std::vector<Material> materials;          ///< one per object
+  std::vector<std::string> object_names;    ///< beside materials
+  std::vector<SceneLight> lights;           ///< as the input has them; may be empty
+  std::optional<Camera> camera;             ///< the input's first camera
+  glm::dvec3 up{0.0, 1.0, 0.0};             ///< up direction used for default framing
+  glm::dvec3 bounds_min_world{0.0};         ///< bounding box of the centres
+  glm::dvec3 bounds_max_world{0.0};
+  double surface_area_world = 0.0;          ///< of the source meshes; 0 = unknown
+  std::string environment_path;             ///< environment map named by the scene; empty = none
+
+  /// Length of the bounding box's diagonal, world units.
+  [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }
+};
+
+/// Indices into data_pool of one reference per splat: the one in the leaf that holds the centre. Ascending.
+[[nodiscard]] std::vector<std::uint32_t> home_references(const Scene& scene);
+
+}  // namespace splatray

@@ -1,0 +1,223 @@
+/// Everything that crosses the C++/GLSL border, defined once: splat and node words, tables, frame parameters, binding
+/// and specialization-constant numbers. Compiled as GLSL (GL_GOOGLE_include_directive) and as C++20 (with GLM).
+///
+/// Root space. The octree's root cube is [0, 2^LATTICE_BITS)^3. Splat centres are integer points of that lattice and
+/// all cell planes are integers, so both are exact in float32. world = root_origin_world + root * root_unit_world
+/// (RootTransform, float64); axes are not rotated, so directions and normals are the same in both spaces.
+///
+/// Splat, 128 bits (one uvec4). Every copy of a splat in the data pool is the same 128 bits.
+///   word.bits | meaning
+///   0.31..11  | centre x, lattice units, 21 bits
+///   0.10..0   | centre y, upper 11 of 21 bits
+///   1.31..22  | centre y, lower 10 of 21 bits
+///   1.20..0   | centre z, 21 bits (1.21 is zero)
+///   2.15..0   | normal, octahedral u + 32767, u in [-32767, 32767] (Cigolle et al. 2014, "A Survey of Efficient
+///   2.31..16  | normal, octahedral v + 32767  Representations for Independent Unit Vectors"; here without final scaling)
+///   3.31..16  | squared radius in lattice units^2, bits 29..14 of the float32, rounded up (2^-9 relative steps)
+///   3.15..0   | object index, also the index of its material
+///
+/// Node word, 32 bits. Bits 31..30 tag, bits 29..0 address (Goradia et al. 2010, sec. III-A).
+///   NODE_INNER  : address of the first of 8 children in the node pool; child = x + 2y + 4z (Z-order)
+///   NODE_FILLED : index into Begin-End; the leaf's splats are data_pool[begin_end[a] .. begin_end[a+1])
+///   NODE_EMPTY  : address is zero
+#ifndef SPLATRAY_LAYOUT_H
+#define SPLATRAY_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/glm.hpp>
+namespace splatray {
+using glm::ivec3;
+using glm::uint;
+using glm::uvec2;
+using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+#define SPLATRAY_CONST inline constexpr uint
+#else
+#define SPLATRAY_CONST const uint
+#endif
+
+SPLATRAY_CONST LATTICE_BITS = 21u;
+/// Deepest leaf level: a cell is then 2^(LATTICE_BITS - MAX_DEPTH) = 8 lattice units wide, still wider than the
+/// inflation of the conservative leaf lists (LIST_INFLATION).
+SPLATRAY_CONST MAX_DEPTH = 18u;
+/// Leaf lists hold every splat whose disc comes this close to the cell, lattice units (2^-19 of the root).
+SPLATRAY_CONST LIST_INFLATION = 4u;
+/// No disc comes closer to the root's faces than this, lattice units, so that all hits lie strictly inside the root.
+SPLATRAY_CONST ROOT_MARGIN = 16u;
+
+SPLATRAY_CONST NODE_TAG_SHIFT = 30u;
+SPLATRAY_CONST NODE_ADDRESS_MASK = 0x3FFFFFFFu;
+SPLATRAY_CONST NODE_INNER = 0u;
+SPLATRAY_CONST NODE_FILLED = 1u;
+SPLATRAY_CONST NODE_EMPTY = 2u;
+
+SPLATRAY_CONST OCT_SCALE = 32767u;      ///< octahedral normals: |u| + |v| + |w| = OCT_SCALE
+SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;   ///< word 3: object index
+
+/// Material flags.
+SPLATRAY_CONST MATERIAL_DIELECTRIC = 1u;  ///< refracts and reflects by Fresnel; `tint` on each crossing
+SPLATRAY_CONST MATERIAL_TWO_SIDED = 2u;   ///< both faces are hit; the normal is turned to the ray
+SPLATRAY_CONST MATERIAL_HIDDEN = 4u;      ///< the object is not hit at all
+
+/// One per object; index = the splat's object index. Colours are linear, 0..1.
+struct Material {
+  vec3 diffuse;     ///< diffuse reflectance; multiplied by the splat's colour where the scene has colours
+  float specular;   ///< Phong specular reflectance, 0..1 (energy-normalised lobe)
+  vec3 tint;        ///< mirror: reflectance; dielectric: transmittance of each crossing
+  float shininess;  ///< Phong exponent, >= 1
+  float mirror;     ///< share of light mirrored, 0..1; the rest is shaded
+  float ior;        ///< index of refraction inside, > 0; dielectrics only
+  uint flags;       ///< MATERIAL_*
+  uint mask_bit;    ///< dielectrics: the object's bit number, 0..31, in a ray's mask of the objects it is inside of
+};
+
+SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
+SPLATRAY_CONST LIGHT_POINT = 1u;
+
+struct Light {
+  vec3 position;  ///< point: position, root space. directional: unit vector towards the light
+  uint kind;      ///< LIGHT_*
+  vec3 power;     ///< directional: irradiance facing it. point: intensity, irradiance * (lattice units)^2
+  float unused;   ///< zero
+};
+
+/// Uniform block, std140-compatible: every vec3 is followed by a scalar. Root space unless said.
+struct FrameParams {
+  vec3 origin_00;          ///< primary ray through pixel position (0, 0) (top left corner): point on the ray
+  uint width;              ///< image size, pixels
+  vec3 origin_dx;          ///< change of that point per pixel to the right
+  uint height;
+  vec3 origin_dy;          ///< ... per pixel down
+  uint tile_x;             ///< first pixel of this dispatch
+  vec3 dir_00;             ///< primary ray direction through (0, 0), not normalised
+  uint tile_y;
+  vec3 dir_dx;
+  uint tile_width;         ///< pixels of this dispatch
+  vec3 dir_dy;
+  uint tile_height;
+  float depth_offset;      ///< root units: distance eye - ray point where it does not depend on the pixel
+  float depth_per_dir;     ///< distance eye - ray point in units of |dir| (1 when the ray point lies on a far plane)
+  float t_min;             ///< where primary rays start, relative to the ray point, root units; may be -inf
+  float root_unit_world;   ///< world length of one lattice unit
+  uint sample_begin;       ///< samples of this dispatch: [sample_begin, sample_end)
+  uint sample_end;
+  uint sample_total;       ///< samples of the whole picture; fixes the stratification
+  uint seed;
+  uint max_bounces;        ///< secondary rays in a path, >= 0
+  uint light_count;
+  float kappa;             ///< window depth in units of the first splat's radius
+  float delta;             ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units
+  vec3 environment;        ///< radiance factor of the texture, or the constant radiance
+  float unused_0;
+  vec3 environment_up;     ///< unit vector the environment's +y (its pole) points to
+  float unused_1;
+  vec3 environment_right;  ///< unit vector the environment's +x points to; its +z is cross(right, up)
+  float unused_2;
+  vec4 irradiance[9];      ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
+                           ///< (Ramamoorthi, Hanrahan 2001), rgb
+};
+
+/// One ray of a query (rays.comp.glsl). Root space; the hits are those of exactly this ray.
+struct RayQuery {
+  vec3 origin;
+  float t_min;        ///< hits need t > t_min
+  vec3 dir;           ///< need not be unit; t is in units of |dir|
+  uint inside;        ///< mask of the dielectrics the ray is inside of
+  vec3 from_normal;   ///< secondary rays: blended normal left, zero for primary rays
+  uint from_object;   ///< secondary rays: object left, NO_OBJECT for primary rays
+};
+
+/// The answer. Misses have t = +inf, object = NO_OBJECT.
+struct RayHit {
+  vec3 normal;   ///< blended unit normal, turned against the ray
+  float t;       ///< blended
+  uvec4 first;   ///< the first splat (t0, i0), its four words
+  float t_first; ///< t0
+  uint object;
+  uint members;  ///< splats in the cluster
+  uint color;    ///< blended colour, 8 bits a channel, square-root encoded, r lowest; 0 without colours
+};
+SPLATRAY_CONST NO_OBJECT = 0xFFFFFFFFu;
+
+/// Per-pixel auxiliary outputs, of the ray through the pixel's centre.
+struct AovPixel {
+  vec3 normal;  ///< blended unit normal, world space; 0 on a miss
+  float z;      ///< distance from the eye, world units; +inf on a miss
+  uint object;  ///< NO_OBJECT on a miss
+  uint first;   ///< reserved, zero
+  uint tests;   ///< splat tests of this ray
+  uint steps;   ///< node steps of this ray
+};
+
+/// Counters, compiled in by COUNTERS only.
+SPLATRAY_CONST COUNT_PRIMARY = 0u;
+SPLATRAY_CONST COUNT_SHADOW = 1u;
+SPLATRAY_CONST COUNT_REFLECTED = 2u;
+SPLATRAY_CONST COUNT_REFRACTED = 3u;
+SPLATRAY_CONST COUNT_LEAVES = 4u;       ///< leaves visited
+SPLATRAY_CONST COUNT_NODE_STEPS = 5u;   ///< node words read
+SPLATRAY_CONST COUNT_TESTS = 6u;        ///< splat tests
+SPLATRAY_CONST COUNT_HITS = 7u;         ///< rays that hit
+SPLATRAY_CONST COUNT_LOST = 8u;         ///< rays stopped by the iteration cap
+SPLATRAY_CONST COUNT_LEAKED = 9u;       ///< rays that left the scene while inside a dielectric
+SPLATRAY_CONST COUNT_NON_FINITE = 10u;  ///< samples with a non-finite colour
+SPLATRAY_CONST COUNT_BOUNCE_LIMIT = 11u;    ///< paths cut by the bounce limit
+SPLATRAY_CONST COUNT_ENERGY_LOST = 12u;     ///< sum of their throughput, in units of 1/1024
+SPLATRAY_CONST COUNTER_COUNT = 16u;
+
+/// Descriptor bindings (set 0).
+SPLATRAY_CONST BIND_FRAME = 0u;
+SPLATRAY_CONST BIND_NODE_POOL = 1u;
+SPLATRAY_CONST BIND_BEGIN_END = 2u;
+SPLATRAY_CONST BIND_DATA_POOL = 3u;
+SPLATRAY_CONST BIND_COLOR_POOL = 4u;
+SPLATRAY_CONST BIND_MATERIALS = 5u;
+SPLATRAY_CONST BIND_LIGHTS = 6u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 7u;
+SPLATRAY_CONST BIND_ACCUMULATION = 8u;
+SPLATRAY_CONST BIND_AOV = 9u;
+SPLATRAY_CONST BIND_COUNTERS = 10u;
+SPLATRAY_CONST BIND_RAYS = 11u;
+SPLATRAY_CONST BIND_HITS = 12u;
+
+/// Specialization constants: the features of a pipeline. What is off costs nothing.
+SPLATRAY_CONST SPEC_BLEND = 0u;        ///< BLEND_*
+SPLATRAY_CONST SPEC_KERNEL = 1u;       ///< KERNEL_*
+SPLATRAY_CONST SPEC_SIDE = 2u;         ///< SIDE_*
+SPLATRAY_CONST SPEC_FACES = 3u;        ///< FACES_*
+SPLATRAY_CONST SPEC_MIRRORS = 4u;      ///< 1: some material mirrors
+SPLATRAY_CONST SPEC_GLASS = 5u;        ///< 1: some material is a dielectric
+SPLATRAY_CONST SPEC_COLORS = 6u;       ///< 1: there is a colour pool
+SPLATRAY_CONST SPEC_SHADOWS = 7u;      ///< 1: shadow rays
+SPLATRAY_CONST SPEC_ENVIRONMENT = 8u;  ///< 1: environment texture, 0: constant
+SPLATRAY_CONST SPEC_ORDER = 9u;        ///< ORDER_*
+SPLATRAY_CONST SPEC_COUNTERS = 10u;    ///< 1: counters
+SPLATRAY_CONST SPEC_AOV = 11u;         ///< 1: write AovPixel of the centre ray instead of colour
+SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
+SPLATRAY_CONST SPEC_COUNT = 13u;
+
+SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
+SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1
+SPLATRAY_CONST BLEND_NEAREST = 2u;  ///< first splat only
+SPLATRAY_CONST BLEND_LEAF = 3u;     ///< first leaf only: the wrong blending of Goradia et al. 2010, Fig. 7 (a)
+SPLATRAY_CONST KERNEL_RIM = 0u;       ///< (1 - u^2)^2, zero at the rim
+SPLATRAY_CONST KERNEL_GAUSSIAN = 1u;  ///< exp(-2 u^2)
+SPLATRAY_CONST SIDE_SIDE = 0u;   ///< expected side per object and own-sheet exclusion
+SPLATRAY_CONST SIDE_DELTA = 1u;  ///< minimum distance delta (Linsen et al. 2007), no sides
+SPLATRAY_CONST SIDE_NONE = 2u;   ///< neither: the failures of Goradia et al. 2010, Fig. 9 and 10
+SPLATRAY_CONST FACES_BOTH = 0u;   ///< every object is two-sided
+SPLATRAY_CONST FACES_FRONT = 1u;  ///< every object is one-sided and none is a dielectric
+SPLATRAY_CONST FACES_MIXED = 2u;
+SPLATRAY_CONST ORDER_Z = 0u;       ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
+SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
+SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
+
+#ifdef __cplusplus
+static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 &&
+              sizeof(AovPixel) == 32 && sizeof(FrameParams) == 336);
+}  // namespace splatray
+#endif
+#endif
