@@ -14,6 +14,7 @@
 ///   2.15..0   | normal, octahedral u + 32767, u in [-32767, 32767] (Cigolle et al. 2014, "A Survey of Efficient
 ///   2.31..16  | normal, octahedral v + 32767  Representations for Independent Unit Vectors"; here without final scaling)
 ///   3.31..16  | squared radius in lattice units^2, bits 29..14 of the float32, rounded up (2^-9 relative steps)
+///             | (bit 30 of every such float32 is one: no squared radius is below 2)
 ///   3.15..0   | object index, also the index of its material
 ///
 /// Node word, 32 bits. Bits 31..30 tag, bits 29..0 address (Goradia et al. 2010, sec. III-A).

@@ -1,0 +1,130 @@
+#include "engine/host/scene.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+namespace splatray {
+namespace {
+
+constexpr int OCT = static_cast<int>(OCT_SCALE);
+constexpr std::uint32_t LATTICE_SIZE = 1U << LATTICE_BITS;
+constexpr std::uint32_t RADIUS_EXPONENT_BIT = 0x40000000U;  // bit 30 of every stored float32: r^2 >= 2
+
+int sign_not_zero(double value) { return value < 0.0 ? -1 : 1; }
+
+/// The integer vector (u, v, w), |u| + |v| + |w| = OCT_SCALE, of two octahedral coordinates.
+glm::dvec3 octahedral_vector(int u, int v) {
+  const int w = OCT - std::abs(u) - std::abs(v);
+  if (w >= 0) return {u, v, w};
+  return {(OCT - std::abs(v)) * sign_not_zero(u), (OCT - std::abs(u)) * sign_not_zero(v), w};
+}
+
+/// The two octahedral coordinates, of the four around the exact ones, whose direction is nearest the normal
+/// ("precise" encoding, Cigolle et al. 2014, sec. 3.3).
+glm::ivec2 octahedral_nearest(const glm::dvec3& normal) {
+  const double sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
+  glm::dvec2 exact = glm::dvec2(normal) * (OCT / sum);
+  if (normal.z < 0.0) {
+    exact = {(OCT - std::abs(exact.y)) * sign_not_zero(exact.x),
+             (OCT - std::abs(exact.x)) * sign_not_zero(exact.y)};
+  }
+  glm::ivec2 best{0};
+  double best_dot = -2.0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const int u = std::clamp(static_cast<int>(std::floor(exact.x)) + (corner & 1), -OCT, OCT);
+    const int v = std::clamp(static_cast<int>(std::floor(exact.y)) + (corner >> 1), -OCT, OCT);
+    const glm::dvec3 vector = octahedral_vector(u, v);
+    const double dot = glm::dot(normal, vector) / glm::length(vector);
+    if (dot > best_dot) {
+      best_dot = dot;
+      best = {u, v};
+    }
+  }
+  return best;
+}
+
+std::uint32_t lattice_coordinate(double value) {
+  const double rounded = std::round(value);
+  assert(rounded >= 0.0 && rounded < LATTICE_SIZE);
+  return static_cast<std::uint32_t>(rounded);
+}
+
+/// The 16 stored bits of a squared radius, rounded up.
+std::uint32_t pack_radius_squared(double radius_squared) {
+  assert(std::isfinite(radius_squared) && radius_squared >= 0.0 && radius_squared <= 0x1p100);
+  float value = std::max(static_cast<float>(radius_squared), 2.0F);
+  if (value < radius_squared) value = std::nextafter(value, INFINITY);
+  return ((std::bit_cast<std::uint32_t>(value) + 0x3FFFU) >> 14) & 0xFFFFU;
+}
+
+std::uint32_t encode_channel(float linear) {
+  const float clamped = linear > 0.0F ? std::min(linear, 1.0F) : 0.0F;  // NaN becomes 0
+  return static_cast<std::uint32_t>(std::lround(255.0F * std::sqrt(clamped)));
+}
+
+/// Appends the references of the node's leaves whose centre lies in their own cell.
+void collect_home_references(const Scene& scene, std::uint32_t node, glm::uvec3 cell_min,
+                             std::uint32_t cell_size, std::vector<std::uint32_t>& homes) {
+  const std::uint32_t word = scene.node_pool[node];
+  const std::uint32_t address = word & NODE_ADDRESS_MASK;
+  if (word >> NODE_TAG_SHIFT == NODE_INNER) {
+    const std::uint32_t half = cell_size / 2;
+    for (std::uint32_t child = 0; child < 8; ++child) {
+      const glm::uvec3 offset{child & 1U, child >> 1 & 1U, child >> 2};
+      collect_home_references(scene, address + child, cell_min + offset * half, half, homes);
+    }
+  } else if (word >> NODE_TAG_SHIFT == NODE_FILLED) {
+    for (std::uint32_t i = scene.begin_end[address]; i < scene.begin_end[address + 1]; ++i) {
+      const glm::uvec3 center{unpack_splat(scene.data_pool[i]).center};
+      const glm::uvec3 offset = center - cell_min;  // wraps around below the cell
+      if (glm::all(glm::lessThan(offset, glm::uvec3(cell_size)))) homes.push_back(i);
+    }
+  }
+}
+
+}  // namespace
+
+uvec4 pack_splat(const Splat& splat) {
+  assert(splat.object <= OBJECT_MASK);
+  assert(glm::dot(splat.normal, splat.normal) > 0.0 && std::isfinite(glm::dot(splat.normal, splat.normal)));
+  const std::uint32_t x = lattice_coordinate(splat.center.x);
+  const std::uint32_t y = lattice_coordinate(splat.center.y);
+  const std::uint32_t z = lattice_coordinate(splat.center.z);
+  const glm::ivec2 oct = octahedral_nearest(splat.normal);
+  return {x << 11 | y >> 10, y << 22 | z,
+          static_cast<std::uint32_t>(oct.x + OCT) | static_cast<std::uint32_t>(oct.y + OCT) << 16,
+          pack_radius_squared(splat.radius_squared) << 16 | splat.object};
+}
+
+Splat unpack_splat(const uvec4& words) {
+  Splat splat{};
+  splat.center = {words.x >> 11, (words.x & 0x7FFU) << 10 | words.y >> 22, words.y & 0x1FFFFFU};
+  const int u = static_cast<int>(words.z & 0xFFFFU) - OCT;
+  const int v = static_cast<int>(words.z >> 16) - OCT;
+  splat.normal = glm::normalize(octahedral_vector(u, v));
+  splat.radius_squared = std::bit_cast<float>(RADIUS_EXPONENT_BIT | words.w >> 16 << 14);
+  splat.object = words.w & OBJECT_MASK;
+  return splat;
+}
+
+std::uint32_t pack_color(glm::vec3 linear) {
+  return encode_channel(linear.x) | encode_channel(linear.y) << 8 | encode_channel(linear.z) << 16 |
+         0xFF000000U;
+}
+
+glm::vec3 unpack_color(std::uint32_t color) {
+  const glm::vec3 root = glm::vec3(color & 0xFFU, color >> 8 & 0xFFU, color >> 16 & 0xFFU) / 255.0F;
+  return root * root;
+}
+
+std::vector<std::uint32_t> home_references(const Scene& scene) {
+  std::vector<std::uint32_t> homes;
+  homes.reserve(scene.splat_count);
+  collect_home_references(scene, 0, glm::uvec3(0), LATTICE_SIZE, homes);
+  std::sort(homes.begin(), homes.end());
+  return homes;
+}
+
+}  // namespace splatray
