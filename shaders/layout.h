@@ -148,9 +148,9 @@ struct AovPixel {
   vec3 normal;  ///< blended unit normal, world space; 0 on a miss
   float z;      ///< distance from the eye, world units; +inf on a miss
   uint object;  ///< NO_OBJECT on a miss
-  uint first;   ///< reserved, zero
-  uint tests;   ///< splat tests of this ray
-  uint steps;   ///< node steps of this ray
+  uint members; ///< splats in the cluster
+  uint tests;   ///< splat tests of this ray; 0 without COUNTERS
+  uint steps;   ///< node words read by this ray; 0 without COUNTERS
 };
 
 /// Counters, compiled in by COUNTERS only.

@@ -1,0 +1,59 @@
+// The GPU's side of what the other .glsl files need: features (specialization constants), pools, tables, environment.
+// POOL_TEXEL: the pools are texel buffers, else storage buffers.
+#ifndef SPLATRAY_BINDINGS_GLSL
+#define SPLATRAY_BINDINGS_GLSL
+#include "layout.h"
+
+layout(constant_id = SPEC_BLEND) const uint BLEND = BLEND_WINDOW;
+layout(constant_id = SPEC_KERNEL) const uint KERNEL = KERNEL_RIM;
+layout(constant_id = SPEC_SIDE) const uint SIDE = SIDE_SIDE;
+layout(constant_id = SPEC_FACES) const uint FACES = FACES_MIXED;
+layout(constant_id = SPEC_MIRRORS) const uint MIRRORS = 0u;
+layout(constant_id = SPEC_GLASS) const uint GLASS = 0u;
+layout(constant_id = SPEC_COLORS) const uint COLORS = 0u;
+layout(constant_id = SPEC_SHADOWS) const uint SHADOWS = 0u;
+layout(constant_id = SPEC_ENVIRONMENT) const uint ENVIRONMENT = 0u;
+layout(constant_id = SPEC_ORDER) const uint ORDER = ORDER_Z;
+layout(constant_id = SPEC_COUNTERS) const uint COUNTERS = 0u;
+layout(constant_id = SPEC_AOV) const uint AOV = 0u;
+layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
+
+layout(local_size_x = GROUP_SIZE) in;
+
+layout(std140, binding = BIND_FRAME) uniform FrameBlock { FrameParams frame; };
+layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
+layout(std430, binding = BIND_COUNTERS) buffer CounterTable { uint counters[COUNTER_COUNT]; };
+
+#ifdef POOL_TEXEL
+layout(binding = BIND_NODE_POOL) uniform usamplerBuffer node_pool;
+layout(binding = BIND_BEGIN_END) uniform usamplerBuffer begin_end;
+layout(binding = BIND_DATA_POOL) uniform usamplerBuffer data_pool;
+layout(binding = BIND_COLOR_POOL) uniform usamplerBuffer color_pool;
+uint node_word(uint index) { return texelFetch(node_pool, int(index)).x; }
+uint begin_end_at(uint index) { return texelFetch(begin_end, int(index)).x; }
+uvec4 splat_words(uint index) { return texelFetch(data_pool, int(index)); }
+uint color_word(uint index) { return texelFetch(color_pool, int(index)).x; }
+#else
+layout(std430, binding = BIND_NODE_POOL) readonly buffer NodePool { uint node_pool[]; };
+layout(std430, binding = BIND_BEGIN_END) readonly buffer BeginEnd { uint begin_end[]; };
+layout(std430, binding = BIND_DATA_POOL) readonly buffer DataPool { uvec4 data_pool[]; };
+layout(std430, binding = BIND_COLOR_POOL) readonly buffer ColorPool { uint color_pool[]; };
+uint node_word(uint index) { return node_pool[index]; }
+uint begin_end_at(uint index) { return begin_end[index]; }
+uvec4 splat_words(uint index) { return data_pool[index]; }
+uint color_word(uint index) { return color_pool[index]; }
+#endif
+
+Material material_at(uint object) { return materials[object]; }
+
+/// Linear colour of a reference; square-root encoded in the pool.
+vec3 color_at(uint index) {
+  vec3 root = unpackUnorm4x8(color_word(index)).xyz;
+  return root * root;
+}
+
+void count(uint counter, uint amount) {
+  if (amount != 0u) atomicAdd(counters[counter], amount);
+}
+
+#endif

@@ -1,0 +1,94 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// A tile of the picture: for each pixel and sample, camera -> path -> accumulation; or, with AOV, what the centre ray hits.
+#include "bindings.glsl"
+
+layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };
+layout(std430, binding = BIND_ACCUMULATION) buffer Accumulation { vec4 accumulation[]; };
+layout(std430, binding = BIND_AOV) writeonly buffer AovTable { AovPixel aov[]; };
+layout(binding = BIND_ENVIRONMENT) uniform sampler2D environment_map;
+
+Light light_at(uint index) { return lights[index]; }
+
+/// Texel of the latitude-longitude picture in this direction of its own frame (engine/host/environment.h).
+vec3 environment_texel(vec3 dir) {
+  float column = atan(dir.x, -dir.z) * 0.15915494f + 0.5f;
+  float row = acos(clamp(dir.y, -1.0f, 1.0f)) * 0.31830989f;
+  return textureLod(environment_map, vec2(column, row), 0.0f).xyz;
+}
+
+#include "path.glsl"
+
+/// Even bits of a Z-order index.
+uint even_bits(uint x) {
+  x &= 0x55u;
+  x = (x | (x >> 1u)) & 0x33u;
+  return (x | (x >> 2u)) & 0x0Fu;
+}
+
+/// This thread's pixel in the tile: groups of 8 x 8 in Z-order (Goradia et al. 2010, sec. IV-A), or rows.
+uvec2 tile_pixel() {
+  uint thread = gl_LocalInvocationIndex;
+  if (ORDER == ORDER_LINEAR) return uvec2(gl_WorkGroupID.x * GROUP_SIZE + thread, gl_WorkGroupID.y);
+  return gl_WorkGroupID.xy * 8u + uvec2(even_bits(thread), even_bits(thread >> 1u));
+}
+
+void write_aov(uvec2 pixel, uint index) {
+  Tally tally = Tally(0u, 0u, 0u, 0u);
+  float eye_distance = 0.0f;
+  Ray ray = primary_ray(float(pixel.x) + 0.5f, float(pixel.y) + 0.5f, eye_distance);
+  Hit hit = trace_nearest(ray, frame.kappa, tally);
+  aov[index].normal = hit.found ? hit.normal : vec3(0.0f);
+  aov[index].z = hit.found ? (hit.t + eye_distance) * frame.root_unit_world : INFINITY_F;
+  aov[index].object = hit.object;
+  aov[index].members = hit.members;
+  aov[index].tests = tally.tests;
+  aov[index].steps = tally.node_steps;
+}
+
+void add_counters(PathResult path, Tally tally, bool finite) {
+  count(COUNT_PRIMARY, 1u);
+  count(COUNT_SHADOW, path.shadow);
+  count(COUNT_REFLECTED, path.reflected);
+  count(COUNT_REFRACTED, path.refracted);
+  count(COUNT_LEAVES, tally.leaves);
+  count(COUNT_NODE_STEPS, tally.node_steps);
+  count(COUNT_TESTS, tally.tests);
+  count(COUNT_HITS, path.coverage > 0.0f ? 1u : 0u);
+  count(COUNT_LOST, tally.lost);
+  count(COUNT_LEAKED, path.leaked);
+  count(COUNT_NON_FINITE, finite ? 0u : 1u);
+  count(COUNT_BOUNCE_LIMIT, path.cut);
+  count(COUNT_ENERGY_LOST, uint(path.energy_lost * 1024.0f + 0.5f));
+}
+
+void add_samples(uvec2 pixel, uint index) {
+  uint pixel_number = pixel.y * frame.width + pixel.x;
+  vec4 sum = frame.sample_begin == 0u ? vec4(0.0f) : accumulation[index];
+  uint sample_index = frame.sample_begin;
+  while (sample_index < frame.sample_end) {
+    vec2 at = vec2(pixel) + pixel_sample(sample_index);
+    float eye_distance = 0.0f;
+    Ray ray = primary_ray(at.x, at.y, eye_distance);
+    Tally tally = Tally(0u, 0u, 0u, 0u);
+    PathResult path = trace_path(ray, pixel_number, sample_index, tally);
+    float brightest = max(path.radiance.x, max(path.radiance.y, path.radiance.z));
+    bool finite = brightest < INFINITY_F && path.radiance.x + path.radiance.y + path.radiance.z >= 0.0f;
+    sum += vec4(finite ? path.radiance : vec3(1.0f, 0.0f, 1.0f), path.coverage);
+    if (COUNTERS == 1u) add_counters(path, tally, finite);
+    sample_index += 1u;
+  }
+  accumulation[index] = sum;
+}
+
+void main() {
+  uvec2 in_tile = tile_pixel();
+  if (in_tile.x >= frame.tile_width || in_tile.y >= frame.tile_height) return;
+  uvec2 pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);
+  uint index = in_tile.y * frame.tile_width + in_tile.x;
+  if (AOV == 1u) {
+    write_aov(pixel, index);
+  } else {
+    add_samples(pixel, index);
+  }
+}

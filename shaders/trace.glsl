@@ -1,0 +1,295 @@
+// What a ray hits (design, section 4): the first accepted splat and the blend of its cluster, or whether anything is hit at
+// all. The result depends on the splats alone, not on the tree: intervals tile the ray, each hit is decided exactly and counts
+// in one leaf, and sums are integers.
+// Needs, beside traverse.glsl: splat_words(index), color_at(index), material_at(object), and the constants BLEND, KERNEL, SIDE,
+// FACES, COLORS, COUNTERS.
+#ifndef SPLATRAY_TRACE_GLSL
+#define SPLATRAY_TRACE_GLSL
+#include "traverse.glsl"
+
+const float WEIGHT_UNIT = 4194304.0f;       ///< 2^22: sums are integers in this unit
+const float WEIGHT_LEAST = 0.00390625f;     ///< 2^-8: a lone hit at the rim still has a normal of 14 bits
+const uint MEMBERS_MOST = 500u;             ///< further members do not count, so that the sums stay in 31 bits
+const float MIN_COSINE = 0.1f;              ///< the window grows as 1 / |n.d| up to this
+const uint CHUNK = 32u;                     ///< splats whose hits one word records
+
+/// The answer to a ray. Distances are from the ray's own origin, in units of |dir|.
+struct Hit {
+  bool found;
+  float t;          ///< blended
+  vec3 position;    ///< blended, root space
+  vec3 normal;      ///< blended unit normal, turned against the ray
+  vec3 color;       ///< blended linear colour; 1 without colours
+  bool front;       ///< the first splat's front face was hit
+  uint object;
+  uint members;
+  float t_first;
+  uvec4 first;      ///< words of the first splat (BLEND_PAPER, BLEND_LEAF: the reference splat)
+};
+
+/// Work done by this invocation; kept only with COUNTERS or for heat maps.
+struct Tally {
+  uint leaves;
+  uint node_steps;
+  uint tests;
+  uint lost;
+};
+
+/// The splat that decides the cluster, while the ray looks for it.
+struct First {
+  vec2 measure;   ///< least t, or least squared distance from the centre / r^2 (BLEND_PAPER, BLEND_LEAF)
+  float t;
+  bool front;
+  uvec4 words;
+  uint index;
+};
+
+/// Integer sums over a cluster.
+struct Cluster {
+  int weight;
+  ivec3 normal;
+  int depth;
+  ivec3 color;
+  uint members;
+};
+
+/// The side a ray expects (Goradia et al. 2010, sec. IV-C2, made per object): fronts outside, backs inside.
+bool side_expected(uint object, float facing, uint inside) {
+  if (SIDE != SIDE_SIDE || FACES == FACES_BOTH) return true;
+  if (FACES == FACES_FRONT) return facing < 0.0f;
+  Material material = material_at(object);
+  bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((inside >> material.mask_bit) & 1u) != 0u;
+  bool as_expected = is_inside ? facing > 0.0f : facing < 0.0f;
+  return (material.flags & MATERIAL_HIDDEN) == 0u &&
+         ((material.flags & MATERIAL_TWO_SIDED) != 0u || as_expected);
+}
+
+bool is_two_sided(uint object) {
+  if (FACES == FACES_BOTH) return true;
+  if (FACES == FACES_FRONT) return false;
+  return (material_at(object).flags & MATERIAL_TWO_SIDED) != 0u;
+}
+
+/// Everything but the geometry that a hit needs in order to count.
+bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
+  uint object = splat_object(words);
+  bool own = false;
+  if (SIDE == SIDE_SIDE) own = ray.from_object != NO_OBJECT && splat_of_sheet_left(words, ray, is_two_sided(object));
+  return !own && side_expected(object, hit.facing, ray.inside);
+}
+
+/// Bit i of the answer: splat begin + i is hit for certain in [t_in, t_out) and allowed. `first` is updated while `finding`.
+uint accept_chunk(uint begin, uint end, Ray ray, float t_in, float t_out, bool finding, INOUT(First) first,
+                  INOUT(Tally) tally) {
+  uint maybe = 0u;
+  uint index = begin;
+  while (index < end) {
+    bool hit = splat_maybe_hit(splat_words(index), ray.origin, ray.dir, t_in, t_out);
+    maybe |= (hit ? 1u : 0u) << (index - begin);
+    index += 1u;
+  }
+  if (COUNTERS == 1u) tally.tests += end > begin ? end - begin : 0u;
+  uint accepted = 0u;
+  while (maybe != 0u) {
+    uint bit = uint(findLSB(maybe));
+    maybe &= maybe - 1u;
+    uvec4 words = splat_words(begin + bit);
+    PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+    float radius_squared = splat_radius_squared(words);
+    bool on_disc = !df_less(vec2(radius_squared, 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
+    bool in_range = hit.t.x >= t_in && hit.t.x < t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
+    bool accept = on_disc && in_range && hit_allowed(words, hit, ray);
+    accepted |= (accept ? 1u : 0u) << bit;
+    vec2 measure = hit.t;
+    if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) measure = vec2(hit.rho_squared.x / radius_squared, 0.0f);
+    bool before = df_less(measure, first.measure) ||
+                  (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
+    if (accept && finding && before) {
+      first.measure = measure;
+      first.t = hit.t.x;
+      first.front = hit.facing < 0.0f;
+      first.words = words;
+      first.index = begin + bit;
+    }
+  }
+  return accepted;
+}
+
+/// Unit normal turned against the ray.
+vec3 normal_against(uvec4 words, vec3 dir) {
+  vec3 normal = splat_normal(words);
+  normal = normal * inversesqrt(dot(normal, normal));
+  return dot(normal, dir) > 0.0f ? -normal : normal;
+}
+
+/// Depth of the cluster's window behind (and, for BLEND_PAPER, before) the first hit.
+float window_depth(First first, vec3 dir, float kappa) {
+  float radius = sqrt(splat_radius_squared(first.words));
+  if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) return kappa * radius;
+  return kappa * radius / max(abs(dot(normal_against(first.words, dir), dir)), MIN_COSINE);
+}
+
+float blend_kernel(float u_squared) {
+  if (KERNEL == KERNEL_GAUSSIAN) return exp(-2.0f * u_squared);
+  float fall = max(1.0f - u_squared, 0.0f);
+  return fall * fall;
+}
+
+/// Weight along the window: 1 to the middle, then smoothly to 0 at the end (BLEND_WINDOW), or 1 (the paper's interval).
+float window_fall(float share) {
+  if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) return 1.0f;
+  float x = clamp(2.0f - 2.0f * share, 0.0f, 1.0f);
+  return x * x * (3.0f - 2.0f * x);
+}
+
+/// Adds the accepted splats of one chunk that belong to the first splat's cluster. Everything is taken relative to the first
+/// hit, where float32 is exact enough even for grazing rays.
+void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
+  vec3 first_normal = normal_against(first.words, ray.dir);
+  vec3 first_position = ray.origin + ray.dir * first.t;
+  while (accepted != 0u) {
+    uint bit = uint(findLSB(accepted));
+    accepted &= accepted - 1u;
+    uvec4 words = splat_words(begin + bit);
+    vec3 plane_normal = splat_normal(words);
+    vec3 to_center = splat_center(words) - first_position;
+    float behind = dot(plane_normal, to_center) / dot(plane_normal, ray.dir);
+    vec3 from_center = ray.dir * behind - to_center;
+    float u_squared = dot(from_center, from_center) / splat_radius_squared(words);
+    vec3 normal = normal_against(words, ray.dir);
+    float share = behind / depth;
+    bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
+                  dot(normal, first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
+    float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
+    weight = member ? weight * WEIGHT_UNIT : 0.0f;
+    share = member ? share : 0.0f;
+    cluster.weight += int(weight + 0.5f);
+    cluster.normal += ivec3(floor(normal * weight + vec3(0.5f)));
+    cluster.depth += int(floor(weight * share + 0.5f));
+    if (COLORS == 1u) cluster.color += ivec3(color_at(begin + bit) * weight + vec3(0.5f));
+    cluster.members += member ? 1u : 0u;
+  }
+}
+
+/// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds no member).
+/// `shift` is what clip_to_root took from t.
+Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) {
+  Hit hit;
+  hit.found = first.measure.x < INFINITY_F;
+  hit.first = first.words;
+  hit.object = hit.found ? splat_object(first.words) : NO_OBJECT;
+  hit.front = first.front;
+  hit.members = cluster.members;
+  float t = first.t;
+  vec3 normal = normal_against(first.words, ray.dir);
+  hit.color = vec3(1.0f);
+  if (BLEND != BLEND_NEAREST && cluster.weight > 0) {
+    float inverse = 1.0f / float(cluster.weight);
+    t += depth * (float(cluster.depth) * inverse);
+    normal = normalize(vec3(cluster.normal));
+    if (COLORS == 1u) hit.color = vec3(cluster.color) * inverse;
+  } else if (COLORS == 1u && hit.found) {
+    hit.color = color_at(first.index);
+  }
+  hit.position = ray.origin + ray.dir * t;
+  hit.normal = normal;
+  hit.t = hit.found ? t + shift : INFINITY_F;
+  hit.t_first = hit.found ? first.t + shift : INFINITY_F;
+  return hit;
+}
+
+/// What the ray sees first. The ray may start anywhere.
+Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
+  bool walking = true;
+  float shift = clip_to_root(ray, walking);
+  Walk walk = walk_start(ray);
+  First first;
+  first.measure = vec2(INFINITY_F, INFINITY_F);
+  first.t = INFINITY_F;
+  first.front = true;
+  first.words = uvec4(0u, 0u, 0u, 0u);
+  first.index = 0u;
+  Cluster cluster;
+  cluster.weight = 0;
+  cluster.normal = ivec3(0);
+  cluster.depth = 0;
+  cluster.color = ivec3(0);
+  cluster.members = 0u;
+  float depth = 0.0f;
+  float t_end = ray.t_max;
+  uint leaves = 0u;
+  uint leaves_after_first = 0u;
+  while (walking) {
+    uint steps = walk_descend(walk, ray);
+    if (COUNTERS == 1u) tally.node_steps += steps;
+    bool finding = !(first.measure.x < INFINITY_F);
+    leaves_after_first += finding ? 0u : 1u;
+    bool twice = walk.end - walk.begin > CHUNK && finding;
+    uint chunk = walk.begin;
+    while (chunk < walk.end) {
+      uint chunk_end = min(chunk + CHUNK, walk.end);
+      uint accepted = accept_chunk(chunk, chunk_end, ray, walk.t_in, walk.t_out, finding, first, tally);
+      bool found = first.measure.x < INFINITY_F;
+      if (BLEND != BLEND_NEAREST) {
+        depth = found ? window_depth(first, ray.dir, kappa) : depth;
+        accumulate_chunk(chunk, found && !(twice && finding) ? accepted : 0u, ray, first, depth, cluster);
+      }
+      chunk += CHUNK;
+      bool again = chunk >= walk.end && twice && finding && found;
+      finding = finding && !again;
+      chunk = again && BLEND != BLEND_NEAREST ? walk.begin : chunk;
+    }
+    bool found = first.measure.x < INFINITY_F;
+    if (BLEND == BLEND_NEAREST) t_end = found ? first.t : t_end;
+    if (BLEND == BLEND_WINDOW) t_end = found ? first.t + depth : t_end;
+    if (BLEND == BLEND_PAPER) t_end = found && leaves_after_first > 0u ? -INFINITY_F : t_end;
+    if (BLEND == BLEND_LEAF) t_end = found ? -INFINITY_F : t_end;
+    leaves += 1u;
+    walking = walk_advance(walk) && walk.t_in <= t_end && leaves < MAX_LEAVES;
+  }
+  if (COUNTERS == 1u) tally.leaves += leaves;
+  if (COUNTERS == 1u) tally.lost += leaves >= MAX_LEAVES ? 1u : 0u;
+  return finish_hit(ray, first, cluster, depth, shift);
+}
+
+/// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics met, as if they did
+/// not bend it (each object counts once), else 1.
+vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
+  First first;
+  first.measure = vec2(INFINITY_F, INFINITY_F);
+  first.words = uvec4(0u, 0u, 0u, 0u);
+  Walk walk = walk_start(ray);
+  vec3 light = vec3(1.0f);
+  uint passed = 0u;
+  bool walking = true;
+  uint leaves = 0u;
+  while (walking) {
+    uint steps = walk_descend(walk, ray);
+    if (COUNTERS == 1u) tally.node_steps += steps;
+    uint chunk = walk.begin;
+    while (chunk < walk.end && walking) {
+      uint chunk_end = min(chunk + CHUNK, walk.end);
+      uint accepted = accept_chunk(chunk, chunk_end, ray, walk.t_in, walk.t_out, false, first, tally);
+      if (GLASS == 0u) walking = accepted == 0u;
+      while (GLASS == 1u && accepted != 0u) {
+        uint bit = uint(findLSB(accepted));
+        accepted &= accepted - 1u;
+        Material material = material_at(splat_object(splat_words(chunk + bit)));
+        bool opaque = (material.flags & MATERIAL_DIELECTRIC) == 0u;
+        uint object_bit = 1u << material.mask_bit;
+        light = !opaque && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
+        passed |= opaque ? 0u : object_bit;
+        walking = walking && !opaque;
+      }
+      chunk += CHUNK;
+    }
+    if (!walking) light = vec3(0.0f);
+    leaves += 1u;
+    walking = walk_advance(walk) && walk.t_in < ray.t_max && walking && leaves < MAX_LEAVES;
+  }
+  if (COUNTERS == 1u) tally.leaves += leaves;
+  if (COUNTERS == 1u) tally.lost += leaves >= MAX_LEAVES ? 1u : 0u;
+  return light;
+}
+
+#endif

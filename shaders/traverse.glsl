@@ -1,0 +1,127 @@
+// The octree along a ray: from leaf to leaf by descent from the root (Goradia et al. 2010, sec. IV-B; Lefebvre et al. 2005),
+// with integer cells, so that no ray can be stuck or skip a cell. The leaves' intervals [t_in, t_out) tile the ray.
+// Needs node_word(index), begin_end_at(index).
+#ifndef SPLATRAY_TRAVERSE_GLSL
+#define SPLATRAY_TRAVERSE_GLSL
+#include "splat.glsl"
+
+const float ROOT_SIZE = 2097152.0f;      ///< 2^LATTICE_BITS
+const uint CELL_LIMIT = 1u << LATTICE_BITS;
+const uint MAX_LEAVES = 65536u;          ///< iteration cap; a ray that reaches it is counted as lost
+
+/// Where a ray is in the octree.
+struct Walk {
+  vec3 inverse;    ///< 1 / direction; unused where the direction is 0
+  uvec3 cell;      ///< a lattice cell inside the current leaf
+  float t_in;      ///< the leaf's interval; t_in never decreases
+  float t_out;
+  uint begin;      ///< the leaf's splats, empty for empty leaves
+  uint end;
+  uint exit_axis;
+  uint exit_cell;  ///< the next leaf's cell coordinate on exit_axis; >= CELL_LIMIT outside the root
+};
+
+/// Directions below this are parallel to the axis' planes: over the whole root they move a ray by less than 2^-40 units.
+const float PARALLEL = 1e-20f;
+
+/// t at which the ray meets the plane `plane` of one axis, +inf if it runs parallel to it.
+float plane_t(float plane, float origin, float dir, float inverse) {
+  return abs(dir) < PARALLEL ? INFINITY_F : (plane - origin) * inverse;
+}
+
+uint cell_coordinate(float position, uint low, uint high) {
+  return uint(clamp(floor(position), float(low), float(high)));
+}
+
+uvec3 cell_at(Ray ray, float t, uvec3 low, uvec3 high) {
+  return uvec3(cell_coordinate(ray.origin.x + ray.dir.x * t, low.x, high.x),
+               cell_coordinate(ray.origin.y + ray.dir.y * t, low.y, high.y),
+               cell_coordinate(ray.origin.z + ray.dir.z * t, low.z, high.z));
+}
+
+/// Moves the origin of a ray to where it enters the root or to t_min, whichever is later, exactly (double-float), with t_min
+/// and t_max. Returns by how much t became smaller; `enters` is false when the ray misses the root.
+float clip_to_root(INOUT(Ray) ray, OUT(bool) enters) {
+  float t_enter = ray.t_min;
+  float t_exit = ray.t_max;
+  bool beside = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    float inverse = 1.0f / ray.dir[axis];
+    float at_low = (0.0f - ray.origin[axis]) * inverse;
+    float at_high = (ROOT_SIZE - ray.origin[axis]) * inverse;
+    bool parallel = abs(ray.dir[axis]) < PARALLEL;
+    beside = beside || (parallel && !(ray.origin[axis] >= 0.0f && ray.origin[axis] < ROOT_SIZE));
+    t_enter = parallel ? t_enter : max(t_enter, min(at_low, at_high));
+    t_exit = parallel ? t_exit : min(t_exit, max(at_low, at_high));
+  }
+  enters = !beside && t_enter <= t_exit && abs(t_enter) < INFINITY_F;
+  float shift = enters ? t_enter : 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    vec2 moved = df_add(two_product(shift, ray.dir[axis]), vec2(ray.origin[axis], ray.origin_low[axis]));
+    ray.origin[axis] = moved.x;
+    ray.origin_low[axis] = moved.y;
+  }
+  ray.t_min = ray.t_min - shift;
+  ray.t_max = ray.t_max - shift;
+  return shift;
+}
+
+/// DESCEND from the root to the leaf that holds walk.cell; finds its splats and its end of the ray's interval.
+/// Returns the number of node words read.
+uint walk_descend(INOUT(Walk) walk, Ray ray) {
+  uint word = node_word(0u);
+  uint shift = LATTICE_BITS;
+  while ((word >> NODE_TAG_SHIFT) == NODE_INNER) {
+    shift -= 1u;
+    uint child = ((walk.cell.x >> shift) & 1u) | (((walk.cell.y >> shift) & 1u) << 1u) |
+                 (((walk.cell.z >> shift) & 1u) << 2u);
+    word = node_word((word & NODE_ADDRESS_MASK) + child);
+  }
+  walk.begin = 0u;
+  walk.end = 0u;
+  if ((word >> NODE_TAG_SHIFT) == NODE_FILLED) {
+    uint leaf = word & NODE_ADDRESS_MASK;
+    walk.begin = begin_end_at(leaf);
+    walk.end = begin_end_at(leaf + 1u);
+  }
+  uint size = 1u << shift;
+  uvec3 low = uvec3(walk.cell.x & ~(size - 1u), walk.cell.y & ~(size - 1u), walk.cell.z & ~(size - 1u));
+  uvec3 next = uvec3(ray.dir.x > 0.0f ? low.x + size : low.x, ray.dir.y > 0.0f ? low.y + size : low.y,
+                     ray.dir.z > 0.0f ? low.z + size : low.z);
+  float t_x = plane_t(float(next.x), ray.origin.x, ray.dir.x, walk.inverse.x);
+  float t_y = plane_t(float(next.y), ray.origin.y, ray.dir.y, walk.inverse.y);
+  float t_z = plane_t(float(next.z), ray.origin.z, ray.dir.z, walk.inverse.z);
+  bool x_first = t_x <= t_y && t_x <= t_z;
+  bool y_first = !x_first && t_y <= t_z;
+  walk.exit_axis = x_first ? 0u : (y_first ? 1u : 2u);
+  uint plane = x_first ? next.x : (y_first ? next.y : next.z);
+  float dir = x_first ? ray.dir.x : (y_first ? ray.dir.y : ray.dir.z);
+  walk.exit_cell = dir > 0.0f ? plane : plane - 1u;
+  walk.t_out = max(x_first ? t_x : (y_first ? t_y : t_z), walk.t_in);
+  uvec3 cell = cell_at(ray, walk.t_out, low, low + uvec3(size - 1u));
+  walk.cell = uvec3(x_first ? walk.exit_cell : cell.x, y_first ? walk.exit_cell : cell.y,
+                    walk.exit_axis == 2u ? walk.exit_cell : cell.z);
+  return LATTICE_BITS - shift + 1u;
+}
+
+/// At the ray's start, inside the root.
+Walk walk_start(Ray ray) {
+  Walk walk;
+  walk.inverse = vec3(1.0f / ray.dir.x, 1.0f / ray.dir.y, 1.0f / ray.dir.z);
+  walk.cell = cell_at(ray, 0.0f, uvec3(0u), uvec3(CELL_LIMIT - 1u));
+  walk.t_in = ray.t_min;
+  walk.t_out = ray.t_min;
+  walk.begin = 0u;
+  walk.end = 0u;
+  walk.exit_axis = 0u;
+  walk.exit_cell = 0u;
+  return walk;
+}
+
+/// ADVANCE to the leaf behind walk.t_out; false when the ray leaves the root. walk_descend has already put walk.cell there.
+bool walk_advance(INOUT(Walk) walk) {
+  walk.t_in = walk.t_out;
+  return walk.exit_cell < CELL_LIMIT;
+}
+
+#endif
