@@ -2,6 +2,7 @@
 #pragma once
 #include <vulkan/vulkan.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,18 +12,19 @@ namespace splatray {
 /// A physical device and what we think of it.
 struct DeviceInfo {
   std::string name;
-  std::string type;      ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
-  std::string driver;    ///< name and version string of the driver
-  std::string api;       ///< "1.3.230"
-  std::string refused;   ///< why it cannot be used; empty = usable
+  std::string type;     ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
+  std::string driver;   ///< name and version string of the driver
+  std::string api;      ///< "1.3.230"
+  std::string refused;  ///< why it cannot be used; empty = usable
 };
 
 class Context {
  public:
-  /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or part of a name
-  /// (case-insensitive). Throws Error (no_device) with every device's reason when none fits.
-  /// Validation layers and their messages are on when `validation` (or the environment variable SPLATRAY_VALIDATION=1) is set; a
-  /// validation error message is counted and printed on stderr.
+  /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
+  /// part of a name (case-insensitive). Throws Error (no_device) with every device's reason when none fits.
+  /// Validation layers and their messages are on when `validation` (or the environment variable
+  /// SPLATRAY_VALIDATION=1) is set; each validation warning or error is counted and printed on stderr. Throws
+  /// Error (failed) when they are asked for but not installed.
   explicit Context(const std::string& wanted = "", bool validation = false);
   ~Context();
   Context(const Context&) = delete;
@@ -39,18 +41,38 @@ class Context {
   VkCommandPool command_pool = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
-
-  std::uint32_t validation_messages_ = 0;
+  std::uint64_t max_allocation_bytes = 0;  ///< largest single allocation the device promises
 
  private:
+  void create_instance(bool validation);
+  void create_messenger();
+  void create_device();
+  void destroy();
+
   DeviceInfo info_;
+  std::uint32_t validation_messages_ = 0;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-/// All devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver at all.
+/// All devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver
+/// at all.
 [[nodiscard]] std::vector<DeviceInfo> list_devices();
 
-/// Throws Error (failed, or out_of_memory for the two memory results) naming `what` unless the result is VK_SUCCESS.
+/// The number of the device a user who asked for `wanted` gets (Context::Context says how); throws Error
+/// (no_device).
+[[nodiscard]] std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted);
+
+/// What is known of a physical device, and why it cannot be used.
+[[nodiscard]] DeviceInfo describe_device(VkPhysicalDevice device);
+
+/// The number of the first queue family that computes, or UINT32_MAX.
+[[nodiscard]] std::uint32_t compute_queue_family(VkPhysicalDevice device);
+
+/// All physical devices of an instance.
+[[nodiscard]] std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
+
+/// Throws Error (failed, or out_of_memory for the two memory results) naming `what` unless the result is
+/// VK_SUCCESS.
 void check(VkResult result, const char* what);
 
 }  // namespace splatray

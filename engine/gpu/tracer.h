@@ -1,12 +1,14 @@
 /// The engine: a scene on the device, and pictures and ray queries of it.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/gpu/context.h"
+#include "engine/gpu/pools.h"
 #include "engine/host/environment.h"
 #include "engine/host/image.h"
 #include "engine/host/scene.h"
@@ -16,40 +18,39 @@ namespace splatray {
 
 /// What a render call did. Times in milliseconds.
 struct RenderStats {
-  double trace_ms = 0.0;                            ///< device time where it has timestamps, else wall time of the dispatches
-  double wall_ms = 0.0;                             ///< the whole call, read-back included
-  std::array<std::uint64_t, COUNTER_COUNT> counters{};  ///< zero unless Settings::counters
-};
-
-/// Bytes on the device, by pool.
-struct PoolBytes {
-  std::uint64_t node_pool = 0, begin_end = 0, data_pool = 0, color_pool = 0, environment = 0;
-  bool texel_buffers = false;  ///< pools are read through texel buffers
+  double trace_ms =
+      0.0;  ///< device time where it has timestamps, else wall time of the dispatches; without those for AOVs
+  double wall_ms = 0.0;  ///< the whole call, read-back included
+  std::array<std::uint64_t, COUNTER_COUNT>
+      counters{};  ///< zero unless Settings::counters; without the AOVs' rays
 };
 
 class Tracer {
  public:
-  /// The context must outlive the tracer.
-  explicit Tracer(Context& context);
+  /// The context must outlive the tracer. `access` other than automatic is for tests and benchmarks.
+  explicit Tracer(const Context& context, PoolAccess access = PoolAccess::automatic);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  /// Uploads the pools, materials and lights. Throws Error (out_of_memory) with the sizes when a pool does not fit the device.
+  /// Uploads the pools, materials and lights. Throws Error (out_of_memory) with the sizes when a pool does
+  /// not fit the device.
   void upload(const Scene& scene);
-  /// Replaces all materials (same count), or the lights, or the environment; no pool is touched.
+  /// Replaces all materials (same count), or the lights, or the environment; no pool is touched. Before the
+  /// first set_environment all is black.
   void set_materials(std::span<const Material> materials);
   void set_lights(std::span<const SceneLight> lights);
   void set_environment(const Environment& environment);
 
-  /// Called between dispatches with the share done, 0..1; returns false to stop (render then throws Error interrupted).
+  /// Called between dispatches with the share done, 0..1; returns false to stop (render then throws Error
+  /// interrupted).
   using Progress = std::function<bool(double)>;
   /// The picture of the uploaded scene.
   [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {});
   /// Hits of arbitrary rays, one RayHit per query. Root space.
   [[nodiscard]] std::vector<RayHit> intersect(std::span<const RayQuery> rays, const Settings& settings);
 
-  [[nodiscard]] const RenderStats& stats() const;       ///< of the last render or intersect
+  [[nodiscard]] const RenderStats& stats() const;  ///< of the last render or intersect
   [[nodiscard]] const PoolBytes& pool_bytes() const;
   [[nodiscard]] std::uint32_t pipelines_built() const;  ///< since construction
   [[nodiscard]] std::uint32_t pools_uploaded() const;   ///< upload() calls since construction

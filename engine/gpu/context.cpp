@@ -1,0 +1,183 @@
+#include "engine/gpu/context.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+#include "engine/host/error.h"
+
+namespace splatray {
+namespace {
+
+constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
+
+/// Counts a validation message in *user_data, a std::uint32_t, and prints it.
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user_data) {
+  ++*static_cast<std::uint32_t*>(user_data);
+  std::cerr << "Vulkan validation: " << data->pMessage << '\n';
+  return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::uint32_t* count) {
+  VkDebugUtilsMessengerCreateInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType =
+      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.pfnUserCallback = on_message;
+  info.pUserData = count;
+  return info;
+}
+
+bool validation_layer_present() {
+  std::uint32_t count = 0;
+  check(vkEnumerateInstanceLayerProperties(&count, nullptr), "listing the Vulkan layers");
+  std::vector<VkLayerProperties> layers(count);
+  check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "listing the Vulkan layers");
+  return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+    return std::strcmp(layer.layerName, VALIDATION_LAYER) == 0;
+  });
+}
+
+bool validation_in_environment() {
+  const char* value = std::getenv("SPLATRAY_VALIDATION");
+  return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+/// VK_NULL_HANDLE where no driver is installed. `messenger` set: with the validation layer.
+VkInstance make_instance(const VkDebugUtilsMessengerCreateInfoEXT* messenger) {
+  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  VkApplicationInfo application{};
+  application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+  application.pApplicationName = "splatray";
+  application.apiVersion = VK_API_VERSION_1_2;
+  VkInstanceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+  info.pApplicationInfo = &application;
+  if (messenger != nullptr) {
+    info.pNext = messenger;
+    info.enabledLayerCount = 1;
+    info.ppEnabledLayerNames = &VALIDATION_LAYER;
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = &extension;
+  }
+  VkInstance instance = VK_NULL_HANDLE;
+  const VkResult result = vkCreateInstance(&info, nullptr, &instance);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return VK_NULL_HANDLE;
+  check(result, "starting Vulkan");
+  return instance;
+}
+
+}  // namespace
+
+void check(VkResult result, const char* what) {
+  if (result == VK_SUCCESS) return;
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+    throw Error(ExitCode::out_of_memory, std::string(what) + " failed: the device is out of memory");
+  if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+    throw Error(ExitCode::out_of_memory, std::string(what) + " failed: the driver is out of host memory");
+  const std::string reason =
+      result == VK_ERROR_DEVICE_LOST ? "the device was lost" : "VkResult " + std::to_string(result);
+  throw Error(ExitCode::failed, std::string(what) + " failed: " + reason);
+}
+
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
+  std::uint32_t count = 0;
+  check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "listing the Vulkan devices");
+  std::vector<VkPhysicalDevice> devices(count);
+  check(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "listing the Vulkan devices");
+  return devices;
+}
+
+std::vector<DeviceInfo> list_devices() {
+  VkInstance instance = make_instance(nullptr);
+  if (instance == VK_NULL_HANDLE) return {};
+  std::vector<DeviceInfo> infos;
+  for (VkPhysicalDevice device : physical_devices(instance)) infos.push_back(describe_device(device));
+  vkDestroyInstance(instance, nullptr);
+  return infos;
+}
+
+Context::Context(const std::string& wanted, bool validation) {
+  try {
+    create_instance(validation || validation_in_environment());
+    std::vector<VkPhysicalDevice> devices;
+    if (instance != VK_NULL_HANDLE) devices = physical_devices(instance);
+    std::vector<DeviceInfo> infos;
+    for (VkPhysicalDevice candidate : devices) infos.push_back(describe_device(candidate));
+    const std::size_t chosen = choose_device(infos, wanted);
+    physical_device = devices[chosen];
+    info_ = infos[chosen];
+    create_device();
+  } catch (...) {
+    destroy();
+    throw;
+  }
+}
+
+Context::~Context() { destroy(); }
+
+void Context::create_instance(bool validation) {
+  if (validation && !validation_layer_present())
+    throw Error(ExitCode::failed, std::string("validation was asked for, but the layer ") + VALIDATION_LAYER +
+                                      " is not installed (Debian's package vulkan-validationlayers)");
+  const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(&validation_messages_);
+  instance = make_instance(validation ? &messenger : nullptr);
+  if (validation && instance != VK_NULL_HANDLE) create_messenger();
+}
+
+void Context::create_messenger() {
+  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+  const VkDebugUtilsMessengerCreateInfoEXT info = messenger_info(&validation_messages_);
+  check(create(instance, &info, nullptr, &messenger_), "listening to the validation layer");
+}
+
+void Context::create_device() {
+  VkPhysicalDeviceMaintenance3Properties limits{};
+  limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  VkPhysicalDeviceProperties2 chain{};
+  chain.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  chain.pNext = &limits;
+  vkGetPhysicalDeviceProperties2(physical_device, &chain);
+  properties = chain.properties;
+  max_allocation_bytes = limits.maxMemoryAllocationSize;
+  vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
+
+  queue_family = compute_queue_family(physical_device);
+  const float priority = 1.0F;
+  VkDeviceQueueCreateInfo queue_info{};
+  queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue_info.queueFamilyIndex = queue_family;
+  queue_info.queueCount = 1;
+  queue_info.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue_info;
+  check(vkCreateDevice(physical_device, &info, nullptr, &device), "opening the Vulkan device");
+  vkGetDeviceQueue(device, queue_family, 0, &queue);
+
+  VkCommandPoolCreateInfo pool_info{};
+  pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  pool_info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+  pool_info.queueFamilyIndex = queue_family;
+  check(vkCreateCommandPool(device, &pool_info, nullptr, &command_pool), "making a command pool");
+}
+
+void Context::destroy() {
+  if (command_pool != VK_NULL_HANDLE) vkDestroyCommandPool(device, command_pool, nullptr);
+  if (device != VK_NULL_HANDLE) vkDestroyDevice(device, nullptr);
+  if (messenger_ != VK_NULL_HANDLE) {
+    const auto end = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
+    end(instance, messenger_, nullptr);
+  }
+  if (instance != VK_NULL_HANDLE) vkDestroyInstance(instance, nullptr);
+}
+
+}  // namespace splatray

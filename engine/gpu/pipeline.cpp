@@ -1,0 +1,153 @@
+#include "engine/gpu/pipeline.h"
+
+#include <cassert>
+#include <span>
+
+#include "shaders/spirv.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::uint32_t BINDING_COUNT = BIND_HITS + 1;
+
+VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
+  switch (binding) {
+    case BIND_FRAME:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BIND_NODE_POOL:
+    case BIND_BEGIN_END:
+    case BIND_DATA_POOL:
+    case BIND_COLOR_POOL:
+      return access == PoolAccess::texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                         : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case BIND_ENVIRONMENT:
+      return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    default:
+      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  }
+}
+
+std::span<const std::uint32_t> spirv(Program program, PoolAccess access) {
+  const bool texel = access == PoolAccess::texel;
+  if (program == Program::trace) return texel ? TRACE_TEXEL : TRACE_STORAGE;
+  return texel ? RAYS_TEXEL : RAYS_STORAGE;
+}
+
+Handle<VkShaderModule, vkDestroyShaderModule> make_module(const Context& context,
+                                                          std::span<const std::uint32_t> code) {
+  VkShaderModuleCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  info.codeSize = code.size_bytes();
+  info.pCode = code.data();
+  VkShaderModule module = VK_NULL_HANDLE;
+  check(vkCreateShaderModule(context.device, &info, nullptr, &module), "loading a shader");
+  return {context.device, module};
+}
+
+Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, const PipelineKey& key,
+                                                    VkPipelineLayout layout) {
+  std::array<VkSpecializationMapEntry, SPEC_COUNT> entries{};
+  for (std::uint32_t i = 0; i < SPEC_COUNT; ++i)
+    entries[i] = {i, i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)};
+  const VkSpecializationInfo specialization{SPEC_COUNT, entries.data(), sizeof(key.constants),
+                                            key.constants.data()};
+  const auto module = make_module(context, spirv(key.program, key.access));
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module.get();
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialization;
+  info.layout = layout;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  check(vkCreateComputePipelines(context.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+        "building a pipeline");
+  return {context.device, pipeline};
+}
+
+}  // namespace
+
+BindingSet::BindingSet(const Context& context, PoolAccess access) : context_(context), access_(access) {
+  assert(access != PoolAccess::automatic);
+  create_layout();
+  create_set();
+}
+
+void BindingSet::create_layout() {
+  std::array<VkDescriptorSetLayoutBinding, BINDING_COUNT> bindings{};
+  for (std::uint32_t i = 0; i < BINDING_COUNT; ++i)
+    bindings[i] = {i, descriptor_type(i, access_), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  VkDescriptorSetLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  info.bindingCount = BINDING_COUNT;
+  info.pBindings = bindings.data();
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  check(vkCreateDescriptorSetLayout(context_.device, &info, nullptr, &set_layout),
+        "making a descriptor set layout");
+  set_layout_ = {context_.device, set_layout};
+
+  VkPipelineLayoutCreateInfo layout_info{};
+  layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layout_info.setLayoutCount = 1;
+  layout_info.pSetLayouts = &set_layout;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  check(vkCreatePipelineLayout(context_.device, &layout_info, nullptr, &layout), "making a pipeline layout");
+  pipeline_layout_ = {context_.device, layout};
+}
+
+void BindingSet::create_set() {
+  std::array<VkDescriptorPoolSize, BINDING_COUNT> sizes{};
+  for (std::uint32_t i = 0; i < BINDING_COUNT; ++i) sizes[i] = {descriptor_type(i, access_), 1};
+  VkDescriptorPoolCreateInfo pool_info{};
+  pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  pool_info.maxSets = 1;
+  pool_info.poolSizeCount = BINDING_COUNT;
+  pool_info.pPoolSizes = sizes.data();
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  check(vkCreateDescriptorPool(context_.device, &pool_info, nullptr, &pool), "making a descriptor pool");
+  pool_ = {context_.device, pool};
+
+  const VkDescriptorSetLayout set_layout = set_layout_.get();
+  VkDescriptorSetAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  info.descriptorPool = pool;
+  info.descriptorSetCount = 1;
+  info.pSetLayouts = &set_layout;
+  check(vkAllocateDescriptorSets(context_.device, &info, &set_), "making a descriptor set");
+}
+
+void BindingSet::bind(std::uint32_t binding, const Buffer& buffer) {
+  const VkDescriptorBufferInfo buffer_info{buffer.get(), 0, VK_WHOLE_SIZE};
+  const VkBufferView view = buffer.view();
+  VkWriteDescriptorSet write{};
+  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+  write.dstSet = set_;
+  write.dstBinding = binding;
+  write.descriptorCount = 1;
+  write.descriptorType = descriptor_type(binding, access_);
+  write.pBufferInfo = &buffer_info;
+  write.pTexelBufferView = &view;
+  vkUpdateDescriptorSets(context_.device, 1, &write, 0, nullptr);
+}
+
+void BindingSet::bind(const EnvironmentTexture& texture) {
+  const VkDescriptorImageInfo image_info{texture.sampler(), texture.view(),
+                                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  VkWriteDescriptorSet write{};
+  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+  write.dstSet = set_;
+  write.dstBinding = BIND_ENVIRONMENT;
+  write.descriptorCount = 1;
+  write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  write.pImageInfo = &image_info;
+  vkUpdateDescriptorSets(context_.device, 1, &write, 0, nullptr);
+}
+
+VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
+  auto found = pipelines_.find(key);
+  if (found == pipelines_.end()) found = pipelines_.emplace(key, make_pipeline(context_, key, layout)).first;
+  return found->second.get();
+}
+
+}  // namespace splatray

@@ -1,0 +1,72 @@
+/// Compute pipelines of the engine's programs and the descriptor sets they read.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/features.h"
+#include "engine/gpu/pools.h"
+#include "engine/gpu/texture.h"
+
+namespace splatray {
+
+/// The descriptor set (set 0, bindings BIND_*) shared by all programs of one pool access, and its pipeline
+/// layout.
+class BindingSet {
+ public:
+  /// `access` is texel or storage. The context must outlive it.
+  BindingSet(const Context& context, PoolAccess access);
+
+  /// Points one binding to a buffer, or the environment's binding to a texture. The device must be idle; the
+  /// buffer must outlive its use. Every binding needs a buffer before a dispatch, also one that the program
+  /// does not use.
+  void bind(std::uint32_t binding, const Buffer& buffer);
+  void bind(const EnvironmentTexture& texture);
+
+  [[nodiscard]] VkDescriptorSet set() const { return set_; }
+  [[nodiscard]] VkPipelineLayout layout() const { return pipeline_layout_.get(); }
+
+ private:
+  void create_layout();
+  void create_set();
+
+  const Context& context_;
+  PoolAccess access_;
+  Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout_;
+  Handle<VkPipelineLayout, vkDestroyPipelineLayout> pipeline_layout_;
+  Handle<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+/// The engine's shaders.
+enum class Program {
+  trace,  ///< trace.comp.glsl: a tile of a picture
+  rays,   ///< rays.comp.glsl: ray queries
+};
+
+/// What a pipeline is made of, and so its name in the cache.
+struct PipelineKey {
+  Program program = Program::trace;
+  PoolAccess access = PoolAccess::storage;  ///< texel or storage
+  SpecConstants constants{};
+
+  auto operator<=>(const PipelineKey&) const = default;
+};
+
+/// Builds each pipeline once. The context must outlive it.
+class PipelineCache {
+ public:
+  explicit PipelineCache(const Context& context) : context_(context) {}
+
+  /// The pipeline of the key, with that layout; built when it is the first such.
+  [[nodiscard]] VkPipeline get(const PipelineKey& key, VkPipelineLayout layout);
+  /// Pipelines built since construction.
+  [[nodiscard]] std::uint32_t built() const { return static_cast<std::uint32_t>(pipelines_.size()); }
+
+ private:
+  const Context& context_;
+  std::map<PipelineKey, Handle<VkPipeline, vkDestroyPipeline>> pipelines_;
+};
+
+}  // namespace splatray

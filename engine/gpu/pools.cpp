@@ -1,0 +1,97 @@
+#include "engine/gpu/pools.h"
+
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "engine/host/error.h"
+
+namespace splatray {
+namespace {
+
+struct PoolKind {
+  const char* name;
+  VkFormat format;              ///< of its texel buffer
+  std::uint64_t element_bytes;  ///< of that format
+};
+
+/// In the order of their bindings.
+constexpr std::array<PoolKind, 4> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
+                                            {"Begin-End", VK_FORMAT_R32_UINT, 4},
+                                            {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
+                                            {"colour pool", VK_FORMAT_R32_UINT, 4}}};
+
+std::array<std::uint64_t, 4> sizes(const PoolBytes& bytes) {
+  return {bytes.node_pool, bytes.begin_end, bytes.data_pool, bytes.color_pool};
+}
+
+std::string mib_text(std::uint64_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+  return text;
+}
+
+/// Why pools of these sizes cannot be read this way; nothing when they can.
+std::optional<std::string> misfit(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess access) {
+  for (std::size_t i = 0; i < KINDS.size(); ++i) {
+    const std::uint64_t size = sizes(bytes)[i];
+    const std::string found =
+        std::string("the ") + KINDS[i].name + " has " + mib_text(size) + ", the device's ";
+    if (size > limits.allocation_bytes)
+      return found + "largest allocation is " + mib_text(limits.allocation_bytes);
+    if (access == PoolAccess::storage && size > limits.storage_bytes)
+      return found + "largest storage buffer is " + mib_text(limits.storage_bytes);
+    if (access == PoolAccess::texel && size / KINDS[i].element_bytes > limits.texel_elements)
+      return found + "largest texel buffer of its kind is " +
+             mib_text(limits.texel_elements * KINDS[i].element_bytes);
+  }
+  return std::nullopt;
+}
+
+bool texel_format_supported(const Context& context, VkFormat format) {
+  VkFormatProperties properties{};
+  vkGetPhysicalDeviceFormatProperties(context.physical_device, format, &properties);
+  return (properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) != 0;
+}
+
+}  // namespace
+
+PoolLimits pool_limits(const Context& context) {
+  PoolLimits limits;
+  const bool texel_formats = texel_format_supported(context, VK_FORMAT_R32_UINT) &&
+                             texel_format_supported(context, VK_FORMAT_R32G32B32A32_UINT);
+  limits.texel_elements = texel_formats ? context.properties.limits.maxTexelBufferElements : 0;
+  limits.storage_bytes = context.properties.limits.maxStorageBufferRange;
+  limits.allocation_bytes = context.max_allocation_bytes;
+  return limits;
+}
+
+PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted) {
+  const PoolAccess first = wanted == PoolAccess::storage ? PoolAccess::storage : PoolAccess::texel;
+  const std::optional<std::string> reason = misfit(bytes, limits, first);
+  if (!reason) return first;
+  if (wanted == PoolAccess::automatic && !misfit(bytes, limits, PoolAccess::storage))
+    return PoolAccess::storage;
+  throw Error(ExitCode::out_of_memory, "the scene does not fit the device: " + *reason);
+}
+
+Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted) {
+  const std::array<std::span<const std::byte>, 4> sources = {
+      std::as_bytes(std::span(scene.node_pool)), std::as_bytes(std::span(scene.begin_end)),
+      std::as_bytes(std::span(scene.data_pool)), std::as_bytes(std::span(scene.color_pool))};
+  bytes.node_pool = sources[0].size();
+  bytes.begin_end = sources[1].size();
+  bytes.data_pool = sources[2].size();
+  bytes.color_pool = sources[3].size();
+  access = choose_access(bytes, pool_limits(context), wanted);
+  bytes.texel_buffers = access == PoolAccess::texel;
+  const VkBufferUsageFlags usage =
+      bytes.texel_buffers ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  for (std::size_t i = 0; i < KINDS.size(); ++i) {
+    buffers[i] = Buffer(context, sources[i].size(), usage,
+                        bytes.texel_buffers ? KINDS[i].format : VK_FORMAT_UNDEFINED);
+    buffers[i].upload(queue, sources[i]);
+  }
+}
+
+}  // namespace splatray

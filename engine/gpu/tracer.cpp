@@ -1,0 +1,359 @@
+#include "engine/gpu/tracer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <optional>
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/command_queue.h"
+#include "engine/gpu/features.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/texture.h"
+#include "engine/host/error.h"
+
+namespace splatray {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t TILE_PIXELS = 1U << 20U;
+constexpr std::uint32_t TILE_WIDTH = 1U << 16U;  ///< keeps a band of 8 rows within TILE_PIXELS
+constexpr std::uint32_t TILE_HEIGHT =
+    1U << 15U;  ///< keeps the groups of ORDER_LINEAR within the 65535 any device has
+constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
+/// Long enough to hide the cost of a submission, short enough for progress and for drivers that stop long
+/// work.
+constexpr double DISPATCH_MS = 200.0;
+constexpr std::uint32_t BATCH_GROWTH = 4;
+
+/// A rectangle of the picture, pixels.
+struct Tile {
+  std::uint32_t x, y, width, height;
+
+  [[nodiscard]] std::size_t pixels() const { return std::size_t{width} * height; }
+};
+
+std::vector<Tile> cut_into_tiles(std::uint32_t width, std::uint32_t height) {
+  const std::uint32_t tile_width = std::min(width, TILE_WIDTH);
+  const std::uint32_t tile_height = std::min(TILE_PIXELS / tile_width / 8 * 8, TILE_HEIGHT);
+  std::vector<Tile> tiles;
+  for (std::uint32_t y = 0; y < height; y += tile_height)
+    for (std::uint32_t x = 0; x < width; x += tile_width)
+      tiles.push_back({x, y, std::min(tile_width, width - x), std::min(tile_height, height - y)});
+  return tiles;
+}
+
+std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Makes a storage buffer at least that large; keeps it when it is.
+void reserve(const Context& context, Buffer& buffer, VkDeviceSize bytes) {
+  if (buffer.size() < bytes || buffer.get() == VK_NULL_HANDLE)
+    buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+/// Samples of the next dispatch after one of `batch` samples that took `ms`.
+std::uint32_t next_batch(std::uint32_t batch, double ms) {
+  const double wanted = batch * DISPATCH_MS / std::max(ms, 1e-3);
+  return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(batch) * BATCH_GROWTH));
+}
+
+}  // namespace
+
+/// A dispatch: which pipeline, with which parameters, over how many groups.
+struct Dispatch {
+  Program program = Program::trace;
+  SpecConstants constants{};
+  FrameParams frame{};
+  std::uint32_t groups_x = 1;
+  std::uint32_t groups_y = 1;
+};
+
+struct Tracer::Impl {
+  Impl(const Context& device, PoolAccess access);
+
+  void set_materials(std::span<const Material> source);
+  void set_lights(std::span<const SceneLight> lights);
+  void bind_all();
+  double run(const Dispatch& dispatch);
+  void add_counters();
+  [[nodiscard]] FrameParams frame_params(const View& view, const Settings& settings) const;
+  [[nodiscard]] Dispatch picture_dispatch(const View& view, const Settings& settings) const;
+  void trace_samples(const Tile& tile, Dispatch dispatch, const std::function<void(std::uint64_t)>& advance);
+  void read_colors(const Tile& tile, std::uint32_t samples, Image& image);
+  void trace_aov(const Tile& tile, Dispatch dispatch, Image& image);
+
+  [[nodiscard]] SceneContent content() const {
+    return {materials, pools.bytes.color_pool > 0, light_count > 0, environment_texture};
+  }
+
+  const Context& context;
+  const PoolAccess wanted_access;
+  CommandQueue queue;
+  PipelineCache pipelines;
+  std::optional<BindingSet> bindings;  ///< of pools.access
+
+  Scene frame_of_reference;  ///< the scene without its arrays: transform, bounds, up
+  Pools pools;
+  std::vector<Material> materials;
+  std::uint32_t light_count = 0;
+  bool environment_texture = false;
+  glm::vec3 environment_constant{0.0F};
+  std::array<glm::vec3, 9> irradiance{};
+
+  Buffer frame_buffer, material_buffer, light_buffer, accumulation, aov, counters, rays, hits;
+  EnvironmentTexture environment;
+
+  RenderStats stats;
+  PoolBytes pool_bytes;
+  std::uint32_t pools_uploaded = 0;
+};
+
+Tracer::Impl::Impl(const Context& device, PoolAccess access)
+    : context(device),
+      wanted_access(access),
+      queue(device),
+      pipelines(device),
+      environment(device, queue, {}) {
+  frame_buffer = Buffer(device, sizeof(FrameParams), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+  for (Buffer* buffer : {&material_buffer, &light_buffer, &accumulation, &aov, &rays, &hits})
+    reserve(device, *buffer, 0);
+  reserve(device, counters, COUNTER_COUNT * sizeof(std::uint32_t));
+  pool_bytes.environment = environment.size();
+}
+
+void Tracer::Impl::set_materials(std::span<const Material> source) {
+  materials.assign(source.begin(), source.end());
+  reserve(context, material_buffer, source.size_bytes());
+  material_buffer.upload(queue, std::as_bytes(source));
+}
+
+void Tracer::Impl::set_lights(std::span<const SceneLight> lights) {
+  const std::vector<Light> in_root = lights_in_root(frame_of_reference, {lights.begin(), lights.end()});
+  light_count = static_cast<std::uint32_t>(in_root.size());
+  reserve(context, light_buffer, std::span(in_root).size_bytes());
+  light_buffer.upload(queue, std::as_bytes(std::span(in_root)));
+}
+
+void Tracer::Impl::bind_all() {
+  for (std::uint32_t i = 0; i < pools.buffers.size(); ++i)
+    bindings->bind(BIND_NODE_POOL + i, pools.buffers[i]);
+  bindings->bind(BIND_FRAME, frame_buffer);
+  bindings->bind(BIND_MATERIALS, material_buffer);
+  bindings->bind(BIND_LIGHTS, light_buffer);
+  bindings->bind(environment);
+  bindings->bind(BIND_ACCUMULATION, accumulation);
+  bindings->bind(BIND_AOV, aov);
+  bindings->bind(BIND_COUNTERS, counters);
+  bindings->bind(BIND_RAYS, rays);
+  bindings->bind(BIND_HITS, hits);
+}
+
+double Tracer::Impl::run(const Dispatch& dispatch) {
+  const VkPipeline pipeline =
+      pipelines.get({dispatch.program, pools.access, dispatch.constants}, bindings->layout());
+  return queue.run([&](VkCommandBuffer commands) {
+    vkCmdUpdateBuffer(commands, frame_buffer.get(), 0, sizeof(FrameParams), &dispatch.frame);
+    if (dispatch.constants[SPEC_COUNTERS] != 0)
+      vkCmdFillBuffer(commands, counters.get(), 0, VK_WHOLE_SIZE, 0);
+    record_barrier(commands);
+    const VkDescriptorSet set = bindings->set();
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bindings->layout(), 0, 1, &set, 0,
+                            nullptr);
+    vkCmdDispatch(commands, dispatch.groups_x, dispatch.groups_y, 1);
+  });
+}
+
+void Tracer::Impl::add_counters() {
+  std::array<std::uint32_t, COUNTER_COUNT> values{};
+  counters.download(queue, std::as_writable_bytes(std::span(values)));
+  for (std::size_t i = 0; i < values.size(); ++i) stats.counters[i] += values[i];
+}
+
+FrameParams Tracer::Impl::frame_params(const View& view, const Settings& settings) const {
+  FrameParams frame = make_frame_params(frame_of_reference, view, settings);
+  const SpecConstants constants = picture_features(content(), settings);
+  if (constants[SPEC_MIRRORS] == 0 && constants[SPEC_GLASS] == 0) frame.max_bounces = 0;
+  frame.light_count = light_count;
+  frame.environment =
+      settings.environment_strength * (environment_texture ? glm::vec3(1.0F) : environment_constant);
+  for (std::size_t i = 0; i < irradiance.size(); ++i)
+    frame.irradiance[i] = glm::vec4(settings.environment_strength * irradiance[i], 0.0F);
+  return frame;
+}
+
+Dispatch Tracer::Impl::picture_dispatch(const View& view, const Settings& settings) const {
+  Dispatch dispatch;
+  dispatch.constants = picture_features(content(), settings);
+  dispatch.frame = frame_params(view, settings);
+  return dispatch;
+}
+
+namespace {
+
+/// Points a picture's dispatch to a tile.
+void aim(Dispatch& dispatch, const Tile& tile) {
+  dispatch.frame.tile_x = tile.x;
+  dispatch.frame.tile_y = tile.y;
+  dispatch.frame.tile_width = tile.width;
+  dispatch.frame.tile_height = tile.height;
+  const bool linear = dispatch.constants[SPEC_ORDER] == ORDER_LINEAR;
+  dispatch.groups_x = groups(tile.width, linear ? GROUP_SIZE : 8);
+  dispatch.groups_y = linear ? tile.height : groups(tile.height, 8);
+}
+
+}  // namespace
+
+void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch,
+                                 const std::function<void(std::uint64_t)>& advance) {
+  aim(dispatch, tile);
+  const bool counting = dispatch.constants[SPEC_COUNTERS] != 0;
+  const std::uint32_t total = dispatch.frame.sample_total;
+  std::uint32_t batch = 1;
+  for (std::uint32_t sample = 0; sample < total;) {
+    dispatch.frame.sample_begin = sample;
+    dispatch.frame.sample_end = sample + std::min(batch, total - sample);
+    const double ms = run(dispatch);
+    stats.trace_ms += ms;
+    if (counting) add_counters();
+    advance(tile.pixels() * (dispatch.frame.sample_end - sample));
+    sample = dispatch.frame.sample_end;
+    // The device counts in 32 bits, which many samples of a large tile would overflow.
+    if (!counting) batch = next_batch(batch, ms);
+  }
+}
+
+void Tracer::Impl::read_colors(const Tile& tile, std::uint32_t samples, Image& image) {
+  std::vector<vec4> sums(tile.pixels());
+  accumulation.download(queue, std::as_writable_bytes(std::span(sums)));
+  const float scale = 1.0F / static_cast<float>(samples);
+  for (std::uint32_t row = 0; row < tile.height; ++row) {
+    const auto source = sums.begin() + std::ptrdiff_t{row} * tile.width;
+    const auto target = image.rgba.begin() + std::ptrdiff_t{tile.y + row} * image.width + tile.x;
+    std::transform(source, source + tile.width, target, [=](const vec4& sum) { return sum * scale; });
+  }
+}
+
+void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, Image& image) {
+  aim(dispatch, tile);
+  dispatch.constants[SPEC_AOV] = 1;
+  run(dispatch);
+  std::vector<AovPixel> pixels(tile.pixels());
+  aov.download(queue, std::as_writable_bytes(std::span(pixels)));
+  for (std::uint32_t row = 0; row < tile.height; ++row) {
+    const auto source = pixels.begin() + std::ptrdiff_t{row} * tile.width;
+    const auto target = image.aov.begin() + std::ptrdiff_t{tile.y + row} * image.width + tile.x;
+    std::copy(source, source + tile.width, target);
+  }
+}
+
+Tracer::Tracer(const Context& context, PoolAccess access) : impl_(std::make_unique<Impl>(context, access)) {}
+
+Tracer::~Tracer() = default;
+
+void Tracer::upload(const Scene& scene) {
+  Impl& impl = *impl_;
+  impl.pools = {};  // the device may not have room for two scenes
+  impl.pools = Pools(impl.context, impl.queue, scene, impl.wanted_access);
+  impl.bindings.emplace(impl.context, impl.pools.access);
+  impl.frame_of_reference = {};
+  impl.frame_of_reference.root = scene.root;
+  impl.frame_of_reference.up = scene.up;
+  impl.frame_of_reference.bounds_min_world = scene.bounds_min_world;
+  impl.frame_of_reference.bounds_max_world = scene.bounds_max_world;
+  impl.set_materials(scene.materials);
+  impl.set_lights(scene.lights);
+  const std::uint64_t environment_bytes = impl.environment.size();
+  impl.pool_bytes = impl.pools.bytes;
+  impl.pool_bytes.environment = environment_bytes;
+  ++impl.pools_uploaded;
+}
+
+void Tracer::set_materials(std::span<const Material> materials) {
+  assert(materials.size() == impl_->materials.size());
+  impl_->set_materials(materials);
+}
+
+void Tracer::set_lights(std::span<const SceneLight> lights) { impl_->set_lights(lights); }
+
+void Tracer::set_environment(const Environment& environment) {
+  Impl& impl = *impl_;
+  impl.environment = {};
+  impl.environment = EnvironmentTexture(impl.context, impl.queue, environment);
+  impl.environment_texture = !environment.texels.empty();
+  impl.environment_constant = environment.constant;
+  impl.irradiance = irradiance_coefficients(environment);
+  impl.pool_bytes.environment = impl.environment.size();
+}
+
+Image Tracer::render(const View& view, const Settings& settings, const Progress& progress) {
+  Impl& impl = *impl_;
+  assert(impl.bindings && settings.samples >= 1);
+  const Clock::time_point start = Clock::now();
+  impl.stats = {};
+  const Dispatch dispatch = impl.picture_dispatch(view, settings);
+  Image image{view.width, view.height, {}, {}};
+  const std::size_t pixels = std::size_t{view.width} * view.height;
+  image.rgba.resize(pixels);
+  if (settings.aov) image.aov.resize(pixels);
+
+  const std::vector<Tile> tiles = cut_into_tiles(view.width, view.height);
+  reserve(impl.context, impl.accumulation, tiles.front().pixels() * sizeof(vec4));
+  if (settings.aov) reserve(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
+  impl.bind_all();
+  std::uint64_t done = 0;
+  const auto advance = [&](std::uint64_t samples) {
+    done += samples;
+    const double share = static_cast<double>(done) / (static_cast<double>(pixels) * settings.samples);
+    if (progress && !progress(share)) throw Error(ExitCode::interrupted, "rendering was interrupted");
+  };
+  for (const Tile& tile : tiles) {
+    impl.trace_samples(tile, dispatch, advance);
+    impl.read_colors(tile, settings.samples, image);
+    if (settings.aov) impl.trace_aov(tile, dispatch, image);
+  }
+  impl.stats.wall_ms = milliseconds_since(start);
+  return image;
+}
+
+std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Settings& settings) {
+  Impl& impl = *impl_;
+  assert(impl.bindings);
+  const Clock::time_point start = Clock::now();
+  impl.stats = {};
+  const std::size_t most = std::min<std::size_t>(rays.size(), QUERY_RAYS);
+  reserve(impl.context, impl.rays, most * sizeof(RayQuery));
+  reserve(impl.context, impl.hits, most * sizeof(RayHit));
+  impl.bind_all();
+  Dispatch dispatch;
+  dispatch.program = Program::rays;
+  dispatch.constants = query_features(impl.content(), settings);
+  dispatch.frame.tile_height = dispatch.frame.height = 1;
+  dispatch.frame.kappa = settings.kappa;
+  dispatch.frame.root_unit_world = static_cast<float>(impl.frame_of_reference.root.unit_world);
+  dispatch.frame.delta = static_cast<float>(settings.delta_world / impl.frame_of_reference.root.unit_world);
+  std::vector<RayHit> hits(rays.size());
+  for (std::size_t at = 0; at < rays.size(); at += most) {
+    const std::size_t count = std::min(most, rays.size() - at);
+    impl.rays.upload(impl.queue, std::as_bytes(rays.subspan(at, count)));
+    dispatch.frame.tile_width = dispatch.frame.width = static_cast<std::uint32_t>(count);
+    dispatch.groups_x = groups(dispatch.frame.width, GROUP_SIZE);
+    impl.stats.trace_ms += impl.run(dispatch);
+    if (settings.counters) impl.add_counters();
+    impl.hits.download(impl.queue, std::as_writable_bytes(std::span(hits).subspan(at, count)));
+  }
+  impl.stats.wall_ms = milliseconds_since(start);
+  return hits;
+}
+
+const RenderStats& Tracer::stats() const { return impl_->stats; }
+const PoolBytes& Tracer::pool_bytes() const { return impl_->pool_bytes; }
+std::uint32_t Tracer::pipelines_built() const { return impl_->pipelines.built(); }
+std::uint32_t Tracer::pools_uploaded() const { return impl_->pools_uploaded; }
+
+}  // namespace splatray
