@@ -1,0 +1,18 @@
+/// The vertex element of a PLY file.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "preprocess/ply_body.h"
+#include "preprocess/points.h"
+
+namespace splatray {
+
+/// Reads all vertices; `in` stands on the first. Skipped properties and guesses about colours go to `notes`.
+[[nodiscard]] Points read_ply_vertices(PlyBody& in, const PlyElement& element,
+                                       std::vector<std::string>& notes);
+
+/// "'a', 'b'": the names quoted, the first ten, then how many more.
+[[nodiscard]] std::string quoted_list(const std::vector<std::string>& names);
+
+}  // namespace splatray
