@@ -1,0 +1,43 @@
+#include <cmath>
+#include <numbers>
+
+#include "data/models.h"
+
+namespace splatray {
+namespace {
+
+constexpr double PI = std::numbers::pi;
+const glm::dvec3 SIZE(4.0, 3.0, 5.0);  ///< m; the room's centre is the origin, so the floor is at y = -1.5
+
+/// Red to the left, green to the right, a grey chequered floor, the rest nearly white.
+glm::dvec3 room_paint(glm::dvec3 p) {
+  constexpr double NEAR = 1e-6;
+  if (p.x < -0.5 * SIZE.x + NEAR) return {0.60, 0.08, 0.06};
+  if (p.x > 0.5 * SIZE.x - NEAR) return {0.10, 0.42, 0.12};
+  if (p.y > -0.5 * SIZE.y + NEAR) return {0.76, 0.74, 0.70};
+  const auto parity = static_cast<int>(std::floor(2.0 * p.x) + std::floor(2.0 * p.z)) & 1;
+  return parity == 0 ? glm::dvec3(0.70) : glm::dvec3(0.25);
+}
+
+Surface ball(const std::string& object, double x, double z, double radius) {
+  return {object, 4.0 * PI * radius * radius,
+          [=](const Sampling& sampling) {
+            return moved(sphere(sampling, radius), {x, radius - 0.5 * SIZE.y, z});
+          },
+          2.0};
+}
+
+}  // namespace
+
+Model room_model() {
+  Model model = box("room", SIZE, true);
+  for (Surface& face : model) {
+    face.make = [make = face.make](const Sampling& sampling) { return painted(make(sampling), room_paint); };
+  }
+  model.push_back(ball("matte", -1.1, -1.3, 0.60));
+  model.push_back(ball("mirror", 0.45, -1.5, 0.75));
+  model.push_back(ball("glass", 0.85, 0.25, 0.50));
+  return model;
+}
+
+}  // namespace splatray
