@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "engine/host/view.h"
+#include "tests/host/scenes.h"
+
+namespace splatray {
+namespace {
+
+TEST(LightsInRoot, PointKeepsItsIrradiance) {
+  const Scene scene = box_scene({1e6, 2e6, 0.0});
+  SceneLight lamp;
+  lamp.kind = LIGHT_POINT;
+  lamp.position = glm::dvec3(1e6 + 0.5, 2e6, 0.25);
+  lamp.power = glm::vec3(3.0F, 2.0F, 1.0F);
+  const Light light = lights_in_root(scene, {lamp}).front();
+  EXPECT_EQ(light.kind, LIGHT_POINT);
+  EXPECT_LT(glm::length(scene.root.to_world(glm::dvec3(light.position)) - lamp.position), 1e-6);
+  const double distance_root = 2.0 / scene.root.unit_world;
+  EXPECT_NEAR(light.power.x / (distance_root * distance_root), 3.0 / 4.0, 1e-5);
+}
+
+TEST(LightsInRoot, DirectionalBecomesUnit) {
+  SceneLight sun;
+  sun.position = {0.0, 3.0, 4.0};
+  const Light light = lights_in_root(box_scene(), {sun}).front();
+  EXPECT_LT(glm::length(light.position - glm::vec3(0.0F, 0.6F, 0.8F)), 1e-6F);
+  EXPECT_EQ(light.power, sun.power);
+}
+
+TEST(DefaultLights, ComeOverTheViewersLeftShoulder) {
+  const Scene scene = box_scene();
+  Camera camera;
+  camera.eye = {0.0, 0.0, 5.0};
+  const auto lights = default_lights(scene, camera);
+  ASSERT_EQ(lights.size(), 1U);
+  EXPECT_EQ(lights[0].kind, LIGHT_DIRECTIONAL);
+  EXPECT_NEAR(glm::length(lights[0].position), 1.0, 1e-12);
+  EXPECT_LT(lights[0].position.x, -0.3);
+  EXPECT_NEAR(lights[0].position.y, std::sqrt(0.5), 1e-12);
+  EXPECT_GT(lights[0].position.z, 0.3);
+}
+
+TEST(DefaultLights, SurviveAViewFromAbove) {
+  Camera camera;
+  camera.eye = {0.0, 5.0, 0.0};
+  camera.up = {0.0, 0.0, -1.0};
+  EXPECT_NEAR(glm::length(default_lights(box_scene(), camera)[0].position), 1.0, 1e-12);
+}
+
+TEST(ExposedLights, PhysicalUnitsComeDownToPi) {
+  Scene scene = box_scene();
+  SceneLight sun, lamp;
+  sun.power = glm::vec3(50000.0F);
+  lamp.kind = LIGHT_POINT;
+  lamp.position = {0.0, 2.0, 0.0};
+  lamp.power = glm::vec3(200000.0F, 0.0F, 0.0F);
+  scene.lights = {sun, lamp};
+  const auto lights = exposed_lights(scene);
+  EXPECT_NEAR(lights[0].power.x + lights[1].power.x / 4.0F, std::numbers::pi, 1e-5);
+  EXPECT_NEAR(lights[1].power.x / lights[0].power.x, 4.0, 1e-5);
+}
+
+TEST(ExposedLights, OrdinaryOnesAreLeftAlone) {
+  Scene scene = box_scene();
+  scene.lights = {SceneLight{}};
+  EXPECT_EQ(exposed_lights(scene)[0].power, glm::vec3(1.0F));
+  scene.lights[0].power = glm::vec3(0.0F);
+  EXPECT_EQ(exposed_lights(scene)[0].power, glm::vec3(0.0F));
+}
+
+}  // namespace
+}  // namespace splatray
