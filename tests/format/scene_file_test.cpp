@@ -1,0 +1,231 @@
+#include "engine/host/scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "engine/host/error.h"
+#include "tests/format/tiny_scene.h"
+
+namespace splatray {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::string;
+
+constexpr std::size_t HEADER = 504, TABLE = 248, ENTRY = 32;
+
+template <typename T>
+T get(const Bytes& bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+template <typename T>
+void put(Bytes& bytes, std::size_t offset, T value) {
+  std::memcpy(bytes.data() + offset, &value, sizeof value);
+}
+
+/// Makes all checksums right again, as someone who forges a file would.
+void reseal(Bytes& bytes) {
+  for (std::size_t entry = TABLE; entry < HEADER; entry += ENTRY) {
+    const auto offset = get<std::uint64_t>(bytes, entry + 8), size = get<std::uint64_t>(bytes, entry + 16);
+    put<std::uint64_t>(bytes, entry + 24, XXH3_64bits(bytes.data() + offset, size));
+  }
+  put<std::uint64_t>(bytes, 24, 0);
+  put<std::uint64_t>(bytes, 24, XXH3_64bits(bytes.data(), HEADER));
+}
+
+std::size_t section_offset(const Bytes& bytes, std::size_t id) {
+  return get<std::uint64_t>(bytes, TABLE + (id - 1) * ENTRY + 8);
+}
+
+Bytes read_hex(const char* path) {
+  std::ifstream file(path);
+  Bytes bytes;
+  for (std::string pair; file >> pair;) bytes += static_cast<char>(std::stoi(pair, nullptr, 16));
+  return bytes;
+}
+
+class SceneFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder = fs::path(testing::TempDir()) /
+             ("format_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    path = folder / "tiny.soct";
+    write_scene(tiny_scene(), path);
+    bytes = load();
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  [[nodiscard]] Bytes load() const {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  void store(const Bytes& content) const { std::ofstream(path, std::ios::binary) << content; }
+
+  /// The refusal of a file of these bytes; empty when it is read.
+  std::string refusal(const Bytes& content) const {
+    store(content);
+    try {
+      (void)read_scene(path);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+      const std::string sentence = error.what();
+      EXPECT_NE(sentence.find(path.string()), std::string::npos);
+      EXPECT_NE(sentence.find("expected"), std::string::npos);
+      EXPECT_EQ(sentence.find('\n'), std::string::npos);
+      return sentence;
+    }
+    return "";
+  }
+
+  fs::path folder, path;
+  Bytes bytes;
+};
+
+TEST_F(SceneFile, GoldenBytes) {
+  const Bytes golden = read_hex(GOLDEN_FILE);
+  ASSERT_EQ(bytes.size(), golden.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i) ASSERT_EQ(bytes[i], golden[i]) << "at byte " << i;
+}
+
+TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
+  EXPECT_EQ(bytes.substr(0, 4), "SOCT");
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), 1U);
+  EXPECT_EQ(get<std::uint32_t>(bytes, 12), HEADER);
+  EXPECT_EQ(get<std::uint64_t>(bytes, 16), bytes.size());
+  EXPECT_EQ(get<std::uint64_t>(bytes, 32), 4U);
+  EXPECT_EQ(get<std::uint64_t>(bytes, 40), 5U);
+  EXPECT_EQ(get<double>(bytes, 104), 30.0);
+  EXPECT_EQ(get<double>(bytes, 112), 0.5);
+  EXPECT_EQ(get<double>(bytes, 136), 1.25);
+  EXPECT_EQ(get<double>(bytes, 176), 1.0);
+  EXPECT_EQ(get<double>(bytes, 232), 12.5);
+  EXPECT_EQ(bytes.substr(section_offset(bytes, 8), 15), Bytes("glass\0\0sky.hdr\0", 15));
+  EXPECT_EQ(bytes.substr(bytes.size() - 8), "SOCT.END");
+  for (std::size_t id = 1; id <= 8; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
+}
+
+TEST_F(SceneFile, RoundTrip) {
+  const Scene scene = tiny_scene(), copy = read_scene(path);
+  EXPECT_EQ(copy.node_pool, scene.node_pool);
+  EXPECT_EQ(copy.begin_end, scene.begin_end);
+  EXPECT_EQ(copy.data_pool, scene.data_pool);
+  EXPECT_EQ(copy.color_pool, scene.color_pool);
+  EXPECT_EQ(copy.object_names, scene.object_names);
+  EXPECT_EQ(copy.environment_path, scene.environment_path);
+  EXPECT_EQ(copy.materials[0].ior, 1.5F);
+  EXPECT_EQ(copy.materials[1].diffuse, scene.materials[1].diffuse);
+  EXPECT_EQ(copy.lights.at(0).position, scene.lights[0].position);
+  EXPECT_EQ(copy.camera.value().fov_y_deg, 35.0);
+  EXPECT_EQ(copy.build.insertion, Insertion::probe);
+  EXPECT_EQ(copy.build.seed, 11U);
+  EXPECT_EQ(copy.bounds_max_world, scene.bounds_max_world);
+  write_scene(copy, path);
+  EXPECT_EQ(load(), bytes);
+}
+
+TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
+  Scene scene = tiny_scene();
+  scene.color_pool.clear();
+  scene.camera.reset();
+  scene.lights.clear();
+  scene.environment_path.clear();
+  write_scene(scene, path);
+  const Scene copy = read_scene(path);
+  EXPECT_TRUE(copy.color_pool.empty());
+  EXPECT_FALSE(copy.camera.has_value());
+  EXPECT_TRUE(copy.lights.empty());
+  EXPECT_EQ(copy.object_names, scene.object_names);
+}
+
+TEST_F(SceneFile, RefusesEveryTruncation) {
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    EXPECT_NE(refusal(bytes.substr(0, length)), "") << length;
+}
+
+TEST_F(SceneFile, RefusesAFlippedBitInEveryByte) {
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    Bytes flipped = bytes;
+    flipped[i] = static_cast<char>(flipped[i] ^ (1 << i % 8));
+    EXPECT_NE(refusal(flipped), "") << i;
+  }
+}
+
+TEST_F(SceneFile, SaysWhatIsWrong) {
+  const auto says = [&](Bytes content, const char* words) {
+    const std::string sentence = refusal(content);
+    EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
+  };
+  says(bytes + "x", "(extra bytes)");
+  says(bytes.substr(0, 600), "(file truncated)");
+  says("", "found 0 bytes");
+  says("ply\nformat ascii 1.0\n", "another file type");
+  Bytes other = bytes;
+  put<std::uint32_t>(other, 4, 2);
+  says(other, "found version 2, expected version 1");
+  other = bytes;
+  put<std::uint32_t>(other, 8, 0x04030201);
+  says(other, "a foreign byte order");
+  other = bytes;
+  other[section_offset(bytes, 3)] ^= 1;
+  says(other, "section 3 with another checksum");
+}
+
+TEST_F(SceneFile, RefusesForgedContent) {
+  const auto says = [&](std::size_t section, std::size_t offset, std::uint32_t value, const char* words) {
+    Bytes forged = bytes;
+    put(forged, section_offset(bytes, section) + offset, value);
+    reseal(forged);
+    const std::string sentence = refusal(forged);
+    EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
+  };
+  says(1, 0, 2, "node 0 with children at 2");
+  says(1, 4, 0x40000002, "leaf 1");
+  says(2, 4, 5, "Begin-End entry 2");
+  says(2, 8, 6, "a Begin-End from 0 to 6");
+  says(3, 12, 0xFFFF0000, "splat 0 with a radius");
+  says(3, 28, 0x20000002, "splat 1 of object 2");
+  says(6, 0, 7, "light 0");
+  says(8, 0, 0, "names, expected one per object");
+}
+
+TEST_F(SceneFile, RefusesForgedCounts) {
+  const auto refused = [&](std::size_t offset, std::uint64_t value) {
+    Bytes forged = bytes;
+    put(forged, offset, value);
+    put<std::uint64_t>(forged, 24, 0);
+    put<std::uint64_t>(forged, 24, XXH3_64bits(forged.data(), HEADER));
+    return !refusal(forged).empty();
+  };
+  for (const std::size_t offset : {40, 48, 56, 64, 72, 80, 240}) {
+    EXPECT_TRUE(refused(offset, 1ULL << 60U)) << offset;
+    EXPECT_TRUE(refused(offset, 3)) << offset;
+  }
+  EXPECT_TRUE(refused(112, 0));                  // unit_world
+  EXPECT_TRUE(refused(TABLE + 8, 1ULL << 40U));  // first section's offset
+}
+
+TEST_F(SceneFile, RefusesPathsThatAreNoFiles) {
+  EXPECT_THROW((void)read_scene(folder), Error);
+  EXPECT_THROW((void)read_scene(folder / "missing.soct"), Error);
+}
+
+TEST_F(SceneFile, FailedWriteLeavesNothing) {
+  EXPECT_THROW(write_scene(tiny_scene(), folder / "missing" / "a.soct"), Error);
+  EXPECT_THROW(write_scene(tiny_scene(), folder), Error);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+  EXPECT_EQ(load(), bytes);
+}
+
+}  // namespace
+}  // namespace splatray

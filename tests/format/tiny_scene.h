@@ -1,0 +1,47 @@
+/// A complete small scene: two objects, five references in two filled leaves, colours, lights, camera, names.
+#pragma once
+#include "engine/host/scene.h"
+
+namespace splatray {
+
+inline uvec4 tiny_splat(double x, double y, double z, std::uint32_t object) {
+  return pack_splat({{x, y, z}, glm::normalize(glm::dvec3(1.0, 2.0, -2.0)), 1e6, object});
+}
+
+inline Scene tiny_scene() {
+  const auto leaf = [](std::uint32_t tag, std::uint32_t address) { return tag << NODE_TAG_SHIFT | address; };
+  Scene scene;
+  scene.root = {{10.0, -20.0, 30.0}, 0.5};
+  scene.build = {3, Insertion::probe, 16, RadiusRule::knn, 1.25, 7, 11};
+  scene.splat_count = 4;
+  scene.node_pool = {leaf(NODE_INNER, 1), leaf(NODE_FILLED, 0)};
+  scene.node_pool.resize(9, leaf(NODE_EMPTY, 0));
+  scene.node_pool[8] = leaf(NODE_FILLED, 1);
+  scene.begin_end = {0, 2, 5};
+  scene.data_pool = {tiny_splat(5000, 6000, 7000, 0), tiny_splat(1048000, 1048000, 1048000, 1),
+                     tiny_splat(1048000, 1048000, 1048000, 1), tiny_splat(1100000, 1200000, 1300000, 0),
+                     tiny_splat(2000000, 2000000, 2000000, 1)};
+  scene.color_pool = {0xFF000001, 0xFF000002, 0xFF000002, 0xFF000004, 0xFF000005};
+  Material glass{};
+  glass.tint = vec3(0.5F, 0.25F, 1.0F);
+  glass.shininess = 1.0F;
+  glass.ior = 1.5F;
+  glass.flags = MATERIAL_DIELECTRIC;
+  Material matte{};
+  matte.diffuse = vec3(0.75F);
+  matte.shininess = 32.0F;
+  matte.ior = 1.0F;
+  matte.flags = MATERIAL_TWO_SIDED;
+  scene.materials = {glass, matte};
+  scene.object_names = {"glass", ""};
+  scene.lights = {{LIGHT_POINT, {1.0, 2.0, 3.0}, vec3(4.0F, 5.0F, 6.0F)}};
+  scene.camera = Camera{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, {0.0, 0.0, 1.0}, 35.0, 0.0};
+  scene.up = {0.0, 0.0, 1.0};
+  scene.bounds_min_world = {1.0, 2.0, 3.0};
+  scene.bounds_max_world = {4.0, 5.0, 6.0};
+  scene.surface_area_world = 12.5;
+  scene.environment_path = "sky.hdr";
+  return scene;
+}
+
+}  // namespace splatray
