@@ -13,7 +13,8 @@
 ///   1.20..0   | centre z, 21 bits (1.21 is zero)
 ///   2.15..0   | normal, octahedral u + 32767, u in [-32767, 32767] (Cigolle et al. 2014, "A Survey of Efficient
 ///   2.31..16  | normal, octahedral v + 32767  Representations for Independent Unit Vectors"; here without final scaling)
-///   3.31..16  | squared radius in lattice units^2, bits 29..14 of the float32, rounded up (2^-9 relative steps)
+///   3.31..16  | squared radius in lattice units^2, bits 29..14 of its float32, rounded up (2^-9 relative
+///             | steps); bit 30 is always set and bit 31 clear, as 2 <= r^2 < 2^65
 ///             | (bit 30 of every such float32 is one: no squared radius is below 2)
 ///   3.15..0   | object index, also the index of its material
 ///
@@ -125,7 +126,7 @@ struct FrameParams {
 struct RayQuery {
   vec3 origin;
   float t_min;        ///< hits need t > t_min
-  vec3 dir;           ///< need not be unit; t is in units of |dir|
+  vec3 dir;           ///< unit, to float32 rounding; t is in units of |dir|
   uint inside;        ///< mask of the dielectrics the ray is inside of
   vec3 from_normal;   ///< secondary rays: blended normal left, zero for primary rays
   uint from_object;   ///< secondary rays: object left, NO_OBJECT for primary rays

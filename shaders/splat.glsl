@@ -35,7 +35,7 @@ vec3 splat_normal(uvec4 words) {
 }
 
 /// Squared radius, lattice units^2.
-float splat_radius_squared(uvec4 words) { return uintBitsToFloat((words.w & 0xFFFF0000u) >> 2u); }
+float splat_radius_squared(uvec4 words) { return uintBitsToFloat(((words.w & 0xFFFF0000u) >> 2u) | 0x40000000u); }
 
 uint splat_object(uvec4 words) { return words.w & OBJECT_MASK; }
 

@@ -1,0 +1,148 @@
+#include "tests/trace/brute_force.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace splatray::testing {
+namespace {
+
+using glm::dvec3;
+
+constexpr std::size_t BLOCK = 256;
+
+/// Order of splats met at the same t: by their words, most significant last (any fixed order would do).
+auto order_of(const uvec4& w) { return std::make_tuple(w.w, w.z, w.x, w.y); }
+
+double kernel_of(const Settings& settings, double u_squared) {
+  if (settings.kernel == KERNEL_GAUSSIAN) return std::exp(-2.0 * u_squared);
+  return std::pow(std::max(0.0, 1.0 - u_squared), 2.0);
+}
+
+double fall_of(double share) {
+  if (share <= 0.5) return 1.0;
+  const double x = std::clamp(2.0 * (1.0 - share), 0.0, 1.0);
+  return 3.0 * x * x - 2.0 * x * x * x;
+}
+
+}  // namespace
+
+BruteForce::BruteForce(const Scene& scene) : materials_(scene.materials) {
+  for (const std::uint32_t reference : home_references(scene)) {
+    const uvec4& words = scene.data_pool[reference];
+    words_.push_back(words);
+    splats_.push_back(unpack_splat(words));
+    if (!scene.color_pool.empty()) colors_.push_back(scene.color_pool[reference]);
+    x_.push_back(splats_.back().center.x);
+    y_.push_back(splats_.back().center.y);
+    z_.push_back(splats_.back().center.z);
+    radius_squared_.push_back(splats_.back().radius_squared);
+  }
+}
+
+void BruteForce::move_splat(std::size_t index, dvec3 by_root) {
+  Splat& splat = splats_[index];
+  splat.center += by_root;
+  x_[index] = splat.center.x;
+  y_[index] = splat.center.y;
+  z_[index] = splat.center.z;
+}
+
+bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Settings& settings) const {
+  const Splat& splat = splats_[meeting.index];
+  const Material& material = materials_[splat.object];
+  if (settings.side != SIDE_SIDE) return true;
+  if ((material.flags & MATERIAL_HIDDEN) != 0) return false;
+  const bool two_sided = (material.flags & MATERIAL_TWO_SIDED) != 0;
+  const bool inside =
+      (material.flags & MATERIAL_DIELECTRIC) != 0 && (query.inside & (1U << material.mask_bit)) != 0;
+  if (!two_sided && (inside ? meeting.cosine <= 0.0 : meeting.cosine >= 0.0)) return false;
+  if (query.from_object != splat.object) return true;
+  const dvec3 from_center = dvec3(query.origin) - splat.center;
+  const double radius = std::sqrt(splat.radius_squared);
+  const double like = glm::dot(splat.normal, dvec3(query.from_normal));
+  const bool own_sheet = (two_sided ? std::abs(like) : like) > 0.5 &&
+                         std::abs(glm::dot(splat.normal, from_center)) < 0.5 * radius &&
+                         glm::length(from_center) < 1.25 * radius;
+  return !own_sheet;
+}
+
+std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, const Settings& settings) const {
+  const dvec3 origin(query.origin);
+  const dvec3 dir(query.dir);
+  const double inverse_dir_squared = 1.0 / glm::dot(dir, dir);
+  std::vector<Meeting> found;
+  std::array<double, BLOCK> beyond{};
+  for (std::size_t begin = 0; begin < splats_.size(); begin += BLOCK) {
+    const std::size_t size = std::min(BLOCK, splats_.size() - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      const double x = x_[begin + i] - origin.x;
+      const double y = y_[begin + i] - origin.y;
+      const double z = z_[begin + i] - origin.z;
+      const double along = x * dir.x + y * dir.y + z * dir.z;
+      beyond[i] = x * x + y * y + z * z - along * along * inverse_dir_squared -
+                  (radius_squared_[begin + i] * 1.001 + 1.0);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      if (beyond[i] > 0.0) continue;
+      const Splat& splat = splats_[begin + i];
+      const double cosine = glm::dot(splat.normal, dir);
+      const double t = glm::dot(splat.normal, splat.center - origin) / cosine;
+      const dvec3 from_center = origin + t * dir - splat.center;
+      const double rho_squared = glm::dot(from_center, from_center);
+      if (!(rho_squared <= splat.radius_squared) || !(t > double(query.t_min)) || !std::isfinite(t)) continue;
+      const Meeting meeting{t, rho_squared / splat.radius_squared, cosine, begin + i};
+      if (counts(meeting, query, settings)) found.push_back(meeting);
+    }
+  }
+  return found;
+}
+
+bool BruteForce::any(const RayQuery& query, const Settings& settings, double t_max) const {
+  const std::vector<Meeting> met = meetings(query, settings);
+  return std::any_of(met.begin(), met.end(), [&](const Meeting& m) { return m.t < t_max; });
+}
+
+TrueHit BruteForce::nearest(const RayQuery& query, const Settings& settings) const {
+  const std::vector<Meeting> met = meetings(query, settings);
+  TrueHit hit;
+  if (met.empty()) return hit;
+  const Meeting& first = *std::min_element(met.begin(), met.end(), [&](const Meeting& a, const Meeting& b) {
+    return a.t != b.t ? a.t < b.t : order_of(words_[a.index]) < order_of(words_[b.index]);
+  });
+  const Splat& first_splat = splats_[first.index];
+  const double dir_length = glm::length(dvec3(query.dir));
+  auto against = [&](const Meeting& m) {
+    return m.cosine > 0.0 ? -splats_[m.index].normal : splats_[m.index].normal;
+  };
+  const double depth = double(settings.kappa) * std::sqrt(first_splat.radius_squared) /
+                       std::max(std::abs(first.cosine) / dir_length, 0.1) / dir_length;
+  hit.found = true;
+  hit.t_first = first.t;
+  hit.first = first.index;
+  hit.object = first_splat.object;
+  hit.front = first.cosine < 0.0;
+  double weight_sum = 0.0;
+  double depth_sum = 0.0;
+  dvec3 normal_sum(0.0);
+  dvec3 color_sum(0.0);
+  for (const Meeting& m : met) {
+    const double share = (m.t - first.t) / depth;
+    const bool alone = settings.blend == BLEND_NEAREST;
+    if (alone ? m.index != first.index : share > 1.0 || splats_[m.index].object != hit.object) continue;
+    if (glm::dot(against(m), against(first)) <= 0.5) continue;
+    const double weight = std::max(kernel_of(settings, m.u_squared) * fall_of(share), 1.0 / 256.0);
+    weight_sum += weight;
+    depth_sum += weight * share;
+    normal_sum += weight * against(m);
+    if (!colors_.empty()) color_sum += weight * dvec3(unpack_color(colors_[m.index]));
+    ++hit.members;
+  }
+  hit.t = first.t + depth * depth_sum / weight_sum;
+  hit.normal = glm::normalize(normal_sum);
+  if (!colors_.empty()) hit.color = color_sum / weight_sum;
+  return hit;
+}
+
+}  // namespace splatray::testing

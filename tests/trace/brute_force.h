@@ -1,0 +1,58 @@
+/// The truth of what a ray hits: every splat tested, in float64, with formulas of its own (design, section 4). Knows nothing of
+/// octrees, leaves or the shaders.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "engine/host/scene.h"
+#include "engine/host/view.h"
+
+namespace splatray::testing {
+
+/// What a ray hits. Distances in units of |dir|, root space.
+struct TrueHit {
+  bool found = false;
+  double t = 0.0;               ///< blended
+  double t_first = 0.0;
+  glm::dvec3 normal{0.0};       ///< blended unit normal, turned against the ray
+  glm::dvec3 color{1.0};        ///< blended linear colour
+  std::uint32_t object = NO_OBJECT;
+  std::uint32_t members = 0;
+  std::size_t first = 0;        ///< index into splats()
+  bool front = true;
+};
+
+class BruteForce {
+ public:
+  /// Takes the scene's splats once each and its materials.
+  explicit BruteForce(const Scene& scene);
+
+  /// Settings used: blend (BLEND_WINDOW or BLEND_NEAREST), kernel, kappa, side (SIDE_SIDE or SIDE_NONE).
+  [[nodiscard]] TrueHit nearest(const RayQuery& query, const Settings& settings) const;
+  /// Whether anything is hit with t < t_max.
+  [[nodiscard]] bool any(const RayQuery& query, const Settings& settings, double t_max) const;
+
+  [[nodiscard]] const std::vector<uvec4>& words() const { return words_; }
+  [[nodiscard]] const std::vector<Splat>& splats() const { return splats_; }
+  /// Moves one splat's centre, to prove that a comparison can fail.
+  void move_splat(std::size_t index, glm::dvec3 by_root);
+
+ private:
+  /// A disc the ray meets.
+  struct Meeting {
+    double t;
+    double u_squared;
+    double cosine;     ///< unit normal . unit direction
+    std::size_t index;
+  };
+  [[nodiscard]] std::vector<Meeting> meetings(const RayQuery& query, const Settings& settings) const;
+  [[nodiscard]] bool counts(const Meeting& meeting, const RayQuery& query, const Settings& settings) const;
+
+  std::vector<uvec4> words_;
+  std::vector<Splat> splats_;
+  std::vector<std::uint32_t> colors_;
+  std::vector<Material> materials_;
+  std::vector<double> x_, y_, z_, radius_squared_;  ///< the splats again, for the first coarse pass
+};
+
+}  // namespace splatray::testing
