@@ -11,7 +11,6 @@ const float WEIGHT_UNIT = 4194304.0f;       ///< 2^22: sums are integers in this
 const float WEIGHT_LEAST = 0.00390625f;     ///< 2^-8: a lone hit at the rim still has a normal of 14 bits
 const uint MEMBERS_MOST = 500u;             ///< further members do not count, so that the sums stay in 31 bits
 const float MIN_COSINE = 0.1f;              ///< the window grows as 1 / |n.d| up to this
-const uint CHUNK = 32u;                     ///< splats whose hits one word records
 
 /// The answer to a ray. Distances are from the ray's own origin, in units of |dir|.
 struct Hit {
@@ -25,14 +24,6 @@ struct Hit {
   uint members;
   float t_first;
   uvec4 first;      ///< words of the first splat (BLEND_PAPER, BLEND_LEAF: the reference splat)
-};
-
-/// Work done by this invocation; kept only with COUNTERS or for heat maps.
-struct Tally {
-  uint leaves;
-  uint node_steps;
-  uint tests;
-  uint lost;
 };
 
 /// The splat that decides the cluster, while the ray looks for it.
@@ -78,26 +69,18 @@ bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
   return !own && side_expected(object, hit.facing, ray.inside);
 }
 
-/// Bit i of the answer: splat begin + i is hit for certain in [t_in, t_out) and allowed. `first` is updated while `finding`.
-uint accept_chunk(uint begin, uint end, Ray ray, float t_in, float t_out, bool finding, INOUT(First) first,
-                  INOUT(Tally) tally) {
-  uint maybe = 0u;
-  uint index = begin;
-  while (index < end) {
-    bool hit = splat_maybe_hit(splat_words(index), ray.origin, ray.dir, t_in, t_out);
-    maybe |= (hit ? 1u : 0u) << (index - begin);
-    index += 1u;
-  }
-  if (COUNTERS == 1u) tally.tests += end > begin ? end - begin : 0u;
+/// The candidates that are hit for certain in the leaf's interval and allowed. `first` is updated while `finding`.
+uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool finding, INOUT(First) first) {
   uint accepted = 0u;
-  while (maybe != 0u) {
-    uint bit = uint(findLSB(maybe));
-    maybe &= maybe - 1u;
-    uvec4 words = splat_words(begin + bit);
+  while (candidates != 0u) {
+    uint bit = uint(findLSB(candidates));
+    candidates &= candidates - 1u;
+    uvec4 words = splat_words(chunk + bit);
     PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
     float radius_squared = splat_radius_squared(words);
     bool on_disc = !df_less(vec2(radius_squared, 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
-    bool in_range = hit.t.x >= t_in && hit.t.x < t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
+    bool in_range =
+        hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
     bool accept = on_disc && in_range && hit_allowed(words, hit, ray);
     accepted |= (accept ? 1u : 0u) << bit;
     vec2 measure = hit.t;
@@ -109,7 +92,7 @@ uint accept_chunk(uint begin, uint end, Ray ray, float t_in, float t_out, bool f
       first.t = hit.t.x;
       first.front = hit.facing < 0.0f;
       first.words = words;
-      first.index = begin + bit;
+      first.index = chunk + bit;
     }
   }
   return accepted;
@@ -198,97 +181,91 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
   return hit;
 }
 
-/// What the ray sees first. The ray may start anywhere.
-Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
-  bool walking = true;
-  float shift = clip_to_root(ray, walking);
-  Walk walk = walk_start(ray);
+First no_first() {
   First first;
   first.measure = vec2(INFINITY_F, INFINITY_F);
   first.t = INFINITY_F;
   first.front = true;
   first.words = uvec4(0u, 0u, 0u, 0u);
   first.index = 0u;
+  return first;
+}
+
+Cluster empty_cluster() {
   Cluster cluster;
   cluster.weight = 0;
   cluster.normal = ivec3(0);
   cluster.depth = 0;
   cluster.color = ivec3(0);
   cluster.members = 0u;
+  return cluster;
+}
+
+/// What the ray sees first. The ray may start anywhere. In the first leaf with a hit all candidates are looked at before any
+/// is accumulated; a leaf of more than CHUNK splats is then gone through again.
+Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
+  bool enters = true;
+  float shift = clip_to_root(ray, enters);
+  Walk walk = walk_start(ray, enters);
+  First first = no_first();
+  Cluster cluster = empty_cluster();
+  bool finding = true;
+  bool found = false;
   float depth = 0.0f;
   float t_end = ray.t_max;
-  uint leaves = 0u;
-  uint leaves_after_first = 0u;
-  while (walking) {
-    uint steps = walk_descend(walk, ray);
-    if (COUNTERS == 1u) tally.node_steps += steps;
-    bool finding = !(first.measure.x < INFINITY_F);
-    leaves_after_first += finding ? 0u : 1u;
-    bool twice = walk.end - walk.begin > CHUNK && finding;
-    uint chunk = walk.begin;
-    while (chunk < walk.end) {
-      uint chunk_end = min(chunk + CHUNK, walk.end);
-      uint accepted = accept_chunk(chunk, chunk_end, ray, walk.t_in, walk.t_out, finding, first, tally);
-      bool found = first.measure.x < INFINITY_F;
-      if (BLEND != BLEND_NEAREST) {
-        depth = found ? window_depth(first, ray.dir, kappa) : depth;
-        accumulate_chunk(chunk, found && !(twice && finding) ? accepted : 0u, ray, first, depth, cluster);
-      }
-      chunk += CHUNK;
-      bool again = chunk >= walk.end && twice && finding && found;
-      finding = finding && !again;
-      chunk = again && BLEND != BLEND_NEAREST ? walk.begin : chunk;
+  uint last_leaf = MAX_LEAVES;
+  while (walk.inside) {
+    uint chunk = 0u;
+    uint candidates = walk_candidates(walk, ray, t_end, finding && found, chunk, tally);
+    uint accepted = accept_candidates(chunk, candidates, ray, walk, finding, first);
+    found = first.measure.x < INFINITY_F;
+    bool leaf_done = walk.next >= walk.end;
+    bool first_done = finding && found && leaf_done;
+    bool again = first_done && walk.end - walk.begin > CHUNK;
+    finding = finding && !first_done;
+    if (BLEND == BLEND_NEAREST) {
+      walk.inside = walk.inside && !first_done;
+    } else {
+      depth = first_done ? window_depth(first, ray.dir, kappa) : depth;
+      t_end = first_done && BLEND == BLEND_WINDOW ? first.t + depth : t_end;
+      last_leaf = first_done && BLEND == BLEND_PAPER ? walk.leaves + 1u : last_leaf;
+      last_leaf = first_done && BLEND == BLEND_LEAF ? walk.leaves : last_leaf;
+      accumulate_chunk(chunk, finding || again ? 0u : accepted, ray, first, depth, cluster);
+      walk.next = again ? walk.begin : walk.next;
+      walk.inside = walk.inside && (walk.leaves < last_leaf || walk.next < walk.end);
     }
-    bool found = first.measure.x < INFINITY_F;
-    if (BLEND == BLEND_NEAREST) t_end = found ? first.t : t_end;
-    if (BLEND == BLEND_WINDOW) t_end = found ? first.t + depth : t_end;
-    if (BLEND == BLEND_PAPER) t_end = found && leaves_after_first > 0u ? -INFINITY_F : t_end;
-    if (BLEND == BLEND_LEAF) t_end = found ? -INFINITY_F : t_end;
-    leaves += 1u;
-    walking = walk_advance(walk) && walk.t_in <= t_end && leaves < MAX_LEAVES;
   }
-  if (COUNTERS == 1u) tally.leaves += leaves;
-  if (COUNTERS == 1u) tally.lost += leaves >= MAX_LEAVES ? 1u : 0u;
   return finish_hit(ray, first, cluster, depth, shift);
 }
 
 /// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics met, as if they did
-/// not bend it (each object counts once), else 1.
+/// not bend it (each object counts once), else 1. The ray starts inside the root.
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
-  First first;
-  first.measure = vec2(INFINITY_F, INFINITY_F);
-  first.words = uvec4(0u, 0u, 0u, 0u);
-  Walk walk = walk_start(ray);
+  First first = no_first();
+  Walk walk = walk_start(ray, true);
   vec3 light = vec3(1.0f);
   uint passed = 0u;
-  bool walking = true;
-  uint leaves = 0u;
-  while (walking) {
-    uint steps = walk_descend(walk, ray);
-    if (COUNTERS == 1u) tally.node_steps += steps;
-    uint chunk = walk.begin;
-    while (chunk < walk.end && walking) {
-      uint chunk_end = min(chunk + CHUNK, walk.end);
-      uint accepted = accept_chunk(chunk, chunk_end, ray, walk.t_in, walk.t_out, false, first, tally);
-      if (GLASS == 0u) walking = accepted == 0u;
-      while (GLASS == 1u && accepted != 0u) {
+  while (walk.inside) {
+    uint chunk = 0u;
+    uint candidates = walk_candidates(walk, ray, ray.t_max, false, chunk, tally);
+    uint accepted = accept_candidates(chunk, candidates, ray, walk, false, first);
+    bool opaque = accepted != 0u;
+    if (GLASS == 1u) {
+      opaque = false;
+      while (accepted != 0u) {
         uint bit = uint(findLSB(accepted));
         accepted &= accepted - 1u;
         Material material = material_at(splat_object(splat_words(chunk + bit)));
-        bool opaque = (material.flags & MATERIAL_DIELECTRIC) == 0u;
+        bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0u;
         uint object_bit = 1u << material.mask_bit;
-        light = !opaque && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
-        passed |= opaque ? 0u : object_bit;
-        walking = walking && !opaque;
+        light = glass && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
+        passed |= glass ? object_bit : 0u;
+        opaque = opaque || !glass;
       }
-      chunk += CHUNK;
     }
-    if (!walking) light = vec3(0.0f);
-    leaves += 1u;
-    walking = walk_advance(walk) && walk.t_in < ray.t_max && walking && leaves < MAX_LEAVES;
+    light = opaque ? vec3(0.0f) : light;
+    walk.inside = walk.inside && !opaque;
   }
-  if (COUNTERS == 1u) tally.leaves += leaves;
-  if (COUNTERS == 1u) tally.lost += leaves >= MAX_LEAVES ? 1u : 0u;
   return light;
 }
 

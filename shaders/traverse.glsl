@@ -9,16 +9,29 @@ const float ROOT_SIZE = 2097152.0f;      ///< 2^LATTICE_BITS
 const uint CELL_LIMIT = 1u << LATTICE_BITS;
 const uint MAX_LEAVES = 65536u;          ///< iteration cap; a ray that reaches it is counted as lost
 
+const uint CHUNK = 32u;                  ///< splats whose candidates one word records
+
 /// Where a ray is in the octree.
 struct Walk {
+  bool inside;     ///< the ray is still in the root and before its end
   vec3 inverse;    ///< 1 / direction; unused where the direction is 0
   uvec3 cell;      ///< a lattice cell inside the current leaf
   float t_in;      ///< the leaf's interval; t_in never decreases
   float t_out;
   uint begin;      ///< the leaf's splats, empty for empty leaves
   uint end;
+  uint next;       ///< the first of them not looked at yet
   uint exit_axis;
   uint exit_cell;  ///< the next leaf's cell coordinate on exit_axis; >= CELL_LIMIT outside the root
+  uint leaves;     ///< visited
+};
+
+/// Work done by this invocation; kept only with COUNTERS.
+struct Tally {
+  uint leaves;
+  uint node_steps;
+  uint tests;
+  uint lost;
 };
 
 /// Directions below this are parallel to the axis' planes: over the whole root they move a ray by less than 2^-40 units.
@@ -104,24 +117,56 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   return LATTICE_BITS - shift + 1u;
 }
 
-/// At the ray's start, inside the root.
-Walk walk_start(Ray ray) {
+/// Before the first leaf of a ray that starts inside the root.
+Walk walk_start(Ray ray, bool inside) {
   Walk walk;
+  walk.inside = inside;
   walk.inverse = vec3(1.0f / ray.dir.x, 1.0f / ray.dir.y, 1.0f / ray.dir.z);
   walk.cell = cell_at(ray, 0.0f, uvec3(0u), uvec3(CELL_LIMIT - 1u));
   walk.t_in = ray.t_min;
   walk.t_out = ray.t_min;
   walk.begin = 0u;
   walk.end = 0u;
+  walk.next = 0u;
   walk.exit_axis = 0u;
   walk.exit_cell = 0u;
+  walk.leaves = 0u;
   return walk;
 }
 
-/// ADVANCE to the leaf behind walk.t_out; false when the ray leaves the root. walk_descend has already put walk.cell there.
-bool walk_advance(INOUT(Walk) walk) {
+/// ADVANCE to the leaf behind walk.t_out, unless that is outside the root or behind t_end.
+void walk_advance(INOUT(Walk) walk, Ray ray, float t_end, INOUT(Tally) tally) {
   walk.t_in = walk.t_out;
-  return walk.exit_cell < CELL_LIMIT;
+  walk.inside = walk.exit_cell < CELL_LIMIT && walk.t_in <= t_end && walk.leaves < MAX_LEAVES;
+  if (COUNTERS == 1u) tally.lost += walk.leaves == MAX_LEAVES ? 1u : 0u;
+  uint steps = walk_descend(walk, ray);
+  walk.next = walk.begin;
+  walk.leaves += 1u;
+  if (COUNTERS == 1u) tally.node_steps += steps;
+  if (COUNTERS == 1u) tally.leaves += 1u;
+}
+
+/// TEST: the ray's next candidates: bit i of the answer is splat chunk + i. Goes from leaf to leaf until there are some or the walk
+/// ends; with `stay`, no further than the end of this leaf.
+uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint) chunk, INOUT(Tally) tally) {
+  uint candidates = 0u;
+  bool searching = walk.inside;
+  chunk = walk.next;
+  while (searching) {
+    while (walk.inside && walk.next >= walk.end && !stay) walk_advance(walk, ray, t_end, tally);
+    chunk = walk.next;
+    uint chunk_end = walk.inside ? min(chunk + CHUNK, walk.end) : chunk;
+    uint bit = 1u;
+    while (walk.next < chunk_end) {
+      bool maybe = splat_maybe_hit(splat_words(walk.next), ray.origin, ray.dir, walk.t_in, walk.t_out);
+      candidates |= maybe ? bit : 0u;
+      bit <<= 1u;
+      walk.next += 1u;
+    }
+    if (COUNTERS == 1u) tally.tests += chunk_end - chunk;
+    searching = walk.inside && candidates == 0u && !(stay && walk.next >= walk.end);
+  }
+  return candidates;
 }
 
 #endif
