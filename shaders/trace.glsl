@@ -232,7 +232,8 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
       last_leaf = first_done && BLEND == BLEND_LEAF ? walk.leaves : last_leaf;
       accumulate_chunk(chunk, finding || again ? 0u : accepted, ray, first, depth, cluster);
       walk.next = again ? walk.begin : walk.next;
-      walk.inside = walk.inside && (walk.leaves < last_leaf || walk.next < walk.end);
+      bool more = walk.next < walk.end || (walk.leaves < last_leaf && walk.t_out <= t_end);
+      walk.inside = walk.inside && more;
     }
   }
   return finish_hit(ray, first, cluster, depth, shift);
