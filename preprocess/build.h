@@ -1,4 +1,5 @@
-/// Input -> Scene: repair, normals, radii, octree, insertion. The whole preprocess but for reading and writing files.
+/// Input -> Scene: repair, normals, radii, octree, insertion. The whole preprocess but for reading and
+/// writing files.
 #pragma once
 #include <functional>
 #include <string>
@@ -12,29 +13,36 @@ namespace splatray {
 /// Counts and times of a build; what --stats-json writes and the last lines of splatray-preprocess print.
 struct BuildStats {
   std::uint64_t points_read = 0;
-  std::uint64_t dropped_non_finite = 0;      ///< position not finite
-  std::uint64_t dropped_duplicates = 0;      ///< beyond leaf_size coincident (same lattice point, object) splats
-  std::uint64_t dropped_isolated = 0;        ///< no radius could be found (a lone point)
+  std::uint64_t dropped_non_finite = 0;  ///< position not finite
+  std::uint64_t dropped_duplicates = 0;  ///< beyond leaf_size coincident (same lattice point, object) splats
   std::uint64_t normals_given = 0;
-  std::uint64_t normals_estimated = 0;       ///< of points without a usable normal
+  std::uint64_t normals_estimated = 0;  ///< of points without a usable normal
   std::uint64_t radii_given = 0;
-  std::uint64_t radii_repaired = 0;          ///< given radius zero, negative or not finite: computed instead
+  std::uint64_t radii_repaired = 0;  ///< given radius zero, negative or not finite: computed instead
+  std::uint64_t radii_isolated =
+      0;  ///< no neighbour to take a radius from: 1/100 of the scene's diagonal instead
   std::uint64_t splats = 0;
-  std::uint64_t references = 0;              ///< data pool entries
+  std::uint64_t references = 0;  ///< data pool entries
   std::uint64_t nodes = 0;
   std::uint64_t filled_leaves = 0;
-  std::uint64_t depth = 0;                   ///< deepest leaf level
-  double growth = 0.0;                       ///< references / splats - 1
-  double growth_overlap = 0.0;               ///< what policy overlap would give; 0 unless known
-  double overlap = 0.0;                      ///< sum(pi r^2) / surface area; 0 = area unknown
+  std::uint64_t depth = 0;      ///< deepest leaf level
+  double growth = 0.0;          ///< references / splats - 1
+  double growth_overlap = 0.0;  ///< what policy overlap would give; 0 unless known
+  double overlap = 0.0;         ///< sum(pi r^2) / surface area; 0 = area unknown
   double radius_median_world = 0.0;
   double read_ms = 0.0, normals_ms = 0.0, radii_ms = 0.0, octree_ms = 0.0, insertion_ms = 0.0, total_ms = 0.0;
 };
 
-/// A stage's name and the share done, 0..1; returns false to stop (build_scene then throws Error interrupted).
+/// A stage's name and the share done, 0..1; returns false to stop (build_scene then throws Error
+/// interrupted).
 using BuildProgress = std::function<bool(const char* stage, double share)>;
 
-/// Builds the scene. `threads` 0 = all cores; the result does not depend on it. Throws Error (input_unreadable) when no point is left.
+/// Builds the scene. A point without a neighbour at another place gets a radius of 1/100 of the diagonal of
+/// all centres, 1 world unit where that is zero. An object none of whose normals is given becomes two-sided
+/// unless it is a dielectric. Dielectrics get their mask bits in order; from the 33rd on they share them. The
+/// scene depends neither on the order of an object's points nor on threads: `threads` 0 = all cores; Throws
+/// Error (input_unreadable) when no point is left or there are more than 65536 objects, (interrupted) when
+/// `progress` says so, (failed) when 32-bit addresses do not suffice.
 [[nodiscard]] Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
                                 const BuildProgress& progress = {});
 

@@ -1,0 +1,249 @@
+#include "preprocess/build.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "engine/host/error.h"
+#include "preprocess/cloud.h"
+#include "preprocess/insertion.h"
+#include "preprocess/morton.h"
+#include "preprocess/normals.h"
+#include "preprocess/octree.h"
+#include "preprocess/parallel.h"
+#include "preprocess/radius.h"
+#include "preprocess/root.h"
+
+namespace splatray {
+namespace {
+
+constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
+constexpr std::uint32_t MASK_BITS = 32;
+
+/// Adds the time since its construction to a number of milliseconds when it ends.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total_ms) : total_ms_(total_ms) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() {
+    total_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& total_ms_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void check_counts(const Input& input) {
+  if (input.objects.size() > OBJECT_MASK + 1) {
+    throw Error(ExitCode::input_unreadable,
+                "the input has " + std::to_string(input.objects.size()) + " objects, expected at most 65536");
+  }
+  std::uint64_t points = 0;
+  for (const InputObject& object : input.objects) points += object.points.size();
+  if (points > 0xFFFFFFFFU) {
+    throw Error(ExitCode::input_unreadable,
+                "the input has " + std::to_string(points) + " points, expected at most 2^32 - 1");
+  }
+}
+
+/// Everything of the scene that is not splats.
+Scene describe_scene(Input& input, const BuildParams& params) {
+  Scene scene;
+  scene.build = params;
+  scene.lights = std::move(input.lights);
+  scene.camera = input.camera;
+  scene.up = input.up.value_or(glm::dvec3(0.0, 1.0, 0.0));
+  scene.environment_path = std::move(input.environment_path);
+  std::uint32_t dielectrics = 0;
+  bool area_known = !input.objects.empty();
+  for (InputObject& object : input.objects) {
+    Material material = object.material;
+    if ((material.flags & MATERIAL_DIELECTRIC) != 0) material.mask_bit = dielectrics++ % MASK_BITS;
+    scene.materials.push_back(material);
+    scene.object_names.push_back(std::move(object.name));
+    scene.surface_area_world += object.surface_area;
+    area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
+  }
+  if (!area_known) scene.surface_area_world = 0.0;
+  return scene;
+}
+
+std::vector<Cloud> make_clouds(Input& input, BuildStats& stats) {
+  std::vector<Cloud> clouds;
+  for (InputObject& object : input.objects) {
+    clouds.push_back(make_cloud(std::move(object.points), object.oriented, stats));
+  }
+  if (stats.points_read == stats.dropped_non_finite) {
+    throw Error(ExitCode::input_unreadable,
+                "the input has no usable point: found " + std::to_string(stats.points_read) +
+                    " points with positions that are not finite, expected at least one that is");
+  }
+  return clouds;
+}
+
+void estimate_all_normals(std::vector<Cloud>& clouds, Scene& scene, const BuildProgress& progress,
+                          BuildStats& stats) {
+  const Stopwatch watch(stats.normals_ms);
+  for (std::size_t object = 0; object < clouds.size(); ++object) {
+    Cloud& cloud = clouds[object];
+    const std::uint64_t estimated = estimate_normals(cloud, glm::normalize(scene.up), {"normals", progress});
+    stats.normals_estimated += estimated;
+    std::uint32_t& flags = scene.materials[object].flags;
+    if (estimated > 0 && estimated == cloud.size() && (flags & MATERIAL_DIELECTRIC) == 0)
+      flags |= MATERIAL_TWO_SIDED;
+  }
+}
+
+void find_bounds(const std::vector<Cloud>& clouds, Scene& scene) {
+  scene.bounds_min_world = glm::dvec3(INFINITY);
+  scene.bounds_max_world = glm::dvec3(-INFINITY);
+  for (const Cloud& cloud : clouds) {
+    for (const glm::dvec3& position : cloud.position) {
+      scene.bounds_min_world = glm::min(scene.bounds_min_world, position);
+      scene.bounds_max_world = glm::max(scene.bounds_max_world, position);
+    }
+  }
+}
+
+void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildProgress& progress,
+                    BuildStats& stats) {
+  const Stopwatch watch(stats.radii_ms);
+  const double diagonal = scene.diagonal_world();
+  const double isolated_world = (diagonal > 0.0 ? ISOLATED_SHARE * diagonal : 1.0) * scene.build.radius_scale;
+  for (Cloud& cloud : clouds) {
+    find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale, {"radii", progress});
+    for (float& radius : cloud.radius) {
+      if (radius > 0.0F) continue;
+      radius = static_cast<float>(isolated_world / cloud.half_extent_world);
+      ++stats.radii_isolated;
+    }
+  }
+}
+
+RootTransform fit_root(const std::vector<Cloud>& clouds) {
+  DiscBounds bounds;
+  for (const Cloud& cloud : clouds) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      bounds.add(cloud.position[i], glm::dvec3(cloud.normal[i]), cloud.radius[i] * cloud.half_extent_world);
+    }
+  }
+  return fit_root(bounds);
+}
+
+/// Packs all objects' points, which are then freed. Objects without colours are white where others have some.
+SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, const Stage& stage) {
+  std::size_t total = 0;
+  bool has_colors = false;
+  for (const Cloud& cloud : clouds) {
+    total += cloud.size();
+    has_colors = has_colors || !cloud.color.empty();
+  }
+  SplatList splats;
+  splats.key.resize(total);
+  splats.words.resize(total);
+  if (has_colors) splats.color.resize(total, pack_color(glm::vec3(1.0F)));
+  std::size_t first = 0;
+  for (std::uint32_t object = 0; object < clouds.size(); ++object) {
+    const Cloud cloud = std::move(clouds[object]);
+    parallel_each(stage, cloud.size(), [&](std::size_t i) {
+      const double radius = cloud.radius[i] * cloud.half_extent_world / root.unit_world;
+      const uvec4 words = pack_splat({root.to_root(cloud.position[i]),
+                                      glm::normalize(glm::dvec3(cloud.normal[i])), radius * radius, object});
+      splats.words[first + i] = words;
+      splats.key[first + i] = morton_key(glm::uvec3(unpack_splat(words).center));
+    });
+    std::copy(cloud.color.begin(), cloud.color.end(),
+              splats.color.begin() + static_cast<std::ptrdiff_t>(cloud.color.empty() ? 0 : first));
+    first += cloud.size();
+  }
+  return splats;
+}
+
+LeafLists insert(const Octree& tree, const SplatList& splats, const BuildParams& params,
+                 const BuildProgress& progress, BuildStats& stats) {
+  const Stopwatch watch(stats.insertion_ms);
+  if (params.insertion == Insertion::centre) return insert_centres(tree, splats);
+  LeafLists lists = insert_overlaps(tree, splats, {"insertion", progress});
+  stats.growth_overlap = static_cast<double>(lists.splat.size()) / static_cast<double>(splats.size()) - 1.0;
+  if (params.insertion == Insertion::overlap) return lists;
+  return keep_probed(tree, splats, lists, params.probes, params.seed, {"probes", progress});
+}
+
+/// Writes the scene's pools: leaf words get their Begin-End index, lists become splats.
+void fill_pools(Octree tree, const SplatList& splats, const LeafLists& lists, Scene& scene,
+                BuildStats& stats) {
+  scene.node_pool = std::move(tree.node_pool);
+  scene.begin_end = {0};
+  for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
+    const bool filled = lists.begin[i] < lists.begin[i + 1];
+    const auto address = static_cast<std::uint32_t>(filled ? scene.begin_end.size() - 1 : 0);
+    scene.node_pool[tree.leaves[i].node] = (filled ? NODE_FILLED : NODE_EMPTY) << NODE_TAG_SHIFT | address;
+    if (filled) scene.begin_end.push_back(lists.begin[i + 1]);
+    stats.depth = std::max<std::uint64_t>(stats.depth, tree.leaves[i].level);
+  }
+  scene.splat_count = splats.size();
+  scene.data_pool.resize(lists.splat.size());
+  for (std::size_t i = 0; i < lists.splat.size(); ++i) scene.data_pool[i] = splats.words[lists.splat[i]];
+  if (splats.color.empty()) return;
+  scene.color_pool.resize(lists.splat.size());
+  for (std::size_t i = 0; i < lists.splat.size(); ++i) scene.color_pool[i] = splats.color[lists.splat[i]];
+}
+
+void count_result(const Scene& scene, const SplatList& splats, BuildStats& stats) {
+  stats.splats = scene.splat_count;
+  stats.references = scene.data_pool.size();
+  stats.nodes = scene.node_pool.size();
+  stats.filled_leaves = scene.begin_end.size() - 1;
+  stats.growth = static_cast<double>(stats.references) / static_cast<double>(stats.splats) - 1.0;
+  double sum_squared = 0.0;
+  std::vector<double> squared(splats.size());
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    sum_squared += squared[i] = unpack_splat(splats.words[i]).radius_squared;
+  }
+  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
+  std::nth_element(squared.begin(), middle, squared.end());
+  stats.radius_median_world = std::sqrt(*middle) * scene.root.unit_world;
+  if (scene.surface_area_world > 0.0) {
+    stats.overlap = std::numbers::pi * sum_squared * scene.root.unit_world * scene.root.unit_world /
+                    scene.surface_area_world;
+  }
+}
+
+}  // namespace
+
+Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
+                  const BuildProgress& progress) {
+  const Stopwatch watch(stats.total_ms);
+  std::unique_ptr<tbb::global_control> limit;
+  if (threads > 0) {
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+  }
+  check_counts(input);
+  Scene scene = describe_scene(input, params);
+  std::vector<Cloud> clouds = make_clouds(input, stats);
+  estimate_all_normals(clouds, scene, progress, stats);
+  find_bounds(clouds, scene);
+  find_all_radii(clouds, scene, progress, stats);
+  SplatList splats;
+  Octree tree;
+  {
+    const Stopwatch octree_watch(stats.octree_ms);
+    scene.root = fit_root(clouds);
+    splats = pack_clouds(std::move(clouds), scene.root, {"packing", progress});
+    stats.dropped_duplicates = order_splats(splats, params.leaf_size);
+    tree = build_octree(splats, params.leaf_size);
+  }
+  const LeafLists lists = insert(tree, splats, params, progress, stats);
+  fill_pools(std::move(tree), splats, lists, scene, stats);
+  count_result(scene, splats, stats);
+  return scene;
+}
+
+}  // namespace splatray

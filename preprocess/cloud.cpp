@@ -1,0 +1,157 @@
+#include "preprocess/cloud.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "preprocess/morton.h"
+
+namespace splatray {
+namespace {
+
+constexpr double LARGEST_COORDINATE = 1e100;  // squares and sums of such stay finite in float64
+
+struct SortEntry {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
+bool is_usable(const glm::dvec3& position) {
+  const auto in_range = [](double value) { return std::abs(value) <= LARGEST_COORDINATE; };  // false on NaN
+  return in_range(position.x) && in_range(position.y) && in_range(position.z);
+}
+
+/// Unit vector, or zero when the vector has no direction.
+glm::vec3 unit_or_zero(const glm::vec3& vector) {
+  const glm::dvec3 exact(vector);
+  const double length = glm::length(exact);
+  return std::isfinite(length) && length > 0.0 ? glm::vec3(exact / length) : glm::vec3(0.0F);
+}
+
+std::vector<std::uint32_t> usable_points(const Points& points) {
+  std::vector<std::uint32_t> usable;
+  usable.reserve(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (is_usable(points.position[i])) usable.push_back(i);
+  }
+  return usable;
+}
+
+/// Copies the points named by `order` and frees the source arrays one by one.
+Cloud take_points(Points&& points, const std::vector<std::uint32_t>& order) {
+  Cloud cloud;
+  cloud.position.reserve(order.size());
+  for (const std::uint32_t i : order) cloud.position.push_back(points.position[i]);
+  points.position = {};
+  cloud.normal.resize(order.size(), glm::vec3(0.0F));
+  if (!points.normal.empty()) {
+    for (std::size_t i = 0; i < order.size(); ++i) cloud.normal[i] = unit_or_zero(points.normal[order[i]]);
+  }
+  points.normal = {};
+  if (!points.color.empty()) {
+    cloud.color.reserve(order.size());
+    for (const std::uint32_t i : order) cloud.color.push_back(pack_color(points.color[i]));
+  }
+  points.color = {};
+  cloud.radius.resize(order.size(), 0.0F);
+  if (!points.radius.empty()) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const float radius = points.radius[order[i]];
+      if (std::isfinite(radius) && radius > 0.0F) cloud.radius[i] = radius;
+    }
+  }
+  return cloud;
+}
+
+void normalise_coordinates(Cloud& cloud) {
+  glm::dvec3 low = cloud.position.front();
+  glm::dvec3 high = low;
+  for (const glm::dvec3& position : cloud.position) {
+    low = glm::min(low, position);
+    high = glm::max(high, position);
+  }
+  cloud.center_world = 0.5 * (low + high);
+  const glm::dvec3 half = 0.5 * (high - low);
+  const double longest = std::max({half.x, half.y, half.z});
+  cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
+  cloud.coord.resize(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const glm::dvec3 unit = (cloud.position[i] - cloud.center_world) / cloud.half_extent_world;
+    const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
+    cloud.coord[i] = glm::vec3(steps) * COORD_STEP;
+    if (cloud.radius[i] > 0.0F) {
+      const double radius = cloud.radius[i] / cloud.half_extent_world;
+      cloud.radius[i] = static_cast<float>(std::clamp(radius, 0x1p-100, 0x1p100));
+    }
+  }
+}
+
+auto sort_key(const glm::vec3& v) { return std::make_tuple(v.x, v.y, v.z); }
+
+bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
+  const auto key = [&cloud](std::uint32_t i) {
+    const glm::dvec3& p = cloud.position[i];
+    const std::uint32_t color = cloud.color.empty() ? 0U : cloud.color[i];
+    return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), p.x, p.y, p.z, color,
+                      cloud.radius[i]);
+  };
+  return key(a) < key(b);
+}
+
+/// Points' indices, ascending by Morton key of the coordinates, then by every attribute.
+std::vector<std::uint32_t> canonical_order(const Cloud& cloud) {
+  std::vector<SortEntry> entries(cloud.size());
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const glm::uvec3 cell = glm::min(glm::uvec3((cloud.coord[i] + 1.0F) * 0x1p20F), glm::uvec3(0x1FFFFF));
+    entries[i] = {morton_key(cell), i};
+  }
+  tbb::parallel_sort(entries.begin(), entries.end(), [&cloud](const SortEntry& a, const SortEntry& b) {
+    return a.key != b.key ? a.key < b.key : point_less(cloud, a.index, b.index);
+  });
+  std::vector<std::uint32_t> order(entries.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries[i].index;
+  return order;
+}
+
+template <typename Value>
+void permute(std::vector<Value>& values, const std::vector<std::uint32_t>& order) {
+  if (values.empty()) return;
+  std::vector<Value> ordered(values.size());
+  for (std::size_t i = 0; i < order.size(); ++i) ordered[i] = values[order[i]];
+  values = std::move(ordered);
+}
+
+void count_given(const Cloud& cloud, bool has_radii, BuildStats& stats) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.normal[i] != glm::vec3(0.0F)) ++stats.normals_given;
+    if (cloud.radius[i] > 0.0F) {
+      ++stats.radii_given;
+    } else if (has_radii) {
+      ++stats.radii_repaired;
+    }
+  }
+}
+
+}  // namespace
+
+Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
+  const std::vector<std::uint32_t> usable = usable_points(points);
+  const bool has_radii = !points.radius.empty();
+  stats.points_read += points.size();
+  stats.dropped_non_finite += points.size() - usable.size();
+  Cloud cloud = take_points(std::move(points), usable);
+  cloud.oriented = oriented;
+  if (cloud.size() == 0) return cloud;
+  normalise_coordinates(cloud);
+  const std::vector<std::uint32_t> order = canonical_order(cloud);
+  permute(cloud.position, order);
+  permute(cloud.coord, order);
+  permute(cloud.normal, order);
+  permute(cloud.color, order);
+  permute(cloud.radius, order);
+  count_given(cloud, has_radii, stats);
+  return cloud;
+}
+
+}  // namespace splatray

@@ -1,0 +1,35 @@
+/// An object's points, repaired and in an order that depends on the points alone.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "preprocess/build.h"
+#include "preprocess/points.h"
+
+namespace splatray {
+
+/// Steps of Cloud::coord. Distinct coordinates differ by at least this, so no squared distance underflows.
+inline constexpr float COORD_STEP = 0x1p-24F;
+
+/// Points of one object. All arrays but an empty `color` have the same length. Order: Morton key of the
+/// coordinates, then every attribute, so that shuffled input gives the same cloud.
+struct Cloud {
+  glm::dvec3 center_world{0.0};      ///< centre of the points' bounding box
+  double half_extent_world = 1.0;    ///< half its longest side; 1 when all points coincide
+  std::vector<glm::dvec3> position;  ///< world units
+  std::vector<glm::vec3> coord;   ///< (position - center) / half_extent in [-1, 1], multiples of COORD_STEP
+  std::vector<glm::vec3> normal;  ///< unit; zero = unknown
+  std::vector<std::uint32_t> color;  ///< pack_color; empty = none
+  std::vector<float> radius;         ///< in units of half_extent_world; zero = unknown
+  bool oriented = false;             ///< normals point outwards: opposite normals are opposite sheets
+
+  [[nodiscard]] std::size_t size() const { return position.size(); }
+};
+
+/// Takes an object's points: drops positions that are not finite (or beyond 1e100), normalises normals in
+/// float64, turns normals and radii that cannot be used into "unknown" and orders the points. Adds to the
+/// counts of `stats`.
+[[nodiscard]] Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats);
+
+}  // namespace splatray

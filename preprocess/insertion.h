@@ -1,0 +1,46 @@
+/// Which splats each leaf lists.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "preprocess/octree.h"
+#include "preprocess/parallel.h"
+
+namespace splatray {
+
+/// Leaf i of the octree lists splats splat[begin[i] .. begin[i + 1]), ascending. An empty leaf may list
+/// splats: it becomes filled.
+struct LeafLists {
+  std::vector<std::uint32_t> begin;  ///< leaves + 1 entries
+  std::vector<std::uint32_t> splat;
+};
+
+/// A disc in root space and the half-size of its bounding box.
+struct Disc {
+  explicit Disc(const uvec4& words);
+  glm::dvec3 center;
+  glm::dvec3 normal;
+  glm::dvec3 half_box;
+  double radius_squared;
+};
+
+/// Whether a disc may come within LIST_INFLATION of a cell: bounding box against the inflated cell, plane
+/// against it and distance of the centre from it. True for every disc that does, and for few others.
+[[nodiscard]] bool may_meet(const Disc& disc, glm::uvec3 cell_min, std::uint32_t cell_size);
+
+/// Policy `centre`: each splat in the leaf that holds its centre.
+[[nodiscard]] LeafLists insert_centres(const Octree& tree, const SplatList& splats);
+
+/// Policy `overlap`: each splat in every leaf it may meet. Throws Error (failed) above 2^32 - 1 references.
+[[nodiscard]] LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Stage& stage);
+
+/// Policy `probe` (Goradia et al. 2010, sec. III-C), given the lists of `overlap`: `probes` segments from a
+/// random point on a face of each leaf's cell to a random point on another face; where a segment hits no
+/// splat whose centre the leaf holds, the others it hits stay in the list. Leaves that hold no centre are
+/// probed too and become filled when a segment hits a splat. Each leaf has its own random numbers, from
+/// `seed` and its Morton key.
+[[nodiscard]] LeafLists keep_probed(const Octree& tree, const SplatList& splats, const LeafLists& overlaps,
+                                    std::uint32_t probes, std::uint64_t seed, const Stage& stage);
+
+}  // namespace splatray

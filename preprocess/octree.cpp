@@ -1,0 +1,102 @@
+#include "preprocess/octree.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "engine/host/error.h"
+
+namespace splatray {
+namespace {
+
+struct SortEntry {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
+bool splat_less(const SplatList& splats, std::uint32_t a, std::uint32_t b) {
+  const auto key = [&splats](std::uint32_t i) {
+    const uvec4& w = splats.words[i];
+    return std::tuple(w.x, w.y, w.z, w.w, splats.color.empty() ? 0U : splats.color[i]);
+  };
+  return key(a) < key(b);
+}
+
+class Builder {
+ public:
+  Builder(const SplatList& splats, std::uint32_t leaf_size) : splats_(splats), leaf_size_(leaf_size) {}
+
+  Octree build() {
+    tree_.node_pool.push_back(0);
+    fill({0, 0, 0, 0, static_cast<std::uint32_t>(splats_.size())});
+    return std::move(tree_);
+  }
+
+ private:
+  /// Writes the word of a node, given as the leaf it would be, and everything below it.
+  void fill(const Leaf& node) {
+    if (node.end - node.begin <= leaf_size_ || node.level == MAX_DEPTH) {
+      const std::uint32_t tag = node.begin < node.end ? NODE_FILLED : NODE_EMPTY;
+      tree_.node_pool[node.node] = tag << NODE_TAG_SHIFT | static_cast<std::uint32_t>(tree_.leaves.size());
+      tree_.leaves.push_back(node);
+      return;
+    }
+    const std::size_t first_child = tree_.node_pool.size();
+    if (first_child + 8 > NODE_ADDRESS_MASK) {
+      throw Error(ExitCode::failed,
+                  "the octree needs more than 2^30 nodes; use fewer points or a larger leaf size");
+    }
+    tree_.node_pool[node.node] = NODE_INNER << NODE_TAG_SHIFT | static_cast<std::uint32_t>(first_child);
+    tree_.node_pool.resize(first_child + 8);
+    const std::uint64_t child_keys = 1ULL << 3 * (LATTICE_BITS - node.level - 1);
+    Leaf child{node.key, static_cast<std::uint32_t>(first_child), node.level + 1, node.begin, node.begin};
+    for (int i = 0; i < 8; ++i) {
+      const auto from = splats_.key.begin() + child.begin;
+      child.end = i == 7 ? node.end
+                         : static_cast<std::uint32_t>(std::lower_bound(from, splats_.key.begin() + node.end,
+                                                                       child.key + child_keys) -
+                                                      splats_.key.begin());
+      fill(child);
+      child.key += child_keys;
+      child.begin = child.end;
+      ++child.node;
+    }
+  }
+
+  const SplatList& splats_;
+  std::uint32_t leaf_size_;
+  Octree tree_;
+};
+
+}  // namespace
+
+std::uint64_t order_splats(SplatList& splats, std::uint32_t copies) {
+  std::vector<SortEntry> entries(splats.size());
+  for (std::uint32_t i = 0; i < splats.size(); ++i) entries[i] = {splats.key[i], i};
+  tbb::parallel_sort(entries.begin(), entries.end(), [&splats](const SortEntry& a, const SortEntry& b) {
+    return a.key != b.key ? a.key < b.key : splat_less(splats, a.index, b.index);
+  });
+  SplatList ordered;
+  ordered.key.reserve(splats.size());
+  ordered.words.reserve(splats.size());
+  ordered.color.reserve(splats.color.size());
+  for (const SortEntry& entry : entries) {
+    const uvec4& words = splats.words[entry.index];
+    const std::size_t size = ordered.size();
+    if (size >= copies && ordered.words[size - copies] == words) continue;
+    ordered.key.push_back(entry.key);
+    ordered.words.push_back(words);
+    if (!splats.color.empty()) ordered.color.push_back(splats.color[entry.index]);
+  }
+  const std::uint64_t dropped = splats.size() - ordered.size();
+  splats = std::move(ordered);
+  return dropped;
+}
+
+Octree build_octree(const SplatList& splats, std::uint32_t leaf_size) {
+  return Builder(splats, leaf_size).build();
+}
+
+}  // namespace splatray

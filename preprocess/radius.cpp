@@ -1,0 +1,110 @@
+#include "preprocess/radius.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "preprocess/neighbours.h"
+#include "preprocess/voronoi.h"
+
+namespace splatray {
+namespace {
+
+constexpr double KNN_FACTOR = 0.65;       // x distance to the RING-th neighbour: closed for even samples
+constexpr std::size_t RING = 6;           // neighbours around a point of an even sampling
+constexpr std::size_t FEW = 12;           // neighbours that settle most Voronoi cells
+constexpr std::size_t MANY = 32;          // neighbours asked for when FEW do not
+constexpr double COVERAGE_MARGIN = 1.04;  // discs of a curved surface lie in different planes
+constexpr double SIMILAR = 0.5;           // cosine of normals of one sheet
+constexpr double LATERAL = 0.5;           // tangential share of the distance of a neighbour on the same sheet
+constexpr float STRAY = 4.0F;             // largest radius in units of the surroundings' median
+
+double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
+  std::array<Neighbour, RING> nearest;
+  const std::size_t count = search.find(cloud.coord[point], nearest);
+  return count == 0 ? 0.0 : KNN_FACTOR * std::sqrt(nearest[count - 1].distance_squared());
+}
+
+/// Neighbours of the point's own sheet on its tangent plane: turned into it with their distance kept, so that
+/// curvature does not shrink the cell.
+std::size_t flatten(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest,
+                    std::span<TangentNeighbour> flat) {
+  const glm::dvec3 normal(cloud.normal[point]);
+  const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 u = glm::normalize(glm::cross(normal, side));
+  const glm::dvec3 v = glm::cross(normal, u);
+  std::size_t count = 0;
+  for (const Neighbour& neighbour : nearest) {
+    const double alignment = glm::dot(normal, glm::dvec3(cloud.normal[neighbour.index()]));
+    if ((cloud.oriented ? alignment : std::abs(alignment)) < SIMILAR) continue;
+    const glm::dvec3 offset(cloud.coord[neighbour.index()] - cloud.coord[point]);
+    const glm::dvec2 projected(glm::dot(offset, u), glm::dot(offset, v));
+    const double distance = std::sqrt(neighbour.distance_squared());
+    const double lateral = glm::length(projected);
+    if (lateral < LATERAL * distance) continue;
+    flat[count++] = {projected * (distance / lateral), distance};
+  }
+  return count;
+}
+
+double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
+  for (const std::size_t wanted : {FEW, MANY}) {
+    std::array<Neighbour, MANY> nearest;
+    std::array<TangentNeighbour, MANY> flat;
+    const std::size_t found = search.find(cloud.coord[point], std::span(nearest).first(wanted));
+    if (found == 0) return 0.0;
+    const std::size_t count = flatten(cloud, point, std::span(nearest).first(found), flat);
+    const VoronoiReach reach = voronoi_reach(std::span(flat).first(count));
+    const double seen = std::sqrt(nearest[found - 1].distance_squared());
+    const bool settled =
+        found < wanted || wanted == MANY || (count >= RING && reach.decisive_distance <= seen);
+    if (!settled) continue;
+    if (reach.radius > 0.0) return COVERAGE_MARGIN * reach.radius;
+  }
+  return knn_radius(cloud, search, point);
+}
+
+float median(std::span<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Keeps stray points from covering the scene with discs as wide as their distance to it.
+void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector<std::uint32_t>& computed) {
+  std::vector<float> radii(computed.size());
+  for (std::size_t n = 0; n < computed.size(); ++n) radii[n] = cloud.radius[computed[n]];
+  const float limit = STRAY * median(radii);
+  const std::vector<float> before = cloud.radius;
+  tbb::parallel_for(std::size_t{0}, computed.size(), [&](std::size_t n) {
+    float& radius = cloud.radius[computed[n]];
+    if (!(radius > limit)) return;
+    std::array<Neighbour, FEW> nearest;
+    std::array<float, FEW> around;
+    const std::size_t found = search.find(cloud.coord[computed[n]], nearest);
+    for (std::size_t j = 0; j < found; ++j) around[j] = before[nearest[j].index()];
+    radius = std::min(radius, STRAY * median(std::span(around).first(found)));
+  });
+}
+
+}  // namespace
+
+void find_radii(Cloud& cloud, RadiusRule rule, double scale, const Stage& stage) {
+  std::vector<std::uint32_t> unknown;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.radius[i] == 0.0F) unknown.push_back(i);
+  }
+  if (!unknown.empty()) {
+    const bool knn = rule == RadiusRule::knn;
+    const NeighbourSearch search(cloud, knn ? Sites::positions : Sites::oriented_positions);
+    parallel_each(stage, unknown.size(), [&](std::size_t n) {
+      const std::uint32_t i = unknown[n];
+      cloud.radius[i] =
+          static_cast<float>(knn ? knn_radius(cloud, search, i) : coverage_radius(cloud, search, i));
+    });
+    bound_strays(cloud, search, unknown);
+  }
+  for (float& radius : cloud.radius) radius = static_cast<float>(radius * scale);
+}
+
+}  // namespace splatray

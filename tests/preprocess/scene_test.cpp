@@ -1,0 +1,85 @@
+/// The 128-bit splat and the 32-bit colour: what is packed comes back within the steps shaders/layout.h states.
+#include "engine/host/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace splatray {
+namespace {
+
+constexpr double LATTICE_MAX = (1U << LATTICE_BITS) - 1;
+
+Splat random_splat(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> gauss;
+  Splat splat{};
+  splat.center = glm::round(glm::dvec3(unit(random), unit(random), unit(random)) * LATTICE_MAX);
+  splat.normal = glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random)));
+  splat.radius_squared = std::exp2(1.0 + 41.0 * unit(random));
+  splat.object = static_cast<std::uint32_t>(random() & OBJECT_MASK);
+  return splat;
+}
+
+TEST(Splat, RoundTripStaysWithinTheStatedSteps) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 100000; ++i) {
+    const Splat splat = random_splat(random);
+    const Splat decoded = unpack_splat(pack_splat(splat));
+    EXPECT_EQ(decoded.center, splat.center);
+    EXPECT_EQ(decoded.object, splat.object);
+    EXPECT_LT(glm::length(decoded.normal - splat.normal), 5.0e-5);
+    EXPECT_GE(decoded.radius_squared, splat.radius_squared);
+    EXPECT_LE(decoded.radius_squared, splat.radius_squared * (1.0 + 1.0 / 511.0));
+  }
+}
+
+TEST(Splat, PackingWhatWasUnpackedChangesNothing) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 20000; ++i) {
+    const uvec4 words = pack_splat(random_splat(random));
+    EXPECT_EQ(pack_splat(unpack_splat(words)), words);
+  }
+}
+
+TEST(Splat, WordsAreAsTheLayoutDrawsThem) {
+  const Splat splat{{1.0, 3.0 * 1024.0 + 5.0, 7.0}, {0.0, 0.0, 1.0}, 2.0, 9};
+  EXPECT_EQ(pack_splat(splat), uvec4(1U << 11 | 3U, 5U << 22 | 7U, 32767U << 16 | 32767U, 9U));
+  const Splat four{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 4.0, 0};
+  EXPECT_EQ(pack_splat(four), uvec4(0U, 0U, 32767U << 16 | 65534U, 0x200U << 16));
+}
+
+TEST(Splat, ExtremesSurvive) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      Splat splat{glm::dvec3(LATTICE_MAX), glm::dvec3(0.0), 0x1p44, OBJECT_MASK};
+      splat.normal[axis] = sign;
+      const Splat decoded = unpack_splat(pack_splat(splat));
+      EXPECT_EQ(decoded.normal, splat.normal);
+      EXPECT_EQ(decoded.center, splat.center);
+      EXPECT_EQ(decoded.radius_squared, 0x1p44);
+      EXPECT_EQ(decoded.object, OBJECT_MASK);
+    }
+  }
+}
+
+TEST(Splat, NoRadiusIsBelowTheLeastOne) {
+  const Splat splat{glm::dvec3(0.0), {0.0, 1.0, 0.0}, 0.0, 0};
+  EXPECT_EQ(unpack_splat(pack_splat(splat)).radius_squared, 2.0);
+}
+
+TEST(Color, RoundTripOfEveryByte) {
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    const std::uint32_t color = byte | (255U - byte) << 8 | 77U << 16 | 255U << 24;
+    EXPECT_EQ(pack_color(unpack_color(color)), color);
+  }
+}
+
+TEST(Color, OutOfRangeIsClamped) {
+  EXPECT_EQ(pack_color({-1.0F, 2.0F, NAN}), 0xFF00FF00U);
+  EXPECT_EQ(unpack_color(0xFFFFFFFFU), glm::vec3(1.0F));
+}
+
+}  // namespace
+}  // namespace splatray
