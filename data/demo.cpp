@@ -24,6 +24,9 @@ constexpr double NICHE_RADIUS = 0.58;
 constexpr double NICHE_JAMB = 1.3;
 constexpr double NICHE_DEPTH = TILE;
 
+/// Turns the y axis, the axis of round shapes, to z.
+const glm::dmat3 UPRIGHT(glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(0.0, -1.0, 0.0));
+
 bool in_niche(glm::dvec3 position) {
   const double x = position.x - NICHE_X;
   const double y = std::max(0.0, position.y - NICHE_JAMB);
@@ -34,7 +37,7 @@ bool in_niche(glm::dvec3 position) {
 glm::dvec3 plaster(glm::dvec3 p) {
   const double wander = std::sin(2.1 * p.x + 1.3 * std::sin(1.7 * p.y + 0.9 * p.z)) +
                         0.5 * std::sin(6.3 * p.y + 2.0 * std::sin(3.1 * p.x - 2.3 * p.z));
-  return glm::dvec3(0.78, 0.64, 0.50) * (1.0 + 0.035 * wander);
+  return glm::dvec3(0.34, 0.25, 0.18) * (1.0 + 0.035 * wander);
 }
 
 /// Cream and slate tiles; a tile's first row and column of points are its dark joint.
@@ -42,15 +45,15 @@ glm::dvec3 tiles(glm::dvec3 p) {
   constexpr double JOINT = 0.006 / TILE;
   const double column = (p.x - LEFT) / TILE;
   const double row = (p.z - BACK) / TILE;
-  if (std::min(column - std::floor(column), row - std::floor(row)) < JOINT) return {0.05, 0.05, 0.05};
+  if (std::min(column - std::floor(column), row - std::floor(row)) < JOINT) return {0.03, 0.03, 0.03};
   const int parity = (static_cast<int>(std::floor(column)) + static_cast<int>(std::floor(row))) & 1;
-  return parity == 0 ? glm::dvec3(0.74, 0.69, 0.60) : glm::dvec3(0.10, 0.14, 0.19);
+  return parity == 0 ? glm::dvec3(0.31, 0.275, 0.225) : glm::dvec3(0.030, 0.043, 0.062);
 }
 
 /// From ultramarine below to turquoise above.
 glm::dvec3 glaze(glm::dvec3 p) {
   const double share = glm::smoothstep(0.6, 1.7, p.y);
-  return glm::mix(glm::dvec3(0.02, 0.06, 0.33), glm::dvec3(0.04, 0.42, 0.45), share);
+  return glm::mix(glm::dvec3(0.008, 0.030, 0.19), glm::dvec3(0.015, 0.20, 0.215), share);
 }
 
 Surface plastered(glm::dvec3 corner, glm::dvec3 edge_u, glm::dvec3 edge_v) {
@@ -74,12 +77,29 @@ Model walls() {
   Surface left_jamb = plastered(niche_corner, jamb, along_z);
   Surface right_jamb = plastered(niche_corner + glm::dvec3(width, 0.0, 0.0), along_z, jamb);
   Surface arch{"walls", PI * NICHE_RADIUS * NICHE_DEPTH, [](const Sampling& sampling) {
-                 const glm::dmat3 axes(glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.0),
-                                       glm::dvec3(0.0, -1.0, 0.0));
                  OrientedPoints half = flipped(cylinder(sampling, NICHE_RADIUS, NICHE_DEPTH, 0.0, PI));
-                 return painted(moved(half, {NICHE_X, NICHE_JAMB, BACK - NICHE_DEPTH}, axes), plaster);
+                 return painted(moved(half, {NICHE_X, NICHE_JAMB, BACK - NICHE_DEPTH}, UPRIGHT), plaster);
                }};
   return {left, back, recess, left_jamb, right_jamb, arch};
+}
+
+/// The moulding that follows the niche's edge.
+Model moulding() {
+  constexpr double TUBE = 0.03;
+  const glm::dvec3 foot(NICHE_X, 0.0, BACK);
+  const auto jamb = [=](double side) {
+    return Surface{"moulding", 2.0 * PI * TUBE * NICHE_JAMB, [=](const Sampling& sampling) {
+                     return moved(cylinder(sampling, TUBE, NICHE_JAMB, 0.0, 2.0 * PI),
+                                  foot + glm::dvec3(side * NICHE_RADIUS, 0.0, 0.0));
+                   }};
+  };
+  const Surface arch{"moulding", torus_area(NICHE_RADIUS, TUBE, -PI, PI), [=](const Sampling& sampling) {
+                       const OrientedPoints ring =
+                           moved(torus(sampling, NICHE_RADIUS, TUBE, -PI, PI), {}, UPRIGHT);
+                       const auto upper = [](glm::dvec3 position) { return position.y >= 0.0; };
+                       return moved(kept(ring, upper), foot + glm::dvec3(0.0, NICHE_JAMB, 0.0));
+                     }};
+  return {jamb(-1.0), jamb(1.0), arch};
 }
 
 /// A square grid of points with whole rows in each tile, so that the joints are straight.
@@ -173,7 +193,8 @@ Surface ring() {
 
 Model demo_model() {
   Model model = walls();
-  for (const Model& part : {mirror(), knot_on_plinth()}) model.insert(model.end(), part.begin(), part.end());
+  for (const Model& part : {moulding(), mirror(), knot_on_plinth()})
+    model.insert(model.end(), part.begin(), part.end());
   model.push_back(floor());
   model.push_back(ring());
   model.push_back(ball("glass", {0.85, 0.0, 0.35}, 0.42));

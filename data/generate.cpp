@@ -13,6 +13,7 @@ struct Options {
   std::string model;
   std::filesystem::path folder;
   Sampling sampling{.count = 1'000'000};
+  bool random = false;
   ModelOptions model_options;
 };
 
@@ -22,47 +23,51 @@ std::string model_names() {
   return names;
 }
 
-Options parse(int argc, char** argv) {
-  Options options;
-  bool random = false;
-  CLI::App app("Writes the point clouds of a built-in scene or shape, one PLY file per object",
-               "splatray-generate");
-  app.add_option("model", options.model, "one of " + model_names())->required();
-  app.add_option("-o,--output", options.folder, "folder, made when missing")->required();
-  app.add_option("--points", options.sampling.count, "points in all, about")->capture_default_str();
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("MODEL", options.model, "one of " + model_names())->required();
+  app.add_option("-o,--output", options.folder, "folder to write to, made when missing")->required();
+  app.add_option("--points", options.sampling.count, "points in all, about")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 1U << 30));
   app.add_option("--seed", options.sampling.seed, "random sequence, or shift of the even lattice")
       ->capture_default_str();
-  app.add_flag("--random", random, "independent random points (white noise) in place of even ones");
+  app.add_flag("--random", options.random, "independent random points (white noise) in place of even ones");
   app.add_option("--angle", options.model_options.angle_deg, "wedge: opening angle, degrees")
-      ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
-    std::exit(0);
-  } catch (const CLI::ParseError& error) {
-    throw Error(ExitCode::usage, error.what());
-  }
-  options.sampling.even = !random;
-  return options;
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 179.0));
 }
 
-int run(int argc, char** argv) {
-  const Options options = parse(argc, argv);
+void generate(const Options& options) {
   const auto maker = models().find(options.model);
   if (maker == models().end()) {
     throw Error(ExitCode::usage, "found model '" + options.model + "', expected one of " + model_names());
   }
   std::error_code failure;
   std::filesystem::create_directories(options.folder, failure);
-  if (failure)
+  if (failure) {
     throw Error(ExitCode::failed, options.folder.string() + ": cannot be made: " + failure.message());
-  for (const auto& [object, cloud] : sample(maker->second(options.model_options), options.sampling)) {
-    const std::filesystem::path path = options.folder / (object + ".ply");
-    write_ply(cloud, path);
-    std::printf("%9zu points  %s\n", cloud.position.size(), path.c_str());
   }
-  return 0;
+  Sampling sampling = options.sampling;
+  sampling.even = !options.random;
+  for (const auto& [object, points] : sample(maker->second(options.model_options), sampling)) {
+    const std::filesystem::path path = options.folder / (object + ".ply");
+    write_ply(points, path);
+    std::printf("%9zu points  %s\n", points.position.size(), path.c_str());
+  }
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app("Writes the point clouds of a built-in scene or shape, one PLY file per object.");
+  add_options(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    throw Error(ExitCode::usage, std::string(error.what()) + " (--help lists the options)");
+  }
+  generate(options);
+  return static_cast<int>(ExitCode::done);
 }
 
 }  // namespace
