@@ -1,0 +1,51 @@
+/// Pictures in files (OpenImageIO): PNG and EXR out, pictures and environment maps in.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/host/environment.h"
+#include "engine/host/image.h"
+
+namespace splatray {
+
+/// Display-encoded picture, 0..1 per channel, top row first.
+struct DisplayImage {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<vec3> rgb;
+};
+
+/// Linear radiance to display value: factor 2^exposure_ev, a soft shoulder (identity up to 0.8, then 1 - 0.2
+/// exp(-(x - 0.8) / 0.2), which joins with equal slope and reaches 1 at infinity; NaN and negative values
+/// become 0), then the sRGB transfer function.
+[[nodiscard]] vec3 display_value(vec3 radiance, double exposure_ev);
+[[nodiscard]] DisplayImage display_image(const Image& image, double exposure_ev);
+/// Rounds each channel to the 8 bits a PNG stores.
+void quantise(DisplayImage& image);
+
+/// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); leaves no partial file.
+void write_png(const DisplayImage& image, const std::filesystem::path& path);
+
+/// Which auxiliary channels an EXR gets beside R G B A: Z; N.X N.Y N.Z; id.
+struct AovChannels {
+  bool depth = false, normal = false, id = false;
+};
+/// Names and values kept in the file's header.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes linear float EXR. Throws Error (failed); leaves no partial file.
+void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
+               const std::filesystem::path& path);
+
+/// Reads a picture to compare with: files of 8 or 16 bit as they are, float files (EXR, HDR) through
+/// display_value. Throws Error (input_unreadable) with path, found and expected.
+[[nodiscard]] DisplayImage read_display_image(const std::filesystem::path& path, double exposure_ev);
+
+/// Reads a latitude-longitude environment, any format OpenImageIO reads; 8 and 16 bit files are taken as
+/// sRGB. Values that are negative or not finite become 0. Throws Error (input_unreadable) with path, found
+/// and expected.
+[[nodiscard]] Environment read_environment(const std::filesystem::path& path);
+
+}  // namespace splatray

@@ -1,0 +1,14 @@
+/// SIGINT and SIGTERM as a question that long work asks between its steps, so that it can end cleanly.
+#pragma once
+
+namespace splatray {
+
+/// From now on the first SIGINT or SIGTERM only sets a flag; a second one of the same kind ends the program
+/// at once.
+void catch_interrupts();
+/// Whether a signal has come.
+[[nodiscard]] bool interrupted();
+/// Throws Error (interrupted) when a signal has come.
+void stop_if_interrupted();
+
+}  // namespace splatray

@@ -1,0 +1,74 @@
+/// splatray-render: a scene in, a picture out.
+#include <cstdio>
+
+#include "app/interrupt.h"
+#include "app/options.h"
+#include "app/picture.h"
+#include "app/progress.h"
+#include "app/scene_source.h"
+#include "app/stats_json.h"
+#include "engine/gpu/tracer.h"
+#include "engine/host/error.h"
+
+namespace {
+
+using namespace splatray;
+
+int print_devices() {
+  const std::vector<DeviceInfo> devices = list_devices();
+  if (devices.empty())
+    throw Error(ExitCode::no_device, "found no Vulkan device, expected a driver such as mesa-vulkan-drivers");
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    std::printf("%zu: %s (%s), %s, Vulkan %s%s%s\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
+                devices[i].driver.c_str(), devices[i].api.c_str(),
+                devices[i].refused.empty() ? "" : "; unusable: ", devices[i].refused.c_str());
+  return static_cast<int>(ExitCode::done);
+}
+
+int render(int argc, char** argv) {
+  const std::optional<RenderOptions> parsed = parse_render_options(argc, argv);
+  if (!parsed) return static_cast<int>(ExitCode::done);
+  const RenderOptions& options = *parsed;
+  if (options.list_devices) return print_devices();
+
+  require_outputs_writable(options);
+  const std::optional<DisplayImage> reference = read_reference(options);
+  catch_interrupts();
+  StageTimes times;
+  Stopwatch watch;
+  Context context(options.picture.device);
+  if (!options.quiet)
+    std::fprintf(stderr, "splatray-render: device: %s\n", context.device_info().name.c_str());
+  times.device_ms = watch.lap_ms();
+
+  ProgressLine progress(options.quiet);
+  LoadedScene loaded = load_scene(options.scene, options.picture, options.quiet, progress);
+  const Environment environment = choose_environment(loaded.environment_name);
+  const View view{choose_camera(loaded.scene, options.picture), options.picture.width,
+                  options.picture.height};
+  const Settings settings = choose_settings(loaded.scene, options.picture);
+  loaded.scene.lights = choose_lights(loaded, options.picture, view.camera);
+
+  watch.lap_ms();
+  Tracer tracer(context);
+  tracer.upload(loaded.scene);
+  tracer.set_environment(environment);
+  times.upload_ms = watch.lap_ms();
+  const Image image = tracer.render(view, settings, [&](double share) {
+    progress.show("tracing", share);
+    return !interrupted();
+  });
+  progress.clear();
+
+  watch.lap_ms();
+  write_output(options, image, picture_metadata(options, loaded.scene, view, context));
+  times.write_ms = watch.lap_ms();
+  if (!options.stats_json.empty())
+    write_stats(options.stats_json, loaded, view, settings, context, tracer, times);
+  if (reference) require_match(options, image, *reference);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return splatray::run_main("splatray-render", render, argc, argv); }

@@ -1,0 +1,126 @@
+#include "app/scene_source.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "app/image_file.h"
+#include "app/interrupt.h"
+#include "app/materials.h"
+#include "engine/host/error.h"
+#include "engine/host/scene_file.h"
+#include "preprocess/file_extension.h"
+
+namespace splatray {
+namespace {
+
+glm::dvec3 bounds_center(const Scene& scene) {
+  return 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+}
+
+Scene preprocess(const SceneOptions& options, bool quiet, ProgressLine& progress, BuildStats& stats) {
+  Input input = read_input(
+      options.inputs, {options.build.samples, options.build.seed, options.data_paths, /*keep_meshes=*/false});
+  stop_if_interrupted();
+  if (!quiet)
+    for (const std::string& note : input.notes)
+      std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
+  return build_scene(std::move(input), options.build, options.threads, stats,
+                     [&](const char* stage, double share) {
+                       progress.show(stage, share);
+                       return !interrupted();
+                     });
+}
+
+void apply_material(Scene& scene, const std::string& name) {
+  if (scene.materials.size() != 1)
+    throw Error(ExitCode::usage, "found --material with a scene of " +
+                                     std::to_string(scene.materials.size()) +
+                                     " objects, expected one object");
+  scene.materials[0] = named_material(name);
+}
+
+/// Up for a picture that names none: the scene's, or across it where the camera looks straight up or down.
+glm::dvec3 up_across(const Scene& scene, const glm::dvec3& view_dir) {
+  const glm::dmat3 axes = upright_axes(scene.up);
+  return glm::length(glm::cross(axes[1], view_dir)) > 1e-6 * glm::length(view_dir) ? axes[1] : -axes[2];
+}
+
+}  // namespace
+
+LoadedScene load_scene(const SceneOptions& options, const PictureOptions& picture, bool quiet,
+                       ProgressLine& progress) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  LoadedScene loaded;
+  if (lower_extension(options.inputs.front()) == ".soct") {
+    loaded.scene = read_scene(options.inputs.front());
+  } else {
+    loaded.scene = preprocess(options, quiet, progress, loaded.build.emplace());
+  }
+  progress.clear();
+  loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  if (!options.material.empty()) apply_material(loaded.scene, options.material);
+  if (picture.up) loaded.scene.up = *picture.up;
+  loaded.environment_name = picture.environment.empty() ? loaded.scene.environment_path : picture.environment;
+  return loaded;
+}
+
+Camera choose_camera(const Scene& scene, const PictureOptions& picture) {
+  const double aspect = static_cast<double>(picture.width) / picture.height;
+  if (picture.eye) {
+    Camera camera{*picture.eye,
+                  picture.target.value_or(bounds_center(scene)),
+                  {},
+                  DEFAULT_FOV_Y_DEG,
+                  picture.ortho_height};
+    camera.up = picture.up.value_or(up_across(scene, camera.target - camera.eye));
+    camera.fov_y_deg = picture.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG);
+    return camera;
+  }
+  if (!scene.camera || picture.up)
+    return framing_camera(scene, aspect, picture.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG));
+  Camera camera = *scene.camera;
+  camera.fov_y_deg = picture.fov_y_deg.value_or(camera.fov_y_deg);
+  return camera;
+}
+
+std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
+                                      const Camera& camera) {
+  if (picture.light) {
+    const glm::dvec3 to_light = *picture.light - bounds_center(loaded.scene);
+    SceneLight light;
+    light.kind = LIGHT_POINT;
+    light.position = *picture.light;
+    light.power = glm::vec3(static_cast<float>(std::numbers::pi * glm::dot(to_light, to_light)));
+    return {light};
+  }
+  if (!loaded.scene.lights.empty()) return exposed_lights(loaded.scene);
+  if (!loaded.environment_name.empty()) return {};
+  return default_lights(loaded.scene, camera);
+}
+
+Environment choose_environment(const std::string& name) {
+  if (name.empty() || name == "studio") return studio_environment();
+  if (name == "white") return {0, 0, {}, vec3(1.0F)};
+  if (name == "black") return {0, 0, {}, vec3(0.0F)};
+  vec3 radiance;
+  int length = 0;
+  const int read = std::sscanf(name.c_str(), "%f,%f,%f%n", &radiance.x, &radiance.y, &radiance.z, &length);
+  if (read == 3 && static_cast<std::size_t>(length) == name.size()) {
+    if (glm::all(glm::greaterThanEqual(radiance, vec3(0.0F))) &&
+        std::isfinite(radiance.x + radiance.y + radiance.z))
+      return {0, 0, {}, radiance};
+    throw Error(ExitCode::usage, "--env: found '" + name + "', expected a radiance of finite numbers >= 0");
+  }
+  return read_environment(name);
+}
+
+Settings choose_settings(const Scene& scene, const PictureOptions& picture) {
+  Settings settings = picture.settings;
+  settings.delta_world = picture.delta_world.value_or(1e-3 * scene.diagonal_world());
+  return settings;
+}
+
+}  // namespace splatray

@@ -1,0 +1,37 @@
+/// From options to the scene that is shown.
+#pragma once
+#include "app/options.h"
+#include "app/progress.h"
+#include "engine/host/environment.h"
+#include "preprocess/build.h"
+
+namespace splatray {
+
+/// A scene and how it came to be.
+struct LoadedScene {
+  Scene scene;
+  std::string environment_name;     ///< --env, else what the scene names; empty = none
+  double load_ms = 0.0;             ///< reading and preprocess
+  std::optional<BuildStats> build;  ///< unless read from a .soct
+};
+
+/// Reads or preprocesses the scene; applies --material and --up. Notes of the readers go to stderr unless
+/// `quiet`. Throws Error.
+[[nodiscard]] LoadedScene load_scene(const SceneOptions& scene, const PictureOptions& picture, bool quiet,
+                                     ProgressLine& progress);
+
+/// The camera the options ask for: --eye, else the scene's own, else a view of the whole scene.
+[[nodiscard]] Camera choose_camera(const Scene& scene, const PictureOptions& picture);
+
+/// The lights: --light, else the scene's, else (when no environment is named) the key light.
+[[nodiscard]] std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
+                                                    const Camera& camera);
+
+/// The environment `name` of --env: a file, white, black, studio, r,g,b; empty = studio. Throws Error
+/// (input_unreadable).
+[[nodiscard]] Environment choose_environment(const std::string& name);
+
+/// The settings, with defaults that depend on the scene filled in.
+[[nodiscard]] Settings choose_settings(const Scene& scene, const PictureOptions& picture);
+
+}  // namespace splatray
