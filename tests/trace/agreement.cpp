@@ -37,10 +37,10 @@ Agreement agreement_of(const BruteForce& brute, const std::vector<TrueHit>& trut
 }
 
 std::ostream& operator<<(std::ostream& out, const Agreement& a) {
-  return out << a.rays << " rays, " << a.hits << " hits: " << a.hit_or_miss << " hit or miss, " << a.first_splat
-             << " first splats, " << a.members << " cluster sizes, " << a.normal
-             << " normals differ; largest normal angle " << a.normal_most_deg << " degree, depth " << a.depth_most
-             << " r";
+  return out << a.rays << " rays, " << a.hits << " hits: " << a.hit_or_miss << " hit or miss, "
+             << a.first_splat << " first splats, " << a.members << " cluster sizes, " << a.normal
+             << " normals differ; largest normal angle " << a.normal_most_deg << " degree, depth "
+             << a.depth_most << " r";
 }
 
 }  // namespace splatray::testing

@@ -99,9 +99,12 @@ std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, con
   return found;
 }
 
-bool BruteForce::any(const RayQuery& query, const Settings& settings, double t_max) const {
-  const std::vector<Meeting> met = meetings(query, settings);
-  return std::any_of(met.begin(), met.end(), [&](const Meeting& m) { return m.t < t_max; });
+std::vector<std::uint32_t> BruteForce::objects_met(const RayQuery& query, const Settings& settings,
+                                                   double t_max) const {
+  std::vector<std::uint32_t> objects;
+  for (const Meeting& meeting : meetings(query, settings))
+    if (meeting.t < t_max) objects.push_back(splats_[meeting.index].object);
+  return objects;
 }
 
 TrueHit BruteForce::nearest(const RayQuery& query, const Settings& settings) const {

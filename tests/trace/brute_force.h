@@ -1,5 +1,5 @@
-/// The truth of what a ray hits: every splat tested, in float64, with formulas of its own (design, section 4). Knows nothing of
-/// octrees, leaves or the shaders.
+/// The truth of what a ray hits: every splat tested, in float64, with formulas of its own (design, section
+/// 4). Knows nothing of octrees, leaves or the shaders.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -12,13 +12,13 @@ namespace splatray::testing {
 /// What a ray hits. Distances in units of |dir|, root space.
 struct TrueHit {
   bool found = false;
-  double t = 0.0;               ///< blended
+  double t = 0.0;  ///< blended
   double t_first = 0.0;
-  glm::dvec3 normal{0.0};       ///< blended unit normal, turned against the ray
-  glm::dvec3 color{1.0};        ///< blended linear colour
+  glm::dvec3 normal{0.0};  ///< blended unit normal, turned against the ray
+  glm::dvec3 color{1.0};   ///< blended linear colour
   std::uint32_t object = NO_OBJECT;
   std::uint32_t members = 0;
-  std::size_t first = 0;        ///< index into splats()
+  std::size_t first = 0;  ///< index into splats()
   bool front = true;
 };
 
@@ -29,8 +29,9 @@ class BruteForce {
 
   /// Settings used: blend (BLEND_WINDOW or BLEND_NEAREST), kernel, kappa, side (SIDE_SIDE or SIDE_NONE).
   [[nodiscard]] TrueHit nearest(const RayQuery& query, const Settings& settings) const;
-  /// Whether anything is hit with t < t_max.
-  [[nodiscard]] bool any(const RayQuery& query, const Settings& settings, double t_max) const;
+  /// The objects of all hits with t < t_max, in no order, with repetition.
+  [[nodiscard]] std::vector<std::uint32_t> objects_met(const RayQuery& query, const Settings& settings,
+                                                       double t_max) const;
 
   [[nodiscard]] const std::vector<uvec4>& words() const { return words_; }
   [[nodiscard]] const std::vector<Splat>& splats() const { return splats_; }
@@ -42,7 +43,7 @@ class BruteForce {
   struct Meeting {
     double t;
     double u_squared;
-    double cosine;     ///< unit normal . unit direction
+    double cosine;  ///< unit normal . unit direction
     std::size_t index;
   };
   [[nodiscard]] std::vector<Meeting> meetings(const RayQuery& query, const Settings& settings) const;

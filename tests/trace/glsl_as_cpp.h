@@ -1,5 +1,6 @@
-/// The C++ side of shaders/language.glsl: what GLSL has built in, so that the shaders' text compiles as C++ with GLM. Include
-/// inside a namespace of its own (tests/trace/twin.cpp does) after <cmath>, <cstdint> and glm.
+/// The C++ side of shaders/language.glsl: what GLSL has built in, so that the shaders' text compiles as C++
+/// with GLM. Include inside a namespace of its own (tests/trace/twin.cpp does) after <cmath>, <cstdint> and
+/// glm.
 #define OUT(type) type&
 #define INOUT(type) type&
 #define PRECISE

@@ -1,5 +1,5 @@
-/// The shaders as C++: the same GLSL text (shaders/*.glsl), compiled by the host compiler, on the same scene. What a GPU answers
-/// differently is the GPU's or its compiler's doing.
+/// The shaders as C++: the same GLSL text (shaders/*.glsl), compiled by the host compiler, on the same scene.
+/// What a GPU answers differently is the GPU's or its compiler's doing.
 #pragma once
 #include <array>
 #include <span>
@@ -15,15 +15,16 @@ namespace splatray::testing {
 /// The features a pipeline is specialised by, indexed by SPEC_*.
 using Features = std::array<std::uint32_t, SPEC_COUNT>;
 
-/// Features for a scene and settings with everything the shaders can do switched on (a superset of what the tracer picks).
+/// Features for a scene and settings with everything the shaders can do switched on (a superset of what the
+/// tracer picks).
 [[nodiscard]] Features twin_features(const Scene& scene, const Settings& settings);
 
 /// Answers ray queries as shaders/rays.comp.glsl does.
 [[nodiscard]] std::vector<RayHit> twin_intersect(const Scene& scene, std::span<const RayQuery> rays,
                                                  const Settings& settings);
 
-/// Renders as shaders/trace.comp.glsl does; `frame` as uploaded (environment filled in). Sampling of the environment texture
-/// is nearest-texel. Counters are added to `counters`.
+/// Renders as shaders/trace.comp.glsl does; `frame` as uploaded (environment filled in). Sampling of the
+/// environment texture is nearest-texel. Counters are added to `counters`.
 [[nodiscard]] Image twin_render(const Scene& scene, const FrameParams& frame, const Settings& settings,
                                 const Environment& environment,
                                 std::array<std::uint64_t, COUNTER_COUNT>& counters);

@@ -1,0 +1,153 @@
+// GPU, shaders compiled as C++, and brute force in float64 must agree on what every ray hits, whatever the
+// leaf size.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "data/shapes.h"
+#include "engine/gpu/tracer.h"
+#include "tests/trace/agreement.h"
+#include "tests/trace/rays.h"
+#include "tests/trace/scenes.h"
+#include "tests/trace/twin.h"
+
+namespace splatray::testing {
+namespace {
+
+Context& shared_context() {
+  static Context context;
+  return context;
+}
+
+/// The brute-force answers to `count` primary rays and to the secondary rays they give rise to.
+struct Truth {
+  std::vector<RayQuery> rays;
+  std::vector<TrueHit> hits;
+
+  Truth(const Scene& scene, const BruteForce& brute, std::size_t count, const Settings& settings) {
+    const std::vector<RayQuery> primary = random_primary_rays(scene, count, 1);
+    const std::vector<TrueHit> primary_hits = all_nearest(brute, primary, settings);
+    const std::vector<RayQuery> secondary = secondary_rays(scene, primary, primary_hits, 2);
+    const std::vector<TrueHit> secondary_hits = all_nearest(brute, secondary, settings);
+    add(primary, primary_hits);
+    add(secondary, secondary_hits);
+    const std::vector<RayQuery> tertiary = secondary_rays(scene, secondary, secondary_hits, 3);
+    add(tertiary, all_nearest(brute, tertiary, settings));
+  }
+
+  void add(const std::vector<RayQuery>& more, const std::vector<TrueHit>& answers) {
+    rays.insert(rays.end(), more.begin(), more.end());
+    hits.insert(hits.end(), answers.begin(), answers.end());
+  }
+};
+
+void expect_exact(const Agreement& agreement, const std::string& what) {
+  std::cout << what << ": " << agreement << '\n';
+  EXPECT_EQ(agreement.exceptions(), 0U) << what;
+  EXPECT_EQ(agreement.members, 0U) << what;
+  EXPECT_EQ(agreement.normal, 0U) << what;
+  EXPECT_LT(agreement.depth_most, 0.01) << what;
+  EXPECT_GT(agreement.hits, agreement.rays / 10) << what << ": too few hits to mean anything";
+}
+
+std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery>& rays,
+                                  const Settings& settings) {
+  Tracer tracer(shared_context());
+  tracer.upload(scene);
+  return tracer.intersect(rays, settings);
+}
+
+/// Compares the GPU with brute force for each scene; the scenes differ in leaf size only.
+void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
+  const Settings settings;
+  const BruteForce brute(scenes.front());
+  const Truth truth(scenes.front(), brute, count, settings);
+  std::vector<RayHit> first_answers;
+  for (const Scene& scene : scenes) {
+    const std::vector<RayHit> answers = gpu_intersect(scene, truth.rays, settings);
+    expect_exact(agreement_of(brute, truth.hits, answers),
+                 "leaf size " + std::to_string(scene.build.leaf_size));
+    if (first_answers.empty()) first_answers = answers;
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < answers.size(); ++i)
+      different += std::memcmp(&answers[i], &first_answers[i], sizeof(RayHit)) != 0 ? 1 : 0;
+    EXPECT_EQ(different, 0U) << "answers are not the same bits for another leaf size";
+  }
+}
+
+TestObject sphere_object(std::uint64_t points, bool even, std::uint32_t flags) {
+  return {sphere({.count = points, .even = even, .seed = 7}, 1.0), test_material(flags)};
+}
+
+void compare_sphere(bool even, std::uint32_t flags) {
+  const TestObject object = sphere_object(20000, even, flags);
+  compare_gpu({scene_of({object}, 10), scene_of({object}, 4)}, 100000);
+}
+
+TEST(Exactness, EvenSphereOneSided) { compare_sphere(true, 0); }
+TEST(Exactness, EvenSphereTwoSided) { compare_sphere(true, MATERIAL_TWO_SIDED); }
+TEST(Exactness, EvenSphereGlass) { compare_sphere(true, MATERIAL_DIELECTRIC); }
+TEST(Exactness, RandomSphereGlass) { compare_sphere(false, MATERIAL_DIELECTRIC); }
+
+TEST(Exactness, GlassInsideARoomOfCoplanarSplats) {
+  TestObject room{{}, test_material(0)};
+  for (const Surface& face : box("room", glm::dvec3(4.0), true))
+    append(room.points, face.make({.count = 3000}));
+  const std::vector<TestObject> objects{room, sphere_object(5000, true, MATERIAL_DIELECTRIC)};
+  compare_gpu({scene_of(objects, 10), scene_of(objects, 25)}, 30000);
+}
+
+class RealModel : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(RealModel, AgreesWithBruteForce) {
+  const auto folder = data_folder();
+  if (!folder) GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: real models are not compared";
+  const std::filesystem::path path = *folder / "models" / GetParam();
+  compare_gpu({scene_of_file(path, 0, 10), scene_of_file(path, 0, 4)}, 100000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Exactness, RealModel,
+                         ::testing::Values("bunny.ply", "armadillo.ply", "nefertiti.ply"));
+
+TEST(Exactness, ShadersAsCppAgreeToo) {
+  const Scene scene = scene_of({sphere_object(5000, false, MATERIAL_DIELECTRIC)});
+  const Settings settings;
+  const BruteForce brute(scene);
+  const Truth truth(scene, brute, 5000, settings);
+  expect_exact(agreement_of(brute, truth.hits, twin_intersect(scene, truth.rays, settings)),
+               "shaders as C++");
+}
+
+TEST(Exactness, GaussianKernelAndNearestAgreeToo) {
+  const Scene scene = scene_of({sphere_object(5000, false, 0)});
+  const BruteForce brute(scene);
+  for (const std::uint32_t kernel : {KERNEL_GAUSSIAN, KERNEL_RIM}) {
+    for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST}) {
+      Settings settings;
+      settings.kernel = kernel;
+      settings.blend = blend;
+      const std::vector<RayQuery> rays = random_primary_rays(scene, 20000, 5);
+      Agreement agreement =
+          agreement_of(brute, all_nearest(brute, rays, settings), gpu_intersect(scene, rays, settings));
+      if (blend == BLEND_NEAREST) agreement.members = 0;  // the shaders do not count a cluster then
+      expect_exact(agreement, "kernel " + std::to_string(kernel) + ", blend " + std::to_string(blend));
+    }
+  }
+}
+
+TEST(Exactness, AMovedSplatIsNoticed) {
+  const Scene scene = scene_of({sphere_object(5000, true, 0)});
+  const Settings settings;
+  BruteForce brute(scene);
+  const std::vector<RayQuery> rays = random_primary_rays(scene, 20000, 9);
+  const std::vector<TrueHit> hits = all_nearest(brute, rays, settings);
+  const auto hit = std::find_if(hits.begin(), hits.end(), [](const TrueHit& h) { return h.found; });
+  ASSERT_NE(hit, hits.end());
+  brute.move_splat(hit->first, 20.0 * brute.splats()[hit->first].normal);
+  const Agreement agreement =
+      agreement_of(brute, all_nearest(brute, rays, settings), gpu_intersect(scene, rays, settings));
+  EXPECT_GT(agreement.exceptions() + agreement.members + agreement.normal, 0U) << agreement;
+}
+
+}  // namespace
+}  // namespace splatray::testing

@@ -1,0 +1,17 @@
+/// The truth of a picture: brute force over all splats and light transport in float64, written apart from the
+/// shaders. Shares with them the definitions only: pixel positions and the random numbers that choose a
+/// branch at glass.
+#pragma once
+#include "engine/host/environment.h"
+#include "engine/host/image.h"
+#include "engine/host/view.h"
+#include "tests/trace/brute_force.h"
+
+namespace splatray::testing {
+
+/// The picture as design section 4 defines it (perspective cameras; blend, kernel, side as BruteForce). All
+/// cores.
+[[nodiscard]] Image reference_picture(const Scene& scene, const BruteForce& brute, const View& view,
+                                      const Settings& settings, const Environment& environment);
+
+}  // namespace splatray::testing

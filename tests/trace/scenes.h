@@ -1,0 +1,32 @@
+/// Small scenes for the tracing tests, preprocessed in memory.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/oriented_points.h"
+#include "engine/host/scene.h"
+
+namespace splatray::testing {
+
+/// One object of a test scene.
+struct TestObject {
+  OrientedPoints points;
+  Material material;
+};
+
+/// A grey one-sided material with `flags`; a dielectric has ior 1.5 and a slight tint.
+[[nodiscard]] Material test_material(std::uint32_t flags);
+
+/// The objects as a scene, preprocessed with this leaf size.
+[[nodiscard]] Scene scene_of(const std::vector<TestObject>& objects, std::uint32_t leaf_size = 10);
+
+/// A file or glTF scene, preprocessed; `points` > 0 samples that many on its meshes.
+[[nodiscard]] Scene scene_of_file(const std::filesystem::path& path, std::uint64_t points,
+                                  std::uint32_t leaf_size);
+
+/// The folder with models/, scans/, gltf/ and env/ (variable SPLATRAY_DATA_DIR); nothing when it is not set.
+[[nodiscard]] std::optional<std::filesystem::path> data_folder();
+
+}  // namespace splatray::testing
