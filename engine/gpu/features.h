@@ -14,7 +14,7 @@ using SpecConstants = std::array<std::uint32_t, SPEC_COUNT>;
 
 /// What the features depend on.
 struct SceneContent {
-  std::span<const Material> materials;
+  std::span<const Material> materials{};
   bool colors = false;               ///< there is a colour pool
   bool lights = false;               ///< there are lights
   bool environment_texture = false;  ///< the environment is not constant

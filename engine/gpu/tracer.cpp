@@ -10,6 +10,7 @@
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/texture.h"
+#include "engine/gpu/tiles.h"
 #include "engine/host/error.h"
 
 namespace splatray {
@@ -17,32 +18,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t TILE_PIXELS = 1U << 20U;
-constexpr std::uint32_t TILE_WIDTH = 1U << 16U;  ///< keeps a band of 8 rows within TILE_PIXELS
-constexpr std::uint32_t TILE_HEIGHT =
-    1U << 15U;  ///< keeps the groups of ORDER_LINEAR within the 65535 any device has
 constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
 /// Long enough to hide the cost of a submission, short enough for progress and for drivers that stop long
 /// work.
 constexpr double DISPATCH_MS = 200.0;
 constexpr std::uint32_t BATCH_GROWTH = 4;
-
-/// A rectangle of the picture, pixels.
-struct Tile {
-  std::uint32_t x, y, width, height;
-
-  [[nodiscard]] std::size_t pixels() const { return std::size_t{width} * height; }
-};
-
-std::vector<Tile> cut_into_tiles(std::uint32_t width, std::uint32_t height) {
-  const std::uint32_t tile_width = std::min(width, TILE_WIDTH);
-  const std::uint32_t tile_height = std::min(TILE_PIXELS / tile_width / 8 * 8, TILE_HEIGHT);
-  std::vector<Tile> tiles;
-  for (std::uint32_t y = 0; y < height; y += tile_height)
-    for (std::uint32_t x = 0; x < width; x += tile_width)
-      tiles.push_back({x, y, std::min(tile_width, width - x), std::min(tile_height, height - y)});
-  return tiles;
-}
 
 std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
 
@@ -56,14 +36,6 @@ void reserve(const Context& context, Buffer& buffer, VkDeviceSize bytes) {
     buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
-/// Samples of the next dispatch after one of `batch` samples that took `ms`.
-std::uint32_t next_batch(std::uint32_t batch, double ms) {
-  const double wanted = batch * DISPATCH_MS / std::max(ms, 1e-3);
-  return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(batch) * BATCH_GROWTH));
-}
-
-}  // namespace
-
 /// A dispatch: which pipeline, with which parameters, over how many groups.
 struct Dispatch {
   Program program = Program::trace;
@@ -72,6 +44,25 @@ struct Dispatch {
   std::uint32_t groups_x = 1;
   std::uint32_t groups_y = 1;
 };
+
+/// Points a picture's dispatch to a tile.
+void aim(Dispatch& dispatch, const Tile& tile) {
+  dispatch.frame.tile_x = tile.x;
+  dispatch.frame.tile_y = tile.y;
+  dispatch.frame.tile_width = tile.width;
+  dispatch.frame.tile_height = tile.height;
+  const bool linear = dispatch.constants[SPEC_ORDER] == ORDER_LINEAR;
+  dispatch.groups_x = groups(tile.width, linear ? GROUP_SIZE : 8);
+  dispatch.groups_y = linear ? tile.height : groups(tile.height, 8);
+}
+
+/// Samples of the next dispatch after one of `batch` samples that took `ms`.
+std::uint32_t next_batch(std::uint32_t batch, double ms) {
+  const double wanted = batch * DISPATCH_MS / std::max(ms, 1e-3);
+  return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(batch) * BATCH_GROWTH));
+}
+
+}  // namespace
 
 struct Tracer::Impl {
   Impl(const Context& device, PoolAccess access);
@@ -194,21 +185,6 @@ Dispatch Tracer::Impl::picture_dispatch(const View& view, const Settings& settin
   return dispatch;
 }
 
-namespace {
-
-/// Points a picture's dispatch to a tile.
-void aim(Dispatch& dispatch, const Tile& tile) {
-  dispatch.frame.tile_x = tile.x;
-  dispatch.frame.tile_y = tile.y;
-  dispatch.frame.tile_width = tile.width;
-  dispatch.frame.tile_height = tile.height;
-  const bool linear = dispatch.constants[SPEC_ORDER] == ORDER_LINEAR;
-  dispatch.groups_x = groups(tile.width, linear ? GROUP_SIZE : 8);
-  dispatch.groups_y = linear ? tile.height : groups(tile.height, 8);
-}
-
-}  // namespace
-
 void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch,
                                  const std::function<void(std::uint64_t)>& advance) {
   aim(dispatch, tile);
@@ -258,6 +234,7 @@ Tracer::~Tracer() = default;
 
 void Tracer::upload(const Scene& scene) {
   Impl& impl = *impl_;
+  impl.bindings.reset();
   impl.pools = {};  // the device may not have room for two scenes
   impl.pools = Pools(impl.context, impl.queue, scene, impl.wanted_access);
   impl.bindings.emplace(impl.context, impl.pools.access);
@@ -268,9 +245,8 @@ void Tracer::upload(const Scene& scene) {
   impl.frame_of_reference.bounds_max_world = scene.bounds_max_world;
   impl.set_materials(scene.materials);
   impl.set_lights(scene.lights);
-  const std::uint64_t environment_bytes = impl.environment.size();
   impl.pool_bytes = impl.pools.bytes;
-  impl.pool_bytes.environment = environment_bytes;
+  impl.pool_bytes.environment = impl.environment.size();
   ++impl.pools_uploaded;
 }
 
@@ -283,7 +259,6 @@ void Tracer::set_lights(std::span<const SceneLight> lights) { impl_->set_lights(
 
 void Tracer::set_environment(const Environment& environment) {
   Impl& impl = *impl_;
-  impl.environment = {};
   impl.environment = EnvironmentTexture(impl.context, impl.queue, environment);
   impl.environment_texture = !environment.texels.empty();
   impl.environment_constant = environment.constant;

@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <string>
+
+#include "engine/gpu/context.h"
+#include "engine/host/error.h"
+
+namespace splatray {
+namespace {
+
+const std::vector<DeviceInfo> MACHINE = {
+    {"llvmpipe", "CPU", "", "1.3.0", ""},
+    {"Old Card 9000", "discrete GPU", "", "1.1.0", "Vulkan 1.1.0 found, 1.2 needed"},
+    {"Chip Graphics", "integrated GPU", "", "1.3.0", ""},
+    {"Big Card 2", "discrete GPU", "", "1.3.0", ""},
+    {"Big Card 3", "discrete GPU", "", "1.3.0", ""},
+};
+
+/// Sets a variable of the environment, and puts it back.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    setenv(name, value, 1);
+  }
+  ~Variable() {
+    if (old_.empty()) {
+      unsetenv(name_);
+    } else {
+      setenv(name_, old_.c_str(), 1);
+    }
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::string old_;
+};
+
+/// The Error that `action` throws; fails the test when it throws none.
+template <typename Action>
+Error error_of(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no Error was thrown";
+  return {ExitCode::done, ""};
+}
+
+std::string refusal(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+  const Error error = error_of([&] { (void)choose_device(devices, wanted); });
+  EXPECT_EQ(error.code(), ExitCode::no_device);
+  return error.what();
+}
+
+TEST(DeviceChoice, TakesTheFirstBestUsableDevice) { EXPECT_EQ(choose_device(MACHINE, ""), 3U); }
+
+TEST(DeviceChoice, SoftwareDeviceWinsOnlyAlone) {
+  EXPECT_EQ(choose_device({MACHINE[0], MACHINE[2]}, ""), 1U);
+  EXPECT_EQ(choose_device({MACHINE[0], MACHINE[1]}, ""), 0U);
+  EXPECT_EQ(choose_device({MACHINE[0], {"Odd", "other", "", "1.3.0", ""}}, ""), 1U);
+}
+
+TEST(DeviceChoice, TakesANumberOrPartOfAName) {
+  EXPECT_EQ(choose_device(MACHINE, "0"), 0U);
+  EXPECT_EQ(choose_device(MACHINE, "4"), 4U);
+  EXPECT_EQ(choose_device(MACHINE, "CARD 3"), 4U);
+  EXPECT_EQ(choose_device(MACHINE, "graph"), 2U);
+}
+
+TEST(DeviceChoice, RefusedDeviceIsNamedWithItsReason) {
+  for (const char* wanted : {"1", "9000"}) {
+    const std::string sentence = refusal(MACHINE, wanted);
+    EXPECT_NE(sentence.find("Old Card 9000"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("Vulkan 1.1.0 found, 1.2 needed"), std::string::npos) << sentence;
+  }
+}
+
+TEST(DeviceChoice, UnknownNameListsTheDevices) {
+  const std::string sentence = refusal(MACHINE, "Voodoo");
+  EXPECT_NE(sentence.find("Voodoo"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("2: Chip Graphics (usable)"), std::string::npos) << sentence;
+}
+
+TEST(DeviceChoice, ContextTakesEachListedDeviceByNumberAndName) {
+  const std::vector<DeviceInfo> devices = list_devices();
+  ASSERT_FALSE(devices.empty()) << "this test needs a Vulkan driver";
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    if (!devices[i].refused.empty()) continue;
+    EXPECT_EQ(Context(std::to_string(i)).device_info().name, devices[i].name);
+    std::string shouted = devices[i].name;
+    for (char& letter : shouted) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    EXPECT_EQ(Context(shouted).device_info().name, devices[i].name);
+  }
+}
+
+TEST(DeviceChoice, ContextRefusesANameThatNoDeviceHas) {
+  EXPECT_EQ(error_of([] { Context context("no such device"); }).code(), ExitCode::no_device);
+}
+
+TEST(DeviceChoice, NoDriverIsOneHelpfulSentence) {
+  const Variable files("VK_DRIVER_FILES", "/nonexistent/driver.json");
+  const Variable validation("SPLATRAY_VALIDATION", "0");
+  EXPECT_TRUE(list_devices().empty());
+  const Error error = error_of([] { Context context; });
+  EXPECT_EQ(error.code(), ExitCode::no_device);
+  EXPECT_NE(std::string(error.what()).find("mesa-vulkan-drivers"), std::string::npos) << error.what();
+}
+
+TEST(DeviceChoice, MissingValidationLayerNamesItsPackage) {
+  const Variable layers("VK_LAYER_PATH", "/nonexistent");
+  const Error error = error_of([] { Context context("", true); });
+  EXPECT_EQ(error.code(), ExitCode::failed);
+  EXPECT_NE(std::string(error.what()).find("vulkan-validationlayers"), std::string::npos) << error.what();
+}
+
+}  // namespace
+}  // namespace splatray

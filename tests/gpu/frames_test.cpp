@@ -1,0 +1,103 @@
+// What changes between frames, and what that must not cost: neither a pipeline nor an upload of the pools.
+#include "engine/gpu/tracer.h"
+#include "tests/gpu/small_scene.h"
+
+namespace splatray {
+namespace {
+
+class FramesTest : public DeviceTest {
+ protected:
+  void SetUp() override {
+    tracer.upload(scene);
+    first = center();
+    built = tracer.pipelines_built();
+  }
+
+  /// The picture's middle pixel.
+  vec4 center() { return tracer.render(view, settings).rgba[9 / 2 * 9 + 9 / 2]; }
+
+  void expect_changed_without_rebuilding() {
+    EXPECT_NE(center(), first);
+    EXPECT_EQ(tracer.pipelines_built(), built);
+    EXPECT_EQ(tracer.pools_uploaded(), 1U);
+  }
+
+  Scene scene = disc_scene();
+  View view = disc_view(9, 9);
+  Settings settings = plain_settings();
+  Tracer tracer{context};
+  vec4 first{};
+  std::uint32_t built = 0;
+};
+
+TEST_F(FramesTest, FirstFrameBuildsOnePipeline) { EXPECT_EQ(built, 1U); }
+
+TEST_F(FramesTest, ViewChanges) {
+  view.camera.eye = {3.0, 0.0, 3.0};
+  view.camera.target = {3.0, 0.0, 0.0};
+  expect_changed_without_rebuilding();
+}
+
+TEST_F(FramesTest, MaterialsChange) {
+  scene.materials[0].diffuse = {1.0F, 0.0F, 0.0F};
+  tracer.set_materials(scene.materials);
+  expect_changed_without_rebuilding();
+}
+
+TEST_F(FramesTest, LightsChangeAndGrowInNumber) {
+  scene.lights[0].power *= 0.25F;
+  scene.lights.resize(5, scene.lights[0]);
+  tracer.set_lights(scene.lights);
+  expect_changed_without_rebuilding();
+}
+
+TEST_F(FramesTest, ConstantEnvironmentChanges) {
+  tracer.set_environment({0, 0, {}, glm::vec3(0.0F, 0.5F, 0.0F)});
+  expect_changed_without_rebuilding();
+}
+
+TEST_F(FramesTest, EnvironmentPictureIsReplacedWithoutRebuilding) {
+  tracer.set_environment({2, 1, std::vector<glm::vec3>(2, glm::vec3(0.25F)), {}});
+  first = center();
+  built = tracer.pipelines_built();
+  tracer.set_environment({4, 3, std::vector<glm::vec3>(12, glm::vec3(0.5F)), {}});
+  expect_changed_without_rebuilding();
+}
+
+TEST_F(FramesTest, EnvironmentIsSeenAroundTheDisc) {
+  const auto corner = [&] { return glm::vec3(tracer.render(view, settings).rgba[0]); };
+  EXPECT_EQ(corner(), glm::vec3(0.0F)) << "black before the first environment";
+  tracer.set_environment({0, 0, {}, glm::vec3(1.0F, 2.0F, 3.0F)});
+  EXPECT_EQ(corner(), glm::vec3(1.0F, 2.0F, 3.0F));
+  tracer.set_environment({2, 1, std::vector<glm::vec3>(2, glm::vec3(4.0F, 5.0F, 6.0F)), {}});
+  settings.environment_strength = 0.5F;
+  EXPECT_EQ(corner(), glm::vec3(2.0F, 2.5F, 3.0F));
+}
+
+TEST_F(FramesTest, FeaturesThatReturnAreNotRebuilt) {
+  scene.materials[0].mirror = 1.0F;
+  scene.materials[0].tint = glm::vec3(1.0F);
+  tracer.set_materials(scene.materials);
+  (void)center();
+  EXPECT_EQ(tracer.pipelines_built(), built + 1);
+  scene.materials[0].mirror = 0.0F;
+  tracer.set_materials(scene.materials);
+  EXPECT_EQ(center(), first);
+  EXPECT_EQ(tracer.pipelines_built(), built + 1);
+}
+
+TEST_F(FramesTest, SceneIsReplaced) {
+  Scene other = disc_scene(2);
+  other.materials[0].diffuse = glm::vec3(0.0F);
+  tracer.upload(other);
+  EXPECT_NE(center(), first);
+  EXPECT_EQ(tracer.pools_uploaded(), 2U);
+}
+
+TEST_F(FramesTest, SameFrameTwiceIsTheSamePicture) {
+  settings.samples = 5;
+  EXPECT_TRUE(tracer.render(view, settings).rgba == tracer.render(view, settings).rgba);
+}
+
+}  // namespace
+}  // namespace splatray
