@@ -4,6 +4,7 @@
 #include <array>
 
 #include "preprocess/color.h"
+#include "preprocess/quoted_list.h"
 
 namespace splatray {
 namespace {
@@ -223,15 +224,6 @@ void linearise(std::vector<glm::vec3>& colors, float scale, float offset) {
 }
 
 }  // namespace
-
-std::string quoted_list(const std::vector<std::string>& names) {
-  constexpr std::size_t MOST = 10;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), MOST); ++i) {
-    text += (i == 0 ? "'" : ", '") + names[i] + "'";
-  }
-  return names.size() <= MOST ? text : text + " and " + std::to_string(names.size() - MOST) + " more";
-}
 
 Points read_ply_vertices(PlyBody& in, const PlyElement& element, std::vector<std::string>& notes) {
   const Columns columns = find_columns(in, element);

@@ -12,7 +12,4 @@ namespace splatray {
 [[nodiscard]] Points read_ply_vertices(PlyBody& in, const PlyElement& element,
                                        std::vector<std::string>& notes);
 
-/// "'a', 'b'": the names quoted, the first ten, then how many more.
-[[nodiscard]] std::string quoted_list(const std::vector<std::string>& names);
-
 }  // namespace splatray

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "engine/host/scene.h"
 
 namespace splatray {
+
+struct Texture;
 
 /// A point set. All arrays that are not empty have the same length.
 struct Points {
@@ -26,6 +29,7 @@ struct Mesh {
   Points vertices;                             ///< position, maybe normal and colour
   std::vector<glm::vec2> texcoord;             ///< beside vertices, or empty
   std::vector<glm::uvec3> triangles;           ///< indices < vertices.size()
+  std::shared_ptr<const Texture> texture;      ///< base colour by texcoord, times the vertex colour; null = none
 };
 
 /// One object of the input: points, and what they are made of.

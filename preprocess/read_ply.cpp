@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "preprocess/ply_vertices.h"
+#include "preprocess/quoted_list.h"
 
 namespace splatray {
 namespace {

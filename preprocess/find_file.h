@@ -1,0 +1,23 @@
+/// Finds the files a scene names.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace splatray {
+
+/// What a scene says about a file it needs.
+struct FileWish {
+  std::string name;             ///< as the scene writes it, '/' between folders
+  std::string what;             ///< for the message: "points of node 'dragon'"
+  std::string hint;             ///< where to get it; may be empty
+  std::filesystem::path scene;  ///< the scene's own file
+};
+
+/// The first that exists of: the name as it is when absolute; relative to the scene's folder; in each data
+/// path by relative path, then by file name alone. Throws Error (input_unreadable) that says what was
+/// missing, where it was looked for and the hint.
+[[nodiscard]] std::filesystem::path find_scene_file(const FileWish& wish,
+                                                    const std::vector<std::filesystem::path>& data_paths);
+
+}  // namespace splatray

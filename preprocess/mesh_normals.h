@@ -1,0 +1,27 @@
+/// Normals of triangle meshes.
+#pragma once
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "preprocess/points.h"
+
+namespace splatray {
+
+/// For each position the index of the first position equal to it (-0 equals +0; NaN equals nothing).
+[[nodiscard]] std::vector<glm::uint> weld_positions(const std::vector<glm::dvec3>& positions);
+
+/// Unit normal of each vertex: the given one, or where that is absent, zero or not finite, the sum of the
+/// normals of all triangles at that position weighted by their angles there (Thuermer and Wuethrich 1998,
+/// "Computing Vertex Normals from Polygonal Facets"); zero for vertices no proper triangle uses. `weld` is
+/// weld_positions of the vertices.
+[[nodiscard]] std::vector<glm::vec3> vertex_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
+
+/// Unit normals of each triangle's three corners, 3 * triangles: the given one, or the angle-weighted sum
+/// over those triangles at the corner that turn less than 60 degrees from this one, so that creases stay
+/// sharp.
+[[nodiscard]] std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
+
+/// Turns the mesh inside out: winding and given normals.
+void flip_mesh(Mesh& mesh);
+
+}  // namespace splatray

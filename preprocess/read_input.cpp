@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/host/error.h"
+#include "preprocess/file_extension.h"
+#include "preprocess/mesh_points.h"
+#include "preprocess/points.h"
+#include "preprocess/read_gltf.h"
+#include "preprocess/read_mesh.h"
+
+namespace splatray {
+namespace {
+
+Input read_geometry(const std::filesystem::path& path) {
+  Input input;
+  InputObject object;
+  object.name = path.stem().string();
+  object.material = default_material();
+  object.meshes.push_back(read_mesh(path, input.notes));
+  if (!object.meshes.front().vertices.color.empty()) {
+    object.material.diffuse = glm::vec3(1.0F);
+  }
+  input.objects.push_back(std::move(object));
+  return input;
+}
+
+template <class T>
+void move_append(std::vector<T>& to, std::vector<T>& from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+void merge(Input& to, Input&& more) {
+  move_append(to.objects, more.objects);
+  move_append(to.lights, more.lights);
+  move_append(to.notes, more.notes);
+  to.camera = to.camera ? to.camera : more.camera;
+  to.up = to.up ? to.up : more.up;
+  to.environment_path = to.environment_path.empty() ? more.environment_path : to.environment_path;
+}
+
+/// Numbers the dielectrics, so that a ray can know which it is inside of.
+void number_dielectrics(Input& input) {
+  constexpr std::uint32_t MASK_BITS = 32;
+  std::uint32_t count = 0;
+  for (InputObject& object : input.objects) {
+    if ((object.material.flags & MATERIAL_DIELECTRIC) != 0) {
+      object.material.mask_bit = count++ % MASK_BITS;
+    }
+  }
+  if (count > MASK_BITS) {
+    input.notes.push_back("found " + std::to_string(count) +
+                          " dielectric objects; those whose numbers agree modulo 32 must not overlap");
+  }
+}
+
+/// Puts the camera's target beside the middle of what there is, so that turning about it makes sense.
+void aim_camera(Input& input) {
+  glm::dvec3 sum{0.0};
+  double count = 0.0;
+  for (const InputObject& object : input.objects) {
+    for (const glm::dvec3& position : object.points.position) {
+      const bool finite = glm::dot(position, position) < INFINITY;
+      sum += finite ? position : glm::dvec3(0.0);
+      count += finite ? 1.0 : 0.0;
+    }
+  }
+  if (input.camera && count > 0.0) {
+    const glm::dvec3 ahead = input.camera->target - input.camera->eye;
+    const double distance = glm::dot(sum / count - input.camera->eye, ahead);
+    input.camera->target = input.camera->eye + ahead * (distance > 0.0 ? distance : 1.0);
+  }
+}
+
+std::string join(const std::vector<std::filesystem::path>& paths) {
+  std::string text;
+  for (const std::filesystem::path& path : paths) {
+    text += (text.empty() ? "" : ", ") + path.string();
+  }
+  return text;
+}
+
+}  // namespace
+
+Material default_material() {
+  Material material{};
+  material.diffuse = {0.75F, 0.73F, 0.70F};
+  material.specular = 0.05F;
+  material.tint = glm::vec3(1.0F);
+  material.shininess = 40.0F;
+  material.ior = 1.5F;
+  material.flags = MATERIAL_TWO_SIDED;
+  return material;
+}
+
+Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options) {
+  if (paths.empty()) {
+    throw Error(ExitCode::usage, "no input file was named");
+  }
+  Input input;
+  for (const std::filesystem::path& path : paths) {
+    const std::string extension = lower_extension(path);
+    const bool is_scene = extension == ".gltf" || extension == ".glb";
+    merge(input, is_scene ? read_gltf(path, options) : read_geometry(path));
+  }
+  points_from_meshes(input, options);
+  std::erase_if(input.objects, [](const InputObject& object) { return object.points.size() == 0; });
+  if (input.objects.empty()) {
+    throw Error(ExitCode::input_unreadable, join(paths) + ": found no points and no triangles");
+  }
+  number_dielectrics(input);
+  aim_camera(input);
+  return input;
+}
+
+}  // namespace splatray

@@ -1,0 +1,28 @@
+/// Points on meshes: at the vertices, or spread evenly over the area.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "preprocess/points.h"
+
+namespace splatray {
+
+/// Sum of the triangles' areas, world units^2.
+[[nodiscard]] double surface_area(const Mesh& mesh);
+
+/// Whether splats at the vertices cannot show the surface: more than a tenth of the area lies in triangles
+/// whose longest edge exceeds 3 % of the mesh's diagonal (a box of 12 triangles, the walls of a room).
+[[nodiscard]] bool is_coarse(const Mesh& mesh);
+
+/// One point per used vertex with its normal (given, or angle-weighted from the triangles), colour and
+/// radius. Vertices that coincide in position and, within 2 degrees, in normal are one point: the first.
+[[nodiscard]] Points vertex_points(const Mesh& mesh);
+
+/// Exactly `count` points, spread by area. Triangles are ordered along a Morton curve; the i-th point takes
+/// the i-th of `count` equal shares of the area on the way (systematic sampling). Its place in the share's
+/// triangle is a Fibonacci lattice: height from the share, side from multiples of the golden ratio (Kronecker
+/// sequence, Niederreiter 1992). Deterministic for a seed. Normals are corner_normals interpolated; radii are
+/// not passed on. The mesh must have a positive, finite area unless count is 0.
+[[nodiscard]] Points sample_surface(const Mesh& mesh, std::uint64_t count, std::uint64_t seed);
+
+}  // namespace splatray
