@@ -106,7 +106,7 @@ struct FrameParams {
   float root_unit_world;   ///< world length of one lattice unit
   uint sample_begin;       ///< samples of this dispatch: [sample_begin, sample_end)
   uint sample_end;
-  uint sample_total;       ///< samples of the whole picture; fixes the stratification
+  uint sample_total;       ///< samples of the whole picture
   uint seed;
   uint max_bounces;        ///< secondary rays in a path, >= 0
   uint light_count;

@@ -46,13 +46,13 @@ struct Cluster {
 
 /// The side a ray expects (Goradia et al. 2010, sec. IV-C2, made per object): fronts outside, backs inside.
 bool side_expected(uint object, float facing, uint inside) {
-  if (SIDE != SIDE_SIDE || FACES == FACES_BOTH) return true;
-  if (FACES == FACES_FRONT) return facing < 0.0f;
+  if (FACES == FACES_BOTH) return true;
+  if (FACES == FACES_FRONT) return SIDE != SIDE_SIDE || facing < 0.0f;
   Material material = material_at(object);
   bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((inside >> material.mask_bit) & 1u) != 0u;
   bool as_expected = is_inside ? facing > 0.0f : facing < 0.0f;
   return (material.flags & MATERIAL_HIDDEN) == 0u &&
-         ((material.flags & MATERIAL_TWO_SIDED) != 0u || as_expected);
+         (SIDE != SIDE_SIDE || (material.flags & MATERIAL_TWO_SIDED) != 0u || as_expected);
 }
 
 bool is_two_sided(uint object) {
@@ -125,22 +125,27 @@ float window_fall(float share) {
   return x * x * (3.0f - 2.0f * x);
 }
 
+/// How far behind a position the ray meets the disc's plane.
+float behind_position(uvec4 words, vec3 position, vec3 dir) {
+  vec3 normal = splat_normal(words);
+  return dot(normal, splat_center(words) - position) / dot(normal, dir);
+}
+
 /// Adds the accepted splats of one chunk that belong to the first splat's cluster. Everything is taken relative to the first
 /// hit, where float32 is exact enough even for grazing rays.
 void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
   vec3 first_position = ray.origin + ray.dir * first.t;
+  float first_behind = behind_position(first.words, first_position, ray.dir);
   while (accepted != 0u) {
     uint bit = uint(findLSB(accepted));
     accepted &= accepted - 1u;
     uvec4 words = splat_words(begin + bit);
-    vec3 plane_normal = splat_normal(words);
-    vec3 to_center = splat_center(words) - first_position;
-    float behind = dot(plane_normal, to_center) / dot(plane_normal, ray.dir);
-    vec3 from_center = ray.dir * behind - to_center;
+    float behind = behind_position(words, first_position, ray.dir);
+    vec3 from_center = ray.dir * behind - (splat_center(words) - first_position);
     float u_squared = dot(from_center, from_center) / splat_radius_squared(words);
     vec3 normal = normal_against(words, ray.dir);
-    float share = behind / depth;
+    float share = (behind - first_behind) / depth;
     bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
                   dot(normal, first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
     float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);

@@ -52,8 +52,8 @@ void BruteForce::move_splat(std::size_t index, dvec3 by_root) {
 bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Settings& settings) const {
   const Splat& splat = splats_[meeting.index];
   const Material& material = materials_[splat.object];
-  if (settings.side != SIDE_SIDE) return true;
   if ((material.flags & MATERIAL_HIDDEN) != 0) return false;
+  if (settings.side != SIDE_SIDE) return true;
   const bool two_sided = (material.flags & MATERIAL_TWO_SIDED) != 0;
   const bool inside =
       (material.flags & MATERIAL_DIELECTRIC) != 0 && (query.inside & (1U << material.mask_bit)) != 0;

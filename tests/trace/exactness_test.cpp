@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
+#include <iostream>
 
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
