@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t NEIGHBOURS = 16;
 constexpr double STRAIGHT = 1e-10;  // second variance / first variance: below this the points lie on a line
-constexpr double FLAT = 1.0 / 3.0;  // thinnest extent / second thinnest: below this the object is a sheet
+constexpr double FLAT = 1.0 / 3.0;  // least deviation / second least: below this the object is a sheet
 
 /// Eigenvectors (columns) of a symmetric matrix, eigenvalues on the diagonal of `matrix` afterwards; cyclic
 /// Jacobi (Golub, Van Loan, "Matrix Computations", sec. 8.5).
@@ -50,51 +50,58 @@ glm::dvec3 perpendicular_nearest(const glm::dvec3& axis, const glm::dvec3& up) {
   return glm::length(across) > 1e-3 ? glm::normalize(across) : any_perpendicular(axis);
 }
 
+/// Directions and variances of a point set's spread, ascending.
+struct Spread {
+  std::array<glm::dvec3, 3> axis;
+  std::array<double, 3> variance;
+  glm::dvec3 mean;
+};
+
+template <typename Point>
+Spread spread_of(std::span<const Point> points) {
+  Spread spread{};
+  for (const Point& point : points) spread.mean += glm::dvec3(point);
+  const auto count = static_cast<double>(points.size());
+  spread.mean /= count;
+  glm::dmat3 covariance(0.0);
+  for (const Point& point : points) {
+    const glm::dvec3 offset = glm::dvec3(point) - spread.mean;
+    covariance += glm::outerProduct(offset, offset);
+  }
+  const glm::dmat3 vectors = diagonalise(covariance);
+  std::array<int, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return covariance[i][i] < covariance[j][j]; });
+  for (std::size_t i = 0; i < 3; ++i) {
+    spread.axis[i] = glm::normalize(vectors[order[i]]);
+    spread.variance[i] = covariance[order[i]][order[i]] / count;
+  }
+  return spread;
+}
+
 /// Which way the estimated normals of one object point.
 class Sides {
  public:
-  explicit Sides(const Cloud& cloud) {
-    glm::dvec3 low(1.0);
-    glm::dvec3 high(-1.0);
-    glm::dvec3 sum(0.0);
-    for (const glm::vec3& coord : cloud.coord) {
-      low = glm::min(low, glm::dvec3(coord));
-      high = glm::max(high, glm::dvec3(coord));
-      sum += glm::dvec3(coord);
-    }
-    centroid_ = sum / static_cast<double>(cloud.size());
-    const glm::dvec3 extent = high - low;
-    const int thin = extent.x < extent.y ? (extent.x < extent.z ? 0 : 2) : (extent.y < extent.z ? 1 : 2);
-    const double second = std::min(extent[(thin + 1) % 3], extent[(thin + 2) % 3]);
-    if (extent[thin] < FLAT * second) sheet_axis_[thin] = 1.0;
+  Sides(const Cloud& cloud, const glm::dvec3& up)
+      : spread_(spread_of(std::span<const glm::vec3>(cloud.coord))) {
+    if (glm::dot(spread_.axis[0], up) < 0.0) spread_.axis[0] = -spread_.axis[0];
   }
 
   [[nodiscard]] glm::dvec3 turned(const glm::dvec3& normal, const glm::dvec3& point) const {
-    const bool is_sheet = sheet_axis_ != glm::dvec3(0.0);
-    return glm::dot(normal, is_sheet ? sheet_axis_ : point - centroid_) < 0.0 ? -normal : normal;
+    const bool is_sheet = spread_.variance[0] < FLAT * FLAT * spread_.variance[1];
+    return glm::dot(normal, is_sheet ? spread_.axis[0] : point - spread_.mean) < 0.0 ? -normal : normal;
   }
 
  private:
-  glm::dvec3 centroid_{0.0};
-  glm::dvec3 sheet_axis_{0.0};  // zero: not a sheet
+  Spread spread_;
 };
 
 }  // namespace
 
 glm::dvec3 plane_normal(std::span<const glm::dvec3> points, const glm::dvec3& up) {
-  glm::dvec3 mean(0.0);
-  for (const glm::dvec3& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
-  glm::dmat3 covariance(0.0);
-  for (const glm::dvec3& point : points) covariance += glm::outerProduct(point - mean, point - mean);
-  const glm::dmat3 vectors = diagonalise(covariance);
-  std::array<int, 3> order{0, 1, 2};
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return covariance[a][a] < covariance[b][b]; });
-  const double largest = covariance[order[2]][order[2]];
-  if (!(largest > 0.0)) return up;
-  if (covariance[order[1]][order[1]] <= STRAIGHT * largest)
-    return perpendicular_nearest(vectors[order[2]], up);
-  return glm::normalize(vectors[order[0]]);
+  const Spread spread = spread_of(points);
+  if (!(spread.variance[2] > 0.0)) return up;
+  if (spread.variance[1] <= STRAIGHT * spread.variance[2]) return perpendicular_nearest(spread.axis[2], up);
+  return spread.axis[0];
 }
 
 std::uint64_t estimate_normals(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
@@ -104,7 +111,7 @@ std::uint64_t estimate_normals(Cloud& cloud, const glm::dvec3& up, const Stage& 
   }
   if (unknown.empty()) return 0;
   const NeighbourSearch search(cloud, Sites::positions);
-  const Sides sides(cloud);
+  const Sides sides(cloud, up);
   parallel_each(stage, unknown.size(), [&](std::size_t n) {
     const glm::vec3 center = cloud.coord[unknown[n]];
     std::array<Neighbour, NEIGHBOURS> nearest;

@@ -10,9 +10,9 @@ namespace splatray {
 /// Estimates every unknown (zero) normal of the cloud: the direction of least variance of the 16 nearest
 /// places and the point itself (Hoppe et al. 1992, "Surface reconstruction from unorganized points",
 /// sec. 3.2). Degenerate neighbourhoods: on a straight line the perpendicular nearest `up`; without
-/// neighbours `up`. Sides: away from the object's centroid; an object flatter than a third of its other
-/// extents (terrain, a wall) has all normals towards its thin axis' positive end. Returns the number of
-/// estimated normals. `up` is a unit vector.
+/// neighbours `up`. Sides: away from the object's centroid; but a thin object (terrain, a wall: least
+/// standard deviation below a third of the second) has all normals on one side, the one nearer `up`.
+/// Returns the number of estimated normals. `up` is a unit vector.
 std::uint64_t estimate_normals(Cloud& cloud, const glm::dvec3& up, const Stage& stage);
 
 /// The unit normal of the plane through points (at least one), and degenerate cases, as estimate_normals.

@@ -33,7 +33,7 @@ RootTransform fit_root(const DiscBounds& bounds) {
   const double unit =
       std::max({extent.x, extent.y, extent.z}) / (root_size - 2.0 * (ROOT_MARGIN + LATTICE_SLACK));
   RootTransform root;
-  root.unit_world = std::max(unit, std::max({largest.x, largest.y, largest.z}) * 0x1p-41);
+  root.unit_world = std::max(unit, std::max({largest.x, largest.y, largest.z}) * 0x1p-45);
   root.origin_world = 0.5 * (bounds.low + bounds.high) - 0.5 * root_size * root.unit_world;
   return root;
 }

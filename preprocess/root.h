@@ -17,7 +17,7 @@ struct DiscBounds {
 };
 
 /// The cube around the discs: packed, they keep ROOT_MARGIN lattice units from its faces. The lattice unit is
-/// not below 2^-41 of the largest coordinate, so that to_root stays exact to a small share of a unit. The
+/// not below 2^-45 of the largest coordinate, so that to_root stays exact to a small share of a unit. The
 /// bounds must not be empty.
 [[nodiscard]] RootTransform fit_root(const DiscBounds& bounds);
 

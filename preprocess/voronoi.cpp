@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t OCTAGON = 8;
 constexpr std::size_t MAX_NEIGHBOURS = 64;
 constexpr std::size_t RING = 6;
-constexpr double OCTAGON_APOTHEM = 1.5;  // in units of the distance to the RING-th neighbour
+constexpr double OCTAGON_APOTHEM = 2.0;  // in units of the distance to the RING-th neighbour
 constexpr double OPEN_REACH = 0.65;      // where the cell is open, in units of its neighbours' mean distance
 constexpr int OCTAGON_EDGE = -1;
 

@@ -18,7 +18,7 @@ struct VoronoiReach {
 };
 
 /// The reach of the origin's Voronoi cell among `neighbours`, which ascend by distance, at most 64. The cell
-/// is cut out of a regular octagon with an apothem of 1.5 x the distance to the 6th neighbour. Where the
+/// is cut out of a regular octagon with an apothem of 2 x the distance to the 6th neighbour. Where the
 /// octagon still bounds it, at the border of a surface, the cell is taken to end at 0.65 x the mean distance
 /// of the neighbours that bound it.
 [[nodiscard]] VoronoiReach voronoi_reach(std::span<const TangentNeighbour> neighbours);

@@ -1,0 +1,250 @@
+/// build_scene as a whole: the same scene whatever the order and the threads, and every bad input counted.
+#include "preprocess/build.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "engine/host/error.h"
+#include "tests/preprocess/shapes.h"
+
+namespace splatray {
+namespace {
+
+constexpr double NAN_VALUE = std::numeric_limits<double>::quiet_NaN();
+
+Scene build(InputObject object, const BuildParams& params = {}, unsigned threads = 0,
+            BuildStats* stats_out = nullptr) {
+  BuildStats stats;
+  Scene scene = build_scene(test::input_of(std::move(object)), params, threads, stats);
+  if (stats_out != nullptr) *stats_out = stats;
+  return scene;
+}
+
+void expect_same(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.root.origin_world, b.root.origin_world);
+  EXPECT_EQ(a.root.unit_world, b.root.unit_world);
+  EXPECT_EQ(a.splat_count, b.splat_count);
+  EXPECT_EQ(a.node_pool, b.node_pool);
+  EXPECT_EQ(a.begin_end, b.begin_end);
+  EXPECT_EQ(a.data_pool, b.data_pool);
+  EXPECT_EQ(a.color_pool, b.color_pool);
+}
+
+InputObject colored_noise() {
+  InputObject object = test::random_sphere(5000, 3);
+  object.points.normal.clear();
+  for (std::size_t i = 0; i < 200; ++i) object.points.position[i] = object.points.position[i % 40];
+  for (std::size_t i = 0; i < 5000; ++i)
+    object.points.color.emplace_back(static_cast<float>(i % 97) / 96.0F, 0.5F, 0.1F);
+  return object;
+}
+
+TEST(Build, SceneDoesNotDependOnOrderOrThreads) {
+  for (const Insertion insertion : {Insertion::overlap, Insertion::probe, Insertion::centre}) {
+    BuildParams params;
+    params.insertion = insertion;
+    const InputObject object = colored_noise();
+    const Scene scene = build(object, params, 1);
+    expect_same(scene, build(object, params, 2));
+    expect_same(scene, build(test::shuffled(object, 1), params, 2));
+  }
+}
+
+TEST(Build, PoolsAreConsistent) {
+  BuildStats stats;
+  const Scene scene = build(colored_noise(), {}, 0, &stats);
+  EXPECT_EQ(scene.begin_end.front(), 0U);
+  EXPECT_EQ(scene.begin_end.back(), scene.data_pool.size());
+  EXPECT_EQ(std::adjacent_find(scene.begin_end.begin(), scene.begin_end.end(), std::greater_equal<>()),
+            scene.begin_end.end())
+      << "filled leaves are not empty";
+  EXPECT_EQ(scene.color_pool.size(), scene.data_pool.size());
+  EXPECT_EQ(home_references(scene).size(), scene.splat_count);
+  EXPECT_EQ(stats.references, scene.data_pool.size());
+  EXPECT_EQ(stats.filled_leaves + 1, scene.begin_end.size());
+  EXPECT_EQ(stats.splats + stats.dropped_duplicates, 5000U);
+  EXPECT_GT(stats.growth, 0.0);
+  EXPECT_EQ(stats.growth, stats.growth_overlap);
+}
+
+TEST(Build, HomesAreTheWholeCentrePolicy) {
+  BuildParams params;
+  params.insertion = Insertion::centre;
+  const Scene centres = build(test::random_sphere(3000, 1), params);
+  const Scene overlaps = build(test::random_sphere(3000, 1));
+  std::vector<uvec4> homes;
+  for (const std::uint32_t i : home_references(overlaps)) homes.push_back(overlaps.data_pool[i]);
+  EXPECT_EQ(homes, centres.data_pool);
+}
+
+TEST(Build, DiscsKeepTheMarginOfTheRoot) {
+  for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{7}, std::size_t{2000}}) {
+    const Scene scene = build(test::random_sphere(count, count));
+    for (const uvec4& words : scene.data_pool) {
+      const Splat splat = unpack_splat(words);
+      const glm::dvec3 half =
+          std::sqrt(splat.radius_squared) * glm::sqrt(glm::max(1.0 - splat.normal * splat.normal, 0.0));
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_GE(splat.center[axis] - half[axis], ROOT_MARGIN);
+        EXPECT_LE(splat.center[axis] + half[axis], (1U << LATTICE_BITS) - ROOT_MARGIN);
+      }
+    }
+  }
+}
+
+TEST(Build, BadPointsAreDroppedAndCounted) {
+  InputObject object = test::even_sphere(1000);
+  object.points.position[1].x = NAN_VALUE;
+  object.points.position[2].y = std::numeric_limits<double>::infinity();
+  object.points.position[3].z = -1e200;
+  object.points.normal[10] = glm::vec3(0.0F);
+  for (std::size_t i = 100; i < 130; ++i) {
+    object.points.position[i] = object.points.position[100];
+    object.points.normal[i] = object.points.normal[100];
+  }
+  BuildStats stats;
+  const Scene scene = build(object, {}, 0, &stats);
+  EXPECT_EQ(stats.points_read, 1000U);
+  EXPECT_EQ(stats.dropped_non_finite, 3U);
+  EXPECT_EQ(stats.dropped_duplicates, 20U);
+  EXPECT_EQ(stats.normals_estimated, 1U);
+  EXPECT_EQ(stats.splats, 977U);
+  EXPECT_EQ(scene.splat_count, 977U);
+}
+
+TEST(Build, NoUsablePointIsAnError) {
+  InputObject object;
+  object.points.position.assign(3, glm::dvec3(NAN_VALUE));
+  for (const InputObject& bad : {object, InputObject{}}) {
+    try {
+      (void)build(bad);
+      FAIL() << "an input without points was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+    }
+  }
+}
+
+TEST(Build, TooManyObjectsIsAnError) {
+  Input input;
+  input.objects.resize(OBJECT_MASK + 2);
+  BuildStats stats;
+  EXPECT_THROW((void)build_scene(std::move(input), {}, 0, stats), Error);
+}
+
+TEST(Build, OnePointAndEqualPointsAreOneDiscOfOneUnit) {
+  for (const std::size_t copies : {1U, 1000U}) {
+    InputObject object;
+    object.points.position.assign(copies, glm::dvec3(4.0e6, -2.0, 0.5));
+    BuildStats stats;
+    const Scene scene = build(object, {}, 0, &stats);
+    EXPECT_EQ(scene.splat_count, std::min<std::size_t>(copies, 10));
+    EXPECT_EQ(stats.radii_isolated, copies);
+    const Splat splat = unpack_splat(scene.data_pool[0]);
+    EXPECT_LT(glm::length(scene.root.to_world(splat.center) - glm::dvec3(4.0e6, -2.0, 0.5)), 1e-5);
+    EXPECT_NEAR(std::sqrt(splat.radius_squared) * scene.root.unit_world, 1.0, 2e-3);
+    EXPECT_NEAR(splat.normal.y, 1.0, 1e-9);
+  }
+}
+
+TEST(Build, LonePointBesideOthersIsAHundredthOfTheScene) {
+  Input input = test::input_of(test::even_sphere(500));
+  InputObject lone;
+  lone.points.position.emplace_back(1.0, 1.0, 1.0);
+  input.objects.push_back(lone);
+  BuildStats stats;
+  const Scene scene = build_scene(std::move(input), {}, 0, stats);
+  for (const uvec4& words : scene.data_pool) {
+    const Splat splat = unpack_splat(words);
+    if (splat.object == 0) continue;
+    EXPECT_NEAR(std::sqrt(splat.radius_squared) * scene.root.unit_world, 0.01 * scene.diagonal_world(), 1e-4);
+  }
+  EXPECT_EQ(stats.radii_isolated, 1U);
+}
+
+TEST(Build, MillimetresSurviveALargeOffset) {
+  const glm::dvec3 offset(5.0e5, 4.0e6, 120.0);
+  InputObject object = test::square_lattice(100, 0.001);
+  for (glm::dvec3& position : object.points.position) position += offset;
+  const Scene scene = build(object);
+  EXPECT_EQ(scene.splat_count, 10000U);
+  for (const std::uint32_t i : home_references(scene)) {
+    const glm::dvec3 mm = (scene.root.to_world(unpack_splat(scene.data_pool[i]).center) - offset) * 1000.0;
+    EXPECT_LT(glm::length(mm - glm::round(mm)), 1e-3);
+  }
+}
+
+TEST(Build, TinyAndHugeScalesGiveTheSameTree) {
+  const Scene scene = build(test::even_sphere(2000));
+  for (const double scale : {0x1p-90, 0x1p90}) {
+    InputObject object = test::even_sphere(2000);
+    for (glm::dvec3& position : object.points.position) position *= scale;
+    const Scene scaled = build(object);
+    EXPECT_EQ(scaled.node_pool, scene.node_pool);
+    EXPECT_EQ(scaled.data_pool, scene.data_pool);
+  }
+}
+
+TEST(Build, ColoursOfSomeObjectsMakeTheOthersWhite) {
+  Input input = test::input_of(test::even_sphere(100));
+  input.objects.push_back(test::even_sphere(100, {5.0, 0.0, 0.0}));
+  input.objects[1].points.color.assign(100, glm::vec3(0.0F, 1.0F, 0.0F));
+  BuildStats stats;
+  const Scene scene = build_scene(std::move(input), {}, 0, stats);
+  ASSERT_EQ(scene.color_pool.size(), scene.data_pool.size());
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const bool green = unpack_splat(scene.data_pool[i]).object == 1;
+    EXPECT_EQ(scene.color_pool[i], green ? 0xFF00FF00U : 0xFFFFFFFFU);
+  }
+  EXPECT_TRUE(build(test::even_sphere(100)).color_pool.empty());
+}
+
+TEST(Build, SceneIsDescribed) {
+  Input input = test::input_of(test::even_sphere(4000));
+  input.objects[0].material.flags = MATERIAL_DIELECTRIC;
+  input.objects.push_back(input.objects[0]);
+  input.environment_path = "sky.hdr";
+  BuildStats stats;
+  const Scene scene = build_scene(std::move(input), {}, 0, stats);
+  EXPECT_EQ(scene.object_names, (std::vector<std::string>{"sphere", "sphere"}));
+  EXPECT_EQ(scene.materials[0].mask_bit, 0U);
+  EXPECT_EQ(scene.materials[1].mask_bit, 1U);
+  EXPECT_EQ(scene.environment_path, "sky.hdr");
+  EXPECT_EQ(scene.up, glm::dvec3(0.0, 1.0, 0.0));
+  EXPECT_NEAR(scene.bounds_max_world.z, 1.0, 1e-3);
+  EXPECT_NEAR(scene.surface_area_world, 8.0 * 3.14159265, 1e-6);
+  EXPECT_GT(stats.overlap, 1.0);
+  EXPECT_LT(stats.overlap, 2.2);
+}
+
+TEST(Build, ObjectWithoutNormalsIsTwoSided) {
+  InputObject object = test::even_sphere(300);
+  EXPECT_EQ(build(object).materials[0].flags & MATERIAL_TWO_SIDED, 0U);
+  object.points.normal.clear();
+  EXPECT_EQ(build(object).materials[0].flags & MATERIAL_TWO_SIDED, MATERIAL_TWO_SIDED);
+}
+
+TEST(Build, ProgressCanStopIt) {
+  BuildStats stats;
+  int calls = 0;
+  const auto stop_at_radii = [&calls](const char* stage, double share) {
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0);
+    ++calls;
+    return std::string(stage) != "radii";
+  };
+  try {
+    (void)build_scene(test::input_of(test::even_sphere(1000)), {}, 0, stats, stop_at_radii);
+    FAIL() << "the build was not stopped";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::interrupted);
+  }
+  EXPECT_GT(calls, 0);
+}
+
+}  // namespace
+}  // namespace splatray

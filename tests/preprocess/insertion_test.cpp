@@ -1,0 +1,174 @@
+/// Leaf lists against an exact disc-box test over all pairs of leaf and splat, and the order of the three
+/// policies.
+#include "preprocess/insertion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
+
+#include "preprocess/morton.h"
+
+namespace splatray {
+namespace {
+
+const BuildProgress SILENT;
+const Stage STAGE{"insertion", SILENT};
+
+/// Keeps the part of a convex polygon where sign * p[axis] <= limit.
+std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, int axis, double sign, double limit) {
+  std::vector<glm::dvec3> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& here = polygon[i];
+    const glm::dvec3& next = polygon[(i + 1) % polygon.size()];
+    const double a = sign * here[axis] - limit;
+    const double b = sign * next[axis] - limit;
+    if (a <= 0.0) kept.push_back(here);
+    if ((a <= 0.0) != (b <= 0.0)) kept.push_back(here + (next - here) * (a / (a - b)));
+  }
+  return kept;
+}
+
+double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const double length_squared = glm::dot(b - a, b - a);
+  const double t = length_squared > 0.0 ? std::clamp(glm::dot(p - a, b - a) / length_squared, 0.0, 1.0) : 0.0;
+  return glm::length(p - a - (b - a) * t);
+}
+
+/// Whether a disc meets a box: the part of the disc's plane in the box is a polygon; its distance from the
+/// centre decides.
+bool disc_meets_box(const Splat& splat, const glm::dvec3& low, const glm::dvec3& high) {
+  const glm::dvec3& c = splat.center;
+  if (glm::all(glm::lessThanEqual(low, c)) && glm::all(glm::lessThanEqual(c, high))) return true;
+  const double radius = std::sqrt(splat.radius_squared);
+  const glm::dvec3 side = std::abs(splat.normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 u = radius * glm::normalize(glm::cross(splat.normal, side));
+  const glm::dvec3 v = glm::cross(splat.normal, u);
+  std::vector<glm::dvec3> polygon{c + u + v, c - u + v, c - u - v, c + u - v};
+  for (int axis = 0; axis < 3; ++axis) {
+    polygon = clipped(polygon, axis, 1.0, high[axis]);
+    polygon = clipped(polygon, axis, -1.0, -low[axis]);
+  }
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    if (distance_to_segment(c, polygon[i], polygon[(i + 1) % polygon.size()]) <= radius) return true;
+  }
+  return false;
+}
+
+/// Splats of a bumpy closed surface, of radii between `least` and `most` lattice units.
+SplatList surface_splats(std::size_t count, double least, double most) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  SplatList splats;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random)));
+    const double radius = least * std::pow(most / least, unit(random));
+    const glm::dvec3 center =
+        glm::round(1048576.0 + normal * (700000.0 + 20000.0 * std::sin(9.0 * normal.x)));
+    splats.words.push_back(
+        pack_splat({center, i % 7 == 0 ? glm::dvec3(0, 0, 1) : normal, radius * radius, 0}));
+    splats.key.push_back(morton_key(glm::uvec3(center)));
+  }
+  order_splats(splats, 10);
+  return splats;
+}
+
+std::span<const std::uint32_t> list_of(const LeafLists& lists, std::size_t leaf) {
+  return std::span(lists.splat).subspan(lists.begin[leaf], lists.begin[leaf + 1] - lists.begin[leaf]);
+}
+
+void check_against_exact(const SplatList& splats, double most_extra) {
+  const Octree tree = build_octree(splats, 4);
+  const LeafLists lists = insert_overlaps(tree, splats, STAGE);
+  std::size_t missing = 0;
+  std::size_t needed = 0;
+  for (std::size_t leaf = 0; leaf < tree.leaves.size(); ++leaf) {
+    const glm::dvec3 low(morton_point(tree.leaves[leaf].key));
+    const glm::dvec3 high = low + static_cast<double>(tree.leaves[leaf].cell_size());
+    const auto list = list_of(lists, leaf);
+    EXPECT_TRUE(std::is_sorted(list.begin(), list.end()));
+    for (std::uint32_t i = 0; i < splats.size(); ++i) {
+      const bool meets = disc_meets_box(unpack_splat(splats.words[i]), low - (LIST_INFLATION - 1e-6),
+                                        high + (LIST_INFLATION - 1e-6));
+      needed += meets ? 1 : 0;
+      missing += meets && !std::binary_search(list.begin(), list.end(), i) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(missing, 0U);
+  EXPECT_LE(lists.splat.size(), needed * (1.0 + most_extra));
+}
+
+TEST(Insertion, OverlapMissesNoDiscOfTypicalSize) {
+  check_against_exact(surface_splats(800, 20000.0, 80000.0), 0.15);
+}
+
+TEST(Insertion, OverlapMissesNoTinyOrHugeDisc) {
+  check_against_exact(surface_splats(400, 1.5, 250000.0), 0.15);
+}
+
+TEST(Insertion, OverlapMissesNoDiscAtTheDepthCap) {
+  SplatList splats;
+  std::mt19937_64 random(6);
+  for (int i = 0; i < 300; ++i) {
+    const glm::uvec3 center(1048570U + random() % 40, 1048570U + random() % 40, 1048570U + random() % 40);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(random() % 7, random() % 7, 1 + random() % 7));
+    splats.words.push_back(
+        pack_splat({glm::dvec3(center), normal, 2.0 + static_cast<double>(random() % 50), 0}));
+    splats.key.push_back(morton_key(center));
+  }
+  order_splats(splats, 10);
+  check_against_exact(splats, 0.25);
+}
+
+TEST(Insertion, PoliciesAreNested) {
+  const SplatList splats = surface_splats(3000, 10000.0, 40000.0);
+  const Octree tree = build_octree(splats, 10);
+  const LeafLists centres = insert_centres(tree, splats);
+  const LeafLists overlaps = insert_overlaps(tree, splats, STAGE);
+  const LeafLists probed = keep_probed(tree, splats, overlaps, 32, 1, STAGE);
+  for (std::size_t leaf = 0; leaf < tree.leaves.size(); ++leaf) {
+    const auto centre = list_of(centres, leaf);
+    const auto probe = list_of(probed, leaf);
+    const auto overlap = list_of(overlaps, leaf);
+    EXPECT_TRUE(std::includes(probe.begin(), probe.end(), centre.begin(), centre.end()));
+    EXPECT_TRUE(std::includes(overlap.begin(), overlap.end(), probe.begin(), probe.end()));
+  }
+  EXPECT_GT(probed.splat.size(), centres.splat.size());
+  EXPECT_LT(probed.splat.size(), overlaps.splat.size());
+}
+
+TEST(Insertion, ProbesDependOnTheSeedAndMoreOfThemKeepMore) {
+  const SplatList splats = surface_splats(3000, 10000.0, 40000.0);
+  const Octree tree = build_octree(splats, 10);
+  const LeafLists overlaps = insert_overlaps(tree, splats, STAGE);
+  const auto kept = [&](std::uint32_t probes, std::uint64_t seed) {
+    return keep_probed(tree, splats, overlaps, probes, seed, STAGE).splat;
+  };
+  EXPECT_EQ(kept(32, 1), kept(32, 1));
+  EXPECT_NE(kept(32, 1), kept(32, 2));
+  EXPECT_LT(kept(4, 1).size(), kept(32, 1).size());
+}
+
+TEST(Insertion, ProbesFillALeafThatHoldsNoCentre) {
+  SplatList splats;
+  const glm::uvec3 center(1048576U + 2000U, 1048576U + 2000U, 1048576U + 300000U);
+  for (int i = 0; i < 2;
+       ++i) {  // two splats, one a leaf: the root is divided; the first disc reaches into empty cells
+    const glm::uvec3 place = i == 0 ? center : glm::uvec3(100000, 100000, 100000);
+    splats.words.push_back(pack_splat({glm::dvec3(place), {0.0, 0.0, 1.0}, i == 0 ? 4e11 : 4.0, 0}));
+    splats.key.push_back(morton_key(place));
+  }
+  order_splats(splats, 10);
+  const Octree tree = build_octree(splats, 1);
+  const LeafLists probed = keep_probed(tree, splats, insert_overlaps(tree, splats, STAGE), 32, 1, STAGE);
+  std::size_t filled = 0;
+  for (std::size_t leaf = 0; leaf < tree.leaves.size(); ++leaf)
+    filled += list_of(probed, leaf).empty() ? 0 : 1;
+  EXPECT_EQ(filled, 5U);
+}
+
+}  // namespace
+}  // namespace splatray

@@ -1,0 +1,88 @@
+/// The neighbour search against brute force over all points, in order and ties too.
+#include "preprocess/neighbours.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/preprocess/shapes.h"
+
+namespace splatray {
+namespace {
+
+std::vector<Neighbour> brute_force(const Cloud& cloud, const glm::vec3& query, std::size_t count) {
+  std::vector<Neighbour> all;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const glm::vec3 d = cloud.coord[i] - query;
+    const float squared = d.x * d.x + d.y * d.y + d.z * d.z;
+    const bool first_of_place = i == 0 || cloud.coord[i] != cloud.coord[i - 1];
+    if (squared > 0.0F && first_of_place) all.emplace_back(squared, i);
+  }
+  std::sort(all.begin(), all.end());
+  all.resize(std::min(count, all.size()));
+  return all;
+}
+
+void expect_same_as_brute_force(const Cloud& cloud, std::size_t stride) {
+  const NeighbourSearch search(cloud, Sites::positions);
+  for (const std::size_t wanted : {1U, 6U, 12U, 32U}) {
+    for (std::size_t i = 0; i < cloud.size(); i += stride) {
+      std::vector<Neighbour> found(wanted);
+      found.resize(search.find(cloud.coord[i], found));
+      ASSERT_EQ(found, brute_force(cloud, cloud.coord[i], wanted))
+          << "point " << i << ", " << wanted << " neighbours";
+    }
+  }
+}
+
+TEST(Neighbours, RandomSphere) {
+  expect_same_as_brute_force(test::cloud_of(test::random_sphere(3001, 1)), 13);
+}
+
+TEST(Neighbours, LatticeFullOfTies) {
+  expect_same_as_brute_force(test::cloud_of(test::square_lattice(50, 0.125)), 17);
+}
+
+TEST(Neighbours, VeryUnevenDensity) {
+  InputObject object;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> gauss;
+  for (int i = 0; i < 2000; ++i) {
+    const double scale = std::exp(3.0 * gauss(random));
+    object.points.position.push_back(scale * glm::dvec3(gauss(random), gauss(random), gauss(random)));
+  }
+  expect_same_as_brute_force(test::cloud_of(object), 11);
+}
+
+TEST(Neighbours, CopiesOfAPointCountOnce) {
+  InputObject object = test::random_sphere(200, 4);
+  for (int copy = 0; copy < 50; ++copy) object.points.position.push_back(object.points.position[7]);
+  object.points.normal.clear();
+  expect_same_as_brute_force(test::cloud_of(object), 1);
+}
+
+TEST(Neighbours, FewerPointsThanWanted) {
+  const Cloud cloud = test::cloud_of(test::random_sphere(3, 5));
+  std::vector<Neighbour> found(8);
+  EXPECT_EQ(NeighbourSearch(cloud, Sites::positions).find(cloud.coord[0], found), 2U);
+  EXPECT_EQ(NeighbourSearch(Cloud(), Sites::positions).find(glm::vec3(0.0F), found), 0U);
+}
+
+TEST(Neighbours, OrientedPlacesKeepDifferentNormals) {
+  InputObject object;
+  for (int i = 0; i < 20; ++i) {
+    object.points.position.emplace_back(1.0, 0.0, 0.0);
+    object.points.normal.emplace_back(0.0F, 1.0F, static_cast<float>(i % 3));
+  }
+  object.points.position.emplace_back(0.0, 0.0, 0.0);
+  object.points.normal.emplace_back(1.0F, 0.0F, 0.0F);
+  const Cloud cloud = test::cloud_of(object);
+  std::vector<Neighbour> found(8);
+  const glm::vec3 origin = cloud.coord[0].x < cloud.coord[20].x ? cloud.coord[0] : cloud.coord[20];
+  EXPECT_EQ(NeighbourSearch(cloud, Sites::positions).find(origin, found), 1U);
+  EXPECT_EQ(NeighbourSearch(cloud, Sites::oriented_positions).find(origin, found), 3U);
+}
+
+}  // namespace
+}  // namespace splatray
