@@ -1,0 +1,118 @@
+#include "tests/cli/child_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace splatray {
+namespace {
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The child's side of a fork.
+[[noreturn]] void become(const std::vector<std::string>& command, const std::vector<std::string>& environment,
+                         const std::string& out, const std::string& err) {
+  const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int err_file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(out_file, STDOUT_FILENO);
+  dup2(err_file, STDERR_FILENO);
+  for (const std::string& variable : environment) {
+    const std::size_t equals = variable.find('=');
+    setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
+  }
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  execv(arguments[0], arguments.data());
+  _exit(127);
+}
+
+}  // namespace
+
+ChildResult run_program(const std::vector<std::string>& command, const std::vector<std::string>& environment,
+                        int interrupt_after_ms) {
+  const std::string stem = testing::TempDir() + "child_" + std::to_string(getpid());
+  const std::string out = stem + ".out", err = stem + ".err";
+  const pid_t child = fork();
+  if (child == 0) become(command, environment, out, err);
+  if (interrupt_after_ms > 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
+    kill(child, SIGINT);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ChildResult result{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(out),
+                     read_text(err)};
+  std::filesystem::remove(out);
+  std::filesystem::remove(err);
+  return result;
+}
+
+void CliTest::SetUp() {
+  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+  folder = std::filesystem::path(testing::TempDir()) /
+           ("cli_" + std::string(info->test_suite_name()) + "_" + info->name());
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+}
+
+std::string CliTest::write(const std::string& name, const std::string& content) const {
+  std::ofstream(folder / name, std::ios::binary) << content;
+  return file(name);
+}
+
+std::vector<std::string> CliTest::names() const {
+  std::vector<std::string> result;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    result.push_back(entry.path().filename());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+ChildResult CliTest::render(std::vector<std::string> arguments,
+                            const std::vector<std::string>& environment) const {
+  std::vector<std::string> command = {RENDER,        "--quiet", "--resolution=16x16",
+                                      "--samples=1", "-o",      file("out.png")};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return run_program(command, environment);
+}
+
+ChildResult CliTest::preprocess(std::vector<std::string> arguments) const {
+  std::vector<std::string> command = {PREPROCESS, "-o", file("out.soct")};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return run_program(command);
+}
+
+std::string ascii_ply(const std::vector<std::string>& vertices, bool normals) {
+  std::ostringstream text;
+  text << "ply\nformat ascii 1.0\nelement vertex " << vertices.size()
+       << "\nproperty double x\nproperty double y\nproperty double z\n";
+  if (normals) text << "property float nx\nproperty float ny\nproperty float nz\n";
+  text << "end_header\n";
+  for (const std::string& vertex : vertices) text << vertex << '\n';
+  return text.str();
+}
+
+std::string grid_ply(bool normals, double offset, double step) {
+  std::vector<std::string> vertices;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j) {
+      std::ostringstream vertex;
+      vertex.precision(17);
+      vertex << offset + step * i << ' ' << offset << ' ' << offset + step * j << (normals ? " 0 1 0" : "");
+      vertices.push_back(vertex.str());
+    }
+  return ascii_ply(vertices, normals);
+}
+
+}  // namespace splatray

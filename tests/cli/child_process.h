@@ -1,0 +1,61 @@
+/// Programs run as their users run them, and what is expected of those that fail.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace splatray {
+
+struct ChildResult {
+  int code = 0;  ///< exit status; 128 + signal number when a signal ended it
+  std::string out, err;
+};
+
+/// Runs a program to its end. `environment`: further variables, NAME=VALUE. `interrupt_after_ms` > 0: sends
+/// it SIGINT then.
+[[nodiscard]] ChildResult run_program(const std::vector<std::string>& command,
+                                      const std::vector<std::string>& environment = {},
+                                      int interrupt_after_ms = 0);
+
+/// A test with a folder of its own, gone afterwards.
+class CliTest : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  /// Path of a file in the folder.
+  [[nodiscard]] std::string file(const std::string& name) const { return (folder / name).string(); }
+  /// Writes a file into the folder; returns its path.
+  std::string write(const std::string& name, const std::string& content) const;
+  /// Names of the files in the folder, sorted.
+  [[nodiscard]] std::vector<std::string> names() const;
+
+  /// Renders `arguments` to out.png, 16 x 16, one sample.
+  [[nodiscard]] ChildResult render(std::vector<std::string> arguments,
+                                   const std::vector<std::string>& environment = {}) const;
+  [[nodiscard]] ChildResult preprocess(std::vector<std::string> arguments) const;
+
+  /// Expects the exit code, one sentence on stderr that holds `words`, and no file made.
+  template <typename Run>
+  void expect_refused(Run run, int code, const std::string& words) const {
+    const auto before = names();
+    const ChildResult result = run();
+    EXPECT_EQ(result.code, code) << result.err;
+    EXPECT_NE(result.err.find(": error: "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(names(), before);
+  }
+
+  std::filesystem::path folder;
+};
+
+/// ASCII PLY of points; each line of `vertices` holds x y z and, when `normals`, nx ny nz.
+[[nodiscard]] std::string ascii_ply(const std::vector<std::string>& vertices, bool normals);
+/// ASCII PLY of a 12 x 12 grid of points with normals, spacing `step`, at an offset on every axis.
+[[nodiscard]] std::string grid_ply(bool normals, double offset = 0.0, double step = 0.1);
+
+}  // namespace splatray

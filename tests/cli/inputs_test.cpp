@@ -1,0 +1,127 @@
+/// Bad and odd input files: each ends in one sentence and exit code 3, or in a picture.
+#include "tests/cli/child_process.h"
+
+namespace splatray {
+namespace {
+
+class CliInputs : public CliTest {
+ protected:
+  /// Both programs refuse the file with exit code 3 and name it.
+  void expect_unreadable(const std::string& path) const {
+    const std::string name = std::filesystem::path(path).filename();
+    expect_refused([&] { return render({path}); }, 3, name);
+    if (std::filesystem::path(path).extension() != ".soct")
+      expect_refused([&] { return preprocess({path}); }, 3, name);
+  }
+
+  void expect_picture(const std::string& path) const {
+    const ChildResult result = render({path});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_TRUE(std::filesystem::exists(file("out.png")));
+  }
+};
+
+TEST_F(CliInputs, MissingFile) {
+  for (const char* name : {"a.ply", "a.obj", "a.stl", "a.vtp", "a.gltf", "a.glb", "a.soct"})
+    expect_unreadable(file(name));
+}
+
+TEST_F(CliInputs, EmptyFile) {
+  for (const char* name : {"a.ply", "a.obj", "a.stl", "a.vtp", "a.gltf", "a.glb", "a.soct"})
+    expect_unreadable(write(name, ""));
+}
+
+TEST_F(CliInputs, Directory) {
+  for (const char* name : {"a.ply", "a.obj", "a.gltf", "a.soct"}) {
+    std::filesystem::create_directory(file(name));
+    expect_unreadable(file(name));
+  }
+}
+
+TEST_F(CliInputs, UnknownExtension) {
+  expect_unreadable(write("a.xyzzy", "1 2 3\n"));
+  expect_unreadable(write("a", grid_ply(true)));
+}
+
+TEST_F(CliInputs, TruncatedPly) {
+  const std::string whole = grid_ply(true);
+  expect_unreadable(write("header.ply", whole.substr(0, 60)));
+  expect_unreadable(write("body.ply", whole.substr(0, whole.size() / 2)));
+  expect_unreadable(
+      write("binary.ply",
+            "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"
+            "property float z\nend_header\n0123456789"));
+}
+
+TEST_F(CliInputs, CorruptPly) {
+  expect_unreadable(write("magic.ply", "plx\nformat ascii 1.0\n"));
+  expect_unreadable(
+      write("type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quux x\nend_header\n1\n"));
+  expect_unreadable(write("words.ply", ascii_ply({"1 2 x", "1 2 3"}, false)));
+  expect_unreadable(
+      write("count.ply",
+            "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999\nproperty float x\n"
+            "property float y\nproperty float z\nend_header\n"));
+}
+
+TEST_F(CliInputs, CorruptGltf) {
+  expect_unreadable(write("truncated.gltf", R"({"asset": {"version": "2.0"}, "meshes": [{"primi)"));
+  expect_unreadable(write("array.gltf", "[1, 2, 3]"));
+  expect_unreadable(write("magic.glb", "glTX and then some bytes that are no GLB at all"));
+  expect_unreadable(write("empty.gltf", R"({"asset": {"version": "2.0"}})"));
+  expect_unreadable(write("buffer.gltf",
+                          R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}]}], "buffers": [{"uri": "gone.bin", "byteLength": 36}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]})"));
+  expect_unreadable(write("points.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+    "nodes": [{"extras": {"points": "gone.ply"}}]})"));
+}
+
+TEST_F(CliInputs, DamagedScene) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  ASSERT_EQ(run_program({PREPROCESS, grid, "-o", file("whole.soct")}).code, 0);
+  std::filesystem::copy_file(file("whole.soct"), file("truncated.soct"));
+  std::filesystem::resize_file(file("truncated.soct"), std::filesystem::file_size(file("whole.soct")) / 2);
+  expect_unreadable(file("truncated.soct"));
+  expect_unreadable(write("text.soct", "this is no scene"));
+  expect_picture(file("whole.soct"));
+}
+
+TEST_F(CliInputs, NoPoints) {
+  expect_unreadable(write("none.ply", ascii_ply({}, true)));
+  expect_unreadable(write("nan.ply", ascii_ply({"nan 0 0", "0 inf 0"}, false)));
+}
+
+TEST_F(CliInputs, SomePointsNotFinite) {
+  std::string ply = grid_ply(true);
+  ply.replace(ply.find("end_header\n") + 11, 1, "nan");
+  expect_picture(write("some.ply", ply));
+}
+
+TEST_F(CliInputs, OnePoint) { expect_picture(write("one.ply", ascii_ply({"1 2 3"}, false))); }
+
+TEST_F(CliInputs, AllPointsEqual) {
+  expect_picture(write("equal.ply", ascii_ply(std::vector<std::string>(50, "1 2 3"), false)));
+}
+
+TEST_F(CliInputs, NoNormals) { expect_picture(write("bare.ply", grid_ply(false))); }
+
+TEST_F(CliInputs, HugeCoordinates) { expect_picture(write("far.ply", grid_ply(true, 4e6, 1e-3))); }
+
+TEST_F(CliInputs, UnreadableEnvironment) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  const auto refuse = [&](const std::string& environment) {
+    expect_refused([&] { return render({grid, "--env", environment}); }, 3, environment);
+  };
+  refuse(file("missing.hdr"));
+  refuse(folder.string());
+  refuse(write("empty.hdr", ""));
+  refuse(write("text.hdr", "no picture"));
+  refuse(write("truncated.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n\x02\x02"));
+  refuse(write("truncated.exr", std::string("\x76\x2f\x31\x01\x02\0\0\0channels\0chlist\0", 24)));
+}
+
+}  // namespace
+}  // namespace splatray

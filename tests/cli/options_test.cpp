@@ -1,0 +1,111 @@
+/// Command lines: nonsense ends in exit code 2 and one sentence, before any work.
+#include "tests/cli/child_process.h"
+
+namespace splatray {
+namespace {
+
+class CliOptions : public CliTest {};
+
+TEST_F(CliOptions, NonsenseIsRefused) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  const std::vector<std::vector<std::string>> command_lines = {{"--resolution=0x5"},
+                                                               {"--resolution=1920"},
+                                                               {"--resolution=axb"},
+                                                               {"--resolution=-4x4"},
+                                                               {"--resolution=99999x1"},
+                                                               {"--samples=0"},
+                                                               {"--samples=-1"},
+                                                               {"--samples=many"},
+                                                               {"--samples=1e99"},
+                                                               {"--samples=1.5"},
+                                                               {"--seed=-1"},
+                                                               {"--eye=1,2"},
+                                                               {"--eye=1,2,3,4"},
+                                                               {"--eye=1,2,x"},
+                                                               {"--eye=nan,0,0"},
+                                                               {"--eye=1,2,3,"},
+                                                               {"--eye="},
+                                                               {"--eye=1,2,3", "--target=1,2,3"},
+                                                               {"--eye=9,9,9", "--up=0,0,0"},
+                                                               {"--target=0,0,0"},
+                                                               {"--ortho=3"},
+                                                               {"--fov=0"},
+                                                               {"--fov=180"},
+                                                               {"--fov=wide"},
+                                                               {"--light=1"},
+                                                               {"--env=-1,0,0"},
+                                                               {"--max-bounces=65"},
+                                                               {"--shadows=maybe"},
+                                                               {"--blend=soft"},
+                                                               {"--side=left"},
+                                                               {"--order=random"},
+                                                               {"--kappa=0"},
+                                                               {"--delta=-1"},
+                                                               {"--material=wood"},
+                                                               {"--insertion=some"},
+                                                               {"--leaf-size=0"},
+                                                               {"--radius-rule=big"},
+                                                               {"--radius-scale=0"},
+                                                               {"--aov=depth"},
+                                                               {"--aov=colour", "-o", file("a.exr")},
+                                                               {"--no-such-option"},
+                                                               {"--reference-limit=2"},
+                                                               {"--exposure=inf"}};
+  for (const auto& arguments : command_lines) {
+    std::vector<std::string> command = {RENDER, "--quiet", grid};
+    if (arguments.size() < 3) command.insert(command.end(), {"-o", file("out.png")});
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    SCOPED_TRACE(arguments.front());
+    expect_refused([&] { return run_program(command); }, 2, "");
+  }
+}
+
+TEST_F(CliOptions, MissingPartsAreRefused) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  expect_refused([&] { return run_program({RENDER}); }, 2, "no SCENE");
+  expect_refused([&] { return run_program({RENDER, grid}); }, 2, "no output");
+  expect_refused([&] { return run_program({RENDER, grid, "-o", file("a.jpg")}); }, 2, ".png or .exr");
+  expect_refused([&] { return run_program({RENDER, grid, "-o", file("a")}); }, 2, ".png or .exr");
+  expect_refused([&] { return run_program({RENDER, grid, "a.soct", "-o", file("a.png")}); }, 2, ".soct");
+  expect_refused([&] { return run_program({PREPROCESS}); }, 2, "");
+  expect_refused([&] { return run_program({PREPROCESS, grid}); }, 2, "");
+  expect_refused([&] { return preprocess({grid, "--leaf-size=0"}); }, 2, "");
+  expect_refused([&] { return preprocess({grid, "--insertion=some"}); }, 2, "");
+  expect_refused([&] { return preprocess({grid, "--no-such-option"}); }, 2, "");
+}
+
+TEST_F(CliOptions, NegativeVectorsParse) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  EXPECT_EQ(render({grid, "--eye=-1,2,3"}).code, 0);
+  EXPECT_EQ(render({grid, "--eye", "-1,2,3", "--target", "-.5,-1e-3,+0"}).code, 0);
+  EXPECT_EQ(render({grid, "--eye=0.5,9,0.5", "--target=0.5,0,0.5"}).code, 0)
+      << "straight down, up chosen across";
+}
+
+TEST_F(CliOptions, HelpAndVersion) {
+  for (const char* option : {"--help", "--version"}) {
+    const ChildResult result = run_program({RENDER, option});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_NE(result.out, "");
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST_F(CliOptions, NoDevice) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  const std::vector<std::string> none = {"VK_DRIVER_FILES=/nonexistent.json",
+                                         "VK_ICD_FILENAMES=/nonexistent.json"};
+  expect_refused([&] { return render({grid}, none); }, 4, "device");
+  expect_refused([&] { return run_program({RENDER, "--list-devices"}, none); }, 4, "device");
+  expect_refused([&] { return render({grid, "--device=99"}); }, 4, "99");
+  expect_refused([&] { return render({grid, "--device=no such device"}); }, 4, "no such device");
+}
+
+TEST_F(CliOptions, DevicesAreListed) {
+  const ChildResult result = run_program({RENDER, "--list-devices"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.out.substr(0, 3), "0: ");
+}
+
+}  // namespace
+}  // namespace splatray

@@ -1,0 +1,85 @@
+/// Outputs: whole or absent, compared with references, interrupted cleanly.
+#include <fstream>
+
+#include "app/image_file.h"
+#include "tests/cli/child_process.h"
+
+namespace splatray {
+namespace {
+
+class CliOutputs : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    grid = write("grid.ply", grid_ply(true));
+  }
+  std::string grid;
+};
+
+TEST_F(CliOutputs, UnwritableOutput) {
+  const auto refuse = [&](const std::string& output) {
+    expect_refused([&] { return run_program({RENDER, grid, "-o", output}); }, 1, "cannot write");
+  };
+  refuse(file("missing/out.png"));
+  refuse("/proc/out.png");
+  std::filesystem::create_directory(file("folder.png"));
+  refuse(file("folder.png"));
+  expect_refused(
+      [&] {
+        return run_program({RENDER, grid, "-o", file("a.png"), "--stats-json", file("missing/a.json")});
+      },
+      1, "cannot write");
+  expect_refused(
+      [&] {
+        return run_program({PREPROCESS, grid, "-o", file("missing/out.soct")});
+      },
+      1, "out.soct");
+}
+
+TEST_F(CliOutputs, PictureAndStatistics) {
+  const ChildResult result = render({grid, "--stats-json", file("stats.json"), "--counters"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(names(), (std::vector<std::string>{"grid.ply", "out.png", "stats.json"}));
+  std::ifstream stats(file("stats.json"));
+  const std::string text{std::istreambuf_iterator<char>(stats), {}};
+  EXPECT_NE(text.find("\"rays_primary\": 256"), std::string::npos) << text;
+}
+
+TEST_F(CliOutputs, ReferenceDecides) {
+  ASSERT_EQ(render({grid}).code, 0);
+  std::filesystem::rename(file("out.png"), file("reference.png"));
+  EXPECT_EQ(render({grid, "--reference", file("reference.png")}).code, 0);
+  const ChildResult changed = render({grid, "--reference", file("reference.png"), "--eye=3,3,3"});
+  EXPECT_EQ(changed.code, 1);
+  EXPECT_NE(changed.err.find("differs from"), std::string::npos) << changed.err;
+  EXPECT_TRUE(std::filesystem::exists(file("out.diff.png")));
+  std::filesystem::remove(file("out.png"));
+  expect_refused(
+      [&] {
+        return render({grid, "--reference", file("reference.png"), "--resolution=8x8"});
+      },
+      1, "16x16");
+  expect_refused([&] { return render({grid, "--reference", file("none.png")}); }, 3, "none.png");
+}
+
+TEST_F(CliOutputs, SameSeedSameBytes) {
+  const auto bytes_of = [&](const std::string& seed) {
+    EXPECT_EQ(render({grid, "--samples=4", "--seed", seed}).code, 0);
+    std::ifstream file_in(file("out.png"), std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file_in), {}};
+  };
+  EXPECT_EQ(bytes_of("7"), bytes_of("7"));
+}
+
+TEST_F(CliOutputs, InterruptLeavesNothing) {
+  expect_refused(
+      [&] {
+        return run_program(
+            {RENDER, "--quiet", grid, "--resolution=2048x2048", "--samples=4096", "-o", file("out.png")}, {},
+            1500);
+      },
+      130, "interrupted");
+}
+
+}  // namespace
+}  // namespace splatray

@@ -1,0 +1,83 @@
+/// Picture files and their comparison, without a program.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/compare.h"
+#include "app/image_file.h"
+#include "engine/host/error.h"
+
+namespace splatray {
+namespace {
+
+std::string temporary(const char* name) { return testing::TempDir() + name; }
+
+Image gradient() {
+  Image image{4, 3, {}, {}};
+  for (int i = 0; i < 12; ++i) {
+    image.rgba.emplace_back(0.1F * static_cast<float>(i), 0.5F, 0.02F, 1.0F);
+    image.aov.push_back({vec3(0.0F, 1.0F, 0.0F), i == 0 ? INFINITY : 2.0F, i == 0 ? NO_OBJECT : 3U, 0, 0, 0});
+  }
+  return image;
+}
+
+TEST(DisplayValue, ShoulderIsContinuousMonotoneAndBounded) {
+  EXPECT_NEAR(display_value(vec3(0.18F), 0.0).x, 0.4613F, 1e-3F);  // mid grey, sRGB
+  EXPECT_NEAR(display_value(vec3(0.8001F), 0.0).x, display_value(vec3(0.7999F), 0.0).x, 1e-3F);
+  float last = -1.0F;
+  for (float x = 0.0F; x < 5.0F; x += 0.01F) {
+    const float value = display_value(vec3(x), 0.0).x;
+    EXPECT_GE(value, last);
+    EXPECT_LE(value, 1.0F);
+    last = value;
+  }
+  EXPECT_EQ(display_value(vec3(NAN, -1.0F, INFINITY), 0.0),
+            vec3(0.0F, 0.0F, display_value(vec3(1e30F), 0.0).z));
+  EXPECT_NEAR(display_value(vec3(0.1F), 1.0).x, display_value(vec3(0.2F), 0.0).x, 1e-6F);
+}
+
+TEST(ImageFile, PngRoundTrip) {
+  const std::string path = temporary("round.png");
+  DisplayImage display = display_image(gradient(), 0.0);
+  write_png(display, path);
+  quantise(display);
+  const DisplayImage copy = read_display_image(path, 0.0);
+  ASSERT_EQ(copy.rgb.size(), display.rgb.size());
+  EXPECT_EQ(copy.width, 4U);
+  for (std::size_t i = 0; i < copy.rgb.size(); ++i)
+    EXPECT_LT(glm::length(copy.rgb[i] - display.rgb[i]), 1e-5F);
+}
+
+TEST(ImageFile, ExrKeepsLinearValuesAndIsAnEnvironment) {
+  const std::string path = temporary("round.exr");
+  const Image image = gradient();
+  write_exr(image, {true, true, true}, {{"commit", "abc"}}, path);
+  const Environment copy = read_environment(path);
+  ASSERT_EQ(copy.texels.size(), image.rgba.size());
+  for (std::size_t i = 0; i < copy.texels.size(); ++i) EXPECT_EQ(copy.texels[i], vec3(image.rgba[i]));
+}
+
+TEST(ImageFile, UnwritableIsAnError) {
+  EXPECT_THROW(write_png(display_image(gradient(), 0.0), temporary("missing/a.png")), Error);
+  EXPECT_THROW(write_exr(gradient(), {}, {}, temporary("missing/a.exr")), Error);
+}
+
+TEST(Compare, CountsWhatIsBeyond) {
+  const DisplayImage picture = display_image(gradient(), 0.0);
+  DisplayImage other = picture;
+  EXPECT_TRUE(compare(picture, other, {}).passed);
+  EXPECT_TRUE(std::isinf(compare(picture, other, {}).psnr_db));
+  other.rgb[5].y += 0.01F;
+  const Comparison one = compare(picture, other, {});
+  EXPECT_NEAR(one.share, 1.0 / 12.0, 1e-12);
+  EXPECT_NEAR(one.worst, 0.01, 1e-6);
+  EXPECT_NEAR(one.psnr_db, -10.0 * std::log10(1e-4 / 36.0), 1e-3);
+  EXPECT_FALSE(one.passed);
+  EXPECT_TRUE(compare(picture, other, {0.004, 0.1, 0.012}).passed);
+  EXPECT_FALSE(compare(picture, other, {0.004, 0.1, 0.009}).passed);
+  EXPECT_NEAR(one.difference.rgb[5].y, 0.1F, 1e-5F);
+}
+
+}  // namespace
+}  // namespace splatray
