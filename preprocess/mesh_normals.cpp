@@ -1,5 +1,6 @@
 #include "preprocess/mesh_normals.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -110,8 +111,11 @@ std::vector<glm::uint> weld_positions(const std::vector<glm::dvec3>& positions) 
 }
 
 std::vector<glm::vec3> vertex_normals(const Mesh& mesh, const std::vector<glm::uint>& weld) {
-  std::vector<glm::dvec3> sums(mesh.vertices.size(), glm::dvec3(0.0));
-  for (const glm::uvec3& triangle : mesh.triangles) {
+  const bool all_given = !mesh.vertices.normal.empty() &&
+                         std::all_of(mesh.vertices.normal.begin(), mesh.vertices.normal.end(), is_usable);
+  std::vector<glm::dvec3> sums(all_given ? 0 : mesh.vertices.size(), glm::dvec3(0.0));
+  for (std::size_t t = 0; t < mesh.triangles.size() && !all_given; ++t) {
+    const glm::uvec3& triangle = mesh.triangles[t];
     const glm::dvec3 normal = face_normal(mesh, triangle);
     for (int corner = 0; corner < 3; ++corner) {
       sums[weld[triangle[corner]]] += normal * corner_angle(mesh, triangle, corner);

@@ -33,26 +33,24 @@ void drop_non_finite_triangles(Mesh& mesh, const std::string& name, std::vector<
   }
 }
 
-/// Whether all meshes are closed and outward; turns those of a dielectric to be so.
-bool orient_object(InputObject& object, std::vector<std::string>& notes) {
+/// Turns a closed mesh of a dielectric outwards; whether the mesh is closed and its normals are known to
+/// point outwards.
+bool orient_mesh(Mesh& mesh, const std::vector<glm::uint>& weld, const InputObject& object,
+                 std::vector<std::string>& notes) {
   const bool dielectric = (object.material.flags & MATERIAL_DIELECTRIC) != 0;
-  bool oriented = !object.meshes.empty() && object.points.size() == 0;
-  for (Mesh& mesh : object.meshes) {
-    MeshOrientation found = measure_orientation(mesh, weld_positions(mesh.vertices.position));
-    if (dielectric && found.is_closed() && found.signed_volume < 0.0) {
-      flip_mesh(mesh);
-      found.signed_volume = -found.signed_volume;
-      notes.push_back(object.name + ": wound inwards, turned outwards because it is a dielectric");
-    }
-    if (dielectric && found.is_closed() && found.agreeing_share < 0.5) {
-      std::for_each(mesh.vertices.normal.begin(), mesh.vertices.normal.end(), [](glm::vec3& n) { n = -n; });
-      found.agreeing_share = 1.0 - found.agreeing_share;
-      notes.push_back(object.name +
-                      ": given normals pointed inwards, turned outwards because it is a dielectric");
-    }
-    oriented = oriented && found.is_closed() && found.signed_volume > 0.0 && found.agreeing_share >= 0.5;
+  MeshOrientation found = measure_orientation(mesh, weld);
+  if (dielectric && found.is_closed() && found.signed_volume < 0.0) {
+    flip_mesh(mesh);
+    found.signed_volume = -found.signed_volume;
+    notes.push_back(object.name + ": wound inwards, turned outwards because it is a dielectric");
   }
-  return oriented;
+  if (dielectric && found.is_closed() && found.agreeing_share < 0.5) {
+    std::for_each(mesh.vertices.normal.begin(), mesh.vertices.normal.end(), [](glm::vec3& n) { n = -n; });
+    found.agreeing_share = 1.0 - found.agreeing_share;
+    notes.push_back(object.name +
+                    ": given normals pointed inwards, turned outwards because it is a dielectric");
+  }
+  return found.is_closed() && found.signed_volume > 0.0 && found.agreeing_share >= 0.5;
 }
 
 /// Splits `total` over the parts by area, so that the sum is exact.
@@ -115,7 +113,7 @@ void note_automatic_sampling(const std::vector<Part>& parts, std::vector<std::st
       std::count_if(parts.begin(), parts.end(), [](const Part& part) { return part.sampled; });
   if (sampled > 0) {
     notes.push_back(std::to_string(sampled) + " of " + std::to_string(parts.size()) +
-                    " meshes are too coarse for splats at their vertices and were sampled by area, " +
+                    " meshes are too coarse for splats at their vertices and were sampled by area, about " +
                     std::to_string(AUTOMATIC_SAMPLES) + " points in all; --samples sets the number");
   }
 }
@@ -130,26 +128,42 @@ void move_out_points(InputObject& object) {
   std::erase_if(object.meshes, [](const Mesh& mesh) { return mesh.triangles.empty(); });
 }
 
+/// A coarse mesh gets no fewer points than it has vertices, and enough for the smallest part to be seen.
+void raise_automatic_samples(std::vector<Part>& parts) {
+  constexpr std::uint64_t FEWEST = 500;
+  for (Part& part : parts) {
+    if (part.sampled) {
+      part.samples = std::max({part.samples, FEWEST, std::uint64_t{part.mesh->vertices.size()}});
+    }
+  }
+}
+
+void points_from_part(const Part& part, std::uint64_t seed, std::vector<std::string>& notes) {
+  InputObject& object = *part.object;
+  const std::vector<glm::uint> weld = weld_positions(part.mesh->vertices.position);
+  object.oriented = orient_mesh(*part.mesh, weld, object, notes) && object.oriented;
+  object.surface_area += part.area;
+  append_points(object.points, part.sampled ? sample_surface(*part.mesh, weld, part.samples, seed)
+                                            : vertex_points(*part.mesh, weld));
+}
+
 }  // namespace
 
 void points_from_meshes(Input& input, const ReadOptions& options) {
   for (InputObject& object : input.objects) {
     move_out_points(object);
-    object.oriented = orient_object(object, input.notes);
+    object.oriented = object.points.size() == 0;
   }
   std::vector<Part> parts = list_parts(input, options);
   share_samples(parts, options.samples > 0 ? options.samples : AUTOMATIC_SAMPLES);
   if (options.samples == 0) {
+    raise_automatic_samples(parts);
     note_automatic_sampling(parts, input.notes);
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Part& part = parts[i];
-    append_points(part.object->points, part.sampled
-                                           ? sample_surface(*part.mesh, part.samples, options.seed + i)
-                                           : vertex_points(*part.mesh));
-    part.object->surface_area += part.area;
+    points_from_part(parts[i], options.seed + i, input.notes);
     if (!options.keep_meshes) {
-      *part.mesh = Mesh{};
+      *parts[i].mesh = Mesh{};
     }
   }
   for (InputObject& object : input.objects) {

@@ -72,6 +72,15 @@ void aim_camera(Input& input) {
   }
 }
 
+void drop_empty_objects(Input& input) {
+  std::erase_if(input.objects, [&](const InputObject& object) {
+    if (object.points.size() == 0) {
+      input.notes.push_back(object.name + ": left out, it got no points");
+    }
+    return object.points.size() == 0;
+  });
+}
+
 std::string join(const std::vector<std::filesystem::path>& paths) {
   std::string text;
   for (const std::filesystem::path& path : paths) {
@@ -104,7 +113,7 @@ Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOpti
     merge(input, is_scene ? read_gltf(path, options) : read_geometry(path));
   }
   points_from_meshes(input, options);
-  std::erase_if(input.objects, [](const InputObject& object) { return object.points.size() == 0; });
+  drop_empty_objects(input);
   if (input.objects.empty()) {
     throw Error(ExitCode::input_unreadable, join(paths) + ": found no points and no triangles");
   }

@@ -2,6 +2,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkObjectFactory.h>
@@ -44,17 +45,24 @@ class SilentWindow : public vtkOutputWindow {
 };
 vtkStandardNewMacro(SilentWindow);
 
+/// Puts the window in VTK's place for messages and stops its log.
 class WindowScope {
  public:
-  explicit WindowScope(vtkOutputWindow* window) : previous_(vtkOutputWindow::GetInstance()) {
+  explicit WindowScope(vtkOutputWindow* window)
+      : previous_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
     vtkOutputWindow::SetInstance(window);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   }
-  ~WindowScope() { vtkOutputWindow::SetInstance(previous_); }
+  ~WindowScope() {
+    vtkOutputWindow::SetInstance(previous_);
+    vtkLogger::SetStderrVerbosity(verbosity_);
+  }
   WindowScope(const WindowScope&) = delete;
   WindowScope& operator=(const WindowScope&) = delete;
 
  private:
   vtkSmartPointer<vtkOutputWindow> previous_;
+  vtkLogger::Verbosity verbosity_;
 };
 
 /// VTK's "ERROR: In file, line n\nvtkClass (0x..): sentence\n\n" -> "sentence".

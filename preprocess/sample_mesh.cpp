@@ -67,8 +67,8 @@ std::vector<std::uint32_t> morton_order(const Mesh& mesh) {
 /// Appends points given by triangle and barycentric weights.
 class SampleWriter {
  public:
-  SampleWriter(const Mesh& mesh, std::uint64_t count)
-      : mesh_(mesh), normals_(corner_normals(mesh, weld_positions(mesh.vertices.position))) {
+  SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count)
+      : mesh_(mesh), normals_(corner_normals(mesh, weld)) {
     points_.position.reserve(count);
     points_.normal.reserve(count);
     points_.color.reserve(mesh.vertices.color.empty() && !mesh.texture ? 0 : count);
@@ -147,10 +147,9 @@ bool is_coarse(const Mesh& mesh) {
   return coarse_area > 0.1 * area;
 }
 
-Points vertex_points(const Mesh& mesh) {
+Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld) {
   constexpr float COS_SAME = 0.9994F;
   constexpr glm::uint NONE = 0xFFFFFFFFU;
-  const std::vector<glm::uint> weld = weld_positions(mesh.vertices.position);
   const std::vector<glm::vec3> normals = vertex_normals(mesh, weld);
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const glm::uvec3& triangle : mesh.triangles) {
@@ -181,7 +180,8 @@ Points vertex_points(const Mesh& mesh) {
   return points;
 }
 
-Points sample_surface(const Mesh& mesh, std::uint64_t count, std::uint64_t seed) {
+Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
+                      std::uint64_t seed) {
   constexpr double GOLDEN_RATIO_PART = 0.6180339887498949;
   if (count == 0) {
     return {};
@@ -191,7 +191,7 @@ Points sample_surface(const Mesh& mesh, std::uint64_t count, std::uint64_t seed)
   double side = static_cast<double>(random() >> 11U) * 0x1p-53;
   const double step = surface_area(mesh) / static_cast<double>(count);
   assert(step > 0.0 && std::isfinite(step));
-  SampleWriter writer(mesh, count);
+  SampleWriter writer(mesh, weld, count);
   std::uint64_t written = 0;
   double passed = 0.0;
   std::size_t last_proper = 0;

@@ -16,13 +16,15 @@ namespace splatray {
 
 /// One point per used vertex with its normal (given, or angle-weighted from the triangles), colour and
 /// radius. Vertices that coincide in position and, within 2 degrees, in normal are one point: the first.
-[[nodiscard]] Points vertex_points(const Mesh& mesh);
+/// `weld` is weld_positions of the vertices.
+[[nodiscard]] Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld);
 
 /// Exactly `count` points, spread by area. Triangles are ordered along a Morton curve; the i-th point takes
 /// the i-th of `count` equal shares of the area on the way (systematic sampling). Its place in the share's
 /// triangle is a Fibonacci lattice: height from the share, side from multiples of the golden ratio (Kronecker
 /// sequence, Niederreiter 1992). Deterministic for a seed. Normals are corner_normals interpolated; radii are
 /// not passed on. The mesh must have a positive, finite area unless count is 0.
-[[nodiscard]] Points sample_surface(const Mesh& mesh, std::uint64_t count, std::uint64_t seed);
+[[nodiscard]] Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
+                                    std::uint64_t seed);
 
 }  // namespace splatray

@@ -1,0 +1,67 @@
+/// Every real model and scene of SPLATRAY_DATA_DIR is read.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "preprocess/file_extension.h"
+#include "tests/readers/temp_folder.h"
+
+namespace splatray {
+namespace {
+
+std::vector<std::filesystem::path> data_files(const std::string& folder) {
+  const char* const data = std::getenv("SPLATRAY_DATA_DIR");
+  std::vector<std::filesystem::path> files;
+  if (data == nullptr) {
+    return files;
+  }
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(data) / folder)) {
+    const std::string extension = lower_extension(entry.path());
+    if (extension == ".ply" || extension == ".gltf" || extension == ".glb") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void expect_sane(const std::filesystem::path& file) {
+  const Input input = read_input({file}, {});
+  for (const InputObject& object : input.objects) {
+    EXPECT_GE(object.points.size(), 100U) << file << " " << object.name;
+    EXPECT_EQ(object.points.normal.size(), object.points.size()) << file;
+    EXPECT_GT(object.surface_area, 0.0) << file;
+    for (const glm::dvec3& position : object.points.position) {
+      ASSERT_TRUE(std::isfinite(position.x + position.y + position.z)) << file;
+    }
+  }
+}
+
+TEST(Data, EveryModelAndSceneIsRead) {
+  if (std::getenv("SPLATRAY_DATA_DIR") == nullptr) {
+    GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: no real models to read";
+  }
+  const std::vector<std::filesystem::path> models = data_files("models");
+  const std::vector<std::filesystem::path> scenes = data_files("gltf");
+  EXPECT_FALSE(models.empty());
+  EXPECT_FALSE(scenes.empty());
+  std::for_each(models.begin(), models.end(), expect_sane);
+  std::for_each(scenes.begin(), scenes.end(), expect_sane);
+}
+
+TEST(Data, EveryPlyScanIsReadOrRefusedInOneSentence) {
+  if (std::getenv("SPLATRAY_DATA_DIR") == nullptr) {
+    GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: no real scans to read";
+  }
+  for (const std::filesystem::path& file : data_files("scans")) {
+    if (file.string().find("compressed") != std::string::npos) {
+      EXPECT_NE(read_error(file).find("packed Gaussians"), std::string::npos);
+    } else {
+      EXPECT_GT(read_input({file}, {}).objects.at(0).points.size(), 10000U) << file;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace splatray

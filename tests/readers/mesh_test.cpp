@@ -1,0 +1,195 @@
+/// OBJ, STL, VTP, and meshes turned into points.
+#include <chrono>
+#include <cmath>
+
+#include "preprocess/mesh_normals.h"
+#include "preprocess/sample_mesh.h"
+#include "preprocess/texture.h"
+#include "tests/readers/temp_folder.h"
+
+namespace splatray {
+namespace {
+
+const char* const CUBE_OBJ =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+TEST(Vtk, AnObjCubeIsSampledAndItsNormalsAreSharp) {
+  const TempFolder folder;
+  const Input input = read_input({folder.write("cube.obj", CUBE_OBJ)}, {});
+  const InputObject& cube = input.objects[0];
+  EXPECT_GE(cube.points.size(), 100000U);
+  EXPECT_TRUE(has_note(input, "too coarse"));
+  EXPECT_TRUE(cube.oriented);
+  EXPECT_NEAR(cube.surface_area, 6.0, 1e-6);
+  for (std::size_t i = 0; i < cube.points.size(); ++i) {
+    const glm::dvec3 outward = cube.points.position[i] - 0.5;
+    EXPECT_NEAR(glm::dot(outward, glm::dvec3(cube.points.normal[i])), 0.5, 1e-6);
+  }
+}
+
+TEST(Vtk, ObjColoursAreNamedAsLost) {
+  const TempFolder folder;
+  const Input input =
+      read_input({folder.write("c.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n")}, {});
+  EXPECT_TRUE(has_note(input, "vertex colours of OBJ"));
+}
+
+TEST(Vtk, FloatPositionsFarAwayAreNoted) {
+  const TempFolder folder;
+  EXPECT_TRUE(has_note(
+      read_input({folder.write("far.obj", "v 4000000 0 0\nv 4000001 0 0\nv 4000000 1 0\nf 1 2 3\n")}, {}),
+      "float32"));
+}
+
+std::string binary_stl(std::uint32_t declared) {
+  std::string bytes(80, ' ');
+  bytes += bytes_of(declared);
+  for (const float v : {0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F}) {
+    bytes += bytes_of(v);
+  }
+  return bytes + std::string(2, '\0');
+}
+
+TEST(Vtk, StlIsReadAndItsCountIsChecked) {
+  const TempFolder folder;
+  const Input input = read_input({folder.write("a.STL", binary_stl(1))}, {});
+  EXPECT_NEAR(input.objects[0].surface_area, 0.5, 1e-6);
+  EXPECT_NE(read_error(folder.write("b.stl", binary_stl(2000000000))).find("found 134 bytes"),
+            std::string::npos);
+  read_every_prefix(folder, "t.stl", binary_stl(1));
+  read_every_prefix(
+      folder, "t.stl",
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+      "endfacet\nendsolid a\n");
+}
+
+const char* const VTP =
+    "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\"><PolyData><Piece "
+    "NumberOfPoints=\"2\" "
+    "NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\"><PointData "
+    "Normals=\"N\" "
+    "Scalars=\"C\"><DataArray type=\"Float32\" Name=\"N\" NumberOfComponents=\"3\" format=\"ascii\">0 0 1 0 "
+    "1 "
+    "0</DataArray><DataArray type=\"UInt8\" Name=\"C\" NumberOfComponents=\"3\" format=\"ascii\">255 0 128 0 "
+    "0 "
+    "0</DataArray><DataArray type=\"Float64\" Name=\"radius\" format=\"ascii\">0.5 "
+    "0.25</DataArray></PointData>"
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">4000000.001 0 0 1 2 "
+    "3</DataArray></Points></Piece></PolyData></VTKFile>\n";
+
+TEST(Vtk, VtpKeepsDoublesNormalsColoursAndRadii) {
+  const TempFolder folder;
+  const Points points = read_input({folder.write("p.vtp", VTP)}, {}).objects[0].points;
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_DOUBLE_EQ(points.position[0].x, 4000000.001);
+  EXPECT_FLOAT_EQ(points.normal[1].y, 1.0F);
+  EXPECT_NEAR(points.color[0].z, 0.2158605F, 1e-6F);
+  EXPECT_FLOAT_EQ(points.radius[1], 0.25F);
+}
+
+TEST(Vtk, BrokenFilesAreErrorsAndNothingIsPrinted) {
+  const TempFolder folder;
+  testing::internal::CaptureStderr();
+  read_every_prefix(folder, "p.vtp", std::string(VTP).substr(0, 400));
+  read_every_prefix(folder, "cube.obj", CUBE_OBJ);
+  static_cast<void>(read_error(folder.write("x.vtp", "this is not XML")));
+  static_cast<void>(read_error(folder.write("i.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n")));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+/// A square of two triangles in the xy plane, side 1, with a colour ramp along x.
+Mesh square() {
+  Mesh mesh;
+  mesh.vertices.position = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {7, 7, 7}};
+  mesh.vertices.color = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+Points sample(const Mesh& mesh, std::uint64_t count, std::uint64_t seed) {
+  return sample_surface(mesh, weld_positions(mesh.vertices.position), count, seed);
+}
+
+TEST(Sampling, IsExactSeededAndInterpolates) {
+  const Mesh mesh = square();
+  const Points points = sample(mesh, 10007, 1);
+  ASSERT_EQ(points.size(), 10007U);
+  EXPECT_EQ(points.position, sample(mesh, 10007, 1).position);
+  EXPECT_NE(points.position, sample(mesh, 10007, 2).position);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(points.position[i].z, 0.0);
+    EXPECT_FLOAT_EQ(points.normal[i].z, 1.0F);
+    EXPECT_NEAR(points.color[i].x, points.position[i].x, 1e-5);
+  }
+  EXPECT_EQ(sample(mesh, 0, 1).size(), 0U);
+  EXPECT_EQ(sample(mesh, 1, 1).size(), 1U);
+}
+
+/// Coefficient of variation of the distances to the nearest neighbour, away from the border.
+double nearest_spread(const Points& points) {
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec3 from = points.position[i];
+    if (std::abs(from.x - 0.5) > 0.45 || std::abs(from.y - 0.5) > 0.45) {
+      continue;
+    }
+    double nearest = 1.0;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      nearest = j == i ? nearest : std::min(nearest, glm::distance(from, points.position[j]));
+    }
+    sum += nearest;
+    squares += nearest * nearest;
+    count += 1.0;
+  }
+  const double mean = sum / count;
+  return std::sqrt(squares / count - mean * mean) / mean;
+}
+
+TEST(Sampling, IsMuchMoreEvenThanWhiteNoise) {
+  EXPECT_LT(nearest_spread(sample(square(), 4000, 3)), 0.25);  // white noise: 0.52
+}
+
+TEST(Sampling, EqualAreasGetEqualCounts) {
+  const Points points = sample(square(), 10000, 5);
+  int cells[16] = {};
+  for (const glm::dvec3& p : points.position) {
+    ++cells[static_cast<int>(p.x * 4.0) * 4 + static_cast<int>(p.y * 4.0)];
+  }
+  for (const int count : cells) {
+    EXPECT_NEAR(count, 625, 40);
+  }
+}
+
+TEST(VertexPoints, SeamsAreJoinedCreasesKeptUnusedDropped) {
+  Mesh mesh;
+  mesh.vertices.position = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0}, {0, 0, 0},
+                            {1, 0, 0}, {0, -1, 0}, {0, 0, 0}, {9, 9, 9}};
+  mesh.vertices.normal.assign(8, glm::vec3(0.0F, 0.0F, 1.0F));
+  mesh.vertices.normal[6] = {1.0F, 0.0F, 0.0F};
+  mesh.triangles = {{0, 1, 2}, {3, 5, 4}, {6, 1, 2}};
+  const Points points = vertex_points(mesh, weld_positions(mesh.vertices.position));
+  EXPECT_EQ(points.size(), 5U);  // four places, one of them with two normals
+}
+
+TEST(Texture, WrapsAndFilters) {
+  auto image = std::make_shared<TextureImage>();
+  image->width = 2;
+  image->height = 1;
+  image->texels = {{0, 0, 0, 255}, {255, 255, 255, 255}};
+  Texture texture;
+  texture.image = image;
+  EXPECT_FLOAT_EQ(texture.color({0.5F, 0.5F}).x, 0.5F);
+  EXPECT_FLOAT_EQ(texture.color({0.75F, 0.5F}).x, 1.0F);
+  EXPECT_FLOAT_EQ(texture.color({0.0F, 0.5F}).x, 0.5F);
+  texture.wrap_s = TextureWrap::clamp;
+  EXPECT_FLOAT_EQ(texture.color({-3.0F, 0.5F}).x, 0.0F);
+  texture.wrap_s = TextureWrap::mirror;
+  EXPECT_FLOAT_EQ(texture.color({1.25F, 0.5F}).x, 1.0F);
+  EXPECT_TRUE(std::isfinite(texture.color({NAN, INFINITY}).x));
+}
+
+}  // namespace
+}  // namespace splatray
