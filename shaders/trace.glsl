@@ -125,27 +125,32 @@ float window_fall(float share) {
   return x * x * (3.0f - 2.0f * x);
 }
 
-/// How far behind a position the ray meets the disc's plane.
-float behind_position(uvec4 words, vec3 position, vec3 dir) {
-  vec3 normal = splat_normal(words);
-  return dot(normal, splat_center(words) - position) / dot(normal, dir);
+/// The ray's point at t as position and what float32 rounds away of it.
+vec3 point_at(Ray ray, float t, OUT(vec3) low) {
+  vec2 x = df_add(two_product(t, ray.dir.x), vec2(ray.origin.x, ray.origin_low.x));
+  vec2 y = df_add(two_product(t, ray.dir.y), vec2(ray.origin.y, ray.origin_low.y));
+  vec2 z = df_add(two_product(t, ray.dir.z), vec2(ray.origin.z, ray.origin_low.z));
+  low = vec3(x.y, y.y, z.y);
+  return vec3(x.x, y.x, z.x);
 }
 
 /// Adds the accepted splats of one chunk that belong to the first splat's cluster. Everything is taken relative to the first
-/// hit, where float32 is exact enough even for grazing rays.
+/// hit's exact position, where float32 will do even for grazing rays.
 void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
-  vec3 first_position = ray.origin + ray.dir * first.t;
-  float first_behind = behind_position(first.words, first_position, ray.dir);
+  vec3 position_low = vec3(0.0f);
+  vec3 position = point_at(ray, first.t, position_low);
   while (accepted != 0u) {
     uint bit = uint(findLSB(accepted));
     accepted &= accepted - 1u;
     uvec4 words = splat_words(begin + bit);
-    float behind = behind_position(words, first_position, ray.dir);
-    vec3 from_center = ray.dir * behind - (splat_center(words) - first_position);
+    vec3 plane_normal = splat_normal(words);
+    vec3 to_center = (splat_center(words) - position) - position_low;
+    float behind = dot(plane_normal, to_center) / dot(plane_normal, ray.dir);
+    vec3 from_center = ray.dir * behind - to_center;
     float u_squared = dot(from_center, from_center) / splat_radius_squared(words);
     vec3 normal = normal_against(words, ray.dir);
-    float share = (behind - first_behind) / depth;
+    float share = behind / depth;
     bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
                   dot(normal, first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
     float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
