@@ -107,11 +107,14 @@ constexpr double MOST_WHOLE = 9007199254740992.0;  ///< 2^53: whole numbers are 
 
 void add_scene_options(CLI::App& app, SceneOptions& scene) {
   BuildParams& build = scene.build;
+  const auto every = CLI::MultiOptionPolicy::TakeAll;
   app.add_option("SCENE", scene.inputs,
-                 "a .soct scene, or what splatray-preprocess reads: .ply .obj .stl .vtp .gltf .glb");
+                 "a .soct scene, or what splatray-preprocess reads: .ply .obj .stl .vtp .gltf .glb")
+      ->multi_option_policy(every);
   app.add_option("--data-path", scene.data_paths,
                  "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR")
       ->allow_extra_args(false)
+      ->multi_option_policy(every)
       ->type_name("FOLDER");
   std::vector<Choice<std::string>> materials;
   for (const std::string& name : material_names()) materials.push_back({name, name});
@@ -265,6 +268,7 @@ std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
   RenderOptions options;
   CLI::App app("Ray-traces a scene of splats into a picture.", "splatray-render");
   app.set_version_flag("--version", SPLATRAY_VERSION);
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts can append
   add_scene_options(app, options.scene);
   add_output_options(app, options);
   add_picture_options(app, options.picture);

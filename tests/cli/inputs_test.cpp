@@ -91,7 +91,9 @@ TEST_F(CliInputs, DamagedScene) {
 
 TEST_F(CliInputs, NoPoints) {
   expect_unreadable(write("none.ply", ascii_ply({}, true)));
-  expect_unreadable(write("nan.ply", ascii_ply({"nan 0 0", "0 inf 0"}, false)));
+  const std::string nan = write("nan.ply", ascii_ply({"nan 0 0", "0 inf 0"}, false));
+  expect_refused([&] { return render({nan}); }, 3, "2 points with positions that are not finite");
+  expect_refused([&] { return preprocess({nan}); }, 3, "2 points with positions that are not finite");
 }
 
 TEST_F(CliInputs, SomePointsNotFinite) {
