@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "data/models.h"
 #include "preprocess/build.h"
 
 namespace splatray::testing {
@@ -34,14 +35,21 @@ Scene scene_of(const std::vector<TestObject>& objects, std::uint32_t leaf_size) 
   return build_scene(std::move(input), params, 0, stats);
 }
 
-Scene scene_of_file(const std::filesystem::path& path, std::uint64_t points, std::uint32_t leaf_size) {
+Scene scene_of_file(const std::filesystem::path& path, std::uint64_t points, std::uint32_t leaf_size,
+                    const std::filesystem::path& data_path) {
   ReadOptions options;
   options.samples = points;
-  if (const auto folder = data_folder()) options.data_paths.push_back(*folder);
+  if (!data_path.empty()) options.data_paths.push_back(data_path);
   BuildParams params;
   params.leaf_size = leaf_size;
   BuildStats stats;
   return build_scene(read_input({path}, options), params, 0, stats);
+}
+
+void write_model(const std::string& model, std::uint64_t points, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / model);
+  for (const auto& [object, cloud] : sample(models().at(model)({}), {.count = points}))
+    write_ply(cloud, folder / model / (object + ".ply"));
 }
 
 std::optional<std::filesystem::path> data_folder() {

@@ -22,9 +22,13 @@ struct TestObject {
 /// The objects as a scene, preprocessed with this leaf size.
 [[nodiscard]] Scene scene_of(const std::vector<TestObject>& objects, std::uint32_t leaf_size = 10);
 
-/// A file or glTF scene, preprocessed; `points` > 0 samples that many on its meshes.
+/// A file or glTF scene, preprocessed; `points` > 0 samples that many on its meshes. Files that a scene names
+/// are looked for in `data_path`.
 [[nodiscard]] Scene scene_of_file(const std::filesystem::path& path, std::uint64_t points,
-                                  std::uint32_t leaf_size);
+                                  std::uint32_t leaf_size, const std::filesystem::path& data_path = {});
+
+/// Writes the point files of a built-in scene (data/models.h), `points` in all, to folder/<model>.
+void write_model(const std::string& model, std::uint64_t points, const std::filesystem::path& folder);
 
 /// The folder with models/, scans/, gltf/ and env/ (variable SPLATRAY_DATA_DIR); nothing when it is not set.
 [[nodiscard]] std::optional<std::filesystem::path> data_folder();

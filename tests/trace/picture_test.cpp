@@ -1,0 +1,166 @@
+// Pictures from the GPU against pictures by brute force in float64 (reference_path.h), scene by scene. Three
+// numbers each: an error of a pixel that does not count, the share of pixels that may exceed it, and a limit
+// that none may exceed.
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "app/compare.h"
+#include "data/shapes.h"
+#include "engine/gpu/tracer.h"
+#include "tests/trace/reference_path.h"
+#include "tests/trace/scenes.h"
+
+namespace splatray::testing {
+namespace {
+
+constexpr std::uint64_t SPLATS = 20000;  ///< of each scene, so that brute force takes seconds
+
+/// The two pictures of one scene.
+struct Pictures {
+  Image gpu;
+  Image reference;
+};
+
+Settings small_settings() {
+  Settings settings;
+  settings.samples = 4;
+  settings.max_bounces = 6;
+  return settings;
+}
+
+Image gpu_picture(const Scene& scene, const View& view, const Environment& environment) {
+  static Context context;
+  Tracer tracer(context);
+  tracer.upload(scene);
+  tracer.set_environment(environment);
+  return tracer.render(view, small_settings());
+}
+
+Pictures pictures_of(Scene scene) {
+  View view{default_camera(scene, 4.0 / 3.0), 96, 72};
+  if (scene.lights.empty()) scene.lights = default_lights(scene, view.camera);
+  const Environment environment =
+      scene.environment_path.empty() ? studio_environment() : read_environment(scene.environment_path);
+  const BruteForce brute(scene);
+  return {gpu_picture(scene, view, environment),
+          reference_picture(scene, brute, view, small_settings(), environment)};
+}
+
+/// Compares; keeps the pictures of a failure beside the test program.
+Comparison compare_pictures(const Image& gpu, const Image& reference, const Tolerance& tolerance,
+                            const std::string& name) {
+  const DisplayImage picture = display_image(gpu, 0.0);
+  const DisplayImage truth = display_image(reference, 0.0);
+  Comparison result = compare(picture, truth, tolerance);
+  std::cout << name << ": " << describe(result, tolerance) << '\n';
+  if (!result.passed) {
+    write_png(picture, "picture_test_" + name + ".png");
+    write_png(truth, "picture_test_" + name + ".reference.png");
+    write_png(result.difference, "picture_test_" + name + ".difference.png");
+  }
+  return result;
+}
+
+struct SceneCase {
+  const char* name;
+  bool needs_data;
+  Tolerance tolerance;
+  const char* why;
+};
+
+std::ostream& operator<<(std::ostream& out, const SceneCase& scene_case) { return out << scene_case.name; }
+
+class ScenePicture : public ::testing::TestWithParam<SceneCase> {};
+
+TEST_P(ScenePicture, MatchesBruteForce) {
+  const SceneCase& scene_case = GetParam();
+  if (scene_case.needs_data && !data_folder())
+    GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: " << scene_case.name << " is not compared";
+  const std::string name = scene_case.name;
+  const std::filesystem::path points = std::filesystem::path(::testing::TempDir()) / "splatray_picture_test";
+  if (!scene_case.needs_data) write_model(name, SPLATS, points);
+  const std::filesystem::path file = std::filesystem::path(SPLATRAY_SCENES) / (name + ".gltf");
+  const Pictures pictures =
+      pictures_of(scene_of_file(file, SPLATS, 10, scene_case.needs_data ? *data_folder() : points));
+  EXPECT_TRUE(compare_pictures(pictures.gpu, pictures.reference, scene_case.tolerance, name).passed)
+      << scene_case.why;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, ScenePicture,
+    ::testing::Values(
+        SceneCase{
+            "table1_dragon", true, {0.004, 0.0005, 0.05}, "matte, so float32 shading is all that differs"},
+        SceneCase{
+            "table1_david", true, {0.004, 0.0005, 0.05}, "matte, so float32 shading is all that differs"},
+        SceneCase{"reflective_buddha",
+                  true,
+                  {0.02, 0.02, 1.0},
+                  "mirrors magnify float32's last bits of origin and normal, and a ray may graze past "
+                  "another disc"},
+        SceneCase{"refractive_dragon",
+                  true,
+                  {0.02, 0.03, 1.0},
+                  "glass magnifies them more, and a branch choice may tip at Fresnel's share"},
+        SceneCase{"teapot", true, {0.02, 0.02, 1.0}, "a mirror and glass in part of the picture"},
+        SceneCase{"room", false, {0.02, 0.02, 1.0}, "a mirror and glass in part of the picture"},
+        SceneCase{"demo", false, {0.02, 0.02, 1.0}, "a mirror and glass in part of the picture"}),
+    [](const auto& scene) { return std::string(scene.param.name); });
+
+TEST(Picture, AMovedSplatIsNoticed) {
+  Scene scene = scene_of({{sphere({.count = 500}, 1.0), test_material(0)}});
+  const View view{default_camera(scene, 4.0 / 3.0), 96, 72};
+  scene.lights = default_lights(scene, view.camera);
+  const Environment environment = studio_environment();
+  const Image gpu = gpu_picture(scene, view, environment);
+  BruteForce brute(scene);
+  const Tolerance tolerance{0.004, 0.0005, 0.05};
+  const Image same = reference_picture(scene, brute, view, small_settings(), environment);
+  EXPECT_TRUE(compare_pictures(gpu, same, tolerance, "sphere").passed);
+
+  const FrameParams frame = make_frame_params(scene, view, small_settings());
+  RayQuery centre{};
+  centre.origin = frame.origin_00;
+  centre.dir = glm::normalize(frame.dir_00 + frame.dir_dx * 48.0F + frame.dir_dy * 36.0F);
+  centre.from_object = NO_OBJECT;
+  const TrueHit hit = brute.nearest(centre, small_settings());
+  ASSERT_TRUE(hit.found);
+  const Splat& splat = brute.splats()[hit.first];
+  brute.move_splat(hit.first, std::sqrt(splat.radius_squared) * splat.normal);
+  const Image moved = reference_picture(scene, brute, view, small_settings(), environment);
+  EXPECT_FALSE(compare_pictures(gpu, moved, tolerance, "moved").passed);
+}
+
+/// Under light from everywhere, mirrors and glass send on all of it: every pixel is 1, but for what the
+/// bounce limit cuts.
+TEST(Picture, WhiteFurnaceReturnsAllEnergy) {
+  Material mirror = test_material(0);
+  mirror.mirror = 1.0F;
+  mirror.tint = vec3(1.0F);
+  Material glass = test_material(MATERIAL_DIELECTRIC);
+  glass.tint = vec3(1.0F);
+  glass.specular = 0.0F;
+  for (const Material& material : {mirror, glass}) {
+    const Scene scene = scene_of({{sphere({.count = 20000}, 1.0), material}});
+    static Context context;
+    Tracer tracer(context);
+    tracer.upload(scene);
+    tracer.set_environment({0, 0, {}, glm::vec3(1.0F)});
+    Settings settings;
+    settings.samples = 16;
+    settings.max_bounces = 32;
+    settings.counters = true;
+    const Image image = tracer.render({default_camera(scene, 1.0), 128, 128}, settings);
+    double sum = 0.0;
+    for (const vec4& pixel : image.rgba) sum += double(pixel.x + pixel.y + pixel.z) / 3.0;
+    const auto& counters = tracer.stats().counters;
+    const double lost = double(counters[COUNT_ENERGY_LOST]) / 1024.0 / double(counters[COUNT_PRIMARY]);
+    EXPECT_NEAR(sum / double(image.rgba.size()) + lost, 1.0, 1e-4);
+    EXPECT_EQ(counters[COUNT_NON_FINITE], 0U);
+    EXPECT_EQ(counters[COUNT_LOST], 0U);
+  }
+}
+
+}  // namespace
+}  // namespace splatray::testing
