@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
-
-#include "preprocess/morton.h"
 
 namespace splatray {
 namespace {

@@ -29,40 +29,54 @@ struct Options {
   unsigned threads = 0;
 };
 
-void add_options(CLI::App& app, Options& options) {
-  static const std::map<std::string, Insertion> insertions{
-      {"overlap", Insertion::overlap}, {"probe", Insertion::probe}, {"centre", Insertion::centre}};
-  static const std::map<std::string, RadiusRule> rules{{"coverage", RadiusRule::coverage},
-                                                       {"knn", RadiusRule::knn}};
+/// An option whose value is one of a few names; an unknown name is an error that lists them.
+template <typename Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
+                        const std::map<std::string, Value>& choices, const std::string& initial,
+                        const std::string& description) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  return app
+      .add_option_function<std::string>(
+          name, [&value, choices](const std::string& text) { value = choices.at(text); }, description)
+      ->check(CLI::IsMember(names))
+      ->default_str(initial);
+}
+
+void add_file_options(CLI::App& app, Options& options) {
   app.add_option("INPUT", options.inputs, "files with points, meshes or a glTF scene")->required();
   app.add_option("-o,--output", options.output, "scene file to write (.soct)")->required();
-  app.add_option("--leaf-size", options.build.leaf_size, "most splat centres in a leaf")
+  app.add_option("--data-path", options.data_paths,
+                 "folder to search for models that a scene names; repeatable")
+      ->allow_extra_args(false);
+  app.add_option("--stats-json", options.stats_json, "file to write counts and times to");
+}
+
+void add_build_options(CLI::App& app, Options& options) {
+  BuildParams& build = options.build;
+  app.add_option("--leaf-size", build.leaf_size, "most splat centres in a leaf")
       ->capture_default_str()
       ->check(CLI::Range(1U, 1U << 20));
-  app.add_option("--insertion", options.build.insertion,
-                 "which leaves list a splat: overlap, probe or centre")
-      ->transform(CLI::CheckedTransformer(insertions))
-      ->default_str("overlap");
-  app.add_option("--probes", options.build.probes, "probe rays for each leaf, with --insertion probe")
+  add_choice<Insertion>(
+      app, "--insertion", build.insertion,
+      {{"overlap", Insertion::overlap}, {"probe", Insertion::probe}, {"centre", Insertion::centre}},
+      "overlap", "which leaves list a splat");
+  app.add_option("--probes", build.probes, "probe rays for each leaf, with --insertion probe")
       ->capture_default_str()
       ->check(CLI::Range(1U, 1U << 20));
-  app.add_option("--radius-rule", options.build.radius_rule,
-                 "radii of points that have none: coverage or knn")
-      ->transform(CLI::CheckedTransformer(rules))
-      ->default_str("coverage");
-  app.add_option("--radius-scale", options.build.radius_scale, "factor on every radius")
+  add_choice<RadiusRule>(app, "--radius-rule", build.radius_rule,
+                         {{"coverage", RadiusRule::coverage}, {"knn", RadiusRule::knn}}, "coverage",
+                         "radii of points that have none");
+  app.add_option("--radius-scale", build.radius_scale, "factor on every radius")
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 1e6));
-  app.add_option("--samples", options.build.samples,
-                 "points to sample on all meshes together; 0: their vertices")
+  app.add_option("--samples", build.samples,
+                 "points to sample on all meshes together; 0: their vertices where fine enough")
       ->capture_default_str();
-  app.add_option("--seed", options.build.seed, "seed of samples and probe rays")->capture_default_str();
+  app.add_option("--seed", build.seed, "seed of samples and probe rays")->capture_default_str();
   app.add_option("--threads", options.threads, "threads to use; 0: all cores")
       ->capture_default_str()
       ->check(CLI::Range(0U, 1024U));
-  app.add_option("--data-path", options.data_paths,
-                 "folder to search for models that a scene names; repeatable");
-  app.add_option("--stats-json", options.stats_json, "file to write counts and times to");
 }
 
 /// Shows the stage and its share on one line of a terminal; stops the build after SIGINT or SIGTERM.
@@ -156,8 +170,10 @@ void preprocess(const Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("Turns points or meshes into a scene of splats for splatray-render and splatray-view.");
-  add_options(app, options);
+  CLI::App app("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
+               "splatray-preprocess");
+  add_file_options(app, options);
+  add_build_options(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

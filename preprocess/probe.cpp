@@ -1,6 +1,5 @@
-#include <array>
-#include <cmath>
 #include <span>
+#include <vector>
 
 #include "preprocess/insertion.h"
 #include "preprocess/morton.h"
