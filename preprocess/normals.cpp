@@ -1,5 +1,6 @@
 #include "preprocess/normals.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
