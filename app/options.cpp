@@ -156,9 +156,8 @@ void add_camera_options(CLI::App& app, PictureOptions& picture) {
              "orthographic picture of this height, world units; needs --eye");
 }
 
-void add_picture_options(CLI::App& app, PictureOptions& picture) {
+void add_light_options(CLI::App& app, PictureOptions& picture) {
   Settings& settings = picture.settings;
-  add_camera_options(app, picture);
   add_vector(app, "--light", picture.light,
              "a point light here, irradiance pi at the scene's centre, instead of the scene's lights");
   app.add_option(
@@ -170,6 +169,10 @@ void add_picture_options(CLI::App& app, PictureOptions& picture) {
              "factor on the environment; default 1");
   add_number(app, "--env-turn", settings.environment_turn, -1e6, 1e6,
              "turns of the environment about the up axis; default 0");
+}
+
+void add_method_options(CLI::App& app, PictureOptions& picture) {
+  Settings& settings = picture.settings;
   add_number(app, "--samples", settings.samples, 1, 65536, "samples per pixel; default 16");
   add_number(app, "--seed", settings.seed, 0, 4294967295.0, "seed of samples and sampled points; default 1");
   add_number(app, "--max-bounces", settings.max_bounces, 0, 64, "most secondary rays in a path; default 8");
@@ -271,7 +274,9 @@ std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts can append
   add_scene_options(app, options.scene);
   add_output_options(app, options);
-  add_picture_options(app, options.picture);
+  add_camera_options(app, options.picture);
+  add_light_options(app, options.picture);
+  add_method_options(app, options.picture);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
