@@ -237,13 +237,15 @@ TEST(Gltf, TruncationAtEveryByteIsAnErrorOrAValidInput) {
 TEST(Gltf, EveryCorruptByteIsAnErrorOrAValidInput) {
   const TempFolder folder;
   const std::string good = glb(R"({"mesh":0})");
+  ReadOptions few;
+  few.samples = 50;
   for (std::size_t i = 0; i < good.size(); ++i) {
     for (const int flip : {0x01, 0x0A, 0x90}) {
       std::string bad = good;
       bad[i] = static_cast<char>(bad[i] ^ flip);
       const std::filesystem::path file = folder.write("c.glb", bad);
       try {
-        static_cast<void>(read_input({file}, {}));
+        static_cast<void>(read_input({file}, few));
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::input_unreadable) << error.what();
       }

@@ -51,10 +51,12 @@ inline std::string read_error(const std::filesystem::path& path, const ReadOptio
 
 /// Reads every proper prefix of a file: each must end in an Error or a valid Input.
 inline void read_every_prefix(const TempFolder& folder, const std::string& name, const std::string& bytes) {
+  ReadOptions options;
+  options.samples = 50;
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     const std::filesystem::path file = folder.write(name, bytes.substr(0, length));
     try {
-      const Input input = read_input({file}, {});
+      const Input input = read_input({file}, options);
       EXPECT_GT(input.objects.front().points.size(), 0U) << "prefix of " << length;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::input_unreadable) << "prefix of " << length << ": " << error.what();
