@@ -15,11 +15,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "preprocess/byte_reader.h"
 #include "preprocess/color.h"
 #include "preprocess/file_extension.h"
+#include "preprocess/obj_check.h"
 
 namespace splatray {
 namespace {
@@ -115,26 +115,6 @@ void check_stl(const std::filesystem::path& path) {
   }
 }
 
-void note_obj_colors(const std::filesystem::path& path, std::vector<std::string>& notes) {
-  ByteReader in(path);
-  std::string_view line;
-  while (in.line(line, ByteReader::BLOCK_BYTES)) {
-    if (line.substr(0, 2) != "v ") {
-      continue;
-    }
-    std::istringstream words{std::string(line.substr(2))};
-    double value = 0.0;
-    int count = 0;
-    while (words >> value) {
-      ++count;
-    }
-    if (count >= 6) {
-      notes.push_back(path.string() + ": vertex colours of OBJ files are not read; save a PLY to keep them");
-    }
-    return;
-  }
-}
-
 void copy_points(vtkPolyData* data, Points& points) {
   const vtkIdType count = data->GetNumberOfPoints();
   points.position.resize(static_cast<std::size_t>(count));
@@ -168,6 +148,9 @@ void copy_points(vtkPolyData* data, Points& points) {
 
 void copy_cells(vtkCellArray* cells, bool strips, const std::filesystem::path& path, Mesh& mesh) {
   const auto vertex_count = static_cast<vtkIdType>(mesh.vertices.size());
+  if (!cells->IsValid()) {
+    throw_unreadable(path, "the offsets of its faces do not fit their connectivity");
+  }
   vtkIdType length = 0;
   const vtkIdType* ids = nullptr;
   cells->InitTraversal();
@@ -220,9 +203,12 @@ Mesh read_vtk(const std::filesystem::path& path, std::vector<std::string>& notes
   static_cast<void>(ByteReader(path));
   Mesh mesh;
   if (extension == ".obj") {
+    const ObjCheck check = check_obj(path);
     const vtkNew<vtkOBJReader> reader;
     mesh = mesh_of(run_reader(reader.Get(), path), path);
-    note_obj_colors(path, notes);
+    if (check.has_vertex_colors) {
+      notes.push_back(path.string() + ": vertex colours of OBJ files are not read; save a PLY to keep them");
+    }
     note_precision(mesh.vertices, path, notes);
   } else if (extension == ".stl") {
     check_stl(path);

@@ -88,6 +88,22 @@ TEST(Vtk, VtpKeepsDoublesNormalsColoursAndRadii) {
   EXPECT_FLOAT_EQ(points.radius[1], 0.25F);
 }
 
+TEST(Vtk, VtpFacesBeyondTheirArraysAreErrors) {
+  const TempFolder folder;
+  const auto with_face = [&](const std::string& connectivity, const std::string& offsets) {
+    std::string text = VTP;
+    text.replace(text.find("NumberOfPolys=\"0\""), 17, "NumberOfPolys=\"1\"");
+    text.insert(text.find("</Piece>"),
+                "<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" + connectivity +
+                    "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offsets +
+                    "</DataArray></Polys>");
+    return folder.write("f.vtp", text);
+  };
+  EXPECT_EQ(read_input({with_face("0 1 0", "3")}, {}).objects[0].points.size(), 2U);
+  static_cast<void>(read_error(with_face("0 1 77", "3")));
+  static_cast<void>(read_error(with_face("0 1 0", "3000000")));
+}
+
 TEST(Vtk, BrokenFilesAreErrorsAndNothingIsPrinted) {
   const TempFolder folder;
   testing::internal::CaptureStderr();
@@ -96,6 +112,20 @@ TEST(Vtk, BrokenFilesAreErrorsAndNothingIsPrinted) {
   static_cast<void>(read_error(folder.write("x.vtp", "this is not XML")));
   static_cast<void>(read_error(folder.write("i.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n")));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Vtk, ObjIndicesAreCheckedBeforeVtkTrustsThem) {
+  const TempFolder folder;
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+  for (const char* face : {"f 1 2 999999999", "f 1//1 2//999999999 3//1", "f 1/1 2/999999999 3/1",
+                           "f -9 -2 -1", "f 1//1 2//-7 3//1", "f 0 1 2", "f 1 2 x", "f 1 2 \\\n777"}) {
+    EXPECT_NE(read_error(folder.write("i.obj", vertices + face + "\n")).find("line "), std::string::npos)
+        << face;
+  }
+  EXPECT_NE(read_error(folder.write("v.obj", "v 0 0 a\n")).find("line 1: found a vertex of 2 numbers"),
+            std::string::npos);
+  EXPECT_EQ(
+      read_input({folder.write("g.obj", vertices + "f -3/-1/-1 \\\n-2/1/1 3/1/1\n")}, {}).objects.size(), 1U);
 }
 
 /// A square of two triangles in the xy plane, side 1, with a colour ramp along x.
