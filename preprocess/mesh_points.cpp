@@ -53,23 +53,32 @@ bool orient_mesh(Mesh& mesh, const std::vector<glm::uint>& weld, const InputObje
   return found.is_closed() && found.signed_volume > 0.0 && found.agreeing_share >= 0.5;
 }
 
-/// Splits `total` over the parts by area, so that the sum is exact.
-void share_samples(std::vector<Part>& parts, std::uint64_t total) {
+/// Splits `total` over these parts by area, so that the sum is exact.
+void share_samples(const std::vector<Part*>& parts, std::uint64_t total) {
   double area = 0.0;
-  for (const Part& part : parts) {
-    area += part.sampled ? part.area : 0.0;
+  for (const Part* part : parts) {
+    area += part->area;
   }
   double passed = 0.0;
   std::uint64_t given = 0;
+  for (Part* part : parts) {
+    passed += part->area;
+    const auto until =
+        static_cast<std::uint64_t>(std::llround(static_cast<double>(total) * std::min(passed / area, 1.0)));
+    part->samples = until - std::min(given, until);
+    given = std::max(given, until);
+  }
+}
+
+template <class Condition>
+std::vector<Part*> sampled_parts(std::vector<Part>& parts, const Condition& condition) {
+  std::vector<Part*> chosen;
   for (Part& part : parts) {
-    if (part.sampled) {
-      passed += part.area;
-      const auto until =
-          static_cast<std::uint64_t>(std::llround(static_cast<double>(total) * std::min(passed / area, 1.0)));
-      part.samples = until - std::min(given, until);
-      given = std::max(given, until);
+    if (part.sampled && condition(part)) {
+      chosen.push_back(&part);
     }
   }
+  return chosen;
 }
 
 /// Appends; an attribute that only one side has is filled: white, no normal, no radius.
@@ -101,21 +110,12 @@ std::vector<Part> list_parts(Input& input, const ReadOptions& options) {
       drop_non_finite_triangles(mesh, object.name, input.notes);
       Part part{&object, &mesh};
       part.area = surface_area(mesh);
-      part.sampled = part.area > 0.0 && std::isfinite(part.area) && (options.samples > 0 || is_coarse(mesh));
+      part.sampled = part.area > 0.0 && std::isfinite(part.area) &&
+                     (options.samples > 0 || object.samples > 0 || is_coarse(mesh));
       parts.push_back(part);
     }
   }
   return parts;
-}
-
-void note_automatic_sampling(const std::vector<Part>& parts, std::vector<std::string>& notes) {
-  const auto sampled =
-      std::count_if(parts.begin(), parts.end(), [](const Part& part) { return part.sampled; });
-  if (sampled > 0) {
-    notes.push_back(std::to_string(sampled) + " of " + std::to_string(parts.size()) +
-                    " meshes are too coarse for splats at their vertices and were sampled by area, about " +
-                    std::to_string(AUTOMATIC_SAMPLES) + " points in all; --samples sets the number");
-  }
 }
 
 /// Meshes without triangles are point sets.
@@ -128,12 +128,34 @@ void move_out_points(InputObject& object) {
   std::erase_if(object.meshes, [](const Mesh& mesh) { return mesh.triangles.empty(); });
 }
 
-/// A coarse mesh gets no fewer points than it has vertices, and enough for the smallest part to be seen.
-void raise_automatic_samples(std::vector<Part>& parts) {
+/// Coarse meshes share AUTOMATIC_SAMPLES; none gets fewer points than it has vertices, nor too few for it to
+/// be seen.
+void sample_coarse_parts(const std::vector<Part*>& coarse, std::vector<std::string>& notes) {
   constexpr std::uint64_t FEWEST = 500;
-  for (Part& part : parts) {
-    if (part.sampled) {
-      part.samples = std::max({part.samples, FEWEST, std::uint64_t{part.mesh->vertices.size()}});
+  if (coarse.empty()) {
+    return;
+  }
+  share_samples(coarse, AUTOMATIC_SAMPLES);
+  for (Part* part : coarse) {
+    part->samples = std::max({part->samples, FEWEST, std::uint64_t{part->mesh->vertices.size()}});
+  }
+  notes.push_back(std::to_string(coarse.size()) +
+                  " meshes are too coarse for splats at their vertices and were sampled by area, about " +
+                  std::to_string(AUTOMATIC_SAMPLES) + " points in all; a number of samples can be asked for");
+}
+
+/// How many points each part gets: options.samples over all, else what the scene asks for object by object.
+void choose_samples(std::vector<Part>& parts, Input& input, const ReadOptions& options) {
+  if (options.samples > 0) {
+    share_samples(sampled_parts(parts, [](const Part&) { return true; }), options.samples);
+    return;
+  }
+  sample_coarse_parts(sampled_parts(parts, [](const Part& part) { return part.object->samples == 0; }),
+                      input.notes);
+  for (const InputObject& object : input.objects) {
+    if (object.samples > 0) {
+      share_samples(sampled_parts(parts, [&](const Part& part) { return part.object == &object; }),
+                    object.samples);
     }
   }
 }
@@ -155,11 +177,7 @@ void points_from_meshes(Input& input, const ReadOptions& options) {
     object.oriented = object.points.size() == 0;
   }
   std::vector<Part> parts = list_parts(input, options);
-  share_samples(parts, options.samples > 0 ? options.samples : AUTOMATIC_SAMPLES);
-  if (options.samples == 0) {
-    raise_automatic_samples(parts);
-    note_automatic_sampling(parts, input.notes);
-  }
+  choose_samples(parts, input, options);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     points_from_part(parts[i], options.seed + i, input.notes);
     if (!options.keep_meshes) {

@@ -141,8 +141,14 @@ class SceneReader {
       }
       object.material = materials_.material(material, make_colors_complete(meshes, material));
       object.meshes = std::move(meshes);
+      object.samples = by_material.size() == 1 ? samples_wished(node) : 0;
       input_.objects.push_back(std::move(object));
     }
+  }
+
+  /// extras.samples of a node; 0 = none.
+  static std::uint64_t samples_wished(const tinygltf::Node& node) {
+    return static_cast<std::uint64_t>(std::clamp(number_in(node.extras, "samples").value_or(0.0), 0.0, 1e9));
   }
 
   /// Whether the object brings colours; then meshes without any get the material's.
@@ -177,6 +183,7 @@ class SceneReader {
     object.name = name_of(node);
     object.material = materials_.material(material, !mesh.vertices.color.empty());
     object.meshes.push_back(std::move(mesh));
+    object.samples = samples_wished(node);
     input_.objects.push_back(std::move(object));
   }
 
