@@ -85,20 +85,25 @@ Model walls() {
 
 /// The moulding that follows the niche's edge.
 Model moulding() {
-  constexpr double TUBE = 0.03;
+  constexpr double TUBE = 0.035;
+  constexpr double DENSITY = 4.0;
   const glm::dvec3 foot(NICHE_X, 0.0, BACK);
   const auto jamb = [=](double side) {
-    return Surface{"moulding", 2.0 * PI * TUBE * NICHE_JAMB, [=](const Sampling& sampling) {
+    return Surface{"moulding", 2.0 * PI * TUBE * NICHE_JAMB,
+                   [=](const Sampling& sampling) {
                      return moved(cylinder(sampling, TUBE, NICHE_JAMB, 0.0, 2.0 * PI),
                                   foot + glm::dvec3(side * NICHE_RADIUS, 0.0, 0.0));
-                   }};
+                   },
+                   DENSITY};
   };
-  const Surface arch{"moulding", torus_area(NICHE_RADIUS, TUBE, -PI, PI), [=](const Sampling& sampling) {
+  const Surface arch{"moulding", torus_area(NICHE_RADIUS, TUBE, -PI, PI),
+                     [=](const Sampling& sampling) {
                        const OrientedPoints ring =
                            moved(torus(sampling, NICHE_RADIUS, TUBE, -PI, PI), {}, UPRIGHT);
                        const auto upper = [](glm::dvec3 position) { return position.y >= 0.0; };
                        return moved(kept(ring, upper), foot + glm::dvec3(0.0, NICHE_JAMB, 0.0));
-                     }};
+                     },
+                     DENSITY};
   return {jamb(-1.0), jamb(1.0), arch};
 }
 

@@ -12,11 +12,11 @@ const glm::dvec3 SIZE(4.0, 3.0, 5.0);  ///< m; the room's centre is the origin, 
 /// Red to the left, green to the right, a grey chequered floor, the rest nearly white.
 glm::dvec3 room_paint(glm::dvec3 p) {
   constexpr double NEAR = 1e-6;
-  if (p.x < -0.5 * SIZE.x + NEAR) return {0.60, 0.08, 0.06};
-  if (p.x > 0.5 * SIZE.x - NEAR) return {0.10, 0.42, 0.12};
-  if (p.y > -0.5 * SIZE.y + NEAR) return {0.76, 0.74, 0.70};
+  if (p.x < -0.5 * SIZE.x + NEAR) return {0.33, 0.045, 0.035};
+  if (p.x > 0.5 * SIZE.x - NEAR) return {0.05, 0.22, 0.065};
+  if (p.y > -0.5 * SIZE.y + NEAR) return {0.42, 0.41, 0.385};
   const auto parity = static_cast<int>(std::floor(2.0 * p.x) + std::floor(2.0 * p.z)) & 1;
-  return parity == 0 ? glm::dvec3(0.70) : glm::dvec3(0.25);
+  return parity == 0 ? glm::dvec3(0.38) : glm::dvec3(0.10);
 }
 
 Surface ball(const std::string& object, double x, double z, double radius) {
@@ -35,8 +35,8 @@ Model room_model() {
     face.make = [make = face.make](const Sampling& sampling) { return painted(make(sampling), room_paint); };
   }
   model.push_back(ball("matte", -1.1, -1.3, 0.60));
-  model.push_back(ball("mirror", 0.45, -1.5, 0.75));
-  model.push_back(ball("glass", 0.85, 0.25, 0.50));
+  model.push_back(ball("mirror", 0.40, -1.5, 0.75));
+  model.push_back(ball("glass", 0.62, 0.15, 0.48));
   return model;
 }
 
