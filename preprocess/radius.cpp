@@ -17,6 +17,7 @@ constexpr std::size_t MANY = 32;          // neighbours asked for when FEW do no
 constexpr double COVERAGE_MARGIN = 1.04;  // discs of a curved surface lie in different planes
 constexpr double SIMILAR = 0.5;           // cosine of normals of one sheet
 constexpr double LATERAL = 0.5;           // tangential share of the distance of a neighbour on the same sheet
+constexpr double LEAST_SLANT = 0.5;       // sine of the angle between planes that meet in a crease
 constexpr float STRAY = 4.0F;             // largest radius in units of the surroundings' median
 
 double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
@@ -25,39 +26,57 @@ double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32
   return count == 0 ? 0.0 : KNN_FACTOR * std::sqrt(nearest[count - 1].distance_squared());
 }
 
-/// Neighbours of the point's own sheet on its tangent plane: turned into it with their distance kept, so that
-/// curvature does not shrink the cell.
-std::size_t flatten(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest,
-                    std::span<TangentNeighbour> flat) {
+/// What surrounds a point on its tangent plane.
+struct Surroundings {
+  std::array<TangentNeighbour, MANY> neighbours;
+  std::array<TangentCrease, MANY> creases;
+  std::size_t neighbour_count = 0;
+  std::size_t crease_count = 0;
+};
+
+/// Neighbours of the point's own sheet are turned into the plane with their distance kept, so that curvature
+/// does not shrink the cell. Those on the far side of a sharp edge give the line where their plane meets this
+/// one.
+Surroundings flatten(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest) {
   const glm::dvec3 normal(cloud.normal[point]);
   const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 u = glm::normalize(glm::cross(normal, side));
   const glm::dvec3 v = glm::cross(normal, u);
-  std::size_t count = 0;
+  const auto on_plane = [&](const glm::dvec3& w) { return glm::dvec2(glm::dot(w, u), glm::dot(w, v)); };
+  Surroundings around;
   for (const Neighbour& neighbour : nearest) {
-    const double alignment = glm::dot(normal, glm::dvec3(cloud.normal[neighbour.index()]));
-    if ((cloud.oriented ? alignment : std::abs(alignment)) < SIMILAR) continue;
+    const glm::dvec3 other_normal(cloud.normal[neighbour.index()]);
     const glm::dvec3 offset(cloud.coord[neighbour.index()] - cloud.coord[point]);
-    const glm::dvec2 projected(glm::dot(offset, u), glm::dot(offset, v));
     const double distance = std::sqrt(neighbour.distance_squared());
+    const double alignment = glm::dot(normal, other_normal);
+    if ((cloud.oriented ? alignment : std::abs(alignment)) < SIMILAR) {
+      const glm::dvec2 across = on_plane(other_normal);
+      const double slant = glm::length(across);
+      const double height = glm::dot(other_normal, offset);
+      const double to_crease = std::abs(height) / slant;
+      if (slant < LEAST_SLANT || to_crease > distance || height == 0.0) continue;
+      around.creases[around.crease_count++] = {across / std::copysign(slant, height), to_crease};
+      continue;
+    }
+    const glm::dvec2 projected = on_plane(offset);
     const double lateral = glm::length(projected);
     if (lateral < LATERAL * distance) continue;
-    flat[count++] = {projected * (distance / lateral), distance};
+    around.neighbours[around.neighbour_count++] = {projected * (distance / lateral), distance};
   }
-  return count;
+  return around;
 }
 
 double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
   for (const std::size_t wanted : {FEW, MANY}) {
     std::array<Neighbour, MANY> nearest;
-    std::array<TangentNeighbour, MANY> flat;
     const std::size_t found = search.find(cloud.coord[point], std::span(nearest).first(wanted));
     if (found == 0) return 0.0;
-    const std::size_t count = flatten(cloud, point, std::span(nearest).first(found), flat);
-    const VoronoiReach reach = voronoi_reach(std::span(flat).first(count));
+    const Surroundings around = flatten(cloud, point, std::span(nearest).first(found));
+    const VoronoiReach reach = voronoi_reach(std::span(around.neighbours).first(around.neighbour_count),
+                                             std::span(around.creases).first(around.crease_count));
     const double seen = std::sqrt(nearest[found - 1].distance_squared());
-    const bool settled =
-        found < wanted || wanted == MANY || (count >= RING && reach.decisive_distance <= seen);
+    const bool settled = found < wanted || wanted == MANY ||
+                         (around.neighbour_count >= RING && reach.decisive_distance <= seen);
     if (!settled) continue;
     if (reach.radius > 0.0) return COVERAGE_MARGIN * reach.radius;
   }

@@ -159,15 +159,15 @@ TEST(Voronoi, HexagonReachesItsCorners) {
     const double angle = i * std::acos(0.5);
     ring.push_back({2.0 * glm::dvec2(std::cos(angle), std::sin(angle)), 2.0});
   }
-  const VoronoiReach reach = voronoi_reach(ring);
+  const VoronoiReach reach = voronoi_reach(ring, {});
   EXPECT_NEAR(reach.radius, 2.0 / std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(reach.decisive_distance, 4.0 / std::sqrt(3.0), 1e-12);
 }
 
 TEST(Voronoi, OpenCellEndsNearItsNeighbours) {
   const std::vector<TangentNeighbour> one_side{{{-1.0, 0.0}, 1.0}};
-  EXPECT_NEAR(voronoi_reach(one_side).radius, 0.65, 1e-12);
-  EXPECT_EQ(voronoi_reach({}).radius, 0.0);
+  EXPECT_NEAR(voronoi_reach(one_side, {}).radius, 0.65, 1e-12);
+  EXPECT_EQ(voronoi_reach({}, {}).radius, 0.0);
 }
 
 }  // namespace
