@@ -13,6 +13,6 @@ namespace splatray {
 void points_from_meshes(Input& input, const ReadOptions& options);
 
 /// Points shared by coarse meshes when no number of samples is asked for.
-inline constexpr std::uint64_t AUTOMATIC_SAMPLES = 200000;
+inline constexpr std::uint64_t AUTOMATIC_SAMPLES = 500000;
 
 }  // namespace splatray

@@ -135,7 +135,7 @@ double surface_area(const Mesh& mesh) {
 
 bool is_coarse(const Mesh& mesh) {
   const Bounds bounds = bounds_of_triangles(mesh);
-  const double limit = 0.03 * glm::length(bounds.high - bounds.low);
+  const double limit = 0.01 * glm::length(bounds.high - bounds.low);
   double area = 0.0;
   double coarse_area = 0.0;
   for (const glm::uvec3& triangle : mesh.triangles) {

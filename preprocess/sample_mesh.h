@@ -11,7 +11,7 @@ namespace splatray {
 [[nodiscard]] double surface_area(const Mesh& mesh);
 
 /// Whether splats at the vertices cannot show the surface: more than a tenth of the area lies in triangles
-/// whose longest edge exceeds 3 % of the mesh's diagonal (a box of 12 triangles, the walls of a room).
+/// whose longest edge exceeds 1 % of the mesh's diagonal (a box of 12 triangles, the walls of a room).
 [[nodiscard]] bool is_coarse(const Mesh& mesh);
 
 /// One point per used vertex with its normal (given, or angle-weighted from the triangles), colour and

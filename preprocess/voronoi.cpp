@@ -14,10 +14,11 @@ constexpr std::size_t MAX_CUTS = 128;  // neighbours and creases
 constexpr std::size_t RING = 6;
 constexpr double OCTAGON_APOTHEM = 2.0;  // in units of the distance to the RING-th neighbour
 constexpr double OPEN_REACH = 0.65;      // where the cell is open, in units of its neighbours' mean distance
-constexpr double GAP_COSINE = -0.643;  // of 130 degrees: a wider gap between bounding neighbours is a border
+constexpr double GAP_COSINE = -0.766;  // of 140 degrees: a wider gap between bounding neighbours is a border
 constexpr double BORDER_REACH =
-    0.8;  // of a border point, in units of the distance to the BORDER_RING-th neighbour
-constexpr std::size_t BORDER_RING = 3;  // neighbours around a point of a straight border
+    0.8;  // of a border point, in units of the distance to its BORDER_RING-th neighbour
+constexpr std::size_t BORDER_RING =
+    4;  // neighbours next to a point of a straight border, of the square lattice
 constexpr int OCTAGON_EDGE = -1;
 constexpr int CREASE_EDGE = -2;
 
