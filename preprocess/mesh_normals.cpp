@@ -9,6 +9,7 @@ namespace splatray {
 namespace {
 
 constexpr double COS_CREASE = 0.5;  ///< 60 degrees
+constexpr double LEAST_SUM = 0.4;   ///< of a vertex' weighted normals, in units of its angles' sum
 
 std::uint64_t hash_position(const glm::dvec3& position) {
   std::uint64_t hash = 0;
@@ -114,17 +115,24 @@ std::vector<glm::vec3> vertex_normals(const Mesh& mesh, const std::vector<glm::u
   const bool all_given = !mesh.vertices.normal.empty() &&
                          std::all_of(mesh.vertices.normal.begin(), mesh.vertices.normal.end(), is_usable);
   std::vector<glm::dvec3> sums(all_given ? 0 : mesh.vertices.size(), glm::dvec3(0.0));
+  std::vector<double> angles(sums.size(), 0.0);
   for (std::size_t t = 0; t < mesh.triangles.size() && !all_given; ++t) {
     const glm::uvec3& triangle = mesh.triangles[t];
     const glm::dvec3 normal = face_normal(mesh, triangle);
     for (int corner = 0; corner < 3; ++corner) {
-      sums[weld[triangle[corner]]] += normal * corner_angle(mesh, triangle, corner);
+      const double angle = corner_angle(mesh, triangle, corner);
+      sums[weld[triangle[corner]]] += normal * angle;
+      angles[weld[triangle[corner]]] += angle;
     }
   }
-  std::vector<glm::vec3> normals(mesh.vertices.size());
+  std::vector<glm::vec3> normals(mesh.vertices.size(), glm::vec3(0.0F));
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const bool given = !mesh.vertices.normal.empty() && is_usable(mesh.vertices.normal[i]);
-    normals[i] = given ? glm::normalize(mesh.vertices.normal[i]) : glm::vec3(unit_or_zero(sums[weld[i]]));
+    if (given) {
+      normals[i] = glm::normalize(mesh.vertices.normal[i]);
+    } else if (glm::length(sums[weld[i]]) > LEAST_SUM * angles[weld[i]]) {
+      normals[i] = glm::vec3(unit_or_zero(sums[weld[i]]));
+    }
   }
   return normals;
 }

@@ -12,7 +12,8 @@ namespace splatray {
 
 /// Unit normal of each vertex: the given one, or where that is absent, zero or not finite, the sum of the
 /// normals of all triangles at that position weighted by their angles there (Thuermer and Wuethrich 1998,
-/// "Computing Vertex Normals from Polygonal Facets"); zero for vertices no proper triangle uses. `weld` is
+/// "Computing Vertex Normals from Polygonal Facets"); zero for vertices no proper triangle uses and
+/// where the triangles nearly cancel (a flap folded onto itself, a sheet with both faces). `weld` is
 /// weld_positions of the vertices.
 [[nodiscard]] std::vector<glm::vec3> vertex_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
 

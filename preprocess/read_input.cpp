@@ -19,7 +19,7 @@ Input read_geometry(const std::filesystem::path& path) {
   object.material = default_material();
   object.meshes.push_back(read_mesh(path, input.notes));
   if (!object.meshes.front().vertices.color.empty()) {
-    object.material.diffuse = glm::vec3(1.0F);
+    object.material.diffuse = glm::vec3(0.9F);  // white stays below the display's white
   }
   input.objects.push_back(std::move(object));
   return input;
@@ -93,7 +93,7 @@ std::string join(const std::vector<std::filesystem::path>& paths) {
 
 Material default_material() {
   Material material{};
-  material.diffuse = {0.75F, 0.73F, 0.70F};
+  material.diffuse = {0.64F, 0.61F, 0.57F};
   material.specular = 0.05F;
   material.tint = glm::vec3(1.0F);
   material.shininess = 40.0F;

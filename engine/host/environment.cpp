@@ -47,12 +47,12 @@ double softbox(const glm::dvec3& dir, const glm::dvec3& axis, double half_width,
 }
 
 glm::dvec3 studio_radiance(const glm::dvec3& dir) {
-  const glm::dvec3 floor(0.21, 0.205, 0.2), horizon(0.33, 0.335, 0.345), zenith(0.42, 0.43, 0.45);
+  const glm::dvec3 floor(0.13, 0.125, 0.12), horizon(0.2, 0.205, 0.215), zenith(0.27, 0.28, 0.3);
   const double above = glm::smoothstep(-0.55, 0.12, dir.y);
   const double high = glm::smoothstep(0.0, 1.0, dir.y);
   glm::dvec3 radiance = glm::mix(glm::mix(floor, horizon, above), zenith, high);
   const double glow = std::exp(-6.0 * (1.0 - glm::dot(dir, glm::normalize(glm::dvec3(0.15, 0.1, -1.0)))));
-  radiance += 0.3 * glow * glm::dvec3(1.0, 1.0, 1.0);
+  radiance += 0.22 * glow * glm::dvec3(1.0, 1.0, 1.0);
   const double key = softbox(dir, glm::normalize(glm::dvec3(-0.75, 0.8, 0.55)), 0.3, 0.22);
   const double fill = softbox(dir, glm::normalize(glm::dvec3(0.95, 0.25, 0.3)), 0.14, 0.45);
   radiance += key * glm::dvec3(3.8, 3.7, 3.5) + fill * glm::dvec3(1.1, 1.2, 1.35);

@@ -33,7 +33,7 @@ std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera)
   SceneLight key;
   key.position =
       std::cos(ABOVE) * (std::cos(LEFT) * level + std::sin(LEFT) * left) + std::sin(ABOVE) * axes[1];
-  key.power = 1.5F * glm::vec3(1.0F, 0.96F, 0.9F);
+  key.power = 2.0F * glm::vec3(1.0F, 0.96F, 0.9F);
   return {key};
 }
 
