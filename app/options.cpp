@@ -1,90 +1,14 @@
 #include "app/options.h"
 
-#include <CLI/CLI.hpp>
-#include <cstdlib>
-#include <sstream>
+#include <algorithm>
 
 #include "app/materials.h"
 #include "engine/host/error.h"
 #include "preprocess/file_extension.h"
+#include "preprocess/option_types.h"
 
 namespace splatray {
 namespace {
-
-[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& expected) {
-  throw CLI::ValidationError(option, "found '" + value + "', expected " + expected);
-}
-
-/// Finite numbers separated by `separator`, exactly `count` of them; empty when the text is anything else.
-std::vector<double> split_numbers(const std::string& text, char separator, std::size_t count) {
-  std::vector<double> numbers;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, separator);) {
-    char* end = nullptr;
-    const double number = std::strtod(part.c_str(), &end);
-    if (part.empty() || *end != '\0' || !std::isfinite(number)) return {};
-    numbers.push_back(number);
-  }
-  return numbers.size() == count && text.back() != separator ? numbers : std::vector<double>{};
-}
-
-void add_vector(CLI::App& app, const std::string& name, std::optional<glm::dvec3>& target,
-                const std::string& help) {
-  app.add_option_function<std::string>(
-         name,
-         [name, &target](const std::string& text) {
-           const auto numbers = split_numbers(text, ',', 3);
-           if (numbers.empty()) refuse(name, text, "three numbers such as 1,-2,0.5");
-           target = glm::dvec3(numbers[0], numbers[1], numbers[2]);
-         },
-         help)
-      ->type_name("X,Y,Z");
-}
-
-/// A number in [least, most]. Read as text first, so that rubbish and overflow get the same sentence.
-template <typename Number>
-void add_number(CLI::App& app, const std::string& name, Number& target, double least, double most,
-                const std::string& help) {
-  app.add_option_function<std::string>(
-         name,
-         [=, &target](const std::string& text) {
-           const auto numbers = split_numbers(text, ',', 1);
-           const bool whole =
-               std::is_floating_point_v<Number> || (!numbers.empty() && numbers[0] == std::floor(numbers[0]));
-           if (numbers.empty() || !whole || !(numbers[0] >= least && numbers[0] <= most)) {
-             std::ostringstream expected;
-             expected.precision(12);
-             expected << (std::is_floating_point_v<Number> ? "a number" : "a whole number") << " from "
-                      << least << " to " << most;
-             refuse(name, text, expected.str());
-           }
-           target = static_cast<Number>(numbers[0]);
-         },
-         help)
-      ->type_name(std::is_floating_point_v<Number> ? "X" : "N");
-}
-
-template <typename Value>
-struct Choice {
-  std::string name;
-  Value value;
-};
-
-template <typename Value>
-void add_choice(CLI::App& app, const std::string& name, Value& target,
-                const std::vector<Choice<Value>>& choices, const std::string& help) {
-  std::string names;
-  for (const auto& choice : choices) names += (names.empty() ? "" : "|") + choice.name;
-  app.add_option_function<std::string>(
-         name,
-         [=, &target](const std::string& text) {
-           for (const auto& choice : choices)
-             if (text == choice.name) return void(target = choice.value);
-           refuse(name, text, "one of " + names);
-         },
-         help)
-      ->type_name(names);
-}
 
 void add_resolution(CLI::App& app, PictureOptions& picture) {
   app.add_option_function<std::string>(
@@ -95,7 +19,8 @@ void add_resolution(CLI::App& app, PictureOptions& picture) {
            const bool good = !numbers.empty() && numbers[0] >= 1.0 && numbers[0] <= MOST &&
                              numbers[1] >= 1.0 && numbers[1] <= MOST &&
                              numbers[0] == std::floor(numbers[0]) && numbers[1] == std::floor(numbers[1]);
-           if (!good) refuse("--resolution", text, "width x height such as 1920x1080, each 1 to 32768");
+           if (!good)
+             refuse_option("--resolution", text, "width x height such as 1920x1080, each 1 to 32768");
            picture.width = static_cast<std::uint32_t>(numbers[0]);
            picture.height = static_cast<std::uint32_t>(numbers[1]);
          },
@@ -103,36 +28,15 @@ void add_resolution(CLI::App& app, PictureOptions& picture) {
       ->type_name("WxH");
 }
 
-constexpr double MOST_WHOLE = 9007199254740992.0;  ///< 2^53: whole numbers are exact up to here
-
 void add_scene_options(CLI::App& app, SceneOptions& scene) {
-  BuildParams& build = scene.build;
-  const auto every = CLI::MultiOptionPolicy::TakeAll;
   app.add_option("SCENE", scene.inputs,
                  "a .soct scene, or what splatray-preprocess reads: .ply .obj .stl .vtp .gltf .glb")
-      ->multi_option_policy(every);
-  app.add_option("--data-path", scene.data_paths,
-                 "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR")
-      ->allow_extra_args(false)
-      ->multi_option_policy(every)
-      ->type_name("FOLDER");
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_build_options(app, scene, "--points");
   std::vector<Choice<std::string>> materials;
   for (const std::string& name : material_names()) materials.push_back({name, name});
   add_choice(app, "--material", scene.material, materials,
              "material of a scene with one object; glass and ruby need a closed one");
-  add_number(app, "--points", build.samples, 0, MOST_WHOLE,
-             "points sampled on meshes by area; default 0 = the vertices");
-  add_number(app, "--leaf-size", build.leaf_size, 1, 65536, "most splats of an octree leaf; default 10");
-  add_choice<Insertion>(
-      app, "--insertion", build.insertion,
-      {{"overlap", Insertion::overlap}, {"probe", Insertion::probe}, {"centre", Insertion::centre}},
-      "leaves a splat goes into; default overlap");
-  add_number(app, "--probes", build.probes, 1, 65536,
-             "probe rays per leaf for --insertion probe; default 32");
-  add_choice<RadiusRule>(app, "--radius-rule", build.radius_rule,
-                         {{"coverage", RadiusRule::coverage}, {"knn", RadiusRule::knn}}, "default coverage");
-  add_number(app, "--radius-scale", build.radius_scale, 1e-6, 1e6, "factor on every radius; default 1");
-  add_number(app, "--threads", scene.threads, 0, 4096, "threads of the preprocess; default 0 = all cores");
 }
 
 void add_camera_options(CLI::App& app, PictureOptions& picture) {
@@ -147,7 +51,7 @@ void add_camera_options(CLI::App& app, PictureOptions& picture) {
          [&picture](const std::string& text) {
            const auto numbers = split_numbers(text, ',', 1);
            if (numbers.empty() || !(numbers[0] > 0.0 && numbers[0] < 180.0))
-             refuse("--fov", text, "degrees between 0 and 180");
+             refuse_option("--fov", text, "degrees between 0 and 180");
            picture.fov_y_deg = numbers[0];
          },
          "vertical field of view; default 30")
@@ -210,7 +114,7 @@ void add_aovs(CLI::App& app, RenderOptions& options) {
              else if (name == "id")
                options.aov_id = true;
              else
-               refuse("--aov", text, "a list of depth, normal, id");
+               refuse_option("--aov", text, "a list of depth, normal, id");
            }
            options.picture.settings.aov = true;
          },
@@ -277,18 +181,9 @@ std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
   add_camera_options(app, options.picture);
   add_light_options(app, options.picture);
   add_method_options(app, options.picture);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    app.exit(success);
-    return {};
-  } catch (const CLI::ParseError& error) {
-    std::string sentence = error.what();
-    std::replace(sentence.begin(), sentence.end(), '\n', ' ');
-    throw Error(ExitCode::usage, sentence);
-  }
-  if (const char* folder = std::getenv("SPLATRAY_DATA_DIR")) options.scene.data_paths.emplace_back(folder);
-  options.scene.build.seed = options.picture.settings.seed;
+  if (!parse_options(app, argc, argv)) return {};
+  add_data_folder(options.scene);
+  options.scene.params.seed = options.picture.settings.seed;
   options.command_line = joined_command_line(argc, argv);
   if (!options.list_devices) check_together(options);
   return options;

@@ -8,16 +8,12 @@
 
 #include "engine/host/scene.h"
 #include "engine/host/view.h"
+#include "preprocess/build_options.h"
 
 namespace splatray {
 
-/// Where the scene comes from.
-struct SceneOptions {
-  std::vector<std::filesystem::path> inputs;  ///< one .soct, or files that preprocess reads
-  std::vector<std::filesystem::path>
-      data_paths;        ///< folders for models a scene names; SPLATRAY_DATA_DIR comes last
-  BuildParams build;     ///< of inputs that are not .soct
-  unsigned threads = 0;  ///< 0 = all cores
+/// Where the scene comes from: one .soct, or files that preprocess reads.
+struct SceneOptions : BuildOptions {
   std::string material;  ///< a name of materials.h; empty = as the input says
 };
 

@@ -1,10 +1,10 @@
 /// splatray-render: a scene in, a picture out.
 #include <cstdio>
 
-#include "app/interrupt.h"
+#include "engine/host/interrupt.h"
 #include "app/options.h"
 #include "app/picture.h"
-#include "app/progress.h"
+#include "engine/host/progress.h"
 #include "app/scene_source.h"
 #include "app/stats_json.h"
 #include "engine/gpu/tracer.h"

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "app/image_file.h"
-#include "app/interrupt.h"
 #include "app/materials.h"
 #include "engine/host/error.h"
+#include "engine/host/interrupt.h"
 #include "engine/host/scene_file.h"
 #include "preprocess/file_extension.h"
 
@@ -20,13 +20,13 @@ glm::dvec3 bounds_center(const Scene& scene) {
 }
 
 Scene preprocess(const SceneOptions& options, bool quiet, ProgressLine& progress, BuildStats& stats) {
-  Input input = read_input(
-      options.inputs, {options.build.samples, options.build.seed, options.data_paths, /*keep_meshes=*/false});
+  Input input = read_input(options.inputs, {options.params.samples, options.params.seed, options.data_paths,
+                                            /*keep_meshes=*/false});
   stop_if_interrupted();
   if (!quiet)
     for (const std::string& note : input.notes)
       std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
-  return build_scene(std::move(input), options.build, options.threads, stats,
+  return build_scene(std::move(input), options.params, options.threads, stats,
                      [&](const char* stage, double share) {
                        progress.show(stage, share);
                        return !interrupted();

@@ -1,11 +1,10 @@
 #include "app/stats_json.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/commit.h"
 #include "engine/host/atomic_file.h"
-#include "engine/host/error.h"
+#include "preprocess/build_report.h"
 
 namespace splatray {
 namespace {
@@ -20,18 +19,6 @@ Json scene_json(const Scene& scene) {
           {"objects", scene.materials.size()},
           {"lights", scene.lights.size()},
           {"diagonal_world", scene.diagonal_world()}};
-}
-
-Json build_json(const BuildStats& stats) {
-  return {{"points_read", stats.points_read},
-          {"dropped_non_finite", stats.dropped_non_finite},
-          {"dropped_duplicates", stats.dropped_duplicates},
-          {"growth", stats.growth},
-          {"overlap", stats.overlap},
-          {"normals_ms", stats.normals_ms},
-          {"radii_ms", stats.radii_ms},
-          {"octree_ms", stats.octree_ms},
-          {"insertion_ms", stats.insertion_ms}};
 }
 
 Json counters_json(const RenderStats& stats) {
@@ -82,15 +69,9 @@ void write_stats(const std::filesystem::path& path, const LoadedScene& loaded, c
         {"color_pool", bytes.color_pool},
         {"environment", bytes.environment},
         {"texel_buffers", bytes.texel_buffers}}}};
-  if (loaded.build) json["build"] = build_json(*loaded.build);
+  if (loaded.build) json["build"] = Json::parse(build_stats_json(*loaded.build));
   if (settings.counters) json["counters"] = counters_json(tracer.stats());
-  AtomicFile output(path);
-  std::ofstream file(output.temporary());
-  file << json.dump(2) << '\n';
-  file.close();
-  if (!file)
-    throw Error(ExitCode::failed, "cannot write '" + path.string() + "': the disk is full or failed");
-  output.commit();
+  write_text_file(json.dump(2) + '\n', path);
 }
 
 }  // namespace splatray

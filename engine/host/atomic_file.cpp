@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <fstream>
 
 #include <cerrno>
 #include <system_error>
@@ -50,5 +51,14 @@ void AtomicFile::commit() {
 }
 
 void require_writable(const fs::path& target) { const AtomicFile probe(target); }
+
+void write_text_file(const std::string& text, const std::filesystem::path& target) {
+  AtomicFile output(target);
+  std::ofstream file(output.temporary());
+  file << text;
+  file.close();
+  if (!file) refuse(target, "the disk is full or failed");
+  output.commit();
+}
 
 }  // namespace splatray

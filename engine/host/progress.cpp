@@ -1,4 +1,4 @@
-#include "app/progress.h"
+#include "engine/host/progress.h"
 
 #include <unistd.h>
 

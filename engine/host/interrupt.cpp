@@ -1,4 +1,4 @@
-#include "app/interrupt.h"
+#include "engine/host/interrupt.h"
 
 #include <csignal>
 

@@ -1,0 +1,59 @@
+#include "preprocess/build_report.h"
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace splatray {
+
+std::string build_stats_json(const BuildStats& stats) {
+  const nlohmann::ordered_json json = {{"points_read", stats.points_read},
+                                       {"dropped_non_finite", stats.dropped_non_finite},
+                                       {"dropped_duplicates", stats.dropped_duplicates},
+                                       {"normals_given", stats.normals_given},
+                                       {"normals_estimated", stats.normals_estimated},
+                                       {"radii_given", stats.radii_given},
+                                       {"radii_repaired", stats.radii_repaired},
+                                       {"radii_isolated", stats.radii_isolated},
+                                       {"splats", stats.splats},
+                                       {"references", stats.references},
+                                       {"nodes", stats.nodes},
+                                       {"filled_leaves", stats.filled_leaves},
+                                       {"depth", stats.depth},
+                                       {"growth", stats.growth},
+                                       {"growth_overlap", stats.growth_overlap},
+                                       {"overlap", stats.overlap},
+                                       {"radius_median_world", stats.radius_median_world},
+                                       {"read_ms", stats.read_ms},
+                                       {"normals_ms", stats.normals_ms},
+                                       {"radii_ms", stats.radii_ms},
+                                       {"octree_ms", stats.octree_ms},
+                                       {"insertion_ms", stats.insertion_ms},
+                                       {"total_ms", stats.total_ms}};
+  return json.dump(2);
+}
+
+std::string build_summary(const BuildStats& stats, const std::filesystem::path& path) {
+  std::ostringstream text;
+  text.precision(4);
+  text << stats.points_read << " points -> " << stats.splats << " splats, median radius "
+       << stats.radius_median_world << '\n';
+  const auto repair = [&](std::uint64_t count, const char* what) {
+    if (count > 0) text << "  " << count << ' ' << what << '\n';
+  };
+  repair(stats.dropped_non_finite, "points dropped: position not finite");
+  repair(stats.dropped_duplicates, "points dropped: copies beyond the leaf size");
+  repair(stats.normals_estimated, "normals estimated");
+  repair(stats.radii_repaired, "given radii computed anew: zero, negative or not finite");
+  repair(stats.radii_isolated, "points without neighbours: radius relative to the scene");
+  text << "  " << stats.nodes << " nodes, " << stats.filled_leaves << " filled leaves, depth " << stats.depth
+       << ", " << stats.references << " references: growth " << 100.0 * stats.growth << " %";
+  if (stats.growth_overlap > stats.growth) text << " (overlap: " << 100.0 * stats.growth_overlap << " %)";
+  if (stats.overlap > 0.0) text << ", disc area / surface area " << stats.overlap;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(path));
+  text << "\n  " << path.string() << ": " << bytes / 1e6 << " MB, "
+       << bytes / static_cast<double>(stats.splats) << " bytes per splat; read " << stats.read_ms / 1e3
+       << " s, build " << stats.total_ms / 1e3 << " s\n";
+  return text.str();
+}
+
+}  // namespace splatray
