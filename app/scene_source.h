@@ -1,7 +1,7 @@
 /// From options to the scene that is shown.
 #pragma once
 #include "app/options.h"
-#include "app/progress.h"
+#include "engine/host/progress.h"
 #include "engine/host/environment.h"
 #include "preprocess/build.h"
 
