@@ -137,7 +137,7 @@ Model mirror() {
        [=](const Sampling& sampling) { return moved(disc(sampling, RADIUS), center, axes); }},
       {"frame", torus_area(RADIUS, FRAME, -PI, PI),
        [=](const Sampling& sampling) { return moved(torus(sampling, RADIUS, FRAME, -PI, PI), center, axes); },
-       4.0}};
+       16.0}};
 }
 
 /// A round plinth with a rounded rim, and the knot that stands on it.
@@ -181,7 +181,7 @@ Surface ball(const std::string& object, glm::dvec3 foot, double radius) {
           [=](const Sampling& sampling) {
             return moved(sphere(sampling, radius), foot + glm::dvec3(0.0, radius, 0.0));
           },
-          4.0};
+          8.0};
 }
 
 Surface ring() {
