@@ -18,6 +18,9 @@ constexpr double COVERAGE_MARGIN = 1.04;  // discs of a curved surface lie in di
 constexpr double SIMILAR = 0.5;           // cosine of normals of one sheet
 constexpr double LATERAL = 0.5;           // tangential share of the distance of a neighbour on the same sheet
 constexpr double LEAST_SLANT = 0.5;       // sine of the angle between planes that meet in a crease
+constexpr double PARALLEL = 0.9;          // cosine of normals of layers of one noisy sheet
+constexpr double NOISE_REACH = 4.0;       // of a noisy sheet's disc, in standard deviations of its heights
+constexpr double NOISE_LIMIT = 2.0;       // the same at most, in units of the disc that covers
 constexpr float STRAY = 4.0F;             // largest radius in units of the surroundings' median
 
 double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
@@ -66,6 +69,18 @@ Surroundings flatten(const Cloud& cloud, std::uint32_t point, std::span<const Ne
   return around;
 }
 
+/// Standard deviation of the heights over the point's plane of near points that lie parallel.
+double sheet_noise(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest) {
+  const glm::dvec3 normal(cloud.normal[point]);
+  double count = 1.0, sum = 0.0, sum_squared = 0.0;
+  for (const Neighbour& neighbour : nearest) {
+    if (glm::dot(normal, glm::dvec3(cloud.normal[neighbour.index()])) < PARALLEL) continue;
+    const double height = glm::dot(normal, glm::dvec3(cloud.coord[neighbour.index()] - cloud.coord[point]));
+    count += 1.0, sum += height, sum_squared += height * height;
+  }
+  return std::sqrt(std::max(sum_squared / count - sum * sum / (count * count), 0.0));
+}
+
 double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
   for (const std::size_t wanted : {FEW, MANY}) {
     std::array<Neighbour, MANY> nearest;
@@ -78,7 +93,11 @@ double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::u
     const bool settled = found < wanted || wanted == MANY ||
                          (around.neighbour_count >= RING && reach.decisive_distance <= seen);
     if (!settled) continue;
-    if (reach.radius > 0.0) return COVERAGE_MARGIN * reach.radius;
+    if (reach.radius > 0.0) {
+      const double noise =
+          NOISE_REACH * sheet_noise(cloud, point, std::span(nearest).first(std::min(found, FEW)));
+      return std::clamp(noise, COVERAGE_MARGIN * reach.radius, NOISE_LIMIT * reach.radius);
+    }
   }
   return knn_radius(cloud, search, point);
 }
