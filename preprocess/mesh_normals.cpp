@@ -8,8 +8,8 @@
 namespace splatray {
 namespace {
 
-constexpr double COS_CREASE = 0.5;  ///< 60 degrees
-constexpr double LEAST_SUM = 0.4;   ///< of a vertex' weighted normals, in units of its angles' sum
+constexpr double COS_CREASE = 0.766;  ///< 40 degrees
+constexpr double LEAST_SUM = 0.4;     ///< of a vertex' weighted normals, in units of its angles' sum
 
 std::uint64_t hash_position(const glm::dvec3& position) {
   std::uint64_t hash = 0;

@@ -18,7 +18,7 @@ namespace splatray {
 [[nodiscard]] std::vector<glm::vec3> vertex_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
 
 /// Unit normals of each triangle's three corners, 3 * triangles: the given one, or the angle-weighted sum
-/// over those triangles at the corner that turn less than 60 degrees from this one, so that creases stay
+/// over those triangles at the corner that turn less than 40 degrees from this one, so that creases stay
 /// sharp.
 [[nodiscard]] std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
 
