@@ -164,6 +164,23 @@ TEST(Voronoi, HexagonReachesItsCorners) {
   EXPECT_NEAR(reach.decisive_distance, 4.0 / std::sqrt(3.0), 1e-12);
 }
 
+TEST(Voronoi, CellEndsAtACrease) {
+  const std::vector<TangentNeighbour> lattice{{{-1.0, 0.0}, 1.0}, {{0.0, 1.0}, 1.0}, {{0.0, -1.0}, 1.0}};
+  const std::vector<TangentCrease> crease{{{1.0, 0.0}, 0.25}};
+  EXPECT_NEAR(voronoi_reach(lattice, crease).radius, std::sqrt(0.5), 1e-12);
+  const std::vector<TangentNeighbour> wide{{{-0.5, 0.0}, 0.5}, {{0.0, 1.0}, 1.0}, {{0.0, -1.0}, 1.0}};
+  EXPECT_NEAR(voronoi_reach(wide, crease).radius, std::hypot(0.25, 0.5), 1e-12);
+}
+
+TEST(Voronoi, NeighboursInLineAlongABorderDoNotReachOut) {
+  const std::vector<TangentNeighbour> border{{{1.0, 0.05}, std::hypot(1.0, 0.05)},
+                                             {{-1.0, 0.05}, std::hypot(1.0, 0.05)},
+                                             {{0.0, -1.1}, 1.1},
+                                             {{1.0, -1.0}, std::sqrt(2.0)},
+                                             {{-1.0, -1.0}, std::sqrt(2.0)}};
+  EXPECT_LE(voronoi_reach(border, {}).radius, 0.8 * std::sqrt(2.0) + 1e-12);
+}
+
 TEST(Voronoi, OpenCellEndsNearItsNeighbours) {
   const std::vector<TangentNeighbour> one_side{{{-1.0, 0.0}, 1.0}};
   EXPECT_NEAR(voronoi_reach(one_side, {}).radius, 0.65, 1e-12);
