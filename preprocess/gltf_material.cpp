@@ -44,12 +44,12 @@ glm::vec3 attenuation(const tinygltf::Material& source) {
 }
 
 void make_dielectric(Material& material, const tinygltf::Material& source, const Surface& surface) {
+  constexpr double GLASS = 1.5;
   const tinygltf::Value* ior = find_extension(source.extensions, "KHR_materials_ior");
+  const bool thin = ior == nullptr && find_extension(source.extensions, "KHR_materials_volume") == nullptr;
+  const double found = ior == nullptr ? GLASS : number_in(*ior, "ior").value_or(GLASS);
   material.flags |= MATERIAL_DIELECTRIC;
-  material.ior = ior == nullptr ? 1.5F : static_cast<float>(number_in(*ior, "ior").value_or(1.5));
-  if (!(material.ior > 0.0F)) {
-    material.ior = 1.5F;
-  }
+  material.ior = thin ? 1.0F : static_cast<float>(found > 0.0 ? found : GLASS);
   material.tint = surface.base * attenuation(source);
 }
 

@@ -14,10 +14,10 @@ namespace splatray {
 /// Materials and pictures of one file; pictures are decoded when first asked for.
 ///
 /// pbrMetallicRoughness becomes diffuse + Phong specular, mirror or dielectric, whichever is nearest:
-/// - transmissionFactor > 0.5: dielectric; ior of KHR_materials_ior (1.5); tint = base colour, times the
-/// attenuation colour
-///   of KHR_materials_volume to the power of thickness / (2 attenuation distance) (the ray crosses the
-///   surface twice). Thickness 0 is a dielectric too: splats have no thin sheets.
+/// - transmissionFactor > 0.5: dielectric; ior of KHR_materials_ior (1.5), or 1 when neither that nor
+///   KHR_materials_volume is there (a thin pane, which does not bend light); tint = base colour, times the
+///   attenuation colour of KHR_materials_volume to the power of thickness / (2 attenuation distance) (the
+///   ray crosses the surface twice).
 /// - metallic > 0.5, roughness < 0.35, one colour: mirror = 1, tint = base colour.
 /// - other metals: diffuse = 0.6 base colour, specular 0.3 to 0.9.
 /// - all else: diffuse = base colour, specular 0.04 (rough) to 0.3 (smooth).

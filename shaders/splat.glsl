@@ -90,19 +90,22 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   return hit;
 }
 
-/// Own-sheet exclusion (design, section 4): the disc belongs to the sheet that a secondary ray has just left, i.e. same object,
-/// like normal (either way round on a two-sided object), and the ray's origin within the disc's thin slab and near its rim.
+/// Own-sheet exclusion (design, section 4): whether the disc belongs to the sheet that a secondary ray has just left, i.e. same
+/// object, like normal, and either the ray's origin within the disc's thin slab and near its rim, or the ray coming from behind
+/// it nearby: from below another layer of a noisy sheet. On a two-sided object the slab takes normals either way round.
 bool splat_of_sheet_left(uvec4 words, Ray ray, bool two_sided) {
   vec3 to_center = splat_center(words) - ray.origin;
   vec3 normal = splat_normal(words);
   float radius_squared = splat_radius_squared(words);
   float normal_squared = dot(normal, normal);
+  float distance_squared = dot(to_center, to_center);
   float height = dot(normal, to_center);
   float like = dot(normal, ray.from_normal);
-  like = two_sided ? abs(like) : max(like, 0.0f);
-  return splat_object(words) == ray.from_object && 4.0f * like * like > normal_squared &&
-         4.0f * height * height < normal_squared * radius_squared &&
-         dot(to_center, to_center) < 1.5625f * radius_squared;
+  bool in_slab = 4.0f * height * height < normal_squared * radius_squared && distance_squared < 1.5625f * radius_squared;
+  bool from_behind = like > 0.0f && dot(normal, ray.dir) * dot(ray.from_normal, ray.dir) > 0.0f &&
+                     distance_squared < 16.0f * radius_squared;
+  bool similar = 4.0f * like * like > normal_squared && (two_sided || like > 0.0f);
+  return splat_object(words) == ray.from_object && similar && (in_slab || from_behind);
 }
 
 #endif

@@ -62,10 +62,13 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
   const dvec3 from_center = dvec3(query.origin) - splat.center;
   const double radius = std::sqrt(splat.radius_squared);
   const double like = glm::dot(splat.normal, dvec3(query.from_normal));
-  const bool own_sheet = (two_sided ? std::abs(like) : like) > 0.5 &&
-                         std::abs(glm::dot(splat.normal, from_center)) < 0.5 * radius &&
-                         glm::length(from_center) < 1.25 * radius;
-  return !own_sheet;
+  const bool in_slab = std::abs(glm::dot(splat.normal, from_center)) < 0.5 * radius &&
+                       glm::length(from_center) < 1.25 * radius && (two_sided ? std::abs(like) : like) > 0.5;
+  const bool leaves_upwards = glm::dot(dvec3(query.from_normal), dvec3(query.dir)) > 0.0;
+  const bool crosses_upwards = meeting.cosine > 0.0;
+  const bool from_behind =
+      leaves_upwards == crosses_upwards && glm::length(from_center) < 4.0 * radius && like > 0.5;
+  return !(in_slab || from_behind);
 }
 
 std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, const Settings& settings) const {
