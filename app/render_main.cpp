@@ -1,14 +1,14 @@
 /// splatray-render: a scene in, a picture out.
 #include <cstdio>
 
-#include "engine/host/interrupt.h"
 #include "app/options.h"
 #include "app/picture.h"
-#include "engine/host/progress.h"
 #include "app/scene_source.h"
 #include "app/stats_json.h"
 #include "engine/gpu/tracer.h"
 #include "engine/host/error.h"
+#include "engine/host/interrupt.h"
+#include "engine/host/progress.h"
 
 namespace {
 

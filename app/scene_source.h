@@ -1,8 +1,8 @@
 /// From options to the scene that is shown.
 #pragma once
 #include "app/options.h"
-#include "engine/host/progress.h"
 #include "engine/host/environment.h"
+#include "engine/host/progress.h"
 #include "preprocess/build.h"
 
 namespace splatray {

@@ -1,5 +1,5 @@
-// The GPU's side of what the other .glsl files need: features (specialization constants), pools, tables, environment.
-// POOL_TEXEL: the pools are texel buffers, else storage buffers.
+// The GPU's side of what the other .glsl files need: features (specialization constants), pools, tables,
+// environment. POOL_TEXEL: the pools are texel buffers, else storage buffers.
 #ifndef SPLATRAY_BINDINGS_GLSL
 #define SPLATRAY_BINDINGS_GLSL
 #include "layout.h"

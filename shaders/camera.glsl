@@ -1,11 +1,12 @@
-// Pixel -> primary ray. Pixel centres are at +0.5, the top row first; FrameParams holds the ray as a plane of points and of
-// directions, computed in float64 (engine/host/view.h), so that far eyes lose nothing.
-// Needs `frame`.
+// Pixel -> primary ray. Pixel centres are at +0.5, the top row first; FrameParams holds the ray as a plane of
+// points and of directions, computed in float64 (engine/host/view.h), so that far eyes lose nothing. Needs
+// `frame`.
 #ifndef SPLATRAY_CAMERA_GLSL
 #define SPLATRAY_CAMERA_GLSL
 #include "splat.glsl"
 
-/// The ray through pixel position (x, y), direction of unit length; `eye_distance` is the distance from the eye to its t = 0.
+/// The ray through pixel position (x, y), direction of unit length; `eye_distance` is the distance from the
+/// eye to its t = 0.
 Ray primary_ray(float x, float y, OUT(float) eye_distance) {
   Ray ray;
   vec3 dir = frame.dir_00 + frame.dir_dx * x + frame.dir_dy * y;

@@ -1,7 +1,7 @@
-// Double-float arithmetic: a number is the unevaluated sum of two float32, vec2(high, low), about 48 bits.
-// T. J. Dekker 1971, "A floating-point technique for extending the available precision"; D. E. Knuth, TAOCP 2, 4.2.2.
-// Needs nothing but correctly rounded + - *; the quotient is corrected from its residue, so an inexact division will do.
-// PRECISE forbids the compiler to reorder or fuse.
+// Double-float arithmetic: a number is the unevaluated sum of two float32, vec2(high, low), about 48 bits. T.
+// J. Dekker 1971, "A floating-point technique for extending the available precision"; D. E. Knuth, TAOCP 2,
+// 4.2.2. Needs nothing but correctly rounded + - *; the quotient is corrected from its residue, so an inexact
+// division will do. PRECISE forbids the compiler to reorder or fuse.
 #ifndef SPLATRAY_DOUBLE_FLOAT_GLSL
 #define SPLATRAY_DOUBLE_FLOAT_GLSL
 #include "language.glsl"

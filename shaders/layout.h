@@ -15,7 +15,6 @@
 ///   2.31..16  | normal, octahedral v + 32767  Representations for Independent Unit Vectors"; here without final scaling)
 ///   3.31..16  | squared radius in lattice units^2, bits 29..14 of its float32, rounded up (2^-9 relative
 ///             | steps); bit 30 is always set and bit 31 clear, as 2 <= r^2 < 2^65
-///             | (bit 30 of every such float32 is one: no squared radius is below 2)
 ///   3.15..0   | object index, also the index of its material
 ///
 /// Node word, 32 bits. Bits 31..30 tag, bits 29..0 address (Goradia et al. 2010, sec. III-A).
@@ -56,8 +55,8 @@ SPLATRAY_CONST NODE_INNER = 0u;
 SPLATRAY_CONST NODE_FILLED = 1u;
 SPLATRAY_CONST NODE_EMPTY = 2u;
 
-SPLATRAY_CONST OCT_SCALE = 32767u;      ///< octahedral normals: |u| + |v| + |w| = OCT_SCALE
-SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;   ///< word 3: object index
+SPLATRAY_CONST OCT_SCALE = 32767u;     ///< octahedral normals: |u| + |v| + |w| = OCT_SCALE
+SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;  ///< word 3: object index
 
 /// Material flags.
 SPLATRAY_CONST MATERIAL_DIELECTRIC = 1u;  ///< refracts and reflects by Fresnel; `tint` on each crossing
@@ -73,7 +72,7 @@ struct Material {
   float mirror;     ///< share of light mirrored, 0..1; the rest is shaded
   float ior;        ///< index of refraction inside, > 0; dielectrics only
   uint flags;       ///< MATERIAL_*
-  uint mask_bit;    ///< dielectrics: the object's bit number, 0..31, in a ray's mask of the objects it is inside of
+  uint mask_bit;    ///< dielectrics: the object's bit, 0..31, in a ray's mask of what it is inside of
 };
 
 SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
@@ -88,56 +87,56 @@ struct Light {
 
 /// Uniform block, std140-compatible: every vec3 is followed by a scalar. Root space unless said.
 struct FrameParams {
-  vec3 origin_00;          ///< primary ray through pixel position (0, 0) (top left corner): point on the ray
-  uint width;              ///< image size, pixels
-  vec3 origin_dx;          ///< change of that point per pixel to the right
+  vec3 origin_00;  ///< primary ray through pixel position (0, 0) (top left corner): point on the ray
+  uint width;      ///< image size, pixels
+  vec3 origin_dx;  ///< change of that point per pixel to the right
   uint height;
-  vec3 origin_dy;          ///< ... per pixel down
-  uint tile_x;             ///< first pixel of this dispatch
-  vec3 dir_00;             ///< primary ray direction through (0, 0), not normalised
+  vec3 origin_dy;  ///< ... per pixel down
+  uint tile_x;     ///< first pixel of this dispatch
+  vec3 dir_00;     ///< primary ray direction through (0, 0), not normalised
   uint tile_y;
   vec3 dir_dx;
-  uint tile_width;         ///< pixels of this dispatch
+  uint tile_width;  ///< pixels of this dispatch
   vec3 dir_dy;
   uint tile_height;
-  float depth_offset;      ///< root units: distance eye - ray point where it does not depend on the pixel
-  float depth_per_dir;     ///< distance eye - ray point in units of |dir| (1 when the ray point lies on a far plane)
-  float t_min;             ///< where primary rays start, relative to the ray point, root units; may be -inf
-  float root_unit_world;   ///< world length of one lattice unit
-  uint sample_begin;       ///< samples of this dispatch: [sample_begin, sample_end)
+  float depth_offset;     ///< root units: distance eye - ray point where it does not depend on the pixel
+  float depth_per_dir;    ///< distance eye - ray point in units of |dir| (1: the point is on a far plane)
+  float t_min;            ///< where primary rays start, relative to the ray point, root units; may be -inf
+  float root_unit_world;  ///< world length of one lattice unit
+  uint sample_begin;      ///< samples of this dispatch: [sample_begin, sample_end)
   uint sample_end;
-  uint sample_total;       ///< samples of the whole picture
+  uint sample_total;  ///< samples of the whole picture
   uint seed;
-  uint max_bounces;        ///< secondary rays in a path, >= 0
+  uint max_bounces;  ///< secondary rays in a path, >= 0
   uint light_count;
-  float kappa;             ///< window depth in units of the first splat's radius
-  float delta;             ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units
-  vec3 environment;        ///< radiance factor of the texture, or the constant radiance
+  float kappa;       ///< window depth in units of the first splat's radius
+  float delta;       ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units
+  vec3 environment;  ///< radiance factor of the texture, or the constant radiance
   float unused_0;
-  vec3 environment_up;     ///< unit vector the environment's +y (its pole) points to
+  vec3 environment_up;  ///< unit vector the environment's +y (its pole) points to
   float unused_1;
   vec3 environment_right;  ///< unit vector the environment's +x points to; its +z is cross(right, up)
   float unused_2;
-  vec4 irradiance[9];      ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
-                           ///< (Ramamoorthi, Hanrahan 2001), rgb
+  vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
+                       ///< (Ramamoorthi, Hanrahan 2001), rgb
 };
 
 /// One ray of a query (rays.comp.glsl). Root space; the hits are those of exactly this ray.
 struct RayQuery {
   vec3 origin;
-  float t_min;        ///< hits need t > t_min
-  vec3 dir;           ///< unit, to float32 rounding; t is in units of |dir|
-  uint inside;        ///< mask of the dielectrics the ray is inside of
-  vec3 from_normal;   ///< secondary rays: blended normal left, zero for primary rays
-  uint from_object;   ///< secondary rays: object left, NO_OBJECT for primary rays
+  float t_min;       ///< hits need t > t_min
+  vec3 dir;          ///< unit, to float32 rounding; t is in units of |dir|
+  uint inside;       ///< mask of the dielectrics the ray is inside of
+  vec3 from_normal;  ///< secondary rays: blended normal of the sheet left; else zero
+  uint from_object;  ///< secondary rays: object left, NO_OBJECT for primary rays
 };
 
 /// The answer. Misses have t = +inf, object = NO_OBJECT.
 struct RayHit {
-  vec3 normal;   ///< blended unit normal, turned against the ray
-  float t;       ///< blended
-  uvec4 first;   ///< the first splat (t0, i0), its four words
-  float t_first; ///< t0
+  vec3 normal;    ///< blended unit normal, turned against the ray
+  float t;        ///< blended
+  uvec4 first;    ///< the first splat (t0, i0), its four words
+  float t_first;  ///< t0
   uint object;
   uint members;  ///< splats in the cluster
   uint color;    ///< blended colour, 8 bits a channel, square-root encoded, r lowest; 0 without colours
@@ -146,12 +145,12 @@ SPLATRAY_CONST NO_OBJECT = 0xFFFFFFFFu;
 
 /// Per-pixel auxiliary outputs, of the ray through the pixel's centre.
 struct AovPixel {
-  vec3 normal;  ///< blended unit normal, world space; 0 on a miss
-  float z;      ///< distance from the eye, world units; +inf on a miss
-  uint object;  ///< NO_OBJECT on a miss
-  uint members; ///< splats in the cluster
-  uint tests;   ///< splat tests of this ray; 0 without COUNTERS
-  uint steps;   ///< node words read by this ray; 0 without COUNTERS
+  vec3 normal;   ///< blended unit normal, world space; 0 on a miss
+  float z;       ///< distance from the eye, world units; +inf on a miss
+  uint object;   ///< NO_OBJECT on a miss
+  uint members;  ///< splats in the cluster
+  uint tests;    ///< splat tests of this ray; 0 without COUNTERS
+  uint steps;    ///< node words read by this ray; 0 without COUNTERS
 };
 
 /// Counters, compiled in by COUNTERS only.
@@ -159,15 +158,15 @@ SPLATRAY_CONST COUNT_PRIMARY = 0u;
 SPLATRAY_CONST COUNT_SHADOW = 1u;
 SPLATRAY_CONST COUNT_REFLECTED = 2u;
 SPLATRAY_CONST COUNT_REFRACTED = 3u;
-SPLATRAY_CONST COUNT_LEAVES = 4u;       ///< leaves visited
-SPLATRAY_CONST COUNT_NODE_STEPS = 5u;   ///< node words read
-SPLATRAY_CONST COUNT_TESTS = 6u;        ///< splat tests
-SPLATRAY_CONST COUNT_HITS = 7u;         ///< rays that hit
-SPLATRAY_CONST COUNT_LOST = 8u;         ///< rays stopped by the iteration cap
-SPLATRAY_CONST COUNT_LEAKED = 9u;       ///< rays that left the scene while inside a dielectric
-SPLATRAY_CONST COUNT_NON_FINITE = 10u;  ///< samples with a non-finite colour
-SPLATRAY_CONST COUNT_BOUNCE_LIMIT = 11u;    ///< paths cut by the bounce limit
-SPLATRAY_CONST COUNT_ENERGY_LOST = 12u;     ///< sum of their throughput, in units of 1/1024
+SPLATRAY_CONST COUNT_LEAVES = 4u;         ///< leaves visited
+SPLATRAY_CONST COUNT_NODE_STEPS = 5u;     ///< node words read
+SPLATRAY_CONST COUNT_TESTS = 6u;          ///< splat tests
+SPLATRAY_CONST COUNT_HITS = 7u;           ///< rays that hit
+SPLATRAY_CONST COUNT_LOST = 8u;           ///< rays stopped by the iteration cap
+SPLATRAY_CONST COUNT_LEAKED = 9u;         ///< rays that left the scene while inside a dielectric
+SPLATRAY_CONST COUNT_NON_FINITE = 10u;    ///< samples with a non-finite colour
+SPLATRAY_CONST COUNT_BOUNCE_LIMIT = 11u;  ///< paths cut by the bounce limit
+SPLATRAY_CONST COUNT_ENERGY_LOST = 12u;   ///< sum of their throughput, in units of 1/1024
 SPLATRAY_CONST COUNTER_COUNT = 16u;
 
 /// Descriptor bindings (set 0).
@@ -204,22 +203,22 @@ SPLATRAY_CONST SPEC_COUNT = 13u;
 SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1
 SPLATRAY_CONST BLEND_NEAREST = 2u;  ///< first splat only
-SPLATRAY_CONST BLEND_LEAF = 3u;     ///< first leaf only: the wrong blending of Goradia et al. 2010, Fig. 7 (a)
-SPLATRAY_CONST KERNEL_RIM = 0u;       ///< (1 - u^2)^2, zero at the rim
+SPLATRAY_CONST BLEND_LEAF = 3u;  ///< first leaf only: the wrong blending of Goradia et al. 2010, Fig. 7 (a)
+SPLATRAY_CONST KERNEL_RIM = 0u;  ///< (1 - u^2)^2, zero at the rim
 SPLATRAY_CONST KERNEL_GAUSSIAN = 1u;  ///< exp(-2 u^2)
-SPLATRAY_CONST SIDE_SIDE = 0u;   ///< expected side per object and own-sheet exclusion
-SPLATRAY_CONST SIDE_DELTA = 1u;  ///< minimum distance delta (Linsen et al. 2007), no sides
-SPLATRAY_CONST SIDE_NONE = 2u;   ///< neither: the failures of Goradia et al. 2010, Fig. 9 and 10
-SPLATRAY_CONST FACES_BOTH = 0u;   ///< every object is two-sided
-SPLATRAY_CONST FACES_FRONT = 1u;  ///< every object is one-sided and none is a dielectric
+SPLATRAY_CONST SIDE_SIDE = 0u;        ///< expected side per object and own-sheet exclusion
+SPLATRAY_CONST SIDE_DELTA = 1u;       ///< minimum distance delta (Linsen et al. 2007), no sides
+SPLATRAY_CONST SIDE_NONE = 2u;        ///< neither: the failures of Goradia et al. 2010, Fig. 9 and 10
+SPLATRAY_CONST FACES_BOTH = 0u;       ///< every object is two-sided
+SPLATRAY_CONST FACES_FRONT = 1u;      ///< every object is one-sided and none is a dielectric
 SPLATRAY_CONST FACES_MIXED = 2u;
 SPLATRAY_CONST ORDER_Z = 0u;       ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
 SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
 
 #ifdef __cplusplus
-static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 &&
-              sizeof(AovPixel) == 32 && sizeof(FrameParams) == 336);
+static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 &&
+              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 336);
 }  // namespace splatray
 #endif
 #endif

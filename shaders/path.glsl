@@ -1,6 +1,7 @@
-// One light path through a pixel: trace, shade, follow the mirror or glass, until it ends. At glass one of the two branches is
-// followed, chosen by Fresnel's share with a stratified random number, so both are accounted for over a pixel's samples.
-// Needs shade.glsl, random.glsl, camera.glsl and the constants MIRRORS, GLASS.
+// One light path through a pixel: trace, shade, follow the mirror or glass, until it ends. At glass one of
+// the two branches is followed, chosen by Fresnel's share with a stratified random number, so both are
+// accounted for over a pixel's samples. Needs shade.glsl, random.glsl, camera.glsl and the constants MIRRORS,
+// GLASS.
 #ifndef SPLATRAY_PATH_GLSL
 #define SPLATRAY_PATH_GLSL
 #include "camera.glsl"
@@ -24,7 +25,8 @@ struct PathResult {
 /// The mask after crossing a dielectric's surface.
 uint crossed(uint inside, Material material) { return inside ^ (1u << material.mask_bit); }
 
-/// The ray that goes on from a hit on a dielectric: reflected when `choice` is below Fresnel's share, else refracted.
+/// The ray that goes on from a hit on a dielectric: reflected when `choice` is below Fresnel's share, else
+/// refracted.
 Ray dielectric_ray(Hit hit, Ray ray, Material material, float choice, OUT(bool) reflected) {
   float eta = hit.front ? 1.0f / material.ior : material.ior;
   float cosine = clamp(-dot(ray.dir, hit.normal), 0.0f, 1.0f);

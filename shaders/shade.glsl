@@ -1,6 +1,6 @@
-// Light at a hit: environment, lights with shadows, Phong; and the secondary rays' directions.
-// Needs trace.glsl, `frame`, light_at(index), environment_texel(direction in the environment's frame), and the constants
-// ENVIRONMENT, LIGHTS, SHADOWS.
+// Light at a hit: environment, lights with shadows, Phong; and the secondary rays' directions. Needs
+// trace.glsl, `frame`, light_at(index), environment_texel(direction in the environment's frame), and the
+// constants ENVIRONMENT, LIGHTS, SHADOWS.
 #ifndef SPLATRAY_SHADE_GLSL
 #define SPLATRAY_SHADE_GLSL
 #include "trace.glsl"
@@ -19,7 +19,8 @@ vec3 environment_radiance(vec3 dir) {
   return frame.environment;
 }
 
-/// What a white diffuse surface of this normal sends out under the environment alone (Ramamoorthi, Hanrahan 2001).
+/// What a white diffuse surface of this normal sends out under the environment alone (Ramamoorthi, Hanrahan
+/// 2001).
 vec3 environment_diffuse(vec3 normal) {
   vec3 n = to_environment(normal);
   vec4 sum = frame.irradiance[0] + frame.irradiance[1] * n.y + frame.irradiance[2] * n.z +
@@ -29,8 +30,8 @@ vec3 environment_diffuse(vec3 normal) {
   return max(vec3(sum.x, sum.y, sum.z), vec3(0.0f));
 }
 
-/// A ray that leaves the surface at a hit. It ignores the sheet it leaves (design, section 4) or, with SIDE_DELTA, everything
-/// nearer than delta (Linsen et al. 2007).
+/// A ray that leaves the surface at a hit. It ignores the sheet it leaves (design, section 4) or, with
+/// SIDE_DELTA, everything nearer than delta (Linsen et al. 2007).
 Ray ray_from_hit(Hit hit, vec3 dir, uint inside) {
   Ray ray;
   ray.origin = hit.position;
@@ -44,7 +45,8 @@ Ray ray_from_hit(Hit hit, vec3 dir, uint inside) {
   return ray;
 }
 
-/// Phong shading of the hit by all lights: diffuse / pi and the energy-normalised specular lobe, per unit irradiance.
+/// Phong shading of the hit by all lights: diffuse / pi and the energy-normalised specular lobe, per unit
+/// irradiance.
 vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Material material, uint inside, INOUT(uint) shadow_rays,
                   INOUT(Tally) tally) {
   vec3 mirrored = reflect(view_dir, hit.normal);
@@ -74,8 +76,9 @@ vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Material material, uint 
   return sum;
 }
 
-/// Share of unpolarised light that a dielectric boundary reflects; 1 on total internal reflection. `eta` = ior on the ray's side /
-/// ior behind, `cosine` = |n.d|. `cosine_behind` is the refracted ray's |n.d|, 0 when there is none.
+/// Share of unpolarised light that a dielectric boundary reflects; 1 on total internal reflection. `eta` =
+/// ior on the ray's side / ior behind, `cosine` = |n.d|. `cosine_behind` is the refracted ray's |n.d|, 0 when
+/// there is none.
 float fresnel(float eta, float cosine, OUT(float) cosine_behind) {
   float sine_squared = eta * eta * max(1.0f - cosine * cosine, 0.0f);
   cosine_behind = sqrt(max(1.0f - sine_squared, 0.0f));

@@ -1,4 +1,5 @@
-// A splat's 128 bits, and a ray's hit on its disc: first a float32 test that never loses a hit, then the exact decision.
+// A splat's 128 bits, and a ray's hit on its disc: first a float32 test that never loses a hit, then the
+// exact decision.
 #ifndef SPLATRAY_SPLAT_GLSL
 #define SPLATRAY_SPLAT_GLSL
 #include "double_float.glsl"
@@ -47,8 +48,9 @@ bool words_less(uvec4 a, uvec4 b) {
   return a.y < b.y;
 }
 
-/// False only if the ray surely has no hit on the disc with t in [t_in, t_out): the plane's and the rim's distance are
-/// widened by their float32 error, which grows as 1 / |n.d|. NaN (a ray in the disc's plane) counts as maybe.
+/// False only if the ray surely has no hit on the disc with t in [t_in, t_out): the plane's and the rim's
+/// distance are widened by their float32 error, which grows as 1 / |n.d|. NaN (a ray in the disc's plane)
+/// counts as maybe.
 bool splat_maybe_hit(uvec4 words, vec3 origin, vec3 dir, float t_in, float t_out) {
   vec3 to_center = splat_center(words) - origin;
   vec3 normal = splat_normal(words);
@@ -90,9 +92,10 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   return hit;
 }
 
-/// Own-sheet exclusion (design, section 4): whether the disc belongs to the sheet that a secondary ray has just left, i.e. same
-/// object, like normal, and either the ray's origin within the disc's thin slab and near its rim, or the ray coming from behind
-/// it nearby: from below another layer of a noisy sheet. On a two-sided object the slab takes normals either way round.
+/// Own-sheet exclusion (design, section 4): whether the disc belongs to the sheet that a secondary ray has
+/// just left, i.e. same object, like normal, and either the ray's origin within the disc's thin slab and near
+/// its rim, or the ray coming from behind it nearby: from below another layer of a noisy sheet. On a
+/// two-sided object the slab takes normals either way round.
 bool splat_of_sheet_left(uvec4 words, Ray ray, bool two_sided) {
   vec3 to_center = splat_center(words) - ray.origin;
   vec3 normal = splat_normal(words);

@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// A tile of the picture: for each pixel and sample, camera -> path -> accumulation; or, with AOV, what the centre ray hits.
+// A tile of the picture: for each pixel and sample, camera -> path -> accumulation; or, with AOV, what the
+// centre ray hits.
 #include "bindings.glsl"
 
 layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };

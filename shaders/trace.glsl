@@ -1,8 +1,8 @@
-// What a ray hits (design, section 4): the first accepted splat and the blend of its cluster, or whether anything is hit at
-// all. The result depends on the splats alone, not on the tree: intervals tile the ray, each hit is decided exactly and counts
-// in one leaf, and sums are integers.
-// Needs, beside traverse.glsl: splat_words(index), color_at(index), material_at(object), and the constants BLEND, KERNEL, SIDE,
-// FACES, COLORS, COUNTERS.
+// What a ray hits (design, section 4): the first accepted splat and the blend of its cluster, or whether
+// anything is hit at all. The result depends on the splats alone, not on the tree: intervals tile the ray,
+// each hit is decided exactly and counts in one leaf, and sums are integers. Needs, beside traverse.glsl:
+// splat_words(index), color_at(index), material_at(object), and the constants BLEND, KERNEL, SIDE, FACES,
+// COLORS, COUNTERS.
 #ifndef SPLATRAY_TRACE_GLSL
 #define SPLATRAY_TRACE_GLSL
 #include "traverse.glsl"
@@ -69,7 +69,8 @@ bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
   return !own && side_expected(object, hit.facing, ray.inside);
 }
 
-/// The candidates that are hit for certain in the leaf's interval and allowed. `first` is updated while `finding`.
+/// The candidates that are hit for certain in the leaf's interval and allowed. `first` is updated while
+/// `finding`.
 uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool finding, INOUT(First) first) {
   uint accepted = 0u;
   while (candidates != 0u) {
@@ -118,7 +119,8 @@ float blend_kernel(float u_squared) {
   return fall * fall;
 }
 
-/// Weight along the window: 1 to the middle, then smoothly to 0 at the end (BLEND_WINDOW), or 1 (the paper's interval).
+/// Weight along the window: 1 to the middle, then smoothly to 0 at the end (BLEND_WINDOW), or 1 (the paper's
+/// interval).
 float window_fall(float share) {
   if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) return 1.0f;
   float x = clamp(2.0f - 2.0f * share, 0.0f, 1.0f);
@@ -134,8 +136,8 @@ vec3 point_at(Ray ray, float t, OUT(vec3) low) {
   return vec3(x.x, y.x, z.x);
 }
 
-/// Adds the accepted splats of one chunk that belong to the first splat's cluster. Everything is taken relative to the first
-/// hit's exact position, where float32 will do even for grazing rays.
+/// Adds the accepted splats of one chunk that belong to the first splat's cluster. Everything is taken
+/// relative to the first hit's exact position, where float32 will do even for grazing rays.
 void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
   vec3 position_low = vec3(0.0f);
@@ -164,8 +166,8 @@ void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float dep
   }
 }
 
-/// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds no member).
-/// `shift` is what clip_to_root took from t.
+/// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds
+/// no member). `shift` is what clip_to_root took from t.
 Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) {
   Hit hit;
   hit.found = first.measure.x < INFINITY_F;
@@ -211,8 +213,8 @@ Cluster empty_cluster() {
   return cluster;
 }
 
-/// What the ray sees first. The ray may start anywhere. In the first leaf with a hit all candidates are looked at before any
-/// is accumulated; a leaf of more than CHUNK splats is then gone through again.
+/// What the ray sees first. The ray may start anywhere. In the first leaf with a hit all candidates are
+/// looked at before any is accumulated; a leaf of more than CHUNK splats is then gone through again.
 Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
   bool enters = true;
   float shift = clip_to_root(ray, enters);
@@ -249,8 +251,8 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
   return finish_hit(ray, first, cluster, depth, shift);
 }
 
-/// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics met, as if they did
-/// not bend it (each object counts once), else 1. The ray starts inside the root.
+/// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics
+/// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root.
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   First first = no_first();
   Walk walk = walk_start(ray, true);

@@ -1,6 +1,6 @@
-// The octree along a ray: from leaf to leaf by descent from the root (Goradia et al. 2010, sec. IV-B; Lefebvre et al. 2005),
-// with integer cells, so that no ray can be stuck or skip a cell. The leaves' intervals [t_in, t_out) tile the ray.
-// Needs node_word(index), begin_end_at(index).
+// The octree along a ray: from leaf to leaf by descent from the root (Goradia et al. 2010, sec. IV-B;
+// Lefebvre et al. 2005), with integer cells, so that no ray can be stuck or skip a cell. The leaves'
+// intervals [t_in, t_out) tile the ray. Needs node_word(index), begin_end_at(index).
 #ifndef SPLATRAY_TRAVERSE_GLSL
 #define SPLATRAY_TRAVERSE_GLSL
 #include "splat.glsl"
@@ -34,7 +34,8 @@ struct Tally {
   uint lost;
 };
 
-/// Directions below this are parallel to the axis' planes: over the whole root they move a ray by less than 2^-40 units.
+/// Directions below this are parallel to the axis' planes: over the whole root they move a ray by less than
+/// 2^-40 units.
 const float PARALLEL = 1e-20f;
 
 /// t at which the ray meets the plane `plane` of one axis, +inf if it runs parallel to it.
@@ -52,8 +53,9 @@ uvec3 cell_at(Ray ray, float t, uvec3 low, uvec3 high) {
                cell_coordinate(ray.origin.z + ray.dir.z * t, low.z, high.z));
 }
 
-/// Moves the origin of a ray to where it enters the root or to t_min, whichever is later, exactly (double-float), with t_min
-/// and t_max. Returns by how much t became smaller; `enters` is false when the ray misses the root.
+/// Moves the origin of a ray to where it enters the root or to t_min, whichever is later, exactly
+/// (double-float), with t_min and t_max. Returns by how much t became smaller; `enters` is false when the ray
+/// misses the root.
 float clip_to_root(INOUT(Ray) ray, OUT(bool) enters) {
   float t_enter = ray.t_min;
   float t_exit = ray.t_max;
@@ -79,8 +81,8 @@ float clip_to_root(INOUT(Ray) ray, OUT(bool) enters) {
   return shift;
 }
 
-/// DESCEND from the root to the leaf that holds walk.cell; finds its splats and its end of the ray's interval.
-/// Returns the number of node words read.
+/// DESCEND from the root to the leaf that holds walk.cell; finds its splats and its end of the ray's
+/// interval. Returns the number of node words read.
 uint walk_descend(INOUT(Walk) walk, Ray ray) {
   uint word = node_word(0u);
   uint shift = LATTICE_BITS;
@@ -146,8 +148,8 @@ void walk_advance(INOUT(Walk) walk, Ray ray, float t_end, INOUT(Tally) tally) {
   if (COUNTERS == 1u) tally.leaves += 1u;
 }
 
-/// TEST: the ray's next candidates: bit i of the answer is splat chunk + i. Goes from leaf to leaf until there are some or the walk
-/// ends; with `stay`, no further than the end of this leaf.
+/// TEST: the ray's next candidates: bit i of the answer is splat chunk + i. Goes from leaf to leaf until
+/// there are some or the walk ends; with `stay`, no further than the end of this leaf.
 uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint) chunk, INOUT(Tally) tally) {
   uint candidates = 0u;
   bool searching = walk.inside;

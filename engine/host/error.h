@@ -9,12 +9,12 @@ namespace splatray {
 /// Exit codes of all programs (design, section 6).
 enum class ExitCode : int {
   done = 0,
-  failed = 1,             ///< the work or a comparison failed
-  usage = 2,              ///< the command line is wrong
-  input_unreadable = 3,   ///< a file is missing, unreadable or not what it should be
-  no_device = 4,          ///< no usable Vulkan device (viewer: no display)
-  out_of_memory = 5,      ///< host or device memory
-  interrupted = 130,      ///< SIGINT or SIGTERM
+  failed = 1,            ///< the work or a comparison failed
+  usage = 2,             ///< the command line is wrong
+  input_unreadable = 3,  ///< a file is missing, unreadable or not what it should be
+  no_device = 4,         ///< no usable Vulkan device (viewer: no display)
+  out_of_memory = 5,     ///< host or device memory
+  interrupted = 130,     ///< SIGINT or SIGTERM
 };
 
 /// A failure to be told to the user; what() is one sentence without a trailing period or newline.

@@ -10,8 +10,8 @@ namespace splatray {
 struct Image {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<vec4> rgba;      ///< top row first; linear radiance, not premultiplied by A = coverage
-  std::vector<AovPixel> aov;   ///< empty unless Settings::aov
+  std::vector<vec4> rgba;     ///< top row first; linear radiance, not premultiplied by A = coverage
+  std::vector<AovPixel> aov;  ///< empty unless Settings::aov
 };
 
 }  // namespace splatray

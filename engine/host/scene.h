@@ -34,7 +34,7 @@ struct Camera {
 struct SceneLight {
   std::uint32_t kind = LIGHT_DIRECTIONAL;  ///< LIGHT_*
   glm::dvec3 position{0.0, 1.0, 0.0};      ///< point: position; directional: unit vector towards the light
-  glm::vec3 power{1.0F};                   ///< directional: irradiance facing it; point: intensity (irradiance * distance^2)
+  glm::vec3 power{1.0F};  ///< directional: irradiance facing it; point: intensity (irradiance * distance^2)
 };
 
 enum class Insertion : std::uint32_t { overlap = 0, probe = 1, centre = 2 };
@@ -42,20 +42,20 @@ enum class RadiusRule : std::uint32_t { coverage = 0, knn = 1, given = 2 };
 
 /// How the octree was built; kept in the file so that a build can be repeated.
 struct BuildParams {
-  std::uint32_t leaf_size = 10;                     ///< k: most splat centres in a leaf above MAX_DEPTH, >= 1
+  std::uint32_t leaf_size = 10;  ///< k: most splat centres in a leaf above MAX_DEPTH, >= 1
   Insertion insertion = Insertion::overlap;
-  std::uint32_t probes = 32;                        ///< probe rays per leaf, insertion == probe only
-  RadiusRule radius_rule = RadiusRule::coverage;    ///< for points without a radius of their own
-  double radius_scale = 1.0;                        ///< factor on every radius, > 0
-  std::uint64_t samples = 0;                        ///< points sampled on meshes in all; 0 = mesh vertices
+  std::uint32_t probes = 32;                      ///< probe rays per leaf, insertion == probe only
+  RadiusRule radius_rule = RadiusRule::coverage;  ///< for points without a radius of their own
+  double radius_scale = 1.0;                      ///< factor on every radius, > 0
+  std::uint64_t samples = 0;                      ///< points sampled on meshes in all; 0 = mesh vertices
   std::uint64_t seed = 1;
 };
 
 /// A splat in full precision, root space; what 128 bits decode to.
 struct Splat {
-  glm::dvec3 center;        ///< lattice units, integers
-  glm::dvec3 normal;        ///< unit
-  double radius_squared;    ///< lattice units^2
+  glm::dvec3 center;      ///< lattice units, integers
+  glm::dvec3 normal;      ///< unit
+  double radius_squared;  ///< lattice units^2
   std::uint32_t object;
 };
 
@@ -72,20 +72,20 @@ struct Splat {
 struct Scene {
   RootTransform root;
   BuildParams build;
-  std::uint64_t splat_count = 0;            ///< different splats; data_pool.size() counts references
-  std::vector<std::uint32_t> node_pool;     ///< node words; the root is word 0, never empty
-  std::vector<std::uint32_t> begin_end;     ///< filled leaves + 1 entries, ascending, last = data_pool.size()
-  std::vector<uvec4> data_pool;             ///< splats, leaf by leaf
-  std::vector<std::uint32_t> color_pool;    ///< beside data_pool, or empty (no colours)
-  std::vector<Material> materials;          ///< one per object
-  std::vector<std::string> object_names;    ///< beside materials
-  std::vector<SceneLight> lights;           ///< as the input has them; may be empty
-  std::optional<Camera> camera;             ///< the input's first camera
-  glm::dvec3 up{0.0, 1.0, 0.0};             ///< up direction used for default framing
-  glm::dvec3 bounds_min_world{0.0};         ///< bounding box of the centres
+  std::uint64_t splat_count = 0;          ///< different splats; data_pool.size() counts references
+  std::vector<std::uint32_t> node_pool;   ///< node words; the root is word 0, never empty
+  std::vector<std::uint32_t> begin_end;   ///< filled leaves + 1 entries, ascending, last = data_pool.size()
+  std::vector<uvec4> data_pool;           ///< splats, leaf by leaf
+  std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
+  std::vector<Material> materials;        ///< one per object
+  std::vector<std::string> object_names;  ///< beside materials
+  std::vector<SceneLight> lights;         ///< as the input has them; may be empty
+  std::optional<Camera> camera;           ///< the input's first camera
+  glm::dvec3 up{0.0, 1.0, 0.0};           ///< up direction used for default framing
+  glm::dvec3 bounds_min_world{0.0};       ///< bounding box of the centres
   glm::dvec3 bounds_max_world{0.0};
-  double surface_area_world = 0.0;          ///< of the source meshes; 0 = unknown
-  std::string environment_path;             ///< environment map named by the scene; empty = none
+  double surface_area_world = 0.0;  ///< of the source meshes; 0 = unknown
+  std::string environment_path;     ///< environment map named by the scene; empty = none
 
   /// Length of the bounding box's diagonal, world units.
   [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }
