@@ -39,15 +39,12 @@ void merge(Input& to, Input&& more) {
   to.environment_path = to.environment_path.empty() ? more.environment_path : to.environment_path;
 }
 
-/// Numbers the dielectrics, so that a ray can know which it is inside of.
-void number_dielectrics(Input& input) {
-  constexpr std::uint32_t MASK_BITS = 32;
-  std::uint32_t count = 0;
-  for (InputObject& object : input.objects) {
-    if ((object.material.flags & MATERIAL_DIELECTRIC) != 0) {
-      object.material.mask_bit = count++ % MASK_BITS;
-    }
-  }
+/// build_scene numbers the dielectrics modulo 32, the bits of a ray's mask of what it is inside of.
+void note_many_dielectrics(Input& input) {
+  constexpr std::ptrdiff_t MASK_BITS = 32;
+  const auto count = std::count_if(input.objects.begin(), input.objects.end(), [](const InputObject& object) {
+    return (object.material.flags & MATERIAL_DIELECTRIC) != 0;
+  });
   if (count > MASK_BITS) {
     input.notes.push_back("found " + std::to_string(count) +
                           " dielectric objects; those whose numbers agree modulo 32 must not overlap");
@@ -117,7 +114,7 @@ Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOpti
   if (input.objects.empty()) {
     throw Error(ExitCode::input_unreadable, join(paths) + ": found no points and no triangles");
   }
-  number_dielectrics(input);
+  note_many_dielectrics(input);
   aim_camera(input);
   return input;
 }
