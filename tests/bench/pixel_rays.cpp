@@ -12,7 +12,7 @@ PixelRays::PixelRays(const View& view) : eye_(view.camera.eye) {
   const double pixel = 2.0 * std::tan(view.camera.fov_y_deg * std::numbers::pi / 360.0) / view.height;
   right_ = pixel * right;
   down_ = pixel * glm::cross(forward, right);
-  corner_ = forward - 0.5 * (view.width * right_ + view.height * down_);
+  corner_ = forward - 0.5 * (double(view.width) * right_ + double(view.height) * down_);
   pixel_width_ = pixel * glm::length(to_target);
 }
 
