@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace splatray::bench {
+namespace splatray::testing {
 
 PixelRays::PixelRays(const View& view) : eye_(view.camera.eye) {
   const glm::dvec3 to_target = view.camera.target - view.camera.eye;
@@ -20,4 +20,4 @@ glm::dvec3 PixelRays::dir_world(std::uint32_t x, std::uint32_t y) const {
   return glm::normalize(corner_ + (x + 0.5) * right_ + (y + 0.5) * down_);
 }
 
-}  // namespace splatray::bench
+}  // namespace splatray::testing

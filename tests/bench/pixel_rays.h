@@ -5,7 +5,7 @@
 
 #include "engine/host/view.h"
 
-namespace splatray::bench {
+namespace splatray::testing {
 
 /// Rays through pixel centres in float64 (perspective cameras).
 class PixelRays {
@@ -22,4 +22,4 @@ class PixelRays {
   double pixel_width_;
 };
 
-}  // namespace splatray::bench
+}  // namespace splatray::testing

@@ -9,7 +9,7 @@
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
 
-namespace splatray::bench {
+namespace splatray::testing {
 namespace {
 
 constexpr std::array<char, 8> MAGIC{'S', 'P', 'L', 'T', 'R', 'U', 'T', 'H'};
@@ -89,4 +89,4 @@ Truth read_truth(const std::filesystem::path& path) {
   return truth;
 }
 
-}  // namespace splatray::bench
+}  // namespace splatray::testing

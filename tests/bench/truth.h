@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace splatray::bench {
+namespace splatray::testing {
 
 /// What the ray through a pixel's centre truly meets first.
 struct TruePixel {
@@ -36,4 +36,4 @@ void write_truth(const Truth& truth, const std::filesystem::path& path);
 /// Reads it back. Throws Error (input_unreadable) when the file is not that long or begins otherwise.
 [[nodiscard]] Truth read_truth(const std::filesystem::path& path);
 
-}  // namespace splatray::bench
+}  // namespace splatray::testing
