@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace splatray::testing {
+namespace splatray::bench {
 namespace {
 
 constexpr std::uint32_t WIDTH = 96;
@@ -85,4 +85,4 @@ TEST(Flip, AgreesWithTheAuthorsProgram) {
 }
 
 }  // namespace
-}  // namespace splatray::testing
+}  // namespace splatray::bench
