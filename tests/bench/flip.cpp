@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace splatray::bench {
+namespace splatray::testing {
 namespace {
 
 using glm::dmat3;
@@ -229,4 +229,4 @@ double flip_mean(const std::vector<glm::vec3>& a_srgb, const std::vector<glm::ve
   return sum / static_cast<double>(a.size());
 }
 
-}  // namespace splatray::bench
+}  // namespace splatray::testing

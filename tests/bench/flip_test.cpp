@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace splatray::bench {
+namespace splatray::testing {
 namespace {
 
 constexpr std::uint32_t WIDTH = 96;
@@ -85,4 +85,4 @@ TEST(Flip, AgreesWithTheAuthorsProgram) {
 }
 
 }  // namespace
-}  // namespace splatray::bench
+}  // namespace splatray::testing
