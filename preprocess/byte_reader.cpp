@@ -32,15 +32,18 @@ ByteReader::ByteReader(const std::filesystem::path& path) : path_(path) {
     throw_unreadable(path, "cannot be opened for reading");
   }
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
-  buffer_.resize(BLOCK_BYTES);
+  buffer_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(size_, BLOCK_BYTES)));
 }
 
 bool ByteReader::fill(std::size_t count) {
-  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-  end_ -= begin_;
-  begin_ = 0;
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
   if (count > buffer_.size()) {
-    buffer_.resize(count);
+    buffer_.resize(
+        std::max(count, 2 * buffer_.size()));
   }
   while (end_ < count) {
     const std::size_t got = std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());

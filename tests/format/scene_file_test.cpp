@@ -2,44 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <fstream>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include "engine/host/error.h"
+#include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
 
 namespace splatray {
 namespace {
 
 namespace fs = std::filesystem;
-using Bytes = std::string;
-
-constexpr std::size_t HEADER = 504, TABLE = 248, ENTRY = 32;
-
-template <typename T>
-T get(const Bytes& bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
-}
-
-template <typename T>
-void put(Bytes& bytes, std::size_t offset, T value) {
-  std::memcpy(bytes.data() + offset, &value, sizeof value);
-}
-
-/// Makes all checksums right again, as someone who forges a file would.
-void reseal(Bytes& bytes) {
-  for (std::size_t entry = TABLE; entry < HEADER; entry += ENTRY) {
-    const auto offset = get<std::uint64_t>(bytes, entry + 8), size = get<std::uint64_t>(bytes, entry + 16);
-    put<std::uint64_t>(bytes, entry + 24, XXH3_64bits(bytes.data() + offset, size));
-  }
-  put<std::uint64_t>(bytes, 24, 0);
-  put<std::uint64_t>(bytes, 24, XXH3_64bits(bytes.data(), HEADER));
-}
 
 std::size_t section_offset(const Bytes& bytes, std::size_t id) {
   return get<std::uint64_t>(bytes, TABLE + (id - 1) * ENTRY + 8);
@@ -203,8 +175,7 @@ TEST_F(SceneFile, RefusesForgedCounts) {
   const auto refused = [&](std::size_t offset, std::uint64_t value) {
     Bytes forged = bytes;
     put(forged, offset, value);
-    put<std::uint64_t>(forged, 24, 0);
-    put<std::uint64_t>(forged, 24, XXH3_64bits(forged.data(), HEADER));
+    reseal_header(forged);
     return !refusal(forged).empty();
   };
   for (const std::size_t offset : {40, 48, 56, 64, 72, 80, 240}) {
