@@ -42,8 +42,7 @@ bool ByteReader::fill(std::size_t count) {
     begin_ = 0;
   }
   if (count > buffer_.size()) {
-    buffer_.resize(
-        std::max(count, 2 * buffer_.size()));
+    buffer_.resize(std::max(count, 2 * buffer_.size()));
   }
   while (end_ < count) {
     const std::size_t got = std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
