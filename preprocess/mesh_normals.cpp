@@ -88,6 +88,23 @@ glm::vec3 smooth_normal(const CornerFans& fans, std::size_t vertex, const glm::v
   return is_usable(sum) ? glm::normalize(sum) : face;
 }
 
+glm::vec3 unit(const glm::vec3& vector) {
+  const float length = glm::length(vector);
+  return length > 1e-6F ? vector / length : glm::vec3(0.0F);
+}
+
+/// The normal, turned towards the facet's where it leans more than 10 degrees: discs that lean far out of a
+/// facet are seen from behind and shade each other.
+glm::vec3 near_facet(const glm::vec3& normal, glm::vec3 facet) {
+  constexpr float COS_LEAN = 0.985F;
+  constexpr float SIN_LEAN = 0.174F;
+  facet *= glm::dot(facet, normal) < 0.0F ? -1.0F : 1.0F;
+  const float along = glm::dot(facet, normal);
+  const glm::vec3 aside = unit(normal - along * facet);
+  if (along >= COS_LEAN || along <= 0.0F || aside == glm::vec3(0.0F)) return normal;
+  return COS_LEAN * facet + SIN_LEAN * aside;
+}
+
 }  // namespace
 
 std::vector<glm::uint> weld_positions(const std::vector<glm::dvec3>& positions) {
@@ -151,6 +168,14 @@ std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::u
     }
   }
   return normals;
+}
+
+glm::vec3 normal_on_triangle(const Mesh& mesh, const std::vector<glm::vec3>& corners, std::size_t triangle,
+                             const glm::dvec3& weights) {
+  const glm::vec3 w(weights);
+  const glm::vec3* normals = &corners[3 * triangle];
+  const glm::vec3 smooth = unit(w.x * normals[0] + w.y * normals[1] + w.z * normals[2]);
+  return near_facet(smooth, glm::vec3(face_normal(mesh, mesh.triangles[triangle])));
 }
 
 void flip_mesh(Mesh& mesh) {

@@ -22,6 +22,11 @@ namespace splatray {
 /// sharp.
 [[nodiscard]] std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
 
+/// Unit normal at the point of a triangle with these barycentric weights: its three `corners` (corner_normals)
+/// interpolated, at most 10 degrees from the triangle's own; zero where they cancel.
+[[nodiscard]] glm::vec3 normal_on_triangle(const Mesh& mesh, const std::vector<glm::vec3>& corners,
+                                           std::size_t triangle, const glm::dvec3& weights);
+
 /// Turns the mesh inside out: winding and given normals.
 void flip_mesh(Mesh& mesh);
 

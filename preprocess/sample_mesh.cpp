@@ -79,10 +79,7 @@ class SampleWriter {
     const glm::vec3 w(weights);
     const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
     points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
-    const glm::vec3* normals = &normals_[3 * triangle_index];
-    const glm::vec3 smooth = unit(w.x * normals[0] + w.y * normals[1] + w.z * normals[2]);
-    points_.normal.push_back(
-        near_facet(smooth, glm::cross(corners[1] - corners[0], corners[2] - corners[0])));
+    points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
     if (mesh_.vertices.color.empty() && !mesh_.texture) {
       return;
     }
@@ -100,24 +97,6 @@ class SampleWriter {
   Points finish() { return std::move(points_); }
 
  private:
-  static glm::vec3 unit(const glm::vec3& vector) {
-    const float length = glm::length(vector);
-    return length > 1e-6F ? vector / length : glm::vec3(0.0F);
-  }
-
-  /// The normal, turned towards the facet's where it leans more than 10 degrees: discs that lean far out of a
-  /// facet are seen from behind and shade each other. `across` is perpendicular to the facet, of any length.
-  static glm::vec3 near_facet(const glm::vec3& normal, const glm::dvec3& across) {
-    constexpr float COS_LEAN = 0.985F;
-    constexpr float SIN_LEAN = 0.174F;
-    glm::vec3 facet(across / std::max(glm::length(across), 1e-300));
-    facet *= glm::dot(facet, normal) < 0.0F ? -1.0F : 1.0F;
-    const float along = glm::dot(facet, normal);
-    const glm::vec3 aside = unit(normal - along * facet);
-    if (along >= COS_LEAN || along <= 0.0F || aside == glm::vec3(0.0F)) return normal;
-    return COS_LEAN * facet + SIN_LEAN * aside;
-  }
-
   const Mesh& mesh_;
   std::vector<glm::vec3> normals_;
   Points points_;

@@ -1,0 +1,49 @@
+/// Errors of analytic shapes measured by rays from everywhere, finer than a picture can.
+#pragma once
+#include <cmath>
+#include <functional>
+#include <span>
+
+#include "engine/host/scene.h"
+#include "tests/bench/analytic.h"
+#include "tests/bench/wilson.h"
+
+namespace splatray::testing {
+
+struct ProbeErrors {
+  double normal_rms_deg = NAN;  ///< angle to the true normal
+  double jump_p999_deg = NAN;   ///< turn of the normal when the ray moves aside by 0.01 median radii
+  double view_inconsistency_p99_deg = NAN;  ///< angle between the normals of one point seen by two rays
+  double depth_bias_r = NAN;                ///< mean of distance - true distance, in median radii
+  Share holes;             ///< rays that miss, or meet something more than 4 median radii too deep
+  std::uint64_t rays = 0;  ///< that `holes` is a share of
+};
+
+/// Rays of a case's probes.
+inline constexpr std::size_t PROBE_RAYS = 1U << 18U;
+
+/// Sends rays to the shape from all around, uniform in direction and in place, that truly meet it at 78 degrees from its
+/// normal or less (cosine 0.2: inside the silhouette). Each ray is rounded to float32 first and its truth computed then.
+class Probes {
+ public:
+  /// About `count` rays for scenes of this transform.
+  Probes(Shape shape, const RootTransform& root, std::size_t count, std::uint64_t seed);
+
+  /// Answers rays of root space, one hit for each.
+  using Intersect = std::function<std::vector<RayHit>(std::span<const RayQuery>)>;
+  /// The errors of answers. `radius_world`: median radius of the discs.
+  [[nodiscard]] ProbeErrors measure(const Intersect& intersect, double radius_world) const;
+
+ private:
+  struct Probe {
+    glm::dvec3 aside;   ///< unit, perpendicular to the ray
+    ShapeHit truth;     ///< root units
+    bool seen = false;  ///< the second ray truly meets the same point first
+  };
+  RootTransform root_;
+  std::vector<RayQuery> rays_;
+  std::vector<RayQuery> second_;  ///< to the same points from elsewhere
+  std::vector<Probe> probes_;
+};
+
+}  // namespace splatray::testing
