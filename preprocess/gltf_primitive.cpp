@@ -1,5 +1,6 @@
 #include "preprocess/gltf_primitive.h"
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <type_traits>
@@ -25,6 +26,18 @@ std::vector<Vector> read_attribute(const GltfFile& file, const tinygltf::Primiti
               std::to_string(vertex_count));
   }
   return vectors;
+}
+
+/// COLOR_0 within 0..1, as the specification wants it; NaN becomes 0.
+std::vector<glm::vec3> read_colors(const GltfFile& file, const tinygltf::Primitive& primitive,
+                                   std::size_t vertex_count) {
+  std::vector<glm::vec3> colors = read_attribute<glm::vec3>(file, primitive, "COLOR_0", vertex_count);
+  for (glm::vec3& color : colors) {
+    for (int channel = 0; channel < 3; ++channel) {
+      color[channel] = std::max(0.0F, std::min(color[channel], 1.0F));
+    }
+  }
+  return colors;
 }
 
 std::vector<glm::dvec3> read_positions(const GltfFile& file, const tinygltf::Primitive& primitive) {
@@ -115,7 +128,7 @@ std::optional<Mesh> read_primitive(const GltfFile& file, const tinygltf::Primiti
   mesh.vertices.position = read_positions(file, primitive);
   const std::size_t count = mesh.vertices.size();
   mesh.vertices.normal = read_attribute<glm::vec3>(file, primitive, "NORMAL", count);
-  mesh.vertices.color = read_attribute<glm::vec3>(file, primitive, "COLOR_0", count);
+  mesh.vertices.color = read_colors(file, primitive, count);
   add_texture(file, primitive, materials, mesh);
   if (!mesh.texture) {
     const glm::vec3 base = materials.base_color(primitive.material);

@@ -117,6 +117,18 @@ TEST(Gltf, PointsPrimitivesAndVertexColours) {
   EXPECT_EQ(input.objects[0].material.flags, 0U);
 }
 
+TEST(Gltf, VertexColoursBeyondTheirRangeAreCut) {
+  const TempFolder folder;
+  std::string bytes = tetrahedron_bytes();
+  bytes.replace(0, 12, bytes_of(2.0F) + bytes_of(-1.0F) + bytes_of(NAN));
+  std::string text = scene_json(R"({"mesh":0})", "", R"(,"mode":0)",
+                                R"(,"uri":"data:application/octet-stream;base64,)" + base64(bytes) + "\"");
+  text.replace(text.find(R"("POSITION":0)"), 12, R"("POSITION":0,"COLOR_0":0)");
+  const Points points = read_input({folder.write("c.gltf", text)}, {}).objects[0].points;
+  EXPECT_EQ(points.color.at(0), glm::vec3(1.0F, 0.0F, 0.0F));
+  EXPECT_EQ(points.color.at(1), glm::vec3(0.0F, 1.0F, 0.0F));
+}
+
 TEST(Gltf, MaterialsBecomeGlassMirrorsAndPlastic) {
   const TempFolder folder;
   const auto material = [&](const std::string& json) {
