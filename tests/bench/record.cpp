@@ -1,6 +1,5 @@
 #include "tests/bench/record.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "app/commit.h"
@@ -45,8 +44,7 @@ Json start_record(const Case& one, const Run& run, std::uint64_t splats) {
 }
 
 void set_number(Json& json, const std::string& key, double value) {
-  constexpr double INSTEAD_OF_INFINITY = 1000.0;
-  if (!std::isnan(value)) json[key] = std::min(value, INSTEAD_OF_INFINITY);
+  if (std::isfinite(value)) json[key] = value;
 }
 
 Json holes_json(const Share& holes, std::uint64_t rays) {

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 /// A run's record but for device, `speed`, `error` and settings.threads, on a scene of `splats` splats.
 [[nodiscard]] Json start_record(const Case& one, const Run& run, std::uint64_t splats);
 
-/// Sets json[key] unless the value is NaN; +inf becomes 1000, as JSON has no infinity.
+/// Sets json[key] unless the value is NaN or infinite, which JSON cannot say (the PSNR of equal pictures).
 void set_number(Json& json, const std::string& key, double value);
 
 /// {value, low, high, rays}, ppm.
