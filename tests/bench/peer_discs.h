@@ -1,0 +1,59 @@
+/// The scene's splats in float32, and the cluster of discs that a ray meets, for peers.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "engine/host/scene.h"
+#include "engine/host/view.h"
+
+namespace splatray::testing {
+
+/// Every splat once, in the order of the octree's leaves (Z-order). Root space, lattice units.
+struct Discs {
+  std::vector<vec4> center_radius;
+  std::vector<vec3> normal;  ///< unit
+  std::vector<std::uint32_t> object;
+  std::vector<std::uint8_t> two_sided;  ///< per object: both faces are hit
+
+  [[nodiscard]] std::size_t size() const { return object.size(); }
+  [[nodiscard]] bool any_one_sided() const;
+  /// Whether the ray's direction meets a face that counts.
+  [[nodiscard]] bool faces(std::size_t disc, const vec3& dir) const {
+    return two_sided[object[disc]] != 0 || glm::dot(normal[disc], dir) < 0.0F;
+  }
+};
+
+[[nodiscard]] Discs discs_of(const Scene& scene);
+
+/// The discs that one ray meets, in any order, as a traversal finds them.
+class Gathering {
+ public:
+  /// Notes that the ray meets `disc` at t. Discs beyond the window of the nearest one so far, and those that find no
+  /// more room, are left out. `dir` is unit.
+  void add(std::size_t disc, float t, const vec3& dir, const Discs& discs, const Settings& settings);
+
+  /// Nothing farther than this can belong to the cluster: the end of the nearest disc's window (BLEND_NEAREST: its t).
+  /// A nearer disc may open a deeper window later; what lay behind the first one's end is then lost (weights are
+  /// nearly zero there).
+  [[nodiscard]] float end() const { return end_; }
+
+  /// The answer (design, section 4): the nearest disc, or the weighted mean of its cluster. Settings used: blend, kernel,
+  /// kappa.
+  [[nodiscard]] RayHit blended(const RayQuery& ray, const Discs& discs, const Settings& settings) const;
+
+ private:
+  struct Meeting {
+    float t;
+    std::uint32_t disc;
+  };
+  /// The mean cluster has 2 to 4 discs, 12 with dense random sampling.
+  static constexpr std::size_t MOST = 64;
+
+  std::array<Meeting, MOST> met_;
+  std::size_t count_ = 0;
+  Meeting first_{INFINITY, 0};
+  float depth_ = 0.0F;
+  float end_ = INFINITY;
+};
+
+}  // namespace splatray::testing

@@ -1,0 +1,34 @@
+/// Groups of discs as Embree's user geometry.
+#pragma once
+#include "tests/bench/embree_scene.h"
+#include "tests/bench/peer.h"
+#include "tests/bench/peer_discs.h"
+
+namespace splatray::testing {
+
+/// RTC_GEOMETRY_TYPE_USER: each primitive is a run of `group` discs of the octree's Z-order, in the tightest box, all
+/// tested in one vectorised loop, one ray at a time. A group of 1 is a disc of its own. Hits are gathered as the
+/// discs are tested, without a filter.
+class EmbreeClusters : public Peer {
+ public:
+  /// Most discs of a group.
+  static constexpr std::size_t GROUP_MOST = 64;
+
+  /// `discs` must outlive the peer; `group` in 1..GROUP_MOST.
+  EmbreeClusters(const Discs& discs, const Settings& settings, std::size_t group);
+  void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const override;
+  [[nodiscard]] std::uint64_t bytes() const override;
+
+ private:
+  static void bounds_of(const RTCBoundsFunctionArguments* args);
+  static void intersect(const RTCIntersectFunctionNArguments* args);
+
+  const Discs& discs_;
+  Settings settings_;
+  std::size_t group_;
+  /// The discs again, a list per coordinate.
+  std::vector<float> center_x_, center_y_, center_z_, normal_x_, normal_y_, normal_z_, radius_squared_;
+  EmbreeScene embree_;
+};
+
+}  // namespace splatray::testing

@@ -1,0 +1,45 @@
+#include "tests/bench/peer_embree_mesh.h"
+
+#include <algorithm>
+
+#include "preprocess/mesh_normals.h"
+
+namespace splatray::testing {
+
+EmbreeMesh::EmbreeMesh(const Mesh& mesh, const RootTransform& root)
+    : mesh_(mesh), corner_normals_(corner_normals(mesh, weld_positions(mesh.vertices.position))) {
+  RTCGeometry geometry = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* positions = static_cast<vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.vertices.size()));
+  auto* triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size()));
+  std::transform(mesh.vertices.position.begin(), mesh.vertices.position.end(), positions,
+                 [&](const glm::dvec3& world) { return vec3(root.to_root(world)); });
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+  embree_.build(geometry);
+}
+
+void EmbreeMesh::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  EmbreeBundle bundle(rays);
+  bundle.intersect(embree_.scene(), context);
+  for (std::size_t lane = 0; lane < rays.size(); ++lane) {
+    RayHit& hit = hits[lane] = {};
+    hit.t = hit.t_first = bundle.query.ray.tfar[lane];
+    hit.object = NO_OBJECT;
+    if (bundle.query.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+    const double u = bundle.query.hit.u[lane];
+    const double v = bundle.query.hit.v[lane];
+    const vec3 normal =
+        normal_on_triangle(mesh_, corner_normals_, bundle.query.hit.primID[lane], {1.0 - u - v, u, v});
+    hit.normal = glm::dot(normal, rays[lane].dir) > 0.0F ? -normal : normal;
+    hit.object = 0;
+    hit.members = 1;
+  }
+}
+
+std::uint64_t EmbreeMesh::bytes() const { return embree_.bytes() + sizeof(vec3) * corner_normals_.size(); }
+
+}  // namespace splatray::testing

@@ -1,0 +1,49 @@
+/// splatray-bench-peers FOLDER -o PEERS.json [--quick] [--case NAME]: measures other ray tracers on what
+/// splatray-bench-prepare made; one JSON array of records (record.h).
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "engine/host/atomic_file.h"
+#include "engine/host/error.h"
+#include "preprocess/option_types.h"
+#include "tests/bench/peer_measure.h"
+#include "tests/trace/scenes.h"
+
+namespace splatray::testing {
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app("Measures Embree on the cases that splatray-bench-prepare made in FOLDER.",
+               "splatray-bench-peers");
+  std::filesystem::path folder, output;
+  std::string only;
+  bool quick = false;
+  app.add_option("folder", folder, "what splatray-bench-prepare wrote")->required();
+  app.add_option("-o,--output", output, "JSON file to write: one record for each run")->required();
+  app.add_flag("--quick", quick, "only the cases of splatray-bench-prepare --quick, and fewer peers");
+  app.add_option("--case", only, "only this case");
+  if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
+  require_writable(output);
+  Json records = Json::array();
+  for (const Case& one : cases(quick)) {
+    const std::filesystem::path prepared = folder / folder_name(one);
+    if (!has_peers(one) || (!only.empty() && one.name != only)) continue;
+    if (!std::filesystem::exists(prepared / "case.json")) {
+      std::printf("%s: left out, it was not prepared\n", one.name.c_str());
+      continue;
+    }
+    for (const Json& record : measure_peers(one, prepared, data_folder().value_or(""), quick))
+      records.push_back(record);
+    std::printf("%s: measured\n", one.name.c_str());
+    std::fflush(stdout);
+  }
+  write_text_file(records.dump(1) + '\n', output);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+}  // namespace splatray::testing
+
+int main(int argc, char** argv) {
+  return splatray::run_main("splatray-bench-peers", splatray::testing::run, argc, argv);
+}
