@@ -8,7 +8,7 @@
 namespace splatray {
 namespace {
 
-constexpr double COS_CREASE = 0.766;  ///< 40 degrees
+constexpr double COS_CREASE = 0.643;  ///< 50 degrees
 constexpr double LEAST_SUM = 0.4;     ///< of a vertex' weighted normals, in units of its angles' sum
 
 std::uint64_t hash_position(const glm::dvec3& position) {
@@ -93,11 +93,11 @@ glm::vec3 unit(const glm::vec3& vector) {
   return length > 1e-6F ? vector / length : glm::vec3(0.0F);
 }
 
-/// The normal, turned towards the facet's where it leans more than 10 degrees: discs that lean far out of a
+/// The normal, turned towards the facet's where it leans more than 20 degrees: discs that lean far out of a
 /// facet are seen from behind and shade each other.
 glm::vec3 near_facet(const glm::vec3& normal, glm::vec3 facet) {
-  constexpr float COS_LEAN = 0.985F;
-  constexpr float SIN_LEAN = 0.174F;
+  constexpr float COS_LEAN = 0.940F;
+  constexpr float SIN_LEAN = 0.342F;
   facet *= glm::dot(facet, normal) < 0.0F ? -1.0F : 1.0F;
   const float along = glm::dot(facet, normal);
   const glm::vec3 aside = unit(normal - along * facet);

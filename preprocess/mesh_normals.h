@@ -18,12 +18,12 @@ namespace splatray {
 [[nodiscard]] std::vector<glm::vec3> vertex_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
 
 /// Unit normals of each triangle's three corners, 3 * triangles: the given one, or the angle-weighted sum
-/// over those triangles at the corner that turn less than 40 degrees from this one, so that creases stay
+/// over those triangles at the corner that turn less than 50 degrees from this one, so that creases stay
 /// sharp.
 [[nodiscard]] std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
 
 /// Unit normal at the point of a triangle with these barycentric weights: its three `corners` (corner_normals)
-/// interpolated, at most 10 degrees from the triangle's own; zero where they cancel.
+/// interpolated, at most 20 degrees from the triangle's own; zero where they cancel.
 [[nodiscard]] glm::vec3 normal_on_triangle(const Mesh& mesh, const std::vector<glm::vec3>& corners,
                                            std::size_t triangle, const glm::dvec3& weights);
 
