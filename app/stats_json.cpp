@@ -67,6 +67,7 @@ void write_stats(const std::filesystem::path& path, const LoadedScene& loaded, c
         {"begin_end", bytes.begin_end},
         {"data_pool", bytes.data_pool},
         {"color_pool", bytes.color_pool},
+        {"field_pool", bytes.field_pool},
         {"environment", bytes.environment},
         {"texel_buffers", bytes.texel_buffers}}}};
   if (loaded.build) json["build"] = Json::parse(build_stats_json(*loaded.build));

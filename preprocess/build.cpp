@@ -13,6 +13,7 @@
 #include "preprocess/cloud.h"
 #include "preprocess/insertion.h"
 #include "preprocess/morton.h"
+#include "preprocess/normal_field.h"
 #include "preprocess/normals.h"
 #include "preprocess/octree.h"
 #include "preprocess/parallel.h"
@@ -127,6 +128,13 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildP
   }
 }
 
+void fit_all_normal_fields(std::vector<Cloud>& clouds, const BuildParams& params,
+                           const BuildProgress& progress, BuildStats& stats) {
+  if (!params.normal_fields) return;
+  const Stopwatch watch(stats.fields_ms);
+  for (Cloud& cloud : clouds) fit_normal_fields(cloud, {"normal fields", progress});
+}
+
 RootTransform fit_root(const std::vector<Cloud>& clouds) {
   DiscBounds bounds;
   for (const Cloud& cloud : clouds) {
@@ -137,18 +145,36 @@ RootTransform fit_root(const std::vector<Cloud>& clouds) {
   return fit_root(bounds);
 }
 
-/// Packs all objects' points, which are then freed. Objects without colours are white where others have some.
+/// The normal field of a splat that has been packed.
+std::uint32_t packed_field(const Cloud& cloud, std::size_t i, const glm::dvec3& packed_normal) {
+  const TangentFrame frame(glm::normalize(glm::dvec3(cloud.normal[i])));
+  const glm::dvec3 slope = glm::dvec3(cloud.field[i]) * static_cast<double>(cloud.radius[i]);
+  const glm::dmat3 matrix =
+      slope.x * glm::outerProduct(frame.u, frame.u) + slope.z * glm::outerProduct(frame.v, frame.v) +
+      slope.y * (glm::outerProduct(frame.u, frame.v) + glm::outerProduct(frame.v, frame.u));
+  return pack_field(matrix, packed_normal);
+}
+
+bool all_flat(const std::vector<std::uint32_t>& fields) {
+  return std::all_of(fields.begin(), fields.end(), [](std::uint32_t field) { return field == FIELD_FLAT; });
+}
+
+/// Packs all objects' points, which are then freed. Objects without colours are white where others have some;
+/// normal fields are left out where all discs are flat.
 SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, const Stage& stage) {
   std::size_t total = 0;
   bool has_colors = false;
+  bool has_fields = false;
   for (const Cloud& cloud : clouds) {
     total += cloud.size();
+    has_fields = has_fields || !cloud.field.empty();
     has_colors = has_colors || !cloud.color.empty();
   }
   SplatList splats;
   splats.key.resize(total);
   splats.words.resize(total);
   if (has_colors) splats.color.resize(total, pack_color(glm::vec3(1.0F)));
+  if (has_fields) splats.field.resize(total, FIELD_FLAT);
   std::size_t first = 0;
   for (std::uint32_t object = 0; object < clouds.size(); ++object) {
     const Cloud cloud = std::move(clouds[object]);
@@ -156,13 +182,16 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, cons
       const double radius = cloud.radius[i] * cloud.half_extent_world / root.unit_world;
       const uvec4 words = pack_splat({root.to_root(cloud.position[i]),
                                       glm::normalize(glm::dvec3(cloud.normal[i])), radius * radius, object});
+      const Splat splat = unpack_splat(words);
       splats.words[first + i] = words;
-      splats.key[first + i] = morton_key(glm::uvec3(unpack_splat(words).center));
+      splats.key[first + i] = morton_key(glm::uvec3(splat.center));
+      if (!cloud.field.empty()) splats.field[first + i] = packed_field(cloud, i, splat.normal);
     });
     std::copy(cloud.color.begin(), cloud.color.end(),
               splats.color.begin() + static_cast<std::ptrdiff_t>(cloud.color.empty() ? 0 : first));
     first += cloud.size();
   }
+  if (all_flat(splats.field)) splats.field.clear();
   return splats;
 }
 
@@ -191,9 +220,13 @@ void fill_pools(Octree tree, const SplatList& splats, const LeafLists& lists, Sc
   scene.splat_count = splats.size();
   scene.data_pool.resize(lists.splat.size());
   for (std::size_t i = 0; i < lists.splat.size(); ++i) scene.data_pool[i] = splats.words[lists.splat[i]];
-  if (splats.color.empty()) return;
-  scene.color_pool.resize(lists.splat.size());
-  for (std::size_t i = 0; i < lists.splat.size(); ++i) scene.color_pool[i] = splats.color[lists.splat[i]];
+  const auto listed = [&lists](const std::vector<std::uint32_t>& attribute) {
+    std::vector<std::uint32_t> pool(attribute.empty() ? 0 : lists.splat.size());
+    for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = attribute[lists.splat[i]];
+    return pool;
+  };
+  scene.color_pool = listed(splats.color);
+  scene.field_pool = listed(splats.field);
 }
 
 void count_result(const Scene& scene, const SplatList& splats, BuildStats& stats) {
@@ -231,6 +264,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   estimate_all_normals(clouds, scene, progress, stats);
   find_bounds(clouds, scene);
   find_all_radii(clouds, scene, progress, stats);
+  fit_all_normal_fields(clouds, params, progress, stats);
   SplatList splats;
   Octree tree;
   {

@@ -28,6 +28,8 @@ void add_build_options(CLI::App& app, BuildOptions& options, const std::string& 
                          {{"coverage", RadiusRule::coverage}, {"knn", RadiusRule::knn}},
                          "radii of points that have none; default coverage");
   add_number(app, "--radius-scale", params.radius_scale, 1e-6, 1e6, "factor on every radius; default 1");
+  add_choice<bool>(app, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
+                   "how normals change across each disc, where the scene curves; default on");
   add_number(app, "--threads", options.threads, 0, 4096, "threads of the preprocess; default 0 = all cores");
 }
 

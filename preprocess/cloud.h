@@ -12,7 +12,7 @@ namespace splatray {
 /// Steps of Cloud::coord. Distinct coordinates differ by at least this, so no squared distance underflows.
 inline constexpr float COORD_STEP = 0x1p-24F;
 
-/// Points of one object. All arrays but an empty `color` have the same length. Order: Morton key of the
+/// Points of one object. All arrays that are not empty have the same length. Order: Morton key of the
 /// coordinates, then every attribute, so that shuffled input gives the same cloud.
 struct Cloud {
   glm::dvec3 center_world{0.0};      ///< centre of the points' bounding box
@@ -22,6 +22,8 @@ struct Cloud {
   std::vector<glm::vec3> normal;  ///< unit; zero = unknown
   std::vector<std::uint32_t> color;  ///< pack_color; empty = none
   std::vector<float> radius;         ///< in units of half_extent_world; zero = unknown
+  std::vector<glm::vec3> field;      ///< normal field: uu, uv, vv of the change of the unit normal per
+                                     ///< half_extent_world in TangentFrame(normal); empty = all flat
   bool oriented = false;             ///< normals point outwards: opposite normals are opposite sheets
 
   [[nodiscard]] std::size_t size() const { return position.size(); }

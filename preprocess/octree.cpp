@@ -19,7 +19,8 @@ struct SortEntry {
 bool splat_less(const SplatList& splats, std::uint32_t a, std::uint32_t b) {
   const auto key = [&splats](std::uint32_t i) {
     const uvec4& w = splats.words[i];
-    return std::tuple(w.x, w.y, w.z, w.w, splats.color.empty() ? 0U : splats.color[i]);
+    return std::tuple(w.x, w.y, w.z, w.w, splats.color.empty() ? 0U : splats.color[i],
+                      splats.field.empty() ? 0U : splats.field[i]);
   };
   return key(a) < key(b);
 }
@@ -82,6 +83,7 @@ std::uint64_t order_splats(SplatList& splats, std::uint32_t copies) {
   ordered.key.reserve(splats.size());
   ordered.words.reserve(splats.size());
   ordered.color.reserve(splats.color.size());
+  ordered.field.reserve(splats.field.size());
   for (const SortEntry& entry : entries) {
     const uvec4& words = splats.words[entry.index];
     const std::size_t size = ordered.size();
@@ -89,6 +91,7 @@ std::uint64_t order_splats(SplatList& splats, std::uint32_t copies) {
     ordered.key.push_back(entry.key);
     ordered.words.push_back(words);
     if (!splats.color.empty()) ordered.color.push_back(splats.color[entry.index]);
+    if (!splats.field.empty()) ordered.field.push_back(splats.field[entry.index]);
   }
   const std::uint64_t dropped = splats.size() - ordered.size();
   splats = std::move(ordered);

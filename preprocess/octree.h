@@ -8,11 +8,12 @@
 
 namespace splatray {
 
-/// Different splats with their centres' Morton keys. Ascending by key, then words, then colour.
+/// Different splats with their centres' Morton keys. Ascending by key, then words, then colour, then normal field.
 struct SplatList {
   std::vector<std::uint64_t> key;
   std::vector<uvec4> words;
   std::vector<std::uint32_t> color;  ///< pack_color, or empty: no colours
+  std::vector<std::uint32_t> field;  ///< pack_field, or empty: all discs are flat
 
   [[nodiscard]] std::size_t size() const { return words.size(); }
 };

@@ -17,6 +17,7 @@ layout(constant_id = SPEC_ORDER) const uint ORDER = ORDER_Z;
 layout(constant_id = SPEC_COUNTERS) const uint COUNTERS = 0u;
 layout(constant_id = SPEC_AOV) const uint AOV = 0u;
 layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
+layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
 
 layout(local_size_x = GROUP_SIZE) in;
 
@@ -29,19 +30,23 @@ layout(binding = BIND_NODE_POOL) uniform usamplerBuffer node_pool;
 layout(binding = BIND_BEGIN_END) uniform usamplerBuffer begin_end;
 layout(binding = BIND_DATA_POOL) uniform usamplerBuffer data_pool;
 layout(binding = BIND_COLOR_POOL) uniform usamplerBuffer color_pool;
+layout(binding = BIND_FIELD_POOL) uniform usamplerBuffer field_pool;
 uint node_word(uint index) { return texelFetch(node_pool, int(index)).x; }
 uint begin_end_at(uint index) { return texelFetch(begin_end, int(index)).x; }
 uvec4 splat_words(uint index) { return texelFetch(data_pool, int(index)); }
 uint color_word(uint index) { return texelFetch(color_pool, int(index)).x; }
+uint field_word(uint index) { return texelFetch(field_pool, int(index)).x; }
 #else
 layout(std430, binding = BIND_NODE_POOL) readonly buffer NodePool { uint node_pool[]; };
 layout(std430, binding = BIND_BEGIN_END) readonly buffer BeginEnd { uint begin_end[]; };
 layout(std430, binding = BIND_DATA_POOL) readonly buffer DataPool { uvec4 data_pool[]; };
 layout(std430, binding = BIND_COLOR_POOL) readonly buffer ColorPool { uint color_pool[]; };
+layout(std430, binding = BIND_FIELD_POOL) readonly buffer FieldPool { uint field_pool[]; };
 uint node_word(uint index) { return node_pool[index]; }
 uint begin_end_at(uint index) { return begin_end[index]; }
 uvec4 splat_words(uint index) { return data_pool[index]; }
 uint color_word(uint index) { return color_pool[index]; }
+uint field_word(uint index) { return field_pool[index]; }
 #endif
 
 Material material_at(uint object) { return materials[object]; }

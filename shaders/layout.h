@@ -17,6 +17,11 @@
 ///             | steps); bit 30 is always set and bit 31 clear, as 2 <= r^2 < 2^65
 ///   3.15..0   | object index, also the index of its material
 ///
+/// Normal field, 32 bits beside a splat, only in scenes that curve: how the unit normal changes across the disc, as the
+/// symmetric matrix [[uu, uv], [uv, vv]] in the tangent frame of the splat's normal (Duff et al. 2017, "Building an
+/// Orthonormal Basis, Revisited"): at the offset (u, v) from the centre the normal is n + [[uu, uv], [uv, vv]] (u, v) / r.
+///   bits 9..0 uu, 19..10 uv, 29..20 vv; each q + 512, q in [-511, 511], value = sign(q) (q / 511)^2 / 2
+///
 /// Node word, 32 bits. Bits 31..30 tag, bits 29..0 address (Goradia et al. 2010, sec. III-A).
 ///   NODE_INNER  : address of the first of 8 children in the node pool; child = x + 2y + 4z (Z-order)
 ///   NODE_FILLED : index into Begin-End; the leaf's splats are data_pool[begin_end[a] .. begin_end[a+1])
@@ -55,8 +60,10 @@ SPLATRAY_CONST NODE_INNER = 0u;
 SPLATRAY_CONST NODE_FILLED = 1u;
 SPLATRAY_CONST NODE_EMPTY = 2u;
 
-SPLATRAY_CONST OCT_SCALE = 32767u;     ///< octahedral normals: |u| + |v| + |w| = OCT_SCALE
-SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;  ///< word 3: object index
+SPLATRAY_CONST OCT_SCALE = 32767u;        ///< octahedral normals: |u| + |v| + |w| = OCT_SCALE
+SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;     ///< word 3: object index
+SPLATRAY_CONST FIELD_FLAT = 0x20080200u;  ///< the normal field of a flat disc
+SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
 
 /// Material flags.
 SPLATRAY_CONST MATERIAL_DIELECTRIC = 1u;  ///< refracts and reflects by Fresnel; `tint` on each crossing
@@ -175,14 +182,15 @@ SPLATRAY_CONST BIND_NODE_POOL = 1u;
 SPLATRAY_CONST BIND_BEGIN_END = 2u;
 SPLATRAY_CONST BIND_DATA_POOL = 3u;
 SPLATRAY_CONST BIND_COLOR_POOL = 4u;
-SPLATRAY_CONST BIND_MATERIALS = 5u;
-SPLATRAY_CONST BIND_LIGHTS = 6u;
-SPLATRAY_CONST BIND_ENVIRONMENT = 7u;
-SPLATRAY_CONST BIND_ACCUMULATION = 8u;
-SPLATRAY_CONST BIND_AOV = 9u;
-SPLATRAY_CONST BIND_COUNTERS = 10u;
-SPLATRAY_CONST BIND_RAYS = 11u;
-SPLATRAY_CONST BIND_HITS = 12u;
+SPLATRAY_CONST BIND_FIELD_POOL = 5u;
+SPLATRAY_CONST BIND_MATERIALS = 6u;
+SPLATRAY_CONST BIND_LIGHTS = 7u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 8u;
+SPLATRAY_CONST BIND_ACCUMULATION = 9u;
+SPLATRAY_CONST BIND_AOV = 10u;
+SPLATRAY_CONST BIND_COUNTERS = 11u;
+SPLATRAY_CONST BIND_RAYS = 12u;
+SPLATRAY_CONST BIND_HITS = 13u;
 
 /// Specialization constants: the features of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_BLEND = 0u;        ///< BLEND_*
@@ -198,7 +206,8 @@ SPLATRAY_CONST SPEC_ORDER = 9u;        ///< ORDER_*
 SPLATRAY_CONST SPEC_COUNTERS = 10u;    ///< 1: counters
 SPLATRAY_CONST SPEC_AOV = 11u;         ///< 1: write AovPixel of the centre ray instead of colour
 SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
-SPLATRAY_CONST SPEC_COUNT = 13u;
+SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
+SPLATRAY_CONST SPEC_COUNT = 14u;
 
 SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1

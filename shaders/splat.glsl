@@ -92,6 +92,34 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   return hit;
 }
 
+/// One entry of a normal field, per radius.
+float field_slope(uint bits) {
+  float q = (float(bits & 0x3FFu) - 512.0f) * (1.0f / float(FIELD_SCALE));
+  return 0.5f * q * abs(q);
+}
+
+/// What a disc's normal field makes of a meeting with the disc's plane.
+struct FieldPoint {
+  vec3 normal;     ///< unit; may point away from the ray
+  float height;    ///< of the curved surface over the disc's plane, along the disc's normal, lattice units
+};
+
+/// The field's normal, and the height of the surface it belongs to, at an offset on the disc (layout.h). `normal` is the
+/// disc's unit normal.
+FieldPoint field_point(uint word, vec3 normal, vec3 from_center, float radius) {
+  float side = normal.z >= 0.0f ? 1.0f : -1.0f;
+  float a = -1.0f / (side + normal.z);
+  vec3 u = vec3(1.0f + side * normal.x * normal.x * a, side * normal.x * normal.y * a, -side * normal.x);
+  vec3 v = vec3(normal.x * normal.y * a, side + normal.y * normal.y * a, -normal.y);
+  vec2 offset = vec2(dot(from_center, u), dot(from_center, v)) * (1.0f / radius);
+  float uv = field_slope(word >> 10u);
+  vec2 lean = vec2(field_slope(word) * offset.x + uv * offset.y, uv * offset.x + field_slope(word >> 20u) * offset.y);
+  FieldPoint point;
+  point.normal = normalize(normal + u * lean.x + v * lean.y);
+  point.height = -0.5f * radius * (lean.x * offset.x + lean.y * offset.y);
+  return point;
+}
+
 /// Own-sheet exclusion (design, section 4): whether the disc belongs to the sheet that a secondary ray has
 /// just left, i.e. same object, like normal, and either the ray's origin within the disc's thin slab and near
 /// its rim, or the ray coming from behind it nearby: from below another layer of a noisy sheet. On a

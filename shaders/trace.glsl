@@ -1,8 +1,8 @@
 // What a ray hits (design, section 4): the first accepted splat and the blend of its cluster, or whether
 // anything is hit at all. The result depends on the splats alone, not on the tree: intervals tile the ray,
 // each hit is decided exactly and counts in one leaf, and sums are integers. Needs, beside traverse.glsl:
-// splat_words(index), color_at(index), material_at(object), and the constants BLEND, KERNEL, SIDE, FACES,
-// COLORS, COUNTERS.
+// splat_words(index), color_at(index), field_word(index), material_at(object), and the constants BLEND, KERNEL,
+// SIDE, FACES, COLORS, FIELDS, COUNTERS.
 #ifndef SPLATRAY_TRACE_GLSL
 #define SPLATRAY_TRACE_GLSL
 #include "traverse.glsl"
@@ -136,6 +136,29 @@ vec3 point_at(Ray ray, float t, OUT(vec3) low) {
   return vec3(x.x, y.x, z.x);
 }
 
+/// The surface where a ray meets the plane of a disc.
+struct Facet {
+  vec3 normal;    ///< unit, turned against the ray
+  float behind;   ///< how much farther along the ray than the plane
+};
+
+/// The disc itself, or what its normal field makes of it. A field's normal turns at most until it is square to the ray.
+Facet facet_at(uvec4 words, uint index, vec3 from_center, vec3 dir) {
+  vec3 normal = splat_normal(words);
+  normal = normal * inversesqrt(dot(normal, normal));
+  float cosine = dot(normal, dir);
+  Facet facet;
+  facet.normal = cosine > 0.0f ? -normal : normal;
+  facet.behind = 0.0f;
+  if (FIELDS == 1u) {
+    FieldPoint point = field_point(field_word(index), normal, from_center, sqrt(splat_radius_squared(words)));
+    vec3 turned = cosine > 0.0f ? -point.normal : point.normal;
+    facet.normal = normalize(turned - dir * max(dot(turned, dir), 0.0f));
+    facet.behind = point.height / (cosine > 0.0f ? max(cosine, MIN_COSINE) : min(cosine, -MIN_COSINE));
+  }
+  return facet;
+}
+
 /// Adds the accepted splats of one chunk that belong to the first splat's cluster. Everything is taken
 /// relative to the first hit's exact position, where float32 will do even for grazing rays.
 void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
@@ -151,15 +174,15 @@ void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float dep
     float behind = dot(plane_normal, to_center) / dot(plane_normal, ray.dir);
     vec3 from_center = ray.dir * behind - to_center;
     float u_squared = dot(from_center, from_center) / splat_radius_squared(words);
-    vec3 normal = normal_against(words, ray.dir);
+    Facet facet = facet_at(words, begin + bit, from_center, ray.dir);
     float share = behind / depth;
     bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
-                  dot(normal, first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
+                  dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
     float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
     weight = member ? weight * WEIGHT_UNIT : 0.0f;
-    share = member ? share : 0.0f;
+    share = member ? clamp((behind + facet.behind) / depth, -1.0f, 1.0f) : 0.0f;
     cluster.weight += int(weight + 0.5f);
-    cluster.normal += ivec3(floor(normal * weight + vec3(0.5f)));
+    cluster.normal += ivec3(floor(facet.normal * weight + vec3(0.5f)));
     cluster.depth += int(floor(weight * share + 0.5f));
     if (COLORS == 1u) cluster.color += ivec3(color_at(begin + bit) * weight + vec3(0.5f));
     cluster.members += member ? 1u : 0u;
@@ -183,8 +206,13 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
     t += depth * (float(cluster.depth) * inverse);
     normal = normalize(vec3(cluster.normal));
     if (COLORS == 1u) hit.color = vec3(cluster.color) * inverse;
-  } else if (COLORS == 1u && hit.found) {
-    hit.color = color_at(first.index);
+  } else if (hit.found) {
+    if (COLORS == 1u) hit.color = color_at(first.index);
+    vec3 position_low = vec3(0.0f);
+    vec3 position = point_at(ray, first.t, position_low);
+    Facet facet = facet_at(first.words, first.index, (position - splat_center(first.words)) + position_low, ray.dir);
+    normal = facet.normal;
+    t += facet.behind;
   }
   hit.position = ray.origin + ray.dir * t;
   hit.normal = normal;

@@ -16,6 +16,7 @@ using SpecConstants = std::array<std::uint32_t, SPEC_COUNT>;
 struct SceneContent {
   std::span<const Material> materials{};
   bool colors = false;               ///< there is a colour pool
+  bool fields = false;               ///< there is a pool of normal fields
   bool lights = false;               ///< there are lights
   bool environment_texture = false;  ///< the environment is not constant
 };

@@ -18,6 +18,7 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
     case BIND_BEGIN_END:
     case BIND_DATA_POOL:
     case BIND_COLOR_POOL:
+    case BIND_FIELD_POOL:
       return access == PoolAccess::texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                          : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     case BIND_ENVIRONMENT:

@@ -1,4 +1,4 @@
-/// The octree on the device: node pool, Begin-End, data pool and colour pool.
+/// The octree on the device: node pool, Begin-End, data pool, colour pool and normal fields.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -22,6 +22,7 @@ struct PoolBytes {
   std::uint64_t begin_end = 0;
   std::uint64_t data_pool = 0;
   std::uint64_t color_pool = 0;
+  std::uint64_t field_pool = 0;
   std::uint64_t environment = 0;
   bool texel_buffers = false;  ///< pools are read through texel buffers
 };
@@ -46,7 +47,7 @@ struct Pools {
 
   PoolAccess access = PoolAccess::storage;  ///< never automatic
   PoolBytes bytes;                          ///< without the environment
-  std::array<Buffer, 4> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
+  std::array<Buffer, 5> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 
 }  // namespace splatray

@@ -79,7 +79,11 @@ struct Tracer::Impl {
   void trace_aov(const Tile& tile, Dispatch dispatch, Image& image);
 
   [[nodiscard]] SceneContent content() const {
-    return {materials, pools.bytes.color_pool > 0, light_count > 0, environment_texture};
+    return {.materials = materials,
+            .colors = pools.bytes.color_pool > 0,
+            .fields = pools.bytes.field_pool > 0,
+            .lights = light_count > 0,
+            .environment_texture = environment_texture};
   }
 
   const Context& context;

@@ -64,6 +64,16 @@ std::uint32_t encode_channel(float linear) {
   return static_cast<std::uint32_t>(std::lround(255.0F * std::sqrt(clamped)));
 }
 
+std::uint32_t encode_slope(double slope) {
+  const double q = std::copysign(std::sqrt(std::min(std::abs(2.0 * slope), 1.0)), slope) * FIELD_SCALE;
+  return static_cast<std::uint32_t>(std::lround(q) + 512);
+}
+
+double decode_slope(std::uint32_t bits) {
+  const double q = (static_cast<double>(bits & 0x3FFU) - 512.0) / FIELD_SCALE;
+  return 0.5 * q * std::abs(q);
+}
+
 /// Appends the references of the node's leaves whose centre lies in their own cell.
 void collect_home_references(const Scene& scene, std::uint32_t node, glm::uvec3 cell_min,
                              std::uint32_t cell_size, std::vector<std::uint32_t>& homes) {
@@ -117,6 +127,28 @@ std::uint32_t pack_color(glm::vec3 linear) {
 glm::vec3 unpack_color(std::uint32_t color) {
   const glm::vec3 root = glm::vec3(color & 0xFFU, color >> 8 & 0xFFU, color >> 16 & 0xFFU) / 255.0F;
   return root * root;
+}
+
+TangentFrame::TangentFrame(const glm::dvec3& n) {
+  const double sign = n.z >= 0.0 ? 1.0 : -1.0;
+  const double a = -1.0 / (sign + n.z);
+  u = {1.0 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
+  v = {n.x * n.y * a, sign + n.y * n.y * a, -n.y};
+}
+
+std::uint32_t pack_field(const glm::dmat3& slope, const glm::dvec3& normal) {
+  const TangentFrame frame(normal);
+  return encode_slope(glm::dot(frame.u, slope * frame.u)) |
+         encode_slope(glm::dot(frame.u, slope * frame.v)) << 10 |
+         encode_slope(glm::dot(frame.v, slope * frame.v)) << 20;
+}
+
+glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal) {
+  const TangentFrame frame(normal);
+  const double uv = decode_slope(field >> 10);
+  return decode_slope(field) * glm::outerProduct(frame.u, frame.u) +
+         uv * (glm::outerProduct(frame.u, frame.v) + glm::outerProduct(frame.v, frame.u)) +
+         decode_slope(field >> 20) * glm::outerProduct(frame.v, frame.v);
 }
 
 std::vector<std::uint32_t> home_references(const Scene& scene) {

@@ -49,6 +49,8 @@ struct BuildParams {
   double radius_scale = 1.0;                      ///< factor on every radius, > 0
   std::uint64_t samples = 0;                      ///< points sampled on meshes in all; 0 = mesh vertices
   std::uint64_t seed = 1;
+  bool normal_fields =
+      true;  ///< fit a normal field to every splat of a curved scene; read from a file: it has them
 };
 
 /// A splat in full precision, root space; what 128 bits decode to.
@@ -69,6 +71,19 @@ struct Splat {
 [[nodiscard]] std::uint32_t pack_color(glm::vec3 linear);
 [[nodiscard]] glm::vec3 unpack_color(std::uint32_t color);
 
+/// Two unit vectors that with the unit `normal` make a right-handed orthonormal basis (Duff et al. 2017, "Building an
+/// Orthonormal Basis, Revisited").
+struct TangentFrame {
+  explicit TangentFrame(const glm::dvec3& normal);
+  glm::dvec3 u, v;
+};
+
+/// The normal field of a splat (layout.h): `slope` maps an offset on the disc, in units of the radius, to the change of
+/// the unit normal. Symmetric; what it does along the normal is ignored; entries beyond 1/2 are clamped.
+[[nodiscard]] std::uint32_t pack_field(const glm::dmat3& slope, const glm::dvec3& normal);
+/// The reference implementation of the decoding; `normal` is the splat's own, as unpack_splat gives it.
+[[nodiscard]] glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal);
+
 struct Scene {
   RootTransform root;
   BuildParams build;
@@ -77,6 +92,7 @@ struct Scene {
   std::vector<std::uint32_t> begin_end;   ///< filled leaves + 1 entries, ascending, last = data_pool.size()
   std::vector<uvec4> data_pool;           ///< splats, leaf by leaf
   std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
+  std::vector<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
   std::vector<Material> materials;        ///< one per object
   std::vector<std::string> object_names;  ///< beside materials
   std::vector<SceneLight> lights;         ///< as the input has them; may be empty

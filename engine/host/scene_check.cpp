@@ -49,6 +49,9 @@ Defect check_sizes(const Scene& scene) {
   if (!scene.color_pool.empty() && scene.color_pool.size() != references)
     return SceneDefect{std::to_string(scene.color_pool.size()) + " colours",
                        std::to_string(references) + ", one per reference"};
+  if (!scene.field_pool.empty() && scene.field_pool.size() != references)
+    return SceneDefect{std::to_string(scene.field_pool.size()) + " normal fields",
+                       std::to_string(references) + ", one per reference"};
   if (scene.materials.size() > OBJECT_MASK + 1 || scene.object_names.size() != scene.materials.size())
     return SceneDefect{std::to_string(scene.materials.size()) + " materials and " +
                            std::to_string(scene.object_names.size()) + " object names",

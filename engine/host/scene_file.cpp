@@ -19,6 +19,8 @@ constexpr char MAGIC[] = {'S', 'O', 'C', 'T'};
 constexpr char END_MARKER[] = {'S', 'O', 'C', 'T', '.', 'E', 'N', 'D'};
 constexpr std::uint32_t ENDIANNESS = 0x01020304;
 constexpr std::uint64_t ALIGNMENT = 16;
+constexpr std::uint32_t HAS_COLORS = 1;
+constexpr std::uint32_t HAS_FIELDS = 2;
 constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, and would overflow sizes
 
 enum SectionId : std::uint32_t {
@@ -26,6 +28,7 @@ enum SectionId : std::uint32_t {
   LEAVES,
   SPLATS,
   COLORS,
+  FIELDS,
   MATERIALS,
   LIGHTS,
   CAMERA,
@@ -43,7 +46,7 @@ struct Header {
   std::uint32_t version, endianness, header_size;
   std::uint64_t file_size, checksum;
   std::uint64_t splats, references, nodes, leaves;
-  std::uint32_t objects, lights, has_colors, has_camera;
+  std::uint32_t objects, lights, attributes, has_camera;
   std::uint64_t string_bytes;
   RootTransform root;
   std::uint32_t leaf_size, insertion, probes, radius_rule;
@@ -62,17 +65,20 @@ struct LightRecord {
   std::uint32_t zero_1;
 };
 
-static_assert(sizeof(Header) == 504 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88);
+static_assert(sizeof(Header) == 536 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88);
 
 std::uint64_t align(std::uint64_t offset) { return (offset + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
 /// The section table (but for checksums) and the file's size follow from the header's counts.
 void lay_out(Header& header) {
-  const std::uint64_t counts[SECTION_COUNT] = {
-      header.nodes,   header.leaves + 1, header.references, header.has_colors != 0 ? header.references : 0,
-      header.objects, header.lights,     header.has_camera, header.string_bytes};
+  const auto if_has = [&](std::uint32_t attribute) {
+    return (header.attributes & attribute) != 0 ? header.references : 0;
+  };
+  const std::uint64_t counts[SECTION_COUNT] = {header.nodes,       header.leaves + 1,  header.references,
+                                               if_has(HAS_COLORS), if_has(HAS_FIELDS), header.objects,
+                                               header.lights,      header.has_camera,  header.string_bytes};
   constexpr std::uint32_t ELEMENT_SIZES[SECTION_COUNT] = {
-      4, 4, sizeof(uvec4), 4, sizeof(Material), sizeof(LightRecord), sizeof(Camera), 1};
+      4, 4, sizeof(uvec4), 4, 4, sizeof(Material), sizeof(LightRecord), sizeof(Camera), 1};
   std::uint64_t end = sizeof(Header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
     SectionEntry& entry = header.sections[i];
@@ -113,7 +119,8 @@ Header describe(const Scene& scene, std::size_t string_bytes) {
   header.leaves = scene.begin_end.size() - 1;
   header.objects = static_cast<std::uint32_t>(scene.materials.size());
   header.lights = static_cast<std::uint32_t>(scene.lights.size());
-  header.has_colors = scene.color_pool.empty() ? 0 : 1;
+  header.attributes =
+      (scene.color_pool.empty() ? 0 : HAS_COLORS) | (scene.field_pool.empty() ? 0 : HAS_FIELDS);
   header.has_camera = scene.camera ? 1 : 0;
   header.string_bytes = string_bytes;
   header.root = scene.root;
@@ -140,7 +147,7 @@ Scene described_scene(const Header& header) {
   scene.build = {header.leaf_size,    Insertion{header.insertion},
                  header.probes,       RadiusRule{header.radius_rule},
                  header.radius_scale, header.samples,
-                 header.seed};
+                 header.seed,         (header.attributes & HAS_FIELDS) != 0};
   scene.splat_count = header.splats;
   scene.up = header.up;
   scene.bounds_min_world = header.bounds_min;
@@ -210,7 +217,7 @@ class Reader {
                sizeof header_);  // fewer bytes than a header are told below
     if (std::memcmp(header_.magic, MAGIC, sizeof MAGIC) != 0)
       refuse("another file type", "the letters SOCT at its start");
-    if (size_ < sizeof header_) refuse(std::to_string(size_) + " bytes", "a header of 504 (file truncated)");
+    if (size_ < sizeof header_) refuse(std::to_string(size_) + " bytes", "a header of 536 (file truncated)");
     position_ = sizeof header_;
     if (header_.endianness != ENDIANNESS) refuse("a foreign byte order", "little-endian");
     if (header_.version != SCENE_FILE_VERSION)
@@ -229,7 +236,9 @@ class Reader {
     for (const std::uint64_t count :
          {header_.nodes, header_.leaves, header_.references, header_.string_bytes})
       if (count > MOST_ELEMENTS) refuse("a count of " + std::to_string(count), "one that fits the file");
-    if (header_.has_camera > 1 || header_.has_colors > 1) refuse("a flag above 1", "0 or 1");
+    if (header_.has_camera > 1) refuse("a flag above 1", "0 or 1");
+    if (header_.attributes > (HAS_COLORS | HAS_FIELDS))
+      refuse("attributes " + std::to_string(header_.attributes), "0 to 3");
     lay_out(expected);
     expected.header_size = sizeof(Header);
     expected.section_count = SECTION_COUNT;
@@ -286,14 +295,12 @@ void write_scene(const Scene& scene, const std::filesystem::path& path) {
   assert(!find_scene_defect(scene));
   const std::vector<LightRecord> lights = light_records(scene.lights);
   const std::string strings = joined_strings(scene);
-  const void* const contents[SECTION_COUNT] = {scene.node_pool.data(),
-                                               scene.begin_end.data(),
-                                               scene.data_pool.data(),
-                                               scene.color_pool.data(),
-                                               scene.materials.data(),
-                                               lights.data(),
-                                               scene.camera ? &*scene.camera : nullptr,
-                                               strings.data()};
+  const void* const contents[SECTION_COUNT] = {
+      scene.node_pool.data(),  scene.begin_end.data(),
+      scene.data_pool.data(),  scene.color_pool.data(),
+      scene.field_pool.data(), scene.materials.data(),
+      lights.data(),           scene.camera ? &*scene.camera : nullptr,
+      strings.data()};
   Header header = describe(scene, strings.size());
   lay_out(header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i)
@@ -318,6 +325,7 @@ Scene read_scene(const std::filesystem::path& path) {
   scene.begin_end = reader.section<std::uint32_t>(LEAVES);
   scene.data_pool = reader.section<uvec4>(SPLATS);
   scene.color_pool = reader.section<std::uint32_t>(COLORS);
+  scene.field_pool = reader.section<std::uint32_t>(FIELDS);
   scene.materials = reader.section<Material>(MATERIALS);
   read_lights(reader, scene);
   if (const auto cameras = reader.section<Camera>(CAMERA); !cameras.empty()) scene.camera = cameras.front();

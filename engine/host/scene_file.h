@@ -6,7 +6,7 @@
 ///        0 | char[4]   | magic "SOCT"
 ///        4 | uint32    | version, SCENE_FILE_VERSION
 ///        8 | uint32    | endianness mark 0x01020304
-///       12 | uint32    | bytes of header and section table together, 504
+///       12 | uint32    | bytes of header and section table together, 536
 ///       16 | uint64    | bytes of the file
 ///       24 | uint64    | XXH3-64 of header and section table, taken with this field zero
 ///       32 | uint64    | splats (different ones)
@@ -15,7 +15,7 @@
 ///       56 | uint64    | filled leaves = entries of Begin-End - 1
 ///       64 | uint32    | objects = materials
 ///       68 | uint32    | lights
-///       72 | uint32    | 1: there is a colour pool, 0: none
+///       72 | uint32    | attributes: 1 there is a colour pool, 2 there are normal fields, 3 both, 0 neither
 ///       76 | uint32    | 1: there is a camera, 0: none
 ///       80 | uint64    | bytes of strings
 ///       88 | float64[3]| root's lowest corner, world
@@ -31,7 +31,7 @@
 ///      184 | float64[3]| bounding box of the centres, minimum, world
 ///      208 | float64[3]| ... maximum
 ///      232 | float64   | surface area of the source meshes, world units^2, 0 = unknown
-///      240 | uint32    | sections, 8
+///      240 | uint32    | sections, 9
 ///      244 | uint32    | bytes of a section entry, 32
 ///
 /// Section entry, 32 bytes: uint32 id, uint32 bytes of an element, uint64 offset in the file, uint64 bytes, uint64 XXH3-64.
@@ -40,10 +40,11 @@
 ///    2 | uint32                        |     4 | Begin-End
 ///    3 | uvec4                         |    16 | data pool
 ///    4 | uint32                        |     4 | colour pool, beside the data pool
-///    5 | Material                      |    48 | materials
-///    6 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world
-///    7 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
-///    8 | char                          |     1 | object names, then the environment's path, each ended by a zero byte
+///    5 | uint32                        |     4 | normal fields, beside the data pool
+///    6 | Material                      |    48 | materials
+///    7 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world
+///    8 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
+///    9 | char                          |     1 | object names, then the environment's path, each ended by a zero byte
 /// Sections lie in this order, each at the next multiple of 16 bytes, gaps zero; the 8 bytes "SOCT.END" follow at the next
 /// multiple of 16 and end the file.
 #pragma once
@@ -53,7 +54,7 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t SCENE_FILE_VERSION = 1;
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 2;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot; leaves nothing behind.
 void write_scene(const Scene& scene, const std::filesystem::path& path);

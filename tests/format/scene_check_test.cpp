@@ -81,6 +81,7 @@ TEST(SceneCheck, FindsBadSplats) {
 
 TEST(SceneCheck, FindsBadSizesAndLooks) {
   EXPECT_NE(found_after([](Scene& s) { s.color_pool.pop_back(); }), "");
+  EXPECT_NE(found_after([](Scene& s) { s.field_pool.pop_back(); }), "");
   EXPECT_NE(found_after([](Scene& s) { s.object_names.pop_back(); }), "");
   EXPECT_NE(found_after([](Scene& s) { s.splat_count = 6; }), "");
   EXPECT_NE(found_after([](Scene& s) { s.materials[1].diffuse.x = NAN; }), "");

@@ -72,7 +72,7 @@ TEST_F(SceneFile, GoldenBytes) {
 
 TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(bytes.substr(0, 4), "SOCT");
-  EXPECT_EQ(get<std::uint32_t>(bytes, 4), 1U);
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), 2U);
   EXPECT_EQ(get<std::uint32_t>(bytes, 12), HEADER);
   EXPECT_EQ(get<std::uint64_t>(bytes, 16), bytes.size());
   EXPECT_EQ(get<std::uint64_t>(bytes, 32), 4U);
@@ -82,9 +82,9 @@ TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(get<double>(bytes, 136), 1.25);
   EXPECT_EQ(get<double>(bytes, 176), 1.0);
   EXPECT_EQ(get<double>(bytes, 232), 12.5);
-  EXPECT_EQ(bytes.substr(section_offset(bytes, 8), 15), Bytes("glass\0\0sky.hdr\0", 15));
+  EXPECT_EQ(bytes.substr(section_offset(bytes, 9), 15), Bytes("glass\0\0sky.hdr\0", 15));
   EXPECT_EQ(bytes.substr(bytes.size() - 8), "SOCT.END");
-  for (std::size_t id = 1; id <= 8; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
+  for (std::size_t id = 1; id <= 9; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
 }
 
 TEST_F(SceneFile, RoundTrip) {
@@ -93,6 +93,7 @@ TEST_F(SceneFile, RoundTrip) {
   EXPECT_EQ(copy.begin_end, scene.begin_end);
   EXPECT_EQ(copy.data_pool, scene.data_pool);
   EXPECT_EQ(copy.color_pool, scene.color_pool);
+  EXPECT_EQ(copy.field_pool, scene.field_pool);
   EXPECT_EQ(copy.object_names, scene.object_names);
   EXPECT_EQ(copy.environment_path, scene.environment_path);
   EXPECT_EQ(copy.materials[0].ior, 1.5F);
@@ -109,12 +110,14 @@ TEST_F(SceneFile, RoundTrip) {
 TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   Scene scene = tiny_scene();
   scene.color_pool.clear();
+  scene.field_pool.clear();
   scene.camera.reset();
   scene.lights.clear();
   scene.environment_path.clear();
   write_scene(scene, path);
   const Scene copy = read_scene(path);
   EXPECT_TRUE(copy.color_pool.empty());
+  EXPECT_TRUE(copy.field_pool.empty());
   EXPECT_FALSE(copy.camera.has_value());
   EXPECT_TRUE(copy.lights.empty());
   EXPECT_EQ(copy.object_names, scene.object_names);
@@ -143,8 +146,8 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
   says("", "found 0 bytes");
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
-  put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 1");
+  put<std::uint32_t>(other, 4, 3);
+  says(other, "found version 3, expected version 2");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");
@@ -167,8 +170,8 @@ TEST_F(SceneFile, RefusesForgedContent) {
   says(2, 8, 6, "a Begin-End from 0 to 6");
   says(3, 12, 0xFFFF0000, "splat 0 with a radius");
   says(3, 28, 0x20000002, "splat 1 of object 2");
-  says(6, 0, 7, "light 0");
-  says(8, 0, 0, "names, expected one per object");
+  says(7, 0, 7, "light 0");
+  says(9, 0, 0, "names, expected one per object");
 }
 
 TEST_F(SceneFile, RefusesForgedCounts) {

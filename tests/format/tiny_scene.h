@@ -1,4 +1,4 @@
-/// A complete small scene: two objects, five references in two filled leaves, colours, lights, camera, names.
+/// A complete small scene: two objects, five references in two filled leaves, colours, normal fields, lights, camera, names.
 #pragma once
 #include "engine/host/scene.h"
 
@@ -12,7 +12,7 @@ inline Scene tiny_scene() {
   const auto leaf = [](std::uint32_t tag, std::uint32_t address) { return tag << NODE_TAG_SHIFT | address; };
   Scene scene;
   scene.root = {{10.0, -20.0, 30.0}, 0.5};
-  scene.build = {3, Insertion::probe, 16, RadiusRule::knn, 1.25, 7, 11};
+  scene.build = {3, Insertion::probe, 16, RadiusRule::knn, 1.25, 7, 11, true};
   scene.splat_count = 4;
   scene.node_pool = {leaf(NODE_INNER, 1), leaf(NODE_FILLED, 0)};
   scene.node_pool.resize(9, leaf(NODE_EMPTY, 0));
@@ -22,6 +22,7 @@ inline Scene tiny_scene() {
                      tiny_splat(1048000, 1048000, 1048000, 1), tiny_splat(1100000, 1200000, 1300000, 0),
                      tiny_splat(2000000, 2000000, 2000000, 1)};
   scene.color_pool = {0xFF000001, 0xFF000002, 0xFF000002, 0xFF000004, 0xFF000005};
+  scene.field_pool = {FIELD_FLAT, FIELD_FLAT + 1, FIELD_FLAT + 1, FIELD_FLAT + 2, FIELD_FLAT - 3};
   Material glass{};
   glass.tint = vec3(0.5F, 0.25F, 1.0F);
   glass.shininess = 1.0F;

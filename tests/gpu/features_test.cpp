@@ -32,15 +32,16 @@ TEST(Features, OnlyWhatTheSceneHasIsOn) {
   std::vector<Material> materials = {with_flags(0)};
   const SpecConstants plain = picture_features({.materials = materials}, {});
   for (const std::uint32_t constant : {SPEC_MIRRORS, SPEC_GLASS, SPEC_COLORS, SPEC_SHADOWS, SPEC_ENVIRONMENT,
-                                       SPEC_LIGHTS, SPEC_COUNTERS, SPEC_AOV})
+                                       SPEC_LIGHTS, SPEC_COUNTERS, SPEC_AOV, SPEC_FIELDS})
     EXPECT_EQ(plain[constant], 0U) << constant;
 
   materials.push_back(with_flags(MATERIAL_DIELECTRIC));
   materials[0].mirror = 0.5F;
   const SpecConstants full = picture_features(
-      {.materials = materials, .colors = true, .lights = true, .environment_texture = true}, {});
+      {.materials = materials, .colors = true, .fields = true, .lights = true, .environment_texture = true},
+      {});
   for (const std::uint32_t constant :
-       {SPEC_MIRRORS, SPEC_GLASS, SPEC_COLORS, SPEC_SHADOWS, SPEC_ENVIRONMENT, SPEC_LIGHTS})
+       {SPEC_MIRRORS, SPEC_GLASS, SPEC_COLORS, SPEC_SHADOWS, SPEC_ENVIRONMENT, SPEC_LIGHTS, SPEC_FIELDS})
     EXPECT_EQ(full[constant], 1U) << constant;
 }
 

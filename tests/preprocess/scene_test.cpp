@@ -44,6 +44,33 @@ TEST(Splat, PackingWhatWasUnpackedChangesNothing) {
   }
 }
 
+TEST(NormalField, RoundTripStaysWithinTheStatedSteps) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> slope(-0.5, 0.5);
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 normal = random_splat(random).normal;
+    const TangentFrame frame(normal);
+    EXPECT_NEAR(glm::dot(glm::cross(frame.u, frame.v), normal), 1.0, 1e-12);
+    const double uu = slope(random), uv = slope(random) * 0.01, vv = slope(random);
+    const glm::dmat3 matrix =
+        uu * glm::outerProduct(frame.u, frame.u) + vv * glm::outerProduct(frame.v, frame.v) +
+        uv * (glm::outerProduct(frame.u, frame.v) + glm::outerProduct(frame.v, frame.u));
+    const glm::dmat3 decoded = unpack_field(pack_field(matrix, normal), normal);
+    EXPECT_NEAR(glm::dot(frame.u, decoded * frame.u), uu, 0.001);
+    EXPECT_NEAR(glm::dot(frame.u, decoded * frame.v), uv, 0.0002) << "small slopes have small steps";
+    EXPECT_NEAR(glm::dot(frame.v, decoded * frame.v), vv, 0.001);
+    EXPECT_EQ(pack_field(decoded, normal), pack_field(matrix, normal));
+  }
+}
+
+TEST(NormalField, FlatAndSteepAreAsTheLayoutSays) {
+  const glm::dvec3 normal(0.0, 0.0, -1.0);
+  EXPECT_EQ(pack_field(glm::dmat3(0.0), normal), FIELD_FLAT);
+  EXPECT_EQ(unpack_field(FIELD_FLAT, normal), glm::dmat3(0.0));
+  EXPECT_EQ(pack_field(glm::dmat3(7.0), normal), 1023U | 512U << 10 | 1023U << 20) << "clamped to 1/2";
+  EXPECT_EQ(pack_field(glm::dmat3(-7.0), normal), 1U | 512U << 10 | 1U << 20);
+}
+
 TEST(Splat, WordsAreAsTheLayoutDrawsThem) {
   const Splat splat{{1.0, 3.0 * 1024.0 + 5.0, 7.0}, {0.0, 0.0, 1.0}, 2.0, 9};
   EXPECT_EQ(pack_splat(splat), uvec4(1U << 11 | 3U, 5U << 22 | 7U, 32767U << 16 | 32767U, 9U));

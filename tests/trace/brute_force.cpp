@@ -33,6 +33,9 @@ BruteForce::BruteForce(const Scene& scene) : materials_(scene.materials) {
     const uvec4& words = scene.data_pool[reference];
     words_.push_back(words);
     splats_.push_back(unpack_splat(words));
+    slopes_.push_back(scene.field_pool.empty()
+                          ? glm::dmat3(0.0)
+                          : unpack_field(scene.field_pool[reference], splats_.back().normal));
     if (!scene.color_pool.empty()) colors_.push_back(scene.color_pool[reference]);
     x_.push_back(splats_.back().center.x);
     y_.push_back(splats_.back().center.y);
@@ -110,6 +113,21 @@ std::vector<std::uint32_t> BruteForce::objects_met(const RayQuery& query, const 
   return objects;
 }
 
+BruteForce::Facet BruteForce::facet(const Meeting& meeting, const RayQuery& query) const {
+  const Splat& splat = splats_[meeting.index];
+  const dvec3 dir = glm::normalize(dvec3(query.dir));
+  const double radius = std::sqrt(splat.radius_squared);
+  const dvec3 from_center = dvec3(query.origin) + meeting.t * dvec3(query.dir) - splat.center;
+  const dvec3 lean = slopes_[meeting.index] * (from_center / radius);
+  dvec3 normal = glm::normalize(splat.normal + lean);
+  if (meeting.cosine > 0.0) normal = -normal;
+  if (const double away = glm::dot(normal, dir); away > 0.0) normal = glm::normalize(normal - away * dir);
+  const double height = -0.5 * glm::dot(from_center, lean);
+  const double cosine = glm::dot(splat.normal, dir);
+  const double least = std::copysign(std::max(std::abs(cosine), 0.1), cosine);
+  return {normal, meeting.t + height / least / glm::length(dvec3(query.dir))};
+}
+
 TrueHit BruteForce::nearest(const RayQuery& query, const Settings& settings) const {
   const std::vector<Meeting> met = meetings(query, settings);
   TrueHit hit;
@@ -139,13 +157,14 @@ TrueHit BruteForce::nearest(const RayQuery& query, const Settings& settings) con
     if (alone ? m.index != first.index : share > 1.0 || splats_[m.index].object != hit.object) continue;
     if (glm::dot(against(m), against(first)) <= 0.5) continue;
     const double weight = std::max(kernel_of(settings, m.u_squared) * fall_of(share), 1.0 / 256.0);
+    const Facet surface = facet(m, query);
     weight_sum += weight;
-    depth_sum += weight * share;
-    normal_sum += weight * against(m);
+    depth_sum += weight * (alone ? surface.t - first.t : std::clamp(surface.t - first.t, -depth, depth));
+    normal_sum += weight * surface.normal;
     if (!colors_.empty()) color_sum += weight * dvec3(unpack_color(colors_[m.index]));
     ++hit.members;
   }
-  hit.t = first.t + depth * depth_sum / weight_sum;
+  hit.t = first.t + depth_sum / weight_sum;
   hit.normal = glm::normalize(normal_sum);
   if (!colors_.empty()) hit.color = color_sum / weight_sum;
   return hit;

@@ -46,11 +46,18 @@ class BruteForce {
     double cosine;  ///< unit normal . unit direction
     std::size_t index;
   };
+  /// The surface at a meeting, by the splat's normal field.
+  struct Facet {
+    glm::dvec3 normal;  ///< unit, turned against the ray
+    double t;
+  };
+  [[nodiscard]] Facet facet(const Meeting& meeting, const RayQuery& query) const;
   [[nodiscard]] std::vector<Meeting> meetings(const RayQuery& query, const Settings& settings) const;
   [[nodiscard]] bool counts(const Meeting& meeting, const RayQuery& query, const Settings& settings) const;
 
   std::vector<uvec4> words_;
   std::vector<Splat> splats_;
+  std::vector<glm::dmat3> slopes_;  ///< normal fields; zero for flat discs
   std::vector<std::uint32_t> colors_;
   std::vector<Material> materials_;
   std::vector<double> x_, y_, z_, radius_squared_;  ///< the splats again, for the first coarse pass

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iostream>
 
@@ -145,7 +146,8 @@ TEST(Exactness, AMovedSplatIsNoticed) {
   const std::vector<TrueHit> hits = all_nearest(brute, rays, settings);
   const auto hit = std::find_if(hits.begin(), hits.end(), [](const TrueHit& h) { return h.found; });
   ASSERT_NE(hit, hits.end());
-  brute.move_splat(hit->first, 20.0 * brute.splats()[hit->first].normal);
+  const Splat& splat = brute.splats()[hit->first];
+  brute.move_splat(hit->first, 0.5 * std::sqrt(splat.radius_squared) * splat.normal);
   const Agreement agreement =
       agreement_of(brute, all_nearest(brute, rays, settings), gpu_intersect(scene, rays, settings));
   EXPECT_GT(agreement.exceptions() + agreement.members + agreement.normal, 0U) << agreement;

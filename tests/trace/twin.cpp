@@ -34,12 +34,14 @@ namespace glsl {
 #define ENVIRONMENT features[SPEC_ENVIRONMENT]
 #define COUNTERS features[SPEC_COUNTERS]
 #define LIGHTS features[SPEC_LIGHTS]
+#define FIELDS features[SPEC_FIELDS]
 
 uint node_word(uint index) { return bound.scene->node_pool.at(index); }
 uint begin_end_at(uint index) { return bound.scene->begin_end.at(index); }
 uvec4 splat_words(uint index) { return bound.scene->data_pool.at(index); }
 Material material_at(uint object) { return bound.scene->materials.at(object); }
 vec3 color_at(uint index) { return unpack_color(bound.scene->color_pool.at(index)); }
+uint field_word(uint index) { return bound.scene->field_pool.at(index); }
 Light light_at(uint index) { return bound.lights.at(index); }
 
 vec3 environment_texel(vec3 dir) {
@@ -96,6 +98,8 @@ Features twin_features(const Scene& scene, const Settings& settings) {
   chosen[SPEC_MIRRORS] = 1;
   chosen[SPEC_GLASS] = 1;
   chosen[SPEC_COLORS] = scene.color_pool.empty() ? 0 : 1;
+  const bool blends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
+  chosen[SPEC_FIELDS] = blends && !scene.field_pool.empty() ? 1 : 0;
   chosen[SPEC_SHADOWS] = settings.shadows ? 1 : 0;
   chosen[SPEC_ENVIRONMENT] = 0;
   chosen[SPEC_COUNTERS] = 1;
