@@ -1,0 +1,92 @@
+"""What issue 3 asks for, beside what was measured."""
+
+from dataclasses import dataclass
+
+MESHES = ("bunny", "armadillo", "dragon", "igea")
+#: Most error of the normals' 95th percentile at the meshes' own vertices, degrees.
+VERTEX_P95_DEG = {"bunny": 3.0, "armadillo": 6.0, "dragon": 4.5, "igea": 2.0}
+SHAPES = ("sphere even", "sphere random", "torus")
+
+
+@dataclass
+class Target:
+    """One line: what, at most (or least) how much, and what it is."""
+
+    what: str
+    wanted: str
+    measured: str
+    reached: bool
+
+
+def at_most(what, limit, unit, value):
+    return Target(what, f"at most {limit:g}{unit}", f"{value:.3g}{unit}", value <= limit)
+
+
+def default_run(records, **wanted):
+    """The window run with all knobs at their defaults, on the first device; None when there is none."""
+    runs = records.choose(method="window", varied=("", "splats"), **wanted)
+    return max(runs, key=lambda run: run.get("splats")) if runs else None
+
+
+def mesh_targets(records):
+    for mesh in MESHES:
+        run = default_run(records, scene=mesh, sampling="even")
+        if run and run.get("splats") > 900_000:
+            name = f"{mesh}, 1M even samples: "
+            yield at_most(name + "normals p95", 1.5, "°", run.get("normal_p95_deg"))
+            yield at_most(name + "normals p99", 3.5, "°", run.get("normal_p99_deg"))
+            yield at_most(name + "median depth error / diagonal", 1e-5, "", run.get("depth_abs_median"))
+            yield at_most(name + "hit or miss differs", 300, " ppm", run.get("mismatch_ppm"))
+            psnr = run.get("psnr_db")
+            yield Target(name + "PSNR", "at least 42 dB", f"{psnr:.1f} dB", psnr >= 42)
+        run = default_run(records, scene=mesh, sampling="vertices")
+        if run:
+            yield at_most(f"{mesh}, vertices: normals p95", VERTEX_P95_DEG[mesh], "°", run.get("normal_p95_deg"))
+
+
+def tree_targets(records):
+    runs = [r for r in records.choose(case="brute force") if r.get("insertion") == "overlap"]
+    if runs:
+        worst = max(run.get("mismatch_ppm") for run in runs)
+        sizes = ", ".join(str(size) for size in sorted({run.get("leaf_size") for run in runs}))
+        what = f"hits that differ from brute force, leaf sizes {sizes}"
+        yield Target(what, "0", f"{worst:g} ppm", worst == 0)
+
+
+def shape_targets(records):
+    for scene in SHAPES:
+        run = default_run(records, scene=scene)
+        if not run:
+            continue
+        holes, overlap = run.holes, run.get("overlap")
+        most = 5.0 if run.get("sampling") == "random" else 2.2
+        measured = f"{holes['value']:.3g} ppm (95 %: below {holes['high']:.2g}) of {holes['rays']:,} rays"
+        yield Target(f"{run.case}: holes", "0", measured, holes["value"] == 0)
+        yield at_most(f"{run.case}: overlap", most, "", overlap)
+    for case in [c for c in records.unique("case", method="window") if c.startswith(SHAPES) and c.endswith("25k")]:
+        run = default_run(records, case=case)
+        if run.get("jump_p999_deg") is not None:
+            yield at_most(f"{case}: jump of the normal, p99.9", 0.05, "°", run.get("jump_p999_deg"))
+        nearest = records.choose(case=case, method="nearest", device=run.device)
+        if nearest and run.get("normal_rms_deg"):
+            ratio = run.get("normal_rms_deg") / nearest[0].get("normal_rms_deg")
+            yield at_most(f"{case}: rms of the normals / nearest disc's", 0.1, "", ratio)
+        if run.get("depth_bias_r") is not None and "sphere" in case:
+            yield at_most(f"{case}: depth bias, median radii", 0.001, " r", abs(run.get("depth_bias_r")))
+
+
+def path_targets(records):
+    for run in records.choose(method="window", varied=""):
+        if run.get("wrong_bounces_ppm") is not None:
+            value = run.get("wrong_bounces_ppm")
+            yield Target(f"{run.case}: wrong bounces", "0", f"{value:.3g} ppm", value == 0)
+        if run.get("leaks_ppm") is not None:
+            yield Target(f"{run.case}: leaks", "0", f"{run.get('leaks_ppm'):.3g} ppm", run.get("leaks_ppm") == 0)
+
+
+def targets(records):
+    """All lines for which there are records."""
+    lines = []
+    for part in (tree_targets, mesh_targets, shape_targets, path_targets):
+        lines += list(part(records))
+    return lines
