@@ -36,10 +36,24 @@ Discs discs_of(const Scene& scene) {
     discs.center_radius.emplace_back(vec3(splat.center), static_cast<float>(std::sqrt(splat.radius_squared)));
     discs.normal.emplace_back(splat.normal);
     discs.object.push_back(splat.object);
+    if (!scene.field_pool.empty())
+      discs.slope.emplace_back(unpack_field(scene.field_pool[reference], splat.normal));
   }
   for (const Material& material : scene.materials)
     discs.two_sided.push_back((material.flags & MATERIAL_TWO_SIDED) != 0 ? 1 : 0);
   return discs;
+}
+
+DiscFacet facet_of(const Discs& discs, std::size_t disc, float t, const vec3& from_center, const vec3& dir) {
+  const vec3& plane_normal = discs.normal[disc];
+  if (discs.slope.empty()) return {against(plane_normal, dir), t};
+  const float cosine = glm::dot(plane_normal, dir);
+  const vec3 lean = discs.slope[disc] * (from_center / discs.center_radius[disc].w);
+  vec3 normal = glm::normalize(plane_normal + lean);
+  if (cosine > 0.0F) normal = -normal;
+  normal = glm::normalize(normal - dir * std::max(glm::dot(normal, dir), 0.0F));
+  const float height = -0.5F * glm::dot(from_center, lean);
+  return {normal, t + height / std::copysign(std::max(std::abs(cosine), MIN_COSINE), cosine)};
 }
 
 void Gathering::add(std::size_t disc, float t, const vec3& dir, const Discs& discs,
@@ -61,29 +75,35 @@ RayHit Gathering::blended(const RayQuery& ray, const Discs& discs, const Setting
   hit.object = NO_OBJECT;
   if (first_.t == INFINITY) return hit;
   hit.object = discs.object[first_.disc];
-  hit.members = 1;
+  const auto from_center_of = [&](const Meeting& meeting) {
+    return ray.origin + meeting.t * ray.dir - vec3(discs.center_radius[meeting.disc]);
+  };
+  if (settings.blend == BLEND_NEAREST) {
+    const DiscFacet facet = facet_of(discs, first_.disc, first_.t, from_center_of(first_), ray.dir);
+    hit.normal = facet.normal;
+    hit.t = facet.t;
+    hit.members = 1;
+    return hit;
+  }
   const vec3 first_normal = against(discs.normal[first_.disc], ray.dir);
-  hit.normal = first_normal;
-  if (settings.blend == BLEND_NEAREST) return hit;
-
   vec3 normal_sum(0.0F);
-  float weight_sum = 0.0F, share_sum = 0.0F;
-  hit.members = 0;
+  float weight_sum = 0.0F, depth_sum = 0.0F;
   for (std::size_t i = 0; i < count_; ++i) {
     const auto [t, disc] = met_[i];
-    const vec3 normal = against(discs.normal[disc], ray.dir);
     const float share = (t - first_.t) / depth_;
-    if (share > 1.0F || discs.object[disc] != hit.object || glm::dot(normal, first_normal) <= 0.5F) continue;
-    const vec4& center_radius = discs.center_radius[disc];
-    const vec3 from_center = ray.origin + t * ray.dir - vec3(center_radius);
-    const float u_squared = glm::dot(from_center, from_center) / (center_radius.w * center_radius.w);
+    const float like = glm::dot(against(discs.normal[disc], ray.dir), first_normal);
+    if (share > 1.0F || discs.object[disc] != hit.object || like <= 0.5F) continue;
+    const vec3 from_center = from_center_of(met_[i]);
+    const float radius = discs.center_radius[disc].w;
+    const float u_squared = glm::dot(from_center, from_center) / (radius * radius);
     const float weight = std::max(kernel_at(u_squared, settings) * fall_at(share), 1.0F / 256.0F);
+    const DiscFacet facet = facet_of(discs, disc, t, from_center, ray.dir);
     weight_sum += weight;
-    share_sum += weight * share;
-    normal_sum += weight * normal;
+    depth_sum += weight * std::clamp(facet.t - first_.t, -depth_, depth_);
+    normal_sum += weight * facet.normal;
     ++hit.members;
   }
-  hit.t = first_.t + depth_ * share_sum / weight_sum;
+  hit.t = first_.t + depth_sum / weight_sum;
   hit.normal = glm::normalize(normal_sum);
   return hit;
 }

@@ -11,11 +11,13 @@ namespace splatray::testing {
 /// Every splat once, in the order of the octree's leaves (Z-order). Root space, lattice units.
 struct Discs {
   std::vector<vec4> center_radius;
-  std::vector<vec3> normal;  ///< unit
+  std::vector<vec3> normal;      ///< unit
+  std::vector<glm::mat3> slope;  ///< normal fields (unpack_field), or empty: all discs are flat
   std::vector<std::uint32_t> object;
   std::vector<std::uint8_t> two_sided;  ///< per object: both faces are hit
 
   [[nodiscard]] std::size_t size() const { return object.size(); }
+  [[nodiscard]] std::uint64_t bytes_of_fields() const { return sizeof(glm::mat3) * slope.size(); }
   [[nodiscard]] bool any_one_sided() const;
   /// Whether the ray's direction meets a face that counts.
   [[nodiscard]] bool faces(std::size_t disc, const vec3& dir) const {
@@ -24,6 +26,15 @@ struct Discs {
 };
 
 [[nodiscard]] Discs discs_of(const Scene& scene);
+
+/// The surface where a ray meets a disc's plane, by the disc's normal field.
+struct DiscFacet {
+  vec3 normal;  ///< unit, turned against the ray
+  float t;
+};
+/// `from_center`: the point of the disc that the ray, of unit direction, meets at t, relative to its centre.
+[[nodiscard]] DiscFacet facet_of(const Discs& discs, std::size_t disc, float t, const vec3& from_center,
+                                 const vec3& dir);
 
 /// The discs that one ray meets, in any order, as a traversal finds them.
 class Gathering {
@@ -37,7 +48,7 @@ class Gathering {
   /// nearly zero there).
   [[nodiscard]] float end() const { return end_; }
 
-  /// The answer (design, section 4): the nearest disc, or the weighted mean of its cluster. Settings used: blend, kernel,
+  /// The answer (design, section 4): the nearest disc's facet, or the weighted mean of its cluster's. Settings used: blend, kernel,
   /// kappa.
   [[nodiscard]] RayHit blended(const RayQuery& ray, const Discs& discs, const Settings& settings) const;
 

@@ -114,7 +114,7 @@ void EmbreeClusters::trace(std::span<const RayQuery> rays, std::span<RayHit> hit
 
 std::uint64_t EmbreeClusters::bytes() const {
   constexpr std::uint64_t LISTS = 7;
-  return embree_.bytes() + LISTS * sizeof(float) * discs_.size();
+  return embree_.bytes() + LISTS * sizeof(float) * discs_.size() + discs_.bytes_of_fields();
 }
 
 }  // namespace splatray::testing

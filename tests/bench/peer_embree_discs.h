@@ -14,7 +14,7 @@ class EmbreeDiscs : public Peer {
   /// `discs` must outlive the peer.
   EmbreeDiscs(const Discs& discs, const Settings& settings);
   void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const override;
-  [[nodiscard]] std::uint64_t bytes() const override { return embree_.bytes(); }
+  [[nodiscard]] std::uint64_t bytes() const override { return embree_.bytes() + discs_.bytes_of_fields(); }
 
  private:
   const Discs& discs_;

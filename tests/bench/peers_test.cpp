@@ -83,6 +83,20 @@ TEST(EmbreePeers, GaussianKernelIsThatOfBruteForce) {
   EXPECT_GT(count_differences(rim, brute, scene, settings), 5 * FEW) << "the kernels must differ";
 }
 
+TEST(EmbreePeers, NormalFieldsAreThoseOfBruteForce) {
+  const Scene scene = small_sphere(MATERIAL_TWO_SIDED);
+  ASSERT_FALSE(scene.field_pool.empty());
+  const Discs discs = discs_of(scene);
+  const BruteForce brute(scene);
+  const Settings settings = settings_of(BLEND_NEAREST);
+  const EmbreeDiscs curved(discs, settings);
+  EXPECT_LE(count_differences(curved, brute, scene, settings), FEW);
+  Discs flat_discs = discs;
+  flat_discs.slope.clear();
+  const EmbreeDiscs flat(flat_discs, settings);
+  EXPECT_GT(count_differences(flat, brute, scene, settings), 5 * FEW) << "flat discs must differ";
+}
+
 TEST(EmbreePeers, MeshIsSeenWithSmoothNormals) {
   Mesh mesh;
   mesh.vertices.position = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 1.0, 0.05}};

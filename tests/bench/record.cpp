@@ -1,6 +1,7 @@
 #include "tests/bench/record.h"
 
 #include <cmath>
+#include <ctime>
 
 #include "app/commit.h"
 
@@ -19,6 +20,7 @@ Json settings_json(const Case& one, const Run& run, std::uint64_t splats) {
           {"sampling", sampling_word(one, run.variant)},
           {"radius_rule", word(build.radius_rule)},
           {"radius_scale", build.radius_scale},
+          {"normal_fields", build.normal_fields},
           {"leaf_size", build.leaf_size},
           {"insertion", word(build.insertion)},
           {"probes", build.probes},
@@ -32,6 +34,14 @@ Json settings_json(const Case& one, const Run& run, std::uint64_t splats) {
           {"height", one.height}};
 }
 
+/// YYYY-MM-DD, UTC.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  char text[16];
+  std::strftime(text, sizeof(text), "%Y-%m-%d", std::gmtime(&now));
+  return text;
+}
+
 }  // namespace
 
 Json start_record(const Case& one, const Run& run, std::uint64_t splats) {
@@ -40,7 +50,8 @@ Json start_record(const Case& one, const Run& run, std::uint64_t splats) {
           {"method", blend_word(run.settings.blend)},
           {"varied", run.varied},
           {"settings", settings_json(one, run, splats)},
-          {"commit", COMMIT}};
+          {"commit", COMMIT},
+          {"date", today()}};
 }
 
 void set_number(Json& json, const std::string& key, double value) {

@@ -1,9 +1,9 @@
 /// One line of the report as JSON. A key that was not measured is absent.
 ///   case, scene, method (blending, or a peer's name), varied (the knob not at its default, a key of settings; "" = none)
-///   settings: splats, sampling (even | random | vertices), radius_rule, radius_scale, leaf_size, insertion, probes, blend,
-///     kernel, kappa, side, samples, shadows, threads (of software devices), width, height
+///   settings: splats, sampling (even | random | vertices), radius_rule, radius_scale, normal_fields, leaf_size, insertion,
+///     probes, blend, kernel, kappa, side, samples, shadows, threads (of software devices), width, height
 ///   device: name, driver
-///   commit
+///   commit, date (UTC, of the measurement)
 ///   speed: frame_ms_median, frame_ms_min, frames, rays_per_s (all classes), tests_per_ray, steps_per_ray, leaves_per_ray,
 ///     bytes_per_splat, growth (references / splats - 1), overlap (disc area / surface area), build_s
 ///   error: truth (analytic | mesh | brute force | 1024 samples) and the numbers of errors.h, probes.h and bounces.h, in ppm,
