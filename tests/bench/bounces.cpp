@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "tests/bench/analytic.h"
-#include "tests/bench/random_rays.h"
 
 namespace splatray::testing {
 namespace {
@@ -89,7 +88,7 @@ struct Batch {
 
 }  // namespace
 
-Bounces wedge_bounces(Tracer& tracer, const RootTransform& root, const Settings& settings, double wedge_deg,
+Bounces wedge_bounces(const Intersect& intersect, const RootTransform& root, double wedge_deg,
                       double radius_world, std::size_t paths) {
   const Wedge wedge{0.5 * wedge_deg * std::numbers::pi / 180.0};
   std::mt19937_64 random(1);
@@ -105,7 +104,7 @@ Bounces wedge_bounces(Tracer& tracer, const RootTransform& root, const Settings&
     exact.push_back(*bounces);
   }
   for (std::uint32_t bounce = 0; bounce < MOST_BOUNCES && !batch.rays.empty(); ++bounce) {
-    const std::vector<RayHit> hits = tracer.intersect(batch.rays, settings);
+    const std::vector<RayHit> hits = intersect(batch.rays);
     Batch next;
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (hits[i].object == NO_OBJECT) continue;
@@ -120,7 +119,7 @@ Bounces wedge_bounces(Tracer& tracer, const RootTransform& root, const Settings&
   return bounces;
 }
 
-Bounces ball_bounces(Tracer& tracer, const RootTransform& root, const Settings& settings, double radius_world,
+Bounces ball_bounces(const Intersect& intersect, const RootTransform& root, double radius_world,
                      std::size_t paths) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -131,7 +130,7 @@ Bounces ball_bounces(Tracer& tracer, const RootTransform& root, const Settings& 
   }
   Bounces bounces;
   for (std::uint32_t bounce = 0; bounce < MOST_BOUNCES; ++bounce) {
-    const std::vector<RayHit> hits = tracer.intersect(rays, settings);
+    const std::vector<RayHit> hits = intersect(rays);
     std::vector<RayQuery> next;
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const dvec3 origin = root.to_world(dvec3(rays[i].origin)), dir(rays[i].dir);

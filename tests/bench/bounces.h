@@ -2,7 +2,8 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/gpu/tracer.h"
+#include "engine/host/scene.h"
+#include "tests/bench/random_rays.h"
 
 namespace splatray::testing {
 
@@ -14,13 +15,13 @@ struct Bounces {
 /// Paths between the two one-sided mirrors of the model `wedge`, sent in through its opening, at most MOST_BOUNCES long. A
 /// path is wrong when it has not as many bounces as between two exact planes. Paths that come within 3 median radii of the
 /// mirrors' outer borders, where discs end as they do, are not counted.
-[[nodiscard]] Bounces wedge_bounces(Tracer& tracer, const RootTransform& root, const Settings& settings,
-                                    double wedge_deg, double radius_world, std::size_t paths);
+[[nodiscard]] Bounces wedge_bounces(const Intersect& intersect, const RootTransform& root, double wedge_deg,
+                                    double radius_world, std::size_t paths);
 
 /// Bounces inside the model `sphere` turned inside out, MOST_BOUNCES of each path, which starts anywhere inside. A bounce is
 /// wrong when its ray misses or ends more than 2 median radii from where it meets the exact sphere; the path ends there.
-[[nodiscard]] Bounces ball_bounces(Tracer& tracer, const RootTransform& root, const Settings& settings,
-                                   double radius_world, std::size_t paths);
+[[nodiscard]] Bounces ball_bounces(const Intersect& intersect, const RootTransform& root, double radius_world,
+                                   std::size_t paths);
 
 inline constexpr std::uint32_t MOST_BOUNCES = 16;
 

@@ -52,13 +52,16 @@ void vary_knn_scale(Case& one) {
   }
 }
 
-void vary_tree(Case& one) {
-  for (const std::uint32_t size : {4U, 40U})
-    vary(one, "leaf_size", [=](Run& run) { run.variant.build.leaf_size = size; });
+void vary_insertion(Case& one) {
   for (const Insertion insertion : {Insertion::probe, Insertion::centre})
     vary(one, "insertion", [=](Run& run) { run.variant.build.insertion = insertion; });
 }
 
+void vary_tree(Case& one) {
+  for (const std::uint32_t size : {4U, 40U})
+    vary(one, "leaf_size", [=](Run& run) { run.variant.build.leaf_size = size; });
+  vary_insertion(one);
+}
 /// These numbers of points with each blending.
 void vary_points(Case& one, const std::vector<std::uint64_t>& counts) {
   for (const std::uint64_t points : counts) {
@@ -112,7 +115,6 @@ Case coarse_sphere() {
 
 Case coarse_random_sphere() {
   Case one = shape_case("25k", "sphere random", Shape::sphere, random(COARSE));
-  vary_kernel(one);
   vary_radius(one);
   vary_knn_scale(one);
   return one;
@@ -127,9 +129,7 @@ Case coarse_torus() {
 std::vector<Case> fine_shapes() {
   Case sphere = shape_case("1M", "sphere even", Shape::sphere, even(MILLION));
   vary_points(sphere, {10'000, 100'000});
-  vary_kernel(sphere);
   vary_radius(sphere);
-  vary_tree(sphere);
   Case random_sphere = shape_case("1M", "sphere random", Shape::sphere, random(MILLION));
   vary_points(random_sphere, {10'000, 100'000});
   Case torus = shape_case("1M", "torus", Shape::torus, even(MILLION));
@@ -169,15 +169,16 @@ std::vector<Case> bounce_cases() {
   }
   Case ball =
       start("mirror ball inside", "mirror ball inside", Measure::ball, Origin::model, "sphere", even(COARSE));
+  ball.rays /= 4;
   vary_side(ball);
   vary_blend(ball);
   list.push_back(ball);
   Case glass = start("glass ball", "glass ball", Measure::leaks, Origin::model, "sphere", even(COARSE));
-  glass.width = glass.height = 256;
+  glass.width = glass.height = 128;
   glass.runs.front().settings.samples = 16;
   vary_side(glass);
   vary_radius(glass);
-  vary_tree(glass);
+  vary_insertion(glass);
   list.push_back(glass);
   return list;
 }
@@ -185,6 +186,7 @@ std::vector<Case> bounce_cases() {
 Case brute_force_case() {
   Case one =
       start("brute force", "brute force", Measure::brute_force, Origin::model, "sphere", random(20'000));
+  one.rays = 20'000;
   vary_tree(one);
   return one;
 }
@@ -233,12 +235,18 @@ void append(std::vector<Case>& list, std::vector<Case> more) {
   std::move(more.begin(), more.end(), std::back_inserter(list));
 }
 
+/// Small pictures of small scenes.
 std::vector<Case> quick_cases() {
-  Case sphere = coarse_sphere();
+  constexpr std::uint32_t SIZE = 256;
+  Case sphere = shape_case("25k", "sphere even", Shape::sphere, even(COARSE));
+  vary_radius(sphere);
+  vary_tree(sphere);
   std::vector<Case> list{sphere, shape_case("25k", "sphere random", Shape::sphere, random(COARSE)),
                          mesh_case("35k", "bunny", vertices()), mesh_case("43k", "armadillo", vertices())};
+  for (Case& one : list) one.width = one.height = SIZE;
   append(list, bounce_cases());
   list.push_back(brute_force_case());
+  for (Case& one : list) one.rays /= 4;
   return list;
 }
 

@@ -53,7 +53,9 @@ struct Case {
   std::optional<Shape> shape;  ///< the exact shape of the model
   double wedge_deg = 90.0;     ///< opening angle; Measure::wedge only
   std::uint32_t width = 512, height = 512;  ///< pixels
-  double fill = 0.8;      ///< share of the picture's height that the model fills; 0 = the scene's own camera
+  double fill = 0.8;  ///< share of the picture's height that the model fills; 0 = the scene's own camera
+  std::size_t rays =
+      1U << 18U;  ///< that probe an analytic shape, or paths that are followed or compared with brute force
   std::vector<Run> runs;  ///< the first is the default, whose splats the camera is fitted to
 };
 

@@ -14,6 +14,6 @@ void time_frames(LoadedCase& loaded, std::vector<Json>& records);
 
 inline constexpr std::size_t FEWEST_ROUNDS = 9, MOST_ROUNDS = 101;
 inline constexpr double ENOUGH_SECONDS = 0.3;  ///< of rounds beyond FEWEST_ROUNDS
-inline constexpr double MOST_SECONDS = 45.0;
+inline constexpr double MOST_SECONDS = 25.0;
 
 }  // namespace splatray::testing

@@ -12,11 +12,12 @@
 namespace splatray::testing {
 namespace {
 
-constexpr std::size_t BRUTE_FORCE_RAYS = 20'000;
-constexpr std::size_t WEDGE_PATHS = 200'000;
-constexpr std::size_t BALL_PATHS = 60'000;
-
 double ppm(double part, double whole) { return 1e6 * part / whole; }
+
+Intersect intersect_of(LoadedCase& loaded, const Run& run) {
+  return [&tracer = loaded.variant_of(run).tracer, settings = loaded.settings_of(run)](
+             std::span<const RayQuery> rays) { return tracer.intersect(rays, settings); };
+}
 
 void compare_with_truth(LoadedCase& loaded, std::vector<Json>& records) {
   const Truth truth = read_truth(loaded.folder() / "truth.bin");
@@ -35,11 +36,10 @@ void probe(LoadedCase& loaded, std::vector<Json>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Run& run = loaded.about().runs[i];
     LoadedVariant& variant = loaded.variant_of(run);
-    const auto found = probes.try_emplace(&variant, *loaded.about().shape, variant.root, PROBE_RAYS, 1).first;
-    const auto intersect = [&, settings = loaded.settings_of(run)](std::span<const RayQuery> rays) {
-      return variant.tracer.intersect(rays, settings);
-    };
-    add_errors(records[i]["error"], found->second.measure(intersect, variant.prepared.radius_median_world));
+    const auto found =
+        probes.try_emplace(&variant, *loaded.about().shape, variant.root, loaded.about().rays, 1).first;
+    add_errors(records[i]["error"],
+               found->second.measure(intersect_of(loaded, run), variant.prepared.radius_median_world));
   }
 }
 
@@ -48,7 +48,7 @@ void compare_with_brute_force(LoadedCase& loaded, std::vector<Json>& records) {
   const Scene scene = read_scene(loaded.folder() / file_name(first.variant));
   const BruteForce brute(scene);
   const Settings settings = loaded.settings_of(first);
-  std::vector<RayQuery> rays = random_primary_rays(scene, BRUTE_FORCE_RAYS, 1);
+  std::vector<RayQuery> rays = random_primary_rays(scene, loaded.about().rays, 1);
   const std::vector<RayQuery> secondary = secondary_rays(scene, rays, all_nearest(brute, rays, settings), 2);
   rays.insert(rays.end(), secondary.begin(), secondary.end());
   const std::vector<TrueHit> truth = all_nearest(brute, rays, settings);
@@ -65,12 +65,11 @@ void follow_mirrors(LoadedCase& loaded, std::vector<Json>& records) {
   const Case& one = loaded.about();
   for (std::size_t i = 0; i < records.size(); ++i) {
     LoadedVariant& variant = loaded.variant_of(one.runs[i]);
-    const Settings settings = loaded.settings_of(one.runs[i]);
+    const Intersect intersect = intersect_of(loaded, one.runs[i]);
     const double radius = variant.prepared.radius_median_world;
-    const Bounces bounces =
-        one.measure == Measure::wedge
-            ? wedge_bounces(variant.tracer, variant.root, settings, one.wedge_deg, radius, WEDGE_PATHS)
-            : ball_bounces(variant.tracer, variant.root, settings, radius, BALL_PATHS);
+    const Bounces bounces = one.measure == Measure::wedge
+                                ? wedge_bounces(intersect, variant.root, one.wedge_deg, radius, one.rays)
+                                : ball_bounces(intersect, variant.root, radius, one.rays);
     records[i]["error"]["truth"] = "analytic";
     records[i]["error"]["wrong_bounces_ppm"] =
         ppm(static_cast<double>(bounces.wrong), static_cast<double>(bounces.counted));
@@ -138,7 +137,6 @@ std::vector<Json> measure_case(const Context& context, const Case& one, const st
       follow_mirrors(loaded, records);
       break;
     case Measure::leaks:
-      time_frames(loaded, records);
       count_leaks(loaded, records);
       break;
     case Measure::samples:

@@ -1,22 +1,13 @@
 #include "tests/bench/peer_embree_mesh.h"
 
-#include <algorithm>
-
 #include "preprocess/mesh_normals.h"
+#include "tests/bench/embree_triangles.h"
 
 namespace splatray::testing {
 
 EmbreeMesh::EmbreeMesh(const Mesh& mesh, const RootTransform& root)
     : mesh_(mesh), corner_normals_(corner_normals(mesh, weld_positions(mesh.vertices.position))) {
-  RTCGeometry geometry = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* positions = static_cast<vec3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.vertices.size()));
-  auto* triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size()));
-  std::transform(mesh.vertices.position.begin(), mesh.vertices.position.end(), positions,
-                 [&](const glm::dvec3& world) { return vec3(root.to_root(world)); });
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
-  embree_.build(geometry);
+  embree_.build(triangle_geometry(embree_.device(), mesh, root));
 }
 
 void EmbreeMesh::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {

@@ -28,6 +28,7 @@ struct Source {
   const PreparedVariant& variant;
   Scene scene;
   Discs discs;
+  Discs flat;  ///< the discs without their normal fields
   FrameParams frame;
   View view;
 };
@@ -89,13 +90,16 @@ void add_discs(const Source& source, const Run& run, std::vector<Entry>& entries
   }
 }
 
-/// The other kernel, and groups of discs.
+/// Flat discs as others blend them, and groups of discs.
 void add_variants(const Source& source, const Run& run, std::vector<Entry>& entries) {
-  Run gaussian = run;
-  gaussian.settings.kernel = KERNEL_GAUSSIAN;
-  gaussian.varied = "kernel";
-  entries.push_back(entry_of(source, gaussian, "embree window",
-                             [&] { return std::make_unique<EmbreeDiscs>(source.discs, gaussian.settings); }));
+  for (const std::uint32_t kernel : {KERNEL_RIM, KERNEL_GAUSSIAN}) {
+    Run flat = run;
+    flat.settings.kernel = kernel;
+    flat.variant.build.normal_fields = false;
+    flat.varied = "normal_fields";
+    entries.push_back(entry_of(source, flat, "embree window",
+                               [&] { return std::make_unique<EmbreeDiscs>(source.flat, flat.settings); }));
+  }
   for (const std::uint32_t group : {1U, 8U}) {
     Run user = run;
     user.variant.build.leaf_size = group;
@@ -175,16 +179,19 @@ std::vector<Json> measure_peers(const Case& one, const std::filesystem::path& fo
     const std::string file = file_name(run.variant);
     Scene scene = read_scene(folder / file);
     Discs discs = discs_of(scene);
+    Discs flat = discs;
+    flat.slope.clear();
     const FrameParams frame = make_frame_params(scene, view, run.settings);
-    const Source source{one,   prepared, prepared.variants.at(file), std::move(scene), std::move(discs),
-                        frame, view};
+    const Source source{
+        one,   prepared, prepared.variants.at(file), std::move(scene), std::move(discs), std::move(flat),
+        frame, view};
     std::vector<Entry> entries;
     add_discs(source, run, entries);
     if (run.varied.empty() && mesh) add_mesh(source, run, *mesh, entries);
     if (run.varied.empty() && !quick) add_variants(source, run, entries);
     time_rounds(source, entries);
     std::optional<Probes> probes;
-    if (one.shape) probes.emplace(*one.shape, source.scene.root, PROBE_RAYS, 1);
+    if (one.shape) probes.emplace(*one.shape, source.scene.root, one.rays, 1);
     for (Entry& entry : entries) {
       add_peer_errors(source, truth, probes, entry);
       records.insert(records.end(), entry.records.begin(), entry.records.end());

@@ -2,7 +2,6 @@
 
 #include <random>
 
-#include "tests/bench/random_rays.h"
 #include "tests/bench/statistics.h"
 
 namespace splatray::testing {

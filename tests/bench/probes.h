@@ -1,11 +1,10 @@
 /// Errors of analytic shapes measured by rays from everywhere, finer than a picture can.
 #pragma once
 #include <cmath>
-#include <functional>
-#include <span>
 
 #include "engine/host/scene.h"
 #include "tests/bench/analytic.h"
+#include "tests/bench/random_rays.h"
 #include "tests/bench/wilson.h"
 
 namespace splatray::testing {
@@ -19,9 +18,6 @@ struct ProbeErrors {
   std::uint64_t rays = 0;  ///< that `holes` is a share of
 };
 
-/// Rays of a case's probes.
-inline constexpr std::size_t PROBE_RAYS = 1U << 18U;
-
 /// Sends rays to the shape from all around, uniform in direction and in place, that truly meet it at 78 degrees from its
 /// normal or less (cosine 0.2: inside the silhouette). Each ray is rounded to float32 first and its truth computed then.
 class Probes {
@@ -29,8 +25,6 @@ class Probes {
   /// About `count` rays for scenes of this transform.
   Probes(Shape shape, const RootTransform& root, std::size_t count, std::uint64_t seed);
 
-  /// Answers rays of root space, one hit for each.
-  using Intersect = std::function<std::vector<RayHit>(std::span<const RayQuery>)>;
   /// The errors of answers. `radius_world`: median radius of the discs.
   [[nodiscard]] ProbeErrors measure(const Intersect& intersect, double radius_world) const;
 

@@ -1,11 +1,17 @@
 /// What the makers of rays for measuring share.
 #pragma once
+#include <functional>
 #include <glm/glm.hpp>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "shaders/layout.h"
 
 namespace splatray::testing {
+
+/// Answers rays of root space, one hit for each.
+using Intersect = std::function<std::vector<RayHit>(std::span<const RayQuery>)>;
 
 /// Uniform on the unit sphere.
 [[nodiscard]] inline glm::dvec3 random_direction(std::mt19937_64& random) {
