@@ -13,15 +13,18 @@ namespace {
 constexpr double KNN_FACTOR = 0.65;       // x distance to the RING-th neighbour: closed for even samples
 constexpr std::size_t RING = 6;           // neighbours around a point of an even sampling
 constexpr std::size_t FEW = 12;           // neighbours that settle most Voronoi cells
+constexpr std::size_t CLOSE = 8;          // neighbours whose discs meet a point's own
 constexpr std::size_t MANY = 32;          // neighbours asked for when FEW do not
-constexpr double COVERAGE_MARGIN = 1.04;  // discs of a curved surface lie in different planes
-constexpr double SIMILAR = 0.5;           // cosine of normals of one sheet
-constexpr double LATERAL = 0.5;           // tangential share of the distance of a neighbour on the same sheet
-constexpr double LEAST_SLANT = 0.5;       // sine of the angle between planes that meet in a crease
-constexpr double PARALLEL = 0.9;          // cosine of normals of layers of one noisy sheet
-constexpr double NOISE_REACH = 4.0;       // of a noisy sheet's disc, in standard deviations of its heights
-constexpr double NOISE_LIMIT = 2.0;       // the same at most, in units of the disc that covers
-constexpr float STRAY = 4.0F;             // largest radius in units of the surroundings' median
+constexpr double COVERAGE_MARGIN = 1.01;  // discs of a curved surface lie in different planes
+constexpr double ROUGHNESS_REACH =
+    1.0;  // more where they lie at different heights, in standard deviations of the heights
+constexpr double SIMILAR = 0.5;      // cosine of normals of one sheet
+constexpr double LATERAL = 0.5;      // tangential share of the distance of a neighbour on the same sheet
+constexpr double LEAST_SLANT = 0.5;  // sine of the angle between planes that meet in a crease
+constexpr double PARALLEL = 0.9;     // cosine of normals of layers of one noisy sheet
+constexpr double NOISE_REACH = 4.0;  // of a noisy sheet's disc, in standard deviations of its heights
+constexpr double NOISE_LIMIT = 2.0;  // the same at most, in units of the disc that covers
+constexpr float STRAY = 4.0F;        // largest radius in units of the surroundings' median
 
 double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
   std::array<Neighbour, RING> nearest;
@@ -94,9 +97,11 @@ double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::u
                          (around.neighbour_count >= RING && reach.decisive_distance <= seen);
     if (!settled) continue;
     if (reach.radius > 0.0) {
-      const double noise =
-          NOISE_REACH * sheet_noise(cloud, point, std::span(nearest).first(std::min(found, FEW)));
-      return std::clamp(noise, COVERAGE_MARGIN * reach.radius, NOISE_LIMIT * reach.radius);
+      const auto heights_among = [&](std::size_t count) {
+        return sheet_noise(cloud, point, std::span(nearest).first(std::min(found, count)));
+      };
+      const double covering = COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * heights_among(CLOSE);
+      return std::min(std::max(covering, NOISE_REACH * heights_among(FEW)), NOISE_LIMIT * reach.radius);
     }
   }
   return knn_radius(cloud, search, point);
