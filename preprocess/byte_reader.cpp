@@ -4,11 +4,12 @@
 #include <cstring>
 
 #include "engine/host/error.h"
+#include "preprocess/one_line.h"
 
 namespace splatray {
 
 void throw_unreadable(const std::filesystem::path& path, const std::string& what) {
-  throw Error(ExitCode::input_unreadable, path.string() + ": " + what);
+  throw Error(ExitCode::input_unreadable, one_line(path.string() + ": " + what));
 }
 
 ByteReader::ByteReader(const std::filesystem::path& path) : path_(path) {

@@ -41,6 +41,17 @@ bool keep_image_bytes(tinygltf::Image* image, const int, std::string*, std::stri
   return true;
 }
 
+/// tinygltf's file reader, for files only: from a folder or a device it would ask for all memory, or wait.
+bool read_regular_file(std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
+                       void*) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) {
+    *error = "not a regular file";
+    return false;
+  }
+  return tinygltf::ReadWholeFile(bytes, error, path, nullptr);
+}
+
 std::uint32_t little_endian_word(const unsigned char* bytes) {
   std::uint32_t word = 0;
   std::memcpy(&word, bytes, sizeof(word));
@@ -85,6 +96,8 @@ std::string first_line(const std::string& text) {
 void parse(GltfFile& file, bool binary) {
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(keep_image_bytes, nullptr);
+  parser.SetFsCallbacks(
+      {tinygltf::FileExists, tinygltf::ExpandFilePath, read_regular_file, tinygltf::WriteWholeFile, nullptr});
   std::string error;
   std::string warning;
   bool good = false;

@@ -20,7 +20,7 @@ std::vector<Vector> read_attribute(const GltfFile& file, const tinygltf::Primiti
   }
   const std::vector<float> rows = read_floats(file, found->second, Vector::length(), name);
   std::vector<Vector> vectors(rows.size() / Vector::length());
-  std::memcpy(vectors.data(), rows.data(), rows.size() * sizeof(float));
+  if (!rows.empty()) std::memcpy(vectors.data(), rows.data(), rows.size() * sizeof(float));
   if (vectors.size() != vertex_count) {
     file.fail(name + ": found " + std::to_string(vectors.size()) + " elements, POSITION has " +
               std::to_string(vertex_count));

@@ -5,6 +5,7 @@
 #include "engine/host/error.h"
 #include "preprocess/file_extension.h"
 #include "preprocess/mesh_points.h"
+#include "preprocess/one_line.h"
 #include "preprocess/points.h"
 #include "preprocess/read_gltf.h"
 #include "preprocess/read_mesh.h"
@@ -116,6 +117,7 @@ Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOpti
   }
   note_many_dielectrics(input);
   aim_camera(input);
+  for (std::string& note : input.notes) note = one_line(note);
   return input;
 }
 

@@ -33,6 +33,8 @@ void check_mesh(const Mesh& mesh) {
 }
 
 void check_input(const Input& input) {
+  for (const std::string& note : input.notes)
+    require(note.find('\n') == std::string::npos, "a note is one line");
   require(!input.objects.empty(), "at least one object");
   for (const InputObject& object : input.objects) {
     require(object.points.size() > 0, "no object without points");

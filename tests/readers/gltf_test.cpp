@@ -292,6 +292,25 @@ TEST(Gltf, RequiredExtensionsThatAreUnknownAreErrorsUsedOnesNotes) {
   EXPECT_TRUE(has_note(read_input({scene(R"(,"extensionsUsed":["EXT_strange"])")}, {}), "EXT_strange"));
 }
 
+TEST(Gltf, WhatTheFileSaysDoesNotBreakTheLine) {
+  const TempFolder folder;
+  const auto scene = [&](const std::string& more) {
+    return folder.write("l.gltf", embedded(R"({"mesh":0})", more));
+  };
+  EXPECT_NE(read_error(scene(R"(,"extensionsRequired":["EXT\n\u001b[2J"])")).find("EXT??[2J"),
+            std::string::npos);
+  EXPECT_TRUE(has_note(read_input({scene(R"(,"extensionsUsed":["EXT\n\u001b[2J"])")}, {}), "EXT??[2J"));
+}
+
+TEST(Gltf, BuffersThatAreFoldersOrDevicesAreErrors) {
+  const TempFolder folder;
+  for (const char* place : {".", "/dev/zero"}) {
+    const std::string uri = R"(,"uri":")" + std::string(place) + "\"";
+    const std::string sentence = read_error(folder.write("d.gltf", scene_json(R"({"mesh":0})", "", "", uri)));
+    EXPECT_NE(sentence.find("not a regular file"), std::string::npos) << sentence;
+  }
+}
+
 TEST(Gltf, CyclesOfNodesAreErrors) {
   const TempFolder folder;
   const std::string nodes = R"({"children":[1]},{"children":[0]})";
