@@ -80,26 +80,35 @@ Run with_blend(Run run, std::uint32_t blend) {
   return run;
 }
 
-/// The peers of every number of splats.
-void add_discs(const Source& source, const Run& run, std::vector<Entry>& entries) {
-  for (const std::uint32_t blend : {BLEND_NEAREST, BLEND_WINDOW}) {
-    const Run blended = with_blend(run, blend);
-    entries.push_back(entry_of(source, blended, "embree " + blend_word(blend), [&] {
-      return std::make_unique<EmbreeDiscs>(source.discs, blended.settings);
-    }));
-  }
+Entry discs_entry(const Source& source, const Run& run) {
+  return entry_of(source, run, "embree " + blend_word(run.settings.blend), [&] {
+    return std::make_unique<EmbreeDiscs>(run.variant.build.normal_fields ? source.discs : source.flat,
+                                         run.settings);
+  });
 }
 
-/// Flat discs as others blend them, and groups of discs.
-void add_variants(const Source& source, const Run& run, std::vector<Entry>& entries) {
-  for (const std::uint32_t kernel : {KERNEL_RIM, KERNEL_GAUSSIAN}) {
-    Run flat = run;
-    flat.settings.kernel = kernel;
-    flat.variant.build.normal_fields = false;
-    flat.varied = "normal_fields";
-    entries.push_back(entry_of(source, flat, "embree window",
-                               [&] { return std::make_unique<EmbreeDiscs>(source.flat, flat.settings); }));
-  }
+/// Discs without normal fields, as others trace them.
+Entry flat_entry(const Source& source, Run run, std::uint32_t blend, std::uint32_t kernel) {
+  run.settings.blend = blend;
+  run.settings.kernel = kernel;
+  run.variant.build.normal_fields = false;
+  run.varied = "normal_fields";
+  return discs_entry(source, run);
+}
+
+/// The peers of every number of splats.
+void add_discs(const Source& source, const Run& run, std::vector<Entry>& entries) {
+  for (const std::uint32_t blend : {BLEND_NEAREST, BLEND_WINDOW})
+    entries.push_back(discs_entry(source, with_blend(run, blend)));
+  entries.push_back(flat_entry(source, run, BLEND_WINDOW, KERNEL_GAUSSIAN));
+}
+
+void add_flat(const Source& source, const Run& run, std::vector<Entry>& entries) {
+  for (const std::uint32_t blend : {BLEND_NEAREST, BLEND_WINDOW})
+    entries.push_back(flat_entry(source, run, blend, run.settings.kernel));
+}
+
+void add_clusters(const Source& source, const Run& run, std::vector<Entry>& entries) {
   for (const std::uint32_t group : {1U, 8U}) {
     Run user = run;
     user.variant.build.leaf_size = group;
@@ -188,7 +197,8 @@ std::vector<Json> measure_peers(const Case& one, const std::filesystem::path& fo
     std::vector<Entry> entries;
     add_discs(source, run, entries);
     if (run.varied.empty() && mesh) add_mesh(source, run, *mesh, entries);
-    if (run.varied.empty() && !quick) add_variants(source, run, entries);
+    if (run.varied.empty()) add_flat(source, run, entries);
+    if (run.varied.empty() && !quick) add_clusters(source, run, entries);
     time_rounds(source, entries);
     std::optional<Probes> probes;
     if (one.shape) probes.emplace(*one.shape, source.scene.root, one.rays, 1);

@@ -13,9 +13,10 @@ namespace splatray::testing {
 
 /// Records (record.h) of each peer on one thread and on all, from what prepare_case left in `folder`; times in rounds as
 /// for splatray's own (frames.h), without shading. Methods, at every number of splats that the case is tried at:
-/// "embree nearest" and "embree window" (peer_embree_discs.h), with the splats' normal fields; at the first number also
-/// "embree mesh" where the case has one, and unless `quick` the window of flat discs with either kernel and "embree
-/// user" (peer_embree_clusters.h; settings.leaf_size = discs of a primitive). `data`: folder of the models. Throws Error.
+/// "embree nearest" and "embree window" (peer_embree_discs.h) with the splats' normal fields, and the latter of flat discs
+/// with the Gaussian kernel; at the first number also nearest and window of flat discs, "embree mesh" where the case
+/// has one, and unless `quick` "embree user" (peer_embree_clusters.h; settings.leaf_size = discs of a primitive).
+/// `data`: folder of the models. Throws Error.
 [[nodiscard]] std::vector<Json> measure_peers(const Case& one, const std::filesystem::path& folder,
                                               const std::filesystem::path& data, bool quick);
 

@@ -13,9 +13,11 @@ from report_targets import targets
 NOTES = """
 - Times are medians of at least 9 frames measured in rounds, one frame of every setting in turn; splatray's are those of the
   dispatches and include shading, Embree's are wall times of tracing alone, on all threads unless the table says
-  otherwise. Both send one ray through each pixel's centre.
+  otherwise. "Embree window" blends as splatray's default does, with the splats' normal fields, so that their errors are
+  the same; "flat, Gaussian" are Embree's discs as they are usually blended. Both send one ray through each pixel's centre.
 - Errors are measured on the same rays against the same truth: analytic shapes in float64, or the source mesh in
-  float64. Sphere and torus probes are 262,144 rays from all around that meet the surface at less than 78 degrees.
+  float64. Holes, rms and jump of sphere and torus come from rays from all around that meet the surface at less than
+  78 degrees from its normal.
 - Normals' errors include silhouettes; mismatch counts pixels that hit where the truth misses or the reverse.
 - Embree tests discs and triangles in float32 and does not cull back faces; here it hides them by splatray's rule
   where an object is one-sided. Its window ends at the first hit's window when the filter finds that hit; splatray's

@@ -18,6 +18,7 @@ STYLE = {
     "nearest": ("#009E73", "^"),
     "embree window": ("#CC79A7", "D"),
     "embree nearest": ("#D55E00", "v"),
+    "embree flat": ("#56B4E9", "h"),
     "embree user": ("#8C6D46", "P"),
     "embree mesh": ("#000000", "*"),
 }
@@ -108,7 +109,7 @@ class Panel:
 
     def log_errors(self):
         """A log axis over the curves' errors and up to three times their largest."""
-        errors = [error for method in OURS + PEERS[:3] for error, _ in self.points(self.runs(method))]
+        errors = [error for method in OURS + PEERS[:4] for error, _ in self.points(self.runs(method))]
         on_curves = [error for method in OURS for error, _ in self.points(self.curve(method) or self.runs(method))]
         most = 3.0 * max(on_curves)
         self.axes.set_xscale("log")
@@ -131,6 +132,8 @@ def second_error(records, scene):
 
 
 def name_of(method):
+    if method == "embree flat":
+        return "Embree, flat, Gaussian"
     return f"splatray {method}" if method in OURS else method.replace("embree", "Embree")
 
 
@@ -221,7 +224,7 @@ def largest_runs(records, scene):
     """Default runs at the scene's largest number of splats, by (method, device)."""
     runs = {}
     for run in records.choose(scene=scene, varied=ON_CURVE):
-        if run.ms and run.method not in ("paper", "embree user") and records.uses_all_threads(run):
+        if run.ms and run.method not in ("paper", "embree user", "embree flat") and records.uses_all_threads(run):
             best = runs.get((run.method, run.device))
             if best is None or run.get("splats") > best.get("splats"):
                 runs[run.method, run.device] = run
@@ -261,12 +264,8 @@ def plot_exactness(records, path):
     titles = {"window": "blended (window, the default)", "nearest": "nearest disc alone"}
     for axes, method in zip(panels, titles):
         for i, scene in enumerate(records.picture_scenes()):
-            runs = [run for run in records.choose(scene=scene, method=method, varied=ON_CURVE)]
-            points = {
-                run.get("splats"): run.get("normal_p99_deg")
-                for run in runs
-                if run.device == records.devices()[0] and run.get("sampling") != "vertices"
-            }
+            curve = records.curve(scene, method, records.devices()[0])
+            points = {run.get("splats"): run.get("normal_p99_deg") for run in curve}
             if points:
                 style = {"marker": "osv^DP*"[i % 7], "markersize": 5, "linewidth": 1.3, "color": f"C{i}"}
                 axes.plot(*zip(*sorted(points.items())), "-", label=scene, **style)

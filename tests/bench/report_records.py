@@ -5,7 +5,7 @@ import pathlib
 from dataclasses import dataclass
 
 OURS = ("window", "paper", "nearest")
-PEERS = ("embree window", "embree nearest", "embree user", "embree mesh")
+PEERS = ("embree window", "embree nearest", "embree flat", "embree user", "embree mesh")
 #: Runs along a method's curve: the default, other numbers of splats, and the default with another blending.
 ON_CURVE = ("", "splats", "blend")
 
@@ -31,12 +31,17 @@ class Record:
         return self.data["scene"]
 
     @property
+    def is_flat(self):
+        """Embree's discs as they are known: without normal fields, blended with a Gaussian."""
+        return not self.get("normal_fields") and self.get("kernel") == "gaussian" and not self.is_ours
+
+    @property
     def method(self):
-        return self.data["method"]
+        return "embree flat" if self.is_flat else self.data["method"]
 
     @property
     def varied(self):
-        return self.data["varied"]
+        return "splats" if self.is_flat else self.data["varied"]
 
     @property
     def device(self):
@@ -44,7 +49,7 @@ class Record:
 
     @property
     def is_ours(self):
-        return self.method in OURS
+        return self.data["method"] in OURS
 
     @property
     def ms(self):

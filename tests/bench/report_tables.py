@@ -167,32 +167,33 @@ def time_at_error(curve, error):
 
 
 def same_error_table(records):
-    """Our time at each number of splats, and Embree's window where it is as exact."""
+    """Our time at each number of splats, and Embree's where it is as exact: with our normal fields, and as it is known."""
     rows = []
-    peers = records.unique("device", method="embree window")
-    for scene in records.picture_scenes() if peers else ():
-        theirs = records.curve(scene, "embree window", peers[0])
+    for scene in records.picture_scenes() if records.peer_devices() else ():
+        peers = [records.curve(scene, method, records.peer_devices()[0]) for method in ("embree window", "embree flat")]
         for device in records.devices():
             for run in records.curve(scene, "window", device):
                 error = run.get("normal_p99_deg")
-                ms = time_at_error(theirs, error)
-                text = f"{number(ms)} ({number(run.ms / ms)})" if ms else "not reached"
-                count = splats_text(run.get("splats"))
-                rows.append((scene, short(device), count, number(error), number(run.ms), text))
-    head = ("scene", "device", "splats", "normals p99, °", "splatray, ms", "Embree window at that error, ms (splatray / it)")
-    return table(head, rows)
+                times = [time_at_error(curve, error) for curve in peers]
+                texts = tuple(f"{number(ms)} (×{number(run.ms / ms, 2)})" if ms else "not reached" for ms in times)
+                rows.append(
+                    (scene, short(device), splats_text(run.get("splats")), number(error), number(run.ms)) + texts
+                )
+    head = ("scene", "device", "splats", "normals p99, °", "splatray, ms", "Embree window, ms (splatray / it)")
+    return table(head + ("Embree, flat discs, Gaussian, ms",), rows)
 
 
 def peers_table(records):
     """Each case's default number of splats: time, memory and error of every method."""
     rows = []
     for case in records.unique("case", method="embree window"):
-        for run in records.choose(case=case, varied=("", "blend", "leaf_size", "kernel")):
+        splats = min(run.get("splats") for run in records.choose(case=case, varied="", method="window"))
+        for run in records.choose(case=case, splats=splats):
             if run.is_ours and run.varied not in ON_CURVE:
                 continue
             name = run.method if not run.is_ours else f"splatray {run.method}, {short(run.device)}"
-            if run.varied == "kernel":
-                name += ", Gaussian kernel"
+            if not run.is_ours and run.method != "embree mesh" and not run.get("normal_fields"):
+                name = f"{run.data['method']}, flat discs, {run.get('kernel')} kernel"
             if run.method == "embree user":
                 name += f", {run.get('leaf_size')} discs a box"
             keys = ("bytes_per_splat", "normal_p99_deg", "mismatch_ppm", "psnr_db", "flip_mean")

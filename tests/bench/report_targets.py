@@ -24,7 +24,7 @@ def at_most(what, limit, unit, value):
 
 def default_run(records, **wanted):
     """The window run with all knobs at their defaults, on the first device; None when there is none."""
-    runs = records.choose(method="window", varied=("", "splats"), **wanted)
+    runs = records.choose(method="window", varied=("", "splats"), device=records.devices()[0], **wanted)
     return max(runs, key=lambda run: run.get("splats")) if runs else None
 
 
@@ -45,7 +45,7 @@ def mesh_targets(records):
 
 
 def tree_targets(records):
-    runs = [r for r in records.choose(case="brute force") if r.get("insertion") == "overlap"]
+    runs = [r for r in records.choose(case="brute force", device=records.devices()[0]) if r.get("insertion") == "overlap"]
     if runs:
         worst = max(run.get("mismatch_ppm") for run in runs)
         sizes = ", ".join(str(size) for size in sorted({run.get("leaf_size") for run in runs}))
@@ -67,16 +67,16 @@ def shape_targets(records):
         run = default_run(records, case=case)
         if run.get("jump_p999_deg") is not None:
             yield at_most(f"{case}: jump of the normal, p99.9", 0.05, "°", run.get("jump_p999_deg"))
-        nearest = records.choose(case=case, method="nearest", device=run.device)
+        nearest = records.choose(case=case, method="embree nearest", normal_fields=False)
         if nearest and run.get("normal_rms_deg"):
             ratio = run.get("normal_rms_deg") / nearest[0].get("normal_rms_deg")
-            yield at_most(f"{case}: rms of the normals / nearest disc's", 0.1, "", ratio)
+            yield at_most(f"{case}: rms of the normals / nearest flat disc's", 0.1, "", ratio)
         if run.get("depth_bias_r") is not None and "sphere" in case:
             yield at_most(f"{case}: depth bias, median radii", 0.001, " r", abs(run.get("depth_bias_r")))
 
 
 def path_targets(records):
-    for run in records.choose(method="window", varied=""):
+    for run in records.choose(method="window", varied="", device=records.devices()[0]):
         if run.get("wrong_bounces_ppm") is not None:
             value = run.get("wrong_bounces_ppm")
             yield Target(f"{run.case}: wrong bounces", "0", f"{value:.3g} ppm", value == 0)
