@@ -1,0 +1,24 @@
+/// One round of the property test: a random scene, random rays, three answers to each, one truth.
+#pragma once
+#include <cstdint>
+#include <ostream>
+
+#include "engine/gpu/tracer.h"
+
+namespace splatray::testing {
+
+struct RoundCounts {
+  std::uint64_t rounds = 0;
+  std::uint64_t rays =
+      0;  ///< primary and secondary; each is asked of the GPU with two leaf sizes and of the twin
+  std::uint64_t hits = 0;
+  std::uint64_t ties = 0;        ///< answers that are right but for rounding (judge.h)
+  std::uint64_t exceptions = 0;  ///< wrong answers, and answers that differ between the leaf sizes
+};
+
+/// Runs the round of `seed`, adds to `counts` and describes the first exceptions on `out`. `spoil` moves one splat of the
+/// truth, to prove that exceptions are found.
+void run_round(std::uint64_t seed, Tracer& tracer, RoundCounts& counts, std::ostream& out,
+               bool spoil = false);
+
+}  // namespace splatray::testing
