@@ -39,22 +39,25 @@ std::size_t cut_count(Bytes& bytes, std::size_t offset, std::size_t element) {
   return count;
 }
 
-std::size_t cut_flag(Bytes& bytes, std::size_t offset) {
-  put(bytes, offset, get<std::uint32_t>(bytes, offset) & 1U);
+/// Cuts a word of flags to `mask`. Returns it.
+std::uint32_t cut_flags(Bytes& bytes, std::size_t offset, std::uint32_t mask) {
+  put(bytes, offset, get<std::uint32_t>(bytes, offset) & mask);
   return get<std::uint32_t>(bytes, offset);
 }
 
-/// The elements of each section, after the counts (and the two flags) have been cut.
+/// The elements of each section, after the counts and flags have been cut.
 std::vector<std::size_t> cut_counts(Bytes& bytes) {
   const std::size_t references = cut_count<std::uint64_t>(bytes, 40, 16);
   const std::size_t nodes = cut_count<std::uint64_t>(bytes, 48, 4);
   const std::size_t leaves = cut_count<std::uint64_t>(bytes, 56, 4);
   const std::size_t objects = cut_count<std::uint32_t>(bytes, 64, 48);
   const std::size_t lights = cut_count<std::uint32_t>(bytes, 68, 48);
-  const std::size_t colors = cut_flag(bytes, 72) * references;
-  const std::size_t cameras = cut_flag(bytes, 76);
-  return {nodes,   leaves + 1, references, colors,
-          objects, lights,     cameras,    cut_count<std::uint64_t>(bytes, 80, 1)};
+  const std::uint32_t attributes = cut_flags(bytes, 72, 3);
+  const std::size_t cameras = cut_flags(bytes, 76, 1);
+  const std::size_t strings = cut_count<std::uint64_t>(bytes, 80, 1);
+  const std::size_t colors = (attributes & 1U) != 0 ? references : 0;
+  const std::size_t fields = (attributes & 2U) != 0 ? references : 0;
+  return {nodes, leaves + 1, references, colors, fields, objects, lights, cameras, strings};
 }
 
 /// The bytes with a scene file's form: magic, version, sizes, section table, gaps, end marker and checksums are put
@@ -74,7 +77,7 @@ Bytes with_form(Bytes bytes, const Bytes& good) {
   for (std::size_t i = 0; i < SECTION_COUNT; ++i) {
     const std::size_t entry = TABLE + i * ENTRY;
     bytes.replace(entry, 8, good, entry, 8);
-    const std::uint64_t size = counts[i] * get<std::uint32_t>(bytes, entry + 4);
+    const std::uint64_t size = counts.at(i) * get<std::uint32_t>(bytes, entry + 4);
     const std::uint64_t offset = pad(size);
     put<std::uint64_t>(bytes, entry + 8, offset);
     put<std::uint64_t>(bytes, entry + 16, size);

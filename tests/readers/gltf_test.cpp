@@ -302,13 +302,10 @@ TEST(Gltf, WhatTheFileSaysDoesNotBreakTheLine) {
   EXPECT_TRUE(has_note(read_input({scene(R"(,"extensionsUsed":["EXT\n\u001b[2J"])")}, {}), "EXT??[2J"));
 }
 
-TEST(Gltf, BuffersThatAreFoldersOrDevicesAreErrors) {
+TEST(Gltf, ABufferThatIsAFolderIsAnError) {
   const TempFolder folder;
-  for (const char* place : {".", "/dev/zero"}) {
-    const std::string uri = R"(,"uri":")" + std::string(place) + "\"";
-    const std::string sentence = read_error(folder.write("d.gltf", scene_json(R"({"mesh":0})", "", "", uri)));
-    EXPECT_NE(sentence.find("not a regular file"), std::string::npos) << sentence;
-  }
+  const std::string text = scene_json(R"({"mesh":0})", "", "", R"(,"uri":".")");
+  EXPECT_NE(read_error(folder.write("d.gltf", text)).find("not a regular file"), std::string::npos);
 }
 
 TEST(Gltf, CyclesOfNodesAreErrors) {
