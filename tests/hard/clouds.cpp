@@ -74,7 +74,7 @@ Scene build(const std::vector<InputObject>& objects, const BuildParams& params, 
 
 Scene lattice_scene(const std::vector<Disc>& discs, const Material& material, std::uint32_t leaf_size) {
   return build({disc_object(discs, material), disc_object(corner_discs(), test_material(0))},
-               {.leaf_size = leaf_size});
+               {.leaf_size = leaf_size, .normal_fields = false});
 }
 
 double overlap_of(const Scene& scene, double area_world) {

@@ -31,7 +31,7 @@ struct Disc {
 [[nodiscard]] Scene build(const std::vector<InputObject>& objects, const BuildParams& params = {},
                           BuildStats* stats = nullptr);
 
-/// A scene whose world is its lattice: discs at integer centres in [64, 2^21 - 64]^3 keep them, as two tiny
+/// A scene of flat discs whose world is its lattice: discs at integer centres in [64, 2^21 - 64]^3 keep them, as two tiny
 /// discs in opposite corners of the root, of an object of their own (index 1), fix the root transform to 1
 /// unit per lattice unit.
 [[nodiscard]] Scene lattice_scene(const std::vector<Disc>& discs, const Material& material,

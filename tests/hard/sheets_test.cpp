@@ -61,13 +61,15 @@ TEST(Sheet, ThinWalls) {
     for (const std::uint32_t flags : {0U, MATERIAL_TWO_SIDED}) {
       const Scene scene = scene_of({{wall(thickness), test_material(flags)}});
       const std::vector<RayQuery> rays = rays_at_wall(scene, thickness);
+      // A two-sided object's sheets blend whichever way they face, so a hit may lie within a thin wall.
+      const double depth = flags == 0 ? 1e-4 : thickness + 1e-4;
       std::size_t i = 0;
       conclude(count_wrong(scene, rays,
                            std::string(flags == 0 ? "one" : "two") + "-sided walls " +
                                short_number(thickness_r) + " r apart: the near wall and its normal",
                            [&](const dvec3& at, const dvec3& normal) {
                              const double side = rays[i++].dir.y < 0.0F ? 1.0 : -1.0;
-                             return std::abs(at.y - side * 0.5 * thickness) < 1e-4 &&
+                             return std::abs(at.y - side * 0.5 * thickness) < depth &&
                                     side * normal.y > 0.9999;
                            }));
     }
@@ -148,7 +150,9 @@ void moebius(double u, double v, dvec3& position, dvec3& normal) {
   const dvec3 radial(std::cos(angle), 0.0, std::sin(angle));
   const dvec3 across = std::cos(0.5 * angle) * radial + std::sin(0.5 * angle) * dvec3(0.0, 1.0, 0.0);
   position = radial + 0.4 * (v - 0.5) * across;
-  const dvec3 along(-std::sin(angle), 0.0, std::cos(angle));
+  const dvec3 twist = 0.5 * (std::cos(0.5 * angle) * dvec3(0.0, 1.0, 0.0) - std::sin(0.5 * angle) * radial);
+  const dvec3 turn = std::cos(0.5 * angle) * dvec3(-std::sin(angle), 0.0, std::cos(angle));
+  const dvec3 along = dvec3(-std::sin(angle), 0.0, std::cos(angle)) + 0.4 * (v - 0.5) * (twist + turn);
   normal = glm::normalize(glm::cross(along, across));
 }
 

@@ -40,7 +40,8 @@ Scene soup(std::uint32_t leaf_size) {
   std::vector<Disc> discs;
   for (int i = 0; i < 1500; ++i)
     discs.push_back({random_unit(random) * 2.0, random_unit(random), std::pow(10.0, exponent(random))});
-  return build({disc_object(discs, test_material(MATERIAL_TWO_SIDED))}, {.leaf_size = leaf_size});
+  return build({disc_object(discs, test_material(MATERIAL_TWO_SIDED))},
+               {.leaf_size = leaf_size, .normal_fields = false});
 }
 
 /// Random rays, rays along cell planes and between corners of cells, and what follows from their hits.
