@@ -14,6 +14,8 @@ using glm::dvec3;
 
 constexpr double BORDER_RADII = 3.0;
 constexpr double MISSED_RADII = 2.0;
+constexpr double TURN = 1e-3;            // of a ray by the rounding of normals in all its bounces, radians
+constexpr double GRAZING_COSINE = TURN;  // of rays that may miss a mirror altogether
 
 /// Two unit squares that meet in the z axis, open towards +x, facing each other.
 struct Wedge {
@@ -27,13 +29,14 @@ struct Wedge {
   }
 };
 
-/// Where a ray meets the front of a mirror's plane: distance, and place on the mirror's two edges, 0..1 on it.
+/// Where a ray meets the front of a mirror's plane: distance, place on the mirror's two edges, 0..1 on it, and cosine.
 struct PlaneHit {
-  double t, s, z;
+  double t, s, z, cosine;
 
   [[nodiscard]] bool inside() const { return s > 0.0 && s < 1.0 && z > 0.0 && z < 1.0; }
-  /// Whether what is hit there depends on how the discs at the outer borders end.
-  [[nodiscard]] bool at_border(double margin) const {
+  /// Whether what is hit there depends on how the discs at the outer borders end, or on the rounding of normals.
+  [[nodiscard]] bool at_border(double border) const {
+    const double margin = border + TURN * t / cosine;
     const bool near = s > -margin && s < 1.0 + margin && z > -margin && z < 1.0 + margin;
     return near && (s > 1.0 - margin || z < margin || z > 1.0 - margin);
   }
@@ -46,13 +49,20 @@ std::optional<PlaneHit> plane_hit(const Wedge& wedge, int side, const dvec3& ori
   if (towards >= 0.0 || height <= 0.0) return {};
   const double t = -height / towards;
   const dvec3 point = origin + t * dir;
-  return PlaneHit{t, glm::dot(point, wedge.along(side)), point.z + 0.5};
+  return PlaneHit{t, glm::dot(point, wedge.along(side)), point.z + 0.5, -towards};
 }
 
-/// Bounces of the exact path; nothing when it comes near an outer border.
+/// Whether the direction lies almost in a mirror, so that the rounding of its discs' normals decides what is hit.
+bool grazes(const Wedge& wedge, const dvec3& dir) {
+  return std::abs(glm::dot(dir, wedge.normal(0))) < GRAZING_COSINE ||
+         std::abs(glm::dot(dir, wedge.normal(1))) < GRAZING_COSINE;
+}
+
+/// Bounces of the exact path; nothing when it comes near an outer border or grazes a mirror.
 std::optional<std::uint32_t> exact_bounces(const Wedge& wedge, dvec3 origin, dvec3 dir, double margin) {
   int last = -1;
   for (std::uint32_t bounces = 0; bounces < MOST_BOUNCES; ++bounces) {
+    if (grazes(wedge, dir)) return {};
     std::optional<PlaneHit> first;
     int first_side = 0;
     for (int side = 0; side < 2; ++side) {

@@ -14,7 +14,7 @@ struct Bounces {
 
 /// Paths between the two one-sided mirrors of the model `wedge`, sent in through its opening, at most MOST_BOUNCES long. A
 /// path is wrong when it has not as many bounces as between two exact planes. Paths that come within 3 median radii of the
-/// mirrors' outer borders, where discs end as they do, are not counted.
+/// mirrors' outer borders, where discs end as they do, or meet a mirror at less than 0.06 degree are not counted.
 [[nodiscard]] Bounces wedge_bounces(const Intersect& intersect, const RootTransform& root, double wedge_deg,
                                     double radius_world, std::size_t paths);
 
