@@ -36,6 +36,10 @@ void vary_kernel(Case& one) {
     vary(one, "kappa", [=](Run& run) { run.settings.kappa = kappa; });
 }
 
+void vary_fields(Case& one) {
+  vary(one, "normal_fields", [](Run& run) { run.variant.build.normal_fields = false; });
+}
+
 void vary_radius(Case& one) {
   for (const double scale : {0.7, 1.4})
     vary(one, "radius_scale", [=](Run& run) { run.variant.build.radius_scale = scale; });
@@ -110,6 +114,7 @@ Case coarse_sphere() {
   vary_radius(one);
   vary_knn_scale(one);
   vary_tree(one);
+  vary_fields(one);
   return one;
 }
 
@@ -117,12 +122,14 @@ Case coarse_random_sphere() {
   Case one = shape_case("25k", "sphere random", Shape::sphere, random(COARSE));
   vary_radius(one);
   vary_knn_scale(one);
+  vary_fields(one);
   return one;
 }
 
 Case coarse_torus() {
   Case one = shape_case("25k", "torus", Shape::torus, even(COARSE));
   vary_kernel(one);
+  vary_fields(one);
   return one;
 }
 
@@ -145,6 +152,7 @@ std::vector<Case> mesh_cases() {
     vary_points(fine, {10'000, 100'000});
     if (std::string(model) == "bunny") {
       vary_kernel(fine);
+      vary_fields(fine);
       vary_radius(fine);
       vary_tree(fine);
     }
@@ -239,6 +247,7 @@ void append(std::vector<Case>& list, std::vector<Case> more) {
 std::vector<Case> quick_cases() {
   constexpr std::uint32_t SIZE = 256;
   Case sphere = shape_case("25k", "sphere even", Shape::sphere, even(COARSE));
+  vary_fields(sphere);
   vary_radius(sphere);
   vary_tree(sphere);
   std::vector<Case> list{sphere, shape_case("25k", "sphere random", Shape::sphere, random(COARSE)),
@@ -285,9 +294,10 @@ std::string folder_name(const Case& one) {
 std::string file_name(const Variant& variant) {
   const BuildParams& build = variant.build;
   char text[160];
-  std::snprintf(text, sizeof(text), "%s-%llu-%s-%.0f-leaf-%u-%s.soct", variant.even ? "even" : "random",
+  std::snprintf(text, sizeof(text), "%s-%llu-%s-%.0f-leaf-%u-%s%s.soct", variant.even ? "even" : "random",
                 static_cast<unsigned long long>(variant.points), word(build.radius_rule).c_str(),
-                100.0 * build.radius_scale, build.leaf_size, word(build.insertion).c_str());
+                100.0 * build.radius_scale, build.leaf_size, word(build.insertion).c_str(),
+                build.normal_fields ? "" : "-flat");
   return text;
 }
 

@@ -7,7 +7,7 @@ import pathlib
 
 import report_plots as plots
 import report_tables as tables
-from report_records import Records
+from report_records import OURS, Records
 from report_targets import targets
 
 NOTES = """
@@ -65,35 +65,51 @@ def summary_lines(records, lines):
     return " ".join(text)
 
 
-def report_text(records, folder, commands):
-    """Draws the pictures into the folder and returns the Markdown that shows them."""
+def overview(records, folder, commands):
+    """What a person reads in a minute: sentences, machines, commands, two pictures, targets."""
     lines = targets(records)
     plots.plot_speed(records, folder / "speed.png")
     plots.plot_exactness(records, folder / "exactness.png")
-    parts = ["# Speed against error\n", summary_lines(records, lines) + "\n"]
-    parts += ["\n".join(machine_lines(records)) + "\n", "```sh\n" + commands + "\n```\n"]
-    parts += [picture("speed.png", "time of a frame of each method"), picture("exactness.png", "normals' error over splats")]
-    parts += ["## Targets\n", tables.targets_table(lines)]
-    parts += ["## At the same error, how fast?\n", tables.same_error_table(records)]
-    parts.append("## Each scene\n")
+    return [
+        "# Speed against error\n",
+        summary_lines(records, lines) + "\n",
+        "\n".join(machine_lines(records)) + "\n",
+        "```sh\n" + commands + "\n```\n",
+        picture("speed.png", "time of a frame of each method"),
+        picture("exactness.png", "normals' error over the number of splats"),
+        "## Targets\n",
+        tables.targets_table(lines),
+        "## At the same error, how fast?\n",
+        tables.same_error_table(records),
+    ]
+
+
+def scenes(records, folder):
+    """A figure for each scene, and how tight the radii are."""
+    parts = ["## Each scene\n"]
     for scene in records.picture_scenes():
         name = scene.replace(" ", "_") + ".png"
         plots.plot_scene(records, scene, folder / name)
         parts.append(picture(name, f"{scene}: time against error"))
     if plots.plot_watertight(records, folder / "watertight.png"):
         parts += ["## Watertight: overlap against holes\n", picture("watertight.png", "holes against overlap")]
+    return parts
+
+
+def details(records):
+    """Tables."""
+    parts = []
     paper = tables.paper_table_1(records), tables.paper_table_2(records)
     if any(paper):
         parts += ["## The paper's Tables I and II (512x512; II: 16 samples)\n", *paper]
     parts += ["## Work and memory, default settings\n", tables.work_table(records)]
     parts += ["## Growth of each insertion policy\n", tables.growth_table(records)]
     parts.append("## One knob at a time\n")
-    for case in records.unique("case", varied=("leaf_size", "kappa", "side", "samples")):
+    for case in records.unique("case", varied=("leaf_size", "kappa", "radius_rule", "side", "samples"), method=OURS):
         if records.choose(case=case, varied="", method="window", device=records.devices()[0]):
             parts += [f"### {case}\n", tables.knobs_table(records, case)]
     parts += ["## Every method at the default number of splats\n", tables.peers_table(records)]
-    parts += ["## How to read it\n", NOTES.strip() + "\n"]
-    return "\n".join(parts)
+    return parts + ["## How to read it\n", NOTES.strip() + "\n"]
 
 
 def main():
@@ -106,8 +122,8 @@ def main():
     if not records.devices():
         parser.error(f"found no records of splatray-bench in {', '.join(options.records)}, expected at least one")
     options.output.mkdir(parents=True, exist_ok=True)
-    text = report_text(records, options.output, options.commands)
-    (options.output / "README.md").write_text(text)
+    parts = overview(records, options.output, options.commands) + scenes(records, options.output) + details(records)
+    (options.output / "README.md").write_text("\n".join(parts))
 
 
 if __name__ == "__main__":

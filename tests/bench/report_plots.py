@@ -251,7 +251,8 @@ def plot_speed(records, path):
     axes.set_ylim(len(scenes) - 0.4, -0.6)
     largest = {scene: max(run.get("splats") for run in largest_runs(records, scene).values()) for scene in scenes}
     axes.set_yticks(range(len(scenes)), [f"{scene}, {splats_text(largest[scene])}" for scene in scenes])
-    axes.set_xlabel("time of a frame of 512x512 primary rays, all threads, ms: left is better")
+    size = next(f"{run.get('width')}x{run.get('height')}" for run in largest_runs(records, scenes[0]).values())
+    axes.set_xlabel(f"time of a frame of {size} primary rays, all threads, ms: left is better")
     names = sorted(labels, key=lambda name: (name.startswith("Embree"), "," in name))
     figure.legend([labels[n] for n in names], names, loc="lower center", ncol=3, frameon=False, fontsize=8.5)
     figure.tight_layout(rect=(0, 0.16, 1, 1))

@@ -85,14 +85,13 @@ def growth_table(records):
 
 
 def knob_value(run):
-    if run.varied == "radius_rule":
-        return f"{run.get('radius_rule')} ×{run.get('radius_scale'):g}"
-    return run.method if run.varied == "blend" else number(run.get(run.varied))
-
-
-def knob_value_text(run):
+    """What the varied knob is set to."""
     value = run.get(run.varied)
-    return knob_value(run) if isinstance(value, (int, float)) or run.varied in ("radius_rule", "blend") else str(value)
+    if run.varied == "radius_rule":
+        return f"{value} ×{run.get('radius_scale'):g}"
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    return number(value) if isinstance(value, (int, float)) else value
 
 
 def ratio(value, base):
@@ -117,7 +116,7 @@ def knobs_table(records, case):
     default = records.choose(case=case, device=device, varied="", method="window")[0]
     rows = []
     for run in records.choose(case=case, device=device):
-        name = "**default**" if run is default else f"{run.varied} {knob_value_text(run)}"
+        name = "**default**" if run is default else f"{run.varied} {knob_value(run)}"
         if run.varied == "splats":
             name += f", {run.method}"
         times = (number(run.ms), ratio(run.ms, default.ms))
