@@ -80,11 +80,13 @@ bool Judge::is_tie(const RayQuery& ray, const RayHit& answer) const {
   Dice dice(1);
   for (int attempt = 0; attempt < EXACT_TRIES; ++attempt) {
     const BruteForce moved = moved_in_favour(ray, answer, attempt % 2 == 0, dice);
-    const TrueHit hit = moved.nearest(ray, settings_);
-    if (is_right(moved, ray, hit, answer)) return true;
+    RayQuery turned = ray;
+    turned.from_normal += vec3(FLOAT_SHARE * dice.in_cube());
+    const TrueHit hit = moved.nearest(turned, settings_);
+    if (is_right(moved, turned, hit, answer)) return true;
     const bool same_first =
         hit.found && answer.object != NO_OBJECT && moved.words()[hit.first] == answer.first;
-    if (same_first && is_right_in_float32(moved, ray, hit, answer, dice.seed())) return true;
+    if (same_first && is_right_in_float32(moved, turned, hit, answer, dice.seed())) return true;
   }
   return false;
 }
