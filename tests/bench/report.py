@@ -79,9 +79,7 @@ def overview(records, folder, commands):
         picture("exactness.png", "normals' error over the number of splats"),
         "## Targets\n",
         tables.targets_table(lines),
-        "## At the same error, how fast?\n",
-        tables.same_error_table(records),
-    ]
+    ] + (["## At the same error, how fast?\n", tables.same_error_table(records)] if records.peer_devices() else [])
 
 
 def scenes(records, folder):

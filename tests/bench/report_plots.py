@@ -38,7 +38,7 @@ def plain(axis):
     """Numbers such as 0.05 and 300 at a log axis' ticks, not powers; few enough to be read."""
     low, high = axis.get_view_interval()
     decades = math.log10(high / low)
-    between = "234567" if decades < 0.8 else "25" if decades < 2 else "3" if decades < 3 else ""
+    between = "234568" if decades < 0.8 else "25" if decades < 2 else "3" if decades < 3 else ""
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(
         FuncFormatter(lambda value, _: f"{value:g}" if value > 0 and f"{value:e}"[0] in between else "")
