@@ -111,31 +111,30 @@ class Round {
 
   void judge_all(const BruteForce& brute, const Asked& asked, const Answers& answers) {
     const Judge judge(brute, random_.settings);
-    for (std::size_t i = 0; i < asked.rays.size(); ++i) {
+    for (std::size_t i = 0; i < asked.rays.size() && told_ < EXCEPTIONS_TOLD; ++i) {
       const Verdict verdict = judge.judge(asked.rays[i], asked.truth[i], answers.hits[i]);
       counts_.ties += verdict == Verdict::tie ? 1 : 0;
-      if (verdict != Verdict::wrong || !is_told("wrong answer")) continue;
+      if (verdict != Verdict::wrong) continue;
+      count_exception("wrong answer");
       tell(out_, asked.rays[i], asked.truth[i], brute);
       tell(out_ << "  " << answers.who << ": ", answers.hits[i]);
     }
   }
 
   void compare_bits(const BruteForce& brute, const Asked& asked, const Answers& one, const Answers& two) {
-    for (std::size_t i = 0; i < asked.rays.size(); ++i) {
+    for (std::size_t i = 0; i < asked.rays.size() && told_ < EXCEPTIONS_TOLD; ++i) {
       if (std::memcmp(&one.hits[i], &two.hits[i], sizeof(RayHit)) == 0) continue;
-      if (!is_told("another leaf size, other bits")) continue;
+      count_exception("another leaf size, other bits");
       tell(out_, asked.rays[i], asked.truth[i], brute);
       tell(out_ << "  " << one.who << ": ", one.hits[i]);
       tell(out_ << "  " << two.who << ": ", two.hits[i]);
     }
   }
 
-  /// Counts an exception; whether it is among the first, which are described.
-  bool is_told(const char* what) {
+  void count_exception(const char* what) {
     ++counts_.exceptions;
-    if (++told_ > EXCEPTIONS_TOLD) return false;
+    ++told_;
     out_ << what << " in the round of --seed " << seed_ << "; " << random_.description << '\n';
-    return true;
   }
 
   std::uint64_t seed_;

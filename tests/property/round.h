@@ -16,7 +16,7 @@ struct RoundCounts {
   std::uint64_t exceptions = 0;  ///< wrong answers, and answers that differ between the leaf sizes
 };
 
-/// Runs the round of `seed`, adds to `counts` and describes the first exceptions on `out`. `spoil` moves one splat of the
+/// Runs the round of `seed`, adds to `counts` and describes exceptions on `out`; it ends at the fifth. `spoil` moves one splat of the
 /// truth, to prove that exceptions are found.
 void run_round(std::uint64_t seed, Tracer& tracer, RoundCounts& counts, std::ostream& out,
                bool spoil = false);
