@@ -1,6 +1,5 @@
 #include "tests/hard/device_scene.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -16,41 +15,14 @@ bool is_sound(const RayHit& hit) {
   return std::isfinite(hit.t) && std::isfinite(hit.t_first) && std::abs(length - 1.0) < 1e-3;
 }
 
-/// Where the ray meets the splat's plane: t and |n.d|.
-struct PlaneMeeting {
-  double t, cosine;
-};
-
-PlaneMeeting meet_plane(const Splat& splat, const RayQuery& ray) {
-  const double cosine = glm::dot(splat.normal, glm::dvec3(ray.dir));
-  return {glm::dot(splat.normal, splat.center - glm::dvec3(ray.origin)) / cosine, std::abs(cosine)};
-}
-
-/// Whether both answers' first splats meet the ray at the same t.
-bool is_tie_of_first(const RayQuery& ray, const TrueHit& truth, const Splat& answered) {
-  const PlaneMeeting meeting = meet_plane(answered, ray);
-  const double distance = glm::length(answered.center - glm::dvec3(ray.origin));
-  return std::abs(meeting.t - truth.t_first) * meeting.cosine <= 0x1p-44 * distance;
-}
-
-/// Whether a splat that the ray meets has a normal at 60 degrees, to float32 rounding, from the first splat's:
-/// no more decides whether it is a member.
-bool is_tie_of_members(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth) {
-  const glm::dvec3& first_normal = brute.splats()[truth.first].normal;
-  return std::any_of(brute.splats().begin(), brute.splats().end(), [&](const Splat& splat) {
-    if (std::abs(std::abs(glm::dot(splat.normal, first_normal)) - 0.5) > 0x1p-20) return false;
-    const glm::dvec3 at =
-        glm::dvec3(ray.origin) + meet_plane(splat, ray).t * glm::dvec3(ray.dir) - splat.center;
-    return glm::dot(at, at) <= splat.radius_squared;
-  });
-}
-
-/// Whether an answer that differs is as good as the truth.
+/// Whether both answers' first splats meet the ray at the same t, so that either may be the first.
 bool is_tie(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth, const RayHit& answer) {
-  if (!truth.found || answer.object == NO_OBJECT) return false;
-  if (answer.first != brute.words()[truth.first])
-    return is_tie_of_first(ray, truth, unpack_splat(answer.first));
-  return answer.members != truth.members && is_tie_of_members(brute, ray, truth);
+  if (!truth.found || answer.object == NO_OBJECT || answer.first == brute.words()[truth.first]) return false;
+  const Splat splat = unpack_splat(answer.first);
+  const glm::dvec3 to_center = splat.center - glm::dvec3(ray.origin);
+  const double cosine = glm::dot(splat.normal, glm::dvec3(ray.dir));
+  const double t = glm::dot(splat.normal, to_center) / cosine;
+  return std::abs((t - truth.t_first) * cosine) <= 0x1p-44 * glm::length(to_center);
 }
 
 }  // namespace
@@ -104,18 +76,11 @@ RayQuery primary_ray(const glm::dvec3& origin, const glm::dvec3& dir) {
 CaseRow compare_answers(CaseRow row, const BruteForce& brute, const std::vector<RayQuery>& rays,
                         const std::vector<TrueHit>& truth, const std::vector<RayHit>& answers,
                         Compared compared) {
-  std::vector<TrueHit> untied = truth;
-  std::vector<RayHit> untied_answers = answers;
+  const Agreement agreement = agreement_of(brute, truth, answers);
   std::uint64_t ties = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (!is_tie(brute, rays[i], truth[i], answers[i])) continue;
-    ++ties;
-    untied[i].found = false;
-    untied_answers[i].object = NO_OBJECT;
-  }
-  const Agreement agreement = agreement_of(brute, untied, untied_answers);
+  for (std::size_t i = 0; i < rays.size(); ++i) ties += is_tie(brute, rays[i], truth[i], answers[i]) ? 1 : 0;
   row.count = agreement.rays;
-  row.exceptions = agreement.exceptions();
+  row.exceptions = agreement.exceptions() - ties;
   if (compared == Compared::blends) row.exceptions += agreement.members + agreement.normal;
   row.remark = std::to_string(agreement.hits) + " hits" +
                (ties > 0 ? ", " + std::to_string(ties) + " ties" : std::string());

@@ -48,9 +48,8 @@ enum class Compared {
   blends  ///< also the size of the cluster and, within 0.01 degree, the blended normal
 };
 
-/// Compares answers of the device with brute force. Exceptions are rays that differ. Left out are ties: two
-/// splats met at the same t, to 2^-44 of the distances involved, either of which may be the first, and splats
-/// whose normal lies at 60 degrees, to 2^-20, from the first one's, which may be members or not.
+/// Compares answers of the device with brute force. Exceptions are rays that differ; where two splats are met
+/// at the same t, to 2^-44 of the distances involved, either may be the first.
 [[nodiscard]] CaseRow compare_answers(CaseRow row, const BruteForce& brute, const std::vector<RayQuery>& rays,
                                       const std::vector<TrueHit>& truth, const std::vector<RayHit>& answers,
                                       Compared compared = Compared::blends);
