@@ -5,8 +5,12 @@
 #include "double_float.glsl"
 #include "layout.h"
 
-/// Bound of the float32 error of n.(c - o) / |n| in lattice units, for origins inside the root.
-const float PLANE_ERROR = 2.0f;
+/// Bound of the float32 error of n.(c - o) / |n| in lattice units, for origins at most a root's edge outside the root.
+const float PLANE_ERROR = 4.0f;
+
+/// Cosine of a ray that leaves a sheet level, counted as upwards: normals that the ray grazes are made square to it, and
+/// rounding shall not decide.
+const float LEVEL = -0.000244140625f;
 
 /// A ray in root space. Its exact origin is origin + origin_low (a double-float per axis).
 struct Ray {
@@ -133,7 +137,8 @@ bool splat_of_sheet_left(uvec4 words, Ray ray, bool two_sided) {
   float height = dot(normal, to_center);
   float like = dot(normal, ray.from_normal);
   bool in_slab = 4.0f * height * height < normal_squared * radius_squared && distance_squared < 1.5625f * radius_squared;
-  bool from_behind = like > 0.0f && dot(normal, ray.dir) * dot(ray.from_normal, ray.dir) > 0.0f &&
+  bool leaves_upwards = dot(ray.from_normal, ray.dir) > LEVEL;
+  bool from_behind = like > 0.0f && (dot(normal, ray.dir) > 0.0f) == leaves_upwards &&
                      distance_squared < 16.0f * radius_squared;
   bool similar = 4.0f * like * like > normal_squared && (two_sided || like > 0.0f);
   return splat_object(words) == ray.from_object && similar && (in_slab || from_behind);

@@ -10,6 +10,7 @@
 const float WEIGHT_UNIT = 4194304.0f;       ///< 2^22: sums are integers in this unit
 const float WEIGHT_LEAST = 0.00390625f;     ///< 2^-8: a lone hit at the rim still has a normal of 14 bits
 const uint MEMBERS_MOST = 500u;             ///< further members do not count, so that the sums stay in 31 bits
+const float WINDOW_SLACK = 1.0f;            ///< lattice units; float32's step of t: no leaf with a member is left out
 const float MIN_COSINE = 0.1f;              ///< the window grows as 1 / |n.d| up to this
 
 /// The answer to a ray. Distances are from the ray's own origin, in units of |dir|.
@@ -29,7 +30,7 @@ struct Hit {
 /// The splat that decides the cluster, while the ray looks for it.
 struct First {
   vec2 measure;   ///< least t, or least squared distance from the centre / r^2 (BLEND_PAPER, BLEND_LEAF)
-  float t;
+  vec2 t;         ///< in double-float: float32 would be off by 2^-4 lattice units on the far side of the root
   bool front;
   uvec4 words;
   uint index;
@@ -90,7 +91,7 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
                   (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
     if (accept && finding && before) {
       first.measure = measure;
-      first.t = hit.t.x;
+      first.t = hit.t;
       first.front = hit.facing < 0.0f;
       first.words = words;
       first.index = chunk + bit;
@@ -128,10 +129,10 @@ float window_fall(float share) {
 }
 
 /// The ray's point at t as position and what float32 rounds away of it.
-vec3 point_at(Ray ray, float t, OUT(vec3) low) {
-  vec2 x = df_add(two_product(t, ray.dir.x), vec2(ray.origin.x, ray.origin_low.x));
-  vec2 y = df_add(two_product(t, ray.dir.y), vec2(ray.origin.y, ray.origin_low.y));
-  vec2 z = df_add(two_product(t, ray.dir.z), vec2(ray.origin.z, ray.origin_low.z));
+vec3 point_at(Ray ray, vec2 t, OUT(vec3) low) {
+  vec2 x = df_add(df_scale(t, ray.dir.x), vec2(ray.origin.x, ray.origin_low.x));
+  vec2 y = df_add(df_scale(t, ray.dir.y), vec2(ray.origin.y, ray.origin_low.y));
+  vec2 z = df_add(df_scale(t, ray.dir.z), vec2(ray.origin.z, ray.origin_low.z));
   low = vec3(x.y, y.y, z.y);
   return vec3(x.x, y.x, z.x);
 }
@@ -159,8 +160,8 @@ Facet facet_at(uvec4 words, uint index, vec3 from_center, vec3 dir) {
   return facet;
 }
 
-/// Adds the accepted splats of one chunk that belong to the first splat's cluster. Everything is taken
-/// relative to the first hit's exact position, where float32 will do even for grazing rays.
+/// Adds the accepted splats of one chunk that belong to the first splat's cluster. Where each is met is computed
+/// anew in double-float, so that grazing rays and small discs far away have exact weights.
 void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
   vec3 position_low = vec3(0.0f);
@@ -169,11 +170,10 @@ void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float dep
     uint bit = uint(findLSB(accepted));
     accepted &= accepted - 1u;
     uvec4 words = splat_words(begin + bit);
-    vec3 plane_normal = splat_normal(words);
-    vec3 to_center = (splat_center(words) - position) - position_low;
-    float behind = dot(plane_normal, to_center) / dot(plane_normal, ray.dir);
-    vec3 from_center = ray.dir * behind - to_center;
-    float u_squared = dot(from_center, from_center) / splat_radius_squared(words);
+    PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+    float behind = df_add(hit.t, -first.t).x;
+    vec3 from_center = ray.dir * behind - ((splat_center(words) - position) - position_low);
+    float u_squared = hit.rho_squared.x / splat_radius_squared(words);
     Facet facet = facet_at(words, begin + bit, from_center, ray.dir);
     float share = behind / depth;
     bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
@@ -198,12 +198,12 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
   hit.object = hit.found ? splat_object(first.words) : NO_OBJECT;
   hit.front = first.front;
   hit.members = cluster.members;
-  float t = first.t;
+  vec2 t = first.t;
   vec3 normal = normal_against(first.words, ray.dir);
   hit.color = vec3(1.0f);
   if (BLEND != BLEND_NEAREST && cluster.weight > 0) {
     float inverse = 1.0f / float(cluster.weight);
-    t += depth * (float(cluster.depth) * inverse);
+    t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
     normal = normalize(vec3(cluster.normal));
     if (COLORS == 1u) hit.color = vec3(cluster.color) * inverse;
   } else if (hit.found) {
@@ -212,19 +212,19 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
     vec3 position = point_at(ray, first.t, position_low);
     Facet facet = facet_at(first.words, first.index, (position - splat_center(first.words)) + position_low, ray.dir);
     normal = facet.normal;
-    t += facet.behind;
+    t = df_add(t, vec2(facet.behind, 0.0f));
   }
-  hit.position = ray.origin + ray.dir * t;
+  hit.position = ray.origin + ray.dir * t.x;
   hit.normal = normal;
-  hit.t = hit.found ? t + shift : INFINITY_F;
-  hit.t_first = hit.found ? first.t + shift : INFINITY_F;
+  hit.t = hit.found ? df_add(t, vec2(shift, 0.0f)).x : INFINITY_F;
+  hit.t_first = hit.found ? df_add(first.t, vec2(shift, 0.0f)).x : INFINITY_F;
   return hit;
 }
 
 First no_first() {
   First first;
   first.measure = vec2(INFINITY_F, INFINITY_F);
-  first.t = INFINITY_F;
+  first.t = vec2(INFINITY_F, 0.0f);
   first.front = true;
   first.words = uvec4(0u, 0u, 0u, 0u);
   first.index = 0u;
@@ -267,7 +267,7 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
       walk.inside = walk.inside && !first_done;
     } else {
       depth = first_done ? window_depth(first, ray.dir, kappa) : depth;
-      t_end = first_done && BLEND == BLEND_WINDOW ? first.t + depth : t_end;
+      t_end = first_done && BLEND == BLEND_WINDOW ? first.t.x + depth * 1.0001f + WINDOW_SLACK : t_end;
       last_leaf = first_done && BLEND == BLEND_PAPER ? walk.leaves + 1u : last_leaf;
       last_leaf = first_done && BLEND == BLEND_LEAF ? walk.leaves : last_leaf;
       accumulate_chunk(chunk, finding || again ? 0u : accepted, ray, first, depth, cluster);

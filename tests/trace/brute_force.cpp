@@ -67,7 +67,8 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
   const double like = glm::dot(splat.normal, dvec3(query.from_normal));
   const bool in_slab = std::abs(glm::dot(splat.normal, from_center)) < 0.5 * radius &&
                        glm::length(from_center) < 1.25 * radius && (two_sided ? std::abs(like) : like) > 0.5;
-  const bool leaves_upwards = glm::dot(dvec3(query.from_normal), dvec3(query.dir)) > 0.0;
+  constexpr double LEVEL = -1.0 / 4096.0;  // splat.glsl
+  const bool leaves_upwards = glm::dot(dvec3(query.from_normal), dvec3(query.dir)) > LEVEL;
   const bool crosses_upwards = meeting.cosine > 0.0;
   const bool from_behind =
       leaves_upwards == crosses_upwards && glm::length(from_center) < 4.0 * radius && like > 0.5;
