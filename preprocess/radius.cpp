@@ -15,9 +15,9 @@ constexpr std::size_t RING = 6;           // neighbours around a point of an eve
 constexpr std::size_t FEW = 12;           // neighbours that settle most Voronoi cells
 constexpr std::size_t CLOSE = 8;          // neighbours whose discs meet a point's own
 constexpr std::size_t MANY = 32;          // neighbours asked for when FEW do not
-constexpr double COVERAGE_MARGIN = 1.01;  // discs of a curved surface lie in different planes
-constexpr double ROUGHNESS_REACH =
-    1.0;  // more where they lie at different heights, in standard deviations of the heights
+constexpr double COVERAGE_MARGIN = 1.02;  // discs of a curved surface lie in different planes
+// More where discs lie at different heights, in standard deviations of the heights.
+constexpr double ROUGHNESS_REACH = 1.0;
 constexpr double SIMILAR = 0.5;      // cosine of normals of one sheet
 constexpr double LATERAL = 0.5;      // tangential share of the distance of a neighbour on the same sheet
 constexpr double LEAST_SLANT = 0.5;  // sine of the angle between planes that meet in a crease

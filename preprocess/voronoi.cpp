@@ -14,7 +14,7 @@ constexpr std::size_t MAX_CUTS = 128;  // neighbours and creases
 constexpr std::size_t RING = 6;
 constexpr double OCTAGON_APOTHEM = 4.0;  // in units of the distance to the RING-th neighbour
 constexpr double OPEN_REACH = 0.65;      // where the cell is open, in units of its neighbours' mean distance
-constexpr double GAP_COSINE = -0.94;  // of 160 degrees: a wider gap between bounding neighbours is a border
+constexpr double GAP_COSINE = -0.866;  // of 150 degrees: a wider gap between bounding neighbours is a border
 constexpr double BORDER_REACH =
     0.8;  // of a border point, in units of the distance to its BORDER_RING-th neighbour
 constexpr std::size_t BORDER_RING =

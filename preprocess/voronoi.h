@@ -28,7 +28,7 @@ struct VoronoiReach {
 /// `creases`; each at most 64. The cell is cut out of a regular octagon with an apothem of 4 x the distance
 /// to the 6th neighbour. Where the octagon still bounds it, at the border of a surface, the cell is taken to
 /// end at 0.65 x the mean distance of the neighbours that bound it. Where the neighbours that bound it leave
-/// a gap of more than 160 degrees, the cell is also taken to end at 0.8 x the distance to the 4th neighbour:
+/// a gap of more than 150 degrees, the cell is also taken to end at 0.8 x the distance to the 4th neighbour:
 /// along a border two neighbours and the point are nearly in line and their cells meet far outside; elsewhere
 /// such a corner belongs to an obtuse triangle that the discs of the neighbours cover.
 [[nodiscard]] VoronoiReach voronoi_reach(std::span<const TangentNeighbour> neighbours,

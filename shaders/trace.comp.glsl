@@ -65,7 +65,7 @@ void add_counters(PathResult path, Tally tally, bool finite) {
 
 void add_samples(uvec2 pixel, uint index) {
   uint pixel_number = pixel.y * frame.width + pixel.x;
-  vec4 sum = frame.sample_begin == 0u ? vec4(0.0f) : accumulation[index];
+  vec4 mean = frame.sample_begin == 0u ? vec4(0.0f) : accumulation[index];
   uint sample_index = frame.sample_begin;
   while (sample_index < frame.sample_end) {
     vec2 at = vec2(pixel) + pixel_sample(sample_index);
@@ -75,11 +75,12 @@ void add_samples(uvec2 pixel, uint index) {
     PathResult path = trace_path(ray, pixel_number, sample_index, tally);
     float brightest = max(path.radiance.x, max(path.radiance.y, path.radiance.z));
     bool finite = brightest < INFINITY_F && path.radiance.x + path.radiance.y + path.radiance.z >= 0.0f;
-    sum += vec4(finite ? path.radiance : vec3(1.0f, 0.0f, 1.0f), path.coverage);
+    // A mean, not a sum: float32 would lose small samples beside a large sum.
+    mean += (vec4(finite ? path.radiance : vec3(1.0f, 0.0f, 1.0f), path.coverage) - mean) / float(sample_index + 1u);
     if (COUNTERS == 1u) add_counters(path, tally, finite);
     sample_index += 1u;
   }
-  accumulation[index] = sum;
+  accumulation[index] = mean;
 }
 
 void main() {

@@ -23,6 +23,10 @@ constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
 /// work.
 constexpr double DISPATCH_MS = 200.0;
 constexpr std::uint32_t BATCH_GROWTH = 4;
+/// Most samples of a dispatch on a processor, without and with secondary rays: Mesa's llvmpipe silently ends all loops of
+/// a thread after 65 535 turns in all (LP_MAX_TGSI_LOOP_ITERATIONS).
+constexpr std::uint32_t PROCESSOR_BATCH = 16;
+constexpr std::uint32_t PROCESSOR_BATCH_OF_PATHS = 1;
 
 std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
 
@@ -74,8 +78,9 @@ struct Tracer::Impl {
   void add_counters();
   [[nodiscard]] FrameParams frame_params(const View& view, const Settings& settings) const;
   [[nodiscard]] Dispatch picture_dispatch(const View& view, const Settings& settings) const;
+  [[nodiscard]] std::uint32_t most_samples(const Dispatch& dispatch) const;
   void trace_samples(const Tile& tile, Dispatch dispatch, const std::function<void(std::uint64_t)>& advance);
-  void read_colors(const Tile& tile, std::uint32_t samples, Image& image);
+  void read_colors(const Tile& tile, Image& image);
   void trace_aov(const Tile& tile, Dispatch dispatch, Image& image);
 
   [[nodiscard]] SceneContent content() const {
@@ -189,11 +194,17 @@ Dispatch Tracer::Impl::picture_dispatch(const View& view, const Settings& settin
   return dispatch;
 }
 
+std::uint32_t Tracer::Impl::most_samples(const Dispatch& dispatch) const {
+  if (context.properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU) return UINT32_MAX;
+  return dispatch.frame.max_bounces > 0 ? PROCESSOR_BATCH_OF_PATHS : PROCESSOR_BATCH;
+}
+
 void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch,
                                  const std::function<void(std::uint64_t)>& advance) {
   aim(dispatch, tile);
   const bool counting = dispatch.constants[SPEC_COUNTERS] != 0;
   const std::uint32_t total = dispatch.frame.sample_total;
+  const std::uint32_t most = most_samples(dispatch);
   std::uint32_t batch = 1;
   for (std::uint32_t sample = 0; sample < total;) {
     dispatch.frame.sample_begin = sample;
@@ -204,18 +215,17 @@ void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch,
     advance(tile.pixels() * (dispatch.frame.sample_end - sample));
     sample = dispatch.frame.sample_end;
     // The device counts in 32 bits, which many samples of a large tile would overflow.
-    if (!counting) batch = next_batch(batch, ms);
+    if (!counting) batch = std::min(next_batch(batch, ms), most);
   }
 }
 
-void Tracer::Impl::read_colors(const Tile& tile, std::uint32_t samples, Image& image) {
-  std::vector<vec4> sums(tile.pixels());
-  accumulation.download(queue, std::as_writable_bytes(std::span(sums)));
-  const float scale = 1.0F / static_cast<float>(samples);
+void Tracer::Impl::read_colors(const Tile& tile, Image& image) {
+  std::vector<vec4> means(tile.pixels());
+  accumulation.download(queue, std::as_writable_bytes(std::span(means)));
   for (std::uint32_t row = 0; row < tile.height; ++row) {
-    const auto source = sums.begin() + std::ptrdiff_t{row} * tile.width;
+    const auto source = means.begin() + std::ptrdiff_t{row} * tile.width;
     const auto target = image.rgba.begin() + std::ptrdiff_t{tile.y + row} * image.width + tile.x;
-    std::transform(source, source + tile.width, target, [=](const vec4& sum) { return sum * scale; });
+    std::copy(source, source + tile.width, target);
   }
 }
 
@@ -293,7 +303,7 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   };
   for (const Tile& tile : tiles) {
     impl.trace_samples(tile, dispatch, advance);
-    impl.read_colors(tile, settings.samples, image);
+    impl.read_colors(tile, image);
     if (settings.aov) impl.trace_aov(tile, dispatch, image);
   }
   impl.stats.wall_ms = milliseconds_since(start);

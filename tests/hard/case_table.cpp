@@ -56,7 +56,12 @@ void add_row(const CaseRow& row, bool as_expected, const std::string& verdict) {
 
 }  // namespace
 
-void conclude(const CaseRow& row) { add_row(row, row.exceptions == 0, "pass"); }
+void conclude(const CaseRow& row, double most_per_million) {
+  const double most = most_per_million * 1e-6 * static_cast<double>(row.count);
+  const bool some = row.exceptions > 0;
+  add_row(row, static_cast<double>(row.exceptions) <= most,
+          some ? "at most " + short_number(most_per_million) + " per million" : "pass");
+}
 
 void conclude_failing(const CaseRow& row) { add_row(row, row.exceptions > 0, "differs, as it must"); }
 

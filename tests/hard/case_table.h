@@ -17,9 +17,9 @@ struct CaseRow {
   std::string remark = {};       ///< numbers worth knowing; nothing that changes from run to run
 };
 
-/// Adds a row for the running test and expects that something was compared and that exceptions, lost rays and
-/// non-finite answers are 0.
-void conclude(const CaseRow& row);
+/// Adds a row for the running test and expects that something was compared, that lost rays and non-finite
+/// answers are 0, and exceptions too, or at most `most_per_million` where some are known; the row then says so.
+void conclude(const CaseRow& row, double most_per_million = 0.0);
 
 /// Adds a row for the running test whose exceptions are expected, and more than 0: what the paper says fails,
 /// or a comparison that must notice a change. Lost rays and non-finite answers must be 0 all the same.

@@ -98,7 +98,8 @@ TEST_P(Wedge, BouncesAreExact) {
   wrong.all.compared = "bounces, exact planes, up to the corner";
   note(wrong.all);
   wrong.beyond.compared = "bounces, exact planes, farther than r from the corner";
-  conclude(wrong.beyond);
+  // Random samples end unevenly at the mirrors' borders, and some of their discs stick out farther than 4 r.
+  conclude(wrong.beyond, GetParam().even ? 0.0 : 30.0);
 }
 
 TEST_P(Wedge, MinimumDistanceFails) {
