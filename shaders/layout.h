@@ -119,11 +119,11 @@ struct FrameParams {
   float kappa;       ///< window depth in units of the first splat's radius
   float delta;       ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units
   vec3 environment;  ///< radiance factor of the texture, or the constant radiance
-  float unused_0;
+  uint tile_first;  ///< where the accumulation holds this dispatch's first pixel
   vec3 environment_up;  ///< unit vector the environment's +y (its pole) points to
-  float unused_1;
+  float unused_0;
   vec3 environment_right;  ///< unit vector the environment's +x points to; its +z is cross(right, up)
-  float unused_2;
+  float unused_1;
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
 };
@@ -155,7 +155,7 @@ struct AovPixel {
   vec3 normal;   ///< blended unit normal, world space; 0 on a miss
   float z;       ///< distance from the eye, world units; +inf on a miss
   uint object;   ///< NO_OBJECT on a miss
-  uint members;  ///< splats in the cluster
+  uint splat;    ///< bit 0: the first splat's front face was hit; bits 31..1 tell splats apart (a hash of its words)
   uint tests;    ///< splat tests of this ray; 0 without COUNTERS
   uint steps;    ///< node words read by this ray; 0 without COUNTERS
 };

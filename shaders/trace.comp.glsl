@@ -34,6 +34,11 @@ uvec2 tile_pixel() {
   return gl_WorkGroupID.xy * 8u + uvec2(even_bits(thread), even_bits(thread >> 1u));
 }
 
+/// A number that tells splats apart.
+uint hash_words(uvec4 words) {
+  return hash_uint(words.x ^ hash_uint(words.y ^ hash_uint(words.z ^ hash_uint(words.w))));
+}
+
 void write_aov(uvec2 pixel, uint index) {
   Tally tally = Tally(0u, 0u, 0u, 0u);
   float eye_distance = 0.0f;
@@ -42,7 +47,7 @@ void write_aov(uvec2 pixel, uint index) {
   aov[index].normal = hit.found ? hit.normal : vec3(0.0f);
   aov[index].z = hit.found ? (hit.t + eye_distance) * frame.root_unit_world : INFINITY_F;
   aov[index].object = hit.object;
-  aov[index].members = hit.members;
+  aov[index].splat = (hash_words(hit.first) & ~1u) | (hit.front ? 1u : 0u);
   aov[index].tests = tally.tests;
   aov[index].steps = tally.node_steps;
 }
@@ -65,7 +70,8 @@ void add_counters(PathResult path, Tally tally, bool finite) {
 
 void add_samples(uvec2 pixel, uint index) {
   uint pixel_number = pixel.y * frame.width + pixel.x;
-  vec4 mean = frame.sample_begin == 0u ? vec4(0.0f) : accumulation[index];
+  uint place = frame.tile_first + index;
+  vec4 mean = frame.sample_begin == 0u ? vec4(0.0f) : accumulation[place];
   uint sample_index = frame.sample_begin;
   while (sample_index < frame.sample_end) {
     vec2 at = vec2(pixel) + pixel_sample(sample_index);
@@ -80,7 +86,7 @@ void add_samples(uvec2 pixel, uint index) {
     if (COUNTERS == 1u) add_counters(path, tally, finite);
     sample_index += 1u;
   }
-  accumulation[index] = mean;
+  accumulation[place] = mean;
 }
 
 void main() {

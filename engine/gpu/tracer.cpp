@@ -7,6 +7,7 @@
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/command_queue.h"
+#include "engine/gpu/dispatch.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/texture.h"
@@ -19,16 +20,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
-/// Long enough to hide the cost of a submission, short enough for progress and for drivers that stop long
-/// work.
-constexpr double DISPATCH_MS = 200.0;
-constexpr std::uint32_t BATCH_GROWTH = 4;
 /// Most samples of a dispatch on a processor, without and with secondary rays: Mesa's llvmpipe silently ends all loops of
 /// a thread after 65 535 turns in all (LP_MAX_TGSI_LOOP_ITERATIONS).
 constexpr std::uint32_t PROCESSOR_BATCH = 16;
 constexpr std::uint32_t PROCESSOR_BATCH_OF_PATHS = 1;
-
-std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -40,31 +35,23 @@ void reserve(const Context& context, Buffer& buffer, VkDeviceSize bytes) {
     buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
-/// A dispatch: which pipeline, with which parameters, over how many groups.
-struct Dispatch {
-  Program program = Program::trace;
-  SpecConstants constants{};
-  FrameParams frame{};
-  std::uint32_t groups_x = 1;
-  std::uint32_t groups_y = 1;
+/// Puts a tile's values where they belong in a picture of `width` columns.
+template <class Value>
+void place(const Tile& tile, const std::vector<Value>& values, std::vector<Value>& picture,
+           std::uint32_t width) {
+  for (std::uint32_t row = 0; row < tile.height; ++row) {
+    const auto source = values.begin() + std::ptrdiff_t{row} * tile.width;
+    std::copy(source, source + tile.width, picture.begin() + std::ptrdiff_t{tile.y + row} * width + tile.x);
+  }
+}
+
+/// A picture that advance() adds to.
+struct Growing {
+  Dispatch dispatch;
+  std::uint32_t samples = 0;   ///< in every pixel
+  std::uint32_t next_row = 0;  ///< rows above it have one more
+  std::uint32_t rows = 8;      ///< of the next dispatch
 };
-
-/// Points a picture's dispatch to a tile.
-void aim(Dispatch& dispatch, const Tile& tile) {
-  dispatch.frame.tile_x = tile.x;
-  dispatch.frame.tile_y = tile.y;
-  dispatch.frame.tile_width = tile.width;
-  dispatch.frame.tile_height = tile.height;
-  const bool linear = dispatch.constants[SPEC_ORDER] == ORDER_LINEAR;
-  dispatch.groups_x = groups(tile.width, linear ? GROUP_SIZE : 8);
-  dispatch.groups_y = linear ? tile.height : groups(tile.height, 8);
-}
-
-/// Samples of the next dispatch after one of `batch` samples that took `ms`.
-std::uint32_t next_batch(std::uint32_t batch, double ms) {
-  const double wanted = batch * DISPATCH_MS / std::max(ms, 1e-3);
-  return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(batch) * BATCH_GROWTH));
-}
 
 }  // namespace
 
@@ -81,7 +68,7 @@ struct Tracer::Impl {
   [[nodiscard]] std::uint32_t most_samples(const Dispatch& dispatch) const;
   void trace_samples(const Tile& tile, Dispatch dispatch, const std::function<void(std::uint64_t)>& advance);
   void read_colors(const Tile& tile, Image& image);
-  void trace_aov(const Tile& tile, Dispatch dispatch, Image& image);
+  void trace_aov(const Tile& tile, Dispatch dispatch, std::vector<AovPixel>& picture);
 
   [[nodiscard]] SceneContent content() const {
     return {.materials = materials,
@@ -108,6 +95,7 @@ struct Tracer::Impl {
   Buffer frame_buffer, material_buffer, light_buffer, accumulation, aov, counters, rays, hits;
   EnvironmentTexture environment;
 
+  Growing growing;
   RenderStats stats;
   PoolBytes pool_bytes;
   std::uint32_t pools_uploaded = 0;
@@ -222,24 +210,16 @@ void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch,
 void Tracer::Impl::read_colors(const Tile& tile, Image& image) {
   std::vector<vec4> means(tile.pixels());
   accumulation.download(queue, std::as_writable_bytes(std::span(means)));
-  for (std::uint32_t row = 0; row < tile.height; ++row) {
-    const auto source = means.begin() + std::ptrdiff_t{row} * tile.width;
-    const auto target = image.rgba.begin() + std::ptrdiff_t{tile.y + row} * image.width + tile.x;
-    std::copy(source, source + tile.width, target);
-  }
+  place(tile, means, image.rgba, image.width);
 }
 
-void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, Image& image) {
+void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, std::vector<AovPixel>& picture) {
   aim(dispatch, tile);
   dispatch.constants[SPEC_AOV] = 1;
   run(dispatch);
   std::vector<AovPixel> pixels(tile.pixels());
   aov.download(queue, std::as_writable_bytes(std::span(pixels)));
-  for (std::uint32_t row = 0; row < tile.height; ++row) {
-    const auto source = pixels.begin() + std::ptrdiff_t{row} * tile.width;
-    const auto target = image.aov.begin() + std::ptrdiff_t{tile.y + row} * image.width + tile.x;
-    std::copy(source, source + tile.width, target);
-  }
+  place(tile, pixels, picture, dispatch.frame.width);
 }
 
 Tracer::Tracer(const Context& context, PoolAccess access) : impl_(std::make_unique<Impl>(context, access)) {}
@@ -304,10 +284,74 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   for (const Tile& tile : tiles) {
     impl.trace_samples(tile, dispatch, advance);
     impl.read_colors(tile, image);
-    if (settings.aov) impl.trace_aov(tile, dispatch, image);
+    if (settings.aov) impl.trace_aov(tile, dispatch, image.aov);
   }
   impl.stats.wall_ms = milliseconds_since(start);
   return image;
+}
+
+void Tracer::begin(const View& view, const Settings& settings) {
+  Impl& impl = *impl_;
+  assert(impl.bindings && settings.samples >= 1);
+  impl.stats = {};
+  impl.growing = {impl.picture_dispatch(view, settings)};
+  const VkDeviceSize bytes = VkDeviceSize{view.width} * view.height * sizeof(vec4);
+  if (bytes > impl.context.properties.limits.maxStorageBufferRange)
+    throw Error(ExitCode::out_of_memory,
+                "found a picture of " + std::to_string(bytes) + " bytes, expected at most " +
+                    std::to_string(impl.context.properties.limits.maxStorageBufferRange));
+  reserve(impl.context, impl.accumulation, bytes);
+  impl.bind_all();
+}
+
+bool Tracer::advance(double wanted_ms) {
+  Impl& impl = *impl_;
+  Growing& growing = impl.growing;
+  FrameParams& frame = growing.dispatch.frame;
+  const std::uint32_t rows = std::min(growing.rows, frame.height - growing.next_row);
+  aim(growing.dispatch, {0, growing.next_row, frame.width, rows});
+  frame.tile_first = growing.next_row * frame.width;
+  frame.sample_begin = growing.samples;
+  frame.sample_end = growing.samples + 1;
+  const Clock::time_point start = Clock::now();
+  impl.stats.trace_ms += impl.run(growing.dispatch);
+  const double ms = milliseconds_since(start);
+  impl.stats.wall_ms += ms;
+  if (growing.dispatch.constants[SPEC_COUNTERS] != 0) impl.add_counters();
+  growing.rows = next_rows(rows, ms, wanted_ms, frame.height);
+  growing.next_row += rows;
+  if (growing.next_row == frame.height) {
+    growing.next_row = 0;
+    ++growing.samples;
+  }
+  return growing.samples == frame.sample_total;
+}
+
+std::uint32_t Tracer::samples() const { return impl_->growing.samples; }
+
+Image Tracer::picture() {
+  Impl& impl = *impl_;
+  const FrameParams& frame = impl.growing.dispatch.frame;
+  Image image{frame.width, frame.height, {}, {}};
+  image.rgba.resize(std::size_t{frame.width} * frame.height);
+  const std::uint32_t rows = impl.growing.samples > 0 ? frame.height : impl.growing.next_row;
+  if (rows > 0) impl.read_colors({0, 0, frame.width, rows}, image);
+  return image;
+}
+
+std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings) {
+  Impl& impl = *impl_;
+  assert(impl.bindings);
+  const Clock::time_point start = Clock::now();
+  impl.stats = {};
+  const Dispatch dispatch = impl.picture_dispatch(view, settings);
+  const std::vector<Tile> tiles = cut_into_tiles(view.width, view.height);
+  reserve(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
+  impl.bind_all();
+  std::vector<AovPixel> pixels(std::size_t{view.width} * view.height);
+  for (const Tile& tile : tiles) impl.trace_aov(tile, dispatch, pixels);
+  impl.stats.wall_ms = impl.stats.trace_ms = milliseconds_since(start);
+  return pixels;
 }
 
 std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Settings& settings) {

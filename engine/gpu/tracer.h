@@ -16,7 +16,7 @@
 
 namespace splatray {
 
-/// What a render call did. Times in milliseconds.
+/// What a render call, or all of a picture begun, did. Times in milliseconds.
 struct RenderStats {
   double trace_ms =
       0.0;  ///< device time where it has timestamps, else wall time of the dispatches; without those for AOVs
@@ -47,10 +47,23 @@ class Tracer {
   using Progress = std::function<bool(double)>;
   /// The picture of the uploaded scene.
   [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {});
+  /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit
+  /// what render() gives, whatever happened between. Settings::aov is not looked at. Throws Error (out_of_memory) for
+  /// more pixels than the device lets a buffer hold.
+  void begin(const View& view, const Settings& settings);
+  /// Adds one sample to some rows of the picture begun, aiming at `wanted_ms` of work; returns whether all of
+  /// Settings::samples are in every pixel. What set_materials() and its like change belongs before begin().
+  bool advance(double wanted_ms);
+  [[nodiscard]] std::uint32_t samples() const;  ///< in every pixel of the picture begun
+  /// The picture begun: each pixel the mean of its samples so far, black without one.
+  [[nodiscard]] Image picture();
+  /// What the ray through each pixel's centre hits, top row first.
+  [[nodiscard]] std::vector<AovPixel> trace_aov(const View& view, const Settings& settings);
   /// Hits of arbitrary rays, one RayHit per query. Root space.
   [[nodiscard]] std::vector<RayHit> intersect(std::span<const RayQuery> rays, const Settings& settings);
 
-  [[nodiscard]] const RenderStats& stats() const;  ///< of the last render or intersect
+  [[nodiscard]] const RenderStats& stats()
+      const;  ///< of the last call of begin and advance, render, trace_aov or intersect
   [[nodiscard]] const PoolBytes& pool_bytes() const;
   [[nodiscard]] std::uint32_t pipelines_built() const;  ///< since construction
   [[nodiscard]] std::uint32_t pools_uploaded() const;   ///< upload() calls since construction

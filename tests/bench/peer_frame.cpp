@@ -32,7 +32,6 @@ AovPixel aov_of(const RayHit& hit, const FrameParams& frame) {
   pixel.normal = hit.object == NO_OBJECT ? vec3(0.0F) : hit.normal;
   pixel.z = hit.t * frame.root_unit_world;
   pixel.object = hit.object;
-  pixel.members = hit.members;
   return pixel;
 }
 

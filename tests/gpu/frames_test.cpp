@@ -99,5 +99,37 @@ TEST_F(FramesTest, SameFrameTwiceIsTheSamePicture) {
   EXPECT_TRUE(tracer.render(view, settings).rgba == tracer.render(view, settings).rgba);
 }
 
+TEST_F(FramesTest, GrownPictureIsTheRenderedOne) {
+  view.width = 61;
+  view.height = 43;
+  settings.samples = 7;
+  tracer.begin(view, settings);
+  EXPECT_EQ(tracer.samples(), 0U);
+  EXPECT_EQ(tracer.picture().rgba.front(), vec4(0.0F));
+  std::uint32_t dispatches = 1;
+  while (!tracer.advance(1e-3)) {
+    ++dispatches;
+    if (dispatches == 20) (void)tracer.intersect(std::vector<RayQuery>(3), settings);
+  }
+  EXPECT_EQ(dispatches, 7U * ((43 + 7) / 8)) << "a wish of no time takes the fewest rows, 8, each time";
+  EXPECT_EQ(tracer.samples(), 7U);
+  const Image grown = tracer.picture();
+  EXPECT_TRUE(grown.rgba == tracer.render(view, settings).rgba);
+  settings.samples = 6;
+  EXPECT_FALSE(grown.rgba == tracer.render(view, settings).rgba);
+}
+
+TEST_F(FramesTest, AovsAloneAreThoseOfAPicture) {
+  settings.aov = true;
+  const Image image = tracer.render(view, settings);
+  const std::vector<AovPixel> pixels = tracer.trace_aov(view, settings);
+  ASSERT_EQ(pixels.size(), image.aov.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    EXPECT_EQ(pixels[i].z, image.aov[i].z);
+    EXPECT_EQ(pixels[i].splat, image.aov[i].splat);
+  }
+  EXPECT_EQ(pixels[4 * 9 + 4].splat & 1U, 1U) << "the disc shows its front";
+}
+
 }  // namespace
 }  // namespace splatray

@@ -1,0 +1,35 @@
+/// One dispatch of a picture or a query, and how large the next one should be.
+#pragma once
+#include <cstdint>
+
+#include "engine/gpu/features.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/tiles.h"
+#include "shaders/layout.h"
+
+namespace splatray {
+
+/// Which pipeline, with which parameters, over how many groups.
+struct Dispatch {
+  Program program = Program::trace;
+  SpecConstants constants{};
+  FrameParams frame{};
+  std::uint32_t groups_x = 1;
+  std::uint32_t groups_y = 1;
+};
+
+/// Groups of `group` threads that hold `threads`.
+[[nodiscard]] std::uint32_t groups(std::uint32_t threads, std::uint32_t group);
+
+/// Points a picture's dispatch to a tile.
+void aim(Dispatch& dispatch, const Tile& tile);
+
+/// Samples of the next dispatch after one of `batch` samples that took `ms`: long enough to hide the cost of a
+/// submission, short enough for progress and for drivers that stop long work.
+[[nodiscard]] std::uint32_t next_batch(std::uint32_t batch, double ms);
+
+/// Rows of the next dispatch, a multiple of 8 and at most `most` rounded up to one, after one of `rows` rows that took
+/// `ms`, so that it takes about `wanted_ms`.
+[[nodiscard]] std::uint32_t next_rows(std::uint32_t rows, double ms, double wanted_ms, std::uint32_t most);
+
+}  // namespace splatray
