@@ -11,6 +11,10 @@ namespace {
 constexpr std::uint64_t MILLION = 1'000'000;
 /// Sphere of radius 1: the discs' radii are then 0.011.
 constexpr std::uint64_t COARSE = 25'000;
+/// Splats whose median radius is 0.011 of the shape's smallest radius of curvature, where the targets for the jump
+/// of the normal are stated.
+constexpr const char* R_OVER_R = "r/R 0.011";
+constexpr std::uint64_t EVEN_SPHERE = 47'000, RANDOM_SPHERE = 110'000, EVEN_TORUS = 364'000;
 
 Variant even(std::uint64_t points) { return {points, true, {}}; }
 Variant random(std::uint64_t points) { return {points, false, {}}; }
@@ -109,7 +113,7 @@ Case mesh_case(const std::string& size, const std::string& model, const Variant&
 }
 
 Case coarse_sphere() {
-  Case one = shape_case("25k", "sphere even", Shape::sphere, even(COARSE));
+  Case one = shape_case(R_OVER_R, "sphere even", Shape::sphere, even(EVEN_SPHERE));
   vary_kernel(one);
   vary_radius(one);
   vary_knn_scale(one);
@@ -119,7 +123,7 @@ Case coarse_sphere() {
 }
 
 Case coarse_random_sphere() {
-  Case one = shape_case("25k", "sphere random", Shape::sphere, random(COARSE));
+  Case one = shape_case(R_OVER_R, "sphere random", Shape::sphere, random(RANDOM_SPHERE));
   vary_radius(one);
   vary_knn_scale(one);
   vary_fields(one);
@@ -127,7 +131,7 @@ Case coarse_random_sphere() {
 }
 
 Case coarse_torus() {
-  Case one = shape_case("25k", "torus", Shape::torus, even(COARSE));
+  Case one = shape_case(R_OVER_R, "torus", Shape::torus, even(EVEN_TORUS));
   vary_kernel(one);
   vary_fields(one);
   return one;
@@ -246,11 +250,11 @@ void append(std::vector<Case>& list, std::vector<Case> more) {
 /// Small pictures of small scenes.
 std::vector<Case> quick_cases() {
   constexpr std::uint32_t SIZE = 256;
-  Case sphere = shape_case("25k", "sphere even", Shape::sphere, even(COARSE));
+  Case sphere = shape_case(R_OVER_R, "sphere even", Shape::sphere, even(EVEN_SPHERE));
   vary_fields(sphere);
   vary_radius(sphere);
   vary_tree(sphere);
-  std::vector<Case> list{sphere, shape_case("25k", "sphere random", Shape::sphere, random(COARSE)),
+  std::vector<Case> list{sphere, shape_case(R_OVER_R, "sphere random", Shape::sphere, random(RANDOM_SPHERE)),
                          mesh_case("35k", "bunny", vertices()), mesh_case("43k", "armadillo", vertices())};
   for (Case& one : list) one.width = one.height = SIZE;
   append(list, bounce_cases());

@@ -12,7 +12,7 @@ using glm::dvec3;
 constexpr double LEAST_COSINE = 0.2;
 constexpr double BOUND = 1.05;       // radius of a sphere about both shapes
 constexpr double JUMP_RADII = 0.01;  // how far a ray moves aside
-constexpr double HOLE_RADII = 4.0;   // deeper than this is another surface
+constexpr double OTHER_RADII = 4.0;  // further off than this is another surface
 constexpr double SAME_POINT = 1e-4;  // far below any disc's radius
 
 /// A ray that enters the sphere of radius BOUND about the origin at a place uniform across its direction.
@@ -48,7 +48,15 @@ RayQuery second_ray(const dvec3& point_world, const dvec3& normal, const RootTra
 }
 
 bool is_hole(const RayHit& hit, const ShapeHit& truth, double radius_root) {
-  return !(hit.t - truth.t <= HOLE_RADII * radius_root);
+  return !(hit.t - truth.t <= OTHER_RADII * radius_root);
+}
+
+bool is_overhang(const RayHit& hit, const ShapeHit& truth, double radius_root) {
+  return truth.t - hit.t > OTHER_RADII * radius_root;
+}
+
+bool is_same_surface(const RayHit& hit, const ShapeHit& truth, double radius_root) {
+  return !is_hole(hit, truth, radius_root) && !is_overhang(hit, truth, radius_root);
 }
 
 }  // namespace
@@ -82,17 +90,17 @@ ProbeErrors Probes::measure(const Intersect& intersect, double radius_world) con
   const std::vector<RayHit> second_hits = intersect(second_);
 
   std::vector<double> angles, jumps, inconsistencies, depths;
-  std::uint64_t holes = 0;
+  std::uint64_t holes = 0, overhangs = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const ShapeHit& truth = probes_[i].truth;
     const dvec3 normal(hits[i].normal);
-    if (is_hole(hits[i], truth, radius_root)) {
-      ++holes;
+    if (!is_same_surface(hits[i], truth, radius_root)) {
+      ++(is_hole(hits[i], truth, radius_root) ? holes : overhangs);
       continue;
     }
     angles.push_back(angle_deg(normal, truth.normal));
     depths.push_back((hits[i].t - truth.t) / radius_root);
-    if (!is_hole(moved_hits[i], truth, radius_root))
+    if (is_same_surface(moved_hits[i], truth, radius_root))
       jumps.push_back(angle_deg(normal, dvec3(moved_hits[i].normal)));
     if (probes_[i].seen && second_hits[i].object != NO_OBJECT)
       inconsistencies.push_back(angle_deg(normal, dvec3(second_hits[i].normal)));
@@ -103,6 +111,7 @@ ProbeErrors Probes::measure(const Intersect& intersect, double radius_world) con
   errors.view_inconsistency_p99_deg = quantile(inconsistencies, 0.99);
   errors.depth_bias_r = mean(depths);
   errors.holes = wilson_share(holes, hits.size());
+  errors.overhangs = wilson_share(overhangs, hits.size());
   errors.rays = hits.size();
   return errors;
 }

@@ -14,8 +14,9 @@ struct ProbeErrors {
   double jump_p999_deg = NAN;   ///< turn of the normal when the ray moves aside by 0.01 median radii
   double view_inconsistency_p99_deg = NAN;  ///< angle between the normals of one point seen by two rays
   double depth_bias_r = NAN;                ///< mean of distance - true distance, in median radii
-  Share holes;             ///< rays that miss, or meet something more than 4 median radii too deep
-  std::uint64_t rays = 0;  ///< that `holes` is a share of
+  Share holes;      ///< rays that miss, or meet something more than 4 median radii too deep
+  Share overhangs;  ///< rays that meet a disc more than 4 median radii before: one past a nearer silhouette
+  std::uint64_t rays = 0;  ///< that both are a share of; the angles and depths are of the others
 };
 
 /// Sends rays to the shape from all around, uniform in direction and in place, that truly meet it at 78 degrees from its

@@ -58,8 +58,8 @@ void set_number(Json& json, const std::string& key, double value) {
   if (std::isfinite(value)) json[key] = value;
 }
 
-Json holes_json(const Share& holes, std::uint64_t rays) {
-  return {{"value", 1e6 * holes.value}, {"low", 1e6 * holes.low}, {"high", 1e6 * holes.high}, {"rays", rays}};
+Json share_json(const Share& share, std::uint64_t rays) {
+  return {{"value", 1e6 * share.value}, {"low", 1e6 * share.low}, {"high", 1e6 * share.high}, {"rays", rays}};
 }
 
 void add_errors(Json& error, const Errors& errors) {
@@ -75,7 +75,7 @@ void add_errors(Json& error, const Errors& errors) {
   set_number(error, "normal_rms_deg", errors.normal_rms_deg);
   set_number(error, "psnr_db", errors.psnr_db);
   set_number(error, "flip_mean", errors.flip_mean);
-  if (errors.hole_rays > 0) error["holes_ppm"] = holes_json(errors.holes, errors.hole_rays);
+  if (errors.hole_rays > 0) error["holes_ppm"] = share_json(errors.holes, errors.hole_rays);
 }
 
 void add_errors(Json& error, const ProbeErrors& errors) {
@@ -83,7 +83,8 @@ void add_errors(Json& error, const ProbeErrors& errors) {
   set_number(error, "jump_p999_deg", errors.jump_p999_deg);
   set_number(error, "view_inconsistency_p99_deg", errors.view_inconsistency_p99_deg);
   set_number(error, "depth_bias_r", errors.depth_bias_r);
-  error["holes_ppm"] = holes_json(errors.holes, errors.rays);
+  error["holes_ppm"] = share_json(errors.holes, errors.rays);
+  error["overhangs_ppm"] = share_json(errors.overhangs, errors.rays);
 }
 
 }  // namespace splatray::testing

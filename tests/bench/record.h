@@ -7,7 +7,7 @@
 ///   speed: frame_ms_median, frame_ms_min, frames, rays_per_s (all classes), tests_per_ray, steps_per_ray, leaves_per_ray,
 ///     bytes_per_splat, growth (references / splats - 1), overlap (disc area / surface area), build_s
 ///   error: truth (analytic | mesh | brute force | 1024 samples) and the numbers of errors.h, probes.h and bounces.h, in ppm,
-///     degrees, bounding-box diagonals, median radii (_r) and dB; holes_ppm: {value, low, high, rays}
+///     degrees, bounding-box diagonals, median radii (_r) and dB; holes_ppm and overhangs_ppm: {value, low, high, rays}
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 void set_number(Json& json, const std::string& key, double value);
 
 /// {value, low, high, rays}, ppm.
-[[nodiscard]] Json holes_json(const Share& holes, std::uint64_t rays);
+[[nodiscard]] Json share_json(const Share& share, std::uint64_t rays);
 
 /// Adds what was measured to a record's `error`.
 void add_errors(Json& error, const Errors& errors);

@@ -63,7 +63,7 @@ def shape_targets(records):
         measured = f"{holes['value']:.3g} ppm (95 %: below {holes['high']:.2g}) of {holes['rays']:,} rays"
         yield Target(f"{run.case}: holes", "0", measured, holes["value"] == 0)
         yield at_most(f"{run.case}: overlap", most, "", overlap)
-    for case in [c for c in records.unique("case", method="window") if c.startswith(SHAPES) and c.endswith("25k")]:
+    for case in [c for c in records.unique("case", method="window") if c.startswith(SHAPES) and c.endswith("r/R 0.011")]:
         run = default_run(records, case=case)
         if run.get("jump_p999_deg") is not None:
             yield at_most(f"{case}: jump of the normal, p99.9", 0.05, "°", run.get("jump_p999_deg"))
