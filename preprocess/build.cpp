@@ -62,12 +62,9 @@ Scene describe_scene(Input& input, const BuildParams& params) {
   scene.camera = input.camera;
   scene.up = input.up.value_or(glm::dvec3(0.0, 1.0, 0.0));
   scene.environment_path = std::move(input.environment_path);
-  std::uint32_t dielectrics = 0;
   bool area_known = !input.objects.empty();
   for (InputObject& object : input.objects) {
-    Material material = object.material;
-    if ((material.flags & MATERIAL_DIELECTRIC) != 0) material.mask_bit = dielectrics++ % MASK_BITS;
-    scene.materials.push_back(material);
+    scene.materials.push_back(object.material);
     scene.object_names.push_back(std::move(object.name));
     scene.surface_area_world += object.surface_area;
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
@@ -87,6 +84,19 @@ std::vector<Cloud> make_clouds(Input& input, BuildStats& stats) {
                     " points with positions that are not finite, expected at least one that is");
   }
   return clouds;
+}
+
+/// Gives each dielectric its bit of a ray's mask, the larger ones first: what lies inside another object is smaller, and
+/// light there runs in what has the higher bit (nested dielectrics by priority: Schmidt and Budge 2002, "Simple Nested
+/// Dielectrics in Ray Traced Images").
+void number_dielectrics(const std::vector<Cloud>& clouds, std::vector<Material>& materials) {
+  std::vector<std::size_t> dielectrics;
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if ((materials[i].flags & MATERIAL_DIELECTRIC) != 0) dielectrics.push_back(i);
+  std::stable_sort(dielectrics.begin(), dielectrics.end(), [&](std::size_t a, std::size_t b) {
+    return clouds[a].half_extent_world > clouds[b].half_extent_world;
+  });
+  for (std::uint32_t i = 0; i < dielectrics.size(); ++i) materials[dielectrics[i]].mask_bit = i % MASK_BITS;
 }
 
 void estimate_all_normals(std::vector<Cloud>& clouds, Scene& scene, const BuildProgress& progress,
@@ -263,6 +273,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   std::vector<Cloud> clouds = make_clouds(input, stats);
   estimate_all_normals(clouds, scene, progress, stats);
   find_bounds(clouds, scene);
+  number_dielectrics(clouds, scene.materials);
   find_all_radii(clouds, scene, progress, stats);
   fit_all_normal_fields(clouds, params, progress, stats);
   SplatList splats;

@@ -79,7 +79,8 @@ struct Material {
   float mirror;     ///< share of light mirrored, 0..1; the rest is shaded
   float ior;        ///< index of refraction inside, > 0; dielectrics only
   uint flags;       ///< MATERIAL_*
-  uint mask_bit;    ///< dielectrics: the object's bit, 0..31, in a ray's mask of what it is inside of
+  uint mask_bit;    ///< dielectrics: the object's bit, 0..31, in a ray's mask of what it is inside of; where objects
+                    ///< overlap, light runs in the one with the highest bit
 };
 
 SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
@@ -126,6 +127,7 @@ struct FrameParams {
   float unused_1;
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
+  vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
 };
 
 /// One ray of a query (rays.comp.glsl). Root space; the hits are those of exactly this ray.
@@ -227,7 +229,7 @@ SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixel
 
 #ifdef __cplusplus
 static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 &&
-              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 336);
+              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 464);
 }  // namespace splatray
 #endif
 #endif

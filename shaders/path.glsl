@@ -22,13 +22,20 @@ struct PathResult {
   float energy_lost;   ///< its throughput then
 };
 
-/// The mask after crossing a dielectric's surface.
-uint crossed(uint inside, Material material) { return inside ^ (1u << material.mask_bit); }
+/// Index of refraction where a ray with this mask runs: of the dielectric with the highest bit, `own` if it is its (more
+/// than 32 dielectrics share bits), 1 outside all.
+float medium(uint inside, Material own) {
+  if (inside == 0u) return 1.0f;
+  uint bit = uint(findMSB(inside));
+  return bit == own.mask_bit ? own.ior : frame.media[bit >> 2u][bit & 3u];
+}
 
 /// The ray that goes on from a hit on a dielectric: reflected when `choice` is below Fresnel's share, else
 /// refracted.
 Ray dielectric_ray(Hit hit, Ray ray, Material material, float choice, OUT(bool) reflected) {
-  float eta = hit.front ? 1.0f / material.ior : material.ior;
+  uint object_bit = 1u << material.mask_bit;
+  float eta = medium(ray.inside & ~object_bit, material) / medium(ray.inside | object_bit, material);
+  eta = hit.front ? eta : 1.0f / eta;
   float cosine = clamp(-dot(ray.dir, hit.normal), 0.0f, 1.0f);
   float cosine_behind = 0.0f;
   float share = fresnel(eta, cosine, cosine_behind);
@@ -36,7 +43,7 @@ Ray dielectric_ray(Hit hit, Ray ray, Material material, float choice, OUT(bool) 
   vec3 mirrored = ray.dir + hit.normal * (2.0f * cosine);
   vec3 refracted = ray.dir * eta + hit.normal * (eta * cosine - cosine_behind);
   vec3 dir = reflected ? mirrored : refracted;
-  uint inside = reflected ? ray.inside : crossed(ray.inside, material);
+  uint inside = reflected ? ray.inside : ray.inside ^ object_bit;
   return ray_from_hit(hit, dir * inversesqrt(dot(dir, dir)), inside);
 }
 

@@ -168,6 +168,7 @@ FrameParams Tracer::Impl::frame_params(const View& view, const Settings& setting
   const SpecConstants constants = picture_features(content(), settings);
   if (constants[SPEC_MIRRORS] == 0 && constants[SPEC_GLASS] == 0) frame.max_bounces = 0;
   frame.light_count = light_count;
+  set_media(frame, materials);
   frame.environment =
       settings.environment_strength * (environment_texture ? glm::vec3(1.0F) : environment_constant);
   for (std::size_t i = 0; i < irradiance.size(); ++i)

@@ -131,4 +131,11 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   return frame;
 }
 
+void set_media(FrameParams& frame, std::span<const Material> materials) {
+  for (const Material& material : materials) {
+    if ((material.flags & MATERIAL_DIELECTRIC) != 0)
+      frame.media[material.mask_bit / 4][static_cast<glm::length_t>(material.mask_bit % 4)] = material.ior;
+  }
+}
+
 }  // namespace splatray

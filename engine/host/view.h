@@ -2,6 +2,7 @@
 /// and benchmarks all use it.
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "engine/host/scene.h"
 
@@ -60,6 +61,9 @@ inline constexpr double DEFAULT_FOV_Y_DEG = 30.0;
 /// its Environment). Throws Error (usage) for a camera that sees nothing: eye == target, up parallel to the
 /// view, non-finite values, fov outside (0, 180), zero sizes.
 [[nodiscard]] FrameParams make_frame_params(const Scene& scene, const View& view, const Settings& settings);
+
+/// FrameParams::media of these materials.
+void set_media(FrameParams& frame, std::span<const Material> materials);
 
 /// Lights in root space, as the engine uploads them.
 [[nodiscard]] std::vector<Light> lights_in_root(const Scene& scene, const std::vector<SceneLight>& lights);

@@ -203,6 +203,18 @@ TEST(Build, ColoursOfSomeObjectsMakeTheOthersWhite) {
   EXPECT_TRUE(build(test::even_sphere(100)).color_pool.empty());
 }
 
+TEST(Build, InnerGlassHasTheHigherBit) {
+  InputObject inner = test::even_sphere(400);
+  for (glm::dvec3& position : inner.points.position) position *= 0.5;
+  Input input = test::input_of(inner);
+  input.objects.push_back(test::input_of(test::even_sphere(400)).objects[0]);
+  for (InputObject& object : input.objects) object.material.flags = MATERIAL_DIELECTRIC;
+  BuildStats stats;
+  const Scene scene = build_scene(std::move(input), {}, 0, stats);
+  EXPECT_EQ(scene.materials[0].mask_bit, 1U);
+  EXPECT_EQ(scene.materials[1].mask_bit, 0U);
+}
+
 TEST(Build, SceneIsDescribed) {
   Input input = test::input_of(test::even_sphere(4000));
   input.objects[0].material.flags = MATERIAL_DIELECTRIC;

@@ -32,3 +32,4 @@ using std::sqrt;
 
 inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
 inline int findLSB(uint x) { return x == 0U ? -1 : std::countr_zero(x); }
+inline int findMSB(uint x) { return static_cast<int>(std::bit_width(x)) - 1; }

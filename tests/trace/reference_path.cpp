@@ -164,11 +164,27 @@ class Renderer {
     return sum;
   }
 
+  /// Index of refraction of what the ray is in: the dielectric with the highest of these bits, `own` if it is its.
+  [[nodiscard]] double medium(std::uint32_t inside, const Material& own) const {
+    if (inside >> own.mask_bit == 1U) return double(own.ior);
+    double ior = 1.0;
+    std::uint32_t highest = 0;
+    for (const Material& material : scene_.materials) {
+      const std::uint32_t bit = 1U << material.mask_bit;
+      if ((material.flags & MATERIAL_DIELECTRIC) == 0 || (inside & bit) == 0 || bit < highest) continue;
+      highest = bit;
+      ior = double(material.ior);
+    }
+    return ior;
+  }
+
   /// The branch followed at glass, and what it carries.
   [[nodiscard]] RayQuery through_glass(const RayQuery& ray, const TrueHit& hit, const Material& material,
                                        double choice, dvec3& throughput) const {
-    const double here = hit.front ? 1.0 : double(material.ior);
-    const double behind = hit.front ? double(material.ior) : 1.0;
+    const double outer = medium(ray.inside & ~(1U << material.mask_bit), material);
+    const double inner = medium(ray.inside | 1U << material.mask_bit, material);
+    const double here = hit.front ? outer : inner;
+    const double behind = hit.front ? inner : outer;
     const dvec3 dir(ray.dir);
     const double cosine = std::clamp(-glm::dot(dir, hit.normal), 0.0, 1.0);
     if (choice < reflectance(here, behind, cosine))
