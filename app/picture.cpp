@@ -1,32 +1,19 @@
 #include "app/picture.h"
 
 #include <cstdio>
-#include <sstream>
 
+#include "app/command_line.h"
 #include "app/commit.h"
 #include "app/compare.h"
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
+#include "engine/host/number_text.h"
 #include "preprocess/file_extension.h"
 
 namespace splatray {
 namespace {
 
 bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
-
-std::string text(const glm::dvec3& v) {
-  std::ostringstream stream;
-  stream.precision(17);
-  stream << v.x << ',' << v.y << ',' << v.z;
-  return stream.str();
-}
-
-std::string text(double value) {
-  std::ostringstream stream;
-  stream.precision(17);
-  stream << value;
-  return stream.str();
-}
 
 std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
@@ -53,13 +40,13 @@ std::optional<DisplayImage> read_reference(const RenderOptions& options) {
 Metadata picture_metadata(const RenderOptions& options, const Scene& scene, const View& view,
                           const Context& context) {
   const Camera& camera = view.camera;
-  return {{"command_line", options.command_line},
-          {"eye", text(camera.eye)},
-          {"target", text(camera.target)},
-          {"up", text(camera.up)},
-          {"fov_y_deg", text(camera.fov_y_deg)},
-          {"ortho_height", text(camera.ortho_height)},
-          {"diagonal_world", text(scene.diagonal_world())},
+  return {{"command_line", command_line(options)},
+          {"eye", number_text(camera.eye)},
+          {"target", number_text(camera.target)},
+          {"up", number_text(camera.up)},
+          {"fov_y_deg", number_text(camera.fov_y_deg)},
+          {"ortho_height", number_text(camera.ortho_height)},
+          {"diagonal_world", number_text(scene.diagonal_world())},
           {"device", context.device_info().name + ", " + context.device_info().driver},
           {"samples", std::to_string(options.picture.settings.samples)},
           {"seed", std::to_string(options.picture.settings.seed)},
