@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/reproduce.h"
+#include "app/sequence.h"
 #include "engine/host/error.h"
 #include "preprocess/file_extension.h"
 #include "preprocess/option_types.h"
@@ -27,7 +29,7 @@ void read_aovs(const std::string& text, RenderOptions& options) {
     if (found == std::end(AOV_NAMES)) refuse_option("--aov", text, "a list of depth, normal, id");
     options.*found->member = true;
   }
-  options.picture.settings.aov = true;
+  options.picture.settings.aov = !text.empty();
 }
 
 std::string aov_text(const RenderOptions& options) {
@@ -60,6 +62,60 @@ void add_output_options(OptionList& list, RenderOptions& options) {
   add_switch(list, "--quiet", options.quiet, "only errors on stderr");
 }
 
+FrameRange read_frames(const std::string& text) {
+  constexpr double MOST = 999999.0;
+  auto numbers = split_numbers(text, '-', 2);
+  if (numbers.empty()) numbers = split_numbers(text, '-', 1);
+  const bool good = !numbers.empty() && numbers.front() <= numbers.back() && numbers.back() <= MOST &&
+                    std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == std::floor(x); });
+  if (!good) refuse_option("--frames", text, "first-last such as 0-47, each up to 999999");
+  return {static_cast<std::uint32_t>(numbers.front()), static_cast<std::uint32_t>(numbers.back())};
+}
+
+void add_sequence_options(OptionList& list, RenderOptions& options) {
+  SequenceOptions& sequence = options.sequence;
+  list.add_value(
+          "--camera-path",
+          [&options](const std::string& file) {
+            options.sequence.camera_path = file;
+            options.picture.eye = options.picture.target = options.picture.camera_up = std::nullopt;
+            options.picture.fov_y_deg.reset();
+            options.picture.ortho_height = 0.0;
+          },
+          [&sequence] { return sequence.camera_path.string(); },
+          "one picture for each frame of this camera path (JSON: keys, each a camera with its frame); -o is "
+          "then a "
+          "pattern such as out.####.png")
+      ->type_name("FILE");
+  add_number(list, "--turntable", sequence.turntable, 0, 999999,
+             "this many pictures of a full turn about the scene's up axis through the target; -o as for "
+             "--camera-path; default 0 = none");
+  const auto frames_text = [&sequence]() -> std::string {
+    if (!sequence.frames) return "";
+    return std::to_string(sequence.frames->first) + "-" + std::to_string(sequence.frames->last);
+  };
+  list.add_value(
+          "--frames", [&sequence](const std::string& text) { sequence.frames = read_frames(text); },
+          frames_text, "only these frames of a sequence; default all")
+      ->type_name("A-B");
+  add_switch(list, "--skip-existing", sequence.skip_existing, "leave out pictures whose file exists");
+}
+
+/// What no single option can check of a sequence.
+void check_sequence(const RenderOptions& options) {
+  const auto fail = [](const std::string& sentence) { throw Error(ExitCode::usage, sentence); };
+  const SequenceOptions& sequence = options.sequence;
+  if (sequence.frames && !sequence.many())
+    fail("found --frames alone, expected --camera-path or --turntable beside it");
+  if (sequence.turntable > 0 && !sequence.camera_path.empty())
+    fail("found --turntable and --camera-path, expected one of them");
+  if (!sequence.camera_path.empty() && (options.picture.eye || options.picture.fov_y_deg))
+    fail("found a camera beside --camera-path, expected only the path");
+  if (sequence.many() && !options.reference.empty())
+    fail("found --reference with a sequence of pictures, expected a single one");
+  if (sequence.many() && !options.output.empty()) (void)frame_file(options.output, 0);
+}
+
 /// What no single option can check.
 void check_together(const RenderOptions& options) {
   const auto fail = [](const std::string& sentence) { throw Error(ExitCode::usage, sentence); };
@@ -78,6 +134,33 @@ void check_together(const RenderOptions& options) {
   if (picture.target && !picture.eye) fail("found --target without --eye, expected both");
   if (picture.ortho_height > 0.0 && !picture.eye) fail("found --ortho without --eye, expected both");
   if (picture.camera_up && !picture.eye) fail("found --camera-up without --eye, expected both");
+  check_sequence(options);
+}
+
+/// Reads the words into `options`, which hold the defaults. `from`: where --from goes, null = no such option. False when
+/// help or version was printed.
+bool parse_onto(const Words& words, RenderOptions& options, std::filesystem::path* from) {
+  OptionList list("Ray-traces a scene of splats into a picture.", "splatray-render");
+  list.set_version_flag("--version", SPLATRAY_VERSION);
+  add_render_options(list, options);
+  if (from != nullptr)
+    add_path(
+        list, "--from", *from,
+        "make this picture again, from the options kept in it; options beside it replace those, -o defaults "
+        "to "
+        "its name with .again; relative paths in it are looked for here, then in its folder and those above");
+  if (!parse_options(list, words)) return false;
+  options.scene.params.seed = options.picture.settings.seed;
+  return true;
+}
+
+/// What --from stands for: the picture's options, for an output of the name given, if any.
+RenderOptions options_from(const std::filesystem::path& picture, const std::filesystem::path& output) {
+  RenderOptions options = read_picture_options(picture);
+  options.output = picture;
+  options.output.replace_extension(".again" + picture.extension().string());
+  if (lower_extension(output) == ".png") read_aovs("", options);
+  return options;
 }
 
 }  // namespace
@@ -85,23 +168,29 @@ void check_together(const RenderOptions& options) {
 void add_render_options(OptionList& list, RenderOptions& options) {
   add_scene_options(list, options.scene);
   add_output_options(list, options);
+  add_sequence_options(list, options);
   add_picture_options(list, options.picture);
 }
 
 std::optional<RenderOptions> parse_render_words(const Words& words) {
   RenderOptions options;
-  OptionList list("Ray-traces a scene of splats into a picture.", "splatray-render");
-  list.set_version_flag("--version", SPLATRAY_VERSION);
-  add_render_options(list, options);
-  if (!parse_options(list, words)) return {};
-  options.scene.params.seed = options.picture.settings.seed;
-  if (!options.list_devices) check_together(options);
+  if (!parse_onto(words, options, nullptr)) return {};
+  check_together(options);
   return options;
 }
 
 std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
-  const auto options = parse_render_words(Words(argv + std::min(argc, 1), argv + argc));
-  if (options && !options->list_devices && options->output.empty())
+  const Words words(argv + std::min(argc, 1), argv + argc);
+  RenderOptions options;
+  std::filesystem::path from;
+  if (!parse_onto(words, options, &from)) return {};
+  if (!from.empty()) {
+    options = options_from(from, options.output);
+    (void)parse_onto(words, options, &from);
+  }
+  if (options.list_devices) return options;
+  check_together(options);
+  if (options.output.empty())
     throw Error(ExitCode::usage, "found no output, expected -o with a .png or .exr file");
   return options;
 }

@@ -50,9 +50,32 @@ struct PictureOptions {
   bool operator==(const PictureOptions&) const = default;
 };
 
+/// Makes the picture's camera exactly this one.
+void set_camera(PictureOptions& picture, const Camera& camera);
+
+/// Frames, both ends included; first <= last.
+struct FrameRange {
+  std::uint32_t first = 0, last = 0;
+
+  bool operator==(const FrameRange&) const = default;
+};
+
+/// Which pictures make a sequence; with neither a camera path nor a turntable there is one, a still.
+struct SequenceOptions {
+  std::filesystem::path camera_path;  ///< camera_file.h; empty = none
+  std::uint32_t turntable = 0;        ///< frames of a full turn, 0.. turntable - 1; 0 = none
+  std::optional<FrameRange> frames;   ///< unset = all
+  bool skip_existing = false;         ///< leave out pictures that exist
+
+  /// Whether the output is a pattern of names.
+  [[nodiscard]] bool many() const { return turntable > 0 || !camera_path.empty(); }
+  bool operator==(const SequenceOptions&) const = default;
+};
+
 struct RenderOptions {
   SceneOptions scene;
   PictureOptions picture;
+  SequenceOptions sequence;
   std::filesystem::path output;
   double exposure_ev = 0.0;  ///< stops, PNG only
   bool aov_depth = false, aov_normal = false, aov_id = false;
@@ -73,10 +96,11 @@ void add_picture_options(OptionList& list, PictureOptions& picture);
 /// Adds all options of splatray-render.
 void add_render_options(OptionList& list, RenderOptions& options);
 
-/// The options of the words after splatray-render; the output may be missing. Nothing when help or version was asked for
-/// and printed. Throws Error (usage), one sentence.
+/// The options of the words after splatray-render; the output may be missing, and --from is unknown. Nothing when help
+/// or version was asked for and printed. Throws Error (usage), one sentence.
 [[nodiscard]] std::optional<RenderOptions> parse_render_words(const std::vector<std::string>& words);
-/// The program's options, output included. As parse_render_words.
+/// The program's options, output included; those of --from's picture where nothing else is given. As
+/// parse_render_words; throws also what reading a picture throws.
 [[nodiscard]] std::optional<RenderOptions> parse_render_options(int argc, char** argv);
 
 }  // namespace splatray

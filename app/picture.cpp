@@ -5,6 +5,7 @@
 #include "app/command_line.h"
 #include "app/commit.h"
 #include "app/compare.h"
+#include "app/reproduce.h"
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
 #include "engine/host/number_text.h"
@@ -40,7 +41,7 @@ std::optional<DisplayImage> read_reference(const RenderOptions& options) {
 Metadata picture_metadata(const RenderOptions& options, const Scene& scene, const View& view,
                           const Context& context) {
   const Camera& camera = view.camera;
-  return {{"command_line", command_line(options)},
+  return {{"command_line", command_line(still_options(options, camera))},
           {"eye", number_text(camera.eye)},
           {"target", number_text(camera.target)},
           {"up", number_text(camera.up)},
@@ -53,9 +54,10 @@ Metadata picture_metadata(const RenderOptions& options, const Scene& scene, cons
           {"commit", COMMIT}};
 }
 
-void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata) {
-  if (is_png(options.output)) return write_png(display_image(image, options.exposure_ev), options.output);
-  write_exr(image, {options.aov_depth, options.aov_normal, options.aov_id}, metadata, options.output);
+void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata,
+                  const std::filesystem::path& path) {
+  if (is_png(path)) return write_png(display_image(image, options.exposure_ev), metadata, path);
+  write_exr(image, {options.aov_depth, options.aov_normal, options.aov_id}, metadata, path);
 }
 
 void require_match(const RenderOptions& options, const Image& image, const DisplayImage& reference) {
@@ -70,7 +72,7 @@ void require_match(const RenderOptions& options, const Image& image, const Displ
   }
   std::filesystem::path difference = options.output;
   difference.replace_extension(".diff.png");
-  write_png(comparison.difference, difference);
+  write_png(comparison.difference, {}, difference);
   throw Error(ExitCode::failed, "'" + options.output.string() + "' differs from '" +
                                     options.reference.string() + "': " + numbers + "; see '" +
                                     difference.string() + "'");

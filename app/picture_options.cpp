@@ -1,6 +1,7 @@
 #include <memory>
 #include <numbers>
 
+#include "app/camera_file.h"
 #include "app/materials.h"
 #include "app/options.h"
 #include "preprocess/option_types.h"
@@ -37,21 +38,33 @@ void add_fov(OptionList& list, PictureOptions& picture) {
   list.add_value("--fov", read, write, "vertical field of view; default 30")->type_name("DEG");
 }
 
+/// --up takes the place of an up direction that the camera has from a file or picture.
 void add_up(OptionList& list, PictureOptions& picture) {
-  add_vector(list, "--up", picture.up,
-             "up direction of the scene, its environment and the camera; default the scene's");
+  const auto read = [&picture](const std::string& text) {
+    picture.up = read_vector("--up", text);
+    picture.camera_up.reset();
+  };
+  list.add_value(
+          "--up", read, [&picture] { return picture.up ? number_text(*picture.up) : ""; },
+          "up direction of the scene, its environment and the camera; default the scene's")
+      ->type_name("X,Y,Z");
   add_vector(list, "--camera-up", picture.camera_up, "up direction of the camera alone; needs --eye");
 }
 
+/// Options are applied in the order of adding: those after --camera change parts of its camera.
 void add_camera_options(OptionList& list, PictureOptions& picture) {
   add_resolution(list, picture);
+  list.add_option_function<std::string>(
+          "--camera", [&picture](const std::string& file) { set_camera(picture, read_camera(file)); },
+          "camera file (JSON: eye, target, up, fov_y_deg or ortho_height); options beside it replace parts")
+      ->type_name("FILE");
   add_vector(list, "--eye", picture.eye,
              "camera position; default: the scene's camera, else a view of the whole scene");
   add_vector(list, "--target", picture.target, "point looked at; default the scene's centre; needs --eye");
   add_up(list, picture);
   add_fov(list, picture);
   add_number(list, "--ortho", picture.ortho_height, 0.0, 1e30,
-             "orthographic picture of this height, world units; needs --eye");
+             "orthographic picture of this height, world units; 0 = perspective; needs --eye");
 }
 
 /// A light of X,Y,Z[,R,G,B].
@@ -191,6 +204,15 @@ void add_scene_options(OptionList& list, SceneOptions& scene) {
   for (const std::string& name : material_names()) materials.push_back({name, name});
   add_choice(list, "--material", scene.material, materials,
              "material of a scene with one object; glass and ruby need a closed one");
+}
+
+void set_camera(PictureOptions& picture, const Camera& camera) {
+  picture.eye = camera.eye;
+  picture.target = camera.target;
+  picture.camera_up = camera.up;
+  picture.fov_y_deg.reset();
+  if (camera.ortho_height == 0.0) picture.fov_y_deg = camera.fov_y_deg;
+  picture.ortho_height = camera.ortho_height;
 }
 
 void add_picture_options(OptionList& list, PictureOptions& picture) {

@@ -104,20 +104,25 @@ std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOp
   return default_lights(loaded.scene, camera);
 }
 
-Environment choose_environment(const std::string& name) {
+std::optional<Environment> built_in_environment(const std::string& name) {
   if (name.empty() || name == "studio") return studio_environment();
-  if (name == "white") return {0, 0, {}, vec3(1.0F)};
-  if (name == "black") return {0, 0, {}, vec3(0.0F)};
+  if (name == "white") return Environment{0, 0, {}, vec3(1.0F)};
+  if (name == "black") return Environment{0, 0, {}, vec3(0.0F)};
   vec3 radiance;
   int length = 0;
   const int read = std::sscanf(name.c_str(), "%f,%f,%f%n", &radiance.x, &radiance.y, &radiance.z, &length);
   if (read == 3 && static_cast<std::size_t>(length) == name.size()) {
     if (glm::all(glm::greaterThanEqual(radiance, vec3(0.0F))) &&
         std::isfinite(radiance.x + radiance.y + radiance.z))
-      return {0, 0, {}, radiance};
+      return Environment{0, 0, {}, radiance};
     throw Error(ExitCode::usage, "--env: found '" + name + "', expected a radiance of finite numbers >= 0");
   }
-  return read_environment(name);
+  return {};
+}
+
+Environment choose_environment(const std::string& name) {
+  auto environment = built_in_environment(name);
+  return environment ? *std::move(environment) : read_environment(name);
 }
 
 Settings choose_settings(const Scene& scene, const PictureOptions& picture) {

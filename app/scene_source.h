@@ -27,6 +27,9 @@ struct LoadedScene {
 [[nodiscard]] std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
                                                     const Camera& camera);
 
+/// The environment of a name that needs no file: white, black, studio or r,g,b, empty = studio; nothing for other names.
+/// Throws Error (usage) for a radiance that is negative or not finite.
+[[nodiscard]] std::optional<Environment> built_in_environment(const std::string& name);
 /// The environment `name` of --env: a file, white, black, studio, r,g,b; empty = studio. Throws Error
 /// (input_unreadable).
 [[nodiscard]] Environment choose_environment(const std::string& name);

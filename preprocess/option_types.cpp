@@ -22,13 +22,15 @@ std::vector<double> split_numbers(const std::string& text, char separator, std::
   return numbers.size() == count && text.back() != separator ? numbers : std::vector<double>{};
 }
 
+glm::dvec3 read_vector(const std::string& name, const std::string& text) {
+  const auto numbers = split_numbers(text, ',', 3);
+  if (numbers.empty()) refuse_option(name, text, "three numbers such as 1,-2,0.5");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
 void add_vector(OptionList& list, const std::string& name, std::optional<glm::dvec3>& target,
                 const std::string& help) {
-  const auto read = [name, &target](const std::string& text) {
-    const auto numbers = split_numbers(text, ',', 3);
-    if (numbers.empty()) refuse_option(name, text, "three numbers such as 1,-2,0.5");
-    target = glm::dvec3(numbers[0], numbers[1], numbers[2]);
-  };
+  const auto read = [name, &target](const std::string& text) { target = read_vector(name, text); };
   list.add_value(
           name, read, [&target] { return target ? number_text(*target) : ""; }, help)
       ->type_name("X,Y,Z");

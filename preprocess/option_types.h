@@ -21,6 +21,9 @@ namespace splatray {
 /// Finite numbers separated by `separator`, exactly `count` of them; empty when the text is anything else.
 [[nodiscard]] std::vector<double> split_numbers(const std::string& text, char separator, std::size_t count);
 
+/// The three numbers that `text` given to option `name` is; else refuses it.
+[[nodiscard]] glm::dvec3 read_vector(const std::string& name, const std::string& text);
+
 /// Three numbers, X,Y,Z.
 void add_vector(OptionList& list, const std::string& name, std::optional<glm::dvec3>& target,
                 const std::string& help);

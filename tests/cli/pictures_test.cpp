@@ -40,7 +40,7 @@ TEST(DisplayValue, ShoulderIsContinuousMonotoneAndBounded) {
 TEST(ImageFile, PngRoundTrip) {
   const std::string path = temporary("round.png");
   DisplayImage display = display_image(gradient(), 0.0);
-  write_png(display, path);
+  write_png(display, {}, path);
   quantise(display);
   const DisplayImage copy = read_display_image(path, 0.0);
   ASSERT_EQ(copy.rgb.size(), display.rgb.size());
@@ -59,7 +59,7 @@ TEST(ImageFile, ExrKeepsLinearValuesAndIsAnEnvironment) {
 }
 
 TEST(ImageFile, UnwritableIsAnError) {
-  EXPECT_THROW(write_png(display_image(gradient(), 0.0), temporary("missing/a.png")), Error);
+  EXPECT_THROW(write_png(display_image(gradient(), 0.0), {}, temporary("missing/a.png")), Error);
   EXPECT_THROW(write_exr(gradient(), {}, {}, temporary("missing/a.exr")), Error);
 }
 
