@@ -153,6 +153,7 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
   spec.alpha_channel = 3;
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the time of writing: the same picture makes the same file
   add_metadata(metadata, spec);
   write_picture(spec, values.data(), OIIO::TypeDesc::FLOAT, "openexr", path);
 }

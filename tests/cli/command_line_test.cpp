@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cmath>
+#include <type_traits>
 
 #include "app/materials.h"
 #include "engine/host/error.h"
@@ -23,7 +24,7 @@ glm::dvec3 vector(Dice& dice) { return dice.in_cube() * number(dice, 1e-9, 1e9);
 glm::vec3 color(Dice& dice) { return {dice.unit(), dice.unit(), dice.unit()}; }
 
 template <typename Value>
-void maybe(Dice& dice, std::optional<Value>& target, Value value) {
+void maybe(Dice& dice, std::optional<Value>& target, std::type_identity_t<Value> value) {
   if (dice.chance(0.5)) target = value;
 }
 
@@ -115,19 +116,34 @@ PictureOptions random_picture(Dice& dice) {
   return picture;
 }
 
+/// A sequence that goes with the picture's camera, or none.
+SequenceOptions random_sequence(Dice& dice, const PictureOptions& picture) {
+  SequenceOptions sequence;
+  sequence.skip_existing = dice.chance(0.5);
+  if (dice.chance(0.5)) return sequence;
+  if (picture.eye || picture.fov_y_deg)
+    sequence.turntable = 1 + dice.below(999999);
+  else
+    sequence.camera_path = odd_text(dice);
+  const std::uint32_t first = dice.below(1000);
+  maybe(dice, sequence.frames, {first, first + dice.below(1000)});
+  return sequence;
+}
+
 RenderOptions random_options(Dice& dice) {
   RenderOptions options;
   options.scene = random_scene(dice);
   options.picture = random_picture(dice);
   options.scene.params.seed = options.picture.settings.seed;
-  options.output = odd_text(dice) + "b.exr";
+  options.output = odd_text(dice) + "/b##.exr";
   options.exposure_ev = dice.between(-60.0, 60.0);
   options.aov_depth = dice.chance(0.5);
   options.aov_normal = dice.chance(0.5);
   options.aov_id = dice.chance(0.5);
   options.picture.settings.aov = options.aov_depth || options.aov_normal || options.aov_id;
   if (dice.chance(0.5)) options.stats_json = odd_text(dice);
-  if (dice.chance(0.5)) options.reference = odd_text(dice);
+  options.sequence = random_sequence(dice, options.picture);
+  if (dice.chance(0.5) && !options.sequence.many()) options.reference = odd_text(dice);
   options.reference_threshold = dice.unit();
   options.reference_share = dice.unit();
   options.reference_limit = dice.unit();

@@ -1,6 +1,7 @@
 /// Picture files and their comparison, without a program.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -56,6 +57,19 @@ TEST(ImageFile, ExrKeepsLinearValuesAndIsAnEnvironment) {
   const Environment copy = read_environment(path);
   ASSERT_EQ(copy.texels.size(), image.rgba.size());
   for (std::size_t i = 0; i < copy.texels.size(); ++i) EXPECT_EQ(copy.texels[i], vec3(image.rgba[i]));
+}
+
+TEST(ImageFile, KeepsMetadata) {
+  const Metadata metadata = {{"command_line", "splatray-render 'a\xC3\xA9 \n\"b' --eye=1,2,3"},
+                             {"seed", "1"}};
+  const auto sorted = [](Metadata entries) {
+    std::sort(entries.begin(), entries.end());
+    return entries;
+  };
+  write_png(display_image(gradient(), 0.0), metadata, temporary("meta.png"));
+  EXPECT_EQ(sorted(read_metadata(temporary("meta.png"))), metadata);
+  write_exr(gradient(), {}, metadata, temporary("meta.exr"));
+  EXPECT_EQ(sorted(read_metadata(temporary("meta.exr"))), metadata);
 }
 
 TEST(ImageFile, UnwritableIsAnError) {
