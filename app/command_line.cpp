@@ -87,10 +87,7 @@ RenderOptions parse_command_line(const std::string& text) {
   if (words.empty() || std::filesystem::path(words[0]).filename() != PROGRAM)
     throw Error(ExitCode::usage, "found a command line of '" + (words.empty() ? "" : words[0]) +
                                      "', expected one of " + PROGRAM);
-  const auto options = parse_render_words({words.begin() + 1, words.end()});
-  if (!options)
-    throw Error(ExitCode::usage, "found a command line with --help or --version, expected a picture's");
-  return *options;
+  return parse_render_words({words.begin() + 1, words.end()});
 }
 
 }  // namespace splatray

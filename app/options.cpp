@@ -40,7 +40,9 @@ std::string aov_text(const RenderOptions& options) {
 }
 
 void add_output_options(OptionList& list, RenderOptions& options) {
-  list.add_option("-o,--output", options.output, "the picture: .png (sRGB) or .exr (linear float)")
+  list.add_option("-o,--output", options.output,
+                  "the picture: .png (sRGB) or .exr (linear float); of a sequence with a run of # for the "
+                  "frame's digits such as out.####.png")
       ->type_name("FILE");
   list.add_words([&options] {
     return options.output.empty() ? Words{} : Words{"-o", options.output.string()};
@@ -83,13 +85,11 @@ void add_sequence_options(OptionList& list, RenderOptions& options) {
             options.picture.ortho_height = 0.0;
           },
           [&sequence] { return sequence.camera_path.string(); },
-          "one picture for each frame of this camera path (JSON: keys, each a camera with its frame); -o is "
-          "then a "
-          "pattern such as out.####.png")
+          "one picture for each frame of this camera path (JSON: keys, each a camera with its frame)")
       ->type_name("FILE");
-  add_number(list, "--turntable", sequence.turntable, 0, 999999,
-             "this many pictures of a full turn about the scene's up axis through the target; -o as for "
-             "--camera-path; default 0 = none");
+  add_number(
+      list, "--turntable", sequence.turntable, 0, 999999,
+      "this many pictures of a full turn about the scene's up axis through the target; default 0 = none");
   const auto frames_text = [&sequence]() -> std::string {
     if (!sequence.frames) return "";
     return std::to_string(sequence.frames->first) + "-" + std::to_string(sequence.frames->last);
@@ -137,18 +137,21 @@ void check_together(const RenderOptions& options) {
   check_sequence(options);
 }
 
-/// Reads the words into `options`, which hold the defaults. `from`: where --from goes, null = no such option. False when
-/// help or version was printed.
+/// Reads the words on top of `options`. The program itself also has --help, --version, and --from, which goes into
+/// `from`; false when one of the first two was answered.
 bool parse_onto(const Words& words, RenderOptions& options, std::filesystem::path* from) {
-  OptionList list("Ray-traces a scene of splats into a picture.", "splatray-render");
-  list.set_version_flag("--version", SPLATRAY_VERSION);
+  OptionList list("Ray-traces a scene of splats into pictures.", "splatray-render");
   add_render_options(list, options);
-  if (from != nullptr)
+  if (from != nullptr) {
+    list.set_version_flag("--version", SPLATRAY_VERSION);
     add_path(
         list, "--from", *from,
         "make this picture again, from the options kept in it; options beside it replace those, -o defaults "
         "to "
         "its name with .again; relative paths in it are looked for here, then in its folder and those above");
+  } else {
+    list.set_help_flag();
+  }
   if (!parse_options(list, words)) return false;
   options.scene.params.seed = options.picture.settings.seed;
   return true;
@@ -172,9 +175,9 @@ void add_render_options(OptionList& list, RenderOptions& options) {
   add_picture_options(list, options.picture);
 }
 
-std::optional<RenderOptions> parse_render_words(const Words& words) {
+RenderOptions parse_render_words(const Words& words) {
   RenderOptions options;
-  if (!parse_onto(words, options, nullptr)) return {};
+  (void)parse_onto(words, options, nullptr);
   check_together(options);
   return options;
 }

@@ -96,11 +96,11 @@ void add_picture_options(OptionList& list, PictureOptions& picture);
 /// Adds all options of splatray-render.
 void add_render_options(OptionList& list, RenderOptions& options);
 
-/// The options of the words after splatray-render; the output may be missing, and --from is unknown. Nothing when help
-/// or version was asked for and printed. Throws Error (usage), one sentence.
-[[nodiscard]] std::optional<RenderOptions> parse_render_words(const std::vector<std::string>& words);
-/// The program's options, output included; those of --from's picture where nothing else is given. As
-/// parse_render_words; throws also what reading a picture throws.
+/// The options of the words after splatray-render; the output may be missing, and --help, --version and --from are
+/// unknown. Throws Error (usage), one sentence.
+[[nodiscard]] RenderOptions parse_render_words(const std::vector<std::string>& words);
+/// The program's options, output included; those of --from's picture where nothing else is given. Nothing when help or
+/// version was asked for and printed. Throws Error (usage), one sentence, and what reading a picture throws.
 [[nodiscard]] std::optional<RenderOptions> parse_render_options(int argc, char** argv);
 
 }  // namespace splatray

@@ -41,12 +41,12 @@ std::optional<DisplayImage> read_reference(const RenderOptions& options) {
 Metadata picture_metadata(const RenderOptions& options, const Scene& scene, const View& view,
                           const Context& context) {
   const Camera& camera = view.camera;
+  const bool ortho = camera.ortho_height > 0.0;
   return {{"command_line", command_line(still_options(options, camera))},
           {"eye", number_text(camera.eye)},
           {"target", number_text(camera.target)},
           {"up", number_text(camera.up)},
-          {"fov_y_deg", number_text(camera.fov_y_deg)},
-          {"ortho_height", number_text(camera.ortho_height)},
+          {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
           {"diagonal_world", number_text(scene.diagonal_world())},
           {"device", context.device_info().name + ", " + context.device_info().driver},
           {"samples", std::to_string(options.picture.settings.samples)},

@@ -108,8 +108,7 @@ void add_light_options(OptionList& list, PictureOptions& picture) {
   };
   add("--light", LIGHT_POINT,
       "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at the "
-      "scene's "
-      "centre; repeatable");
+      "scene's centre; repeatable");
   add("--sun", LIGHT_DIRECTIONAL,
       "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, default pi; "
       "repeatable");

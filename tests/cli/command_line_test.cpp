@@ -188,7 +188,8 @@ TEST(CommandLine, AcceptsWhatPeoplePaste) {
 TEST(CommandLine, RefusesWhatIsNoCommand) {
   for (const char* line :
        {"", "   ", "ls -l", "splatray-render", "splatray-render 'a.ply", "splatray-render a.ply \"b",
-        "splatray-render a.ply --eye=1", "splatray-render a.ply --no-such-option"}) {
+        "splatray-render a.ply --eye=1", "splatray-render a.ply --no-such-option",
+        "splatray-render a.ply --help", "splatray-render --from a.png"}) {
     try {
       (void)parse_command_line(line);
       ADD_FAILURE() << "accepted: " << line;

@@ -138,6 +138,7 @@ class CliPictures : public CliSequences {
 TEST_F(CliPictures, AreMadeAgain) {
   expect_again(".png", {});
   expect_again(".exr", {"--aov=depth,id"});
+  expect_again(".exr", {"--eye=1,2,3", "--ortho=2", "--camera-up=0,1,0.1"});
 }
 
 TEST_F(CliPictures, AreMadeAgainOtherwise) {
