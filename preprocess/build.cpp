@@ -24,7 +24,6 @@ namespace splatray {
 namespace {
 
 constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
-constexpr std::uint32_t MASK_BITS = 32;
 
 /// Adds the time since its construction to a number of milliseconds when it ends.
 class Stopwatch {
@@ -69,6 +68,7 @@ Scene describe_scene(Input& input, const BuildParams& params) {
     scene.surface_area_world += object.surface_area;
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
   }
+  assign_mask_bits(scene.materials);
   if (!area_known) scene.surface_area_world = 0.0;
   return scene;
 }

@@ -51,6 +51,8 @@ struct BuildParams {
   std::uint64_t seed = 1;
   bool normal_fields =
       true;  ///< fit a normal field to every splat of a curved scene; read from a file: it has them
+
+  bool operator==(const BuildParams&) const = default;
 };
 
 /// A splat in full precision, root space; what 128 bits decode to.
@@ -106,6 +108,12 @@ struct Scene {
   /// Length of the bounding box's diagonal, world units.
   [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }
 };
+
+/// Most dielectrics that a ray can be inside of at once.
+inline constexpr std::uint32_t MASK_BITS = 32;
+/// Gives each dielectric, in the order of the objects, its Material::mask_bit. Those beyond MASK_BITS share bits and must
+/// not overlap.
+void assign_mask_bits(std::vector<Material>& materials);
 
 /// Indices into data_pool of one reference per splat: the one in the leaf that holds the centre. Ascending.
 [[nodiscard]] std::vector<std::uint32_t> home_references(const Scene& scene);
