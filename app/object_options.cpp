@@ -136,7 +136,11 @@ void set_flag(Material& material, std::uint32_t flag, std::optional<bool> on) {
 }
 
 void apply(const ObjectOptions& options, Material& material) {
-  if (!options.preset.empty()) material = named_material(options.preset);
+  if (!options.preset.empty()) {
+    const std::uint32_t mask_bit = material.mask_bit;
+    material = named_material(options.preset);
+    material.mask_bit = mask_bit;
+  }
   material.diffuse = options.diffuse.value_or(material.diffuse);
   material.specular = options.specular.value_or(material.specular);
   material.tint = options.tint.value_or(material.tint);
@@ -190,9 +194,7 @@ std::string object_text(const ObjectOptions& options) {
 
 void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
                           std::vector<Material>& materials) {
-  if (options.empty()) return;
   for (const ObjectOptions& change : options) apply(change, materials[find_object(change.object, names)]);
-  assign_mask_bits(materials);
 }
 
 std::vector<ObjectOptions> object_options_between(const std::vector<Material>& loaded,

@@ -25,8 +25,7 @@ struct ObjectOptions {
 /// The text that reads back to equal options.
 [[nodiscard]] std::string object_text(const ObjectOptions& options);
 
-/// Changes the materials of the objects named `names`, in the order given, then numbers the dielectrics
-/// (assign_mask_bits). Throws Error (usage) for an object that does not exist or a name that several have.
+/// Changes the materials of the objects named `names`, in the order given; each keeps its mask_bit. Throws Error (usage) for an object that does not exist or a name that several have.
 void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
                           std::vector<Material>& materials);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "engine/host/error.h"
@@ -68,7 +69,6 @@ Scene describe_scene(Input& input, const BuildParams& params) {
     scene.surface_area_world += object.surface_area;
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
   }
-  assign_mask_bits(scene.materials);
   if (!area_known) scene.surface_area_world = 0.0;
   return scene;
 }
@@ -86,17 +86,22 @@ std::vector<Cloud> make_clouds(Input& input, BuildStats& stats) {
   return clouds;
 }
 
-/// Gives each dielectric its bit of a ray's mask, the larger ones first: what lies inside another object is smaller, and
-/// light there runs in what has the higher bit (nested dielectrics by priority: Schmidt and Budge 2002, "Simple Nested
-/// Dielectrics in Ray Traced Images").
-void number_dielectrics(const std::vector<Cloud>& clouds, std::vector<Material>& materials) {
-  std::vector<std::size_t> dielectrics;
-  for (std::size_t i = 0; i < materials.size(); ++i)
-    if ((materials[i].flags & MATERIAL_DIELECTRIC) != 0) dielectrics.push_back(i);
-  std::stable_sort(dielectrics.begin(), dielectrics.end(), [&](std::size_t a, std::size_t b) {
+/// Gives each object its bit of a ray's mask, the larger ones first: what lies inside another object is smaller, and light
+/// there runs in what has the higher bit (nested dielectrics by priority: Schmidt and Budge 2002, "Simple Nested
+/// Dielectrics in Ray Traced Images"). Objects that are opaque get one too, as they may be shown as glass. Where there are
+/// more objects than bits, dielectrics come first; those that then share a bit must not overlap.
+void number_objects(const std::vector<Cloud>& clouds, std::vector<Material>& materials) {
+  std::vector<std::size_t> order(materials.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return clouds[a].half_extent_world > clouds[b].half_extent_world;
   });
-  for (std::uint32_t i = 0; i < dielectrics.size(); ++i) materials[dielectrics[i]].mask_bit = i % MASK_BITS;
+  if (order.size() > MASK_BITS) {
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t i) { return (materials[i].flags & MATERIAL_DIELECTRIC) != 0; });
+  }
+  for (std::size_t i = 0; i < order.size(); ++i)
+    materials[order[i]].mask_bit = static_cast<std::uint32_t>(i % MASK_BITS);
 }
 
 void estimate_all_normals(std::vector<Cloud>& clouds, Scene& scene, const BuildProgress& progress,
@@ -273,7 +278,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   std::vector<Cloud> clouds = make_clouds(input, stats);
   estimate_all_normals(clouds, scene, progress, stats);
   find_bounds(clouds, scene);
-  number_dielectrics(clouds, scene.materials);
+  number_objects(clouds, scene.materials);
   find_all_radii(clouds, scene, progress, stats);
   fit_all_normal_fields(clouds, params, progress, stats);
   SplatList splats;

@@ -40,7 +40,7 @@ void merge(Input& to, Input&& more) {
   to.environment_path = to.environment_path.empty() ? more.environment_path : to.environment_path;
 }
 
-/// assign_mask_bits numbers the dielectrics modulo 32.
+/// build_scene numbers the dielectrics modulo 32.
 void note_many_dielectrics(Input& input) {
   const auto count = std::count_if(input.objects.begin(), input.objects.end(), [](const InputObject& object) {
     return (object.material.flags & MATERIAL_DIELECTRIC) != 0;

@@ -79,8 +79,8 @@ struct Material {
   float mirror;     ///< share of light mirrored, 0..1; the rest is shaded
   float ior;        ///< index of refraction inside, > 0; dielectrics only
   uint flags;       ///< MATERIAL_*
-  uint mask_bit;    ///< dielectrics: the object's bit, 0..31, in a ray's mask of what it is inside of; where objects
-                    ///< overlap, light runs in the one with the highest bit
+  uint mask_bit;    ///< the object's bit, 0..31, in a ray's mask of the dielectrics it is inside of; where they overlap,
+                    ///< light runs in the one with the highest bit
 };
 
 SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;

@@ -111,9 +111,6 @@ struct Scene {
 
 /// Most dielectrics that a ray can be inside of at once.
 inline constexpr std::uint32_t MASK_BITS = 32;
-/// Gives each dielectric, in the order of the objects, its Material::mask_bit. Those beyond MASK_BITS share bits and must
-/// not overlap.
-void assign_mask_bits(std::vector<Material>& materials);
 
 /// Indices into data_pool of one reference per splat: the one in the leaf that holds the centre. Ascending.
 [[nodiscard]] std::vector<std::uint32_t> home_references(const Scene& scene);

@@ -17,19 +17,15 @@ using glm::length;
 using glm::max;
 using glm::min;
 using glm::normalize;
-using glm::reflect;
 using glm::uint;
 using glm::uvec3;
 using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
-using std::acos;
-using std::atan;
 using std::exp;
 using std::pow;
 using std::sqrt;
 
 inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
 inline int findLSB(uint x) { return x == 0U ? -1 : std::countr_zero(x); }
-inline int findMSB(uint x) { return static_cast<int>(std::bit_width(x)) - 1; }

@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/host/environment.h"
-#include "engine/host/image.h"
 #include "engine/host/scene.h"
 #include "engine/host/view.h"
 
@@ -22,11 +20,5 @@ using Features = std::array<std::uint32_t, SPEC_COUNT>;
 /// Answers ray queries as shaders/rays.comp.glsl does.
 [[nodiscard]] std::vector<RayHit> twin_intersect(const Scene& scene, std::span<const RayQuery> rays,
                                                  const Settings& settings);
-
-/// Renders as shaders/trace.comp.glsl does; `frame` as uploaded (environment filled in). Sampling of the
-/// environment texture is nearest-texel. Counters are added to `counters`.
-[[nodiscard]] Image twin_render(const Scene& scene, const FrameParams& frame, const Settings& settings,
-                                const Environment& environment,
-                                std::array<std::uint64_t, COUNTER_COUNT>& counters);
 
 }  // namespace splatray::testing
