@@ -153,7 +153,7 @@ RenderOptions random_options(Dice& dice) {
 }
 
 TEST(CommandLine, RandomOptionsComeBackEqual) {
-  for (std::uint64_t round = 0; round < 2000; ++round) {
+  for (std::uint64_t round = 0; round < 500; ++round) {
     Dice dice(round);
     const RenderOptions options = random_options(dice);
     const std::string line = command_line(options);

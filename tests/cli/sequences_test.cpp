@@ -43,6 +43,8 @@ TEST_F(CliSequences, TurntableTurnsTheCamera) {
   const DisplayImage turned = read_display_image(file("turned.png"), 0.0);
   EXPECT_EQ(read_display_image(file("t.02.png"), 0.0).rgb, turned.rgb);
   EXPECT_NE(read_display_image(file("t.00.png"), 0.0).rgb, turned.rgb);
+  ASSERT_EQ(run_program({RENDER, "--quiet", "--from", file("t.02.png")}).code, 0);
+  EXPECT_EQ(bytes("t.02.again.png"), bytes("t.02.png")) << "a frame's file says how to make it alone";
 }
 
 TEST_F(CliSequences, CameraPathMoves) {
