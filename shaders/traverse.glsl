@@ -55,8 +55,9 @@ uvec3 cell_at(Ray ray, float t, uvec3 low, uvec3 high) {
 
 /// Moves the origin of a ray to where it enters the root or to t_min, whichever is later, exactly
 /// (double-float), with t_min and t_max. Returns by how much t became smaller; `enters` is false when the ray
-/// misses the root. A secondary ray keeps its origin, by which the sheet left is known, also when the surface
-/// between discs lies a little outside the root: walk_start takes the nearest cell.
+/// misses the root. A ray that starts inside the root keeps its origin, exact as it is: in the plane of a disc it lies on,
+/// any rounding would move the hit. So does a secondary ray, by whose origin the sheet left is known, also when the
+/// surface between discs lies a little outside the root: walk_start takes the nearest cell.
 float clip_to_root(INOUT(Ray) ray, OUT(bool) enters) {
   float t_enter = ray.t_min;
   float t_exit = ray.t_max;
@@ -72,9 +73,10 @@ float clip_to_root(INOUT(Ray) ray, OUT(bool) enters) {
   }
   enters = !beside && t_enter <= t_exit && abs(t_enter) < INFINITY_F;
   vec3 from_middle = abs(ray.origin - vec3(0.5f * ROOT_SIZE));
-  bool near = max(from_middle.x, max(from_middle.y, from_middle.z)) < 1.5f * ROOT_SIZE;
-  bool at_surface = near && ray.from_object != NO_OBJECT;
-  float shift = enters && !at_surface ? t_enter : 0.0f;
+  float farthest = max(from_middle.x, max(from_middle.y, from_middle.z));
+  bool from_inside = farthest < 0.5f * ROOT_SIZE && ray.t_min >= 0.0f;
+  bool at_surface = farthest < 1.5f * ROOT_SIZE && ray.from_object != NO_OBJECT;
+  float shift = enters && !from_inside && !at_surface ? t_enter : 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     vec2 moved = df_add(two_product(shift, ray.dir[axis]), vec2(ray.origin[axis], ray.origin_low[axis]));
     ray.origin[axis] = moved.x;

@@ -85,6 +85,24 @@ TEST(Origin, OnSplats) {
   conclude(compare_with_brute_force(device, brute, rays, "origins at splat centres, where t = 0 is no hit"));
 }
 
+/// n.(c - o) = 0 and n.d = 0 but for rounding: the hit is at t = 0 exactly, before t_min, however small n.d is.
+TEST(Origin, OnSplatsInTheirPlane) {
+  const Scene scene = lattice_soup();
+  const BruteForce brute(scene);
+  DeviceScene device(scene);
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<float> t_min(0.0F, 1.0F);
+  std::vector<RayQuery> rays;
+  for (std::size_t i = 0; i < RAYS; ++i) {
+    const Splat& splat = brute.splats()[random() % brute.splats().size()];
+    RayQuery ray = primary_ray(splat.center, glm::cross(splat.normal, random_unit(random)));
+    ray.t_min = t_min(random);
+    rays.push_back(ray);
+  }
+  conclude(compare_with_brute_force(device, brute, rays,
+                                    "origins at splat centres, in the discs' planes, t_min in 0..1"));
+}
+
 /// Errors of a picture's depth and normals against the exact sphere, silhouette apart.
 struct PictureErrors {
   std::uint64_t pixels = 0;
