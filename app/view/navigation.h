@@ -1,7 +1,8 @@
 /// The camera as mouse and keys move it: float64, turntable about the document's up axis. The camera's target is the
 /// pivot: it lies in the middle of the picture and is what orbits turn about. Positions in the picture are pixels from
 /// its top left corner, y down; `size_px` is the picture's size, both >= 1. Input that is not finite changes nothing, and
-/// no input makes a camera that make_frame_params refuses.
+/// no input makes a camera that make_frame_params refuses. Orthographic cameras are kept outside the scene, so that none of
+/// it lies behind them.
 #pragma once
 #include <glm/glm.hpp>
 
@@ -30,13 +31,14 @@ void zoom(Document& document, double notches, glm::dvec2 position_px, glm::dvec2
 /// pictures, which have no eye, as orbit.
 void look(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px);
 /// Moves camera and pivot for `seconds` with `direction` (right, up, forward; each -1..1, of the camera), at a
-/// third of scene_radius_world() a second, five times that when `fast`. In orthographic pictures forward enlarges.
+/// half scene_radius_world() a second, five times that when `fast`; at most a quarter of a second counts. In orthographic
+/// pictures forward enlarges.
 void fly(Document& document, glm::dvec3 direction, double seconds, bool fast);
 
 /// Makes a world point the pivot: camera and pivot move across the view until it lies in the middle, as large as before.
 /// Points that are not before the eye change nothing.
 void set_pivot(Document& document, const glm::dvec3& point_world);
-/// The whole scene, as framing_camera shows it, orthographic if the camera is. `aspect` = width / height > 0.
+/// The whole scene from the direction the camera has, its bounding box filling the picture. `aspect` = width / height > 0.
 void frame_all(Document& document, double aspect);
 /// Along an axis of the scene, at the distance the camera has from the pivot.
 void set_axis_view(Document& document, AxisView view);
@@ -45,8 +47,8 @@ void toggle_orthographic(Document& document);
 /// Another up axis (length > 0) of the scene; the camera stays where it is and is levelled.
 void set_up_axis(Document& document, const glm::dvec3& up);
 
-/// Drags a light: it comes to lie where the ray under `position_px` meets the sphere about the scene's centre that the
-/// light was on (directional: any sphere), or the sphere's outline as seen from the camera.
+/// Drags a light about the scene's centre, at its distance from there: towards where the ray under `position_px` touches
+/// the sphere about the scene's bounding box, or passes nearest by it.
 void drag_light(const Document& document, glm::dvec2 position_px, glm::dvec2 size_px, SceneLight& light);
 
 }  // namespace splatray
