@@ -46,7 +46,7 @@ enum class Action {
 };
 
 /// What happens on keyboard or mouse.
-enum class Input { key, fly_key, drag, click, double_click, wheel, drop };
+enum class Input { key, fly_key, drag, click, double_click, wheel };
 
 /// One row of the table.
 struct Binding {
@@ -79,7 +79,7 @@ struct Command {
 
 /// One line of the shown table: the names of all bindings of consecutive rows that share their words.
 struct KeyRow {
-  std::string keys;  ///< "W A S D Q E"
+  std::string keys;  ///< "W, A, S, D, Q, E"
   std::string does;
 };
 [[nodiscard]] std::vector<KeyRow> key_rows();
