@@ -189,4 +189,21 @@ std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
   return options;
 }
 
+std::optional<ViewOptions> parse_view_options(int argc, char** argv) {
+  ViewOptions options;
+  options.picture.width = options.picture.height = 0;
+  CLI::App app("Shows a scene of splats in a window.", "splatray-view");
+  app.set_version_flag("--version", SPLATRAY_VERSION);
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  add_scene_options(app, options.scene);
+  add_camera_options(app, options.picture);
+  add_light_options(app, options.picture);
+  add_method_options(app, options.picture);
+  app.add_option("--stats-json", options.stats_json, "stats");
+  if (!parse_options(app, argc, argv)) return {};
+  add_data_folder(options.scene);
+  options.scene.params.seed = options.picture.settings.seed;
+  return options;
+}
+
 }  // namespace splatray

@@ -46,6 +46,14 @@ struct RenderOptions {
   std::string command_line;  ///< as given, for the picture's metadata
 };
 
+struct ViewOptions {
+  SceneOptions scene;  ///< may name no file
+  PictureOptions picture;  ///< the size is the window's; 0 x 0 = as it was last
+  double exposure_ev = 0.0;          ///< stops
+  std::filesystem::path stats_json;  ///< empty = none
+};
+[[nodiscard]] std::optional<ViewOptions> parse_view_options(int argc, char** argv);
+
 /// The options, or nothing when help or version was asked for and printed. Throws Error (usage), one
 /// sentence.
 [[nodiscard]] std::optional<RenderOptions> parse_render_options(int argc, char** argv);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/view/document.h"
 #include "engine/gpu/pools.h"
 #include "engine/gpu/tracer.h"
 #include "engine/host/image.h"
@@ -16,7 +17,10 @@ namespace splatray {
 struct Frame {
   Image image;                ///< rgba of ViewMode::shaded, else aov; its size is the traced one
   View view;                  ///< of the image
+  ViewMode mode = ViewMode::shaded;
+  std::vector<std::uint8_t> display;  ///< what a screen shows: sRGB 8 bit rgba, r first
   std::uint32_t samples = 0;  ///< in every pixel
+  bool moving = false;        ///< coarse: what is shown changes
   double scale = 1.0;         ///< traced pixels / window pixels, along an edge; below 1 while moving
   double ms = 0.0;            ///< wall time of the last whole pass over the picture
   RenderStats stats;          ///< of all of the picture so far

@@ -20,6 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
+constexpr std::uint32_t PROMPT_PIXELS = 1U << 15U;  ///< in one dispatch that somebody waits to stop
 /// Most samples of a dispatch on a processor, without and with secondary rays: Mesa's llvmpipe silently ends all loops of
 /// a thread after 65 535 turns in all (LP_MAX_TGSI_LOOP_ITERATIONS).
 constexpr std::uint32_t PROCESSOR_BATCH = 16;
@@ -251,6 +252,8 @@ void Tracer::set_materials(std::span<const Material> materials) {
 
 void Tracer::set_lights(std::span<const SceneLight> lights) { impl_->set_lights(lights); }
 
+void Tracer::set_up(const glm::dvec3& up) { impl_->frame_of_reference.up = up; }
+
 void Tracer::set_environment(const Environment& environment) {
   Impl& impl = *impl_;
   impl.environment = EnvironmentTexture(impl.context, impl.queue, environment);
@@ -339,17 +342,22 @@ Image Tracer::picture() {
   return image;
 }
 
-std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings) {
+std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings, const Progress& progress) {
   Impl& impl = *impl_;
   assert(impl.bindings);
   const Clock::time_point start = Clock::now();
   impl.stats = {};
   const Dispatch dispatch = impl.picture_dispatch(view, settings);
-  const std::vector<Tile> tiles = cut_into_tiles(view.width, view.height);
+  const std::vector<Tile> tiles =
+      cut_into_tiles(view.width, view.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
   reserve(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
   impl.bind_all();
   std::vector<AovPixel> pixels(std::size_t{view.width} * view.height);
-  for (const Tile& tile : tiles) impl.trace_aov(tile, dispatch, pixels);
+  for (const Tile& tile : tiles) {
+    impl.trace_aov(tile, dispatch, pixels);
+    if (progress && !progress(double(tile.y + tile.height) / view.height))
+      throw Error(ExitCode::interrupted, "rendering was interrupted");
+  }
   impl.stats.wall_ms = impl.stats.trace_ms = milliseconds_since(start);
   return pixels;
 }

@@ -151,6 +151,12 @@ glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal) {
          decode_slope(field >> 20) * glm::outerProduct(frame.v, frame.v);
 }
 
+void assign_mask_bits(std::vector<Material>& materials) {
+  std::uint32_t dielectrics = 0;
+  for (Material& material : materials)
+    if ((material.flags & MATERIAL_DIELECTRIC) != 0) material.mask_bit = dielectrics++ % MASK_BITS;
+}
+
 std::vector<std::uint32_t> home_references(const Scene& scene) {
   std::vector<std::uint32_t> homes;
   homes.reserve(scene.splat_count);

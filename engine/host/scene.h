@@ -28,6 +28,7 @@ struct Camera {
   glm::dvec3 up{0.0, 1.0, 0.0};  ///< need not be orthogonal to the view direction, must not be parallel to it
   double fov_y_deg = 40.0;       ///< vertical field of view, (0, 180); ignored when ortho_height > 0
   double ortho_height = 0.0;     ///< world height of an orthographic picture; 0 = perspective
+  bool operator==(const Camera&) const = default;
 };
 
 /// A light in world space. Intensities are linear rgb.
@@ -35,6 +36,7 @@ struct SceneLight {
   std::uint32_t kind = LIGHT_DIRECTIONAL;  ///< LIGHT_*
   glm::dvec3 position{0.0, 1.0, 0.0};      ///< point: position; directional: unit vector towards the light
   glm::vec3 power{1.0F};  ///< directional: irradiance facing it; point: intensity (irradiance * distance^2)
+  bool operator==(const SceneLight&) const = default;
 };
 
 enum class Insertion : std::uint32_t { overlap = 0, probe = 1, centre = 2 };
@@ -51,6 +53,8 @@ struct BuildParams {
   std::uint64_t seed = 1;
   bool normal_fields =
       true;  ///< fit a normal field to every splat of a curved scene; read from a file: it has them
+
+  bool operator==(const BuildParams&) const = default;
 };
 
 /// A splat in full precision, root space; what 128 bits decode to.
@@ -106,6 +110,12 @@ struct Scene {
   /// Length of the bounding box's diagonal, world units.
   [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }
 };
+
+/// Most dielectrics that a ray can be inside of at once.
+inline constexpr std::uint32_t MASK_BITS = 32;
+/// Gives each dielectric, in the order of the objects, its Material::mask_bit. Those beyond MASK_BITS share bits and must
+/// not overlap.
+void assign_mask_bits(std::vector<Material>& materials);
 
 /// Indices into data_pool of one reference per splat: the one in the leaf that holds the centre. Ascending.
 [[nodiscard]] std::vector<std::uint32_t> home_references(const Scene& scene);
