@@ -24,7 +24,6 @@ namespace splatray {
 namespace {
 
 constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
-constexpr std::uint32_t MASK_BITS = 32;
 
 /// Adds the time since its construction to a number of milliseconds when it ends.
 class Stopwatch {
@@ -62,16 +61,14 @@ Scene describe_scene(Input& input, const BuildParams& params) {
   scene.camera = input.camera;
   scene.up = input.up.value_or(glm::dvec3(0.0, 1.0, 0.0));
   scene.environment_path = std::move(input.environment_path);
-  std::uint32_t dielectrics = 0;
   bool area_known = !input.objects.empty();
   for (InputObject& object : input.objects) {
-    Material material = object.material;
-    if ((material.flags & MATERIAL_DIELECTRIC) != 0) material.mask_bit = dielectrics++ % MASK_BITS;
-    scene.materials.push_back(material);
+    scene.materials.push_back(object.material);
     scene.object_names.push_back(std::move(object.name));
     scene.surface_area_world += object.surface_area;
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
   }
+  assign_mask_bits(scene.materials);
   if (!area_known) scene.surface_area_world = 0.0;
   return scene;
 }

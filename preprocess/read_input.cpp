@@ -40,13 +40,12 @@ void merge(Input& to, Input&& more) {
   to.environment_path = to.environment_path.empty() ? more.environment_path : to.environment_path;
 }
 
-/// build_scene numbers the dielectrics modulo 32, the bits of a ray's mask of what it is inside of.
+/// assign_mask_bits numbers the dielectrics modulo 32.
 void note_many_dielectrics(Input& input) {
-  constexpr std::ptrdiff_t MASK_BITS = 32;
   const auto count = std::count_if(input.objects.begin(), input.objects.end(), [](const InputObject& object) {
     return (object.material.flags & MATERIAL_DIELECTRIC) != 0;
   });
-  if (count > MASK_BITS) {
+  if (count > std::ptrdiff_t{MASK_BITS}) {
     input.notes.push_back("found " + std::to_string(count) +
                           " dielectric objects; those whose numbers agree modulo 32 must not overlap");
   }
