@@ -21,7 +21,9 @@ layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
 
 layout(local_size_x = GROUP_SIZE) in;
 
-layout(std140, binding = BIND_FRAME) uniform FrameBlock { FrameParams frame; };
+// No uniform block: Mesa's lavapipe compiles a shader anew, 0.3 s and more, for other values of uniforms that a branch
+// depends on, so for each camera.
+layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame; };
 layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterTable { uint counters[COUNTER_COUNT]; };
 

@@ -92,7 +92,7 @@ struct Light {
   float unused;   ///< zero
 };
 
-/// Uniform block, std140-compatible: every vec3 is followed by a scalar. Root space unless said.
+/// What a dispatch is told; std140: every vec3 is followed by a scalar. Root space unless said.
 struct FrameParams {
   vec3 origin_00;  ///< primary ray through pixel position (0, 0) (top left corner): point on the ray
   uint width;      ///< image size, pixels

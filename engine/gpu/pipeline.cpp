@@ -12,8 +12,6 @@ constexpr std::uint32_t BINDING_COUNT = BIND_HITS + 1;
 
 VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   switch (binding) {
-    case BIND_FRAME:
-      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case BIND_NODE_POOL:
     case BIND_BEGIN_END:
     case BIND_DATA_POOL:

@@ -108,7 +108,7 @@ Tracer::Impl::Impl(const Context& device, PoolAccess access)
       queue(device),
       pipelines(device),
       environment(device, queue, {}) {
-  frame_buffer = Buffer(device, sizeof(FrameParams), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+  reserve(device, frame_buffer, sizeof(FrameParams));
   for (Buffer* buffer : {&material_buffer, &light_buffer, &accumulation, &aov, &rays, &hits})
     reserve(device, *buffer, 0);
   reserve(device, counters, COUNTER_COUNT * sizeof(std::uint32_t));
