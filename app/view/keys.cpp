@@ -15,25 +15,25 @@ constexpr int LEFT = GLFW_MOUSE_BUTTON_LEFT, MIDDLE = GLFW_MOUSE_BUTTON_MIDDLE,
               RIGHT = GLFW_MOUSE_BUTTON_RIGHT;
 
 constexpr Binding key(Action action, int code, int modifiers, const char* does) {
-  return {action, Input::key, code, code, modifiers, does};
+  return {action, InputKind::key, code, code, modifiers, does};
 }
 constexpr Binding digits(Action action, int modifiers, const char* does) {
-  return {action, Input::key, GLFW_KEY_1, GLFW_KEY_9, modifiers, does};
+  return {action, InputKind::key, GLFW_KEY_1, GLFW_KEY_9, modifiers, does};
 }
-constexpr Binding mouse(Action action, Input input, int button, int modifiers, const char* does) {
+constexpr Binding mouse(Action action, InputKind input, int button, int modifiers, const char* does) {
   return {action, input, button, button, modifiers, does};
 }
 constexpr Binding flight(Action action, int code, const char* does) {
-  return {action, Input::fly_key, code, code, 0, does};
+  return {action, InputKind::fly_key, code, code, 0, does};
 }
 
 constexpr std::array BINDINGS = {
-    mouse(Action::orbit, Input::drag, LEFT, 0,
+    mouse(Action::orbit, InputKind::drag, LEFT, 0,
           "orbit about the pivot, the point in the middle of the picture"),
-    mouse(Action::pan, Input::drag, MIDDLE, 0, "pan: the point taken hold of stays under the cursor"),
-    mouse(Action::pan, Input::drag, LEFT, SHIFT, ""),
-    mouse(Action::zoom, Input::wheel, 0, 0, "zoom to the cursor"),
-    mouse(Action::look, Input::drag, RIGHT, 0, "look around from where you are"),
+    mouse(Action::pan, InputKind::drag, MIDDLE, 0, "pan: the point taken hold of stays under the cursor"),
+    mouse(Action::pan, InputKind::drag, LEFT, SHIFT, ""),
+    mouse(Action::zoom, InputKind::wheel, 0, 0, "zoom to the cursor"),
+    mouse(Action::look, InputKind::drag, RIGHT, 0, "look around from where you are"),
     flight(Action::fly, GLFW_KEY_W,
            "while the right button is down: fly forward, left, back, right, down, up"),
     flight(Action::fly, GLFW_KEY_A, ""),
@@ -42,10 +42,10 @@ constexpr std::array BINDINGS = {
     flight(Action::fly, GLFW_KEY_Q, ""),
     flight(Action::fly, GLFW_KEY_E, ""),
     flight(Action::fly_fast, GLFW_KEY_LEFT_SHIFT, "while flying: five times as fast"),
-    mouse(Action::pivot, Input::double_click, LEFT, 0, "make the point under the cursor the pivot"),
-    mouse(Action::pivot, Input::click, MIDDLE, 0, ""),
-    mouse(Action::inspect, Input::click, LEFT, 0, "inspect the splat under the cursor"),
-    mouse(Action::drag_light, Input::drag, LEFT, CTRL,
+    mouse(Action::pivot, InputKind::double_click, LEFT, 0, "make the point under the cursor the pivot"),
+    mouse(Action::pivot, InputKind::click, MIDDLE, 0, ""),
+    mouse(Action::inspect, InputKind::click, LEFT, 0, "inspect the splat under the cursor"),
+    mouse(Action::drag_light, InputKind::drag, LEFT, CTRL,
           "drag the light selected in the panel about the scene"),
     key(Action::frame_all, GLFW_KEY_F, 0, "frame the whole scene"),
     key(Action::home, GLFW_KEY_HOME, 0, "the camera as it was loaded"),
@@ -94,16 +94,16 @@ const char* key_name(int code) {
 std::string input_name(const Binding& binding) {
   static constexpr std::array BUTTONS = {"left", "right", "middle"};  // in the order of GLFW_MOUSE_BUTTON_*
   switch (binding.input) {
-    case Input::wheel:
+    case InputKind::wheel:
       return "wheel";
-    case Input::drag:
+    case InputKind::drag:
       return std::string(BUTTONS[binding.code]) + " drag";
-    case Input::click:
+    case InputKind::click:
       return std::string(BUTTONS[binding.code]) + " click";
-    case Input::double_click:
+    case InputKind::double_click:
       return "double click";
-    case Input::key:
-    case Input::fly_key:
+    case InputKind::key:
+    case InputKind::fly_key:
       break;
   }
   if (const char* name = key_name(binding.code)) return name;
@@ -115,8 +115,8 @@ std::string input_name(const Binding& binding) {
 
 std::span<const Binding> bindings() { return BINDINGS; }
 
-std::optional<Command> command_for(Input input, int code, int modifiers) {
-  if (input == Input::key && code >= GLFW_KEY_KP_0 && code <= GLFW_KEY_KP_9)
+std::optional<Command> command_for(InputKind input, int code, int modifiers) {
+  if (input == InputKind::key && code >= GLFW_KEY_KP_0 && code <= GLFW_KEY_KP_9)
     code += GLFW_KEY_0 - GLFW_KEY_KP_0;
   for (const Binding& binding : BINDINGS) {
     if (binding.input != input || code < binding.code || code > binding.last_code) continue;

@@ -46,12 +46,12 @@ enum class Action {
 };
 
 /// What happens on keyboard or mouse.
-enum class Input { key, fly_key, drag, click, double_click, wheel };
+enum class InputKind { key, fly_key, drag, click, double_click, wheel };
 
 /// One row of the table.
 struct Binding {
   Action action;
-  Input input;
+  InputKind input;
   int code;  ///< key: GLFW_KEY_*, by its place on a US keyboard; drag, click: GLFW_MOUSE_BUTTON_*; else 0
   int last_code;     ///< codes code..last_code are meant; equal but for digits
   int modifiers;     ///< GLFW_MOD_SHIFT, _CONTROL, _ALT; all that are held, no other
@@ -69,7 +69,7 @@ struct Command {
 
 /// What an input asks for; digits of the number pad count as digits. `code` and `modifiers` as in Binding (other
 /// modifiers, such as caps lock, are not looked at). For key, drag, click and double_click.
-[[nodiscard]] std::optional<Command> command_for(Input input, int code, int modifiers);
+[[nodiscard]] std::optional<Command> command_for(InputKind input, int code, int modifiers);
 
 /// The direction to fly in for the keys that are down (right, up, forward; each -1, 0 or 1). `is_down` gets GLFW_KEY_*.
 [[nodiscard]] glm::dvec3 fly_direction(const std::function<bool(int)>& is_down);

@@ -8,7 +8,7 @@ namespace {
 constexpr double STILL_PX = 4.0;  ///< a press that moves less is a click
 constexpr std::chrono::milliseconds DOUBLE_CLICK{350};
 
-std::optional<Action> action_for(Input input, int button, int modifiers) {
+std::optional<Action> action_for(InputKind input, int button, int modifiers) {
   const std::optional<Command> command = command_for(input, button, modifiers);
   return command ? std::optional(command->action) : std::nullopt;
 }
@@ -21,7 +21,7 @@ std::optional<Gesture> Mouse::take(const InputEvent& event, bool over_controls, 
     case Kind::press:
       if (!held_ && !over_controls)
         held_ = Held{event.code, event.modifiers, event.position_px, event.position_px,
-                     action_for(Input::drag, event.code, event.modifiers)};
+                     action_for(InputKind::drag, event.code, event.modifiers)};
       return {};
     case Kind::move:
       return held_ ? move(event.position_px) : std::nullopt;
@@ -51,7 +51,7 @@ std::optional<Gesture> Mouse::release(const InputEvent& event, Clock::time_point
   clicked_button_ = twice ? -1 : held.button;
   clicked_ = now;
   clicked_px_ = event.position_px;
-  const auto action = action_for(twice ? Input::double_click : Input::click, held.button, held.modifiers);
+  const auto action = action_for(twice ? InputKind::double_click : InputKind::click, held.button, held.modifiers);
   return action ? std::optional(Gesture{*action, event.position_px, event.position_px}) : std::nullopt;
 }
 

@@ -17,7 +17,11 @@ constexpr double FLY_FAST = 5.0;
 constexpr double LONGEST_FLIGHT_S = 0.25;  ///< a stall must not carry the camera away
 constexpr double LOOK_SHARE = 0.5;         ///< of the angle that the same drag orbits
 /// Distances and orthographic heights that zoom reaches, scene radii.
-constexpr double NEAREST_RADII = 1e-6, FARTHEST_RADII = 1e6;
+constexpr double NEAREST_RADII = 1e-6, FARTHEST_RADII = 100.0;
+/// How far from the scene's centre the pivot goes, scene radii; with FARTHEST_RADII within what make_frame_params takes.
+constexpr double LOST_RADII = 1000.0;
+/// Of a scene whose points all lie in one place: the radius that preprocess gives them.
+constexpr double LONE_RADIUS_WORLD = 1.0;
 /// Coordinates this many rounding steps apart still give directions of three digits.
 constexpr double STEPS_APART = 1e4;
 /// Below this cosine of the elevation the azimuth is read from the camera's up, not from its view direction.
@@ -108,13 +112,16 @@ Camera start_of(const Document& document) {
   return camera;
 }
 
-/// Takes the camera over if it sees anything; moves an orthographic one out of the scene.
+/// Takes the camera over unless it sees nothing or leaves the scene behind; moves an orthographic one out of the scene.
 void finish(Document& document, Camera camera) {
-  if (!sees(camera)) return;
+  const glm::dvec3 center = center_of(document);
+  const double off_center = glm::length(camera.target - center);
+  const bool lost = off_center > LOST_RADII * scene_radius_world(document) &&
+                    off_center > glm::length(document.camera.target - center);
+  if (lost || !sees(camera)) return;
   if (camera.ortho_height > 0.0) {
     const glm::dvec3 back = glm::normalize(camera.eye - camera.target);
-    const double outside =
-        2.0 * scene_radius_world(document) + glm::length(camera.target - center_of(document));
+    const double outside = 2.0 * scene_radius_world(document) + off_center;
     camera.eye = camera.target + back * std::max(outside, glm::length(camera.eye - camera.target));
   }
   if (sees(camera)) document.camera = camera;
@@ -162,7 +169,7 @@ Scene framed_scene(const Document& document) {
 double scene_radius_world(const Document& document) {
   const double radius = 0.5 * glm::length(document.bounds_max_world - document.bounds_min_world);
   const double resolved = resolved_length(document.bounds_min_world, document.bounds_max_world);
-  return std::max({radius, resolved, 1e-30});
+  return std::max(radius > 0.0 ? radius : LONE_RADIUS_WORLD, resolved);
 }
 
 glm::dvec3 point_under(const Camera& camera, glm::dvec2 position_px, glm::dvec2 size_px) {
@@ -314,7 +321,7 @@ void drag_light(const Document& document, glm::dvec2 position_px, glm::dvec2 siz
   const double half_chord = std::sqrt(std::max(0.0, radius * radius - glm::dot(passing, passing)));
   const bool inside = glm::length(origin - center) < radius;
   const glm::dvec3 touched = glm::normalize(passing + (inside ? half_chord : -half_chord) * dir);
-  if (!finite(touched)) return;
+  if (!(glm::length(touched) > 0.5)) return;  // too far away for numbers
   light.position =
       light.kind == LIGHT_POINT ? center + glm::length(light.position - center) * touched : touched;
 }

@@ -13,8 +13,8 @@ namespace splatray {
 /// From where an axis view looks, as named in upright_axes: front is where the default camera stands.
 enum class AxisView { front, back, right, left, top, bottom };
 
-/// Half the diagonal of the document's bounding box, world units; > 0 also for a single point, then what float64 tells
-/// apart there.
+/// Half the diagonal of the document's bounding box, world units; 1 for a single point, and never less than what float64
+/// tells apart there.
 [[nodiscard]] double scene_radius_world(const Document& document);
 
 /// The point under `position_px` in the plane of the pivot across the view direction.

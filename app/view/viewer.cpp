@@ -138,7 +138,7 @@ void Viewer::handle_inputs() {
   const Gui& gui = presenter_.gui();
   for (const InputEvent& event : window_.take_inputs()) {
     if (event.kind == InputEvent::Kind::key) {
-      const std::optional<Command> command = command_for(Input::key, event.code, event.modifiers);
+      const std::optional<Command> command = command_for(InputKind::key, event.code, event.modifiers);
       if (command && (!gui.wants_keyboard() || command->action == Action::escape)) handle(*command);
       continue;
     }
