@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <memory>
 
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
@@ -42,16 +44,23 @@ struct Picture {
               "cannot read picture '" + path.string() + "': found " + found + ", expected " + expected);
 }
 
-Picture read_picture(const std::filesystem::path& path) {
-  constexpr const char* EXPECTED = "an image such as HDR, EXR or PNG";
+constexpr const char* EXPECTED = "an image such as HDR, EXR or PNG";
+
+/// Opens a picture file and reads its header.
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) refuse(path, "no such file", EXPECTED);
   if (!std::filesystem::is_regular_file(path, error)) refuse(path, "a folder or device", EXPECTED);
-  const auto input = OIIO::ImageInput::open(path.string());
+  auto input = OIIO::ImageInput::open(path.string());
   if (!input) {
     (void)OIIO::geterror();
     refuse(path, "no picture OpenImageIO can open", EXPECTED);
   }
+  return input;
+}
+
+Picture read_picture(const std::filesystem::path& path) {
+  const auto input = open_picture(path);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
       spec.image_pixels() > MOST_PIXELS)
@@ -67,6 +76,12 @@ Picture read_picture(const std::filesystem::path& path) {
   for (auto value = values.cbegin(); value != values.cend(); value += channels)
     picture.rgb.push_back(channels == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]));
   return picture;
+}
+
+constexpr const char* PREFIX = "splatray.";  ///< of the names of our metadata
+
+void add_metadata(const Metadata& metadata, OIIO::ImageSpec& spec) {
+  for (const auto& [name, value] : metadata) spec.attribute(PREFIX + name, value);
 }
 
 /// Writes pixels under a temporary name; all formats and failures the same way.
@@ -103,7 +118,7 @@ void quantise(DisplayImage& image) {
   for (vec3& pixel : image.rgb) pixel = glm::round(pixel * 255.0F) / 255.0F;
 }
 
-void write_png(const DisplayImage& image, const std::filesystem::path& path) {
+void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(3 * image.rgb.size());
   for (const vec3& pixel : image.rgb)
@@ -112,6 +127,7 @@ void write_png(const DisplayImage& image, const std::filesystem::path& path) {
   OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3,
                        OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  add_metadata(metadata, spec);
   write_picture(spec, bytes.data(), OIIO::TypeDesc::UINT8, "png", path);
 }
 
@@ -137,8 +153,20 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
   spec.alpha_channel = 3;
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("compression", "zip");
-  for (const auto& [name, value] : metadata) spec.attribute("splatray." + name, value);
+  spec.attribute("DateTime", "");  // else the time of writing: the same picture makes the same file
+  add_metadata(metadata, spec);
   write_picture(spec, values.data(), OIIO::TypeDesc::FLOAT, "openexr", path);
+}
+
+Metadata read_metadata(const std::filesystem::path& path) {
+  const auto input = open_picture(path);
+  Metadata metadata;
+  for (const OIIO::ParamValue& attribute : input->spec().extra_attribs) {
+    const std::string name = attribute.name().string();
+    if (name.starts_with(PREFIX))
+      metadata.emplace_back(name.substr(std::strlen(PREFIX)), attribute.get_string());
+  }
+  return metadata;
 }
 
 DisplayImage read_display_image(const std::filesystem::path& path, double exposure_ev) {

@@ -25,19 +25,23 @@ struct DisplayImage {
 /// Rounds each channel to the 8 bits a PNG stores.
 void quantise(DisplayImage& image);
 
-/// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); leaves no partial file.
-void write_png(const DisplayImage& image, const std::filesystem::path& path);
-
 /// Which auxiliary channels an EXR gets beside R G B A: Z; N.X N.Y N.Z; id.
 struct AovChannels {
   bool depth = false, normal = false, id = false;
 };
-/// Names and values kept in the file's header.
+/// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, their names after "splatray.".
 using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); leaves no partial file.
+void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path);
 
 /// Writes linear float EXR. Throws Error (failed); leaves no partial file.
 void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
                const std::filesystem::path& path);
+
+/// Reads what write_png or write_exr kept; empty for pictures of others. Throws Error (input_unreadable) with path,
+/// found and expected.
+[[nodiscard]] Metadata read_metadata(const std::filesystem::path& path);
 
 /// Reads a picture to compare with: files of 8 or 16 bit as they are, float files (EXR, HDR) through
 /// display_value. Throws Error (input_unreadable) with path, found and expected.

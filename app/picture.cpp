@@ -1,32 +1,20 @@
 #include "app/picture.h"
 
 #include <cstdio>
-#include <sstream>
 
+#include "app/command_line.h"
 #include "app/commit.h"
 #include "app/compare.h"
+#include "app/reproduce.h"
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
+#include "engine/host/number_text.h"
 #include "preprocess/file_extension.h"
 
 namespace splatray {
 namespace {
 
 bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
-
-std::string text(const glm::dvec3& v) {
-  std::ostringstream stream;
-  stream.precision(17);
-  stream << v.x << ',' << v.y << ',' << v.z;
-  return stream.str();
-}
-
-std::string text(double value) {
-  std::ostringstream stream;
-  stream.precision(17);
-  stream << value;
-  return stream.str();
-}
 
 std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
@@ -53,22 +41,23 @@ std::optional<DisplayImage> read_reference(const RenderOptions& options) {
 Metadata picture_metadata(const RenderOptions& options, const Scene& scene, const View& view,
                           const Context& context) {
   const Camera& camera = view.camera;
-  return {{"command_line", options.command_line},
-          {"eye", text(camera.eye)},
-          {"target", text(camera.target)},
-          {"up", text(camera.up)},
-          {"fov_y_deg", text(camera.fov_y_deg)},
-          {"ortho_height", text(camera.ortho_height)},
-          {"diagonal_world", text(scene.diagonal_world())},
+  const bool ortho = camera.ortho_height > 0.0;
+  return {{"command_line", command_line(still_options(options, camera))},
+          {"eye", number_text(camera.eye)},
+          {"target", number_text(camera.target)},
+          {"up", number_text(camera.up)},
+          {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
+          {"diagonal_world", number_text(scene.diagonal_world())},
           {"device", context.device_info().name + ", " + context.device_info().driver},
           {"samples", std::to_string(options.picture.settings.samples)},
           {"seed", std::to_string(options.picture.settings.seed)},
           {"commit", COMMIT}};
 }
 
-void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata) {
-  if (is_png(options.output)) return write_png(display_image(image, options.exposure_ev), options.output);
-  write_exr(image, {options.aov_depth, options.aov_normal, options.aov_id}, metadata, options.output);
+void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata,
+                  const std::filesystem::path& path) {
+  if (is_png(path)) return write_png(display_image(image, options.exposure_ev), metadata, path);
+  write_exr(image, {options.aov_depth, options.aov_normal, options.aov_id}, metadata, path);
 }
 
 void require_match(const RenderOptions& options, const Image& image, const DisplayImage& reference) {
@@ -83,7 +72,7 @@ void require_match(const RenderOptions& options, const Image& image, const Displ
   }
   std::filesystem::path difference = options.output;
   difference.replace_extension(".diff.png");
-  write_png(comparison.difference, difference);
+  write_png(comparison.difference, {}, difference);
   throw Error(ExitCode::failed, "'" + options.output.string() + "' differs from '" +
                                     options.reference.string() + "': " + numbers + "; see '" +
                                     difference.string() + "'");

@@ -24,7 +24,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Throws Error (failed) when the picture or the statistics have no place to go.
+/// Throws Error (failed) when the pictures or the statistics have no place to go.
 void require_outputs_writable(const RenderOptions& options);
 
 /// The picture of --reference; nothing without the option. Throws Error: input_unreadable, or failed when its
@@ -32,12 +32,14 @@ void require_outputs_writable(const RenderOptions& options);
 /// --resolution's.
 [[nodiscard]] std::optional<DisplayImage> read_reference(const RenderOptions& options);
 
-/// Command line, camera, scene's diagonal, device, samples, seed and commit, for an EXR's header.
+/// The command line that makes this picture (still_options), camera, scene's diagonal, device, samples, seed and commit,
+/// for the picture's file.
 [[nodiscard]] Metadata picture_metadata(const RenderOptions& options, const Scene& scene, const View& view,
                                         const Context& context);
 
 /// Writes the picture in the format of its name. Throws Error (failed).
-void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata);
+void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata,
+                  const std::filesystem::path& path);
 
 /// Compares the picture, as its file shows it, with the reference. When they differ, writes
 /// `<output>.diff.png` beside it and throws Error (failed); else prints the numbers on stderr unless quiet.

@@ -1,11 +1,10 @@
-/// splatray-render: a scene in, a picture out.
+/// splatray-render: a scene in, pictures out.
 #include <cstdio>
 
 #include "app/options.h"
 #include "app/picture.h"
-#include "app/scene_source.h"
+#include "app/render_sequence.h"
 #include "app/stats_json.h"
-#include "engine/gpu/tracer.h"
 #include "engine/host/error.h"
 #include "engine/host/interrupt.h"
 #include "engine/host/progress.h"
@@ -46,6 +45,8 @@ int render(int argc, char** argv) {
   const RenderOptions& options = *parsed;
   if (options.list_devices) return print_devices();
 
+  const Sequence sequence = plan_sequence(options);
+  if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
   require_outputs_writable(options);
   const std::optional<DisplayImage> reference = read_reference(options);
   catch_interrupts();
@@ -57,30 +58,19 @@ int render(int argc, char** argv) {
   times.device_ms = watch.lap_ms();
 
   ProgressLine progress(options.quiet);
-  LoadedScene loaded = load(options, progress);
+  const LoadedScene loaded = load(options, progress);
   const Environment environment = choose_environment(loaded.environment_name);
-  const View view{choose_camera(loaded.scene, options.picture), options.picture.width,
-                  options.picture.height};
-  const Settings settings = choose_settings(loaded.scene, options.picture);
-  loaded.scene.lights = choose_lights(loaded, options.picture, view.camera);
 
   watch.lap_ms();
   Tracer tracer(context);
   tracer.upload(loaded.scene);
   tracer.set_environment(environment);
   times.upload_ms = watch.lap_ms();
-  const Image image = tracer.render(view, settings, [&](double share) {
-    progress.show("tracing", share);
-    return !interrupted();
-  });
-  progress.clear();
+  const SequenceRecord record = render_sequence(options, sequence, loaded, context, tracer, progress);
 
-  watch.lap_ms();
-  write_output(options, image, picture_metadata(options, loaded.scene, view, context));
-  times.write_ms = watch.lap_ms();
-  if (!options.stats_json.empty())
-    write_stats(options.stats_json, loaded, view, settings, context, tracer, times);
-  if (reference) require_match(options, image, *reference);
+  if (!options.stats_json.empty()) write_stats(options, loaded, context, tracer.pool_bytes(), times, record);
+  require_all_made(record);
+  if (reference) require_match(options, record.last, *reference);
   return static_cast<int>(ExitCode::done);
 }
 

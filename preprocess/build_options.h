@@ -6,26 +6,25 @@
 
 #include "engine/host/scene.h"
 
-namespace CLI {
-class App;
-}
-
 namespace splatray {
+
+class OptionList;
 
 /// Input files and how they become a scene.
 struct BuildOptions {
   std::vector<std::filesystem::path> inputs;
-  std::vector<std::filesystem::path>
-      data_paths;  ///< folders for models a scene names; SPLATRAY_DATA_DIR comes last
+  std::vector<std::filesystem::path> data_paths;  ///< folders for models a scene names
   BuildParams params;
   unsigned threads = 0;  ///< 0 = all cores
+
+  bool operator==(const BuildOptions&) const = default;
 };
 
 /// Adds the options. `samples_name` is the option for points sampled on meshes: --samples where that cannot
 /// mean samples per pixel, else --points.
-void add_build_options(CLI::App& app, BuildOptions& options, const std::string& samples_name);
+void add_build_options(OptionList& list, BuildOptions& options, const std::string& samples_name);
 
-/// Appends the folder of the variable SPLATRAY_DATA_DIR to the data paths, if it is set.
-void add_data_folder(BuildOptions& options);
+/// Folders for models a scene names: the data paths, then the variable SPLATRAY_DATA_DIR where it is set.
+[[nodiscard]] std::vector<std::filesystem::path> model_folders(const BuildOptions& options);
 
 }  // namespace splatray

@@ -24,26 +24,24 @@ struct Options {
 
 /// False when help was asked for and printed.
 bool parse(int argc, char** argv, Options& options) {
-  CLI::App app("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
-               "splatray-preprocess");
-  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts can append
-  app.add_option("INPUT", options.build.inputs, "files with points, meshes or a glTF scene")
+  OptionList list("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
+                  "splatray-preprocess");
+  list.add_option("INPUT", options.build.inputs, "files with points, meshes or a glTF scene")
       ->required()
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("-o,--output", options.output, "scene file to write (.soct)")->required();
-  add_build_options(app, options.build, "--samples");
-  add_number(app, "--seed", options.build.params.seed, 0, 4294967295.0,
+  list.add_option("-o,--output", options.output, "scene file to write (.soct)")->required();
+  add_build_options(list, options.build, "--samples");
+  add_number(list, "--seed", options.build.params.seed, 0, 4294967295.0,
              "seed of samples and probe rays; default 1");
-  app.add_option("--stats-json", options.stats_json, "file to write counts and times to");
-  if (!parse_options(app, argc, argv)) return false;
-  add_data_folder(options.build);
-  return true;
+  list.add_option("--stats-json", options.stats_json, "file to write counts and times to");
+  return parse_options(list, argc, argv);
 }
 
 Input read(const BuildOptions& options, BuildStats& stats) {
   const auto start = std::chrono::steady_clock::now();
-  Input input = read_input(options.inputs, {options.params.samples, options.params.seed, options.data_paths,
-                                            /*keep_meshes=*/false});
+  Input input =
+      read_input(options.inputs, {options.params.samples, options.params.seed, model_folders(options),
+                                  /*keep_meshes=*/false});
   stats.read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   for (const std::string& note : input.notes)
     std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());

@@ -22,22 +22,46 @@ std::vector<double> split_numbers(const std::string& text, char separator, std::
   return numbers.size() == count && text.back() != separator ? numbers : std::vector<double>{};
 }
 
-void add_vector(CLI::App& app, const std::string& name, std::optional<glm::dvec3>& target,
+glm::dvec3 read_vector(const std::string& name, const std::string& text) {
+  const auto numbers = split_numbers(text, ',', 3);
+  if (numbers.empty()) refuse_option(name, text, "three numbers such as 1,-2,0.5");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+void add_vector(OptionList& list, const std::string& name, std::optional<glm::dvec3>& target,
                 const std::string& help) {
-  app.add_option_function<std::string>(
-         name,
-         [name, &target](const std::string& text) {
-           const auto numbers = split_numbers(text, ',', 3);
-           if (numbers.empty()) refuse_option(name, text, "three numbers such as 1,-2,0.5");
-           target = glm::dvec3(numbers[0], numbers[1], numbers[2]);
-         },
-         help)
+  const auto read = [name, &target](const std::string& text) { target = read_vector(name, text); };
+  list.add_value(
+          name, read, [&target] { return target ? number_text(*target) : ""; }, help)
       ->type_name("X,Y,Z");
 }
 
+CLI::Option* add_text(OptionList& list, const std::string& name, std::string& target,
+                      const std::string& help) {
+  return list.add_value(
+      name, [&target](const std::string& text) { target = text; }, [&target] { return target; }, help);
+}
+
+void add_path(OptionList& list, const std::string& name, std::filesystem::path& target,
+              const std::string& help) {
+  list.add_value(
+          name, [&target](const std::string& text) { target = text; }, [&target] { return target.string(); },
+          help)
+      ->type_name("FILE");
+}
+
+void add_switch(OptionList& list, const std::string& name, bool& target, const std::string& help) {
+  list.add_flag(name, target, help);
+  list.add_words([name, &target] { return target ? Words{name} : Words{}; });
+}
+
 bool parse_options(CLI::App& app, int argc, char** argv) {
+  return parse_options(app, Words(argv + std::min(argc, 1), argv + argc));
+}
+
+bool parse_options(CLI::App& app, const Words& words) {
   try {
-    app.parse(argc, argv);
+    app.parse(Words(words.rbegin(), words.rend()));
   } catch (const CLI::Success& success) {
     app.exit(success);
     return false;

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "app/image_file.h"
 #include "preprocess/file_extension.h"
 
 namespace splatray {
@@ -28,13 +29,21 @@ std::string percent_decoded(std::string_view text) {
   return plain;
 }
 
+bool is_splatray_picture(const std::filesystem::path& file) {
+  const Metadata metadata = read_metadata(file);
+  return std::any_of(metadata.begin(), metadata.end(), [](const auto& entry) { return entry.first == "command_line"; });
+}
+
 }  // namespace
 
 DropKind drop_kind(const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 7> SCENES = {".soct", ".ply", ".obj", ".stl", ".vtp", ".gltf", ".glb"};
   const std::string extension = lower_extension(file);
   if (std::find(SCENES.begin(), SCENES.end(), extension) != SCENES.end()) return DropKind::scene;
-  return extension == ".hdr" || extension == ".exr" ? DropKind::environment : DropKind::unknown;
+  if (extension == ".json") return DropKind::camera;
+  if (extension == ".png") return DropKind::picture;
+  if (extension == ".exr") return is_splatray_picture(file) ? DropKind::picture : DropKind::environment;
+  return extension == ".hdr" ? DropKind::environment : DropKind::unknown;
 }
 
 std::vector<std::filesystem::path> pasted_files(const std::string& text) {

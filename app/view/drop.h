@@ -9,11 +9,13 @@ namespace splatray {
 /// What a file is for.
 enum class DropKind {
   scene,        ///< a .soct or what splatray-preprocess reads
-  environment,  ///< .hdr, .exr
+  picture,      ///< of splatray: .png, .exr with options kept in it
+  environment,  ///< another .exr, .hdr
+  camera,       ///< .json
   unknown
 };
 
-/// By the file's name.
+/// By the file's name; a .exr by its content.
 [[nodiscard]] DropKind drop_kind(const std::filesystem::path& file);
 
 /// The files that a pasted text names: a path or file: URI on each line (RFC 8089), as file managers copy them.

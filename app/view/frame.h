@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/document.h"
+#include "app/view/false_color.h"
 #include "engine/gpu/pools.h"
 #include "engine/gpu/tracer.h"
 #include "engine/host/image.h"
@@ -20,6 +20,7 @@ struct Frame {
   ViewMode mode = ViewMode::shaded;
   std::vector<std::uint8_t> display;  ///< what a screen shows: sRGB 8 bit rgba, r first
   std::uint32_t samples = 0;  ///< in every pixel
+  ColorRange range;                   ///< of the colours of `mode`
   bool moving = false;        ///< coarse: what is shown changes
   double scale = 1.0;         ///< traced pixels / window pixels, along an edge; below 1 while moving
   double ms = 0.0;            ///< wall time of the last whole pass over the picture

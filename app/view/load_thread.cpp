@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/scene_source.h"
+#include "app/view/document_options.h"
 #include "engine/host/error.h"
 
 namespace splatray {
@@ -14,22 +15,6 @@ std::string stage_text(const char* stage, const SceneOptions& scene) {
 }
 
 }  // namespace
-
-Document first_document(const LoadedScene& loaded, const SceneOptions& options, const PictureOptions& picture) {
-  const Scene& scene = loaded.scene;
-  Document document;
-  document.source = options;
-  document.object_names = scene.object_names;
-  document.loaded_materials = document.materials = scene.materials;
-  document.camera = choose_camera(scene, picture);
-  document.lights = choose_lights(loaded, picture, document.camera);
-  document.environment = loaded.environment_name;
-  document.settings = choose_settings(scene, picture);
-  document.up = scene.up;
-  document.bounds_min_world = scene.bounds_min_world;
-  document.bounds_max_world = scene.bounds_max_world;
-  return document;
-}
 
 LoadThread::LoadThread(std::function<void()> wake) : wake_(std::move(wake)), thread_([this] { run(); }) {}
 
@@ -99,7 +84,9 @@ void LoadThread::load_now(const Wish& wish) {
         return !is_cancelled();
       },
       [&](const std::string& note) { deliver([&](LoadNews& news) { news.notice = note; }); }};
-  LoadedScene loaded = load_scene(wish.scene, wish.picture, listener);
+  PictureOptions picture = wish.picture;
+  picture.objects.clear();  // the document keeps the materials without them
+  LoadedScene loaded = load_scene(wish.scene, picture, listener);
   OpenedScene opened{nullptr, first_document(loaded, wish.scene, wish.picture)};
   opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));
   if (is_cancelled()) return;

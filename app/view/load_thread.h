@@ -13,8 +13,6 @@
 
 namespace splatray {
 
-struct LoadedScene;
-
 /// How far loading has come.
 struct LoadProgress {
   std::string stage;   ///< "octree dragon.ply"
@@ -70,9 +68,5 @@ class LoadThread {
   bool ending_ = false, cancelled_ = false;
   std::thread thread_;
 };
-
-/// The document of a scene just loaded, with the camera, lights and settings that the options ask for.
-[[nodiscard]] Document first_document(const LoadedScene& loaded, const SceneOptions& scene,
-                                      const PictureOptions& picture);
 
 }  // namespace splatray

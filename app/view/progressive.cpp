@@ -1,6 +1,5 @@
 #include "app/view/progressive.h"
 
-#include "app/view/false_color.h"
 #include "engine/host/error.h"
 
 namespace splatray {
@@ -144,7 +143,8 @@ SharedFrame Progressive::coloured(Frame frame) {
     if (!table_ || table_->exposure_ev() != document_.exposure_ev) table_.emplace(document_.exposure_ev);
     frame.display = table_->rgba(frame.image.rgba);
   } else {
-    frame.display = false_color(frame.image.aov, frame.mode, color_range(frame.image.aov, frame.mode));
+    frame.range = color_range(frame.image.aov, frame.mode);
+    frame.display = false_color(frame.image.aov, frame.mode, frame.range);
   }
   last_ = std::make_shared<const Frame>(std::move(frame));
   return last_;

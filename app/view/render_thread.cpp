@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/view/inspect.h"
-#include "app/view/save.h"
 #include "engine/host/error.h"
 
 namespace splatray {
@@ -109,13 +108,11 @@ void RenderThread::answer(const PickRequest& request) {
 void RenderThread::save_now(const SaveJob& job) {
   std::string notice;
   attempt([&] {
-    live_.match(job.document, ViewMode::shaded);
-    save_picture(job.document, job.request, live_, context_, [this](double share) {
-      deliver([&](RenderNews& news) { news.saving = share; });
+    notice = save_pictures(job, live_, context_, [this](const Work& work) {
+      deliver([&](RenderNews& news) { news.saving = work; });
       const std::lock_guard lock(mutex_);
       return !cancelled_ && !ending_;
     });
-    notice = "saved '" + job.request.path + "'";
   });
   deliver([&](RenderNews& news) {
     news.saving.reset();

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "app/view/live_scene.h"
-#include "app/view/panels.h"
 #include "app/view/progressive.h"
+#include "app/view/save.h"
 #include "engine/gpu/context.h"
 
 namespace splatray {
@@ -27,19 +27,13 @@ struct Pick {
   bool as_pivot = false;
 };
 
-/// A picture that is to be written, and what its file tells about it.
-struct SaveJob {
-  Document document;
-  SaveRequest request;
-};
-
 /// What has come from the render thread since it was last asked.
 struct RenderNews {
   SharedFrame frame;
   std::optional<Pick> pick;
-  std::optional<double> saving;  ///< share done; nothing: no picture is being saved
-  std::string notice;            ///< a sentence
-  std::string error;             ///< a sentence
+  std::optional<Work> saving;  ///< nothing: no picture is being saved
+  std::string notice;          ///< a sentence
+  std::string error;           ///< a sentence
 };
 
 /// All members are for one thread, the window's, and return at once.

@@ -1,5 +1,5 @@
 /// splatray-view: a scene in a window.
-#include "app/options.h"
+#include "app/view/view_options.h"
 #include "app/view/viewer.h"
 #include "engine/host/error.h"
 #include "engine/host/interrupt.h"

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "app/camera_file.h"
+#include "app/command_line.h"
+#include "app/reproduce.h"
+#include "app/view/document_options.h"
 #include "app/view/drop.h"
 #include "app/view/navigation.h"
 #include "engine/host/error.h"
@@ -16,6 +20,13 @@ using Clock = ViewStats::Clock;
 constexpr int FRAMES_TO_SETTLE = 3;
 constexpr double SIGNAL_SECONDS = 0.5;  ///< between looks for an interrupt
 constexpr double CARET_SECONDS = 0.2;   ///< between looks at a text that is being written
+
+bool flies_fast(const Window& window) {
+  const auto all = bindings();
+  return std::any_of(all.begin(), all.end(), [&](const Binding& binding) {
+    return binding.action == Action::fly_fast && window.is_down(binding.code);
+  });
+}
 
 /// With the size of the window that was closed last, unless another is asked for.
 ViewOptions sized(ViewOptions options, const UserState& user) {
@@ -66,7 +77,8 @@ double Viewer::patience() const {
 void Viewer::take_news() {
   take_load_news();
   take_render_news();
-  for (const std::filesystem::path& file : window_.take_dropped()) take_dropped(file);
+  for (const std::filesystem::path& file : window_.take_dropped())
+    attempt([&] { take_dropped(file); });
 }
 
 void Viewer::take_load_news() {
@@ -85,7 +97,7 @@ void Viewer::take_render_news() {
     presenter_.set_picture(frame_->display, frame_->view.width, frame_->view.height);
     stats_.shown(frame_, Clock::now());
   }
-  if (news.saving) work_ = {"saving", *news.saving};
+  if (news.saving) work_ = news.saving;
   if (!news.notice.empty()) panels_.notice = news.notice;
   if (!news.error.empty()) panels_.error = news.error;
   if (!news.pick) return;
@@ -106,6 +118,11 @@ void Viewer::open(const std::filesystem::path& file) {
   loader_.load(scene, picture);
 }
 
+void Viewer::open(const RenderOptions& options) {
+  document_.exposure_ev = options.exposure_ev;
+  loader_.load(options.scene, options.picture);
+}
+
 void Viewer::show(OpenedScene opened) {
   opened.document.exposure_ev = document_.exposure_ev;
   opened.document.mode = document_.mode;
@@ -122,15 +139,30 @@ void Viewer::show(OpenedScene opened) {
   renderer_.open(std::move(opened.scene), document_, picture_px());
 }
 
+/// What goes wrong becomes a sentence in the window.
+void Viewer::attempt(const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const Error& error) {
+    panels_.error = error.what();
+  }
+}
+
 void Viewer::take_dropped(const std::filesystem::path& file) {
   switch (drop_kind(file)) {
     case DropKind::scene:
       return open(file);
+    case DropKind::picture:
+      return open(read_picture_options(file));
     case DropKind::environment:
       document_.environment = file.string();
       return;
+    case DropKind::camera:
+      document_.camera = read_camera(file);
+      return;
     case DropKind::unknown:
-      panels_.error = "found '" + file.filename().string() + "', expected a scene, a model or an environment";
+      panels_.error = "found '" + file.filename().string() +
+                      "', expected a scene, a model, an environment, a camera or a picture of splatray";
   }
 }
 
@@ -179,7 +211,7 @@ void Viewer::fly_on() {
     flown_ = now;
     return;
   }
-  fly(document_, direction, std::chrono::duration<double>(now - flown_).count(), false);
+  fly(document_, direction, std::chrono::duration<double>(now - flown_).count(), flies_fast(window_));
   flown_ = now;
   window_.wake();
 }
@@ -192,8 +224,10 @@ void Viewer::handle(const Command& command) {
       return;
     case Action::escape:
       return cancel();
+    case Action::copy_command:
+      return copy();
     case Action::paste_command:
-      return paste();
+      return attempt([this] { paste(); });
     default:
       return;
   }
@@ -204,6 +238,7 @@ void Viewer::draw_controls() {
   PanelView view;
   view.frame = frame_.get();
   view.inspected = inspected_ ? &*inspected_ : nullptr;
+  if (frame_) view.range = frame_->range;
   view.frames_per_second = stats_.per_second(Clock::now());
   view.work = work_ ? &*work_ : nullptr;
   handle(draw_panels(document_, panels_, view));
@@ -212,7 +247,8 @@ void Viewer::draw_controls() {
 void Viewer::handle(const Requests& requests) {
   for (const Command& command : requests.commands) handle(command);
   if (requests.open) open(*requests.open);
-  if (requests.save && has_scene_) renderer_.save({document_, *requests.save});
+  if (requests.save && has_scene_) renderer_.save(save_job(document_, *requests.save));
+  if (requests.record && has_scene_) renderer_.save(save_job(document_, *requests.record));
   if (requests.cancel) cancel();
 }
 
@@ -221,8 +257,21 @@ void Viewer::cancel() {
   renderer_.cancel_save();
 }
 
+void Viewer::copy() {
+  if (!has_scene_) return;
+  RenderOptions options = render_options(document_, picture_px().x, picture_px().y);
+  options.output = panels_.save.path;
+  window_.set_clipboard(command_line(options));
+  panels_.notice = "copied a splatray-render command";
+}
+
+/// A splatray-render command, or files as file managers copy them.
 void Viewer::paste() {
-  for (const std::filesystem::path& file : pasted_files(window_.clipboard())) take_dropped(file);
+  const std::string text = window_.clipboard();
+  const std::vector<std::string> words = shell_words(text);
+  if (!words.empty() && std::filesystem::path(words.front()).filename() == "splatray-render")
+    return open(parse_command_line(text));
+  for (const std::filesystem::path& file : pasted_files(text)) take_dropped(file);
 }
 
 /// Hands the document over; the render thread finds out whether anything has changed.
@@ -245,7 +294,9 @@ void Viewer::remember() {
 /// The part of the window that shows the picture, pixels; 0 x 0 while minimised.
 glm::uvec2 Viewer::picture_px() const {
   const glm::uvec2 window = window_.framebuffer_size();
-  const float column = panel_column_px(panels_, static_cast<float>(window.x));
+  const float width = static_cast<float>(window_.size().x);
+  if (width == 0.0F) return window;
+  const float column = panel_column_px(panels_, width) * static_cast<float>(window.x) / width;
   return {window.x - std::min(window.x, static_cast<std::uint32_t>(column)), window.y};
 }
 

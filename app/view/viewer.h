@@ -1,6 +1,8 @@
 /// The viewer: what a person does becomes a document, documents become pictures, pictures come into the window.
 #pragma once
-#include <memory>
+#include <filesystem>
+#include <functional>
+#include <optional>
 
 #include "app/view/load_thread.h"
 #include "app/view/mouse.h"
@@ -8,6 +10,7 @@
 #include "app/view/presenter.h"
 #include "app/view/render_thread.h"
 #include "app/view/user_files.h"
+#include "app/view/view_options.h"
 #include "app/view/view_stats.h"
 #include "app/view/window.h"
 
@@ -26,7 +29,9 @@ class Viewer {
   void take_news();
   void take_load_news();
   void take_render_news();
+  void attempt(const std::function<void()>& step);
   void open(const std::filesystem::path& file);
+  void open(const RenderOptions& options);
   void show(OpenedScene opened);
   void take_dropped(const std::filesystem::path& file);
   void handle_inputs();
@@ -36,6 +41,7 @@ class Viewer {
   void draw_controls();
   void handle(const Requests& requests);
   void cancel();
+  void copy();
   void paste();
   void submit();
   void remember();

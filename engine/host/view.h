@@ -31,6 +31,7 @@ struct Settings {
   float environment_strength = 1.0F;
   float environment_turn =
       0.0F;  ///< turns (1 = a full one) about the up axis, counter-clockwise seen from above
+
   bool operator==(const Settings&) const = default;
 };
 

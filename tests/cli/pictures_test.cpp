@@ -1,6 +1,7 @@
 /// Picture files and their comparison, without a program.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,7 +41,7 @@ TEST(DisplayValue, ShoulderIsContinuousMonotoneAndBounded) {
 TEST(ImageFile, PngRoundTrip) {
   const std::string path = temporary("round.png");
   DisplayImage display = display_image(gradient(), 0.0);
-  write_png(display, path);
+  write_png(display, {}, path);
   quantise(display);
   const DisplayImage copy = read_display_image(path, 0.0);
   ASSERT_EQ(copy.rgb.size(), display.rgb.size());
@@ -58,8 +59,21 @@ TEST(ImageFile, ExrKeepsLinearValuesAndIsAnEnvironment) {
   for (std::size_t i = 0; i < copy.texels.size(); ++i) EXPECT_EQ(copy.texels[i], vec3(image.rgba[i]));
 }
 
+TEST(ImageFile, KeepsMetadata) {
+  const Metadata metadata = {{"command_line", "splatray-render 'a\xC3\xA9 \n\"b' --eye=1,2,3"},
+                             {"seed", "1"}};
+  const auto sorted = [](Metadata entries) {
+    std::sort(entries.begin(), entries.end());
+    return entries;
+  };
+  write_png(display_image(gradient(), 0.0), metadata, temporary("meta.png"));
+  EXPECT_EQ(sorted(read_metadata(temporary("meta.png"))), metadata);
+  write_exr(gradient(), {}, metadata, temporary("meta.exr"));
+  EXPECT_EQ(sorted(read_metadata(temporary("meta.exr"))), metadata);
+}
+
 TEST(ImageFile, UnwritableIsAnError) {
-  EXPECT_THROW(write_png(display_image(gradient(), 0.0), temporary("missing/a.png")), Error);
+  EXPECT_THROW(write_png(display_image(gradient(), 0.0), {}, temporary("missing/a.png")), Error);
   EXPECT_THROW(write_exr(gradient(), {}, {}, temporary("missing/a.exr")), Error);
 }
 

@@ -55,9 +55,9 @@ Comparison compare_pictures(const Image& gpu, const Image& reference, const Tole
   Comparison result = compare(picture, truth, tolerance);
   std::cout << name << ": " << describe(result, tolerance) << '\n';
   if (!result.passed) {
-    write_png(picture, "picture_test_" + name + ".png");
-    write_png(truth, "picture_test_" + name + ".reference.png");
-    write_png(result.difference, "picture_test_" + name + ".difference.png");
+    write_png(picture, {}, "picture_test_" + name + ".png");
+    write_png(truth, {}, "picture_test_" + name + ".reference.png");
+    write_png(result.difference, {}, "picture_test_" + name + ".difference.png");
   }
   return result;
 }

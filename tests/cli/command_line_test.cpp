@@ -1,0 +1,220 @@
+/// Options as text and back: every field, every bit.
+#include "app/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <type_traits>
+
+#include "app/materials.h"
+#include "engine/host/error.h"
+#include "engine/host/number_text.h"
+#include "tests/property/dice.h"
+
+namespace splatray {
+namespace {
+
+using testing::Dice;
+
+/// Floats and doubles of all sizes, with all their bits in use.
+double number(Dice& dice, double least, double most) { return dice.log_between(least, most); }
+float small_float(Dice& dice) { return static_cast<float>(dice.unit()); }
+glm::dvec3 vector(Dice& dice) { return dice.in_cube() * number(dice, 1e-9, 1e9); }
+glm::vec3 color(Dice& dice) { return {dice.unit(), dice.unit(), dice.unit()}; }
+
+template <typename Value>
+void maybe(Dice& dice, std::optional<Value>& target, std::type_identity_t<Value> value) {
+  if (dice.chance(0.5)) target = value;
+}
+
+/// Text with all that shells, file systems and our own lists treat specially.
+std::string odd_text(Dice& dice) {
+  const std::string letters = "aZ7 .,:;=/\\'\"$`!*?[]{}()<>|&~#%@^+-_\t\n\xC3\xA9";
+  std::string text(1, 'x');
+  for (std::uint32_t i = dice.below(12); i > 0; --i)
+    text += letters[dice.below(std::uint32_t(letters.size()))];
+  return text;
+}
+
+ObjectOptions random_object(Dice& dice) {
+  ObjectOptions object;
+  object.object = odd_text(dice);
+  if (dice.chance(0.5)) object.preset = material_names()[dice.below(std::uint32_t(material_names().size()))];
+  maybe(dice, object.diffuse, color(dice));
+  maybe(dice, object.tint, color(dice));
+  maybe(dice, object.specular, small_float(dice));
+  maybe(dice, object.mirror, small_float(dice));
+  maybe(dice, object.shininess, static_cast<float>(number(dice, 1.0, 1e5)));
+  maybe(dice, object.ior, static_cast<float>(number(dice, 0.1, 10.0)));
+  maybe(dice, object.glass, dice.chance(0.5));
+  maybe(dice, object.two_sided, dice.chance(0.5));
+  object.hidden = dice.chance(0.5);  // no change at all cannot be written
+  return object;
+}
+
+LightOptions random_light(Dice& dice) {
+  LightOptions light{dice.chance(0.5) ? LIGHT_POINT : LIGHT_DIRECTIONAL, vector(dice), {}};
+  maybe(dice, light.power, color(dice) * static_cast<float>(number(dice, 1e-6, 1e6)));
+  return light;
+}
+
+SceneOptions random_scene(Dice& dice) {
+  SceneOptions scene;
+  for (std::uint32_t i = dice.below(3) + 1; i > 0; --i) scene.inputs.emplace_back(odd_text(dice) + "b.ply");
+  for (std::uint32_t i = dice.below(3); i > 0; --i) scene.data_paths.emplace_back("-" + odd_text(dice));
+  scene.threads = dice.below(8);
+  BuildParams& params = scene.params;
+  params.leaf_size = 1 + dice.below(50);
+  params.insertion = static_cast<Insertion>(dice.below(3));
+  params.probes = 1 + dice.below(64);
+  params.radius_rule = static_cast<RadiusRule>(dice.below(2));
+  params.radius_scale = number(dice, 1e-3, 1e3);
+  params.samples = dice.seed() >> 11U;
+  params.normal_fields = dice.chance(0.5);
+  if (dice.chance(0.5)) scene.material = material_names()[dice.below(std::uint32_t(material_names().size()))];
+  return scene;
+}
+
+Settings random_settings(Dice& dice) {
+  Settings settings;
+  settings.samples = 1 + dice.below(65536);
+  settings.seed = static_cast<std::uint32_t>(dice.seed());
+  settings.max_bounces = dice.below(65);
+  settings.shadows = dice.chance(0.5);
+  settings.blend = dice.below(4);
+  settings.kernel = dice.below(2);
+  settings.kappa = static_cast<float>(number(dice, 1e-5, 1e5));
+  settings.side = dice.below(3);
+  settings.order = dice.below(2);
+  settings.counters = dice.chance(0.5);
+  settings.environment_strength = small_float(dice);
+  settings.environment_turn = static_cast<float>(dice.between(-5.0, 5.0));
+  return settings;
+}
+
+PictureOptions random_picture(Dice& dice) {
+  PictureOptions picture;
+  picture.width = 1 + dice.below(32768);
+  picture.height = 1 + dice.below(32768);
+  maybe(dice, picture.eye, vector(dice));
+  if (picture.eye) {
+    maybe(dice, picture.target, vector(dice));
+    maybe(dice, picture.camera_up, vector(dice));
+    if (dice.chance(0.5)) picture.ortho_height = number(dice, 1e-9, 1e9);
+  }
+  maybe(dice, picture.up, vector(dice));
+  maybe(dice, picture.fov_y_deg, number(dice, 0.01, 179.0));
+  if (dice.chance(0.7)) picture.lights.emplace();
+  for (std::uint32_t i = picture.lights ? dice.below(4) : 0; i > 0; --i)
+    picture.lights->push_back(random_light(dice));
+  for (std::uint32_t i = dice.below(3); i > 0; --i) picture.objects.push_back(random_object(dice));
+  if (dice.chance(0.5)) picture.environment = odd_text(dice);
+  maybe(dice, picture.delta_world, number(dice, 1e-9, 1e9));
+  picture.settings = random_settings(dice);
+  if (dice.chance(0.5)) picture.device = odd_text(dice);
+  return picture;
+}
+
+/// A sequence that goes with the picture's camera, or none.
+SequenceOptions random_sequence(Dice& dice, const PictureOptions& picture) {
+  SequenceOptions sequence;
+  sequence.skip_existing = dice.chance(0.5);
+  if (dice.chance(0.5)) return sequence;
+  if (picture.eye || picture.fov_y_deg)
+    sequence.turntable = 1 + dice.below(999999);
+  else
+    sequence.camera_path = odd_text(dice);
+  const std::uint32_t first = dice.below(1000);
+  maybe(dice, sequence.frames, {first, first + dice.below(1000)});
+  return sequence;
+}
+
+RenderOptions random_options(Dice& dice) {
+  RenderOptions options;
+  options.scene = random_scene(dice);
+  options.picture = random_picture(dice);
+  options.scene.params.seed = options.picture.settings.seed;
+  options.output = odd_text(dice) + "/b##.exr";
+  options.exposure_ev = dice.between(-60.0, 60.0);
+  options.aov_depth = dice.chance(0.5);
+  options.aov_normal = dice.chance(0.5);
+  options.aov_id = dice.chance(0.5);
+  options.picture.settings.aov = options.aov_depth || options.aov_normal || options.aov_id;
+  if (dice.chance(0.5)) options.stats_json = odd_text(dice);
+  options.sequence = random_sequence(dice, options.picture);
+  if (dice.chance(0.5) && !options.sequence.many()) options.reference = odd_text(dice);
+  options.reference_threshold = dice.unit();
+  options.reference_share = dice.unit();
+  options.reference_limit = dice.unit();
+  options.list_devices = dice.chance(0.2);
+  options.quiet = dice.chance(0.5);
+  return options;
+}
+
+TEST(CommandLine, RandomOptionsComeBackEqual) {
+  for (std::uint64_t round = 0; round < 500; ++round) {
+    Dice dice(round);
+    const RenderOptions options = random_options(dice);
+    const std::string line = command_line(options);
+    ASSERT_EQ(parse_command_line(line), options) << "round " << round << ": " << line;
+  }
+}
+
+TEST(CommandLine, HoldsOnlyWhatDiffersFromTheDefaults) {
+  RenderOptions options;
+  options.scene.inputs = {"a b.ply"};
+  options.output = "o.png";
+  EXPECT_EQ(command_line(options), "splatray-render 'a b.ply' -o o.png");
+  options.picture.lights.emplace();
+  options.picture.settings.kappa = 0.1F;
+  options.picture.objects = {read_object_options("a:b:hidden=on,mirror=0.25")};
+  EXPECT_EQ(
+      command_line(options),
+      "splatray-render 'a b.ply' -o o.png --lights=none --object=a:b:mirror=0.25,hidden=on --kappa=0.1");
+}
+
+TEST(CommandLine, AcceptsWhatPeoplePaste) {
+  const RenderOptions options = parse_command_line(
+      "  build/bin/splatray-render \"it's \\$5.ply\" \\\n --eye -1,2,3 --light 1,2,3 --sun 0,1,0,1,1,1 "
+      "--light=4,5,6\n");
+  EXPECT_EQ(options.scene.inputs.front(), "it's $5.ply");
+  EXPECT_EQ(options.picture.eye, glm::dvec3(-1.0, 2.0, 3.0));
+  ASSERT_EQ(options.picture.lights->size(), 3U);
+  EXPECT_EQ((*options.picture.lights)[1].kind, LIGHT_DIRECTIONAL);
+  EXPECT_EQ((*options.picture.lights)[2].position, glm::dvec3(4.0, 5.0, 6.0));
+}
+
+TEST(CommandLine, RefusesWhatIsNoCommand) {
+  for (const char* line :
+       {"", "   ", "ls -l", "splatray-render", "splatray-render 'a.ply", "splatray-render a.ply \"b",
+        "splatray-render a.ply --eye=1", "splatray-render a.ply --no-such-option",
+        "splatray-render a.ply --help", "splatray-render --from a.png"}) {
+    try {
+      (void)parse_command_line(line);
+      ADD_FAILURE() << "accepted: " << line;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage) << line;
+    }
+  }
+}
+
+TEST(NumberText, FloatsSurviveReadingAsDouble) {
+  const auto survives = [](float value) {
+    return static_cast<float>(std::strtod(number_text(value).c_str(), nullptr)) == value;
+  };
+  // Its shortest text, 7.038531e-26, is the midpoint of two floats as a double, and then becomes the other one.
+  EXPECT_TRUE(survives(std::bit_cast<float>(0x15ae43fdU)));
+  Dice dice(1);
+  for (int i = 0; i < 100000; ++i) {
+    const auto bits = static_cast<std::uint32_t>(dice.seed());
+    if (std::isfinite(std::bit_cast<float>(bits))) {
+      ASSERT_TRUE(survives(std::bit_cast<float>(bits))) << bits;
+    }
+  }
+  EXPECT_EQ(number_text(0.1F), "0.1");
+  EXPECT_EQ(number_text(glm::dvec3(1.0, -2.5, 1e30)), "1,-2.5,1e+30");
+}
+
+}  // namespace
+}  // namespace splatray

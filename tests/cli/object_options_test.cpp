@@ -1,0 +1,85 @@
+/// Changes to single objects' materials.
+#include "app/object_options.h"
+
+#include <gtest/gtest.h>
+
+#include "app/materials.h"
+#include "engine/host/error.h"
+
+namespace splatray {
+namespace {
+
+const std::vector<std::string> NAMES = {"dragon", "a:b", "twin", "twin", "", "7"};
+
+std::vector<Material> matte() { return std::vector<Material>(NAMES.size(), named_material("matte")); }
+
+std::string refusal(const std::string& text) {
+  try {
+    std::vector<Material> materials = matte();
+    apply_object_options({read_object_options(text)}, NAMES, materials);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ObjectOptions, ChangesWhatIsSetAndNothingElse) {
+  std::vector<Material> materials = matte();
+  apply_object_options(
+      {read_object_options("dragon:preset=gold,hidden=on"), read_object_options("a:b:mirror=0.25"),
+       read_object_options("2:diffuse=1/0/0.5,two-sided=off")},
+      NAMES, materials);
+  EXPECT_EQ(materials[0].tint, named_material("gold").tint);
+  EXPECT_EQ(materials[0].flags, MATERIAL_TWO_SIDED | MATERIAL_HIDDEN);
+  EXPECT_EQ(materials[1].mirror, 0.25F);
+  EXPECT_EQ(materials[1].diffuse, named_material("matte").diffuse);
+  EXPECT_EQ(materials[2].diffuse, glm::vec3(1.0F, 0.0F, 0.5F));
+  EXPECT_EQ(materials[2].flags, 0U);
+  EXPECT_EQ(materials[3].diffuse, named_material("matte").diffuse);
+}
+
+TEST(ObjectOptions, EveryDielectricGetsABitOfItsOwn) {
+  std::vector<Material> materials = matte();
+  apply_object_options({read_object_options("4:preset=glass"), read_object_options("0:glass=on,ior=1.3"),
+                        read_object_options("2:preset=ruby"), read_object_options("2:glass=off")},
+                       NAMES, materials);
+  EXPECT_EQ(materials[0].mask_bit, 0U);
+  EXPECT_EQ(materials[4].mask_bit, 1U);
+  EXPECT_EQ(materials[2].flags & MATERIAL_DIELECTRIC, 0U);
+}
+
+TEST(ObjectOptions, RefusalsNameWhatExists) {
+  EXPECT_NE(refusal("dragoon:hidden=on").find("'dragon', 'a:b'"), std::string::npos);
+  EXPECT_NE(refusal("6:hidden=on").find("below 6"), std::string::npos);
+  EXPECT_NE(refusal("twin:hidden=on").find("several"), std::string::npos);
+  EXPECT_NE(refusal("dragon:colour=1").find("'diffuse'"), std::string::npos);
+  EXPECT_NE(refusal("dragon:preset=wood").find("'ruby'"), std::string::npos);
+  for (const char* text :
+       {"dragon", "dragon:", ":hidden=on", "dragon:hidden", "dragon:hidden=maybe", "dragon:mirror=2",
+        "dragon:mirror=", "dragon:diffuse=1/2", "dragon:diffuse=1/2/3", "dragon:ior=0", "dragon:ior=nan",
+        "dragon:shininess=0", "dragon:mirror=0.5,,hidden=on", "dragon:tint=1,0,0"})
+    EXPECT_NE(refusal(text), "") << text;
+}
+
+TEST(ObjectOptions, DifferencesAreFoundAndAppliedAgain) {
+  const std::vector<Material> loaded = matte();
+  std::vector<Material> shown = loaded;
+  shown[0] = named_material("glass");
+  shown[1].flags |= MATERIAL_HIDDEN;
+  shown[3].diffuse.y = 0.1F;
+  shown[4].shininess = 7.7F;
+  shown[5].mirror = 0.3F;
+  const auto changes = object_options_between(loaded, shown, NAMES);
+  ASSERT_EQ(changes.size(), 5U);
+  EXPECT_EQ(changes[1].object, "a:b");
+  EXPECT_EQ(changes[2].object, "3");
+  std::vector<Material> again = loaded;
+  std::vector<ObjectOptions> read;
+  for (const ObjectOptions& change : changes) read.push_back(read_object_options(object_text(change)));
+  apply_object_options(read, NAMES, again);
+  EXPECT_TRUE(object_options_between(shown, again, NAMES).empty());
+}
+
+}  // namespace
+}  // namespace splatray
