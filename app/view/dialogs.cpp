@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
+#include "app/camera_file.h"
 #include "app/view/panel_parts.h"
+#include "engine/host/error.h"
 
 namespace splatray {
 namespace {
@@ -82,15 +85,53 @@ bool ends_in(const std::string& path, const char* extension) {
   return std::filesystem::path(path).extension() == extension;
 }
 
-std::string refusal_of_name(const std::string& path) {
-  if (ends_in(path, ".png") || ends_in(path, ".exr")) return "";
-  return "The file's name must end in .png or .exr.";
+bool is_picture(const std::string& path) { return ends_in(path, ".png") || ends_in(path, ".exr"); }
+
+std::string refusal_of(const SaveRequest& save) {
+  if (is_picture(save.path) || ends_in(save.path, ".json")) return "";
+  return "The file's name must end in .png or .exr, or in .json for the camera alone.";
 }
 
 std::string refusal_of(const RecordRequest& record) {
   if (record.path.find('#') == std::string::npos) return "The files' name needs #### where the number goes.";
   if (!record.turntable && record.camera_path.empty()) return "A camera path is needed.";
-  return refusal_of_name(record.path);
+  return is_picture(record.path) ? "" : "The files' name must end in .png or .exr.";
+}
+
+/// Writes a camera file at once, small as it is.
+void write_file(PanelState& state, const std::string& path, const std::function<void()>& write) {
+  try {
+    write();
+    state.notice = "Written: " + path;
+  } catch (const Error& error) {
+    state.error = error.what();
+  }
+}
+
+bool is_ortho(const Camera& camera) { return camera.ortho_height > 0.0; }
+
+/// The bookmarks, in their order, as keys of a camera path.
+void write_bookmarks(PanelState& state) {
+  CameraPath path;
+  bool mixed = false;
+  for (const std::optional<Camera>& bookmark : state.bookmarks) {
+    if (!bookmark) continue;
+    path.push_back({*bookmark, static_cast<std::uint32_t>(path.size()) * KEY_FRAMES});
+    mixed |= is_ortho(*bookmark) != is_ortho(path.front().camera);
+  }
+  if (path.empty())
+    state.error = "no bookmark is set, expected some: Shift and a number remember a camera";
+  else if (mixed)
+    state.error = "the bookmarks are both perspective and orthographic, expected one kind in a camera path";
+  else
+    write_file(state, state.record.camera_path, [&] { write_camera_path(path, state.record.camera_path); });
+}
+
+void path_inputs(PanelState& state) {
+  ImGui::InputTextWithHint("path file", "cameras.json", &state.record.camera_path);
+  ImGui::BeginDisabled(!ends_in(state.record.camera_path, ".json"));
+  if (ImGui::SmallButton("write the bookmarks there")) write_bookmarks(state);
+  ImGui::EndDisabled();
 }
 
 }  // namespace
@@ -112,7 +153,7 @@ void open_dialog(PanelState& state, Requests& requests) {
   if (requests.open) state.show_open = false;
 }
 
-void save_dialog(PanelState& state, Requests& requests) {
+void save_dialog(const Document& document, PanelState& state, Requests& requests) {
   if (!state.show_save) return;
   Dialog dialog("Save the picture", state.show_save);
   if (!dialog) return;
@@ -127,7 +168,11 @@ void save_dialog(PanelState& state, Requests& requests) {
   ImGui::SameLine();
   ImGui::Checkbox("object", &save.aov_id);
   ImGui::EndDisabled();
-  if (dialog.done_or_cancelled("save", refusal_of_name(save.path))) requests.save = save;
+  if (!dialog.done_or_cancelled("save", refusal_of(save))) return;
+  if (is_picture(save.path))
+    requests.save = save;
+  else
+    write_file(state, save.path, [&] { write_camera(document.camera, save.path); });
 }
 
 void record_dialog(PanelState& state, Requests& requests) {
@@ -137,7 +182,7 @@ void record_dialog(PanelState& state, Requests& requests) {
   RecordRequest& record = state.record;
   if (ImGui::RadioButton("turntable about the pivot", record.turntable)) record.turntable = true;
   if (ImGui::RadioButton("camera path", !record.turntable)) record.turntable = false;
-  if (!record.turntable) ImGui::InputText("path file", &record.camera_path);
+  if (!record.turntable) path_inputs(state);
   ImGui::InputText("files", &record.path);
   edge_input("frames", record.frames, MOST_FRAMES);
   size_inputs(record.width, record.height);

@@ -52,7 +52,7 @@ glm::vec3 hash_color(std::uint32_t hash) {
 
 glm::vec3 face_color(const AovPixel& pixel) {
   static const glm::vec3 TO_LIGHT = glm::normalize(glm::vec3(0.4F, 0.6F, 0.7F));
-  const float light = 0.35F + 0.6F * std::abs(glm::dot(pixel.normal, TO_LIGHT));
+  const float light = 0.25F + 0.6F * std::abs(glm::dot(pixel.normal, TO_LIGHT));
   return (pixel.splat & 1U) != 0 ? glm::vec3(light) : light * glm::vec3(1.0F, 0.22F, 0.18F);
 }
 

@@ -57,7 +57,7 @@ void light_list(const Document& document, PanelState& state) {
 
 void point_controls(const Document& document, SceneLight& light) {
   const float speed = static_cast<float>(scene_radius_world(document) / 200.0);
-  ImGui::DragScalarN("position", ImGuiDataType_Double, &light.position.x, 3, speed, nullptr, nullptr, "%.6g");
+  ImGui::DragScalarN("position", ImGuiDataType_Double, &light.position.x, 3, speed, nullptr, nullptr, "%.5g");
 }
 
 void sun_controls(const Document& document, SceneLight& light) {

@@ -13,8 +13,8 @@ constexpr float MARGIN_EM = 0.7F;
 constexpr float BAR_EM = 22.0F;        ///< width of the progress bar
 constexpr float SCALE_EM = 14.0F;      ///< width of a colour scale
 constexpr int SCALE_STEPS = 48;        ///< of the colours in it
-constexpr float HELP_KEYS_EM = 11.0F;  ///< width of the column of keys
-constexpr float HELP_EM = 44.0F;
+constexpr float HELP_KEYS_EM = 13.5F;  ///< width of the column of keys
+constexpr float HELP_EM = 48.0F;
 
 constexpr ImGuiWindowFlags OVERLAY = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -30,13 +30,19 @@ bool begin_overlay(const char* name, float width_px, ImVec2 share, ImGuiWindowFl
   return ImGui::Begin(name, nullptr, OVERLAY | more_flags);
 }
 
+/// How far the picture has come; other modes than shaded have one ray in each pixel.
+std::string samples_text(const Document& document, const Frame& frame) {
+  if (document.mode != ViewMode::shaded) return "";
+  return "  \u00B7  " + std::to_string(frame.samples) + " of " + std::to_string(document.settings.samples) +
+         " samples";
+}
+
 std::string status_text(const Document& document, const Frame& frame, double frames_per_second) {
   std::array<char, 200> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "%s  \u00B7  %u of %u samples  \u00B7  %u x %u, scale %.2f  \u00B7  %.0f ms  \u00B7  %.0f a second",
-      view_mode_name(document.mode), frame.samples, document.settings.samples, frame.image.width,
-      frame.image.height, frame.scale, frame.ms, frames_per_second);
+  std::snprintf(text.data(), text.size(),
+                "%s%s  \u00B7  %u x %u, scale %.2f  \u00B7  %.0f ms  \u00B7  %.0f a second",
+                view_mode_name(document.mode), samples_text(document, frame).c_str(), frame.image.width,
+                frame.image.height, frame.scale, frame.ms, frames_per_second);
   return text.data();
 }
 

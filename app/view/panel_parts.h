@@ -16,7 +16,7 @@ void inspector_panel(const PanelView& view);
 
 /// Dialogs that are open in `state`: open, save, record, or the sentence of an error.
 void open_dialog(PanelState& state, Requests& requests);
-void save_dialog(PanelState& state, Requests& requests);
+void save_dialog(const Document& document, PanelState& state, Requests& requests);
 void record_dialog(PanelState& state, Requests& requests);
 void error_dialog(PanelState& state);
 /// Whether one of them is.

@@ -10,7 +10,7 @@ namespace {
 constexpr float LABEL_EM = 6.5F;  ///< room to the right of a control for its name
 
 void mode_combo(Document& document) {
-  if (!ImGui::BeginCombo("shows", view_mode_name(document.mode))) return;
+  if (!ImGui::BeginCombo("view", view_mode_name(document.mode))) return;
   for (int i = 0; i < VIEW_MODE_COUNT; ++i) {
     const ViewMode mode = static_cast<ViewMode>(i);
     if (ImGui::Selectable(view_mode_name(mode), mode == document.mode)) document.mode = mode;
@@ -36,6 +36,7 @@ bool section(const char* title, bool open_first) {
 
 void column(Document& document, PanelState& state, const PanelView& view, Requests& requests) {
   toolbar(requests);
+  if (document.materials.empty()) return;
   mode_combo(document);
   if (section("Objects", true)) object_panel(document, state);
   if (section("Material", true)) material_panel(document, state);
@@ -43,7 +44,7 @@ void column(Document& document, PanelState& state, const PanelView& view, Reques
   if (section("Environment", false)) environment_panel(document);
   if (section("Camera", false)) camera_panel(document, state, requests);
   if (section("Quality", false)) quality_panel(document);
-  if (section("Splat under the cursor", false)) inspector_panel(view);
+  if (section("Splat under the cursor", true)) inspector_panel(view);
   if (section("Statistics", true)) statistics_panel(view);
 }
 
@@ -79,7 +80,7 @@ Requests draw_panels(Document& document, PanelState& state, const PanelView& vie
   help_overlay(state);
   if (state.error.empty()) {
     open_dialog(state, requests);
-    save_dialog(state, requests);
+    save_dialog(document, state, requests);
     record_dialog(state, requests);
   }
   error_dialog(state);

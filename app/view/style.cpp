@@ -14,9 +14,9 @@ constexpr const char* FONT_FILE = "/usr/share/fonts/truetype/dejavu/DejaVuSans.t
 
 const ImVec4 INK{0.91F, 0.92F, 0.93F, 1.0F}, FAINT{0.60F, 0.63F, 0.66F, 1.0F},
     BACK{0.075F, 0.08F, 0.09F, 0.97F}, FIELD{0.16F, 0.17F, 0.19F, 1.0F},
-    FIELD_OVER{0.22F, 0.24F, 0.27F, 1.0F}, ACCENT{0.16F, 0.45F, 0.60F, 1.0F},
-    ACCENT_OVER{0.20F, 0.54F, 0.71F, 1.0F}, BRIGHT{0.38F, 0.76F, 0.94F, 1.0F},
-    LINE{0.26F, 0.28F, 0.31F, 1.0F};
+    FIELD_OVER{0.22F, 0.24F, 0.27F, 1.0F}, ACCENT_DARK{0.12F, 0.23F, 0.30F, 1.0F},
+    ACCENT{0.16F, 0.45F, 0.60F, 1.0F}, ACCENT_OVER{0.20F, 0.54F, 0.71F, 1.0F},
+    BRIGHT{0.38F, 0.76F, 0.94F, 1.0F}, LINE{0.26F, 0.28F, 0.31F, 1.0F};
 
 void load_font(double ui_scale) {
   const float scale = static_cast<float>(ui_scale);
@@ -39,7 +39,8 @@ void set_colors(ImGuiStyle& style) {
   set(INK, {ImGuiCol_Text});
   set(FAINT, {ImGuiCol_TextDisabled});
   set(BACK, {ImGuiCol_WindowBg, ImGuiCol_PopupBg, ImGuiCol_TitleBg, ImGuiCol_TitleBgActive});
-  set(FIELD, {ImGuiCol_FrameBg, ImGuiCol_Button, ImGuiCol_Header, ImGuiCol_ScrollbarGrab});
+  set(FIELD, {ImGuiCol_FrameBg, ImGuiCol_Button, ImGuiCol_ScrollbarGrab});
+  set(ACCENT_DARK, {ImGuiCol_Header});
   set(FIELD_OVER, {ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive, ImGuiCol_HeaderHovered,
                    ImGuiCol_ScrollbarGrabHovered});
   set(ACCENT,

@@ -83,7 +83,7 @@ Requests GuiDriver::click(const std::string& window, const ControlPath& path) {
 }
 
 void GuiDriver::open_section(const char* title) {
-  frame();
+  for (int i = 0; i < FRAMES_TO_SETTLE; ++i) frame();
   ImGuiWindow* column = find("##column");
   ASSERT_NE(column, nullptr);
   column->StateStorage.SetInt(id_of(*column, {title}), 1);

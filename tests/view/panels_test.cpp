@@ -4,7 +4,9 @@
 
 #include <cstring>
 
+#include "app/camera_file.h"
 #include "app/materials.h"
+#include "tests/readers/temp_folder.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"
 
@@ -156,7 +158,7 @@ TEST(PanelsTest, QualityAndEnvironmentChangeTheSettings) {
   gui.click("##column", {"blend"});
   gui.click("##Combo", {2, "nearest"});
   EXPECT_EQ(gui.document.settings.blend, BLEND_NEAREST);
-  gui.click("##column", {"shows"});
+  gui.click("##column", {"view"});
   gui.click("##Combo", {"facing"});
   EXPECT_EQ(gui.document.mode, ViewMode::facing);
 }
@@ -190,6 +192,30 @@ TEST(PanelsTest, TheSaveDialogAsksForThePicture) {
   EXPECT_EQ(requests.save->width, 3840U);
   EXPECT_TRUE(requests.save->aov_normal);
   EXPECT_FALSE(gui.state.show_save);
+}
+
+TEST(PanelsTest, CamerasAndBookmarksAreSavedAsFiles) {
+  const TempFolder folder;
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(1);
+  gui.state.show_save = true;
+  gui.state.save.path = folder.path() / "camera.json";
+  EXPECT_FALSE(gui.click("Save the picture", {"save"}).save.has_value());
+  EXPECT_EQ(read_camera(folder.path() / "camera.json"), gui.document.camera);
+
+  gui.state.bookmarks[1] = gui.state.bookmarks[4] = gui.document.camera;
+  gui.state.bookmarks[4]->eye.x += 1.0;
+  gui.state.show_record = true;
+  gui.state.record.turntable = false;
+  gui.state.record.camera_path = folder.path() / "path.json";
+  gui.click("Record", {"write the bookmarks there"});
+  const CameraPath path = read_camera_path(folder.path() / "path.json");
+  ASSERT_EQ(path.size(), 2U);
+  EXPECT_EQ(path[1].camera, *gui.state.bookmarks[4]);
+
+  gui.state.record.camera_path = folder.path() / "none" / "path.json";
+  gui.click("Record", {"write the bookmarks there"});
+  EXPECT_NE(gui.state.error.find("path.json"), std::string::npos);
 }
 
 TEST(PanelsTest, RecordingsNeedANumberInTheirName) {
