@@ -1,8 +1,8 @@
 /// The camera as mouse and keys move it: float64, turntable about the document's up axis. The camera's target is the
 /// pivot: it lies in the middle of the picture and is what orbits turn about. Positions in the picture are pixels from
 /// its top left corner, y down; `size_px` is the picture's size, both >= 1. Input that is not finite changes nothing, and
-/// no input makes a camera that make_frame_params refuses. Orthographic cameras are kept outside the scene, so that none of
-/// it lies behind them.
+/// no input makes a camera that make_frame_params refuses; moves that leave the scene far behind are not made. Orthographic
+/// cameras are kept outside the scene, so that none of it lies behind them.
 #pragma once
 #include <glm/glm.hpp>
 
@@ -30,8 +30,8 @@ void zoom(Document& document, double notches, glm::dvec2 position_px, glm::dvec2
 /// Turns the view about the eye as if the mouse pushed it: to the right looks right, down looks down. In orthographic
 /// pictures, which have no eye, as orbit.
 void look(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px);
-/// Moves camera and pivot for `seconds` with `direction` (right, up, forward; each -1..1, of the camera), at a
-/// half scene_radius_world() a second, five times that when `fast`; at most a quarter of a second counts. In orthographic
+/// Moves camera and pivot for `seconds` with `direction` (right, up, forward; each -1..1, of the camera), at half
+/// of scene_radius_world() a second, five times that when `fast`; at most a quarter of a second counts. In orthographic
 /// pictures forward enlarges.
 void fly(Document& document, glm::dvec3 direction, double seconds, bool fast);
 

@@ -12,6 +12,8 @@ std::optional<ViewOptions> parse_view_options(int argc, char** argv) {
   options.picture.width = options.picture.height = 0;
   OptionList list("Shows a scene of splats in a window.", "splatray-view");
   list.set_version_flag("--version", SPLATRAY_VERSION);
+  list.add_flag_callback(
+      "--keys", [] { throw CLI::CallForVersion(keys_markdown(), 0); }, "print the table of keys as Markdown");
   list.footer("\n" + keys_text());
   add_scene_options(list, options.scene);
   add_number(list, "--exposure", options.exposure_ev, -60.0, 60.0, "brightness in stops; default 0");
