@@ -109,11 +109,9 @@ bool apply(const Command& command, double aspect, Document& document, PanelState
       return true;
     case Action::save:
       state.show_save = true;
-      state.save.samples = document.settings.samples;
       return true;
     case Action::record:
       state.show_record = true;
-      state.record.samples = document.settings.samples;
       return true;
     case Action::mode_next:
       change_mode(document, 1);
