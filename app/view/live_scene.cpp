@@ -16,7 +16,8 @@ std::vector<Material> two_sided(std::vector<Material> materials) {
 }  // namespace
 
 bool same_materials(const std::vector<Material>& a, const std::vector<Material>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Material)) == 0;
+  if (a.size() != b.size()) return false;
+  return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Material)) == 0;
 }
 
 void LiveScene::open(SharedScene scene) {

@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "app/camera_file.h"
 #include "app/materials.h"
+#include "app/view/live_scene.h"
 #include "tests/readers/temp_folder.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"
@@ -42,9 +41,9 @@ bool hidden(const Document& document, std::size_t object) {
 }
 
 bool same(const Document& a, const Document& b) {
-  return std::memcmp(a.materials.data(), b.materials.data(), a.materials.size() * sizeof(Material)) == 0 &&
-         a.lights == b.lights && a.camera == b.camera && a.mode == b.mode && a.environment == b.environment &&
-         a.settings.samples == b.settings.samples && a.settings.kappa == b.settings.kappa;
+  return same_materials(a.materials, b.materials) && a.lights == b.lights && a.camera == b.camera &&
+         a.mode == b.mode && a.environment == b.environment && a.settings.samples == b.settings.samples &&
+         a.settings.kappa == b.settings.kappa;
 }
 
 TEST(PanelsTest, AllPanelsRunOverAnyDocumentAndChangeNothing) {
@@ -115,7 +114,7 @@ TEST(PanelsTest, APresetReplacesTheMaterialButKeepsItHidden) {
   EXPECT_TRUE(hidden(gui.document, 1));
   EXPECT_EQ(gui.document.materials[0].tint, named_material("matte").tint);
   gui.click("##column", {1, "as loaded"});
-  EXPECT_EQ(std::memcmp(&gui.document.materials[1], &gui.document.loaded_materials[1], sizeof(Material)), 0);
+  EXPECT_TRUE(same_materials({gui.document.materials[1]}, {gui.document.loaded_materials[1]}));
 }
 
 TEST(PanelsTest, GlassObjectsGetBitsOfTheirOwn) {
