@@ -84,18 +84,19 @@ void work_bar(const PanelView& view, float width_px, Requests& requests) {
   ImGui::End();
 }
 
-void legend(const Document& document, const PanelView& view, float width_px) {
-  if (document.mode == ViewMode::shaded || view.frame == nullptr) return;
+void legend(const PanelView& view, float width_px) {
+  if (view.frame == nullptr || view.frame->mode == ViewMode::shaded) return;
+  const Frame& frame = *view.frame;
   begin_overlay("##legend", width_px, {0.0F, 0.0F}, ImGuiWindowFlags_NoInputs);
-  switch (document.mode) {
+  switch (frame.mode) {
     case ViewMode::depth:
-      color_scale(view.range, "world units from the eye");
+      color_scale(frame.range, "world units from the eye");
       break;
     case ViewMode::tests:
-      color_scale(view.range, "splat tests of a ray");
+      color_scale(frame.range, "splat tests of a ray");
       break;
     case ViewMode::steps:
-      color_scale(view.range, "nodes read by a ray");
+      color_scale(frame.range, "nodes read by a ray");
       break;
     case ViewMode::normal:
       ImGui::TextUnformatted("normal: red x, green y, blue z, each from -1 to 1");

@@ -25,7 +25,7 @@ void error_dialog(PanelState& state);
 /// Over the picture, which is `width_px` wide.
 void status_line(const Document& document, const PanelState& state, const PanelView& view, float width_px);
 void work_bar(const PanelView& view, float width_px, Requests& requests);
-void legend(const Document& document, const PanelView& view, float width_px);
+void legend(const PanelView& view, float width_px);
 void help_overlay(PanelState& state);
 /// In place of a picture while no scene is open.
 void welcome(const PanelState& state, float width_px, Requests& requests);

@@ -74,7 +74,7 @@ Requests draw_panels(Document& document, PanelState& state, const PanelView& vie
   const float column_px = panel_column_px(state, window_px), picture_px = window_px - column_px;
   if (column_px > 0.0F) column_window(document, state, view, column_px, requests);
   if (document.materials.empty() && view.work == nullptr) welcome(state, picture_px, requests);
-  legend(document, view, picture_px);
+  legend(view, picture_px);
   status_line(document, state, view, picture_px);
   work_bar(view, picture_px, requests);
   help_overlay(state);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/view/document.h"
-#include "app/view/false_color.h"
 #include "app/view/frame.h"
 #include "app/view/keys.h"
 
@@ -51,7 +50,6 @@ struct Work {
 struct PanelView {
   const Frame* frame = nullptr;          ///< newest; null before the first
   const Inspected* inspected = nullptr;  ///< null: nothing inspected
-  ColorRange range;                      ///< of the frame's colour scale
   double frames_per_second = 0.0;        ///< pictures handed to the window
   const Work* work = nullptr;            ///< loading, saving or recording; null when idle
 };

@@ -47,7 +47,10 @@ Viewer::Viewer(const ViewOptions& options, Clock::time_point start)
       renderer_(options.picture.device, [this] { window_.wake(); }) {
   panels_.recent_files = user_.recent_files;
   document_.exposure_ev = options.exposure_ev;
-  if (!options.scene.inputs.empty()) loader_.load(options_.scene, options_.picture);
+  PictureOptions first = options_.picture;
+  first.width = std::max(picture_px().x, 1U);
+  first.height = std::max(picture_px().y, 1U);
+  if (!options_.scene.inputs.empty()) loader_.load(options_.scene, first);
 }
 
 void Viewer::run() {
@@ -133,6 +136,9 @@ void Viewer::show(OpenedScene opened) {
   panels_.recent_files = user_.recent_files;
   panels_.home = document_.camera;
   panels_.object = panels_.light = 0;
+  panels_.save.width = panels_.record.width = std::max(picture_px().x, 1U);
+  panels_.save.height = panels_.record.height = std::max(picture_px().y, 1U);
+  panels_.save.samples = panels_.record.samples = document_.settings.samples;
   panels_.bookmarks = user_.bookmarks[std::filesystem::absolute(file_).string()];
   inspected_.reset();
   window_.set_title(file_.filename().string() + " - splatray");
@@ -170,6 +176,7 @@ void Viewer::handle_inputs() {
   const Gui& gui = presenter_.gui();
   for (const InputEvent& event : window_.take_inputs()) {
     if (event.kind == InputEvent::Kind::key) {
+      if (mouse_.drags(Action::look) && command_for(InputKind::fly_key, event.code, 0)) continue;  // see fly_on
       const std::optional<Command> command = command_for(InputKind::key, event.code, event.modifiers);
       if (command && (!gui.wants_keyboard() || command->action == Action::escape)) handle(*command);
       continue;
@@ -238,7 +245,6 @@ void Viewer::draw_controls() {
   PanelView view;
   view.frame = frame_.get();
   view.inspected = inspected_ ? &*inspected_ : nullptr;
-  if (frame_) view.range = frame_->range;
   view.frames_per_second = stats_.per_second(Clock::now());
   view.work = work_ ? &*work_ : nullptr;
   handle(draw_panels(document_, panels_, view));

@@ -60,7 +60,7 @@ TEST(PanelsTest, AllPanelsRunOverAnyDocumentAndChangeNothing) {
         for (int mode = 0; mode < VIEW_MODE_COUNT; ++mode) {
           const Frame frame = some_frame(static_cast<ViewMode>(mode));
           gui.document.mode = frame.mode;
-          gui.view = {&frame, &inspected, {}, 17.0, &work};
+          gui.view = {&frame, &inspected, 17.0, &work};
           gui.state.show_help = mode % 2 == 1;
           const Requests requests = gui.frame();
           EXPECT_TRUE(requests.commands.empty() && !requests.save && !requests.open && !requests.cancel);
@@ -252,7 +252,7 @@ TEST(PanelsTest, NothingOverlapsAndThePictureIsTheMainThing) {
     gui.document.mode = ViewMode::tests;
     const Frame frame = some_frame(ViewMode::tests);
     const Work work{"saving", 0.5};
-    gui.view = {&frame, nullptr, {}, 17.0, &work};
+    gui.view = {&frame, nullptr, 17.0, &work};
     for (int i = 0; i < 3; ++i) gui.frame();
     const std::vector<std::string> windows = {"##column", "##status", "##legend", "##work"};
     for (const std::string& a : windows) {
