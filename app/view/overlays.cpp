@@ -46,7 +46,7 @@ std::string status_text(const Document& document, const Frame& frame, double fra
   return text.data();
 }
 
-void color_scale(const ColorRange& range, const char* unit) {
+void color_scale(const ColorRange& range, const char* meaning) {
   const float em = ImGui::GetFontSize(), step = SCALE_EM * em / SCALE_STEPS;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   for (int i = 0; i < SCALE_STEPS; ++i) {
@@ -56,11 +56,12 @@ void color_scale(const ColorRange& range, const char* unit) {
                                               ImGui::GetColorU32(ImVec4(color.r, color.g, color.b, 1.0F)));
   }
   ImGui::Dummy({SCALE_EM * em, em});
+  std::array<char, 40> high{};
+  std::snprintf(high.data(), high.size(), "%.4g", range.high);
   ImGui::Text("%.4g", range.low);
-  std::array<char, 100> high{};
-  std::snprintf(high.data(), high.size(), "%.4g %s", range.high, unit);
   ImGui::SameLine(SCALE_EM * em - ImGui::CalcTextSize(high.data()).x + ImGui::GetStyle().WindowPadding.x);
   ImGui::TextUnformatted(high.data());
+  ImGui::TextUnformatted(meaning);
 }
 
 }  // namespace
@@ -90,13 +91,13 @@ void legend(const PanelView& view, float width_px) {
   begin_overlay("##legend", width_px, {0.0F, 0.0F}, ImGuiWindowFlags_NoInputs);
   switch (frame.mode) {
     case ViewMode::depth:
-      color_scale(frame.range, "world units from the eye");
+      color_scale(frame.range, "distance from the eye, world units");
       break;
     case ViewMode::tests:
-      color_scale(frame.range, "splat tests of a ray");
+      color_scale(frame.range, "splat tests of the pixel's ray");
       break;
     case ViewMode::steps:
-      color_scale(frame.range, "nodes read by a ray");
+      color_scale(frame.range, "node words read by the pixel's ray");
       break;
     case ViewMode::normal:
       ImGui::TextUnformatted("normal: red x, green y, blue z, each from -1 to 1");

@@ -12,7 +12,7 @@ constexpr float FONT_PX = 15.0F,
 /// Debian's fonts-dejavu-core; Dear ImGui's own font is used where it is not installed.
 constexpr const char* FONT_FILE = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
-const ImVec4 INK{0.91F, 0.92F, 0.93F, 1.0F}, FAINT{0.60F, 0.63F, 0.66F, 1.0F},
+const ImVec4 SHADE{0.0F, 0.0F, 0.0F, 0.45F}, INK{0.91F, 0.92F, 0.93F, 1.0F}, FAINT{0.60F, 0.63F, 0.66F, 1.0F},
     BACK{0.075F, 0.08F, 0.09F, 0.97F}, FIELD{0.16F, 0.17F, 0.19F, 1.0F},
     FIELD_OVER{0.22F, 0.24F, 0.27F, 1.0F}, ACCENT_DARK{0.12F, 0.23F, 0.30F, 1.0F},
     ACCENT{0.16F, 0.45F, 0.60F, 1.0F}, ACCENT_OVER{0.20F, 0.54F, 0.71F, 1.0F},
@@ -37,6 +37,7 @@ void set_colors(ImGuiStyle& style) {
     for (const ImGuiCol place : places) style.Colors[place] = color;
   };
   set(INK, {ImGuiCol_Text});
+  set(SHADE, {ImGuiCol_ModalWindowDimBg});
   set(FAINT, {ImGuiCol_TextDisabled});
   set(BACK, {ImGuiCol_WindowBg, ImGuiCol_PopupBg, ImGuiCol_TitleBg, ImGuiCol_TitleBgActive});
   set(FIELD, {ImGuiCol_FrameBg, ImGuiCol_Button, ImGuiCol_ScrollbarGrab});
