@@ -58,8 +58,10 @@ void bookmark_buttons(const PanelState& state, Requests& requests) {
 /// Three numbers that are taken over one by one when Enter ends them.
 void point_input(const char* label, glm::dvec3& point) {
   glm::dvec3 typed = point;
-  if (ImGui::InputScalarN(label, ImGuiDataType_Double, &typed.x, 3, nullptr, nullptr, "%.6f",
-                          ImGuiInputTextFlags_EnterReturnsTrue))
+  ImGui::TextUnformatted(label);
+  ImGui::SetNextItemWidth(-1.0F);  // coordinates may be long
+  if (ImGui::InputScalarN((std::string("##") + label).c_str(), ImGuiDataType_Double, &typed.x, 3, nullptr,
+                          nullptr, "%.6f", ImGuiInputTextFlags_EnterReturnsTrue))
     point = typed;
 }
 
