@@ -61,7 +61,7 @@ void point_input(const char* label, glm::dvec3& point) {
   ImGui::TextUnformatted(label);
   ImGui::SetNextItemWidth(-1.0F);  // coordinates may be long
   if (ImGui::InputScalarN((std::string("##") + label).c_str(), ImGuiDataType_Double, &typed.x, 3, nullptr,
-                          nullptr, "%.6f", ImGuiInputTextFlags_EnterReturnsTrue))
+                          nullptr, "%.12g", ImGuiInputTextFlags_EnterReturnsTrue))
     point = typed;
 }
 
