@@ -23,8 +23,9 @@ void tell(const LoadListener& listener, const char* stage, double share) {
 }
 
 Scene preprocess(const SceneOptions& options, const LoadListener& listener, BuildStats& stats) {
-  Input input = read_input(options.inputs, {options.params.samples, options.params.seed, model_folders(options),
-                                            /*keep_meshes=*/false});
+  Input input =
+      read_input(options.inputs, {options.params.samples, options.params.seed, model_folders(options),
+                                  /*keep_meshes=*/false});
   for (const std::string& note : input.notes) listener.note(note);
   tell(listener, "reading", 1.0);
   return build_scene(std::move(input), options.params, options.threads, stats, listener.progress);

@@ -13,7 +13,8 @@ DisplayTable::DisplayTable(double exposure_ev) : exposure_ev_(exposure_ev) {
     float radiance = std::bit_cast<float>(i << DROPPED_BITS | MIDDLE);
     const bool infinite = std::bit_cast<float>(i << DROPPED_BITS) == std::numeric_limits<float>::infinity();
     if (infinite) radiance = std::numeric_limits<float>::max();
-    values_[i] = static_cast<std::uint8_t>(std::lround(255.0F * display_value(vec3(radiance), exposure_ev).x));
+    values_[i] =
+        static_cast<std::uint8_t>(std::lround(255.0F * display_value(vec3(radiance), exposure_ev).x));
   }
 }
 

@@ -23,7 +23,8 @@ RenderOptions render_options(const Document& document, std::uint32_t width, std:
   return options;
 }
 
-Document first_document(const LoadedScene& loaded, const SceneOptions& options, const PictureOptions& picture) {
+Document first_document(const LoadedScene& loaded, const SceneOptions& options,
+                        const PictureOptions& picture) {
   const Scene& scene = loaded.scene;
   Document document;
   document.source = options;

@@ -6,7 +6,8 @@
 namespace splatray {
 
 /// Options of this picture, `width` x `height` pixels, in ViewMode::shaded; without an output.
-[[nodiscard]] RenderOptions render_options(const Document& document, std::uint32_t width, std::uint32_t height);
+[[nodiscard]] RenderOptions render_options(const Document& document, std::uint32_t width,
+                                           std::uint32_t height);
 
 struct LoadedScene;
 

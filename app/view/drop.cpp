@@ -31,13 +31,15 @@ std::string percent_decoded(std::string_view text) {
 
 bool is_splatray_picture(const std::filesystem::path& file) {
   const Metadata metadata = read_metadata(file);
-  return std::any_of(metadata.begin(), metadata.end(), [](const auto& entry) { return entry.first == "command_line"; });
+  return std::any_of(metadata.begin(), metadata.end(),
+                     [](const auto& entry) { return entry.first == "command_line"; });
 }
 
 }  // namespace
 
 DropKind drop_kind(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 7> SCENES = {".soct", ".ply", ".obj", ".stl", ".vtp", ".gltf", ".glb"};
+  constexpr std::array<std::string_view, 7> SCENES = {".soct", ".ply",  ".obj", ".stl",
+                                                      ".vtp",  ".gltf", ".glb"};
   const std::string extension = lower_extension(file);
   if (std::find(SCENES.begin(), SCENES.end(), extension) != SCENES.end()) return DropKind::scene;
   if (extension == ".json") return DropKind::camera;

@@ -15,16 +15,16 @@ namespace splatray {
 
 /// One state of the picture, complete or still growing.
 struct Frame {
-  Image image;                ///< rgba of ViewMode::shaded, else aov; its size is the traced one
-  View view;                  ///< of the image
+  Image image;  ///< rgba of ViewMode::shaded, else aov; its size is the traced one
+  View view;    ///< of the image
   ViewMode mode = ViewMode::shaded;
   std::vector<std::uint8_t> display;  ///< what a screen shows: sRGB 8 bit rgba, r first
-  std::uint32_t samples = 0;  ///< in every pixel
+  std::uint32_t samples = 0;          ///< in every pixel
   ColorRange range;                   ///< of the colours of `mode`
-  bool moving = false;        ///< coarse: what is shown changes
-  double scale = 1.0;         ///< traced pixels / window pixels, along an edge; below 1 while moving
-  double ms = 0.0;            ///< wall time of the last whole pass over the picture
-  RenderStats stats;          ///< of all of the picture so far
+  bool moving = false;                ///< coarse: what is shown changes
+  double scale = 1.0;                 ///< traced pixels / window pixels, along an edge; below 1 while moving
+  double ms = 0.0;                    ///< wall time of the last whole pass over the picture
+  RenderStats stats;                  ///< of all of the picture so far
   PoolBytes pool_bytes;
   std::uint32_t pools_uploaded = 0;  ///< since start
   std::string device;

@@ -77,7 +77,9 @@ void Gui::begin() {
 
 void Gui::end() { ImGui::Render(); }
 
-void Gui::record(VkCommandBuffer commands) { ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands); }
+void Gui::record(VkCommandBuffer commands) {
+  ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands);
+}
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 

@@ -9,7 +9,8 @@ namespace {
 
 /// So that back faces are seen too.
 std::vector<Material> two_sided(std::vector<Material> materials) {
-  for (Material& material : materials) material.flags = (material.flags & MATERIAL_HIDDEN) | MATERIAL_TWO_SIDED;
+  for (Material& material : materials)
+    material.flags = (material.flags & MATERIAL_HIDDEN) | MATERIAL_TWO_SIDED;
   return materials;
 }
 

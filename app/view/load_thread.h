@@ -29,8 +29,8 @@ struct OpenedScene {
 struct LoadNews {
   std::optional<OpenedScene> opened;
   std::optional<LoadProgress> progress;  ///< of what is being loaded, as it is now
-  std::string notice;        ///< a sentence
-  std::string error;         ///< a sentence
+  std::string notice;                    ///< a sentence
+  std::string error;                     ///< a sentence
 };
 
 /// All members are for one thread, the window's, and return at once; but the destructor waits for the file that is being

@@ -51,7 +51,8 @@ std::optional<Gesture> Mouse::release(const InputEvent& event, Clock::time_point
   clicked_button_ = twice ? -1 : held.button;
   clicked_ = now;
   clicked_px_ = event.position_px;
-  const auto action = action_for(twice ? InputKind::double_click : InputKind::click, held.button, held.modifiers);
+  const auto action =
+      action_for(twice ? InputKind::double_click : InputKind::click, held.button, held.modifiers);
   return action ? std::optional(Gesture{*action, event.position_px, event.position_px}) : std::nullopt;
 }
 

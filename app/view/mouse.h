@@ -22,7 +22,8 @@ class Mouse {
   using Clock = std::chrono::steady_clock;
 
   /// What the input means by the table of keys.h. `over_controls`: presses and turns of the wheel are not for the picture.
-  [[nodiscard]] std::optional<Gesture> take(const InputEvent& event, bool over_controls, Clock::time_point now);
+  [[nodiscard]] std::optional<Gesture> take(const InputEvent& event, bool over_controls,
+                                            Clock::time_point now);
   /// Whether this drag goes on.
   [[nodiscard]] bool drags(Action action) const { return held_ && held_->drag == action; }
 

@@ -57,8 +57,8 @@ void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, 
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image;
   barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
-                       nullptr, 1, &barrier);
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0,
+                       nullptr, 0, nullptr, 1, &barrier);
 }
 
 /// Orders clears and copies of the same image.
@@ -95,7 +95,8 @@ void Presenter::set_picture(std::span<const std::uint8_t> rgba, std::uint32_t wi
     memory_ = allocate_memory(context_, needs, Residence::device);
     check(vkBindImageMemory(context_.device, picture_.get(), memory_.handle.get(), 0),
           "binding the shown picture's memory");
-    if (pixels_.size() < rgba.size()) pixels_ = Buffer(context_, rgba.size(), 0, VK_FORMAT_UNDEFINED, Residence::host);
+    if (pixels_.size() < rgba.size())
+      pixels_ = Buffer(context_, rgba.size(), 0, VK_FORMAT_UNDEFINED, Residence::host);
   }
   std::memcpy(pixels_.mapped(), rgba.data(), rgba.size());
   copied_ = false;
@@ -119,8 +120,8 @@ std::optional<std::uint32_t> Presenter::acquire() {
     if (swapchain_.pictures.empty()) return {};
   }
   std::uint32_t index = 0;
-  const VkResult result = vkAcquireNextImageKHR(context_.device, swapchain_.handle.get(), UINT64_MAX, acquired_.get(),
-                                                VK_NULL_HANDLE, &index);
+  const VkResult result = vkAcquireNextImageKHR(context_.device, swapchain_.handle.get(), UINT64_MAX,
+                                                acquired_.get(), VK_NULL_HANDLE, &index);
   if (result == VK_ERROR_SURFACE_LOST_KHR) {
     swapchain_ = {};
     surface_.reset();
@@ -153,7 +154,8 @@ void Presenter::record(const Swapchain::Picture& target, std::uint32_t picture_w
 }
 
 void Presenter::record_picture(VkImage target, std::uint32_t picture_width) {
-  constexpr VkImageLayout SOURCE = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, TARGET = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  constexpr VkImageLayout SOURCE = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                          TARGET = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
   record_layout(commands_, target, VK_IMAGE_LAYOUT_UNDEFINED, TARGET);
   const VkExtent2D area{std::min(picture_width, swapchain_.extent.width), swapchain_.extent.height};
   const bool covered = size_.width > 0 && area.width == swapchain_.extent.width;
@@ -202,7 +204,8 @@ void Presenter::submit_and_present(std::uint32_t index) {
   present.pSwapchains = &swapchain;
   present.pImageIndices = &index;
   const VkResult result = vkQueuePresentKHR(context_.queue, &present);
-  if (result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_ERROR_SURFACE_LOST_KHR) {
+  if (result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR ||
+      result == VK_ERROR_SURFACE_LOST_KHR) {
     swapchain_size_ = {};  // renewed by the next draw
     return window_.wake();
   }

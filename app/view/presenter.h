@@ -56,8 +56,8 @@ class Presenter {
   Buffer pixels_;  ///< of the picture, on their way to it
   Memory memory_;
   Handle<VkImage, vkDestroyImage> picture_;
-  VkExtent2D size_{};     ///< of the picture
-  bool copied_ = false;   ///< picture_ holds pixels_
+  VkExtent2D size_{};    ///< of the picture
+  bool copied_ = false;  ///< picture_ holds pixels_
 };
 
 }  // namespace splatray

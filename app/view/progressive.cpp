@@ -8,7 +8,8 @@ namespace {
 constexpr double MOVING_MS = 1000.0 / 30.0;  ///< of a coarse picture
 constexpr double BAND_MS = 30.0;             ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
-constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};  ///< of trace_samples, so that reading back costs little
+constexpr std::chrono::milliseconds BETWEEN_PICTURES{
+    33};  ///< of trace_samples, so that reading back costs little
 
 double milliseconds_since(Progressive::Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Progressive::Clock::now() - start).count();
@@ -16,8 +17,8 @@ double milliseconds_since(Progressive::Clock::time_point start) {
 
 /// Whether a picture of one is a picture of the other, but for the exposure.
 bool same_picture(const Document& a, const Document& b) {
-  return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights && a.up == b.up &&
-         a.environment == b.environment && same_materials(a.materials, b.materials);
+  return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights &&
+         a.up == b.up && a.environment == b.environment && same_materials(a.materials, b.materials);
 }
 
 }  // namespace

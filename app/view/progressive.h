@@ -50,9 +50,9 @@ class Progressive {
   Document document_;
   glm::uvec2 window_px_{0};
   Stage stage_ = Stage::finished;
-  Clock::time_point settled_{};    ///< when settling ends
-  Clock::time_point pass_start_{}; ///< of the pass over the picture under way
-  Clock::time_point published_{};  ///< last time that trace_samples gave a picture
+  Clock::time_point settled_{};     ///< when settling ends
+  Clock::time_point pass_start_{};  ///< of the pass over the picture under way
+  Clock::time_point published_{};   ///< last time that trace_samples gave a picture
   MovingResolution resolution_;
   std::optional<DisplayTable> table_;
   SharedFrame last_;

@@ -29,7 +29,8 @@ SaveJob save_job(const Document& document, const RecordRequest& request) {
   return job;
 }
 
-std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& context, const SaveProgress& progress) {
+std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& context,
+                          const SaveProgress& progress) {
   const RenderOptions& options = job.options;
   const PictureOptions& picture = options.picture;
   const Sequence sequence = plan_sequence(options);

@@ -49,8 +49,9 @@ VkSurfaceFormatKHR choose_surface_format(const Context& context, VkSurfaceKHR su
   for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM})
     for (const VkSurfaceFormatKHR& format : formats)
       if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) return format;
-  throw Error(ExitCode::no_device, "the display takes no sRGB pictures of 8 bits a channel, which the window needs; "
-                                   "splatray-render writes pictures without one");
+  throw Error(ExitCode::no_device,
+              "the display takes no sRGB pictures of 8 bits a channel, which the window needs; "
+              "splatray-render writes pictures without one");
 }
 
 Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const Context& context, VkFormat format) {
@@ -87,8 +88,8 @@ Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const Context& conte
   return {context.device, pass};
 }
 
-Swapchain::Swapchain(const Context& context, VkSurfaceKHR surface, VkSurfaceFormatKHR format, VkRenderPass pass,
-                     glm::uvec2 size, VkSwapchainKHR old) {
+Swapchain::Swapchain(const Context& context, VkSurfaceKHR surface, VkSurfaceFormatKHR format,
+                     VkRenderPass pass, glm::uvec2 size, VkSwapchainKHR old) {
   VkSurfaceCapabilitiesKHR capabilities{};
   check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context.physical_device, surface, &capabilities),
         "asking what the window can show");
@@ -117,9 +118,11 @@ Swapchain::Swapchain(const Context& context, VkSurfaceKHR surface, VkSurfaceForm
 
 void Swapchain::make_pictures(const Context& context, VkFormat format, VkRenderPass pass) {
   std::uint32_t count = 0;
-  check(vkGetSwapchainImagesKHR(context.device, handle.get(), &count, nullptr), "listing the window's pictures");
+  check(vkGetSwapchainImagesKHR(context.device, handle.get(), &count, nullptr),
+        "listing the window's pictures");
   std::vector<VkImage> images(count);
-  check(vkGetSwapchainImagesKHR(context.device, handle.get(), &count, images.data()), "listing the window's pictures");
+  check(vkGetSwapchainImagesKHR(context.device, handle.get(), &count, images.data()),
+        "listing the window's pictures");
   for (VkImage image : images) {
     Picture picture{image, make_view(context, image, format), {}, make_semaphore(context)};
     const VkImageView view = picture.view.get();
@@ -132,7 +135,8 @@ void Swapchain::make_pictures(const Context& context, VkFormat format, VkRenderP
     info.height = extent.height;
     info.layers = 1;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    check(vkCreateFramebuffer(context.device, &info, nullptr, &framebuffer), "making the window's framebuffer");
+    check(vkCreateFramebuffer(context.device, &info, nullptr, &framebuffer),
+          "making the window's framebuffer");
     picture.framebuffer = {context.device, framebuffer};
     pictures.push_back(std::move(picture));
   }

@@ -28,7 +28,8 @@ class Surface {
 [[nodiscard]] VkSurfaceFormatKHR choose_surface_format(const Context& context, VkSurfaceKHR surface);
 
 /// A pass that draws over what a swapchain's picture holds (in TRANSFER_DST_OPTIMAL) and leaves it ready to be shown.
-[[nodiscard]] Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const Context& context, VkFormat format);
+[[nodiscard]] Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const Context& context,
+                                                                          VkFormat format);
 
 /// A swapchain of one size, in the order of FIFO, with a framebuffer for each of its pictures.
 struct Swapchain {
@@ -42,8 +43,8 @@ struct Swapchain {
   Swapchain() = default;
   /// `size` in pixels is taken where the surface has no size of its own. `old`, which may be null, gives up its
   /// pictures. An area of zero makes none: pictures is empty.
-  Swapchain(const Context& context, VkSurfaceKHR surface, VkSurfaceFormatKHR format, VkRenderPass pass, glm::uvec2 size,
-            VkSwapchainKHR old);
+  Swapchain(const Context& context, VkSurfaceKHR surface, VkSurfaceFormatKHR format, VkRenderPass pass,
+            glm::uvec2 size, VkSwapchainKHR old);
 
   Handle<VkSwapchainKHR, vkDestroySwapchainKHR> handle;
   VkExtent2D extent{};  ///< pixels

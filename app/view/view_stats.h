@@ -28,9 +28,9 @@ class ViewStats {
   Clock::time_point start_;
   std::optional<double> first_ms_;
   std::uint64_t pictures_ = 0, moving_pictures_ = 0;
-  double moving_ms_ = 0.0;                  ///< between pictures that followed each other in motion
-  double scale_sum_ = 0.0;                  ///< of moving_pictures_
-  std::vector<Clock::time_point> recent_;   ///< of the last second
+  double moving_ms_ = 0.0;                 ///< between pictures that followed each other in motion
+  double scale_sum_ = 0.0;                 ///< of moving_pictures_
+  std::vector<Clock::time_point> recent_;  ///< of the last second
   Clock::time_point last_{};
   SharedFrame frame_;
 };

@@ -73,15 +73,12 @@ void Viewer::run() {
 }
 
 /// How long nothing needs to be drawn, seconds.
-double Viewer::patience() const {
-  return presenter_.gui().wants_keyboard() ? CARET_SECONDS : SIGNAL_SECONDS;
-}
+double Viewer::patience() const { return presenter_.gui().wants_keyboard() ? CARET_SECONDS : SIGNAL_SECONDS; }
 
 void Viewer::take_news() {
   take_load_news();
   take_render_news();
-  for (const std::filesystem::path& file : window_.take_dropped())
-    attempt([&] { take_dropped(file); });
+  for (const std::filesystem::path& file : window_.take_dropped()) attempt([&] { take_dropped(file); });
 }
 
 void Viewer::take_load_news() {
@@ -176,13 +173,15 @@ void Viewer::handle_inputs() {
   const Gui& gui = presenter_.gui();
   for (const InputEvent& event : window_.take_inputs()) {
     if (event.kind == InputEvent::Kind::key) {
-      if (mouse_.drags(Action::look) && command_for(InputKind::fly_key, event.code, 0)) continue;  // see fly_on
+      if (mouse_.drags(Action::look) && command_for(InputKind::fly_key, event.code, 0))
+        continue;  // see fly_on
       const std::optional<Command> command = command_for(InputKind::key, event.code, event.modifiers);
       if (command && (!gui.wants_keyboard() || command->action == Action::escape)) handle(*command);
       continue;
     }
     const bool over_controls = gui.wants_mouse() || !has_scene_;
-    if (const std::optional<Gesture> gesture = mouse_.take(event, over_controls, Clock::now())) handle(*gesture);
+    if (const std::optional<Gesture> gesture = mouse_.take(event, over_controls, Clock::now()))
+      handle(*gesture);
   }
   fly_on();
 }

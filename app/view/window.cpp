@@ -44,7 +44,8 @@ Window::Window(const std::string& title, std::uint32_t width, std::uint32_t heig
     if (glfwVulkanSupported() != GLFW_TRUE) throw no_window("no Vulkan driver for windows found");
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    window_ = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
+    window_ =
+        glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
     if (window_ == nullptr) throw no_window("no window could be opened (" + glfw_reason() + ")");
     listen();
   } catch (...) {
@@ -85,7 +86,8 @@ void Window::listen() {
   glfwSetCursorEnterCallback(window_, [](GLFWwindow* window, int) { window_of(window).happened_ = true; });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int) { window_of(window).happened_ = true; });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { window_of(window).happened_ = true; });
-  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { window_of(window).happened_ = true; });
+  glfwSetFramebufferSizeCallback(window_,
+                                 [](GLFWwindow* window, int, int) { window_of(window).happened_ = true; });
   glfwSetWindowContentScaleCallback(
       window_, [](GLFWwindow* window, float, float) { window_of(window).happened_ = true; });
   glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int) { window_of(window).happened_ = true; });

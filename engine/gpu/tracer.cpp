@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
+constexpr std::uint32_t QUERY_RAYS = 1U << 20U;     ///< in one dispatch
 constexpr std::uint32_t PROMPT_PIXELS = 1U << 15U;  ///< in one dispatch that somebody waits to stop
 /// Most samples of a dispatch on a processor, without and with secondary rays: Mesa's llvmpipe silently ends all loops of
 /// a thread after 65 535 turns in all (LP_MAX_TGSI_LOOP_ITERATIONS).
@@ -342,7 +342,8 @@ Image Tracer::picture() {
   return image;
 }
 
-std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings, const Progress& progress) {
+std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings,
+                                        const Progress& progress) {
   Impl& impl = *impl_;
   assert(impl.bindings);
   const Clock::time_point start = Clock::now();
