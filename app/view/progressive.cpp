@@ -138,6 +138,7 @@ Frame Progressive::new_frame(glm::uvec2 size_px, double scale) const {
 }
 
 SharedFrame Progressive::coloured(Frame frame) {
+  recolour_ = false;
   frame.pool_bytes = live_.tracer().pool_bytes();
   frame.pools_uploaded = live_.tracer().pools_uploaded();
   if (frame.mode == ViewMode::shaded) {

@@ -19,6 +19,8 @@ struct Tile {
 
 /// Most pixels of a tile.
 inline constexpr std::uint32_t TILE_PIXELS = 1U << 20U;
+/// Most pixels of one that somebody waits to stop.
+inline constexpr std::uint32_t PROMPT_PIXELS = 1U << 15U;
 
 /// Tiles that cover a picture of at least one pixel, each pixel once: full-width bands of a multiple of 8
 /// rows where the width allows it; from the top, the first is the largest. At most `most_pixels` each, but for bands of
