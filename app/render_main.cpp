@@ -24,6 +24,21 @@ int print_devices() {
   return static_cast<int>(ExitCode::done);
 }
 
+LoadedScene load(const RenderOptions& options, ProgressLine& progress) {
+  LoadedScene loaded = load_scene(options.scene, options.picture,
+                                  {[&](const char* stage, double share) {
+                                     progress.show(stage, share);
+                                     return !interrupted();
+                                   },
+                                   [&](const std::string& note) {
+                                     progress.clear();
+                                     if (!options.quiet)
+                                       std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
+                                   }});
+  progress.clear();
+  return loaded;
+}
+
 int render(int argc, char** argv) {
   const std::optional<RenderOptions> parsed = parse_render_options(argc, argv);
   if (!parsed) return static_cast<int>(ExitCode::done);
@@ -43,7 +58,7 @@ int render(int argc, char** argv) {
   times.device_ms = watch.lap_ms();
 
   ProgressLine progress(options.quiet);
-  const LoadedScene loaded = load_scene(options.scene, options.picture, options.quiet, progress);
+  const LoadedScene loaded = load(options, progress);
   const Environment environment = choose_environment(loaded.environment_name);
 
   watch.lap_ms();

@@ -5,6 +5,7 @@
 #include "app/scene_source.h"
 #include "app/sequence.h"
 #include "engine/gpu/tracer.h"
+#include "engine/host/progress.h"
 
 namespace splatray {
 

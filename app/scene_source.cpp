@@ -8,7 +8,6 @@
 #include "app/image_file.h"
 #include "app/materials.h"
 #include "engine/host/error.h"
-#include "engine/host/interrupt.h"
 #include "engine/host/scene_file.h"
 #include "preprocess/file_extension.h"
 
@@ -19,19 +18,17 @@ glm::dvec3 bounds_center(const Scene& scene) {
   return 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
 }
 
-Scene preprocess(const SceneOptions& options, bool quiet, ProgressLine& progress, BuildStats& stats) {
+void tell(const LoadListener& listener, const char* stage, double share) {
+  if (!listener.progress(stage, share)) throw Error(ExitCode::interrupted, "loading was interrupted");
+}
+
+Scene preprocess(const SceneOptions& options, const LoadListener& listener, BuildStats& stats) {
   Input input =
       read_input(options.inputs, {options.params.samples, options.params.seed, model_folders(options),
                                   /*keep_meshes=*/false});
-  stop_if_interrupted();
-  if (!quiet)
-    for (const std::string& note : input.notes)
-      std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
-  return build_scene(std::move(input), options.params, options.threads, stats,
-                     [&](const char* stage, double share) {
-                       progress.show(stage, share);
-                       return !interrupted();
-                     });
+  for (const std::string& note : input.notes) listener.note(note);
+  tell(listener, "reading", 1.0);
+  return build_scene(std::move(input), options.params, options.threads, stats, listener.progress);
 }
 
 void apply_material(Scene& scene, const std::string& name) {
@@ -58,17 +55,17 @@ glm::dvec3 up_across(const Scene& scene, const glm::dvec3& view_dir) {
 
 }  // namespace
 
-LoadedScene load_scene(const SceneOptions& options, const PictureOptions& picture, bool quiet,
-                       ProgressLine& progress) {
+LoadedScene load_scene(const SceneOptions& options, const PictureOptions& picture,
+                       const LoadListener& listener) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   LoadedScene loaded;
+  tell(listener, "reading", 0.0);
   if (lower_extension(options.inputs.front()) == ".soct") {
     loaded.scene = read_scene(options.inputs.front());
   } else {
-    loaded.scene = preprocess(options, quiet, progress, loaded.build.emplace());
+    loaded.scene = preprocess(options, listener, loaded.build.emplace());
   }
-  progress.clear();
   loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   if (!options.material.empty()) apply_material(loaded.scene, options.material);
   apply_object_options(picture.objects, loaded.scene.object_names, loaded.scene.materials);

@@ -1,8 +1,10 @@
 /// From options to the scene that is shown.
 #pragma once
+#include <functional>
+#include <string>
+
 #include "app/options.h"
 #include "engine/host/environment.h"
-#include "engine/host/progress.h"
 #include "preprocess/build.h"
 
 namespace splatray {
@@ -15,10 +17,15 @@ struct LoadedScene {
   std::optional<BuildStats> build;  ///< unless read from a .soct
 };
 
-/// Reads or preprocesses the scene; applies --material, --object and --up. Notes of the readers go to stderr unless
-/// `quiet`. Throws Error.
-[[nodiscard]] LoadedScene load_scene(const SceneOptions& scene, const PictureOptions& picture, bool quiet,
-                                     ProgressLine& progress);
+/// Who hears of loading, on its thread.
+struct LoadListener {
+  BuildProgress progress;  ///< returns false to stop: load_scene then throws Error (interrupted)
+  std::function<void(const std::string&)> note;  ///< a sentence about something odd in the files
+};
+
+/// Reads or preprocesses the scene; applies --material, --object and --up. Throws Error.
+[[nodiscard]] LoadedScene load_scene(const SceneOptions& scene, const PictureOptions& picture,
+                                     const LoadListener& listener);
 
 /// The camera the options ask for: --eye, else the scene's own, else a view of the whole scene.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const PictureOptions& picture);

@@ -49,8 +49,8 @@ bool validation_in_environment() {
 }
 
 /// VK_NULL_HANDLE where no driver is installed. `messenger` set: with the validation layer.
-VkInstance make_instance(const VkDebugUtilsMessengerCreateInfoEXT* messenger) {
-  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+VkInstance make_instance(const VkDebugUtilsMessengerCreateInfoEXT* messenger,
+                         std::vector<const char*> extensions = {}) {
   VkApplicationInfo application{};
   application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   application.pApplicationName = "splatray";
@@ -62,9 +62,10 @@ VkInstance make_instance(const VkDebugUtilsMessengerCreateInfoEXT* messenger) {
     info.pNext = messenger;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &VALIDATION_LAYER;
-    info.enabledExtensionCount = 1;
-    info.ppEnabledExtensionNames = &extension;
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   }
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   VkInstance instance = VK_NULL_HANDLE;
   const VkResult result = vkCreateInstance(&info, nullptr, &instance);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return VK_NULL_HANDLE;
@@ -104,17 +105,11 @@ std::vector<DeviceInfo> list_devices() {
   return infos;
 }
 
-Context::Context(const std::string& wanted, bool validation) {
+Context::Context(const std::string& wanted, bool validation, const WindowNeeds& needs) {
   try {
-    create_instance(validation || validation_in_environment());
-    std::vector<VkPhysicalDevice> devices;
-    if (instance != VK_NULL_HANDLE) devices = physical_devices(instance);
-    std::vector<DeviceInfo> infos;
-    for (VkPhysicalDevice candidate : devices) infos.push_back(describe_device(candidate));
-    const std::size_t chosen = choose_device(infos, wanted);
-    physical_device = devices[chosen];
-    info_ = infos[chosen];
-    create_device();
+    create_instance(validation || validation_in_environment(), needs);
+    choose_device(wanted, needs);
+    create_device(needs);
   } catch (...) {
     destroy();
     throw;
@@ -123,12 +118,12 @@ Context::Context(const std::string& wanted, bool validation) {
 
 Context::~Context() { destroy(); }
 
-void Context::create_instance(bool validation) {
+void Context::create_instance(bool validation, const WindowNeeds& needs) {
   if (validation && !validation_layer_present())
     throw Error(ExitCode::failed, std::string("validation was asked for, but the layer ") + VALIDATION_LAYER +
                                       " is not installed (Debian's package vulkan-validationlayers)");
   const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(&validation_messages_);
-  instance = make_instance(validation ? &messenger : nullptr);
+  instance = make_instance(validation ? &messenger : nullptr, needs.instance_extensions);
   if (validation && instance != VK_NULL_HANDLE) create_messenger();
 }
 
@@ -139,7 +134,21 @@ void Context::create_messenger() {
   check(create(instance, &info, nullptr, &messenger_), "listening to the validation layer");
 }
 
-void Context::create_device() {
+void Context::choose_device(const std::string& wanted, const WindowNeeds& needs) {
+  std::vector<VkPhysicalDevice> devices;
+  if (instance != VK_NULL_HANDLE) devices = physical_devices(instance);
+  std::vector<DeviceInfo> infos;
+  for (VkPhysicalDevice candidate : devices) {
+    infos.push_back(describe_device(candidate));
+    if (infos.back().refused.empty() && needs.refusal)
+      infos.back().refused = needs.refusal(instance, candidate);
+  }
+  const std::size_t chosen = splatray::choose_device(infos, wanted);
+  physical_device = devices[chosen];
+  info_ = infos[chosen];
+}
+
+void Context::create_device(const WindowNeeds& needs) {
   VkPhysicalDeviceMaintenance3Properties limits{};
   limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
   VkPhysicalDeviceProperties2 chain{};
@@ -161,6 +170,8 @@ void Context::create_device() {
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue_info;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(needs.device_extensions.size());
+  info.ppEnabledExtensionNames = needs.device_extensions.data();
   check(vkCreateDevice(physical_device, &info, nullptr, &device), "opening the Vulkan device");
   vkGetDeviceQueue(device, queue_family, 0, &queue);
 

@@ -1,9 +1,10 @@
-/// Instance, device and queue; headless. No extension is required; Vulkan 1.2.
+/// Instance, device and queue; headless unless told what a window needs. No extension is required; Vulkan 1.2.
 #pragma once
 #include <vulkan/vulkan.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,14 @@ struct DeviceInfo {
   std::string refused;  ///< why it cannot be used; empty = usable
 };
 
+/// What a program that presents in a window needs of Vulkan; nothing for a headless one.
+struct WindowNeeds {
+  std::vector<const char*> instance_extensions;
+  std::vector<const char*> device_extensions;
+  /// Why the device's compute queue will not do; empty = it will.
+  std::function<std::string(VkInstance, VkPhysicalDevice)> refusal;
+};
+
 class Context {
  public:
   /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
@@ -25,7 +34,7 @@ class Context {
   /// Validation layers and their messages are on when `validation` (or the environment variable
   /// SPLATRAY_VALIDATION=1) is set; each validation warning or error is counted and printed on stderr. Throws
   /// Error (failed) when they are asked for but not installed.
-  explicit Context(const std::string& wanted = "", bool validation = false);
+  explicit Context(const std::string& wanted = "", bool validation = false, const WindowNeeds& needs = {});
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -44,9 +53,10 @@ class Context {
   std::uint64_t max_allocation_bytes = 0;  ///< largest single allocation the device promises
 
  private:
-  void create_instance(bool validation);
+  void create_instance(bool validation, const WindowNeeds& needs);
   void create_messenger();
-  void create_device();
+  void choose_device(const std::string& wanted, const WindowNeeds& needs);
+  void create_device(const WindowNeeds& needs);
   void destroy();
 
   DeviceInfo info_;

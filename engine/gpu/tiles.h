@@ -19,9 +19,13 @@ struct Tile {
 
 /// Most pixels of a tile.
 inline constexpr std::uint32_t TILE_PIXELS = 1U << 20U;
+/// Most pixels of one that somebody waits to stop.
+inline constexpr std::uint32_t PROMPT_PIXELS = 1U << 15U;
 
 /// Tiles that cover a picture of at least one pixel, each pixel once: full-width bands of a multiple of 8
-/// rows where the width allows it; from the top, the first is the largest.
-[[nodiscard]] std::vector<Tile> cut_into_tiles(std::uint32_t width, std::uint32_t height);
+/// rows where the width allows it; from the top, the first is the largest. At most `most_pixels` each, but for bands of
+/// 8 rows.
+[[nodiscard]] std::vector<Tile> cut_into_tiles(std::uint32_t width, std::uint32_t height,
+                                               std::uint32_t most_pixels = TILE_PIXELS);
 
 }  // namespace splatray

@@ -22,11 +22,14 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
 /// Most samples of a dispatch on a processor, without and with secondary rays: Mesa's llvmpipe silently ends all loops of
 /// a thread after 65 535 turns in all (LP_MAX_TGSI_LOOP_ITERATIONS).
-constexpr std::uint32_t PROCESSOR_BATCH = 16;
-constexpr std::uint32_t PROCESSOR_BATCH_OF_PATHS = 1;
+constexpr std::uint32_t PROCESSOR_BATCH = 16, PROCESSOR_BATCH_OF_PATHS = 1;
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void report(const Tracer::Progress& progress, double share) {
+  if (progress && !progress(share)) throw Error(ExitCode::interrupted, "rendering was interrupted");
 }
 
 /// Makes a storage buffer at least that large; keeps it when it is.
@@ -35,7 +38,7 @@ void reserve(const Context& context, Buffer& buffer, VkDeviceSize bytes) {
     buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
-/// Puts a tile's values where they belong in a picture of `width` columns.
+/// Puts a tile's values into a picture of `width` columns.
 template <class Value>
 void place(const Tile& tile, const std::vector<Value>& values, std::vector<Value>& picture,
            std::uint32_t width) {
@@ -252,6 +255,8 @@ void Tracer::set_materials(std::span<const Material> materials) {
 
 void Tracer::set_lights(std::span<const SceneLight> lights) { impl_->set_lights(lights); }
 
+void Tracer::set_up(const glm::dvec3& up) { impl_->frame_of_reference.up = up; }
+
 void Tracer::set_environment(const Environment& environment) {
   Impl& impl = *impl_;
   impl.environment = EnvironmentTexture(impl.context, impl.queue, environment);
@@ -279,8 +284,7 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   std::uint64_t done = 0;
   const auto advance = [&](std::uint64_t samples) {
     done += samples;
-    const double share = static_cast<double>(done) / (static_cast<double>(pixels) * settings.samples);
-    if (progress && !progress(share)) throw Error(ExitCode::interrupted, "rendering was interrupted");
+    report(progress, static_cast<double>(done) / (static_cast<double>(pixels) * settings.samples));
   };
   for (const Tile& tile : tiles) {
     impl.trace_samples(tile, dispatch, advance);
@@ -340,17 +344,21 @@ Image Tracer::picture() {
   return image;
 }
 
-std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings) {
+std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings,
+                                        const Progress& progress) {
   Impl& impl = *impl_;
   assert(impl.bindings);
   const Clock::time_point start = Clock::now();
   impl.stats = {};
   const Dispatch dispatch = impl.picture_dispatch(view, settings);
-  const std::vector<Tile> tiles = cut_into_tiles(view.width, view.height);
+  const auto tiles = cut_into_tiles(view.width, view.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
   reserve(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
   impl.bind_all();
   std::vector<AovPixel> pixels(std::size_t{view.width} * view.height);
-  for (const Tile& tile : tiles) impl.trace_aov(tile, dispatch, pixels);
+  for (const Tile& tile : tiles) {
+    impl.trace_aov(tile, dispatch, pixels);
+    report(progress, double(tile.y + tile.height) / view.height);
+  }
   impl.stats.wall_ms = impl.stats.trace_ms = milliseconds_since(start);
   return pixels;
 }

@@ -41,6 +41,8 @@ class Tracer {
   void set_materials(std::span<const Material> materials);
   void set_lights(std::span<const SceneLight> lights);
   void set_environment(const Environment& environment);
+  /// Replaces the scene's up direction, about which the environment stands.
+  void set_up(const glm::dvec3& up);
 
   /// Called between dispatches with the share done, 0..1; returns false to stop (render then throws Error
   /// interrupted).
@@ -57,8 +59,10 @@ class Tracer {
   [[nodiscard]] std::uint32_t samples() const;  ///< in every pixel of the picture begun
   /// The picture begun: each pixel the mean of its samples so far, black without one.
   [[nodiscard]] Image picture();
-  /// What the ray through each pixel's centre hits, top row first.
-  [[nodiscard]] std::vector<AovPixel> trace_aov(const View& view, const Settings& settings);
+  /// What the ray through each pixel's centre hits, top row first. With `progress` in dispatches small enough for an
+  /// answer within some tens of ms.
+  [[nodiscard]] std::vector<AovPixel> trace_aov(const View& view, const Settings& settings,
+                                                const Progress& progress = {});
   /// Hits of arbitrary rays, one RayHit per query. Root space.
   [[nodiscard]] std::vector<RayHit> intersect(std::span<const RayQuery> rays, const Settings& settings);
 

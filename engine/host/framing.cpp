@@ -8,6 +8,7 @@
 namespace splatray {
 namespace {
 
+constexpr double DEG = std::numbers::pi / 180.0;
 constexpr double AZIMUTH_DEG = 27.0;    ///< from the front towards the scene's right
 constexpr double ELEVATION_DEG = 17.0;  ///< above the horizon
 constexpr double MARGIN = 1.06;         ///< picture size / size of the scene in it
@@ -50,27 +51,30 @@ Camera default_camera(const Scene& scene, double aspect) {
 }
 
 Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg) {
-  constexpr double DEG = std::numbers::pi / 180.0;
   const glm::dmat3 axes = upright_axes(scene.up);
   const glm::dvec3 level = std::cos(AZIMUTH_DEG * DEG) * axes[2] + std::sin(AZIMUTH_DEG * DEG) * axes[0];
   const glm::dvec3 back = std::cos(ELEVATION_DEG * DEG) * level + std::sin(ELEVATION_DEG * DEG) * axes[1];
   const glm::dvec3 right = glm::normalize(glm::cross(axes[1], back));
-  const glm::dvec3 top = glm::cross(back, right);
+  Camera camera = framing_camera(scene, aspect, fov_y_deg, {right, glm::cross(back, right), back});
+  camera.up = axes[1];
+  return camera;
+}
 
+Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg, const glm::dmat3& axes) {
   const glm::dvec3 center = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
   const double slope = std::tan(0.5 * fov_y_deg * DEG) / MARGIN;
   AxisFit horizontal{slope * aspect}, vertical{slope};
   for (const glm::dvec3& point : framed_points(scene)) {
     const glm::dvec3 q = point - center;
-    horizontal.add(glm::dot(q, right), glm::dot(q, back));
-    vertical.add(glm::dot(q, top), glm::dot(q, back));
+    horizontal.add(glm::dot(q, axes[0]), glm::dot(q, axes[2]));
+    vertical.add(glm::dot(q, axes[1]), glm::dot(q, axes[2]));
   }
   const double least = std::max(1e-3 * scene.diagonal_world(), scene.root.unit_world);
   const double distance = std::max({horizontal.distance(), vertical.distance(), least});
 
   Camera camera;
-  camera.target = center + horizontal.offset() * right + vertical.offset() * top;
-  camera.eye = camera.target + distance * back;
+  camera.target = center + horizontal.offset() * axes[0] + vertical.offset() * axes[1];
+  camera.eye = camera.target + distance * axes[2];
   camera.up = axes[1];
   camera.fov_y_deg = fov_y_deg;
   return camera;

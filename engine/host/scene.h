@@ -28,6 +28,7 @@ struct Camera {
   glm::dvec3 up{0.0, 1.0, 0.0};  ///< need not be orthogonal to the view direction, must not be parallel to it
   double fov_y_deg = 40.0;       ///< vertical field of view, (0, 180); ignored when ortho_height > 0
   double ortho_height = 0.0;     ///< world height of an orthographic picture; 0 = perspective
+  bool operator==(const Camera&) const = default;
 };
 
 /// A light in world space. Intensities are linear rgb.
@@ -35,6 +36,7 @@ struct SceneLight {
   std::uint32_t kind = LIGHT_DIRECTIONAL;  ///< LIGHT_*
   glm::dvec3 position{0.0, 1.0, 0.0};      ///< point: position; directional: unit vector towards the light
   glm::vec3 power{1.0F};  ///< directional: irradiance facing it; point: intensity (irradiance * distance^2)
+  bool operator==(const SceneLight&) const = default;
 };
 
 enum class Insertion : std::uint32_t { overlap = 0, probe = 1, centre = 2 };

@@ -49,6 +49,9 @@ inline constexpr double DEFAULT_FOV_Y_DEG = 30.0;
 [[nodiscard]] Camera default_camera(const Scene& scene, double aspect);
 /// As default_camera, but ignores the scene's own camera. `fov_y_deg` in (0, 180).
 [[nodiscard]] Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg = DEFAULT_FOV_Y_DEG);
+/// As framing_camera, with the picture's axes given: columns right, up and back (towards the camera), orthonormal.
+[[nodiscard]] Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg,
+                                    const glm::dmat3& axes);
 
 /// The light a scene without lights is shown in: a key light over the viewer's left shoulder.
 [[nodiscard]] std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera);

@@ -1,0 +1,24 @@
+/// splatray-view: a scene in a window.
+#include "app/view/view_options.h"
+#include "app/view/viewer.h"
+#include "engine/host/error.h"
+#include "engine/host/interrupt.h"
+
+namespace {
+
+using namespace splatray;
+
+int view(int argc, char** argv) {
+  const auto start = ViewStats::Clock::now();
+  const std::optional<ViewOptions> options = parse_view_options(argc, argv);
+  if (!options) return static_cast<int>(ExitCode::done);
+  catch_interrupts();
+  Viewer viewer(*options, start);
+  viewer.run();
+  stop_if_interrupted();
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return splatray::run_main("splatray-view", view, argc, argv); }

@@ -1,0 +1,54 @@
+#include "app/view/view_stats.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/host/atomic_file.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::chrono::milliseconds STANDSTILL{500};  ///< a longer gap is no motion
+
+double milliseconds(ViewStats::Clock::duration time) {
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
+}  // namespace
+
+void ViewStats::shown(const SharedFrame& frame, Clock::time_point now) {
+  if (!first_ms_) first_ms_ = milliseconds(now - start_);
+  ++pictures_;
+  if (frame->moving && frame_ && frame_->moving && now - last_ < STANDSTILL) {
+    ++moving_pictures_;
+    moving_ms_ += milliseconds(now - last_);
+    scale_sum_ += frame->scale;
+  }
+  last_ = now;
+  frame_ = frame;
+  std::erase_if(recent_, [now](Clock::time_point time) { return now - time > std::chrono::seconds(1); });
+  recent_.push_back(now);
+}
+
+double ViewStats::per_second(Clock::time_point now) const {
+  return static_cast<double>(std::count_if(recent_.begin(), recent_.end(), [now](Clock::time_point time) {
+    return now - time <= std::chrono::seconds(1);
+  }));
+}
+
+void ViewStats::write(const std::filesystem::path& path, std::uint32_t validation_messages) const {
+  const double moving = static_cast<double>(moving_pictures_);
+  nlohmann::ordered_json json;
+  json["device"] = frame_ ? frame_->device : "";
+  json["first_picture_ms"] = first_ms_.value_or(0.0);
+  json["pictures"] = pictures_;
+  json["moving"] = {{"pictures", moving_pictures_},
+                    {"per_second", moving_ms_ > 0.0 ? 1000.0 * moving / moving_ms_ : 0.0},
+                    {"mean_scale", moving_pictures_ > 0 ? scale_sum_ / moving : 0.0}};
+  json["samples"] = frame_ ? frame_->samples : 0;
+  json["pools_uploaded"] = frame_ ? frame_->pools_uploaded : 0;
+  json["validation_messages"] = validation_messages;
+  write_text_file(json.dump(2) + "\n", path);
+}
+
+}  // namespace splatray

@@ -1,0 +1,313 @@
+#include "app/view/viewer.h"
+
+#include <algorithm>
+
+#include "app/camera_file.h"
+#include "app/command_line.h"
+#include "app/reproduce.h"
+#include "app/view/document_options.h"
+#include "app/view/drop.h"
+#include "app/view/navigation.h"
+#include "engine/host/error.h"
+#include "engine/host/interrupt.h"
+
+namespace splatray {
+namespace {
+
+using Clock = ViewStats::Clock;
+
+/// Frames drawn after something happened, for controls that take their place in the next.
+constexpr int FRAMES_TO_SETTLE = 3;
+constexpr double SIGNAL_SECONDS = 0.5;  ///< between looks for an interrupt
+constexpr double CARET_SECONDS = 0.2;   ///< between looks at a text that is being written
+
+bool flies_fast(const Window& window) {
+  const auto all = bindings();
+  return std::any_of(all.begin(), all.end(), [&](const Binding& binding) {
+    return binding.action == Action::fly_fast && window.is_down(binding.code);
+  });
+}
+
+/// With the size of the window that was closed last, unless another is asked for.
+ViewOptions sized(ViewOptions options, const UserState& user) {
+  if (options.picture.width > 0) return options;
+  options.picture.width = static_cast<std::uint32_t>(user.window_width);
+  options.picture.height = static_cast<std::uint32_t>(user.window_height);
+  return options;
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewOptions& options, Clock::time_point start)
+    : options_(sized(options, user_)),
+      stats_(start),
+      window_("splatray", options_.picture.width, options_.picture.height),
+      presenter_(window_),
+      loader_([this] { window_.wake(); }),
+      renderer_(options.picture.device, [this] { window_.wake(); }) {
+  panels_.recent_files = user_.recent_files;
+  document_.exposure_ev = options.exposure_ev;
+  PictureOptions first = options_.picture;
+  first.width = std::max(picture_px().x, 1U);
+  first.height = std::max(picture_px().y, 1U);
+  if (!options_.scene.inputs.empty()) loader_.load(options_.scene, first);
+}
+
+void Viewer::run() {
+  int frames_left = FRAMES_TO_SETTLE;
+  while (!closing_ && !window_.should_close() && !interrupted()) {
+    if (window_.wait(frames_left > 0 ? 0.0 : patience())) frames_left = FRAMES_TO_SETTLE;
+    if (frames_left == 0 && !presenter_.gui().wants_keyboard()) continue;
+    frames_left = std::max(frames_left - 1, 0);
+    take_news();
+    presenter_.gui().begin();
+    handle_inputs();
+    draw_controls();
+    presenter_.gui().end();
+    submit();
+    presenter_.draw(picture_px().x);
+  }
+  remember();
+  if (!options_.stats_json.empty())
+    stats_.write(options_.stats_json, presenter_.validation_messages() + renderer_.validation_messages());
+}
+
+/// How long nothing needs to be drawn, seconds.
+double Viewer::patience() const { return presenter_.gui().wants_keyboard() ? CARET_SECONDS : SIGNAL_SECONDS; }
+
+void Viewer::take_news() {
+  take_load_news();
+  take_render_news();
+  for (const std::filesystem::path& file : window_.take_dropped()) attempt([&] { take_dropped(file); });
+}
+
+void Viewer::take_load_news() {
+  LoadNews news = loader_.take_news();
+  work_.reset();
+  if (news.progress) work_ = {news.progress->stage, news.progress->share};
+  if (!news.notice.empty()) panels_.notice = news.notice;
+  if (!news.error.empty()) panels_.error = news.error;
+  if (news.opened) show(std::move(*news.opened));
+}
+
+void Viewer::take_render_news() {
+  RenderNews news = renderer_.take_news();
+  if (news.frame) {
+    frame_ = news.frame;
+    presenter_.set_picture(frame_->display, frame_->view.width, frame_->view.height);
+    stats_.shown(frame_, Clock::now());
+  }
+  if (news.saving) work_ = news.saving;
+  if (!news.notice.empty()) panels_.notice = news.notice;
+  if (!news.error.empty()) panels_.error = news.error;
+  if (!news.pick) return;
+  if (!news.pick->as_pivot)
+    inspected_ = news.pick->inspected;
+  else if (news.pick->inspected)
+    set_pivot(document_, news.pick->inspected->hit_world);
+}
+
+void Viewer::open(const std::filesystem::path& file) {
+  SceneOptions scene = options_.scene;
+  scene.inputs = {file};
+  scene.material.clear();
+  PictureOptions picture;
+  picture.settings = has_scene_ ? document_.settings : options_.picture.settings;
+  picture.width = picture_px().x;
+  picture.height = picture_px().y;
+  loader_.load(scene, picture);
+}
+
+void Viewer::open(const RenderOptions& options) {
+  document_.exposure_ev = options.exposure_ev;
+  loader_.load(options.scene, options.picture);
+}
+
+void Viewer::show(OpenedScene opened) {
+  opened.document.exposure_ev = document_.exposure_ev;
+  opened.document.mode = document_.mode;
+  document_ = std::move(opened.document);
+  has_scene_ = true;
+  file_ = document_.source.inputs.front();
+  remember_file(user_, file_);
+  panels_.recent_files = user_.recent_files;
+  panels_.home = document_.camera;
+  panels_.object = panels_.light = 0;
+  panels_.save.width = panels_.record.width = std::max(picture_px().x, 1U);
+  panels_.save.height = panels_.record.height = std::max(picture_px().y, 1U);
+  panels_.save.samples = panels_.record.samples = document_.settings.samples;
+  panels_.bookmarks = user_.bookmarks[std::filesystem::absolute(file_).string()];
+  inspected_.reset();
+  window_.set_title(file_.filename().string() + " - splatray");
+  renderer_.open(std::move(opened.scene), document_, picture_px());
+}
+
+/// What goes wrong becomes a sentence in the window.
+void Viewer::attempt(const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const Error& error) {
+    panels_.error = error.what();
+  }
+}
+
+void Viewer::take_dropped(const std::filesystem::path& file) {
+  switch (drop_kind(file)) {
+    case DropKind::scene:
+      return open(file);
+    case DropKind::picture:
+      return open(read_picture_options(file));
+    case DropKind::environment:
+      document_.environment = file.string();
+      return;
+    case DropKind::camera:
+      document_.camera = read_camera(file);
+      return;
+    case DropKind::unknown:
+      panels_.error = "found '" + file.filename().string() +
+                      "', expected a scene, a model, an environment, a camera or a picture of splatray";
+  }
+}
+
+void Viewer::handle_inputs() {
+  const Gui& gui = presenter_.gui();
+  for (const InputEvent& event : window_.take_inputs()) {
+    if (event.kind == InputEvent::Kind::key) {
+      if (mouse_.drags(Action::look) && command_for(InputKind::fly_key, event.code, 0))
+        continue;  // see fly_on
+      const std::optional<Command> command = command_for(InputKind::key, event.code, event.modifiers);
+      if (command && (!gui.wants_keyboard() || command->action == Action::escape)) handle(*command);
+      continue;
+    }
+    const bool over_controls = gui.wants_mouse() || !has_scene_;
+    if (const std::optional<Gesture> gesture = mouse_.take(event, over_controls, Clock::now()))
+      handle(*gesture);
+  }
+  fly_on();
+}
+
+void Viewer::handle(const Gesture& gesture) {
+  const glm::dvec2 size(picture_px()), step = gesture.to_px - gesture.from_px;
+  switch (gesture.action) {
+    case Action::orbit:
+      return orbit(document_, step, size);
+    case Action::pan:
+      return pan(document_, gesture.from_px, gesture.to_px, size);
+    case Action::look:
+      return look(document_, step, size);
+    case Action::zoom:
+      return zoom(document_, gesture.notches, gesture.to_px, size);
+    case Action::drag_light:
+      if (panels_.light < document_.lights.size())
+        drag_light(document_, gesture.to_px, size, document_.lights[panels_.light]);
+      return;
+    case Action::pivot:
+    case Action::inspect:
+      return renderer_.pick({gesture.to_px, picture_px(), gesture.action == Action::pivot});
+    default:
+      return;
+  }
+}
+
+/// Moves on while the fly keys are down.
+void Viewer::fly_on() {
+  const Clock::time_point now = Clock::now();
+  const glm::dvec3 direction = fly_direction([this](int key) { return window_.is_down(key); });
+  if (!mouse_.drags(Action::look) || direction == glm::dvec3(0.0)) {
+    flown_ = now;
+    return;
+  }
+  fly(document_, direction, std::chrono::duration<double>(now - flown_).count(), flies_fast(window_));
+  flown_ = now;
+  window_.wake();
+}
+
+void Viewer::handle(const Command& command) {
+  if (apply(command, aspect(), document_, panels_)) return;
+  switch (command.action) {
+    case Action::quit:
+      closing_ = true;
+      return;
+    case Action::escape:
+      return cancel();
+    case Action::copy_command:
+      return copy();
+    case Action::paste_command:
+      return attempt([this] { paste(); });
+    default:
+      return;
+  }
+}
+
+void Viewer::draw_controls() {
+  panels_.ui_scale = presenter_.gui().scale();
+  PanelView view;
+  view.frame = frame_.get();
+  view.inspected = inspected_ ? &*inspected_ : nullptr;
+  view.frames_per_second = stats_.per_second(Clock::now());
+  view.work = work_ ? &*work_ : nullptr;
+  handle(draw_panels(document_, panels_, view));
+}
+
+void Viewer::handle(const Requests& requests) {
+  for (const Command& command : requests.commands) handle(command);
+  if (requests.open) open(*requests.open);
+  if (requests.save && has_scene_) renderer_.save(save_job(document_, *requests.save));
+  if (requests.record && has_scene_) renderer_.save(save_job(document_, *requests.record));
+  if (requests.cancel) cancel();
+}
+
+void Viewer::cancel() {
+  loader_.cancel();
+  renderer_.cancel_save();
+}
+
+void Viewer::copy() {
+  if (!has_scene_) return;
+  RenderOptions options = render_options(document_, picture_px().x, picture_px().y);
+  options.output = panels_.save.path;
+  window_.set_clipboard(command_line(options));
+  panels_.notice = "copied a splatray-render command";
+}
+
+/// A splatray-render command, or files as file managers copy them.
+void Viewer::paste() {
+  const std::string text = window_.clipboard();
+  const std::vector<std::string> words = shell_words(text);
+  if (!words.empty() && std::filesystem::path(words.front()).filename() == "splatray-render")
+    return open(parse_command_line(text));
+  for (const std::filesystem::path& file : pasted_files(text)) take_dropped(file);
+}
+
+/// Hands the document over; the render thread finds out whether anything has changed.
+void Viewer::submit() {
+  const glm::uvec2 size = picture_px();
+  if (has_scene_ && size.x > 0 && size.y > 0) renderer_.show(document_, size);
+}
+
+void Viewer::remember() {
+  if (user_path_.empty()) return;
+  if (has_scene_) user_.bookmarks[std::filesystem::absolute(file_).string()] = panels_.bookmarks;
+  const glm::uvec2 size = window_.size();
+  if (size.x > 0 && size.y > 0) {
+    user_.window_width = static_cast<int>(size.x);
+    user_.window_height = static_cast<int>(size.y);
+  }
+  write_user_state(user_, user_path_);
+}
+
+/// The part of the window that shows the picture, pixels; 0 x 0 while minimised.
+glm::uvec2 Viewer::picture_px() const {
+  const glm::uvec2 window = window_.framebuffer_size();
+  const float width = static_cast<float>(window_.size().x);
+  if (width == 0.0F) return window;
+  const float column = panel_column_px(panels_, width) * static_cast<float>(window.x) / width;
+  return {window.x - std::min(window.x, static_cast<std::uint32_t>(column)), window.y};
+}
+
+double Viewer::aspect() const {
+  const glm::uvec2 size = glm::max(picture_px(), glm::uvec2(1));
+  return static_cast<double>(size.x) / size.y;
+}
+
+}  // namespace splatray

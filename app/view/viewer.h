@@ -1,0 +1,73 @@
+/// The viewer: what a person does becomes a document, documents become pictures, pictures come into the window.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "app/view/load_thread.h"
+#include "app/view/mouse.h"
+#include "app/view/panels.h"
+#include "app/view/presenter.h"
+#include "app/view/render_thread.h"
+#include "app/view/user_files.h"
+#include "app/view/view_options.h"
+#include "app/view/view_stats.h"
+#include "app/view/window.h"
+
+namespace splatray {
+
+/// On the program's first thread.
+class Viewer {
+ public:
+  /// Opens the window. `start`: of the program. Throws Error (no_device).
+  Viewer(const ViewOptions& options, ViewStats::Clock::time_point start);
+
+  /// Until the window is closed or a signal comes.
+  void run();
+
+ private:
+  void take_news();
+  void take_load_news();
+  void take_render_news();
+  void attempt(const std::function<void()>& step);
+  void open(const std::filesystem::path& file);
+  void open(const RenderOptions& options);
+  void show(OpenedScene opened);
+  void take_dropped(const std::filesystem::path& file);
+  void handle_inputs();
+  void handle(const Gesture& gesture);
+  void handle(const Command& command);
+  void fly_on();
+  void draw_controls();
+  void handle(const Requests& requests);
+  void cancel();
+  void copy();
+  void paste();
+  void submit();
+  void remember();
+  [[nodiscard]] glm::uvec2 picture_px() const;
+  [[nodiscard]] double aspect() const;
+  [[nodiscard]] double patience() const;
+
+  std::filesystem::path user_path_ = user_state_path();
+  UserState user_ = read_user_state(user_path_);
+  ViewOptions options_;
+  ViewStats stats_;
+  Window window_;
+  Presenter presenter_;
+  LoadThread loader_;
+  RenderThread renderer_;
+
+  Document document_;
+  bool has_scene_ = false;
+  std::filesystem::path file_;  ///< of the scene shown
+  Mouse mouse_;
+  PanelState panels_;
+  SharedFrame frame_;
+  std::optional<Inspected> inspected_;
+  std::optional<Work> work_;
+  ViewStats::Clock::time_point flown_{};  ///< when fly_on last moved
+  bool closing_ = false;
+};
+
+}  // namespace splatray

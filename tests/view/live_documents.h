@@ -1,0 +1,31 @@
+/// A document of a scene small enough to trace in no time.
+#pragma once
+#include <memory>
+
+#include "app/view/document.h"
+#include "app/view/live_scene.h"
+#include "tests/gpu/small_scene.h"
+
+namespace splatray {
+
+/// The discs of tests/gpu/small_scene.h.
+inline SharedScene shared_discs(std::uint32_t count = 2) {
+  return std::make_shared<const Scene>(disc_scene(count));
+}
+
+/// Shows them before a white environment.
+inline Document disc_document(const Scene& scene) {
+  Document document;
+  document.object_names = scene.object_names;
+  document.loaded_materials = document.materials = scene.materials;
+  document.lights = scene.lights;
+  document.environment = "white";
+  document.camera = disc_view(1, 1).camera;
+  document.settings.samples = 3;
+  document.up = scene.up;
+  document.bounds_min_world = scene.bounds_min_world;
+  document.bounds_max_world = scene.bounds_max_world;
+  return document;
+}
+
+}  // namespace splatray

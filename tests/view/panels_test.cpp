@@ -1,0 +1,271 @@
+#include "app/view/panels.h"
+
+#include <gtest/gtest.h>
+
+#include "app/camera_file.h"
+#include "app/materials.h"
+#include "app/view/live_scene.h"
+#include "tests/readers/temp_folder.h"
+#include "tests/view/documents.h"
+#include "tests/view/gui_driver.h"
+
+namespace splatray {
+namespace {
+
+Document document_of(std::size_t objects) {
+  Document document = box_document({1.0, 2.0, 3.0}, 2.0);
+  for (std::size_t i = 0; i < objects; ++i)
+    document.object_names.push_back(i == 1 ? "" : "part " + std::to_string(i));
+  document.materials.assign(objects, named_material("matte"));
+  document.loaded_materials = document.materials;
+  if (objects > 0) document.lights.resize(2);
+  return document;
+}
+
+Frame some_frame(ViewMode mode) {
+  Frame frame;
+  frame.image.width = 640;
+  frame.image.height = 360;
+  frame.samples = 3;
+  frame.scale = 0.5;
+  frame.ms = 41.0;
+  frame.mode = mode;
+  frame.stats.trace_ms = 40.0;
+  frame.pool_bytes.data_pool = 123456789;
+  frame.device = "llvmpipe (LLVM 15.0.6, 256 bits)";
+  return frame;
+}
+
+bool hidden(const Document& document, std::size_t object) {
+  return (document.materials[object].flags & MATERIAL_HIDDEN) != 0;
+}
+
+bool same(const Document& a, const Document& b) {
+  return same_materials(a.materials, b.materials) && a.lights == b.lights && a.camera == b.camera &&
+         a.mode == b.mode && a.environment == b.environment && a.settings.samples == b.settings.samples &&
+         a.settings.kappa == b.settings.kappa;
+}
+
+TEST(PanelsTest, AllPanelsRunOverAnyDocumentAndChangeNothing) {
+  for (const std::size_t objects : {0U, 1U, 300U})
+    for (const glm::vec2& size : {glm::vec2(1280, 720), glm::vec2(1920, 1080), glm::vec2(320, 240)})
+      for (const double scale : {1.0, 2.0}) {
+        GuiDriver gui(size.x, size.y, scale);
+        gui.document = document_of(objects);
+        for (const char* section : {"Lights", "Environment", "Camera", "Quality", "Splat under the cursor"})
+          gui.open_section(section);
+        const Document before = gui.document;
+        const Inspected inspected{.object = 1, .object_name = "", .radius_world = 1e-3};
+        const Work work{"reading dragon.ply", 0.3};
+        for (int mode = 0; mode < VIEW_MODE_COUNT; ++mode) {
+          const Frame frame = some_frame(static_cast<ViewMode>(mode));
+          gui.document.mode = frame.mode;
+          gui.view = {&frame, &inspected, 17.0, &work};
+          gui.state.show_help = mode % 2 == 1;
+          const Requests requests = gui.frame();
+          EXPECT_TRUE(requests.commands.empty() && !requests.save && !requests.open && !requests.cancel);
+        }
+        gui.document.mode = before.mode;
+        EXPECT_TRUE(same(gui.document, before));
+      }
+}
+
+TEST(PanelsTest, DialogsRunAndCanBeCancelled) {
+  for (bool PanelState::*open : {&PanelState::show_open, &PanelState::show_save, &PanelState::show_record}) {
+    GuiDriver gui(1280, 720);
+    gui.document = document_of(1);
+    gui.state.*open = true;
+    const char* title = open == &PanelState::show_open   ? "Open"
+                        : open == &PanelState::show_save ? "Save the picture"
+                                                         : "Record";
+    const Requests requests = gui.click(title, {"cancel"});
+    EXPECT_FALSE(gui.state.*open);
+    EXPECT_FALSE(requests.save || requests.open || requests.record);
+  }
+}
+
+TEST(PanelsTest, ACheckBoxHidesAnObject) {
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(300);
+  gui.click("/objects", {2, "##visible"});
+  EXPECT_TRUE(hidden(gui.document, 2));
+  EXPECT_FALSE(hidden(gui.document, 1));
+  gui.click("/objects", {2, "##visible"});
+  EXPECT_FALSE(hidden(gui.document, 2));
+}
+
+TEST(PanelsTest, HideAllMeansTheObjectsListed) {
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(300);
+  gui.state.object_filter = "part 29";
+  gui.click("##column", {"hide all"});
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(hidden(gui.document, i), i == 29 || i >= 290) << i;
+}
+
+TEST(PanelsTest, APresetReplacesTheMaterialButKeepsItHidden) {
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(3);
+  gui.document.materials[1].flags |= MATERIAL_HIDDEN;
+  gui.click("/objects", {1, "object 1"});
+  EXPECT_EQ(gui.state.object, 1U);
+  gui.click("##column", {1, "preset"});
+  gui.click("##Combo", {"gold"});
+  EXPECT_EQ(gui.document.materials[1].tint, named_material("gold").tint);
+  EXPECT_TRUE(hidden(gui.document, 1));
+  EXPECT_EQ(gui.document.materials[0].tint, named_material("matte").tint);
+  gui.click("##column", {1, "as loaded"});
+  EXPECT_TRUE(same_materials({gui.document.materials[1]}, {gui.document.loaded_materials[1]}));
+}
+
+TEST(PanelsTest, GlassObjectsGetBitsOfTheirOwn) {
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(3);
+  for (const int object : {2, 0}) {
+    gui.state.object = static_cast<std::uint32_t>(object);
+    gui.click("##column", {object, "glass"});
+    const Material& material = gui.document.materials[static_cast<std::size_t>(object)];
+    EXPECT_EQ(material.flags, MATERIAL_DIELECTRIC);
+    EXPECT_GT(material.ior, 1.0F);
+  }
+  EXPECT_NE(gui.document.materials[0].mask_bit, gui.document.materials[2].mask_bit);
+}
+
+TEST(PanelsTest, LightsAreAddedAndRemoved) {
+  GuiDriver gui(1280, 1600);
+  gui.document = document_of(1);
+  gui.click("##column", {"Lights"});
+  gui.click("##column", {"add point light"});
+  ASSERT_EQ(gui.document.lights.size(), 3U);
+  EXPECT_EQ(gui.document.lights[2].kind, LIGHT_POINT);
+  EXPECT_EQ(gui.state.light, 2U);
+  gui.click("##column", {2, "remove"});
+  EXPECT_EQ(gui.document.lights.size(), 2U);
+  for (const int light : {1, 0}) gui.click("##column", {light, "remove"});
+  EXPECT_TRUE(gui.document.lights.empty());
+  gui.click("##column", {"add sun"});
+  EXPECT_NEAR(glm::length(gui.document.lights[0].position), 1.0, 1e-9);
+}
+
+TEST(PanelsTest, QualityAndEnvironmentChangeTheSettings) {
+  GuiDriver gui(1280, 1600);
+  gui.document = document_of(1);
+  for (const char* section : {"Quality", "Environment"}) gui.click("##column", {section});
+  gui.click("##column", {"shadows"});
+  EXPECT_FALSE(gui.document.settings.shadows);
+  gui.click("##column", {"black"});
+  EXPECT_EQ(gui.document.environment, "black");
+  gui.click("##column", {"blend"});
+  gui.click("##Combo", {2, "nearest"});
+  EXPECT_EQ(gui.document.settings.blend, BLEND_NEAREST);
+  gui.click("##column", {"view"});
+  gui.click("##Combo", {"facing"});
+  EXPECT_EQ(gui.document.mode, ViewMode::facing);
+}
+
+TEST(PanelsTest, ButtonsAskForWhatKeysDo) {
+  GuiDriver gui(1280, 1600);
+  gui.document = document_of(1);
+  ASSERT_EQ(gui.click("##column", {"copy"}).commands.size(), 1U);
+  EXPECT_EQ(gui.click("##column", {"copy"}).commands[0].action, Action::copy_command);
+  gui.click("##column", {"Camera"});
+  EXPECT_EQ(gui.click("##column", {"below"}).commands[0].action, Action::view_bottom);
+  EXPECT_EQ(gui.click("##column", {"4"}).commands[0].action, Action::bookmark_set);
+  gui.state.bookmarks[3] = gui.document.camera;
+  const Requests requests = gui.click("##column", {"4"});
+  EXPECT_EQ(requests.commands[0].action, Action::bookmark_go);
+  EXPECT_EQ(requests.commands[0].digit, 4);
+}
+
+TEST(PanelsTest, TheSaveDialogAsksForThePicture) {
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(1);
+  gui.state.show_save = true;
+  gui.state.save.path = "picture.txt";
+  EXPECT_FALSE(gui.can_click("Save the picture", {"save"}));
+  gui.state.save.path = "picture.exr";
+  gui.click("Save the picture", {"4K"});
+  gui.click("Save the picture", {"normal"});
+  const Requests requests = gui.click("Save the picture", {"save"});
+  ASSERT_TRUE(requests.save.has_value());
+  EXPECT_EQ(requests.save->path, "picture.exr");
+  EXPECT_EQ(requests.save->width, 3840U);
+  EXPECT_TRUE(requests.save->aov_normal);
+  EXPECT_FALSE(gui.state.show_save);
+}
+
+TEST(PanelsTest, CamerasAndBookmarksAreSavedAsFiles) {
+  const TempFolder folder;
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(1);
+  gui.state.show_save = true;
+  gui.state.save.path = folder.path() / "camera.json";
+  EXPECT_FALSE(gui.click("Save the picture", {"save"}).save.has_value());
+  EXPECT_EQ(read_camera(folder.path() / "camera.json"), gui.document.camera);
+
+  gui.state.bookmarks[1] = gui.state.bookmarks[4] = gui.document.camera;
+  gui.state.bookmarks[4]->eye.x += 1.0;
+  gui.state.show_record = true;
+  gui.state.record.turntable = false;
+  gui.state.record.camera_path = folder.path() / "path.json";
+  gui.click("Record", {"write the bookmarks there"});
+  const CameraPath path = read_camera_path(folder.path() / "path.json");
+  ASSERT_EQ(path.size(), 2U);
+  EXPECT_EQ(path[1].camera, *gui.state.bookmarks[4]);
+
+  gui.state.record.camera_path = folder.path() / "none" / "path.json";
+  gui.click("Record", {"write the bookmarks there"});
+  EXPECT_NE(gui.state.error.find("path.json"), std::string::npos);
+}
+
+TEST(PanelsTest, RecordingsNeedANumberInTheirName) {
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(1);
+  gui.state.show_record = true;
+  gui.state.record.path = "frame.png";
+  EXPECT_FALSE(gui.can_click("Record", {"record"}));
+  gui.state.record.path = "frame.####.png";
+  EXPECT_EQ(gui.click("Record", {"record"}).record->frames, 120U);
+}
+
+TEST(PanelsTest, ErrorsStayUntilClosedAndWorkCanBeCancelled) {
+  GuiDriver gui(1280, 720);
+  const Work work{"reading", 0.5};
+  gui.view.work = &work;
+  EXPECT_TRUE(gui.click("##work", {"cancel"}).cancel);
+  gui.state.error = "dragon.ply: found nothing, expected points";
+  gui.state.show_save = true;
+  gui.click("That did not work", {"close"});
+  EXPECT_TRUE(gui.state.error.empty());
+  gui.click("Save the picture", {"cancel"});
+}
+
+TEST(PanelsTest, RecentFilesAreOffered) {
+  GuiDriver gui(1280, 720);
+  gui.state.recent_files = {"/data/dragon.ply"};
+  EXPECT_EQ(gui.click("##welcome", {"/data/dragon.ply", "dragon.ply"}).open, "/data/dragon.ply");
+}
+
+TEST(PanelsTest, NothingOverlapsAndThePictureIsTheMainThing) {
+  for (const glm::vec2& size : {glm::vec2(1280, 720), glm::vec2(1920, 1080)}) {
+    GuiDriver gui(size.x, size.y);
+    gui.document = document_of(2);
+    gui.document.mode = ViewMode::tests;
+    const Frame frame = some_frame(ViewMode::tests);
+    const Work work{"saving", 0.5};
+    gui.view = {&frame, nullptr, 17.0, &work};
+    for (int i = 0; i < 3; ++i) gui.frame();
+    const std::vector<std::string> windows = {"##column", "##status", "##legend", "##work"};
+    for (const std::string& a : windows) {
+      EXPECT_GT(gui.rectangle(a).GetArea(), 0.0F) << a;
+      for (const std::string& b : windows)
+        EXPECT_EQ(gui.rectangle(a).Overlaps(gui.rectangle(b)), a == b) << a << b;
+    }
+    EXPECT_EQ(gui.rectangle("##column").GetWidth(), panel_column_px(gui.state, size.x));
+    EXPECT_LT(panel_column_px(gui.state, size.x), 0.25F * size.x);
+    gui.state.show_panels = false;
+    EXPECT_EQ(panel_column_px(gui.state, size.x), 0.0F);
+  }
+}
+
+}  // namespace
+}  // namespace splatray

@@ -1,0 +1,152 @@
+// The viewer's small parts: colours of the screen, resolution in motion, mouse, dropped files, options of a document.
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include "app/command_line.h"
+#include "app/image_file.h"
+#include "app/scene_source.h"
+#include "app/view/display_table.h"
+#include "app/view/document_options.h"
+#include "app/view/drop.h"
+#include "app/view/mouse.h"
+#include "app/view/resolution.h"
+#include "tests/view/live_documents.h"
+
+namespace splatray {
+namespace {
+
+TEST(DisplayTable, IsThePngWithinOneStep) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> exponent(-20.0F, 8.0F);
+  for (const double ev : {-3.0, 0.0, 2.5}) {
+    const auto table = std::make_unique<DisplayTable>(ev);
+    for (int i = 0; i < 100000; ++i) {
+      const float radiance = std::exp2(exponent(random));
+      const long exact = std::lround(255.0F * display_value(vec3(radiance), ev).x);
+      ASSERT_LE(std::abs(exact - (*table)(radiance)), 1) << radiance;
+    }
+    for (const float odd : {0.0F, -0.0F, -1.0F, std::nanf("")}) EXPECT_EQ((*table)(odd), 0) << odd;
+    EXPECT_EQ((*table)(std::numeric_limits<float>::infinity()), 255);
+  }
+}
+
+TEST(MovingResolution, TakesTheWantedTime) {
+  constexpr glm::uvec2 WINDOW{1280, 720};
+  for (const double ms_per_pixel : {1e-5, 4e-4, 3e-3}) {
+    MovingResolution resolution;
+    for (int i = 0; i < 20; ++i) {
+      const glm::uvec2 size = scaled_size(WINDOW, resolution.scale(WINDOW, 33.0));
+      const double pixels = double(size.x) * size.y;
+      resolution.learn(pixels, ms_per_pixel * pixels);
+    }
+    const double scale = resolution.scale(WINDOW, 33.0), ms = scale * scale * 1280 * 720 * ms_per_pixel;
+    EXPECT_LT(ms, 43.0);
+    EXPECT_TRUE(scale == 1.0 || ms > 23.0) << ms;
+  }
+}
+
+TEST(MovingResolution, OneOutlierDoesLittle) {
+  MovingResolution resolution;
+  const double before = resolution.scale({1280, 720}, 33.0);
+  resolution.learn(1000.0, 1e6);
+  EXPECT_GE(resolution.scale({1280, 720}, 33.0), 0.7 * before);
+  EXPECT_EQ(scaled_size({3, 2}, 0.01), glm::uvec2(1));
+}
+
+class MouseTest : public testing::Test {
+ protected:
+  std::optional<Gesture> press(double x, bool over_controls = false) {
+    return take(InputEvent::Kind::press, x, over_controls);
+  }
+  std::optional<Gesture> move(double x) { return take(InputEvent::Kind::move, x, false); }
+  std::optional<Gesture> release(double x) { return take(InputEvent::Kind::release, x, false); }
+  std::optional<Gesture> take(InputEvent::Kind kind, double x, bool over_controls) {
+    return mouse.take({kind, GLFW_MOUSE_BUTTON_LEFT, 0, {x, 0.0}}, over_controls, now);
+  }
+
+  Mouse mouse;
+  Mouse::Clock::time_point now{};
+};
+
+TEST_F(MouseTest, DragsInSteps) {
+  EXPECT_FALSE(press(10.0));
+  EXPECT_FALSE(move(12.0)) << "too little";
+  const auto first = move(20.0), second = move(25.0);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->action, Action::orbit);
+  EXPECT_EQ(first->from_px.x, 10.0) << "nothing is lost";
+  EXPECT_EQ(second->from_px.x, 20.0);
+  EXPECT_TRUE(mouse.drags(Action::orbit));
+  EXPECT_FALSE(release(25.0)) << "no click";
+  EXPECT_FALSE(mouse.drags(Action::orbit));
+  EXPECT_FALSE(move(30.0));
+}
+
+TEST_F(MouseTest, ClicksOnceAndTwice) {
+  (void)press(10.0);
+  EXPECT_EQ(release(11.0)->action, Action::inspect);
+  now += std::chrono::milliseconds(100);
+  (void)press(11.0);
+  EXPECT_EQ(release(11.0)->action, Action::pivot);
+  now += std::chrono::seconds(1);
+  (void)press(11.0);
+  EXPECT_EQ(release(11.0)->action, Action::inspect);
+}
+
+TEST_F(MouseTest, LeavesControlsAlone) {
+  EXPECT_FALSE(press(10.0, true));
+  EXPECT_FALSE(move(50.0));
+  EXPECT_FALSE(release(50.0));
+  EXPECT_FALSE(take(InputEvent::Kind::wheel, 10.0, true));
+  EXPECT_EQ(take(InputEvent::Kind::wheel, 10.0, false)->action, Action::zoom);
+}
+
+TEST(Drop, KindsByName) {
+  EXPECT_EQ(drop_kind("a/b.SOCT"), DropKind::scene);
+  EXPECT_EQ(drop_kind("b.glb"), DropKind::scene);
+  EXPECT_EQ(drop_kind("sky.hdr"), DropKind::environment);
+  EXPECT_EQ(drop_kind("camera.json"), DropKind::camera);
+  EXPECT_EQ(drop_kind("picture.png"), DropKind::picture);
+  EXPECT_EQ(drop_kind("text.txt"), DropKind::unknown);
+}
+
+TEST(Drop, PastedPathsAndUris) {
+  const std::vector<std::filesystem::path> expected = {"/a b/c.ply", "/d.ply", "/e%.ply", "f.ply"};
+  EXPECT_EQ(pasted_files("file:///a%20b/c.ply\r\nfile://host/d.ply\n/e%.ply\n\nf.ply"), expected);
+  EXPECT_EQ(pasted_files("file:///100%"), std::vector<std::filesystem::path>{"/100%"});
+}
+
+TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
+  const Scene scene = disc_scene(1);
+  Document document = disc_document(scene);
+  document.source.inputs = {"my scene.ply"};
+  document.camera.fov_y_deg = DEFAULT_FOV_Y_DEG;  // orthographic cameras keep none
+  document.materials[0].mirror = 0.3F;
+  document.materials[0].flags |= MATERIAL_HIDDEN;
+  document.lights.push_back({LIGHT_POINT, {0.1, 0.2, 0.3}, {0.5F, 0.25F, 0.75F}});
+  document.exposure_ev = -0.75;
+  document.settings.max_bounces = 3;
+  document.settings.environment_turn = 0.4F;
+  document.up = {0.0, 0.6, 0.8};
+  const RenderOptions options = parse_command_line(command_line(render_options(document, 320, 200)));
+  LoadedScene loaded{scene, options.picture.environment, 0.0, {}};
+  loaded.scene.up = *options.picture.up;
+  const Document again = first_document(loaded, options.scene, options.picture);
+  EXPECT_TRUE(again.camera == document.camera);
+  EXPECT_TRUE(again.lights == document.lights);
+  EXPECT_TRUE(same_materials(again.materials, document.materials));
+  EXPECT_EQ(again.settings.max_bounces, 3U);
+  EXPECT_EQ(again.settings.environment_turn, 0.4F);
+  EXPECT_EQ(again.environment, "white");
+  EXPECT_EQ(again.up, document.up);
+  EXPECT_EQ(options.exposure_ev, -0.75);
+  EXPECT_EQ(options.picture.width, 320U);
+}
+
+}  // namespace
+}  // namespace splatray

@@ -1,0 +1,156 @@
+// Pictures that grow, what a change of the document costs, and that the end is the headless picture.
+#include "app/view/progressive.h"
+
+#include <thread>
+
+#include "app/scene_source.h"
+#include "engine/host/error.h"
+#include "tests/view/live_documents.h"
+
+namespace splatray {
+namespace {
+
+constexpr glm::uvec2 SIZE{67, 43};
+
+class ProgressiveTest : public DeviceTest {
+ protected:
+  void SetUp() override {
+    live.open(scene);
+    first = finish().back()->image.rgba;
+  }
+
+  /// Shows the document and works until nothing is left to do; returns the pictures.
+  std::vector<SharedFrame> finish() {
+    progressive.show(document, SIZE);
+    std::vector<SharedFrame> frames;
+    while (const auto when = progressive.next_work()) {
+      std::this_thread::sleep_until(*when);
+      if (SharedFrame frame = progressive.work([] { return false; })) frames.push_back(frame);
+    }
+    return frames;
+  }
+
+  /// The picture that the headless program makes of the document.
+  Image headless() {
+    Tracer tracer(context);
+    Scene shown = *scene;
+    shown.materials = document.materials;
+    shown.lights = document.lights;
+    shown.up = document.up;
+    tracer.upload(shown);
+    tracer.set_environment(choose_environment(document.environment));
+    return tracer.render({document.camera, SIZE.x, SIZE.y}, document.settings);
+  }
+
+  /// The document, changed, ends in the headless picture, without another upload of the pools.
+  void expect_live_change() {
+    const std::vector<SharedFrame> frames = finish();
+    ASSERT_GE(frames.size(), 2U);
+    EXPECT_TRUE(frames.front()->moving);
+    EXPECT_FALSE(frames.back()->moving);
+    EXPECT_EQ(frames.back()->samples, document.settings.samples);
+    EXPECT_EQ(frames.back()->pools_uploaded, 1U);
+    EXPECT_TRUE(frames.back()->image.rgba == headless().rgba);
+    EXPECT_FALSE(frames.back()->image.rgba == first);
+  }
+
+  SharedScene scene = shared_discs();
+  Document document = disc_document(*scene);
+  LiveScene live{context};
+  Progressive progressive{live, "device"};
+  std::vector<vec4> first;  ///< pixels of the document before a change
+};
+
+TEST_F(ProgressiveTest, EqualDocumentMakesNoWork) { EXPECT_TRUE(finish().empty()); }
+
+TEST_F(ProgressiveTest, Camera) {
+  document.camera.eye.x = document.camera.target.x = 0.25;
+  expect_live_change();
+}
+
+TEST_F(ProgressiveTest, Materials) {
+  document.materials[0].diffuse = {0.5F, 0.25F, 0.125F};
+  document.materials[0].mirror = 0.5F;
+  document.materials[0].tint = vec3(1.0F);
+  expect_live_change();
+}
+
+TEST_F(ProgressiveTest, HiddenObject) {
+  document.materials[0].flags |= MATERIAL_HIDDEN;
+  document.materials[1].diffuse = vec3(0.25F);
+  expect_live_change();
+}
+
+TEST_F(ProgressiveTest, Lights) {
+  document.lights.push_back({LIGHT_POINT, {0.0, 0.5, 1.0}, vec3(0.5F)});
+  expect_live_change();
+}
+
+TEST_F(ProgressiveTest, EnvironmentAndUp) {
+  document.environment = "studio";
+  document.up = {0.0, 0.0, 1.0};
+  document.settings.environment_turn = 0.25F;
+  expect_live_change();
+}
+
+TEST_F(ProgressiveTest, EveryPictureIsWhole) {
+  document.camera.eye.x = document.camera.target.x = 0.1;
+  for (const SharedFrame& frame : finish()) {
+    EXPECT_EQ(frame->image.rgba.size(), std::size_t{frame->view.width} * frame->view.height);
+    EXPECT_EQ(frame->display.size(), 4 * frame->image.rgba.size());
+    const bool background = glm::all(glm::equal(vec3(frame->image.rgba.back()), vec3(1.0F)));
+    EXPECT_TRUE(background) << "the last row is traced too";
+  }
+}
+
+TEST_F(ProgressiveTest, ExposureOnlyColours) {
+  document.exposure_ev = -2.0;
+  const std::vector<SharedFrame> frames = finish();
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_FALSE(frames[0]->moving);
+  EXPECT_EQ(frames[0]->samples, document.settings.samples);
+  EXPECT_NEAR(frames[0]->display.front(), 137, 1) << "sRGB of 1/4";
+}
+
+TEST_F(ProgressiveTest, FacingShowsBackFacesOfOneSidedObjects) {
+  document.mode = ViewMode::facing;
+  document.camera.eye = {0.0, 0.0, -3.0};
+  const SharedFrame frame = finish().back();
+  const AovPixel& middle = frame->image.aov[SIZE.y / 2 * SIZE.x + SIZE.x / 2];
+  EXPECT_NE(middle.object, NO_OBJECT);
+  EXPECT_EQ(middle.splat & 1U, 0U) << "its back";
+  document.materials[0].flags |= MATERIAL_HIDDEN;
+  document.materials[1].flags |= MATERIAL_HIDDEN;
+  for (const AovPixel& pixel : finish().back()->image.aov) EXPECT_EQ(pixel.object, NO_OBJECT);
+}
+
+TEST_F(ProgressiveTest, HeatMapsCount) {
+  for (const ViewMode mode : {ViewMode::tests, ViewMode::steps}) {
+    document.mode = mode;
+    const SharedFrame frame = finish().back();
+    EXPECT_EQ(frame->mode, mode);
+    EXPECT_GT(frame->range.high, 0.0);
+  }
+}
+
+TEST_F(ProgressiveTest, StoppedWorkGoesOn) {
+  document.mode = ViewMode::normal;
+  document.camera.eye.x = document.camera.target.x = 0.1;
+  progressive.show(document, {640, 480});
+  ASSERT_TRUE(progressive.work([] { return true; })) << "coarse pictures are not stopped";
+  EXPECT_FALSE(progressive.work([] { return true; }));
+  ASSERT_TRUE(progressive.next_work());
+  EXPECT_TRUE(progressive.work([] { return false; }));
+  EXPECT_FALSE(progressive.next_work());
+}
+
+TEST_F(ProgressiveTest, EnvironmentThatCannotBeReadIsToldOnce) {
+  document.environment = "/missing.hdr";
+  EXPECT_THROW((void)finish(), Error);
+  EXPECT_FALSE(progressive.next_work());
+  document.camera.eye.x = document.camera.target.x = 0.1;
+  EXPECT_FALSE(finish().empty()) << "with the environment before";
+}
+
+}  // namespace
+}  // namespace splatray

@@ -1,0 +1,174 @@
+// The whole program on a display of its own, used as a person does.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/image_file.h"
+#include "tests/cli/child_process.h"
+#include "tests/view/desktop.h"
+
+namespace splatray {
+namespace {
+
+namespace fs = std::filesystem;
+
+void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class ViewSession : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    first = write("first.ply", grid_ply(true));
+    second = write("second.ply", grid_ply(true, 100.0));
+  }
+
+  /// Starts the viewer with a window of 960 x 600.
+  void start(std::vector<std::string> words) {
+    words.insert(words.begin(),
+                 {VIEW, "--resolution=960x600", "--samples=2", "--stats-json", file("stats.json")});
+    const std::vector<std::string> environment = {"DISPLAY=" + desktop.display(),
+                                                  "XDG_STATE_HOME=" + file("state")};
+    viewer.emplace(words, environment, folder.string(), file("log"));
+  }
+
+  /// Drags with a mouse button over the picture.
+  void drag(const char* button, int steps) {
+    desktop.xdotool({"mousemove", "250", "250", "mousedown", button});
+    for (int i = 0; i < steps; ++i) {
+      desktop.xdotool({"mousemove_relative", "4", "2"});
+      pause(0.03);
+    }
+    desktop.xdotool({"mouseup", button});
+  }
+
+  /// Presses and releases at a place of the window; long enough for a frame in between.
+  void click(int x, int y) {
+    desktop.xdotool({"mousemove", std::to_string(x), std::to_string(y)});
+    pause(0.3);
+    desktop.xdotool({"mousedown", "1"});
+    pause(0.3);
+    desktop.xdotool({"mouseup", "1"});
+    pause(0.3);
+  }
+
+  /// Opens the dialog that saves, takes what it proposes and waits for the file.
+  void save() {
+    desktop.xdotool({"key", "s"});
+    pause(0.5);
+    click(SAVE_BUTTON_X, SAVE_BUTTON_Y);
+    for (int i = 0; i < 600 && !fs::exists(file("splatray.png")); ++i) pause(0.1);
+    ASSERT_TRUE(fs::exists(file("splatray.png")));
+  }
+
+  /// Ends the viewer and returns its statistics.
+  nlohmann::json end(unsigned long window) {
+    desktop.close(window);
+    EXPECT_EQ(viewer->wait(), 0);
+    EXPECT_EQ(content(file("log")), "") << "nothing is said, by the validation layers neither";
+    return nlohmann::json::parse(content(file("stats.json")));
+  }
+
+  /// Where the dialog has its button in a window of 960 x 600.
+  static constexpr int SAVE_BUTTON_X = 315, SAVE_BUTTON_Y = 387;
+  /// The middle of the slider of Material::mirror.
+  static constexpr int MIRROR_X = 755, MIRROR_Y = 338;
+
+  Desktop desktop;
+  std::optional<Program> viewer;
+  std::string first, second;
+};
+
+TEST_F(ViewSession, OrbitMaterialSaveDropResizeClose) {
+  start({first});
+  const unsigned long window = desktop.wait_for_window("first.ply");
+  ASSERT_NE(window, 0U);
+  pause(1.0);
+  drag("1", 40);
+  click(MIRROR_X, MIRROR_Y);
+  save();
+  desktop.drop(window, second);
+  EXPECT_EQ(desktop.wait_for_window("second.ply"), window);
+  for (const char* width : {"500", "1100", "800"}) {
+    desktop.xdotool({"windowsize", std::to_string(window), width, "700"});
+    pause(0.3);
+  }
+  drag("3", 5);
+  const nlohmann::json stats = end(window);
+  EXPECT_EQ(stats["validation_messages"], 0);
+  EXPECT_EQ(stats["pools_uploaded"], 2) << "one for each scene";
+  EXPECT_GE(stats["moving"]["pictures"], 10);
+  EXPECT_GE(stats["moving"]["per_second"], 5.0) << "15 where nothing else runs";
+
+  const Metadata kept = read_metadata(file("splatray.png"));
+  EXPECT_NE(kept.front().second.find("mirror="), std::string::npos)
+      << "the slider was moved: " << kept.front().second;
+  ASSERT_EQ(run_program({RENDER, "--quiet", "--from", file("splatray.png"), "-o", file("again.png")}).code,
+            0);
+  EXPECT_TRUE(content(file("splatray.png")) == content(file("again.png")));
+}
+
+TEST_F(ViewSession, SavedPictureIsTheHeadlessOne) {
+  const std::vector<std::string> options = {first, "--eye=0.9,1.3,2.2", "--fov=35", "--max-bounces=3",
+                                            "--exposure=0.5"};
+  start(options);
+  const unsigned long window = desktop.wait_for_window("first.ply");
+  ASSERT_NE(window, 0U);
+  desktop.xdotool({"key", "Tab"});  // no panels: the picture fills the window
+  pause(0.5);
+  save();
+  (void)end(window);
+  const DisplayImage saved = read_display_image(file("splatray.png"), 0.0);
+  std::vector<std::string> command = {
+      RENDER,          "--quiet",
+      "--samples=2",   "-o",
+      file("out.png"), "--resolution=" + std::to_string(saved.width) + "x" + std::to_string(saved.height)};
+  command.insert(command.end(), options.begin(), options.end());
+  ASSERT_EQ(run_program(command).code, 0);
+  EXPECT_TRUE(saved.rgb == read_display_image(file("out.png"), 0.0).rgb);
+}
+
+TEST_F(ViewSession, FilesThatCannotBeReadAreToldInTheWindow) {
+  start({file("missing.ply")});
+  const unsigned long window = desktop.wait_for_window("splatray");
+  ASSERT_NE(window, 0U);
+  pause(0.5);
+  desktop.drop(window, write("bad.hdr", "no picture"));
+  desktop.xdotool({"key", "Escape"});
+  desktop.drop(window, first);
+  EXPECT_EQ(desktop.wait_for_window("first.ply"), window) << "the viewer goes on";
+  desktop.xdotool({"key", "ctrl+q"});
+  EXPECT_EQ(viewer->wait(), 0);
+  EXPECT_EQ(content(file("log")), "");
+}
+
+TEST_F(ViewSession, InterruptEndsIt) {
+  const ChildResult result =
+      run_program({VIEW, first}, {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")}, 2000);
+  EXPECT_EQ(result.code, 130) << result.err;
+}
+
+using ViewWithoutDisplay = CliTest;
+
+TEST_F(ViewWithoutDisplay, IsRefusedAndNamesTheHeadlessProgram) {
+  const ChildResult result = run_program({VIEW, "scene.soct"}, {"DISPLAY=:987"});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_NE(result.err.find("splatray-render"), std::string::npos) << result.err;
+}
+
+TEST_F(ViewWithoutDisplay, HelpListsTheKeys) {
+  const ChildResult result = run_program({VIEW, "--help"}, {"DISPLAY=:987"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.out.find("left drag"), std::string::npos) << result.out;
+}
+
+}  // namespace
+}  // namespace splatray

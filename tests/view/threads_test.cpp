@@ -1,0 +1,193 @@
+// The threads beside the window's: what they are asked for comes back, whatever goes wrong in between.
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+#include "app/image_file.h"
+#include "app/view/load_thread.h"
+#include "app/view/render_thread.h"
+#include "tests/cli/child_process.h"
+#include "tests/view/live_documents.h"
+
+namespace splatray {
+namespace {
+
+constexpr glm::uvec2 SIZE{67, 43};
+constexpr std::chrono::seconds PATIENCE{60};
+
+/// Wakes a test as the window is woken.
+class Alarm {
+ public:
+  std::function<void()> bell() {
+    return [this] {
+      const std::lock_guard lock(mutex_);
+      ++rung_;
+      changed_.notify_one();
+    };
+  }
+  /// Whether `enough`, asked after each ring, said so in time.
+  bool until(const std::function<bool()>& enough) {
+    std::unique_lock lock(mutex_);
+    const auto end = std::chrono::steady_clock::now() + PATIENCE;
+    while (true) {
+      const int heard = rung_;
+      lock.unlock();
+      if (enough()) return true;
+      lock.lock();
+      if (!changed_.wait_until(lock, end, [&] { return rung_ != heard; })) return false;
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int rung_ = 0;
+};
+
+class RenderThreadTest : public CliTest {
+ protected:
+  void TearDown() override {
+    EXPECT_EQ(thread.validation_messages(), 0U);
+    CliTest::TearDown();
+  }
+
+  /// Waits for news that `wanted` takes.
+  void await(const std::function<bool(const RenderNews&)>& wanted) {
+    EXPECT_TRUE(alarm.until([&] { return wanted(thread.take_news()); }));
+  }
+
+  SharedScene scene = shared_discs();
+  Document document = disc_document(*scene);
+  Alarm alarm;
+  RenderThread thread{"", alarm.bell()};
+};
+
+TEST_F(RenderThreadTest, FinishesThePicture) {
+  thread.open(scene, document, SIZE);
+  await(
+      [&](const RenderNews& news) { return news.frame && news.frame->samples == document.settings.samples; });
+}
+
+TEST_F(RenderThreadTest, AnswersWhatIsUnderTheCursor) {
+  thread.open(scene, document, SIZE);
+  thread.pick({glm::dvec2(SIZE) * 0.5, SIZE, true});
+  await([](const RenderNews& news) {
+    if (!news.pick) return false;
+    EXPECT_TRUE(news.pick->as_pivot);
+    EXPECT_NEAR(glm::length(news.pick->inspected.value().hit_world), 0.0, 1e-6);
+    return true;
+  });
+  thread.pick({{0.5, 0.5}, SIZE, false});
+  await([](const RenderNews& news) {
+    return news.pick && !news.pick->inspected;
+  });
+}
+
+TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
+  thread.open(scene, document, SIZE);
+  SaveRequest request;
+  request.path = file("out.exr");
+  request.width = 31;
+  request.height = 17;
+  request.samples = 5;
+  thread.save(save_job(document, request));
+  await([](const RenderNews& news) { return !news.saving && !news.notice.empty(); });
+  Context context;
+  Tracer tracer(context);
+  tracer.upload(*scene);
+  tracer.set_environment({0, 0, {}, vec3(1.0F)});
+  document.settings.samples = 5;
+  const Image image = tracer.render({document.camera, 31, 17}, document.settings);
+  EXPECT_TRUE(display_image(image, 0.0).rgb == read_display_image(request.path, 0.0).rgb);
+}
+
+TEST_F(RenderThreadTest, RecordsATurntable) {
+  thread.open(scene, document, SIZE);
+  RecordRequest request;
+  request.path = file("turn.##.png");
+  request.frames = 3;
+  request.width = request.height = 16;
+  request.samples = 1;
+  thread.save(save_job(document, request));
+  await([](const RenderNews& news) { return !news.notice.empty(); });
+  EXPECT_EQ(names(), (std::vector<std::string>{"turn.00.png", "turn.01.png", "turn.02.png"}));
+}
+
+TEST_F(RenderThreadTest, FailuresAreSentencesAndItGoesOn) {
+  thread.open(scene, document, SIZE);
+  SaveRequest request;
+  request.path = file("missing/out.png");
+  thread.save(save_job(document, request));
+  await(
+      [](const RenderNews& news) { return news.error.find("missing") != std::string::npos && !news.saving; });
+  document.environment = file("missing.hdr");
+  thread.show(document, SIZE);
+  await([](const RenderNews& news) { return news.error.find("missing.hdr") != std::string::npos; });
+  document.camera.eye.x = document.camera.target.x = 0.1;
+  thread.show(document, SIZE);
+  await([&](const RenderNews& news) { return news.frame && news.frame->view.camera == document.camera; });
+}
+
+TEST_F(RenderThreadTest, ALongSaveIsCancelled) {
+  thread.open(scene, document, SIZE);
+  SaveRequest request;
+  request.path = file("out.png");
+  request.width = request.height = 2000;
+  request.samples = 65536;
+  thread.save(save_job(document, request));
+  await([](const RenderNews& news) { return news.saving.has_value(); });
+  thread.cancel_save();
+  await([](const RenderNews& news) { return !news.saving && news.notice == "cancelled"; });
+  EXPECT_TRUE(names().empty());
+}
+
+class LoadThreadTest : public CliTest {
+ protected:
+  void load(const std::string& path) {
+    SceneOptions scene;
+    scene.inputs = {path};
+    thread.load(scene, {});
+  }
+  void await(const std::function<bool(const LoadNews&)>& wanted) {
+    EXPECT_TRUE(alarm.until([&] { return wanted(thread.take_news()); }));
+  }
+
+  Alarm alarm;
+  LoadThread thread{alarm.bell()};
+};
+
+TEST_F(LoadThreadTest, OpensWithADocumentThatShowsIt) {
+  load(write("grid.ply", grid_ply(true)));
+  await([](const LoadNews& news) {
+    if (!news.opened) return false;
+    EXPECT_EQ(news.opened->scene->splat_count, 144U);
+    EXPECT_EQ(news.opened->document.object_names, std::vector<std::string>{"grid"});
+    EXPECT_FALSE(news.opened->document.lights.empty());
+    return true;
+  });
+}
+
+TEST_F(LoadThreadTest, TellsWhyAndGoesOn) {
+  load(file("missing.ply"));
+  await([](const LoadNews& news) {
+    return news.error.find("missing.ply") != std::string::npos && !news.progress;
+  });
+  load(write("grid.ply", grid_ply(true)));
+  await([](const LoadNews& news) { return news.opened.has_value(); });
+}
+
+TEST_F(LoadThreadTest, TheNewestCountsAndCancelEndsIt) {
+  const std::string grid = write("grid.ply", grid_ply(true)), other = write("other.ply", grid_ply(true, 5.0));
+  for (int i = 0; i < 10; ++i) load(grid);
+  load(other);
+  await([](const LoadNews& news) { return news.opened && news.opened->document.object_names[0] == "other"; });
+  load(grid);
+  thread.cancel();
+  await([](const LoadNews& news) {
+    EXPECT_FALSE(news.opened);
+    return !news.progress;
+  });
+}
+
+}  // namespace
+}  // namespace splatray
