@@ -40,4 +40,11 @@ Material named_material(const std::string& name) {
   return found->material;
 }
 
+void change_material(Material& material, const std::string& name) {
+  const Material before = material;
+  material = named_material(name);
+  material.flags |= before.flags & MATERIAL_HIDDEN;
+  material.mask_bit = before.mask_bit;
+}
+
 }  // namespace splatray

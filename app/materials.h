@@ -14,4 +14,8 @@ namespace splatray {
 /// be closed and its normals must point outwards; the others are two-sided.
 [[nodiscard]] Material named_material(const std::string& name);
 
+/// Gives an object's material the looks of a name; what belongs to the object stays: whether it is hidden, and its
+/// mask_bit.
+void change_material(Material& material, const std::string& name);
+
 }  // namespace splatray

@@ -136,11 +136,7 @@ void set_flag(Material& material, std::uint32_t flag, std::optional<bool> on) {
 }
 
 void apply(const ObjectOptions& options, Material& material) {
-  if (!options.preset.empty()) {
-    const std::uint32_t mask_bit = material.mask_bit;
-    material = named_material(options.preset);
-    material.mask_bit = mask_bit;
-  }
+  if (!options.preset.empty()) change_material(material, options.preset);
   material.diffuse = options.diffuse.value_or(material.diffuse);
   material.specular = options.specular.value_or(material.specular);
   material.tint = options.tint.value_or(material.tint);

@@ -56,62 +56,49 @@ void visibility_buttons(Document& document, const std::vector<std::size_t>& obje
   }
 }
 
-bool preset_combo(Material& material) {
-  bool changed = false;
-  if (!ImGui::BeginCombo("preset", "choose")) return false;
+void preset_combo(Material& material) {
+  if (!ImGui::BeginCombo("preset", "choose")) return;
   for (const std::string& name : material_names()) {
-    if (!ImGui::Selectable(name.c_str())) continue;
-    const std::uint32_t hidden = material.flags & MATERIAL_HIDDEN;
-    material = named_material(name);
-    material.flags |= hidden;
-    changed = true;
+    if (ImGui::Selectable(name.c_str())) change_material(material, name);
   }
   ImGui::EndCombo();
-  return changed;
 }
 
 /// Glass is one-sided: inside and outside are told apart by the side that is hit.
-bool glass_switch(Material& material) {
+void glass_switch(Material& material) {
   bool glass = has(material, MATERIAL_DIELECTRIC);
-  if (!ImGui::Checkbox("glass", &glass)) return false;
+  if (!ImGui::Checkbox("glass", &glass)) return;
   set(material, MATERIAL_DIELECTRIC, glass);
   set(material, MATERIAL_TWO_SIDED, !glass);
   if (glass && material.ior == 1.0F) material.ior = GLASS_IOR;
   if (glass && material.tint == vec3(0.0F)) material.tint = vec3(1.0F);
-  return true;
 }
 
-bool share(const char* label, float& value) {
-  return ImGui::SliderFloat(label, &value, 0.0F, 1.0F, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+void share(const char* label, float& value) {
+  ImGui::SliderFloat(label, &value, 0.0F, 1.0F, "%.3f", ImGuiSliderFlags_AlwaysClamp);
 }
 
-bool surface_controls(Material& material) {
-  bool changed = color_edit("diffuse", material.diffuse);
-  changed |= share("specular", material.specular);
-  changed |= ImGui::SliderFloat("shininess", &material.shininess, 1.0F, MOST_SHININESS, "%.0f",
-                                ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-  changed |= share("mirror", material.mirror);
+void surface_controls(Material& material) {
+  color_edit("diffuse", material.diffuse);
+  share("specular", material.specular);
+  ImGui::SliderFloat("shininess", &material.shininess, 1.0F, MOST_SHININESS, "%.0f",
+                     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+  share("mirror", material.mirror);
   tip("share of the light that is mirrored; the rest is shaded");
   bool two_sided = has(material, MATERIAL_TWO_SIDED);
-  if (ImGui::Checkbox("two-sided", &two_sided)) {
-    set(material, MATERIAL_TWO_SIDED, two_sided);
-    changed = true;
-  }
-  return changed;
+  if (ImGui::Checkbox("two-sided", &two_sided)) set(material, MATERIAL_TWO_SIDED, two_sided);
 }
 
-bool material_controls(Material& material) {
-  bool changed = preset_combo(material);
-  changed |= glass_switch(material);
+void material_controls(Material& material) {
+  preset_combo(material);
+  glass_switch(material);
   const bool glass = has(material, MATERIAL_DIELECTRIC);
   if (glass)
-    changed |=
-        ImGui::SliderFloat("ior", &material.ior, LEAST_IOR, MOST_IOR, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("ior", &material.ior, LEAST_IOR, MOST_IOR, "%.3f", ImGuiSliderFlags_AlwaysClamp);
   else
-    changed |= surface_controls(material);
-  changed |= color_edit("tint", material.tint);
+    surface_controls(material);
+  color_edit("tint", material.tint);
   tip(glass ? "transmittance of each crossing" : "reflectance of the mirror");
-  return changed;
 }
 
 }  // namespace
@@ -140,12 +127,9 @@ void material_panel(Document& document, PanelState& state) {
   ImGui::PushID(static_cast<int>(state.object));
   ImGui::TextUnformatted(shown_name(document, state.object).c_str());
   Material& material = document.materials[state.object];
-  bool changed = material_controls(material);
-  if (state.object < document.loaded_materials.size() && ImGui::Button("as loaded")) {
+  material_controls(material);
+  if (state.object < document.loaded_materials.size() && ImGui::Button("as loaded"))
     material = document.loaded_materials[state.object];
-    changed = true;
-  }
-  if (changed) assign_mask_bits(document.materials);
   ImGui::PopID();
 }
 
