@@ -117,9 +117,10 @@ TEST(PanelsTest, APresetReplacesTheMaterialButKeepsItHidden) {
   EXPECT_TRUE(same_materials({gui.document.materials[1]}, {gui.document.loaded_materials[1]}));
 }
 
-TEST(PanelsTest, GlassObjectsGetBitsOfTheirOwn) {
+TEST(PanelsTest, GlassObjectsKeepTheirBit) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(3);
+  gui.document.materials[2].mask_bit = 1;
   for (const int object : {2, 0}) {
     gui.state.object = static_cast<std::uint32_t>(object);
     gui.click("##column", {object, "glass"});
@@ -127,7 +128,8 @@ TEST(PanelsTest, GlassObjectsGetBitsOfTheirOwn) {
     EXPECT_EQ(material.flags, MATERIAL_DIELECTRIC);
     EXPECT_GT(material.ior, 1.0F);
   }
-  EXPECT_NE(gui.document.materials[0].mask_bit, gui.document.materials[2].mask_bit);
+  EXPECT_EQ(gui.document.materials[0].mask_bit, 0U);
+  EXPECT_EQ(gui.document.materials[2].mask_bit, 1U);
 }
 
 TEST(PanelsTest, LightsAreAddedAndRemoved) {
