@@ -24,6 +24,8 @@ class Mouse {
   /// What the input means by the table of keys.h. `over_controls`: presses and turns of the wheel are not for the picture.
   [[nodiscard]] std::optional<Gesture> take(const InputEvent& event, bool over_controls,
                                             Clock::time_point now);
+  /// Whether a button is down over the picture.
+  [[nodiscard]] bool is_held() const { return held_.has_value(); }
   /// Whether this drag goes on.
   [[nodiscard]] bool drags(Action action) const { return held_ && held_->drag == action; }
 

@@ -18,8 +18,9 @@ using Clock = ViewStats::Clock;
 
 /// Frames drawn after something happened, for controls that take their place in the next.
 constexpr int FRAMES_TO_SETTLE = 3;
-constexpr double SIGNAL_SECONDS = 0.5;  ///< between looks for an interrupt
-constexpr double CARET_SECONDS = 0.2;   ///< between looks at a text that is being written
+constexpr std::chrono::milliseconds LONGEST_STANDSTILL{100};  ///< of the window during a drag
+constexpr double SIGNAL_SECONDS = 0.5;                        ///< between looks for an interrupt
+constexpr double CARET_SECONDS = 0.2;  ///< between looks at a text that is being written
 
 bool flies_fast(const Window& window) {
   const auto all = bindings();
@@ -65,11 +66,20 @@ void Viewer::run() {
     draw_controls();
     presenter_.gui().end();
     submit();
-    presenter_.draw(picture_px().x);
+    if (is_worth_drawing()) presenter_.draw(picture_px().x);
   }
   remember();
   if (!options_.stats_json.empty())
     stats_.write(options_.stats_json, presenter_.validation_messages() + renderer_.validation_messages());
+}
+
+/// While a drag changes the picture, the window waits for that picture: on a processor, drawing costs the tracer's time.
+bool Viewer::is_worth_drawing() {
+  const Clock::time_point now = Clock::now();
+  if (mouse_.is_held() && !has_new_frame_ && now - drawn_ < LONGEST_STANDSTILL) return false;
+  has_new_frame_ = false;
+  drawn_ = now;
+  return true;
 }
 
 /// How long nothing needs to be drawn, seconds.
@@ -94,6 +104,7 @@ void Viewer::take_render_news() {
   RenderNews news = renderer_.take_news();
   if (news.frame) {
     frame_ = news.frame;
+    has_new_frame_ = true;
     presenter_.set_picture(frame_->display, frame_->view.width, frame_->view.height);
     stats_.shown(frame_, Clock::now());
   }

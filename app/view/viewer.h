@@ -44,6 +44,7 @@ class Viewer {
   void copy();
   void paste();
   void submit();
+  [[nodiscard]] bool is_worth_drawing();
   void remember();
   [[nodiscard]] glm::uvec2 picture_px() const;
   [[nodiscard]] double aspect() const;
@@ -67,6 +68,8 @@ class Viewer {
   std::optional<Inspected> inspected_;
   std::optional<Work> work_;
   ViewStats::Clock::time_point flown_{};  ///< when fly_on last moved
+  bool has_new_frame_ = false;            ///< frame_ has not been drawn
+  ViewStats::Clock::time_point drawn_{};  ///< when the window was drawn last
   bool closing_ = false;
 };
 
