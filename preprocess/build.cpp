@@ -14,7 +14,6 @@
 #include "preprocess/cloud.h"
 #include "preprocess/insertion.h"
 #include "preprocess/morton.h"
-#include "preprocess/normal_field.h"
 #include "preprocess/normals.h"
 #include "preprocess/octree.h"
 #include "preprocess/parallel.h"
@@ -134,20 +133,14 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildP
   const double diagonal = scene.diagonal_world();
   const double isolated_world = (diagonal > 0.0 ? ISOLATED_SHARE * diagonal : 1.0) * scene.build.radius_scale;
   for (Cloud& cloud : clouds) {
-    find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale, {"radii", progress});
+    find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale, scene.build.normal_fields,
+               {"radii", progress});
     for (float& radius : cloud.radius) {
       if (radius > 0.0F) continue;
       radius = static_cast<float>(isolated_world / cloud.half_extent_world);
       ++stats.radii_isolated;
     }
   }
-}
-
-void fit_all_normal_fields(std::vector<Cloud>& clouds, const BuildParams& params,
-                           const BuildProgress& progress, BuildStats& stats) {
-  if (!params.normal_fields) return;
-  const Stopwatch watch(stats.fields_ms);
-  for (Cloud& cloud : clouds) fit_normal_fields(cloud, {"normal fields", progress});
 }
 
 RootTransform fit_root(const std::vector<Cloud>& clouds) {
@@ -280,7 +273,6 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   find_bounds(clouds, scene);
   number_objects(clouds, scene.materials);
   find_all_radii(clouds, scene, progress, stats);
-  fit_all_normal_fields(clouds, params, progress, stats);
   SplatList splats;
   Octree tree;
   {

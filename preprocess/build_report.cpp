@@ -26,7 +26,6 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"read_ms", stats.read_ms},
                                        {"normals_ms", stats.normals_ms},
                                        {"radii_ms", stats.radii_ms},
-                                       {"fields_ms", stats.fields_ms},
                                        {"octree_ms", stats.octree_ms},
                                        {"insertion_ms", stats.insertion_ms},
                                        {"total_ms", stats.total_ms}};

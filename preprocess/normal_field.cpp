@@ -1,19 +1,14 @@
 #include "preprocess/normal_field.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "preprocess/neighbours.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::size_t FITTED = 12;  // neighbours
-constexpr double SIMILAR = 0.5;     // cosine of normals of one sheet
-constexpr double LATERAL = 0.5;     // tangential share of the distance of a neighbour on the same sheet
-constexpr double RIDGE = 1e-3;      // keeps the fit defined where neighbours lie in a line
-constexpr double STEEPEST = 0.5;    // change of the normal over a radius; more cannot be stored
+constexpr double SIMILAR = 0.5;  // cosine of normals of one sheet
+constexpr double LATERAL = 0.5;  // tangential share of the distance of a neighbour on the same sheet
+constexpr double RIDGE = 1e-3;   // keeps the fit defined where neighbours lie in a line
 
 /// Sums of the fit of a symmetric matrix [[x, y], [y, z]] that maps tangential offsets to leans.
 class SlopeFit {
@@ -41,13 +36,13 @@ class SlopeFit {
   double variance_ = 0.0;
 };
 
-glm::dvec3 fit_slope(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
-  std::array<Neighbour, FITTED> nearest;
-  const std::size_t found = search.find(cloud.coord[point], nearest);
+}  // namespace
+
+glm::vec3 fit_normal_field(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest) {
   const glm::dvec3 normal = glm::normalize(glm::dvec3(cloud.normal[point]));
   const TangentFrame frame(normal);
   SlopeFit fit;
-  for (const Neighbour& neighbour : std::span(nearest).first(found)) {
+  for (const Neighbour& neighbour : nearest) {
     glm::dvec3 other = glm::normalize(glm::dvec3(cloud.normal[neighbour.index()]));
     if (!cloud.oriented && glm::dot(other, normal) < 0.0) other = -other;
     const double along = glm::dot(other, normal);
@@ -58,19 +53,7 @@ glm::dvec3 fit_slope(const Cloud& cloud, const NeighbourSearch& search, std::uin
     const glm::dvec2 lean = glm::dvec2(glm::dot(other, frame.u), glm::dot(other, frame.v)) / along;
     fit.add(offset, lean, 1.0 / distance_squared);
   }
-  return fit.solve();
-}
-
-}  // namespace
-
-void fit_normal_fields(Cloud& cloud, const Stage& stage) {
-  const NeighbourSearch search(cloud, Sites::oriented_positions);
-  cloud.field.resize(cloud.size());
-  parallel_each(stage, cloud.size(), [&](std::size_t i) {
-    const double most = STEEPEST / static_cast<double>(cloud.radius[i]);
-    const glm::dvec3 slope = fit_slope(cloud, search, static_cast<std::uint32_t>(i));
-    cloud.field[i] = glm::vec3(glm::clamp(slope, -most, most));
-  });
+  return glm::vec3(fit.solve());
 }
 
 }  // namespace splatray

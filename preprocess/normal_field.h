@@ -1,14 +1,19 @@
-/// How normals change across discs.
+/// How the normal changes across a disc.
 #pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
 #include "preprocess/cloud.h"
-#include "preprocess/parallel.h"
+#include "preprocess/neighbours.h"
 
 namespace splatray {
 
-/// Fills cloud.field: a linear field of normals in each splat, as in Botsch et al. 2004, "Phong Splatting", sec. 3, and
-/// Linsen et al. 2007. Symmetric least-squares fit to how the normals of the 12 nearest places of the same sheet lean,
-/// weighted by the inverse squared distance, times the share of their variance that it explains: noise and creases
-/// leave a disc flat. Normals and radii must be known.
-void fit_normal_fields(Cloud& cloud, const Stage& stage);
+/// The linear field of normals around a point (Cloud::field), as in Botsch et al. 2004, "Phong Splatting", sec. 3, and
+/// Linsen et al. 2007. Symmetric least-squares fit to how the normals of those of its nearest places that lie on the same
+/// sheet lean, weighted by the inverse squared distance, times the share of their variance that it explains: noise and
+/// creases leave a disc flat. Normals must be known.
+[[nodiscard]] glm::vec3 fit_normal_field(const Cloud& cloud, std::uint32_t point,
+                                         std::span<const Neighbour> nearest);
 
 }  // namespace splatray

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "preprocess/neighbours.h"
+#include "preprocess/normal_field.h"
 #include "preprocess/voronoi.h"
 
 namespace splatray {
@@ -84,12 +86,15 @@ double sheet_noise(const Cloud& cloud, std::uint32_t point, std::span<const Neig
   return std::sqrt(std::max(sum_squared / count - sum * sum / (count * count), 0.0));
 }
 
-double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
+/// `nearest`: the FEW nearest places, or all where there are fewer.
+double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point,
+                       std::span<const Neighbour> nearest) {
+  std::array<Neighbour, MANY> more;
   for (const std::size_t wanted : {FEW, MANY}) {
-    std::array<Neighbour, MANY> nearest;
-    const std::size_t found = search.find(cloud.coord[point], std::span(nearest).first(wanted));
+    if (wanted == MANY) nearest = std::span(more).first(search.find(cloud.coord[point], more));
+    const std::size_t found = nearest.size();
     if (found == 0) return 0.0;
-    const Surroundings around = flatten(cloud, point, std::span(nearest).first(found));
+    const Surroundings around = flatten(cloud, point, nearest);
     const VoronoiReach reach = voronoi_reach(std::span(around.neighbours).first(around.neighbour_count),
                                              std::span(around.creases).first(around.crease_count));
     const double seen = std::sqrt(nearest[found - 1].distance_squared());
@@ -98,7 +103,7 @@ double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::u
     if (!settled) continue;
     if (reach.radius > 0.0) {
       const auto heights_among = [&](std::size_t count) {
-        return sheet_noise(cloud, point, std::span(nearest).first(std::min(found, count)));
+        return sheet_noise(cloud, point, nearest.first(std::min(found, count)));
       };
       const double covering = COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * heights_among(CLOSE);
       return std::min(std::max(covering, NOISE_REACH * heights_among(FEW)), NOISE_LIMIT * reach.radius);
@@ -132,20 +137,28 @@ void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector
 
 }  // namespace
 
-void find_radii(Cloud& cloud, RadiusRule rule, double scale, const Stage& stage) {
+void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const Stage& stage) {
   std::vector<std::uint32_t> unknown;
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     if (cloud.radius[i] == 0.0F) unknown.push_back(i);
   }
-  if (!unknown.empty()) {
+  if (fields) cloud.field.resize(cloud.size());
+  if (!unknown.empty() || fields) {
     const bool knn = rule == RadiusRule::knn;
-    const NeighbourSearch search(cloud, knn ? Sites::positions : Sites::oriented_positions);
-    parallel_each(stage, unknown.size(), [&](std::size_t n) {
-      const std::uint32_t i = unknown[n];
-      cloud.radius[i] =
-          static_cast<float>(knn ? knn_radius(cloud, search, i) : coverage_radius(cloud, search, i));
+    const NeighbourSearch search(cloud, Sites::oriented_positions);
+    std::optional<NeighbourSearch> places;
+    if (knn) places.emplace(cloud, Sites::positions);
+    parallel_each(stage, cloud.size(), [&](std::size_t n) {
+      const auto i = static_cast<std::uint32_t>(n);
+      std::array<Neighbour, FEW> few;
+      const std::span<const Neighbour> nearest = std::span(few).first(search.find(cloud.coord[i], few));
+      if (fields) cloud.field[i] = fit_normal_field(cloud, i, nearest);
+      if (cloud.radius[i] == 0.0F) {
+        cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i)
+                                                 : coverage_radius(cloud, search, i, nearest));
+      }
     });
-    bound_strays(cloud, search, unknown);
+    if (!unknown.empty()) bound_strays(cloud, places ? *places : search, unknown);
   }
   for (float& radius : cloud.radius) radius = static_cast<float>(radius * scale);
 }

@@ -18,8 +18,7 @@ const BuildProgress SILENT;
 
 Cloud fitted(InputObject object) {
   Cloud cloud = test::cloud_of(std::move(object));
-  find_radii(cloud, RadiusRule::coverage, 1.0, {"radii", SILENT});
-  fit_normal_fields(cloud, {"normal fields", SILENT});
+  find_radii(cloud, RadiusRule::coverage, 1.0, true, {"radii", SILENT});
   return cloud;
 }
 
