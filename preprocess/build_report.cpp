@@ -29,6 +29,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"fields_ms", stats.fields_ms},
                                        {"octree_ms", stats.octree_ms},
                                        {"insertion_ms", stats.insertion_ms},
+                                       {"slabs_ms", stats.slabs_ms},
                                        {"total_ms", stats.total_ms}};
   return json.dump(2);
 }
