@@ -13,6 +13,7 @@
 #include "engine/host/error.h"
 #include "preprocess/cloud.h"
 #include "preprocess/insertion.h"
+#include "preprocess/leaf_slabs.h"
 #include "preprocess/morton.h"
 #include "preprocess/normals.h"
 #include "preprocess/octree.h"
@@ -284,6 +285,10 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   }
   const LeafLists lists = insert(tree, splats, params, progress, stats);
   fill_pools(std::move(tree), splats, lists, scene, stats);
+  {
+    const Stopwatch slab_watch(stats.slabs_ms);
+    scene.slab_pool = leaf_slabs(scene, {"slabs", progress});
+  }
   count_result(scene, splats, stats);
   return scene;
 }

@@ -28,6 +28,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"radii_ms", stats.radii_ms},
                                        {"octree_ms", stats.octree_ms},
                                        {"insertion_ms", stats.insertion_ms},
+                                       {"slabs_ms", stats.slabs_ms},
                                        {"total_ms", stats.total_ms}};
   return json.dump(2);
 }

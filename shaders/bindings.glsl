@@ -30,22 +30,26 @@ layout(std430, binding = BIND_COUNTERS) buffer CounterTable { uint counters[COUN
 #ifdef POOL_TEXEL
 layout(binding = BIND_NODE_POOL) uniform usamplerBuffer node_pool;
 layout(binding = BIND_BEGIN_END) uniform usamplerBuffer begin_end;
+layout(binding = BIND_SLAB_POOL) uniform usamplerBuffer slab_pool;
 layout(binding = BIND_DATA_POOL) uniform usamplerBuffer data_pool;
 layout(binding = BIND_COLOR_POOL) uniform usamplerBuffer color_pool;
 layout(binding = BIND_FIELD_POOL) uniform usamplerBuffer field_pool;
 uint node_word(uint index) { return texelFetch(node_pool, int(index)).x; }
 uint begin_end_at(uint index) { return texelFetch(begin_end, int(index)).x; }
+uint slab_word(uint index) { return texelFetch(slab_pool, int(index)).x; }
 uvec4 splat_words(uint index) { return texelFetch(data_pool, int(index)); }
 uint color_word(uint index) { return texelFetch(color_pool, int(index)).x; }
 uint field_word(uint index) { return texelFetch(field_pool, int(index)).x; }
 #else
 layout(std430, binding = BIND_NODE_POOL) readonly buffer NodePool { uint node_pool[]; };
 layout(std430, binding = BIND_BEGIN_END) readonly buffer BeginEnd { uint begin_end[]; };
+layout(std430, binding = BIND_SLAB_POOL) readonly buffer SlabPool { uint slab_pool[]; };
 layout(std430, binding = BIND_DATA_POOL) readonly buffer DataPool { uvec4 data_pool[]; };
 layout(std430, binding = BIND_COLOR_POOL) readonly buffer ColorPool { uint color_pool[]; };
 layout(std430, binding = BIND_FIELD_POOL) readonly buffer FieldPool { uint field_pool[]; };
 uint node_word(uint index) { return node_pool[index]; }
 uint begin_end_at(uint index) { return begin_end[index]; }
+uint slab_word(uint index) { return slab_pool[index]; }
 uvec4 splat_words(uint index) { return data_pool[index]; }
 uint color_word(uint index) { return color_pool[index]; }
 uint field_word(uint index) { return field_pool[index]; }

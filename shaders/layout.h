@@ -22,9 +22,16 @@
 /// Orthonormal Basis, Revisited"): at the offset (u, v) from the centre the normal is n + [[uu, uv], [uv, vv]] (u, v) / r.
 ///   bits 9..0 uu, 19..10 uv, 29..20 vv; each q + 512, q in [-511, 511], value = sign(q) (q / 511)^2 / 2
 ///
+/// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
+/// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them
+/// if low h <= a.(p - c) <= high h, where a is the axis, |x| + |y| + |z| = 1.
+///   bits 5..0 axis, octahedral u + 31, 11..6 v + 31, u and v in [-31, 31] (axis times 31, as a splat's normal);
+///   21..12 low: q + 512, 31..22 high: q + 512; value = q / 511
+///
 /// Node word, 32 bits. Bits 31..30 tag, bits 29..0 address (Goradia et al. 2010, sec. III-A).
 ///   NODE_INNER  : address of the first of 8 children in the node pool; child = x + 2y + 4z (Z-order)
-///   NODE_FILLED : index into Begin-End; the leaf's splats are data_pool[begin_end[a] .. begin_end[a+1])
+///   NODE_FILLED : index into Begin-End; the leaf's splats are data_pool[begin_end[a] .. begin_end[a+1]), its slab is
+///                 slab_pool[a]
 ///   NODE_EMPTY  : address is zero
 #ifndef SPLATRAY_LAYOUT_H
 #define SPLATRAY_LAYOUT_H
@@ -64,6 +71,9 @@ SPLATRAY_CONST OCT_SCALE = 32767u;        ///< octahedral normals: |u| + |v| + |
 SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;     ///< word 3: object index
 SPLATRAY_CONST FIELD_FLAT = 0x20080200u;  ///< the normal field of a flat disc
 SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
+SPLATRAY_CONST SLAB_FULL = 0xFFC007DFu;   ///< a slab that holds the whole cell
+SPLATRAY_CONST SLAB_AXIS_SCALE = 31u;     ///< slab axes: |u| + |v| + |w| = SLAB_AXIS_SCALE
+SPLATRAY_CONST SLAB_SCALE = 511u;         ///< q of the cell's half size
 
 /// Material flags.
 SPLATRAY_CONST MATERIAL_DIELECTRIC = 1u;  ///< refracts and reflects by Fresnel; `tint` on each crossing
@@ -79,8 +89,9 @@ struct Material {
   float mirror;     ///< share of light mirrored, 0..1; the rest is shaded
   float ior;        ///< index of refraction inside, > 0; dielectrics only
   uint flags;       ///< MATERIAL_*
-  uint mask_bit;    ///< the object's bit, 0..31, in a ray's mask of the dielectrics it is inside of; where they overlap,
-                    ///< light runs in the one with the highest bit
+  uint
+      mask_bit;  ///< the object's bit, 0..31, in a ray's mask of the dielectrics it is inside of; where they overlap,
+                 ///< light runs in the one with the highest bit
 };
 
 SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
@@ -117,10 +128,10 @@ struct FrameParams {
   uint seed;
   uint max_bounces;  ///< secondary rays in a path, >= 0
   uint light_count;
-  float kappa;       ///< window depth in units of the first splat's radius
-  float delta;       ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units
-  vec3 environment;  ///< radiance factor of the texture, or the constant radiance
-  uint tile_first;  ///< where the accumulation holds this dispatch's first pixel
+  float kappa;          ///< window depth in units of the first splat's radius
+  float delta;          ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units
+  vec3 environment;     ///< radiance factor of the texture, or the constant radiance
+  uint tile_first;      ///< where the accumulation holds this dispatch's first pixel
   vec3 environment_up;  ///< unit vector the environment's +y (its pole) points to
   float unused_0;
   vec3 environment_right;  ///< unit vector the environment's +x points to; its +z is cross(right, up)
@@ -154,12 +165,13 @@ SPLATRAY_CONST NO_OBJECT = 0xFFFFFFFFu;
 
 /// Per-pixel auxiliary outputs, of the ray through the pixel's centre.
 struct AovPixel {
-  vec3 normal;   ///< blended unit normal, world space; 0 on a miss
-  float z;       ///< distance from the eye, world units; +inf on a miss
-  uint object;   ///< NO_OBJECT on a miss
-  uint splat;    ///< bit 0: the first splat's front face was hit; bits 31..1 tell splats apart (a hash of its words)
-  uint tests;    ///< splat tests of this ray; 0 without COUNTERS
-  uint steps;    ///< node words read by this ray; 0 without COUNTERS
+  vec3 normal;  ///< blended unit normal, world space; 0 on a miss
+  float z;      ///< distance from the eye, world units; +inf on a miss
+  uint object;  ///< NO_OBJECT on a miss
+  uint
+      splat;  ///< bit 0: the first splat's front face was hit; bits 31..1 tell splats apart (a hash of its words)
+  uint tests;  ///< splat tests of this ray; 0 without COUNTERS
+  uint steps;  ///< node words read by this ray; 0 without COUNTERS
 };
 
 /// Counters, compiled in by COUNTERS only.
@@ -182,17 +194,18 @@ SPLATRAY_CONST COUNTER_COUNT = 16u;
 SPLATRAY_CONST BIND_FRAME = 0u;
 SPLATRAY_CONST BIND_NODE_POOL = 1u;
 SPLATRAY_CONST BIND_BEGIN_END = 2u;
-SPLATRAY_CONST BIND_DATA_POOL = 3u;
-SPLATRAY_CONST BIND_COLOR_POOL = 4u;
-SPLATRAY_CONST BIND_FIELD_POOL = 5u;
-SPLATRAY_CONST BIND_MATERIALS = 6u;
-SPLATRAY_CONST BIND_LIGHTS = 7u;
-SPLATRAY_CONST BIND_ENVIRONMENT = 8u;
-SPLATRAY_CONST BIND_ACCUMULATION = 9u;
-SPLATRAY_CONST BIND_AOV = 10u;
-SPLATRAY_CONST BIND_COUNTERS = 11u;
-SPLATRAY_CONST BIND_RAYS = 12u;
-SPLATRAY_CONST BIND_HITS = 13u;
+SPLATRAY_CONST BIND_SLAB_POOL = 3u;
+SPLATRAY_CONST BIND_DATA_POOL = 4u;
+SPLATRAY_CONST BIND_COLOR_POOL = 5u;
+SPLATRAY_CONST BIND_FIELD_POOL = 6u;
+SPLATRAY_CONST BIND_MATERIALS = 7u;
+SPLATRAY_CONST BIND_LIGHTS = 8u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 9u;
+SPLATRAY_CONST BIND_ACCUMULATION = 10u;
+SPLATRAY_CONST BIND_AOV = 11u;
+SPLATRAY_CONST BIND_COUNTERS = 12u;
+SPLATRAY_CONST BIND_RAYS = 13u;
+SPLATRAY_CONST BIND_HITS = 14u;
 
 /// Specialization constants: the features of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_BLEND = 0u;        ///< BLEND_*

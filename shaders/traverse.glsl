@@ -1,9 +1,10 @@
 // The octree along a ray: from leaf to leaf by descent from the root (Goradia et al. 2010, sec. IV-B;
 // Lefebvre et al. 2005), with integer cells, so that no ray can be stuck or skip a cell. The leaves'
-// intervals [t_in, t_out) tile the ray. Needs node_word(index), begin_end_at(index).
+// intervals [t_in, t_out) tile the ray. Needs node_word(index), begin_end_at(index),
+// slab_word(index).
 #ifndef SPLATRAY_TRAVERSE_GLSL
 #define SPLATRAY_TRAVERSE_GLSL
-#include "splat.glsl"
+#include "slab.glsl"
 
 const float ROOT_SIZE = 2097152.0f;      ///< 2^LATTICE_BITS
 const uint CELL_LIMIT = 1u << LATTICE_BITS;
@@ -18,7 +19,7 @@ struct Walk {
   uvec3 cell;      ///< a lattice cell inside the current leaf
   float t_in;      ///< the leaf's interval; t_in never decreases
   float t_out;
-  uint begin;      ///< the leaf's splats, empty for empty leaves
+  uint begin;      ///< the leaf's splats, none where the ray passes beside its slab
   uint end;
   uint next;       ///< the first of them not looked at yet
   uint exit_axis;
@@ -87,6 +88,19 @@ float clip_to_root(INOUT(Ray) ray, OUT(bool) enters) {
   return shift;
 }
 
+/// The splats of the leaf with this node word and cell.
+void walk_list(INOUT(Walk) walk, Ray ray, uint word, uvec3 low, uint size) {
+  walk.begin = 0u;
+  walk.end = 0u;
+  if ((word >> NODE_TAG_SHIFT) != NODE_FILLED) return;
+  uint leaf = word & NODE_ADDRESS_MASK;
+  float half_size = 0.5f * float(size);
+  vec3 center = vec3(low) + vec3(half_size);
+  if (slab_missed(slab_word(leaf), ray, walk.t_in, walk.t_out, center, half_size)) return;
+  walk.begin = begin_end_at(leaf);
+  walk.end = begin_end_at(leaf + 1u);
+}
+
 /// DESCEND from the root to the leaf that holds walk.cell; finds its splats and its end of the ray's
 /// interval. Returns the number of node words read.
 uint walk_descend(INOUT(Walk) walk, Ray ray) {
@@ -97,13 +111,6 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
     uint child = ((walk.cell.x >> shift) & 1u) | (((walk.cell.y >> shift) & 1u) << 1u) |
                  (((walk.cell.z >> shift) & 1u) << 2u);
     word = node_word((word & NODE_ADDRESS_MASK) + child);
-  }
-  walk.begin = 0u;
-  walk.end = 0u;
-  if ((word >> NODE_TAG_SHIFT) == NODE_FILLED) {
-    uint leaf = word & NODE_ADDRESS_MASK;
-    walk.begin = begin_end_at(leaf);
-    walk.end = begin_end_at(leaf + 1u);
   }
   uint size = 1u << shift;
   uvec3 low = uvec3(walk.cell.x & ~(size - 1u), walk.cell.y & ~(size - 1u), walk.cell.z & ~(size - 1u));
@@ -119,6 +126,7 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   float dir = x_first ? ray.dir.x : (y_first ? ray.dir.y : ray.dir.z);
   walk.exit_cell = dir > 0.0f ? plane : plane - 1u;
   walk.t_out = max(x_first ? t_x : (y_first ? t_y : t_z), walk.t_in);
+  walk_list(walk, ray, word, low, size);
   uvec3 cell = cell_at(ray, walk.t_out, low, low + uvec3(size - 1u));
   walk.cell = uvec3(x_first ? walk.exit_cell : cell.x, y_first ? walk.exit_cell : cell.y,
                     walk.exit_axis == 2u ? walk.exit_cell : cell.z);

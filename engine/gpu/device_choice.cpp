@@ -10,8 +10,8 @@
 namespace splatray {
 namespace {
 
-/// All storage buffers a program may bind (shaders/layout.h), the four pools included.
-constexpr std::uint32_t STORAGE_BUFFERS = 12;
+/// All storage buffers a program may bind (shaders/layout.h), the six pools included.
+constexpr std::uint32_t STORAGE_BUFFERS = 14;
 
 const char* type_name(VkPhysicalDeviceType type) {
   switch (type) {

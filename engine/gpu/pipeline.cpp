@@ -14,6 +14,7 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   switch (binding) {
     case BIND_NODE_POOL:
     case BIND_BEGIN_END:
+    case BIND_SLAB_POOL:
     case BIND_DATA_POOL:
     case BIND_COLOR_POOL:
     case BIND_FIELD_POOL:

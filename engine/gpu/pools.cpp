@@ -16,14 +16,16 @@ struct PoolKind {
 };
 
 /// In the order of their bindings.
-constexpr std::array<PoolKind, 5> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
+constexpr std::array<PoolKind, 6> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
                                             {"Begin-End", VK_FORMAT_R32_UINT, 4},
+                                            {"pool of slabs", VK_FORMAT_R32_UINT, 4},
                                             {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
                                             {"colour pool", VK_FORMAT_R32_UINT, 4},
                                             {"pool of normal fields", VK_FORMAT_R32_UINT, 4}}};
 
-std::array<std::uint64_t, 5> sizes(const PoolBytes& bytes) {
-  return {bytes.node_pool, bytes.begin_end, bytes.data_pool, bytes.color_pool, bytes.field_pool};
+std::array<std::uint64_t, 6> sizes(const PoolBytes& bytes) {
+  return {bytes.node_pool, bytes.begin_end,  bytes.slab_pool,
+          bytes.data_pool, bytes.color_pool, bytes.field_pool};
 }
 
 std::string mib_text(std::uint64_t bytes) {
@@ -77,15 +79,16 @@ PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolA
 }
 
 Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted) {
-  const std::array<std::span<const std::byte>, 5> sources = {
-      std::as_bytes(std::span(scene.node_pool)), std::as_bytes(std::span(scene.begin_end)),
-      std::as_bytes(std::span(scene.data_pool)), std::as_bytes(std::span(scene.color_pool)),
-      std::as_bytes(std::span(scene.field_pool))};
+  const std::array<std::span<const std::byte>, 6> sources = {
+      std::as_bytes(std::span(scene.node_pool)),  std::as_bytes(std::span(scene.begin_end)),
+      std::as_bytes(std::span(scene.slab_pool)),  std::as_bytes(std::span(scene.data_pool)),
+      std::as_bytes(std::span(scene.color_pool)), std::as_bytes(std::span(scene.field_pool))};
   bytes.node_pool = sources[0].size();
   bytes.begin_end = sources[1].size();
-  bytes.data_pool = sources[2].size();
-  bytes.color_pool = sources[3].size();
-  bytes.field_pool = sources[4].size();
+  bytes.slab_pool = sources[2].size();
+  bytes.data_pool = sources[3].size();
+  bytes.color_pool = sources[4].size();
+  bytes.field_pool = sources[5].size();
   access = choose_access(bytes, pool_limits(context), wanted);
   bytes.texel_buffers = access == PoolAccess::texel;
   const VkBufferUsageFlags usage =

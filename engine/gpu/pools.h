@@ -1,4 +1,4 @@
-/// The octree on the device: node pool, Begin-End, data pool, colour pool and normal fields.
+/// The octree on the device: node pool, Begin-End, slabs, data pool, colour pool and normal fields.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -20,6 +20,7 @@ enum class PoolAccess {
 struct PoolBytes {
   std::uint64_t node_pool = 0;
   std::uint64_t begin_end = 0;
+  std::uint64_t slab_pool = 0;
   std::uint64_t data_pool = 0;
   std::uint64_t color_pool = 0;
   std::uint64_t field_pool = 0;
@@ -47,7 +48,7 @@ struct Pools {
 
   PoolAccess access = PoolAccess::storage;  ///< never automatic
   PoolBytes bytes;                          ///< without the environment
-  std::array<Buffer, 5> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
+  std::array<Buffer, 6> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 
 }  // namespace splatray

@@ -9,33 +9,34 @@ namespace splatray {
 namespace {
 
 constexpr int OCT = static_cast<int>(OCT_SCALE);
+constexpr int AXIS_SCALE = static_cast<int>(SLAB_AXIS_SCALE);
 constexpr std::uint32_t LATTICE_SIZE = 1U << LATTICE_BITS;
 constexpr std::uint32_t RADIUS_EXPONENT_BIT = 0x40000000U;  // bit 30 of every stored float32: r^2 >= 2
 
 int sign_not_zero(double value) { return value < 0.0 ? -1 : 1; }
 
-/// The integer vector (u, v, w), |u| + |v| + |w| = OCT_SCALE, of two octahedral coordinates.
-glm::dvec3 octahedral_vector(int u, int v) {
-  const int w = OCT - std::abs(u) - std::abs(v);
+/// The integer vector (u, v, w), |u| + |v| + |w| = scale, of two octahedral coordinates.
+glm::dvec3 octahedral_vector(int u, int v, int scale) {
+  const int w = scale - std::abs(u) - std::abs(v);
   if (w >= 0) return {u, v, w};
-  return {(OCT - std::abs(v)) * sign_not_zero(u), (OCT - std::abs(u)) * sign_not_zero(v), w};
+  return {(scale - std::abs(v)) * sign_not_zero(u), (scale - std::abs(u)) * sign_not_zero(v), w};
 }
 
 /// The two octahedral coordinates, of the four around the exact ones, whose direction is nearest the normal
 /// ("precise" encoding, Cigolle et al. 2014, sec. 3.3).
-glm::ivec2 octahedral_nearest(const glm::dvec3& normal) {
+glm::ivec2 octahedral_nearest(const glm::dvec3& normal, int scale) {
   const double sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-  glm::dvec2 exact = glm::dvec2(normal) * (OCT / sum);
+  glm::dvec2 exact = glm::dvec2(normal) * (scale / sum);
   if (normal.z < 0.0) {
-    exact = {(OCT - std::abs(exact.y)) * sign_not_zero(exact.x),
-             (OCT - std::abs(exact.x)) * sign_not_zero(exact.y)};
+    exact = {(scale - std::abs(exact.y)) * sign_not_zero(exact.x),
+             (scale - std::abs(exact.x)) * sign_not_zero(exact.y)};
   }
   glm::ivec2 best{0};
   double best_dot = -2.0;
   for (int corner = 0; corner < 4; ++corner) {
-    const int u = std::clamp(static_cast<int>(std::floor(exact.x)) + (corner & 1), -OCT, OCT);
-    const int v = std::clamp(static_cast<int>(std::floor(exact.y)) + (corner >> 1), -OCT, OCT);
-    const glm::dvec3 vector = octahedral_vector(u, v);
+    const int u = std::clamp(static_cast<int>(std::floor(exact.x)) + (corner & 1), -scale, scale);
+    const int v = std::clamp(static_cast<int>(std::floor(exact.y)) + (corner >> 1), -scale, scale);
+    const glm::dvec3 vector = octahedral_vector(u, v, scale);
     const double dot = glm::dot(normal, vector) / glm::length(vector);
     if (dot > best_dot) {
       best_dot = dot;
@@ -74,23 +75,17 @@ double decode_slope(std::uint32_t bits) {
   return 0.5 * q * std::abs(q);
 }
 
-/// Appends the references of the node's leaves whose centre lies in their own cell.
-void collect_home_references(const Scene& scene, std::uint32_t node, glm::uvec3 cell_min,
-                             std::uint32_t cell_size, std::vector<std::uint32_t>& homes) {
+void collect_leaf_cells(const Scene& scene, std::uint32_t node, LeafCell cell, std::vector<LeafCell>& cells) {
   const std::uint32_t word = scene.node_pool[node];
   const std::uint32_t address = word & NODE_ADDRESS_MASK;
   if (word >> NODE_TAG_SHIFT == NODE_INNER) {
-    const std::uint32_t half = cell_size / 2;
+    const std::uint32_t half = cell.size / 2;
     for (std::uint32_t child = 0; child < 8; ++child) {
       const glm::uvec3 offset{child & 1U, child >> 1 & 1U, child >> 2};
-      collect_home_references(scene, address + child, cell_min + offset * half, half, homes);
+      collect_leaf_cells(scene, address + child, {cell.low + offset * half, half}, cells);
     }
   } else if (word >> NODE_TAG_SHIFT == NODE_FILLED) {
-    for (std::uint32_t i = scene.begin_end[address]; i < scene.begin_end[address + 1]; ++i) {
-      const glm::uvec3 center{unpack_splat(scene.data_pool[i]).center};
-      const glm::uvec3 offset = center - cell_min;  // wraps around below the cell
-      if (glm::all(glm::lessThan(offset, glm::uvec3(cell_size)))) homes.push_back(i);
-    }
+    cells[address] = cell;
   }
 }
 
@@ -102,7 +97,7 @@ uvec4 pack_splat(const Splat& splat) {
   const std::uint32_t x = lattice_coordinate(splat.center.x);
   const std::uint32_t y = lattice_coordinate(splat.center.y);
   const std::uint32_t z = lattice_coordinate(splat.center.z);
-  const glm::ivec2 oct = octahedral_nearest(splat.normal);
+  const glm::ivec2 oct = octahedral_nearest(splat.normal, OCT);
   return {x << 11 | y >> 10, y << 22 | z,
           static_cast<std::uint32_t>(oct.x + OCT) | static_cast<std::uint32_t>(oct.y + OCT) << 16,
           pack_radius_squared(splat.radius_squared) << 16 | splat.object};
@@ -113,7 +108,7 @@ Splat unpack_splat(const uvec4& words) {
   splat.center = {words.x >> 11, (words.x & 0x7FFU) << 10 | words.y >> 22, words.y & 0x1FFFFFU};
   const int u = static_cast<int>(words.z & 0xFFFFU) - OCT;
   const int v = static_cast<int>(words.z >> 16) - OCT;
-  splat.normal = glm::normalize(octahedral_vector(u, v));
+  splat.normal = glm::normalize(octahedral_vector(u, v, OCT));
   splat.radius_squared = std::bit_cast<float>(RADIUS_EXPONENT_BIT | words.w >> 16 << 14);
   splat.object = words.w & OBJECT_MASK;
   return splat;
@@ -151,11 +146,40 @@ glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal) {
          decode_slope(field >> 20) * glm::outerProduct(frame.v, frame.v);
 }
 
+std::uint32_t pack_slab(const Slab& slab) {
+  assert(slab.low >= -1.0 && slab.low <= slab.high && slab.high <= 1.0);
+  const glm::ivec2 oct = octahedral_nearest(slab.axis, AXIS_SCALE);
+  const auto low = static_cast<std::uint32_t>(std::floor(slab.low * SLAB_SCALE) + 512.0);
+  const auto high = static_cast<std::uint32_t>(std::ceil(slab.high * SLAB_SCALE) + 512.0);
+  return static_cast<std::uint32_t>(oct.x + AXIS_SCALE) |
+         static_cast<std::uint32_t>(oct.y + AXIS_SCALE) << 6 | low << 12 | high << 22;
+}
+
+Slab unpack_slab(std::uint32_t word) {
+  const int u = static_cast<int>(word & 63U) - AXIS_SCALE;
+  const int v = static_cast<int>(word >> 6 & 63U) - AXIS_SCALE;
+  return {octahedral_vector(u, v, AXIS_SCALE) / static_cast<double>(AXIS_SCALE),
+          (static_cast<double>(word >> 12 & 1023U) - 512.0) / SLAB_SCALE,
+          (static_cast<double>(word >> 22) - 512.0) / SLAB_SCALE};
+}
+
+std::vector<LeafCell> leaf_cells(const Scene& scene) {
+  std::vector<LeafCell> cells(scene.begin_end.size() - 1);
+  collect_leaf_cells(scene, 0, {glm::uvec3(0), LATTICE_SIZE}, cells);
+  return cells;
+}
+
 std::vector<std::uint32_t> home_references(const Scene& scene) {
   std::vector<std::uint32_t> homes;
   homes.reserve(scene.splat_count);
-  collect_home_references(scene, 0, glm::uvec3(0), LATTICE_SIZE, homes);
-  std::sort(homes.begin(), homes.end());
+  const std::vector<LeafCell> cells = leaf_cells(scene);
+  for (std::size_t leaf = 0; leaf < cells.size(); ++leaf) {
+    for (std::uint32_t i = scene.begin_end[leaf]; i < scene.begin_end[leaf + 1]; ++i) {
+      const glm::uvec3 center{unpack_splat(scene.data_pool[i]).center};
+      const glm::uvec3 offset = center - cells[leaf].low;  // wraps around below the cell
+      if (glm::all(glm::lessThan(offset, glm::uvec3(cells[leaf].size)))) homes.push_back(i);
+    }
+  }
   return homes;
 }
 

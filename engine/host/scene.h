@@ -88,12 +88,26 @@ struct TangentFrame {
 /// The reference implementation of the decoding; `normal` is the splat's own, as unpack_splat gives it.
 [[nodiscard]] glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal);
 
+/// A leaf's slab (layout.h), full precision: low <= axis.(p - centre) / half size <= high.
+struct Slab {
+  glm::dvec3 axis;  ///< |x| + |y| + |z| = 1
+  double low;       ///< in units of the cell's half size, [-1, 1]
+  double high;
+};
+
+/// Packs a slab: the axis, of any length but 0, to the nearest that there is, low and high outwards. The planes that it
+/// means are those across the packed axis.
+[[nodiscard]] std::uint32_t pack_slab(const Slab& slab);
+/// The reference implementation of the decoding.
+[[nodiscard]] Slab unpack_slab(std::uint32_t word);
+
 struct Scene {
   RootTransform root;
   BuildParams build;
   std::uint64_t splat_count = 0;          ///< different splats; data_pool.size() counts references
   std::vector<std::uint32_t> node_pool;   ///< node words; the root is word 0, never empty
   std::vector<std::uint32_t> begin_end;   ///< filled leaves + 1 entries, ascending, last = data_pool.size()
+  std::vector<std::uint32_t> slab_pool;   ///< one slab per filled leaf
   std::vector<uvec4> data_pool;           ///< splats, leaf by leaf
   std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
   std::vector<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
@@ -113,6 +127,15 @@ struct Scene {
 
 /// Most dielectrics that a ray can be inside of at once.
 inline constexpr std::uint32_t MASK_BITS = 32;
+
+/// The cell of a leaf, lattice units; size 0 for leaves that are not in the tree.
+struct LeafCell {
+  glm::uvec3 low{0};
+  std::uint32_t size = 0;
+};
+
+/// The cells of the filled leaves, in the order of Begin-End.
+[[nodiscard]] std::vector<LeafCell> leaf_cells(const Scene& scene);
 
 /// Indices into data_pool of one reference per splat: the one in the leaf that holds the centre. Ascending.
 [[nodiscard]] std::vector<std::uint32_t> home_references(const Scene& scene);

@@ -46,6 +46,9 @@ Defect check_sizes(const Scene& scene) {
     return SceneDefect{
         std::to_string(scene.splat_count) + " splats in " + std::to_string(references) + " references",
         "at least one reference per splat"};
+  if (scene.slab_pool.size() != scene.begin_end.size() - 1)
+    return SceneDefect{std::to_string(scene.slab_pool.size()) + " slabs",
+                       std::to_string(scene.begin_end.size() - 1) + ", one per filled leaf"};
   if (!scene.color_pool.empty() && scene.color_pool.size() != references)
     return SceneDefect{std::to_string(scene.color_pool.size()) + " colours",
                        std::to_string(references) + ", one per reference"};

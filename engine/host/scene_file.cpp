@@ -26,6 +26,7 @@ constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, a
 enum SectionId : std::uint32_t {
   NODES,
   LEAVES,
+  SLABS,
   SPLATS,
   COLORS,
   FIELDS,
@@ -65,7 +66,7 @@ struct LightRecord {
   std::uint32_t zero_1;
 };
 
-static_assert(sizeof(Header) == 536 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88);
+static_assert(sizeof(Header) == 568 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88);
 
 std::uint64_t align(std::uint64_t offset) { return (offset + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
@@ -74,11 +75,11 @@ void lay_out(Header& header) {
   const auto if_has = [&](std::uint32_t attribute) {
     return (header.attributes & attribute) != 0 ? header.references : 0;
   };
-  const std::uint64_t counts[SECTION_COUNT] = {header.nodes,       header.leaves + 1,  header.references,
-                                               if_has(HAS_COLORS), if_has(HAS_FIELDS), header.objects,
-                                               header.lights,      header.has_camera,  header.string_bytes};
+  const std::uint64_t counts[SECTION_COUNT] = {
+      header.nodes,       header.leaves + 1, header.leaves, header.references, if_has(HAS_COLORS),
+      if_has(HAS_FIELDS), header.objects,    header.lights, header.has_camera, header.string_bytes};
   constexpr std::uint32_t ELEMENT_SIZES[SECTION_COUNT] = {
-      4, 4, sizeof(uvec4), 4, 4, sizeof(Material), sizeof(LightRecord), sizeof(Camera), 1};
+      4, 4, 4, sizeof(uvec4), 4, 4, sizeof(Material), sizeof(LightRecord), sizeof(Camera), 1};
   std::uint64_t end = sizeof(Header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
     SectionEntry& entry = header.sections[i];
@@ -217,7 +218,7 @@ class Reader {
                sizeof header_);  // fewer bytes than a header are told below
     if (std::memcmp(header_.magic, MAGIC, sizeof MAGIC) != 0)
       refuse("another file type", "the letters SOCT at its start");
-    if (size_ < sizeof header_) refuse(std::to_string(size_) + " bytes", "a header of 536 (file truncated)");
+    if (size_ < sizeof header_) refuse(std::to_string(size_) + " bytes", "a header of 568 (file truncated)");
     position_ = sizeof header_;
     if (header_.endianness != ENDIANNESS) refuse("a foreign byte order", "little-endian");
     if (header_.version != SCENE_FILE_VERSION)
@@ -296,10 +297,9 @@ void write_scene(const Scene& scene, const std::filesystem::path& path) {
   const std::vector<LightRecord> lights = light_records(scene.lights);
   const std::string strings = joined_strings(scene);
   const void* const contents[SECTION_COUNT] = {
-      scene.node_pool.data(),  scene.begin_end.data(),
-      scene.data_pool.data(),  scene.color_pool.data(),
-      scene.field_pool.data(), scene.materials.data(),
-      lights.data(),           scene.camera ? &*scene.camera : nullptr,
+      scene.node_pool.data(), scene.begin_end.data(),  scene.slab_pool.data(),
+      scene.data_pool.data(), scene.color_pool.data(), scene.field_pool.data(),
+      scene.materials.data(), lights.data(),           scene.camera ? &*scene.camera : nullptr,
       strings.data()};
   Header header = describe(scene, strings.size());
   lay_out(header);
@@ -323,6 +323,7 @@ Scene read_scene(const std::filesystem::path& path) {
   Scene scene = described_scene(reader.header());
   scene.node_pool = reader.section<std::uint32_t>(NODES);
   scene.begin_end = reader.section<std::uint32_t>(LEAVES);
+  scene.slab_pool = reader.section<std::uint32_t>(SLABS);
   scene.data_pool = reader.section<uvec4>(SPLATS);
   scene.color_pool = reader.section<std::uint32_t>(COLORS);
   scene.field_pool = reader.section<std::uint32_t>(FIELDS);

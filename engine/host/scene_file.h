@@ -6,7 +6,7 @@
 ///        0 | char[4]   | magic "SOCT"
 ///        4 | uint32    | version, SCENE_FILE_VERSION
 ///        8 | uint32    | endianness mark 0x01020304
-///       12 | uint32    | bytes of header and section table together, 536
+///       12 | uint32    | bytes of header and section table together, 568
 ///       16 | uint64    | bytes of the file
 ///       24 | uint64    | XXH3-64 of header and section table, taken with this field zero
 ///       32 | uint64    | splats (different ones)
@@ -31,20 +31,21 @@
 ///      184 | float64[3]| bounding box of the centres, minimum, world
 ///      208 | float64[3]| ... maximum
 ///      232 | float64   | surface area of the source meshes, world units^2, 0 = unknown
-///      240 | uint32    | sections, 9
+///      240 | uint32    | sections, 10
 ///      244 | uint32    | bytes of a section entry, 32
 ///
 /// Section entry, 32 bytes: uint32 id, uint32 bytes of an element, uint64 offset in the file, uint64 bytes, uint64 XXH3-64.
 ///   id | element                       | bytes | section
 ///    1 | uint32                        |     4 | node pool
 ///    2 | uint32                        |     4 | Begin-End
-///    3 | uvec4                         |    16 | data pool
-///    4 | uint32                        |     4 | colour pool, beside the data pool
-///    5 | uint32                        |     4 | normal fields, beside the data pool
-///    6 | Material                      |    48 | materials
-///    7 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world
-///    8 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
-///    9 | char                          |     1 | object names, then the environment's path, each ended by a zero byte
+///    3 | uint32                        |     4 | slabs, one per filled leaf
+///    4 | uvec4                         |    16 | data pool
+///    5 | uint32                        |     4 | colour pool, beside the data pool
+///    6 | uint32                        |     4 | normal fields, beside the data pool
+///    7 | Material                      |    48 | materials
+///    8 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world
+///    9 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
+///   10 | char                          |     1 | object names, then the environment's path, each ended by a zero byte
 /// Sections lie in this order, each at the next multiple of 16 bytes, gaps zero; the 8 bytes "SOCT.END" follow at the next
 /// multiple of 16 and end the file.
 #pragma once
@@ -54,7 +55,7 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t SCENE_FILE_VERSION = 2;
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 3;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot; leaves nothing behind.
 void write_scene(const Scene& scene, const std::filesystem::path& path);

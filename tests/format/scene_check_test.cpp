@@ -80,6 +80,7 @@ TEST(SceneCheck, FindsBadSplats) {
 }
 
 TEST(SceneCheck, FindsBadSizesAndLooks) {
+  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool.pop_back(); }), "1 slabs");
   EXPECT_NE(found_after([](Scene& s) { s.color_pool.pop_back(); }), "");
   EXPECT_NE(found_after([](Scene& s) { s.field_pool.pop_back(); }), "");
   EXPECT_NE(found_after([](Scene& s) { s.object_names.pop_back(); }), "");

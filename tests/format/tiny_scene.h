@@ -18,6 +18,7 @@ inline Scene tiny_scene() {
   scene.node_pool.resize(9, leaf(NODE_EMPTY, 0));
   scene.node_pool[8] = leaf(NODE_FILLED, 1);
   scene.begin_end = {0, 2, 5};
+  scene.slab_pool = {SLAB_FULL, SLAB_FULL};
   scene.data_pool = {tiny_splat(5000, 6000, 7000, 0), tiny_splat(1048000, 1048000, 1048000, 1),
                      tiny_splat(1048000, 1048000, 1048000, 1), tiny_splat(1100000, 1200000, 1300000, 0),
                      tiny_splat(2000000, 2000000, 2000000, 1)};

@@ -57,7 +57,7 @@ std::vector<std::size_t> cut_counts(Bytes& bytes) {
   const std::size_t strings = cut_count<std::uint64_t>(bytes, 80, 1);
   const std::size_t colors = (attributes & 1U) != 0 ? references : 0;
   const std::size_t fields = (attributes & 2U) != 0 ? references : 0;
-  return {nodes, leaves + 1, references, colors, fields, objects, lights, cameras, strings};
+  return {nodes, leaves + 1, leaves, references, colors, fields, objects, lights, cameras, strings};
 }
 
 /// The bytes with a scene file's form: magic, version, sizes, section table, gaps, end marker and checksums are put

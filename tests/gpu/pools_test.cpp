@@ -62,6 +62,7 @@ TEST_F(PoolUpload, ReportsBytesByPool) {
   tracer.upload(disc_scene(3));
   EXPECT_EQ(tracer.pool_bytes().node_pool, 4U);
   EXPECT_EQ(tracer.pool_bytes().begin_end, 8U);
+  EXPECT_EQ(tracer.pool_bytes().slab_pool, 4U);
   EXPECT_EQ(tracer.pool_bytes().data_pool, 48U);
   EXPECT_EQ(tracer.pool_bytes().color_pool, 0U);
 }

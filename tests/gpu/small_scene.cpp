@@ -24,6 +24,7 @@ Scene disc_scene(std::uint32_t objects) {
   scene.splat_count = objects;
   scene.node_pool = {NODE_FILLED << NODE_TAG_SHIFT};
   scene.begin_end = {0, objects};
+  scene.slab_pool = {SLAB_FULL};
   scene.lights = {{LIGHT_DIRECTIONAL, {0.0, 0.0, 1.0}, glm::vec3(3.0F)}};
   return scene;
 }

@@ -30,6 +30,7 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.splat_count, b.splat_count);
   EXPECT_EQ(a.node_pool, b.node_pool);
   EXPECT_EQ(a.begin_end, b.begin_end);
+  EXPECT_EQ(a.slab_pool, b.slab_pool);
   EXPECT_EQ(a.data_pool, b.data_pool);
   EXPECT_EQ(a.color_pool, b.color_pool);
 }

@@ -6,6 +6,8 @@
 #include "data/shapes.h"
 #include "tests/property/judge.h"
 #include "tests/property/round.h"
+#include "tests/trace/agreement.h"
+#include "tests/trace/rays.h"
 #include "tests/trace/scenes.h"
 #include "tests/trace/twin.h"
 
@@ -23,6 +25,24 @@ TEST(PropertyProof, AMovedSplatIsNoticed) {
   run_round(1, tracer, spoilt, said_spoilt, true);
   EXPECT_GT(spoilt.exceptions, 0U);
   EXPECT_NE(said_spoilt.str().find("--seed 1;"), std::string::npos) << said_spoilt.str();
+}
+
+/// Hits lost or made up by the tracer where one disc's slab is `steps` of its finest steps too high.
+std::size_t exceptions_with_slab_raised(std::uint32_t steps) {
+  Scene scene = scene_of({{rectangle({.count = 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}), test_material(0)}});
+  const BruteForce brute(scene);
+  const Settings settings;
+  const std::vector<RayQuery> rays = random_primary_rays(scene, 2000, 1);
+  scene.slab_pool.at(0) += steps << 12U | steps << 22U;
+  const Agreement found =
+      agreement_of(brute, all_nearest(brute, rays, settings), twin_intersect(scene, rays, settings));
+  EXPECT_GT(found.hits, 100U);
+  return found.exceptions();
+}
+
+TEST(PropertyProof, AMisplacedSlabIsNoticed) {
+  EXPECT_EQ(exceptions_with_slab_raised(0), 0U);
+  EXPECT_GT(exceptions_with_slab_raised(2), 0U);
 }
 
 /// A ray that misses a disc's rim by `beside` lattice units, given the disc as it is; the verdict on an answer that hits.

@@ -28,6 +28,7 @@ namespace glsl {
 
 uint node_word(uint index) { return bound->node_pool.at(index); }
 uint begin_end_at(uint index) { return bound->begin_end.at(index); }
+uint slab_word(uint index) { return bound->slab_pool.at(index); }
 uvec4 splat_words(uint index) { return bound->data_pool.at(index); }
 Material material_at(uint object) { return bound->materials.at(object); }
 vec3 color_at(uint index) { return unpack_color(bound->color_pool.at(index)); }

@@ -1,0 +1,133 @@
+/// No leaf's slab cuts off anything that the leaf's discs have inside its cell.
+#include "preprocess/leaf_slabs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/preprocess/shapes.h"
+
+namespace splatray {
+namespace {
+
+/// Discs all over a sphere or a ball, as large as the object or a 1000th of it.
+InputObject soup(bool ball, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<float> gauss;
+  InputObject object = test::random_sphere(1500, seed);
+  for (std::size_t i = 0; i < object.points.size(); ++i) {
+    if (ball) {
+      object.points.position[i] *= unit(random);
+      object.points.normal[i] = glm::normalize(glm::vec3(gauss(random), gauss(random), gauss(random)));
+    }
+    object.points.radius.push_back(static_cast<float>(std::pow(1000.0, -unit(random))));
+  }
+  return object;
+}
+
+Scene scene_of(InputObject object, std::uint32_t leaf_size, Insertion insertion) {
+  BuildParams params;
+  params.leaf_size = leaf_size;
+  params.insertion = insertion;
+  params.radius_rule = RadiusRule::given;
+  BuildStats stats;
+  return build_scene(test::input_of(std::move(object)), params, 0, stats);
+}
+
+struct Tried {
+  std::size_t inside = 0;   ///< points of discs inside their leaf's cell
+  std::size_t cut_off = 0;  ///< of these, points that the leaf's slab leaves out
+};
+
+/// Random points of the inflated cell and of the disc's surroundings, dropped onto the disc's plane: those that lie on the
+/// disc and in the inflated cell are tried.
+void try_points(const Splat& splat, const LeafCell& cell, const Slab& slab, std::mt19937_64& random,
+                Tried& tried) {
+  const double half_size = 0.5 * cell.size;
+  const double reach = half_size + LIST_INFLATION;
+  const glm::dvec3 center = glm::dvec3(cell.low) + half_size;
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int i = 0; i < 16; ++i) {
+    const glm::dvec3 offset(unit(random), unit(random), unit(random));
+    glm::dvec3 point =
+        i % 2 == 0 ? center + reach * offset : splat.center + std::sqrt(splat.radius_squared) * offset;
+    point -= glm::dot(point - splat.center, splat.normal) * splat.normal;
+    const glm::dvec3 from_disc = point - splat.center;
+    if (glm::dot(from_disc, from_disc) > splat.radius_squared) continue;
+    if (glm::any(glm::greaterThan(glm::abs(point - center), glm::dvec3(reach)))) continue;
+    const double height = glm::dot(slab.axis, point - center);
+    ++tried.inside;
+    if (height < slab.low * half_size - LIST_INFLATION || height > slab.high * half_size + LIST_INFLATION)
+      ++tried.cut_off;
+  }
+}
+
+Tried tried_points(const Scene& scene) {
+  std::mt19937_64 random(7);
+  Tried tried;
+  const std::vector<LeafCell> cells = leaf_cells(scene);
+  for (std::size_t leaf = 0; leaf < cells.size(); ++leaf) {
+    const Slab slab = unpack_slab(scene.slab_pool[leaf]);
+    for (std::uint32_t i = scene.begin_end[leaf]; i < scene.begin_end[leaf + 1]; ++i)
+      try_points(unpack_splat(scene.data_pool[i]), cells[leaf], slab, random, tried);
+  }
+  return tried;
+}
+
+TEST(LeafSlabs, HoldWhatDiscsHaveInTheCell) {
+  for (const Insertion insertion : {Insertion::overlap, Insertion::probe, Insertion::centre}) {
+    for (const std::uint32_t leaf_size : {1U, 4U, 10U, 40U, 2000U}) {
+      for (const bool ball : {false, true}) {
+        const Scene scene = scene_of(soup(ball, leaf_size), leaf_size, insertion);
+        const Tried tried = tried_points(scene);
+        EXPECT_GT(tried.inside, scene.splat_count);
+        EXPECT_EQ(tried.cut_off, 0U) << "leaf size " << leaf_size << ", policy " << int(insertion);
+      }
+    }
+  }
+}
+
+TEST(LeafSlabs, AThinnerSlabIsNoticed) {
+  Scene scene = scene_of(soup(true, 1), 10, Insertion::overlap);
+  for (std::uint32_t& word : scene.slab_pool) {
+    Slab slab = unpack_slab(word);
+    slab.low = slab.high = 0.5 * (slab.low + slab.high);
+    word = pack_slab(slab);
+  }
+  EXPECT_GT(tried_points(scene).cut_off, 1000U);
+}
+
+TEST(LeafSlabs, AreThinOnASmoothSurface) {
+  const Scene scene = scene_of(test::even_sphere(20000), 10, Insertion::overlap);
+  double thickness = 0.0;
+  for (const std::uint32_t word : scene.slab_pool) {
+    const Slab slab = unpack_slab(word);
+    thickness += (slab.high - slab.low) / glm::length(slab.axis);
+  }
+  EXPECT_LT(thickness / static_cast<double>(scene.slab_pool.size()), 0.1) << "in units of half a cell";
+}
+
+TEST(LeafSlabs, PackingTurnsPlanesOutwards) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int i = 0; i < 1000; ++i) {
+    const double a = unit(random), b = unit(random);
+    const Slab slab{{unit(random), unit(random), unit(random)}, std::min(a, b), std::max(a, b)};
+    const Slab packed = unpack_slab(pack_slab(slab));
+    EXPECT_LE(packed.low, slab.low);
+    EXPECT_GE(packed.high, slab.high);
+    EXPECT_LT(packed.high - packed.low, slab.high - slab.low + 2.1 / SLAB_SCALE);
+    EXPECT_NEAR(std::abs(packed.axis.x) + std::abs(packed.axis.y) + std::abs(packed.axis.z), 1.0, 1e-12);
+    EXPECT_GT(glm::dot(glm::normalize(packed.axis), glm::normalize(slab.axis)), 0.998);
+    EXPECT_EQ(unpack_slab(pack_slab(packed)).axis, packed.axis);
+  }
+  const Slab full = unpack_slab(SLAB_FULL);
+  EXPECT_EQ(full.axis, glm::dvec3(0.0, 0.0, 1.0));
+  EXPECT_LE(full.low, -1.0);
+  EXPECT_GE(full.high, 1.0);
+}
+
+}  // namespace
+}  // namespace splatray
