@@ -1,7 +1,7 @@
 /// The true picture of a triangle mesh.
 #pragma once
-#include "preprocess/points.h"
 #include "engine/host/view.h"
+#include "preprocess/points.h"
 #include "tests/bench/truth.h"
 
 namespace splatray::testing {

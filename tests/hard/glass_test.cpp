@@ -188,7 +188,8 @@ TEST(Glass, TouchingSlabs) {
     const dvec3 dir = glm::normalize(dvec3(tilt, -1.0, 0.1));
     probes.push_back({dvec3(0.01, 0.2, 0.02) - 2.0 * dir, dir});
   }
-  conclude(compare_radiance(scene, {both}, probes, "radiance through two slabs that touch, one slab of both"));
+  conclude(
+      compare_radiance(scene, {both}, probes, "radiance through two slabs that touch, one slab of both"));
 }
 
 /// Glass on a table: the sphere touches a mirror-free plane of another object; no path may get under it.

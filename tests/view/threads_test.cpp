@@ -78,9 +78,7 @@ TEST_F(RenderThreadTest, AnswersWhatIsUnderTheCursor) {
     return true;
   });
   thread.pick({{0.5, 0.5}, SIZE, false});
-  await([](const RenderNews& news) {
-    return news.pick && !news.pick->inspected;
-  });
+  await([](const RenderNews& news) { return news.pick && !news.pick->inspected; });
 }
 
 TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
