@@ -34,6 +34,8 @@ layout(binding = BIND_SLAB_POOL) uniform usamplerBuffer slab_pool;
 layout(binding = BIND_DATA_POOL) uniform usamplerBuffer data_pool;
 layout(binding = BIND_COLOR_POOL) uniform usamplerBuffer color_pool;
 layout(binding = BIND_FIELD_POOL) uniform usamplerBuffer field_pool;
+layout(binding = BIND_TOP_TABLE) uniform usamplerBuffer top_table;
+uvec2 top_entry(uint index) { return texelFetch(top_table, int(index)).xy; }
 uint node_word(uint index) { return texelFetch(node_pool, int(index)).x; }
 uint begin_end_at(uint index) { return texelFetch(begin_end, int(index)).x; }
 uint slab_word(uint index) { return texelFetch(slab_pool, int(index)).x; }
@@ -47,6 +49,8 @@ layout(std430, binding = BIND_SLAB_POOL) readonly buffer SlabPool { uint slab_po
 layout(std430, binding = BIND_DATA_POOL) readonly buffer DataPool { uvec4 data_pool[]; };
 layout(std430, binding = BIND_COLOR_POOL) readonly buffer ColorPool { uint color_pool[]; };
 layout(std430, binding = BIND_FIELD_POOL) readonly buffer FieldPool { uint field_pool[]; };
+layout(std430, binding = BIND_TOP_TABLE) readonly buffer TopTable { uvec2 top_table[]; };
+uvec2 top_entry(uint index) { return top_table[index]; }
 uint node_word(uint index) { return node_pool[index]; }
 uint begin_end_at(uint index) { return begin_end[index]; }
 uint slab_word(uint index) { return slab_pool[index]; }

@@ -33,6 +33,10 @@
 ///   NODE_FILLED : index into Begin-End; the leaf's splats are data_pool[begin_end[a] .. begin_end[a+1]), its slab is
 ///                 slab_pool[a]
 ///   NODE_EMPTY  : address is zero
+///
+/// Top table, 64 bits for each cell of TOP_LEVELS below the root, made from the node pool: descents begin here.
+///   x: node word of the deepest node that holds the cell and lies no deeper than TOP_LEVELS
+///   y: its edge is 2^y lattice units
 #ifndef SPLATRAY_LAYOUT_H
 #define SPLATRAY_LAYOUT_H
 
@@ -60,6 +64,8 @@ SPLATRAY_CONST MAX_DEPTH = 18u;
 SPLATRAY_CONST LIST_INFLATION = 4u;
 /// No disc comes closer to the root's faces than this, lattice units, so that all hits lie strictly inside the root.
 SPLATRAY_CONST ROOT_MARGIN = 16u;
+
+SPLATRAY_CONST TOP_LEVELS = 5u;  ///< the top table has 8^TOP_LEVELS entries, x fastest
 
 SPLATRAY_CONST NODE_TAG_SHIFT = 30u;
 SPLATRAY_CONST NODE_ADDRESS_MASK = 0x3FFFFFFFu;
@@ -198,14 +204,15 @@ SPLATRAY_CONST BIND_SLAB_POOL = 3u;
 SPLATRAY_CONST BIND_DATA_POOL = 4u;
 SPLATRAY_CONST BIND_COLOR_POOL = 5u;
 SPLATRAY_CONST BIND_FIELD_POOL = 6u;
-SPLATRAY_CONST BIND_MATERIALS = 7u;
-SPLATRAY_CONST BIND_LIGHTS = 8u;
-SPLATRAY_CONST BIND_ENVIRONMENT = 9u;
-SPLATRAY_CONST BIND_ACCUMULATION = 10u;
-SPLATRAY_CONST BIND_AOV = 11u;
-SPLATRAY_CONST BIND_COUNTERS = 12u;
-SPLATRAY_CONST BIND_RAYS = 13u;
-SPLATRAY_CONST BIND_HITS = 14u;
+SPLATRAY_CONST BIND_TOP_TABLE = 7u;
+SPLATRAY_CONST BIND_MATERIALS = 8u;
+SPLATRAY_CONST BIND_LIGHTS = 9u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 10u;
+SPLATRAY_CONST BIND_ACCUMULATION = 11u;
+SPLATRAY_CONST BIND_AOV = 12u;
+SPLATRAY_CONST BIND_COUNTERS = 13u;
+SPLATRAY_CONST BIND_RAYS = 14u;
+SPLATRAY_CONST BIND_HITS = 15u;
 
 /// Specialization constants: the features of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_BLEND = 0u;        ///< BLEND_*

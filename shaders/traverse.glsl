@@ -1,6 +1,6 @@
 // The octree along a ray: from leaf to leaf by descent from the root (Goradia et al. 2010, sec. IV-B;
 // Lefebvre et al. 2005), with integer cells, so that no ray can be stuck or skip a cell. The leaves'
-// intervals [t_in, t_out) tile the ray. Needs node_word(index), begin_end_at(index),
+// intervals [t_in, t_out) tile the ray. Needs top_entry(index), node_word(index), begin_end_at(index),
 // slab_word(index).
 #ifndef SPLATRAY_TRAVERSE_GLSL
 #define SPLATRAY_TRAVERSE_GLSL
@@ -101,11 +101,13 @@ void walk_list(INOUT(Walk) walk, Ray ray, uint word, uvec3 low, uint size) {
   walk.end = begin_end_at(leaf + 1u);
 }
 
-/// DESCEND from the root to the leaf that holds walk.cell; finds its splats and its end of the ray's
+/// DESCEND from the top table, so from at most TOP_LEVELS below the root, to the leaf that holds walk.cell; finds its splats and its end of the ray's
 /// interval. Returns the number of node words read.
 uint walk_descend(INOUT(Walk) walk, Ray ray) {
-  uint word = node_word(0u);
-  uint shift = LATTICE_BITS;
+  uvec3 top_cell = walk.cell >> (LATTICE_BITS - TOP_LEVELS);
+  uvec2 top = top_entry(top_cell.x | (top_cell.y << TOP_LEVELS) | (top_cell.z << (2u * TOP_LEVELS)));
+  uint word = top.x;
+  uint shift = top.y;
   while ((word >> NODE_TAG_SHIFT) == NODE_INNER) {
     shift -= 1u;
     uint child = ((walk.cell.x >> shift) & 1u) | (((walk.cell.y >> shift) & 1u) << 1u) |
@@ -130,7 +132,7 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   uvec3 cell = cell_at(ray, walk.t_out, low, low + uvec3(size - 1u));
   walk.cell = uvec3(x_first ? walk.exit_cell : cell.x, y_first ? walk.exit_cell : cell.y,
                     walk.exit_axis == 2u ? walk.exit_cell : cell.z);
-  return LATTICE_BITS - shift + 1u;
+  return top.y - shift + 1u;
 }
 
 /// Before the first leaf of a ray that starts inside the root.

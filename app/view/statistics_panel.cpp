@@ -28,6 +28,7 @@ void memory_facts(const PoolBytes& bytes) {
     std::uint64_t bytes;
   };
   const std::array pools = {Pool{"node pool", bytes.node_pool},      Pool{"Begin-End", bytes.begin_end},
+                            Pool{"slabs", bytes.slab_pool},          Pool{"top table", bytes.top_table},
                             Pool{"data pool", bytes.data_pool},      Pool{"colour pool", bytes.color_pool},
                             Pool{"normal fields", bytes.field_pool}, Pool{"environment", bytes.environment}};
   std::uint64_t sum = 0;

@@ -11,7 +11,7 @@ namespace splatray {
 namespace {
 
 /// All storage buffers a program may bind (shaders/layout.h), the six pools included.
-constexpr std::uint32_t STORAGE_BUFFERS = 14;
+constexpr std::uint32_t STORAGE_BUFFERS = 15;
 
 const char* type_name(VkPhysicalDeviceType type) {
   switch (type) {

@@ -16,14 +16,15 @@ struct PoolKind {
 };
 
 /// In the order of their bindings.
-constexpr std::array<PoolKind, 6> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
+constexpr std::array<PoolKind, 7> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
                                             {"Begin-End", VK_FORMAT_R32_UINT, 4},
                                             {"pool of slabs", VK_FORMAT_R32_UINT, 4},
                                             {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
                                             {"colour pool", VK_FORMAT_R32_UINT, 4},
-                                            {"pool of normal fields", VK_FORMAT_R32_UINT, 4}}};
+                                            {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
+                                            {"top table", VK_FORMAT_R32G32_UINT, 8}}};
 
-std::array<std::uint64_t, 6> sizes(const PoolBytes& bytes) {
+std::array<std::uint64_t, 7> sizes(const PoolBytes& bytes) {
   return {bytes.node_pool, bytes.begin_end,  bytes.slab_pool,
           bytes.data_pool, bytes.color_pool, bytes.field_pool};
 }
@@ -62,6 +63,7 @@ bool texel_format_supported(const Context& context, VkFormat format) {
 PoolLimits pool_limits(const Context& context) {
   PoolLimits limits;
   const bool texel_formats = texel_format_supported(context, VK_FORMAT_R32_UINT) &&
+                             texel_format_supported(context, VK_FORMAT_R32G32_UINT) &&
                              texel_format_supported(context, VK_FORMAT_R32G32B32A32_UINT);
   limits.texel_elements = texel_formats ? context.properties.limits.maxTexelBufferElements : 0;
   limits.storage_bytes = context.properties.limits.maxStorageBufferRange;
@@ -79,16 +81,21 @@ PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolA
 }
 
 Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted) {
-  const std::array<std::span<const std::byte>, 6> sources = {
-      std::as_bytes(std::span(scene.node_pool)),  std::as_bytes(std::span(scene.begin_end)),
-      std::as_bytes(std::span(scene.slab_pool)),  std::as_bytes(std::span(scene.data_pool)),
-      std::as_bytes(std::span(scene.color_pool)), std::as_bytes(std::span(scene.field_pool))};
+  const std::vector<uvec2> top = top_table(scene);
+  const std::array<std::span<const std::byte>, 7> sources = {std::as_bytes(std::span(scene.node_pool)),
+                                                             std::as_bytes(std::span(scene.begin_end)),
+                                                             std::as_bytes(std::span(scene.slab_pool)),
+                                                             std::as_bytes(std::span(scene.data_pool)),
+                                                             std::as_bytes(std::span(scene.color_pool)),
+                                                             std::as_bytes(std::span(scene.field_pool)),
+                                                             std::as_bytes(std::span(top))};
   bytes.node_pool = sources[0].size();
   bytes.begin_end = sources[1].size();
   bytes.slab_pool = sources[2].size();
   bytes.data_pool = sources[3].size();
   bytes.color_pool = sources[4].size();
   bytes.field_pool = sources[5].size();
+  bytes.top_table = sources[6].size();
   access = choose_access(bytes, pool_limits(context), wanted);
   bytes.texel_buffers = access == PoolAccess::texel;
   const VkBufferUsageFlags usage =

@@ -24,6 +24,7 @@ struct PoolBytes {
   std::uint64_t data_pool = 0;
   std::uint64_t color_pool = 0;
   std::uint64_t field_pool = 0;
+  std::uint64_t top_table = 0;
   std::uint64_t environment = 0;
   bool texel_buffers = false;  ///< pools are read through texel buffers
 };
@@ -48,7 +49,7 @@ struct Pools {
 
   PoolAccess access = PoolAccess::storage;  ///< never automatic
   PoolBytes bytes;                          ///< without the environment
-  std::array<Buffer, 6> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
+  std::array<Buffer, 7> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 
 }  // namespace splatray

@@ -169,6 +169,22 @@ std::vector<LeafCell> leaf_cells(const Scene& scene) {
   return cells;
 }
 
+std::vector<uvec2> top_table(const Scene& scene) {
+  std::vector<uvec2> table(std::size_t{1} << 3 * TOP_LEVELS);
+  for (std::uint32_t i = 0; i < table.size(); ++i) {
+    const glm::uvec3 cell = glm::uvec3(i, i >> TOP_LEVELS, i >> 2 * TOP_LEVELS) & ((1U << TOP_LEVELS) - 1);
+    std::uint32_t word = scene.node_pool[0];
+    std::uint32_t level = 0;
+    while (level < TOP_LEVELS && word >> NODE_TAG_SHIFT == NODE_INNER) {
+      ++level;
+      const glm::uvec3 bit = cell >> (TOP_LEVELS - level) & 1U;
+      word = scene.node_pool[(word & NODE_ADDRESS_MASK) + (bit.x | bit.y << 1 | bit.z << 2)];
+    }
+    table[i] = {word, LATTICE_BITS - level};
+  }
+  return table;
+}
+
 std::vector<std::uint32_t> home_references(const Scene& scene) {
   std::vector<std::uint32_t> homes;
   homes.reserve(scene.splat_count);

@@ -137,6 +137,9 @@ struct LeafCell {
 /// The cells of the filled leaves, in the order of Begin-End.
 [[nodiscard]] std::vector<LeafCell> leaf_cells(const Scene& scene);
 
+/// The top table of the node pool (layout.h), 8^TOP_LEVELS entries.
+[[nodiscard]] std::vector<uvec2> top_table(const Scene& scene);
+
 /// Indices into data_pool of one reference per splat: the one in the leaf that holds the centre. Ascending.
 [[nodiscard]] std::vector<std::uint32_t> home_references(const Scene& scene);
 

@@ -18,6 +18,7 @@ using glm::max;
 using glm::min;
 using glm::normalize;
 using glm::uint;
+using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;
 using glm::vec2;

@@ -11,6 +11,7 @@ namespace {
 
 /// What bindings.glsl declares. One set a thread, so that tests may run several twins.
 thread_local const Scene* bound = nullptr;
+thread_local std::vector<uvec2> top;
 thread_local Features features;
 
 namespace glsl {
@@ -26,6 +27,7 @@ namespace glsl {
 #define COUNTERS features[SPEC_COUNTERS]
 #define FIELDS features[SPEC_FIELDS]
 
+uvec2 top_entry(uint index) { return top.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
 uint begin_end_at(uint index) { return bound->begin_end.at(index); }
 uint slab_word(uint index) { return bound->slab_pool.at(index); }
@@ -69,6 +71,7 @@ Features twin_features(const Scene& scene, const Settings& settings) {
 std::vector<RayHit> twin_intersect(const Scene& scene, std::span<const RayQuery> rays,
                                    const Settings& settings) {
   bound = &scene;
+  top = top_table(scene);
   features = twin_features(scene, settings);
   std::vector<RayHit> hits;
   hits.reserve(rays.size());
