@@ -104,7 +104,8 @@ void walk_list(INOUT(Walk) walk, Ray ray, uint word, uvec3 low, uint size) {
 /// DESCEND from the top table, so from at most TOP_LEVELS below the root, to the leaf that holds walk.cell; finds its splats and its end of the ray's
 /// interval. Returns the number of node words read.
 uint walk_descend(INOUT(Walk) walk, Ray ray) {
-  uvec3 top_cell = walk.cell >> (LATTICE_BITS - TOP_LEVELS);
+  // Behind the root's last leaf the cell lies outside: masked, as the children below are.
+  uvec3 top_cell = (walk.cell >> (LATTICE_BITS - TOP_LEVELS)) & uvec3((1u << TOP_LEVELS) - 1u);
   uvec2 top = top_entry(top_cell.x | (top_cell.y << TOP_LEVELS) | (top_cell.z << (2u * TOP_LEVELS)));
   uint word = top.x;
   uint shift = top.y;
