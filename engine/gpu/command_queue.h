@@ -11,6 +11,9 @@ namespace splatray {
 /// Lets everything recorded after it see the memory written by everything recorded before it.
 void record_barrier(VkCommandBuffer commands);
 
+/// Likewise for a colour image of one level and layer, and moves it from one layout to another.
+void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
+
 /// Records, submits and waits. One thread at a time. The context must outlive it.
 class CommandQueue {
  public:
