@@ -42,8 +42,10 @@ std::uint32_t slab_of(std::span<const uvec4> splats, const LeafCell& cell) {
   const glm::dvec3 center = glm::dvec3(cell.low) + half_size;
   Interval all{half_size, -half_size};
   for (const uvec4& words : splats) {
+    // The two ends may be swapped: by rounding in a flat leaf, or for a disc that only touches the inflated cell.
     const Interval one = extent(unpack_splat(words), axis, center, half_size);
-    all = {std::min(all.low, one.low), std::max(all.high, one.high)};
+    const auto [low, high] = std::minmax(one.low, one.high);
+    all = {std::min(all.low, low), std::max(all.high, high)};
   }
   return pack_slab(
       {axis, std::clamp(all.low / half_size, -1.0, 1.0), std::clamp(all.high / half_size, -1.0, 1.0)});
