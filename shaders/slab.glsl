@@ -10,6 +10,9 @@
 /// and their sums add 5 * 2^-24 of it, less than 2. The planes, at most 2^20 away, are off by 4 * 2^-24 of that, 1/4.
 const float SLAB_WIDENING = float(LIST_INFLATION) + 4.0f;
 
+/// Earlier than any t in the root for a ray whose origin is in it or beside it.
+const float EARLIEST = -2.0f * float(1u << LATTICE_BITS);
+
 /// Axis, |x| + |y| + |z| = 1.
 vec3 slab_axis(uint word) {
   float x = float(word & 63u) - float(SLAB_AXIS_SCALE);
@@ -19,15 +22,14 @@ vec3 slab_axis(uint word) {
   return vec3(x >= 0.0f ? x - fold : x + fold, y >= 0.0f ? y - fold : y + fold, z) * (1.0f / float(SLAB_AXIS_SCALE));
 }
 
-/// Whether a ray's interval [t_in, t_out) in a cell surely lies on one side of the cell's slab. What comes before the ray's
-/// origin does not count: there are no discs.
+/// Whether a ray's interval [t_in, t_out) in a cell surely lies on one side of the cell's slab.
 bool slab_missed(uint word, Ray ray, float t_in, float t_out, vec3 center, float half_size) {
   vec3 axis = slab_axis(word);
   float unit = half_size * (1.0f / float(SLAB_SCALE));
   float low = (float((word >> 12u) & 1023u) - 512.0f) * unit - SLAB_WIDENING;
   float high = (float(word >> 22u) - 512.0f) * unit + SLAB_WIDENING;
   vec3 from_center = ray.origin - center;
-  float at_in = dot(axis, from_center + ray.dir * max(t_in, 0.0f));
+  float at_in = dot(axis, from_center + ray.dir * max(t_in, EARLIEST));
   float at_out = dot(axis, from_center + ray.dir * t_out);
   return max(at_in, at_out) < low || min(at_in, at_out) > high;
 }

@@ -245,8 +245,9 @@ Cluster empty_cluster() {
 /// looked at before any is accumulated; a leaf of more than CHUNK splats is then gone through again.
 Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
   bool enters = true;
-  float shift = clip_to_root(ray, enters);
-  Walk walk = walk_start(ray, enters);
+  float t_start = 0.0f;
+  float shift = clip_to_root(ray, enters, t_start);
+  Walk walk = walk_start(ray, t_start, enters);
   First first = no_first();
   Cluster cluster = empty_cluster();
   bool finding = true;
@@ -283,7 +284,7 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
 /// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root.
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   First first = no_first();
-  Walk walk = walk_start(ray, true);
+  Walk walk = walk_start(ray, 0.0f, true);
   vec3 light = vec3(1.0f);
   uint passed = 0u;
   while (walk.inside) {

@@ -56,10 +56,10 @@ uvec3 cell_at(Ray ray, float t, uvec3 low, uvec3 high) {
 
 /// Moves the origin of a ray to where it enters the root or to t_min, whichever is later, exactly
 /// (double-float), with t_min and t_max. Returns by how much t became smaller; `enters` is false when the ray
-/// misses the root. A ray that starts inside the root keeps its origin, exact as it is: in the plane of a disc it lies on,
-/// any rounding would move the hit. So does a secondary ray, by whose origin the sheet left is known, also when the
-/// surface between discs lies a little outside the root: walk_start takes the nearest cell.
-float clip_to_root(INOUT(Ray) ray, OUT(bool) enters) {
+/// misses the root, `t_start` is where its walk begins. An origin inside the root stays, exact as it is: in the plane
+/// of a disc it lies on, any rounding would move the hit. So does a secondary ray's, by which the sheet left is known,
+/// also when the surface between discs lies a little outside the root: walk_start takes the nearest cell.
+float clip_to_root(INOUT(Ray) ray, OUT(bool) enters, OUT(float) t_start) {
   float t_enter = ray.t_min;
   float t_exit = ray.t_max;
   bool beside = false;
@@ -75,9 +75,11 @@ float clip_to_root(INOUT(Ray) ray, OUT(bool) enters) {
   enters = !beside && t_enter <= t_exit && abs(t_enter) < INFINITY_F;
   vec3 from_middle = abs(ray.origin - vec3(0.5f * ROOT_SIZE));
   float farthest = max(from_middle.x, max(from_middle.y, from_middle.z));
-  bool from_inside = farthest < 0.5f * ROOT_SIZE && ray.t_min >= 0.0f;
+  bool from_inside = farthest < 0.5f * ROOT_SIZE;
   bool at_surface = farthest < 1.5f * ROOT_SIZE && ray.from_object != NO_OBJECT;
-  float shift = enters && !from_inside && !at_surface ? t_enter : 0.0f;
+  bool stays = from_inside || at_surface;
+  float shift = enters && !stays ? t_enter : 0.0f;
+  t_start = stays ? min(t_enter, 0.0f) : 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     vec2 moved = df_add(two_product(shift, ray.dir[axis]), vec2(ray.origin[axis], ray.origin_low[axis]));
     ray.origin[axis] = moved.x;
@@ -136,12 +138,12 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   return top.y - shift + 1u;
 }
 
-/// Before the first leaf of a ray that starts inside the root.
-Walk walk_start(Ray ray, bool inside) {
+/// Before the first leaf of a ray that is inside the root at t_start.
+Walk walk_start(Ray ray, float t_start, bool inside) {
   Walk walk;
   walk.inside = inside;
   walk.inverse = vec3(1.0f / ray.dir.x, 1.0f / ray.dir.y, 1.0f / ray.dir.z);
-  walk.cell = cell_at(ray, 0.0f, uvec3(0u), uvec3(CELL_LIMIT - 1u));
+  walk.cell = cell_at(ray, t_start, uvec3(0u), uvec3(CELL_LIMIT - 1u));
   walk.t_in = ray.t_min;
   walk.t_out = ray.t_min;
   walk.begin = 0u;

@@ -103,6 +103,25 @@ TEST(Origin, OnSplatsInTheirPlane) {
                                     "origins at splat centres, in the discs' planes, t_min in 0..1"));
 }
 
+/// As above where a part of the ray behind its origin counts too, so that the first splat met is often edge-on: what it
+/// blends with is then a matter of rounding.
+TEST(Origin, OnSplatsInTheirPlaneWithNegativeStart) {
+  const Scene scene = lattice_soup();
+  const BruteForce brute(scene);
+  DeviceScene device(scene);
+  std::mt19937_64 random(29);
+  std::uniform_real_distribution<float> exponent(-10.0F, 23.0F);
+  std::vector<RayQuery> rays;
+  for (std::size_t i = 0; i < RAYS; ++i) {
+    const Splat& splat = brute.splats()[random() % brute.splats().size()];
+    RayQuery ray = primary_ray(splat.center, glm::cross(splat.normal, random_unit(random)));
+    ray.t_min = i % 8 == 0 ? -std::numeric_limits<float>::infinity() : -std::exp2(exponent(random));
+    rays.push_back(ray);
+  }
+  conclude(compare_with_brute_force(
+      device, brute, rays, "origins at splat centres, in the discs' planes, t_min below 0", Compared::hits));
+}
+
 /// Errors of a picture's depth and normals against the exact sphere, silhouette apart.
 struct PictureErrors {
   std::uint64_t pixels = 0;
