@@ -1,14 +1,14 @@
-/// The compiled programs, one per shader and per way of reading the pools. Made at build time
-/// (CMakeLists.txt).
+/// The compiled programs trace.comp.glsl and rays.comp.glsl: with the pools in storage buffers or in uniform texel buffers,
+/// hits decided in double-float or in float64. Made at build time (CMakeLists.txt).
 #pragma once
 #include <cstdint>
 #include <span>
 
 namespace splatray {
 
-extern const std::span<const std::uint32_t> TRACE_STORAGE;  ///< trace.comp.glsl, pools in storage buffers
-extern const std::span<const std::uint32_t> TRACE_TEXEL;  ///< trace.comp.glsl, pools in uniform texel buffers
-extern const std::span<const std::uint32_t> RAYS_STORAGE;  ///< rays.comp.glsl, pools in storage buffers
-extern const std::span<const std::uint32_t> RAYS_TEXEL;    ///< rays.comp.glsl, pools in uniform texel buffers
+extern const std::span<const std::uint32_t> TRACE_STORAGE, TRACE_TEXEL, TRACE_STORAGE_FLOAT64,
+    TRACE_TEXEL_FLOAT64;
+extern const std::span<const std::uint32_t> RAYS_STORAGE, RAYS_TEXEL, RAYS_STORAGE_FLOAT64,
+    RAYS_TEXEL_FLOAT64;
 
 }  // namespace splatray

@@ -66,13 +66,30 @@ bool splat_maybe_hit(uvec4 words, vec3 origin, vec3 dir, float t_in, float t_out
   return !(outside > 33.0f * slack * slack) && !(t + slack < t_in) && !(t - slack >= t_out);
 }
 
-/// A ray's meeting with a disc's plane, in double-float.
+/// A ray's meeting with a disc's plane, in double-float. FLOAT64: computed in float64, where the device is fast at it.
 struct PlaneHit {
   vec2 t;             ///< ray parameter
   vec2 rho_squared;   ///< squared distance from the centre, lattice units^2
   float facing;       ///< n.d: negative = front face
 };
 
+#ifdef FLOAT64
+vec2 two_floats(double x) {
+  float high = float(x);
+  return vec2(high, float(x - double(high)));
+}
+
+/// As below, by float64 of the device: to about 2^-50.
+PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
+  precise dvec3 to_center = (dvec3(splat_center(words)) - dvec3(origin)) - dvec3(origin_low);
+  dvec3 n = dvec3(splat_normal(words));
+  precise double denominator = dot(n, dvec3(dir));
+  precise double t = dot(n, to_center) / denominator;
+  precise dvec3 from_center = dvec3(dir) * t - to_center;
+  precise double rho_squared = dot(from_center, from_center);
+  return PlaneHit(two_floats(t), two_floats(rho_squared), float(denominator));
+}
+#else
 /// t = n.(c - o) / (n.d) and |o + t d - c|^2 to about 2^-44 of the distances involved.
 PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   vec3 center = splat_center(words);
@@ -95,6 +112,7 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   hit.facing = denominator.x;
   return hit;
 }
+#endif
 
 /// One entry of a normal field, per radius.
 float field_slope(uint bits) {

@@ -1,6 +1,7 @@
 #include "engine/gpu/context.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -148,6 +149,13 @@ void Context::choose_device(const std::string& wanted, const WindowNeeds& needs)
   info_ = infos[chosen];
 }
 
+Arithmetic Context::arithmetic(Arithmetic wanted) const {
+  assert(wanted != Arithmetic::float64 || float64);
+  if (wanted != Arithmetic::automatic) return wanted;
+  const bool processor = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  return processor && float64 ? Arithmetic::float64 : Arithmetic::double_float;
+}
+
 void Context::create_device(const WindowNeeds& needs) {
   VkPhysicalDeviceMaintenance3Properties limits{};
   limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
@@ -158,6 +166,11 @@ void Context::create_device(const WindowNeeds& needs) {
   properties = chain.properties;
   max_allocation_bytes = limits.maxMemoryAllocationSize;
   vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
+
+  VkPhysicalDeviceFeatures supported{}, features{};
+  vkGetPhysicalDeviceFeatures(physical_device, &supported);
+  features.shaderFloat64 = supported.shaderFloat64;
+  float64 = supported.shaderFloat64 == VK_TRUE;
 
   queue_family = compute_queue_family(physical_device);
   const float priority = 1.0F;
@@ -172,6 +185,7 @@ void Context::create_device(const WindowNeeds& needs) {
   info.pQueueCreateInfos = &queue_info;
   info.enabledExtensionCount = static_cast<std::uint32_t>(needs.device_extensions.size());
   info.ppEnabledExtensionNames = needs.device_extensions.data();
+  info.pEnabledFeatures = &features;
   check(vkCreateDevice(physical_device, &info, nullptr, &device), "opening the Vulkan device");
   vkGetDeviceQueue(device, queue_family, 0, &queue);
 

@@ -27,6 +27,13 @@ struct WindowNeeds {
   std::function<std::string(VkInstance, VkPhysicalDevice)> refusal;
 };
 
+/// What decides hits (splat.glsl). Both agree with brute force.
+enum class Arithmetic {
+  automatic,  ///< float64 on processors that have it; double_float on GPUs, many of which are slow at float64
+  double_float,  ///< pairs of float32
+  float64,
+};
+
 class Context {
  public:
   /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
@@ -41,6 +48,8 @@ class Context {
 
   [[nodiscard]] const DeviceInfo& device_info() const { return info_; }
   [[nodiscard]] std::uint32_t validation_messages() const { return validation_messages_; }
+  /// What automatic means on this device; `wanted` itself if it is not that. Asserts that the device has it.
+  [[nodiscard]] Arithmetic arithmetic(Arithmetic wanted) const;
 
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
@@ -51,6 +60,7 @@ class Context {
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
   std::uint64_t max_allocation_bytes = 0;  ///< largest single allocation the device promises
+  bool float64 = false;                    ///< shaders may use float64
 
  private:
   void create_instance(bool validation, const WindowNeeds& needs);

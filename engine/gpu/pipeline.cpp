@@ -28,9 +28,14 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   }
 }
 
-std::span<const std::uint32_t> spirv(Program program, PoolAccess access) {
-  const bool texel = access == PoolAccess::texel;
-  if (program == Program::trace) return texel ? TRACE_TEXEL : TRACE_STORAGE;
+std::span<const std::uint32_t> spirv(const PipelineKey& key) {
+  const bool texel = key.access == PoolAccess::texel;
+  const bool trace = key.program == Program::trace;
+  if (key.arithmetic == Arithmetic::float64) {
+    if (trace) return texel ? TRACE_TEXEL_FLOAT64 : TRACE_STORAGE_FLOAT64;
+    return texel ? RAYS_TEXEL_FLOAT64 : RAYS_STORAGE_FLOAT64;
+  }
+  if (trace) return texel ? TRACE_TEXEL : TRACE_STORAGE;
   return texel ? RAYS_TEXEL : RAYS_STORAGE;
 }
 
@@ -52,7 +57,7 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
     entries[i] = {i, i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)};
   const VkSpecializationInfo specialization{SPEC_COUNT, entries.data(), sizeof(key.constants),
                                             key.constants.data()};
-  const auto module = make_module(context, spirv(key.program, key.access));
+  const auto module = make_module(context, spirv(key));
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;

@@ -48,7 +48,8 @@ enum class Program {
 /// What a pipeline is made of, and so its name in the cache.
 struct PipelineKey {
   Program program = Program::trace;
-  PoolAccess access = PoolAccess::storage;  ///< texel or storage
+  PoolAccess access = PoolAccess::storage;           ///< texel or storage
+  Arithmetic arithmetic = Arithmetic::double_float;  ///< double_float or float64
   SpecConstants constants{};
 
   auto operator<=>(const PipelineKey&) const = default;

@@ -59,7 +59,7 @@ struct Growing {
 }  // namespace
 
 struct Tracer::Impl {
-  Impl(const Context& device, PoolAccess access);
+  Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic);
 
   void set_materials(std::span<const Material> source);
   void set_lights(std::span<const SceneLight> lights);
@@ -83,6 +83,7 @@ struct Tracer::Impl {
 
   const Context& context;
   const PoolAccess wanted_access;
+  const Arithmetic arithmetic;
   CommandQueue queue;
   PipelineCache pipelines;
   std::optional<BindingSet> bindings;  ///< of pools.access
@@ -104,9 +105,10 @@ struct Tracer::Impl {
   std::uint32_t pools_uploaded = 0;
 };
 
-Tracer::Impl::Impl(const Context& device, PoolAccess access)
+Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic)
     : context(device),
       wanted_access(access),
+      arithmetic(device.arithmetic(wanted_arithmetic)),
       queue(device),
       pipelines(device),
       environment(device, queue, {}) {
@@ -146,7 +148,7 @@ void Tracer::Impl::bind_all() {
 
 double Tracer::Impl::run(const Dispatch& dispatch) {
   const VkPipeline pipeline =
-      pipelines.get({dispatch.program, pools.access, dispatch.constants}, bindings->layout());
+      pipelines.get({dispatch.program, pools.access, arithmetic, dispatch.constants}, bindings->layout());
   return queue.run([&](VkCommandBuffer commands) {
     vkCmdUpdateBuffer(commands, frame_buffer.get(), 0, sizeof(FrameParams), &dispatch.frame);
     if (dispatch.constants[SPEC_COUNTERS] != 0)
@@ -226,7 +228,8 @@ void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, std::vector<Ao
   place(tile, pixels, picture, dispatch.frame.width);
 }
 
-Tracer::Tracer(const Context& context, PoolAccess access) : impl_(std::make_unique<Impl>(context, access)) {}
+Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic)
+    : impl_(std::make_unique<Impl>(context, access, arithmetic)) {}
 
 Tracer::~Tracer() = default;
 

@@ -27,8 +27,9 @@ struct RenderStats {
 
 class Tracer {
  public:
-  /// The context must outlive the tracer. `access` other than automatic is for tests and benchmarks.
-  explicit Tracer(const Context& context, PoolAccess access = PoolAccess::automatic);
+  /// The context must outlive the tracer. Anything but automatic is for tests and benchmarks.
+  explicit Tracer(const Context& context, PoolAccess access = PoolAccess::automatic,
+                  Arithmetic arithmetic = Arithmetic::automatic);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;

@@ -54,8 +54,8 @@ void expect_exact(const Agreement& agreement, const std::string& what) {
 }
 
 std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery>& rays,
-                                  const Settings& settings) {
-  Tracer tracer(shared_context());
+                                  const Settings& settings, Arithmetic arithmetic = Arithmetic::automatic) {
+  Tracer tracer(shared_context(), PoolAccess::automatic, arithmetic);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
 }
@@ -65,6 +65,8 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
   const Settings settings;
   const BruteForce brute(scenes.front());
   const Truth truth(scenes.front(), brute, count, settings);
+  const auto double_float = gpu_intersect(scenes.front(), truth.rays, settings, Arithmetic::double_float);
+  expect_exact(agreement_of(brute, truth.hits, double_float), "in double-float");
   std::vector<RayHit> first_answers;
   for (const Scene& scene : scenes) {
     const std::vector<RayHit> answers = gpu_intersect(scene, truth.rays, settings);
