@@ -71,7 +71,7 @@ PathResult trace_path(Ray ray, uint pixel, uint sample_index, INOUT(Tally) tally
   vec3 throughput = vec3(1.0f);
   uint bounce = 0u;
   bool alive = true;
-  while (alive) {
+  do {
     Hit hit = trace_nearest(ray, frame.kappa, tally);
     if (hit.found) {
       Material material = material_at(hit.object);
@@ -103,7 +103,7 @@ PathResult trace_path(Ray ray, uint pixel, uint sample_index, INOUT(Tally) tally
       result.leaked = ray.inside != 0u ? 1u : 0u;
       alive = false;
     }
-  }
+  } while (alive);
   return result;
 }
 

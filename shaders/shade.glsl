@@ -52,7 +52,7 @@ vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Material material, uint 
   vec3 mirrored = reflect(view_dir, hit.normal);
   vec3 sum = vec3(0.0f);
   uint index = 0u;
-  while (index < frame.light_count) {
+  do {
     Light light = light_at(index);
     bool point = light.kind == LIGHT_POINT;
     vec3 to_light = point ? light.position - hit.position : light.position;
@@ -72,7 +72,7 @@ vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Material material, uint 
     float lobe = pow(max(dot(mirrored, dir), 1e-4f), material.shininess) * (material.shininess + 2.0f) * 0.5f;
     sum += visible * irradiance * (diffuse + vec3(material.specular * lobe)) * (1.0f / PI);
     index += 1u;
-  }
+  } while (index < frame.light_count);
   return sum;
 }
 

@@ -73,7 +73,7 @@ void add_samples(uvec2 pixel, uint index) {
   uint place = frame.tile_first + index;
   vec4 mean = frame.sample_begin == 0u ? vec4(0.0f) : accumulation[place];
   uint sample_index = frame.sample_begin;
-  while (sample_index < frame.sample_end) {
+  do {
     vec2 at = vec2(pixel) + pixel_sample(sample_index);
     float eye_distance = 0.0f;
     Ray ray = primary_ray(at.x, at.y, eye_distance);
@@ -85,7 +85,7 @@ void add_samples(uvec2 pixel, uint index) {
     mean += (vec4(finite ? path.radiance : vec3(1.0f, 0.0f, 1.0f), path.coverage) - mean) / float(sample_index + 1u);
     if (COUNTERS == 1u) add_counters(path, tally, finite);
     sample_index += 1u;
-  }
+  } while (sample_index < frame.sample_end);
   accumulation[place] = mean;
 }
 
