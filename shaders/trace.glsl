@@ -74,7 +74,7 @@ bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
 /// `finding`.
 uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool finding, INOUT(First) first) {
   uint accepted = 0u;
-  while (candidates != 0u) {
+  if (candidates != 0u) do {
     uint bit = uint(findLSB(candidates));
     candidates &= candidates - 1u;
     uvec4 words = splat_words(chunk + bit);
@@ -96,7 +96,7 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
       first.words = words;
       first.index = chunk + bit;
     }
-  }
+  } while (candidates != 0u);
   return accepted;
 }
 
@@ -166,7 +166,7 @@ void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float dep
   vec3 first_normal = normal_against(first.words, ray.dir);
   vec3 position_low = vec3(0.0f);
   vec3 position = point_at(ray, first.t, position_low);
-  while (accepted != 0u) {
+  if (accepted != 0u) do {
     uint bit = uint(findLSB(accepted));
     accepted &= accepted - 1u;
     uvec4 words = splat_words(begin + bit);
@@ -186,7 +186,7 @@ void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float dep
     cluster.depth += int(floor(weight * share + 0.5f));
     if (COLORS == 1u) cluster.color += ivec3(color_at(begin + bit) * weight + vec3(0.5f));
     cluster.members += member ? 1u : 0u;
-  }
+  } while (accepted != 0u);
 }
 
 /// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds
@@ -255,7 +255,7 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
   float depth = 0.0f;
   float t_end = ray.t_max;
   uint last_leaf = MAX_LEAVES;
-  while (walk.inside) {
+  do {
     uint chunk = 0u;
     uint candidates = walk_candidates(walk, ray, t_end, finding && found, chunk, tally);
     uint accepted = accept_candidates(chunk, candidates, ray, walk, finding, first);
@@ -276,7 +276,7 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
       bool more = walk.next < walk.end || (walk.leaves < last_leaf && walk.t_out <= t_end);
       walk.inside = walk.inside && more;
     }
-  }
+  } while (walk.inside);
   return finish_hit(ray, first, cluster, depth, shift);
 }
 
@@ -287,14 +287,14 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   Walk walk = walk_start(ray, 0.0f, true);
   vec3 light = vec3(1.0f);
   uint passed = 0u;
-  while (walk.inside) {
+  do {
     uint chunk = 0u;
     uint candidates = walk_candidates(walk, ray, ray.t_max, false, chunk, tally);
     uint accepted = accept_candidates(chunk, candidates, ray, walk, false, first);
     bool opaque = accepted != 0u;
     if (GLASS == 1u) {
       opaque = false;
-      while (accepted != 0u) {
+      if (accepted != 0u) do {
         uint bit = uint(findLSB(accepted));
         accepted &= accepted - 1u;
         Material material = material_at(splat_object(splat_words(chunk + bit)));
@@ -303,11 +303,11 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
         light = glass && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
         passed |= glass ? object_bit : 0u;
         opaque = opaque || !glass;
-      }
+      } while (accepted != 0u);
     }
     light = opaque ? vec3(0.0f) : light;
     walk.inside = walk.inside && !opaque;
-  }
+  } while (walk.inside);
   return light;
 }
 

@@ -111,12 +111,12 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   uvec2 top = top_entry(top_cell.x | (top_cell.y << TOP_LEVELS) | (top_cell.z << (2u * TOP_LEVELS)));
   uint word = top.x;
   uint shift = top.y;
-  while ((word >> NODE_TAG_SHIFT) == NODE_INNER) {
+  if ((word >> NODE_TAG_SHIFT) == NODE_INNER) do {
     shift -= 1u;
     uint child = ((walk.cell.x >> shift) & 1u) | (((walk.cell.y >> shift) & 1u) << 1u) |
                  (((walk.cell.z >> shift) & 1u) << 2u);
     word = node_word((word & NODE_ADDRESS_MASK) + child);
-  }
+  } while ((word >> NODE_TAG_SHIFT) == NODE_INNER);
   uint size = 1u << shift;
   uvec3 low = uvec3(walk.cell.x & ~(size - 1u), walk.cell.y & ~(size - 1u), walk.cell.z & ~(size - 1u));
   uvec3 next = uvec3(ray.dir.x > 0.0f ? low.x + size : low.x, ray.dir.y > 0.0f ? low.y + size : low.y,
@@ -173,20 +173,22 @@ uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint
   uint candidates = 0u;
   bool searching = walk.inside;
   chunk = walk.next;
-  while (searching) {
-    while (walk.inside && walk.next >= walk.end && !stay) walk_advance(walk, ray, t_end, tally);
+  if (searching) do {
+    if (walk.next >= walk.end && !stay) do {
+      walk_advance(walk, ray, t_end, tally);
+    } while (walk.inside && walk.next >= walk.end);
     chunk = walk.next;
     uint chunk_end = walk.inside ? min(chunk + CHUNK, walk.end) : chunk;
     uint bit = 1u;
-    while (walk.next < chunk_end) {
+    if (walk.next < chunk_end) do {
       bool maybe = splat_maybe_hit(splat_words(walk.next), ray.origin, ray.dir, walk.t_in, walk.t_out);
       candidates |= maybe ? bit : 0u;
       bit <<= 1u;
       walk.next += 1u;
-    }
+    } while (walk.next < chunk_end);
     if (COUNTERS == 1u) tally.tests += chunk_end - chunk;
     searching = walk.inside && candidates == 0u && !(stay && walk.next >= walk.end);
-  }
+  } while (searching);
   return candidates;
 }
 
