@@ -70,6 +70,7 @@ bool splat_maybe_hit(uvec4 words, vec3 origin, vec3 dir, float t_in, float t_out
 struct PlaneHit {
   vec2 t;             ///< ray parameter
   vec2 rho_squared;   ///< squared distance from the centre, lattice units^2
+  vec3 from_center;   ///< rounded to float32 from more
   float facing;       ///< n.d: negative = front face
 };
 
@@ -87,7 +88,7 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   precise double t = dot(n, to_center) / denominator;
   precise dvec3 from_center = dvec3(dir) * t - to_center;
   precise double rho_squared = dot(from_center, from_center);
-  return PlaneHit(two_floats(t), two_floats(rho_squared), float(denominator));
+  return PlaneHit(two_floats(t), two_floats(rho_squared), vec3(from_center), float(denominator));
 }
 #else
 /// t = n.(c - o) / (n.d) and |o + t d - c|^2 to about 2^-44 of the distances involved.
@@ -109,6 +110,7 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   vec2 from_y = df_add(df_scale(hit.t, dir.y), -y);
   vec2 from_z = df_add(df_scale(hit.t, dir.z), -z);
   hit.rho_squared = df_add(df_add(df_square(from_x), df_square(from_y)), df_square(from_z));
+  hit.from_center = vec3(from_x.x, from_y.x, from_z.x);
   hit.facing = denominator.x;
   return hit;
 }

@@ -31,6 +31,7 @@ struct Hit {
 struct First {
   vec2 measure;   ///< least t, or least squared distance from the centre / r^2 (BLEND_PAPER, BLEND_LEAF)
   vec2 t;         ///< in double-float: float32 would be off by 2^-4 lattice units on the far side of the root
+  vec3 from_center;
   bool front;
   uvec4 words;
   uint index;
@@ -92,6 +93,7 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
     if (accept && finding && before) {
       first.measure = measure;
       first.t = hit.t;
+      first.from_center = hit.from_center;
       first.front = hit.facing < 0.0f;
       first.words = words;
       first.index = chunk + bit;
@@ -128,15 +130,6 @@ float window_fall(float share) {
   return x * x * (3.0f - 2.0f * x);
 }
 
-/// The ray's point at t as position and what float32 rounds away of it.
-vec3 point_at(Ray ray, vec2 t, OUT(vec3) low) {
-  vec2 x = df_add(df_scale(t, ray.dir.x), vec2(ray.origin.x, ray.origin_low.x));
-  vec2 y = df_add(df_scale(t, ray.dir.y), vec2(ray.origin.y, ray.origin_low.y));
-  vec2 z = df_add(df_scale(t, ray.dir.z), vec2(ray.origin.z, ray.origin_low.z));
-  low = vec3(x.y, y.y, z.y);
-  return vec3(x.x, y.x, z.x);
-}
-
 /// The surface where a ray meets the plane of a disc.
 struct Facet {
   vec3 normal;    ///< unit, turned against the ray
@@ -164,17 +157,14 @@ Facet facet_at(uvec4 words, uint index, vec3 from_center, vec3 dir) {
 /// anew in double-float, so that grazing rays and small discs far away have exact weights.
 void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
-  vec3 position_low = vec3(0.0f);
-  vec3 position = point_at(ray, first.t, position_low);
   if (accepted != 0u) do {
     uint bit = uint(findLSB(accepted));
     accepted &= accepted - 1u;
     uvec4 words = splat_words(begin + bit);
     PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
     float behind = df_add(hit.t, -first.t).x;
-    vec3 from_center = ray.dir * behind - ((splat_center(words) - position) - position_low);
     float u_squared = hit.rho_squared.x / splat_radius_squared(words);
-    Facet facet = facet_at(words, begin + bit, from_center, ray.dir);
+    Facet facet = facet_at(words, begin + bit, hit.from_center, ray.dir);
     float share = behind / depth;
     bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
                   dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
@@ -208,9 +198,7 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
     if (COLORS == 1u) hit.color = vec3(cluster.color) * inverse;
   } else if (hit.found) {
     if (COLORS == 1u) hit.color = color_at(first.index);
-    vec3 position_low = vec3(0.0f);
-    vec3 position = point_at(ray, first.t, position_low);
-    Facet facet = facet_at(first.words, first.index, (position - splat_center(first.words)) + position_low, ray.dir);
+    Facet facet = facet_at(first.words, first.index, first.from_center, ray.dir);
     normal = facet.normal;
     t = df_add(t, vec2(facet.behind, 0.0f));
   }
@@ -225,6 +213,7 @@ First no_first() {
   First first;
   first.measure = vec2(INFINITY_F, INFINITY_F);
   first.t = vec2(INFINITY_F, 0.0f);
+  first.from_center = vec3(0.0f);
   first.front = true;
   first.words = uvec4(0u, 0u, 0u, 0u);
   first.index = 0u;
