@@ -101,8 +101,11 @@ BruteForce Judge::moved_in_favour(const RayQuery& ray, const RayHit& answer, boo
     const bool of_sheet_left =
         splat.object == ray.from_object && distance < 4.5 * std::sqrt(splat.radius_squared);
     const double most = of_sheet_left ? FLOAT_SHARE * distance : EXACT_SHARE * (distance + EDGE);
-    const bool is_first = moved.words()[i] == answer.first;
-    const double later = (glm::dot(splat.normal, dir) > 0.0) == is_first ? -1.0 : 1.0;
+    // What the ray starts on stays behind it; what it meets with the answer comes after that.
+    const double cosine = glm::dot(splat.normal, dir);
+    const double t = glm::dot(splat.normal, splat.center - dvec3(ray.origin)) / cosine;
+    const bool earlier = moved.words()[i] == answer.first || t < 0.5 * double(answer.t_first);
+    const double later = (cosine > 0.0) == earlier ? -1.0 : 1.0;
     dvec3 by = dice.in_cube();
     if (favour) by += (later * along - glm::dot(by, splat.normal)) * splat.normal;
     moved.move_splat(i, most * by);

@@ -35,7 +35,7 @@ class Judge {
   [[nodiscard]] bool is_right(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth,
                               const RayHit& answer) const;
   [[nodiscard]] bool is_tie(const RayQuery& ray, const RayHit& answer) const;
-  /// The splats moved at random; `favour`: so that the answer's first splat is met earlier and all others later, as it takes
+  /// The splats moved at random; `favour`: so that the answer's first splat is met earlier and all from there on later, as it takes
   /// luck to put one of many before all others at random.
   [[nodiscard]] BruteForce moved_in_favour(const RayQuery& ray, const RayHit& answer, bool favour,
                                            Dice& dice) const;
