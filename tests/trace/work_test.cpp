@@ -1,0 +1,70 @@
+// What a ray and a splat cost, by counters, which the machine's noise does not touch: more fails, and much less asks for the
+// new figures here, so that they stay what is known.
+#include <gtest/gtest.h>
+
+#include "data/shapes.h"
+#include "engine/gpu/tracer.h"
+#include "tests/trace/scenes.h"
+
+namespace splatray::testing {
+namespace {
+
+/// Of rays of all kinds, and bytes of all pools but the top table, which is the same for every scene.
+struct Work {
+  double tests_per_ray;
+  double node_words_per_ray;
+  double leaves_per_ray;
+  double bytes_per_splat;
+};
+
+Work work_of(Scene scene) {
+  Settings settings;
+  settings.samples = 1;
+  settings.counters = true;
+  const View view{default_camera(scene, 1.0), 256, 256};
+  if (scene.lights.empty()) scene.lights = default_lights(scene, view.camera);
+  const Context context;
+  Tracer tracer(context);
+  tracer.upload(scene);
+  static_cast<void>(tracer.render(view, settings));
+  const auto& count = tracer.stats().counters;
+  const double rays = double(count[COUNT_PRIMARY]) + double(count[COUNT_SHADOW]) +
+                      double(count[COUNT_REFLECTED]) + double(count[COUNT_REFRACTED]);
+  const PoolBytes& bytes = tracer.pool_bytes();
+  const std::uint64_t pools = bytes.node_pool + bytes.begin_end + bytes.slab_pool + bytes.data_pool +
+                              bytes.color_pool + bytes.field_pool;
+  return {double(count[COUNT_TESTS]) / rays, double(count[COUNT_NODE_STEPS]) / rays,
+          double(count[COUNT_LEAVES]) / rays, double(pools) / double(scene.splat_count)};
+}
+
+void expect_near(double measured, double known, const char* what) {
+  EXPECT_LE(measured, 1.02 * known) << what << ": worse than known";
+  EXPECT_GE(measured, 0.9 * known) << what << ": better; note the new figure";
+}
+
+void expect_work(const Work& measured, const Work& known) {
+  expect_near(measured.tests_per_ray, known.tests_per_ray, "splat tests per ray");
+  expect_near(measured.node_words_per_ray, known.node_words_per_ray, "node words per ray");
+  expect_near(measured.leaves_per_ray, known.leaves_per_ray, "leaves per ray");
+  expect_near(measured.bytes_per_splat, known.bytes_per_splat, "bytes per splat");
+}
+
+TestObject ball(bool even, std::uint32_t flags) {
+  return {sphere({.count = 100000, .even = even, .seed = 7}, 1.0), test_material(flags)};
+}
+
+TEST(Work, EvenSphere) { expect_work(work_of(scene_of({ball(true, 0)})), {14.4, 13.3, 9.31, 54.3}); }
+TEST(Work, EvenSphereInLargeLeaves) {
+  expect_work(work_of(scene_of({ball(true, 0)}, 40)), {56.6, 7.39, 7.30, 34.4});
+}
+TEST(Work, RandomSphere) { expect_work(work_of(scene_of({ball(false, 0)})), {17.9, 14.9, 9.87, 91.5}); }
+
+TEST(Work, GlassBallInARoom) {
+  TestObject room{{}, test_material(0)};
+  for (const Surface& face : box("room", glm::dvec3(4.0), true))
+    append(room.points, face.make({.count = 20000}));
+  expect_work(work_of(scene_of({room, ball(true, MATERIAL_DIELECTRIC)})), {24.6, 31.5, 19.9, 53.4});
+}
+
+}  // namespace
+}  // namespace splatray::testing
