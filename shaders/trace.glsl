@@ -75,28 +75,30 @@ bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
 /// `finding`.
 uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool finding, INOUT(First) first) {
   uint accepted = 0u;
-  if (candidates != 0u) do {
-    uint bit = uint(findLSB(candidates));
-    candidates &= candidates - 1u;
-    uvec4 words = splat_words(chunk + bit);
-    PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
-    float radius_squared = splat_radius_squared(words);
-    bool on_disc = !df_less(vec2(radius_squared, 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
-    bool in_range =
-        hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
-    bool accept = on_disc && in_range && hit_allowed(words, hit, ray);
-    accepted |= (accept ? 1u : 0u) << bit;
-    vec2 measure = hit.t;
-    if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) measure = vec2(hit.rho_squared.x / radius_squared, 0.0f);
-    bool before = df_less(measure, first.measure) ||
-                  (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
-    if (accept && finding && before) {
-      first.measure = measure;
-      first.t = hit.t;
-      first.from_center = hit.from_center;
-      first.front = hit.facing < 0.0f;
-      first.words = words;
-      first.index = chunk + bit;
+  do {
+    if (candidates != 0u) {
+      uint bit = uint(findLSB(candidates));
+      candidates &= candidates - 1u;
+      uvec4 words = splat_words(chunk + bit);
+      PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+      float radius_squared = splat_radius_squared(words);
+      bool on_disc = !df_less(vec2(radius_squared, 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
+      bool in_range =
+          hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
+      bool accept = on_disc && in_range && hit_allowed(words, hit, ray);
+      accepted |= (accept ? 1u : 0u) << bit;
+      vec2 measure = hit.t;
+      if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) measure = vec2(hit.rho_squared.x / radius_squared, 0.0f);
+      bool before = df_less(measure, first.measure) ||
+                    (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
+      if (accept && finding && before) {
+        first.measure = measure;
+        first.t = hit.t;
+        first.from_center = hit.from_center;
+        first.front = hit.facing < 0.0f;
+        first.words = words;
+        first.index = chunk + bit;
+      }
     }
   } while (candidates != 0u);
   return accepted;
@@ -157,25 +159,27 @@ Facet facet_at(uvec4 words, uint index, vec3 from_center, vec3 dir) {
 /// anew in double-float, so that grazing rays and small discs far away have exact weights.
 void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
-  if (accepted != 0u) do {
-    uint bit = uint(findLSB(accepted));
-    accepted &= accepted - 1u;
-    uvec4 words = splat_words(begin + bit);
-    PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
-    float behind = df_add(hit.t, -first.t).x;
-    float u_squared = hit.rho_squared.x / splat_radius_squared(words);
-    Facet facet = facet_at(words, begin + bit, hit.from_center, ray.dir);
-    float share = behind / depth;
-    bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
-                  dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
-    float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
-    weight = member ? weight * WEIGHT_UNIT : 0.0f;
-    share = member ? clamp((behind + facet.behind) / depth, -1.0f, 1.0f) : 0.0f;
-    cluster.weight += int(weight + 0.5f);
-    cluster.normal += ivec3(floor(facet.normal * weight + vec3(0.5f)));
-    cluster.depth += int(floor(weight * share + 0.5f));
-    if (COLORS == 1u) cluster.color += ivec3(color_at(begin + bit) * weight + vec3(0.5f));
-    cluster.members += member ? 1u : 0u;
+  do {
+    if (accepted != 0u) {
+      uint bit = uint(findLSB(accepted));
+      accepted &= accepted - 1u;
+      uvec4 words = splat_words(begin + bit);
+      PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+      float behind = df_add(hit.t, -first.t).x;
+      float u_squared = hit.rho_squared.x / splat_radius_squared(words);
+      Facet facet = facet_at(words, begin + bit, hit.from_center, ray.dir);
+      float share = behind / depth;
+      bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
+                    dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
+      float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
+      weight = member ? weight * WEIGHT_UNIT : 0.0f;
+      share = member ? clamp((behind + facet.behind) / depth, -1.0f, 1.0f) : 0.0f;
+      cluster.weight += int(weight + 0.5f);
+      cluster.normal += ivec3(floor(facet.normal * weight + vec3(0.5f)));
+      cluster.depth += int(floor(weight * share + 0.5f));
+      if (COLORS == 1u) cluster.color += ivec3(color_at(begin + bit) * weight + vec3(0.5f));
+      cluster.members += member ? 1u : 0u;
+    }
   } while (accepted != 0u);
 }
 
@@ -283,15 +287,17 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
     bool opaque = accepted != 0u;
     if (GLASS == 1u) {
       opaque = false;
-      if (accepted != 0u) do {
-        uint bit = uint(findLSB(accepted));
-        accepted &= accepted - 1u;
-        Material material = material_at(splat_object(splat_words(chunk + bit)));
-        bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0u;
-        uint object_bit = 1u << material.mask_bit;
-        light = glass && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
-        passed |= glass ? object_bit : 0u;
-        opaque = opaque || !glass;
+      do {
+        if (accepted != 0u) {
+          uint bit = uint(findLSB(accepted));
+          accepted &= accepted - 1u;
+          Material material = material_at(splat_object(splat_words(chunk + bit)));
+          bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0u;
+          uint object_bit = 1u << material.mask_bit;
+          light = glass && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
+          passed |= glass ? object_bit : 0u;
+          opaque = opaque || !glass;
+        }
       } while (accepted != 0u);
     }
     light = opaque ? vec3(0.0f) : light;

@@ -2,6 +2,9 @@
 // Lefebvre et al. 2005), with integer cells, so that no ray can be stuck or skip a cell. The leaves'
 // intervals [t_in, t_out) tile the ray. Needs top_entry(index), node_word(index), begin_end_at(index),
 // slab_word(index).
+// Loops here and in trace.glsl test at their end, and their bodies ask once more whether there is work: llvmpipe masks lanes and
+// never jumps, so a loop that tests first runs its body once more for nobody; and SwiftShader was seen to lose candidates in
+// loops that some lanes skip by an `if` around them.
 #ifndef SPLATRAY_TRAVERSE_GLSL
 #define SPLATRAY_TRAVERSE_GLSL
 #include "slab.glsl"
@@ -111,11 +114,13 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   uvec2 top = top_entry(top_cell.x | (top_cell.y << TOP_LEVELS) | (top_cell.z << (2u * TOP_LEVELS)));
   uint word = top.x;
   uint shift = top.y;
-  if ((word >> NODE_TAG_SHIFT) == NODE_INNER) do {
-    shift -= 1u;
-    uint child = ((walk.cell.x >> shift) & 1u) | (((walk.cell.y >> shift) & 1u) << 1u) |
-                 (((walk.cell.z >> shift) & 1u) << 2u);
-    word = node_word((word & NODE_ADDRESS_MASK) + child);
+  do {
+    if ((word >> NODE_TAG_SHIFT) == NODE_INNER) {
+      shift -= 1u;
+      uint child = ((walk.cell.x >> shift) & 1u) | (((walk.cell.y >> shift) & 1u) << 1u) |
+                   (((walk.cell.z >> shift) & 1u) << 2u);
+      word = node_word((word & NODE_ADDRESS_MASK) + child);
+    }
   } while ((word >> NODE_TAG_SHIFT) == NODE_INNER);
   uint size = 1u << shift;
   uvec3 low = uvec3(walk.cell.x & ~(size - 1u), walk.cell.y & ~(size - 1u), walk.cell.z & ~(size - 1u));
@@ -173,18 +178,22 @@ uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint
   uint candidates = 0u;
   bool searching = walk.inside;
   chunk = walk.next;
-  if (searching) do {
-    if (walk.next >= walk.end && !stay) do {
-      walk_advance(walk, ray, t_end, tally);
-    } while (walk.inside && walk.next >= walk.end);
+  do {
+    bool advancing = searching && walk.next >= walk.end && !stay;
+    do {
+      if (advancing) walk_advance(walk, ray, t_end, tally);
+      advancing = advancing && walk.inside && walk.next >= walk.end;
+    } while (advancing);
     chunk = walk.next;
     uint chunk_end = walk.inside ? min(chunk + CHUNK, walk.end) : chunk;
     uint bit = 1u;
-    if (walk.next < chunk_end) do {
-      bool maybe = splat_maybe_hit(splat_words(walk.next), ray.origin, ray.dir, walk.t_in, walk.t_out);
-      candidates |= maybe ? bit : 0u;
-      bit <<= 1u;
-      walk.next += 1u;
+    do {
+      if (walk.next < chunk_end) {
+        bool maybe = splat_maybe_hit(splat_words(walk.next), ray.origin, ray.dir, walk.t_in, walk.t_out);
+        candidates |= maybe ? bit : 0u;
+        bit <<= 1u;
+        walk.next += 1u;
+      }
     } while (walk.next < chunk_end);
     if (COUNTERS == 1u) tally.tests += chunk_end - chunk;
     searching = walk.inside && candidates == 0u && !(stay && walk.next >= walk.end);
