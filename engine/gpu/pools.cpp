@@ -25,8 +25,8 @@ constexpr std::array<PoolKind, 7> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4}
                                             {"top table", VK_FORMAT_R32G32_UINT, 8}}};
 
 std::array<std::uint64_t, 7> sizes(const PoolBytes& bytes) {
-  return {bytes.node_pool, bytes.begin_end,  bytes.slab_pool,
-          bytes.data_pool, bytes.color_pool, bytes.field_pool};
+  return {bytes.node_pool,  bytes.begin_end,  bytes.slab_pool, bytes.data_pool,
+          bytes.color_pool, bytes.field_pool, bytes.top_table};
 }
 
 std::string mib_text(std::uint64_t bytes) {
