@@ -61,7 +61,8 @@ uvec3 cell_at(Ray ray, float t, uvec3 low, uvec3 high) {
 /// (double-float), with t_min and t_max. Returns by how much t became smaller; `enters` is false when the ray
 /// misses the root, `t_start` is where its walk begins. An origin inside the root stays, exact as it is: in the plane
 /// of a disc it lies on, any rounding would move the hit. So does a secondary ray's, by which the sheet left is known,
-/// also when the surface between discs lies a little outside the root: walk_start takes the nearest cell.
+/// also when the surface between discs lies a little outside the root: walk_start takes the nearest cell. One that starts more
+/// than a root's side outside has left no sheet.
 float clip_to_root(INOUT(Ray) ray, OUT(bool) enters, OUT(float) t_start) {
   float t_enter = ray.t_min;
   float t_exit = ray.t_max;
@@ -81,6 +82,7 @@ float clip_to_root(INOUT(Ray) ray, OUT(bool) enters, OUT(float) t_start) {
   bool from_inside = farthest < 0.5f * ROOT_SIZE;
   bool at_surface = farthest < 1.5f * ROOT_SIZE && ray.from_object != NO_OBJECT;
   bool stays = from_inside || at_surface;
+  ray.from_object = stays ? ray.from_object : NO_OBJECT;
   float shift = enters && !stays ? t_enter : 0.0f;
   t_start = stays ? min(t_enter, 0.0f) : 0.0f;
   for (int axis = 0; axis < 3; ++axis) {

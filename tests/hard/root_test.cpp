@@ -122,6 +122,30 @@ TEST(Origin, OnSplatsInTheirPlaneWithNegativeStart) {
       device, brute, rays, "origins at splat centres, in the discs' planes, t_min below 0", Compared::hits));
 }
 
+/// Secondary rays from so far outside that the root's discs, however large, are not the sheet they left.
+TEST(Origin, SecondaryRaysFromFarOutside) {
+  std::mt19937_64 random(31);
+  std::uniform_real_distribution<double> inside(0.3, 0.7), distance(2.2, 3.0), radius(0.2, 0.4);
+  const auto point = [&] { return EDGE * dvec3(inside(random), inside(random), inside(random)); };
+  std::vector<Disc> discs;
+  for (int i = 0; i < 100; ++i)
+    discs.push_back({glm::round(point()), random_unit(random), EDGE * radius(random)});
+  const Scene scene = lattice_scene(discs, test_material(MATERIAL_TWO_SIDED), 4);
+  const BruteForce brute(scene);
+  DeviceScene device(scene);
+  std::vector<RayQuery> rays;
+  for (std::size_t i = 0; i < RAYS; ++i) {
+    const dvec3 target = point();
+    const dvec3 origin = dvec3(EDGE / 2.0) + distance(random) * EDGE * random_unit(random);
+    RayQuery ray = primary_ray(origin, target - origin);
+    ray.from_object = 0;
+    ray.from_normal = vec3(random_unit(random));
+    rays.push_back(ray);
+  }
+  conclude(compare_with_brute_force(device, brute, rays, "origins more than a root's side outside",
+                                    Compared::hits));
+}
+
 /// Errors of a picture's depth and normals against the exact sphere, silhouette apart.
 struct PictureErrors {
   std::uint64_t pixels = 0;

@@ -104,7 +104,8 @@ BruteForce Judge::moved_in_favour(const RayQuery& ray, const RayHit& answer, boo
     // What the ray starts on stays behind it; what it meets with the answer comes after that.
     const double cosine = glm::dot(splat.normal, dir);
     const double t = glm::dot(splat.normal, splat.center - dvec3(ray.origin)) / cosine;
-    const bool earlier = moved.words()[i] == answer.first || t < 0.5 * double(answer.t_first);
+    const bool earlier = moved.words()[i] == answer.first ||
+                         t < double(answer.t_first) - 0.5 * std::abs(double(answer.t_first));
     const double later = (cosine > 0.0) == earlier ? -1.0 : 1.0;
     dvec3 by = dice.in_cube();
     if (favour) by += (later * along - glm::dot(by, splat.normal)) * splat.normal;

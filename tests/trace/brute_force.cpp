@@ -62,6 +62,10 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
       (material.flags & MATERIAL_DIELECTRIC) != 0 && (query.inside & (1U << material.mask_bit)) != 0;
   if (!two_sided && (inside ? meeting.cosine <= 0.0 : meeting.cosine >= 0.0)) return false;
   if (query.from_object != splat.object) return true;
+  constexpr double EDGE = 1U << LATTICE_BITS;
+  const dvec3 from_middle = glm::abs(dvec3(query.origin) - dvec3(EDGE / 2.0));
+  if (std::max({from_middle.x, from_middle.y, from_middle.z}) >= 1.5 * EDGE)
+    return true;  // no sheet is there
   const dvec3 from_center = dvec3(query.origin) - splat.center;
   const double radius = std::sqrt(splat.radius_squared);
   const double like = glm::dot(splat.normal, dvec3(query.from_normal));
