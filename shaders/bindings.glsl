@@ -23,9 +23,19 @@ layout(local_size_x = GROUP_SIZE) in;
 
 // No uniform block: Mesa's lavapipe compiles a shader anew, 0.3 s and more, for other values of uniforms that a branch
 // depends on, so for each camera.
-layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame; };
+layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame_block; };
 layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterTable { uint counters[COUNTER_COUNT]; };
+
+// main() begins with read_frame(). llvmpipe reads storage buffers lane by lane but where all lanes are sure to be there, so before
+// any branch or loop; elsewhere 116 registers would be too many.
+#ifdef FLOAT64
+FrameParams frame;
+void read_frame() { frame = frame_block; }
+#else
+#define frame frame_block
+void read_frame() {}
+#endif
 
 #ifdef POOL_TEXEL
 layout(binding = BIND_NODE_POOL) uniform usamplerBuffer node_pool;

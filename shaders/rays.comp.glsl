@@ -9,6 +9,7 @@ layout(std430, binding = BIND_HITS) writeonly buffer HitTable { RayHit hits[]; }
 #include "query.glsl"
 
 void main() {
+  read_frame();
   uint index = gl_GlobalInvocationID.x;
   if (index >= frame.tile_width) return;
   Tally tally = Tally(0u, 0u, 0u, 0u);

@@ -90,6 +90,7 @@ void add_samples(uvec2 pixel, uint index) {
 }
 
 void main() {
+  read_frame();
   uvec2 in_tile = tile_pixel();
   if (in_tile.x >= frame.tile_width || in_tile.y >= frame.tile_height) return;
   uvec2 pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);

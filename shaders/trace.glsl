@@ -71,8 +71,15 @@ bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
   return !own && side_expected(object, hit.facing, ray.inside);
 }
 
-/// The candidates that are hit for certain in the leaf's interval and allowed. `first` is updated while
-/// `finding`.
+/// Whether a meeting with a disc's plane is a hit on the disc that counts in the leaf's interval.
+bool hit_accepted(uvec4 words, PlaneHit hit, Ray ray, Walk walk) {
+  bool on_disc =
+      !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
+  bool in_range = hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
+  return on_disc && in_range && hit_allowed(words, hit, ray);
+}
+
+/// The candidates that are hits. `first` is updated while `finding`.
 uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool finding, INOUT(First) first) {
   uint accepted = 0u;
   do {
@@ -81,14 +88,11 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
       candidates &= candidates - 1u;
       uvec4 words = splat_words(chunk + bit);
       PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
-      float radius_squared = splat_radius_squared(words);
-      bool on_disc = !df_less(vec2(radius_squared, 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
-      bool in_range =
-          hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
-      bool accept = on_disc && in_range && hit_allowed(words, hit, ray);
+      bool accept = hit_accepted(words, hit, ray, walk);
       accepted |= (accept ? 1u : 0u) << bit;
       vec2 measure = hit.t;
-      if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) measure = vec2(hit.rho_squared.x / radius_squared, 0.0f);
+      if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF)
+        measure = vec2(hit.rho_squared.x / splat_radius_squared(words), 0.0f);
       bool before = df_less(measure, first.measure) ||
                     (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
       if (accept && finding && before) {
@@ -155,32 +159,34 @@ Facet facet_at(uvec4 words, uint index, vec3 from_center, vec3 dir) {
   return facet;
 }
 
-/// Adds the accepted splats of one chunk that belong to the first splat's cluster. Where each is met is computed
-/// anew in double-float, so that grazing rays and small discs far away have exact weights.
-void accumulate_chunk(uint begin, uint accepted, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
+/// Adds the candidates that are hits and belong to the first splat's cluster. Where each is met is computed anew in
+/// double-float, so that grazing rays and small discs far away have exact weights.
+void accumulate_candidates(uint chunk, uint candidates, Ray ray, Walk walk, First first, float depth,
+                           INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
   do {
-    if (accepted != 0u) {
-      uint bit = uint(findLSB(accepted));
-      accepted &= accepted - 1u;
-      uvec4 words = splat_words(begin + bit);
+    if (candidates != 0u) {
+      uint index = chunk + uint(findLSB(candidates));
+      candidates &= candidates - 1u;
+      uvec4 words = splat_words(index);
       PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
       float behind = df_add(hit.t, -first.t).x;
       float u_squared = hit.rho_squared.x / splat_radius_squared(words);
-      Facet facet = facet_at(words, begin + bit, hit.from_center, ray.dir);
+      Facet facet = facet_at(words, index, hit.from_center, ray.dir);
       float share = behind / depth;
       bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
-                    dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST;
+                    dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST &&
+                    hit_accepted(words, hit, ray, walk);
       float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
       weight = member ? weight * WEIGHT_UNIT : 0.0f;
       share = member ? clamp((behind + facet.behind) / depth, -1.0f, 1.0f) : 0.0f;
       cluster.weight += int(weight + 0.5f);
       cluster.normal += ivec3(floor(facet.normal * weight + vec3(0.5f)));
       cluster.depth += int(floor(weight * share + 0.5f));
-      if (COLORS == 1u) cluster.color += ivec3(color_at(begin + bit) * weight + vec3(0.5f));
+      if (COLORS == 1u) cluster.color += ivec3(color_at(index) * weight + vec3(0.5f));
       cluster.members += member ? 1u : 0u;
     }
-  } while (accepted != 0u);
+  } while (candidates != 0u);
 }
 
 /// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds
@@ -234,42 +240,38 @@ Cluster empty_cluster() {
   return cluster;
 }
 
-/// What the ray sees first. The ray may start anywhere. In the first leaf with a hit all candidates are
-/// looked at before any is accumulated; a leaf of more than CHUNK splats is then gone through again.
+/// What the ray sees first. The ray may start anywhere. The leaf with the first hit is looked through to its end before
+/// any of its splats is accumulated; one of more than CHUNK splats is then gone through again.
 Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);
   Walk walk = walk_start(ray, t_start, enters);
   First first = no_first();
-  Cluster cluster = empty_cluster();
-  bool finding = true;
+  uint chunk = 0u;
+  uint candidates = 0u;
   bool found = false;
-  float depth = 0.0f;
-  float t_end = ray.t_max;
-  uint last_leaf = MAX_LEAVES;
   do {
-    uint chunk = 0u;
-    uint candidates = walk_candidates(walk, ray, t_end, finding && found, chunk, tally);
-    uint accepted = accept_candidates(chunk, candidates, ray, walk, finding, first);
+    candidates = walk_candidates(walk, ray, ray.t_max, found, chunk, tally);
+    candidates = accept_candidates(chunk, candidates, ray, walk, true, first);
     found = first.measure.x < INFINITY_F;
-    bool leaf_done = walk.next >= walk.end;
-    bool first_done = finding && found && leaf_done;
-    bool again = first_done && walk.end - walk.begin > CHUNK;
-    finding = finding && !first_done;
-    if (BLEND == BLEND_NEAREST) {
-      walk.inside = walk.inside && !first_done;
-    } else {
-      depth = first_done ? window_depth(first, ray.dir, kappa) : depth;
-      t_end = first_done && BLEND == BLEND_WINDOW ? first.t.x + depth * 1.0001f + WINDOW_SLACK : t_end;
-      last_leaf = first_done && BLEND == BLEND_PAPER ? walk.leaves + 1u : last_leaf;
-      last_leaf = first_done && BLEND == BLEND_LEAF ? walk.leaves : last_leaf;
-      accumulate_chunk(chunk, finding || again ? 0u : accepted, ray, first, depth, cluster);
-      walk.next = again ? walk.begin : walk.next;
+  } while (walk.inside && !(found && walk.next >= walk.end));
+  Cluster cluster = empty_cluster();
+  float depth = 0.0f;
+  if (BLEND != BLEND_NEAREST) {
+    depth = window_depth(first, ray.dir, kappa);
+    float t_end = BLEND == BLEND_WINDOW ? first.t.x + depth * 1.0001f + WINDOW_SLACK : ray.t_max;
+    uint last_leaf = BLEND == BLEND_WINDOW ? MAX_LEAVES : (BLEND == BLEND_PAPER ? walk.leaves + 1u : walk.leaves);
+    bool again = walk.end - walk.begin > CHUNK;
+    walk.next = again ? walk.begin : walk.next;
+    candidates = again ? 0u : candidates;
+    do {
+      accumulate_candidates(chunk, candidates, ray, walk, first, depth, cluster);
       bool more = walk.next < walk.end || (walk.leaves < last_leaf && walk.t_out <= t_end);
       walk.inside = walk.inside && more;
-    }
-  } while (walk.inside);
+      candidates = walk_candidates(walk, ray, t_end, false, chunk, tally);
+    } while (candidates != 0u);
+  }
   return finish_hit(ray, first, cluster, depth, shift);
 }
 
