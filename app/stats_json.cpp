@@ -12,12 +12,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json scene_json(const Scene& scene, std::size_t lights) {
-  return {{"splats", scene.splat_count},
-          {"references", scene.data_pool.size()},
-          {"nodes", scene.node_pool.size()},
-          {"filled_leaves", scene.begin_end.size() - 1},
-          {"objects", scene.materials.size()},
-          {"lights", lights},
+  return {{"splats", scene.data_pool.size()},        {"references", scene.reference_pool.size()},
+          {"nodes", scene.node_pool.size()},         {"filled_leaves", scene.begin_end.size() - 1},
+          {"objects", scene.materials.size()},       {"lights", lights},
           {"diagonal_world", scene.diagonal_world()}};
 }
 
@@ -38,11 +35,11 @@ Json counters_json(const std::array<std::uint64_t, COUNTER_COUNT>& count) {
 }
 
 Json bytes_json(const PoolBytes& bytes) {
-  return {{"node_pool", bytes.node_pool},        {"begin_end", bytes.begin_end},
-          {"slab_pool", bytes.slab_pool},        {"data_pool", bytes.data_pool},
-          {"color_pool", bytes.color_pool},      {"field_pool", bytes.field_pool},
-          {"top_table", bytes.top_table},        {"environment", bytes.environment},
-          {"texel_buffers", bytes.texel_buffers}};
+  return {{"node_pool", bytes.node_pool},     {"begin_end", bytes.begin_end},
+          {"slab_pool", bytes.slab_pool},     {"reference_pool", bytes.reference_pool},
+          {"data_pool", bytes.data_pool},     {"color_pool", bytes.color_pool},
+          {"field_pool", bytes.field_pool},   {"top_table", bytes.top_table},
+          {"environment", bytes.environment}, {"texel_buffers", bytes.texel_buffers}};
 }
 
 /// The pictures together, as if they were one.

@@ -214,9 +214,8 @@ LeafLists insert(const Octree& tree, const SplatList& splats, const BuildParams&
   return keep_probed(tree, splats, lists, params.probes, params.seed, {"probes", progress});
 }
 
-/// Writes the scene's pools: leaf words get their Begin-End index, lists become splats.
-void fill_pools(Octree tree, const SplatList& splats, const LeafLists& lists, Scene& scene,
-                BuildStats& stats) {
+/// Writes the scene's pools: leaf words get their Begin-End index.
+void fill_pools(Octree tree, SplatList splats, LeafLists lists, Scene& scene, BuildStats& stats) {
   scene.node_pool = std::move(tree.node_pool);
   scene.begin_end = {0};
   for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
@@ -226,28 +225,22 @@ void fill_pools(Octree tree, const SplatList& splats, const LeafLists& lists, Sc
     if (filled) scene.begin_end.push_back(lists.begin[i + 1]);
     stats.depth = std::max<std::uint64_t>(stats.depth, tree.leaves[i].level);
   }
-  scene.splat_count = splats.size();
-  scene.data_pool.resize(lists.splat.size());
-  for (std::size_t i = 0; i < lists.splat.size(); ++i) scene.data_pool[i] = splats.words[lists.splat[i]];
-  const auto listed = [&lists](const std::vector<std::uint32_t>& attribute) {
-    std::vector<std::uint32_t> pool(attribute.empty() ? 0 : lists.splat.size());
-    for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = attribute[lists.splat[i]];
-    return pool;
-  };
-  scene.color_pool = listed(splats.color);
-  scene.field_pool = listed(splats.field);
+  scene.reference_pool = std::move(lists.splat);
+  scene.data_pool = std::move(splats.words);
+  scene.color_pool = std::move(splats.color);
+  scene.field_pool = std::move(splats.field);
 }
 
-void count_result(const Scene& scene, const SplatList& splats, BuildStats& stats) {
-  stats.splats = scene.splat_count;
-  stats.references = scene.data_pool.size();
+void count_result(const Scene& scene, BuildStats& stats) {
+  stats.splats = scene.data_pool.size();
+  stats.references = scene.reference_pool.size();
   stats.nodes = scene.node_pool.size();
   stats.filled_leaves = scene.begin_end.size() - 1;
   stats.growth = static_cast<double>(stats.references) / static_cast<double>(stats.splats) - 1.0;
   double sum_squared = 0.0;
-  std::vector<double> squared(splats.size());
-  for (std::size_t i = 0; i < splats.size(); ++i) {
-    sum_squared += squared[i] = unpack_splat(splats.words[i]).radius_squared;
+  std::vector<double> squared(scene.data_pool.size());
+  for (std::size_t i = 0; i < squared.size(); ++i) {
+    sum_squared += squared[i] = unpack_splat(scene.data_pool[i]).radius_squared;
   }
   const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
@@ -283,13 +276,13 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
     stats.dropped_duplicates = order_splats(splats, params.leaf_size);
     tree = build_octree(splats, params.leaf_size);
   }
-  const LeafLists lists = insert(tree, splats, params, progress, stats);
-  fill_pools(std::move(tree), splats, lists, scene, stats);
+  LeafLists lists = insert(tree, splats, params, progress, stats);
+  fill_pools(std::move(tree), std::move(splats), std::move(lists), scene, stats);
   {
     const Stopwatch slab_watch(stats.slabs_ms);
     scene.slab_pool = leaf_slabs(scene, {"slabs", progress});
   }
-  count_result(scene, splats, stats);
+  count_result(scene, stats);
   return scene;
 }
 

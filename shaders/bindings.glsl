@@ -18,6 +18,7 @@ layout(constant_id = SPEC_COUNTERS) const uint COUNTERS = 0u;
 layout(constant_id = SPEC_AOV) const uint AOV = 0u;
 layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
 layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
+layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = 0u;
 
 layout(local_size_x = GROUP_SIZE) in;
 
@@ -41,6 +42,7 @@ void read_frame() {}
 layout(binding = BIND_NODE_POOL) uniform usamplerBuffer node_pool;
 layout(binding = BIND_BEGIN_END) uniform usamplerBuffer begin_end;
 layout(binding = BIND_SLAB_POOL) uniform usamplerBuffer slab_pool;
+layout(binding = BIND_REFERENCE_POOL) uniform usamplerBuffer reference_pool;
 layout(binding = BIND_DATA_POOL) uniform usamplerBuffer data_pool;
 layout(binding = BIND_COLOR_POOL) uniform usamplerBuffer color_pool;
 layout(binding = BIND_FIELD_POOL) uniform usamplerBuffer field_pool;
@@ -49,6 +51,7 @@ uvec2 top_entry(uint index) { return texelFetch(top_table, int(index)).xy; }
 uint node_word(uint index) { return texelFetch(node_pool, int(index)).x; }
 uint begin_end_at(uint index) { return texelFetch(begin_end, int(index)).x; }
 uint slab_word(uint index) { return texelFetch(slab_pool, int(index)).x; }
+uint reference_word(uint index) { return texelFetch(reference_pool, int(index)).x; }
 uvec4 splat_words(uint index) { return texelFetch(data_pool, int(index)); }
 uint color_word(uint index) { return texelFetch(color_pool, int(index)).x; }
 uint field_word(uint index) { return texelFetch(field_pool, int(index)).x; }
@@ -56,6 +59,7 @@ uint field_word(uint index) { return texelFetch(field_pool, int(index)).x; }
 layout(std430, binding = BIND_NODE_POOL) readonly buffer NodePool { uint node_pool[]; };
 layout(std430, binding = BIND_BEGIN_END) readonly buffer BeginEnd { uint begin_end[]; };
 layout(std430, binding = BIND_SLAB_POOL) readonly buffer SlabPool { uint slab_pool[]; };
+layout(std430, binding = BIND_REFERENCE_POOL) readonly buffer ReferencePool { uint reference_pool[]; };
 layout(std430, binding = BIND_DATA_POOL) readonly buffer DataPool { uvec4 data_pool[]; };
 layout(std430, binding = BIND_COLOR_POOL) readonly buffer ColorPool { uint color_pool[]; };
 layout(std430, binding = BIND_FIELD_POOL) readonly buffer FieldPool { uint field_pool[]; };
@@ -64,14 +68,18 @@ uvec2 top_entry(uint index) { return top_table[index]; }
 uint node_word(uint index) { return node_pool[index]; }
 uint begin_end_at(uint index) { return begin_end[index]; }
 uint slab_word(uint index) { return slab_pool[index]; }
+uint reference_word(uint index) { return reference_pool[index]; }
 uvec4 splat_words(uint index) { return data_pool[index]; }
 uint color_word(uint index) { return color_pool[index]; }
 uint field_word(uint index) { return field_pool[index]; }
 #endif
 
+/// Where the data pool has the splat that a place in the leaves' lists refers to.
+uint splat_at(uint place) { return REFERENCES == 1u ? reference_word(place) : place; }
+
 Material material_at(uint object) { return materials[object]; }
 
-/// Linear colour of a reference; square-root encoded in the pool.
+/// Linear colour of a splat; square-root encoded in the pool.
 vec3 color_at(uint index) {
   vec3 root = unpackUnorm4x8(color_word(index)).xyz;
   return root * root;

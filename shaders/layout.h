@@ -5,7 +5,7 @@
 /// all cell planes are integers, so both are exact in float32. world = root_origin_world + root * root_unit_world
 /// (RootTransform, float64); axes are not rotated, so directions and normals are the same in both spaces.
 ///
-/// Splat, 128 bits (one uvec4). Every copy of a splat in the data pool is the same 128 bits.
+/// Splat, 128 bits (one uvec4).
 ///   word.bits | meaning
 ///   0.31..11  | centre x, lattice units, 21 bits
 ///   0.10..0   | centre y, upper 11 of 21 bits
@@ -30,8 +30,11 @@
 ///
 /// Node word, 32 bits. Bits 31..30 tag, bits 29..0 address (Goradia et al. 2010, sec. III-A).
 ///   NODE_INNER  : address of the first of 8 children in the node pool; child = x + 2y + 4z (Z-order)
-///   NODE_FILLED : index into Begin-End; the leaf's splats are data_pool[begin_end[a] .. begin_end[a+1]), its slab is
-///                 slab_pool[a]
+///   NODE_FILLED : index into Begin-End; the leaf's splats are those of reference_pool[begin_end[a] .. begin_end[a+1]), its
+///                 slab is slab_pool[a]
+///
+/// Reference, 32 bits: index of a splat in the data pool, and of its colour and normal field. A device may hold copies of the
+/// splats, leaf by leaf, in place of references (REFERENCES = 0).
 ///   NODE_EMPTY  : address is zero
 ///
 /// Top table, 64 bits for each cell of TOP_LEVELS below the root, made from the node pool: descents begin here.
@@ -201,18 +204,19 @@ SPLATRAY_CONST BIND_FRAME = 0u;
 SPLATRAY_CONST BIND_NODE_POOL = 1u;
 SPLATRAY_CONST BIND_BEGIN_END = 2u;
 SPLATRAY_CONST BIND_SLAB_POOL = 3u;
-SPLATRAY_CONST BIND_DATA_POOL = 4u;
-SPLATRAY_CONST BIND_COLOR_POOL = 5u;
-SPLATRAY_CONST BIND_FIELD_POOL = 6u;
-SPLATRAY_CONST BIND_TOP_TABLE = 7u;
-SPLATRAY_CONST BIND_MATERIALS = 8u;
-SPLATRAY_CONST BIND_LIGHTS = 9u;
-SPLATRAY_CONST BIND_ENVIRONMENT = 10u;
-SPLATRAY_CONST BIND_ACCUMULATION = 11u;
-SPLATRAY_CONST BIND_AOV = 12u;
-SPLATRAY_CONST BIND_COUNTERS = 13u;
-SPLATRAY_CONST BIND_RAYS = 14u;
-SPLATRAY_CONST BIND_HITS = 15u;
+SPLATRAY_CONST BIND_REFERENCE_POOL = 4u;
+SPLATRAY_CONST BIND_DATA_POOL = 5u;
+SPLATRAY_CONST BIND_COLOR_POOL = 6u;
+SPLATRAY_CONST BIND_FIELD_POOL = 7u;
+SPLATRAY_CONST BIND_TOP_TABLE = 8u;
+SPLATRAY_CONST BIND_MATERIALS = 9u;
+SPLATRAY_CONST BIND_LIGHTS = 10u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 11u;
+SPLATRAY_CONST BIND_ACCUMULATION = 12u;
+SPLATRAY_CONST BIND_AOV = 13u;
+SPLATRAY_CONST BIND_COUNTERS = 14u;
+SPLATRAY_CONST BIND_RAYS = 15u;
+SPLATRAY_CONST BIND_HITS = 16u;
 
 /// Specialization constants: the features of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_BLEND = 0u;        ///< BLEND_*
@@ -229,7 +233,9 @@ SPLATRAY_CONST SPEC_COUNTERS = 10u;    ///< 1: counters
 SPLATRAY_CONST SPEC_AOV = 11u;         ///< 1: write AovPixel of the centre ray instead of colour
 SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
 SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
-SPLATRAY_CONST SPEC_COUNT = 14u;
+SPLATRAY_CONST SPEC_REFERENCES =
+    14u;  ///< 1: the data pool is read through the reference pool, 0: it holds copies, leaf by leaf
+SPLATRAY_CONST SPEC_COUNT = 15u;
 
 SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1

@@ -1,7 +1,7 @@
 // What a ray hits (design, section 4): the first accepted splat and the blend of its cluster, or whether
 // anything is hit at all. The result depends on the splats alone, not on the tree: intervals tile the ray,
 // each hit is decided exactly and counts in one leaf, and sums are integers. Needs, beside traverse.glsl:
-// splat_words(index), color_at(index), field_word(index), material_at(object), and the constants BLEND, KERNEL,
+// splat_at(place), splat_words(splat), color_at(splat), field_word(splat), material_at(object), and the constants BLEND, KERNEL,
 // SIDE, FACES, COLORS, FIELDS, COUNTERS.
 #ifndef SPLATRAY_TRACE_GLSL
 #define SPLATRAY_TRACE_GLSL
@@ -34,7 +34,7 @@ struct First {
   vec3 from_center;
   bool front;
   uvec4 words;
-  uint index;
+  uint splat;     ///< its index in the data pool
 };
 
 /// Integer sums over a cluster.
@@ -86,7 +86,8 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
     if (candidates != 0u) {
       uint bit = uint(findLSB(candidates));
       candidates &= candidates - 1u;
-      uvec4 words = splat_words(chunk + bit);
+      uint splat = splat_at(chunk + bit);
+      uvec4 words = splat_words(splat);
       PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
       bool accept = hit_accepted(words, hit, ray, walk);
       accepted |= (accept ? 1u : 0u) << bit;
@@ -101,7 +102,7 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
         first.from_center = hit.from_center;
         first.front = hit.facing < 0.0f;
         first.words = words;
-        first.index = chunk + bit;
+        first.splat = splat;
       }
     }
   } while (candidates != 0u);
@@ -143,7 +144,7 @@ struct Facet {
 };
 
 /// The disc itself, or what its normal field makes of it. A field's normal turns at most until it is square to the ray.
-Facet facet_at(uvec4 words, uint index, vec3 from_center, vec3 dir) {
+Facet facet_at(uvec4 words, uint splat, vec3 from_center, vec3 dir) {
   vec3 normal = splat_normal(words);
   normal = normal * inversesqrt(dot(normal, normal));
   float cosine = dot(normal, dir);
@@ -151,7 +152,7 @@ Facet facet_at(uvec4 words, uint index, vec3 from_center, vec3 dir) {
   facet.normal = cosine > 0.0f ? -normal : normal;
   facet.behind = 0.0f;
   if (FIELDS == 1u) {
-    FieldPoint point = field_point(field_word(index), normal, from_center, sqrt(splat_radius_squared(words)));
+    FieldPoint point = field_point(field_word(splat), normal, from_center, sqrt(splat_radius_squared(words)));
     vec3 turned = cosine > 0.0f ? -point.normal : point.normal;
     facet.normal = normalize(turned - dir * max(dot(turned, dir), 0.0f));
     facet.behind = point.height / (cosine > 0.0f ? max(cosine, MIN_COSINE) : min(cosine, -MIN_COSINE));
@@ -166,13 +167,13 @@ void accumulate_candidates(uint chunk, uint candidates, Ray ray, Walk walk, Firs
   vec3 first_normal = normal_against(first.words, ray.dir);
   do {
     if (candidates != 0u) {
-      uint index = chunk + uint(findLSB(candidates));
+      uint splat = splat_at(chunk + uint(findLSB(candidates)));
       candidates &= candidates - 1u;
-      uvec4 words = splat_words(index);
+      uvec4 words = splat_words(splat);
       PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
       float behind = df_add(hit.t, -first.t).x;
       float u_squared = hit.rho_squared.x / splat_radius_squared(words);
-      Facet facet = facet_at(words, index, hit.from_center, ray.dir);
+      Facet facet = facet_at(words, splat, hit.from_center, ray.dir);
       float share = behind / depth;
       bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
                     dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST &&
@@ -183,7 +184,7 @@ void accumulate_candidates(uint chunk, uint candidates, Ray ray, Walk walk, Firs
       cluster.weight += int(weight + 0.5f);
       cluster.normal += ivec3(floor(facet.normal * weight + vec3(0.5f)));
       cluster.depth += int(floor(weight * share + 0.5f));
-      if (COLORS == 1u) cluster.color += ivec3(color_at(index) * weight + vec3(0.5f));
+      if (COLORS == 1u) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
       cluster.members += member ? 1u : 0u;
     }
   } while (candidates != 0u);
@@ -207,8 +208,8 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
     normal = normalize(vec3(cluster.normal));
     if (COLORS == 1u) hit.color = vec3(cluster.color) * inverse;
   } else if (hit.found) {
-    if (COLORS == 1u) hit.color = color_at(first.index);
-    Facet facet = facet_at(first.words, first.index, first.from_center, ray.dir);
+    if (COLORS == 1u) hit.color = color_at(first.splat);
+    Facet facet = facet_at(first.words, first.splat, first.from_center, ray.dir);
     normal = facet.normal;
     t = df_add(t, vec2(facet.behind, 0.0f));
   }
@@ -226,7 +227,7 @@ First no_first() {
   first.from_center = vec3(0.0f);
   first.front = true;
   first.words = uvec4(0u, 0u, 0u, 0u);
-  first.index = 0u;
+  first.splat = 0u;
   return first;
 }
 
@@ -293,7 +294,7 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
         if (accepted != 0u) {
           uint bit = uint(findLSB(accepted));
           accepted &= accepted - 1u;
-          Material material = material_at(splat_object(splat_words(chunk + bit)));
+          Material material = material_at(splat_object(splat_words(splat_at(chunk + bit))));
           bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0u;
           uint object_bit = 1u << material.mask_bit;
           light = glass && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;

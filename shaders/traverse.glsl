@@ -1,7 +1,7 @@
 // The octree along a ray: from leaf to leaf by descent from the root (Goradia et al. 2010, sec. IV-B;
 // Lefebvre et al. 2005), with integer cells, so that no ray can be stuck or skip a cell. The leaves'
 // intervals [t_in, t_out) tile the ray. Needs top_entry(index), node_word(index), begin_end_at(index),
-// slab_word(index).
+// slab_word(index), splat_at(place), splat_words(splat).
 // Loops here and in trace.glsl test at their end, and their bodies ask once more whether there is work: llvmpipe masks lanes and
 // never jumps, so a loop that tests first runs its body once more for nobody; and SwiftShader was seen to lose candidates in
 // loops that some lanes skip by an `if` around them.
@@ -191,7 +191,7 @@ uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint
     uint bit = 1u;
     do {
       if (walk.next < chunk_end) {
-        bool maybe = splat_maybe_hit(splat_words(walk.next), ray.origin, ray.dir, walk.t_in, walk.t_out);
+        bool maybe = splat_maybe_hit(splat_words(splat_at(walk.next)), ray.origin, ray.dir, walk.t_in, walk.t_out);
         candidates |= maybe ? bit : 0u;
         bit <<= 1u;
         walk.next += 1u;

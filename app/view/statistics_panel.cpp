@@ -27,10 +27,11 @@ void memory_facts(const PoolBytes& bytes) {
     const char* name;
     std::uint64_t bytes;
   };
-  const std::array pools = {Pool{"node pool", bytes.node_pool},      Pool{"Begin-End", bytes.begin_end},
-                            Pool{"slabs", bytes.slab_pool},          Pool{"top table", bytes.top_table},
-                            Pool{"data pool", bytes.data_pool},      Pool{"colour pool", bytes.color_pool},
-                            Pool{"normal fields", bytes.field_pool}, Pool{"environment", bytes.environment}};
+  const std::array pools = {Pool{"node pool", bytes.node_pool},       Pool{"Begin-End", bytes.begin_end},
+                            Pool{"slabs", bytes.slab_pool},           Pool{"top table", bytes.top_table},
+                            Pool{"references", bytes.reference_pool}, Pool{"data pool", bytes.data_pool},
+                            Pool{"colour pool", bytes.color_pool},    Pool{"normal fields", bytes.field_pool},
+                            Pool{"environment", bytes.environment}};
   std::uint64_t sum = 0;
   for (const Pool& pool : pools) {
     if (pool.bytes > 0) fact(pool.name, bytes_text(pool.bytes));

@@ -17,6 +17,7 @@ struct SceneContent {
   std::span<const Material> materials{};
   bool colors = false;               ///< there is a colour pool
   bool fields = false;               ///< there is a pool of normal fields
+  bool references = false;           ///< the data pool is read through a reference pool
   bool lights = false;               ///< there are lights
   bool environment_texture = false;  ///< the environment is not constant
 };

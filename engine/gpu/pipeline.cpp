@@ -16,6 +16,7 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
     case BIND_BEGIN_END:
     case BIND_SLAB_POOL:
     case BIND_TOP_TABLE:
+    case BIND_REFERENCE_POOL:
     case BIND_DATA_POOL:
     case BIND_COLOR_POOL:
     case BIND_FIELD_POOL:

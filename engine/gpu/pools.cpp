@@ -10,6 +10,8 @@
 namespace splatray {
 namespace {
 
+constexpr std::size_t POOLS = std::tuple_size_v<decltype(Pools::buffers)>;
+
 struct PoolKind {
   const char* name;
   VkFormat format;              ///< of its texel buffer
@@ -17,17 +19,18 @@ struct PoolKind {
 };
 
 /// In the order of their bindings.
-constexpr std::array<PoolKind, 7> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
-                                            {"Begin-End", VK_FORMAT_R32_UINT, 4},
-                                            {"pool of slabs", VK_FORMAT_R32_UINT, 4},
-                                            {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
-                                            {"colour pool", VK_FORMAT_R32_UINT, 4},
-                                            {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
-                                            {"top table", VK_FORMAT_R32G32_UINT, 8}}};
+constexpr std::array<PoolKind, POOLS> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
+                                                {"Begin-End", VK_FORMAT_R32_UINT, 4},
+                                                {"pool of slabs", VK_FORMAT_R32_UINT, 4},
+                                                {"reference pool", VK_FORMAT_R32_UINT, 4},
+                                                {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
+                                                {"colour pool", VK_FORMAT_R32_UINT, 4},
+                                                {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
+                                                {"top table", VK_FORMAT_R32G32_UINT, 8}}};
 
-std::array<std::uint64_t, 7> sizes(const PoolBytes& bytes) {
-  return {bytes.node_pool,  bytes.begin_end,  bytes.slab_pool, bytes.data_pool,
-          bytes.color_pool, bytes.field_pool, bytes.top_table};
+std::array<std::uint64_t, POOLS> sizes(const PoolBytes& bytes) {
+  return {bytes.node_pool, bytes.begin_end,  bytes.slab_pool,  bytes.reference_pool,
+          bytes.data_pool, bytes.color_pool, bytes.field_pool, bytes.top_table};
 }
 
 std::string mib_text(std::uint64_t bytes) {
@@ -51,6 +54,16 @@ std::optional<std::string> misfit(const PoolBytes& bytes, const PoolLimits& limi
              mib_text(limits.texel_elements * KINDS[i].element_bytes);
   }
   return std::nullopt;
+}
+
+/// What the references refer to, one after the other; nothing of an empty pool.
+template <typename T>
+std::vector<T> listed(const std::vector<T>& pool, std::span<const std::uint32_t> references) {
+  std::vector<T> list;
+  if (pool.empty()) return list;
+  list.reserve(references.size());
+  for (const std::uint32_t splat : references) list.push_back(pool[splat]);
+  return list;
 }
 
 bool texel_format_supported(const Context& context, VkFormat format) {
@@ -86,22 +99,32 @@ PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolA
   throw Error(ExitCode::out_of_memory, "the scene does not fit the device: " + *reason);
 }
 
-Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted) {
+Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted,
+             DataPool data) {
   const std::vector<uvec2> top = top_table(scene);
-  const std::array<std::span<const std::byte>, 7> sources = {std::as_bytes(std::span(scene.node_pool)),
-                                                             std::as_bytes(std::span(scene.begin_end)),
-                                                             std::as_bytes(std::span(scene.slab_pool)),
-                                                             std::as_bytes(std::span(scene.data_pool)),
-                                                             std::as_bytes(std::span(scene.color_pool)),
-                                                             std::as_bytes(std::span(scene.field_pool)),
-                                                             std::as_bytes(std::span(top))};
+  const std::vector<std::uint32_t>& references = scene.reference_pool;
+  const bool copies =
+      data == DataPool::copies || (data == DataPool::automatic && references.size() <= MOST_COPIES);
+  const auto splats = copies ? listed(scene.data_pool, references) : std::vector<uvec4>();
+  const auto colors = copies ? listed(scene.color_pool, references) : std::vector<std::uint32_t>();
+  const auto fields = copies ? listed(scene.field_pool, references) : std::vector<std::uint32_t>();
+  const std::array<std::span<const std::byte>, POOLS> sources = {
+      std::as_bytes(std::span(scene.node_pool)),
+      std::as_bytes(std::span(scene.begin_end)),
+      std::as_bytes(std::span(scene.slab_pool)),
+      std::as_bytes(std::span(references).first(copies ? 0 : references.size())),
+      std::as_bytes(std::span(copies ? splats : scene.data_pool)),
+      std::as_bytes(std::span(copies ? colors : scene.color_pool)),
+      std::as_bytes(std::span(copies ? fields : scene.field_pool)),
+      std::as_bytes(std::span(top))};
   bytes.node_pool = sources[0].size();
   bytes.begin_end = sources[1].size();
   bytes.slab_pool = sources[2].size();
-  bytes.data_pool = sources[3].size();
-  bytes.color_pool = sources[4].size();
-  bytes.field_pool = sources[5].size();
-  bytes.top_table = sources[6].size();
+  bytes.reference_pool = sources[3].size();
+  bytes.data_pool = sources[4].size();
+  bytes.color_pool = sources[5].size();
+  bytes.field_pool = sources[6].size();
+  bytes.top_table = sources[7].size();
   access = choose_access(bytes, pool_limits(context), wanted);
   bytes.texel_buffers = access == PoolAccess::texel;
   const VkBufferUsageFlags usage =

@@ -1,4 +1,4 @@
-/// The octree on the device: node pool, Begin-End, slabs, data pool, colour pool and normal fields.
+/// The octree on the device: node pool, Begin-End, slabs, references, data pool, colour pool and normal fields.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -16,11 +16,20 @@ enum class PoolAccess {
   storage,    ///< storage buffers
 };
 
+/// What the data pool holds, and the colour pool and normal fields beside it.
+enum class DataPool {
+  automatic,   ///< copies, unless there are more than MOST_COPIES references
+  copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
+  references,  ///< each splat once; leaves have references: a test is two fetches
+};
+inline constexpr std::size_t MOST_COPIES = std::size_t{1} << 23;
+
 /// Bytes on the device, by pool.
 struct PoolBytes {
   std::uint64_t node_pool = 0;
   std::uint64_t begin_end = 0;
   std::uint64_t slab_pool = 0;
+  std::uint64_t reference_pool = 0;
   std::uint64_t data_pool = 0;
   std::uint64_t color_pool = 0;
   std::uint64_t field_pool = 0;
@@ -48,11 +57,11 @@ struct PoolLimits {
 struct Pools {
   Pools() = default;
   /// Uploads and waits; throws as choose_access does.
-  Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted);
+  Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted, DataPool data);
 
   PoolAccess access = PoolAccess::storage;  ///< never automatic
   PoolBytes bytes;                          ///< without the environment
-  std::array<Buffer, 7> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
+  std::array<Buffer, 8> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 
 }  // namespace splatray

@@ -59,7 +59,7 @@ struct Growing {
 }  // namespace
 
 struct Tracer::Impl {
-  Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic);
+  Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data);
 
   void set_materials(std::span<const Material> source);
   void set_lights(std::span<const SceneLight> lights);
@@ -77,12 +77,14 @@ struct Tracer::Impl {
     return {.materials = materials,
             .colors = pools.bytes.color_pool > 0,
             .fields = pools.bytes.field_pool > 0,
+            .references = pools.bytes.reference_pool > 0,
             .lights = light_count > 0,
             .environment_texture = environment_texture};
   }
 
   const Context& context;
   const PoolAccess wanted_access;
+  const DataPool wanted_data;
   const Arithmetic arithmetic;
   CommandQueue queue;
   PipelineCache pipelines;
@@ -105,9 +107,10 @@ struct Tracer::Impl {
   std::uint32_t pools_uploaded = 0;
 };
 
-Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic)
+Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data)
     : context(device),
       wanted_access(access),
+      wanted_data(data),
       arithmetic(device.arithmetic(wanted_arithmetic)),
       queue(device),
       pipelines(device),
@@ -228,8 +231,8 @@ void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, std::vector<Ao
   place(tile, pixels, picture, dispatch.frame.width);
 }
 
-Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic)
-    : impl_(std::make_unique<Impl>(context, access, arithmetic)) {}
+Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic, DataPool data)
+    : impl_(std::make_unique<Impl>(context, access, arithmetic, data)) {}
 
 Tracer::~Tracer() = default;
 
@@ -237,7 +240,7 @@ void Tracer::upload(const Scene& scene) {
   Impl& impl = *impl_;
   impl.bindings.reset();
   impl.pools = {};  // the device may not have room for two scenes
-  impl.pools = Pools(impl.context, impl.queue, scene, impl.wanted_access);
+  impl.pools = Pools(impl.context, impl.queue, scene, impl.wanted_access, impl.wanted_data);
   impl.bindings.emplace(impl.context, impl.pools.access);
   impl.frame_of_reference = {};
   impl.frame_of_reference.root = scene.root;

@@ -35,7 +35,7 @@ class Tracer {
  public:
   /// The context must outlive the tracer. Anything but automatic is for tests and benchmarks.
   explicit Tracer(const Context& context, PoolAccess access = PoolAccess::automatic,
-                  Arithmetic arithmetic = Arithmetic::automatic);
+                  Arithmetic arithmetic = Arithmetic::automatic, DataPool data = DataPool::automatic);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;

@@ -185,18 +185,4 @@ std::vector<uvec2> top_table(const Scene& scene) {
   return table;
 }
 
-std::vector<std::uint32_t> home_references(const Scene& scene) {
-  std::vector<std::uint32_t> homes;
-  homes.reserve(scene.splat_count);
-  const std::vector<LeafCell> cells = leaf_cells(scene);
-  for (std::size_t leaf = 0; leaf < cells.size(); ++leaf) {
-    for (std::uint32_t i = scene.begin_end[leaf]; i < scene.begin_end[leaf + 1]; ++i) {
-      const glm::uvec3 center{unpack_splat(scene.data_pool[i]).center};
-      const glm::uvec3 offset = center - cells[leaf].low;  // wraps around below the cell
-      if (glm::all(glm::lessThan(offset, glm::uvec3(cells[leaf].size)))) homes.push_back(i);
-    }
-  }
-  return homes;
-}
-
 }  // namespace splatray

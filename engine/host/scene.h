@@ -104,12 +104,13 @@ struct Slab {
 struct Scene {
   RootTransform root;
   BuildParams build;
-  std::uint64_t splat_count = 0;          ///< different splats; data_pool.size() counts references
-  std::vector<std::uint32_t> node_pool;   ///< node words; the root is word 0, never empty
-  std::vector<std::uint32_t> begin_end;   ///< filled leaves + 1 entries, ascending, last = data_pool.size()
-  std::vector<std::uint32_t> slab_pool;   ///< one slab per filled leaf
-  std::vector<uvec4> data_pool;           ///< splats, leaf by leaf
-  std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
+  std::vector<std::uint32_t> node_pool;  ///< node words; the root is word 0, never empty
+  std::vector<std::uint32_t>
+      begin_end;  ///< filled leaves + 1 entries, ascending, last = reference_pool.size()
+  std::vector<std::uint32_t> slab_pool;       ///< one slab per filled leaf
+  std::vector<std::uint32_t> reference_pool;  ///< indices into data_pool, leaf by leaf
+  std::vector<uvec4> data_pool;               ///< the splats, in Z-order of their centres
+  std::vector<std::uint32_t> color_pool;      ///< beside data_pool, or empty (no colours)
   std::vector<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
   std::vector<Material> materials;        ///< one per object
   std::vector<std::string> object_names;  ///< beside materials
@@ -139,8 +140,5 @@ struct LeafCell {
 
 /// The top table of the node pool (layout.h), 8^TOP_LEVELS entries.
 [[nodiscard]] std::vector<uvec2> top_table(const Scene& scene);
-
-/// Indices into data_pool of one reference per splat: the one in the leaf that holds the centre. Ascending.
-[[nodiscard]] std::vector<std::uint32_t> home_references(const Scene& scene);
 
 }  // namespace splatray

@@ -1,5 +1,6 @@
 #include "engine/host/scene_check.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -37,24 +38,23 @@ Defect check_header(const Scene& scene) {
 }
 
 Defect check_sizes(const Scene& scene) {
-  const std::size_t references = scene.data_pool.size();
+  const std::size_t references = scene.reference_pool.size(), splats = scene.data_pool.size();
   if (scene.node_pool.empty() || scene.begin_end.empty())
     return SceneDefect{"no octree", "at least a root node and one Begin-End entry"};
   if (scene.node_pool.size() > NODE_ADDRESS_MASK || references > UINT32_MAX)
     return SceneDefect{"a pool too large for its addresses", "at most 2^30 nodes and 2^32 references"};
-  if (scene.splat_count > references)
-    return SceneDefect{
-        std::to_string(scene.splat_count) + " splats in " + std::to_string(references) + " references",
-        "at least one reference per splat"};
+  if (splats > references)
+    return SceneDefect{std::to_string(splats) + " splats in " + std::to_string(references) + " references",
+                       "at least one reference per splat"};
   if (scene.slab_pool.size() != scene.begin_end.size() - 1)
     return SceneDefect{std::to_string(scene.slab_pool.size()) + " slabs",
                        std::to_string(scene.begin_end.size() - 1) + ", one per filled leaf"};
-  if (!scene.color_pool.empty() && scene.color_pool.size() != references)
+  if (!scene.color_pool.empty() && scene.color_pool.size() != splats)
     return SceneDefect{std::to_string(scene.color_pool.size()) + " colours",
-                       std::to_string(references) + ", one per reference"};
-  if (!scene.field_pool.empty() && scene.field_pool.size() != references)
+                       std::to_string(splats) + ", one per splat"};
+  if (!scene.field_pool.empty() && scene.field_pool.size() != splats)
     return SceneDefect{std::to_string(scene.field_pool.size()) + " normal fields",
-                       std::to_string(references) + ", one per reference"};
+                       std::to_string(splats) + ", one per splat"};
   if (scene.materials.size() > OBJECT_MASK + 1 || scene.object_names.size() != scene.materials.size())
     return SceneDefect{std::to_string(scene.materials.size()) + " materials and " +
                            std::to_string(scene.object_names.size()) + " object names",
@@ -62,15 +62,20 @@ Defect check_sizes(const Scene& scene) {
   return {};
 }
 
-Defect check_begin_end(const Scene& scene) {
+Defect check_lists(const Scene& scene) {
   const auto& begin_end = scene.begin_end;
-  if (begin_end.front() != 0 || begin_end.back() != scene.data_pool.size())
+  if (begin_end.front() != 0 || begin_end.back() != scene.reference_pool.size())
     return SceneDefect{
         "a Begin-End from " + std::to_string(begin_end.front()) + " to " + std::to_string(begin_end.back()),
-        "0 to " + std::to_string(scene.data_pool.size())};
+        "0 to " + std::to_string(scene.reference_pool.size())};
   for (std::size_t i = 1; i < begin_end.size(); ++i)
     if (begin_end[i] <= begin_end[i - 1])
       return SceneDefect{at("Begin-End entry", i) + " not above the one before", "ascending entries"};
+  const std::size_t splats = scene.data_pool.size();
+  const auto astray = std::find_if(scene.reference_pool.begin(), scene.reference_pool.end(),
+                                   [splats](std::uint32_t splat) { return splat >= splats; });
+  if (astray != scene.reference_pool.end())
+    return SceneDefect{"a reference to splat " + std::to_string(*astray), "one of " + std::to_string(splats)};
   return {};
 }
 
@@ -157,8 +162,7 @@ Defect check_looks(const Scene& scene) {
 }  // namespace
 
 std::optional<SceneDefect> find_scene_defect(const Scene& scene) {
-  for (const auto check :
-       {check_header, check_sizes, check_begin_end, check_nodes, check_splats, check_looks})
+  for (const auto check : {check_header, check_sizes, check_lists, check_nodes, check_splats, check_looks})
     if (const Defect defect = check(scene)) return defect;
   return {};
 }

@@ -27,6 +27,7 @@ enum SectionId : std::uint32_t {
   NODES,
   LEAVES,
   SLABS,
+  REFERENCES,
   SPLATS,
   COLORS,
   FIELDS,
@@ -66,20 +67,21 @@ struct LightRecord {
   std::uint32_t zero_1;
 };
 
-static_assert(sizeof(Header) == 568 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88);
+static_assert(sizeof(Header) == 600 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88);
 
 std::uint64_t align(std::uint64_t offset) { return (offset + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
 /// The section table (but for checksums) and the file's size follow from the header's counts.
 void lay_out(Header& header) {
   const auto if_has = [&](std::uint32_t attribute) {
-    return (header.attributes & attribute) != 0 ? header.references : 0;
+    return (header.attributes & attribute) != 0 ? header.splats : 0;
   };
-  const std::uint64_t counts[SECTION_COUNT] = {
-      header.nodes,       header.leaves + 1, header.leaves, header.references, if_has(HAS_COLORS),
-      if_has(HAS_FIELDS), header.objects,    header.lights, header.has_camera, header.string_bytes};
+  const std::uint64_t counts[SECTION_COUNT] = {header.nodes,       header.leaves + 1,  header.leaves,
+                                               header.references,  header.splats,      if_has(HAS_COLORS),
+                                               if_has(HAS_FIELDS), header.objects,     header.lights,
+                                               header.has_camera,  header.string_bytes};
   constexpr std::uint32_t ELEMENT_SIZES[SECTION_COUNT] = {
-      4, 4, 4, sizeof(uvec4), 4, 4, sizeof(Material), sizeof(LightRecord), sizeof(Camera), 1};
+      4, 4, 4, 4, sizeof(uvec4), 4, 4, sizeof(Material), sizeof(LightRecord), sizeof(Camera), 1};
   std::uint64_t end = sizeof(Header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
     SectionEntry& entry = header.sections[i];
@@ -114,8 +116,8 @@ Header describe(const Scene& scene, std::size_t string_bytes) {
   header.version = SCENE_FILE_VERSION;
   header.endianness = ENDIANNESS;
   header.header_size = sizeof(Header);
-  header.splats = scene.splat_count;
-  header.references = scene.data_pool.size();
+  header.splats = scene.data_pool.size();
+  header.references = scene.reference_pool.size();
   header.nodes = scene.node_pool.size();
   header.leaves = scene.begin_end.size() - 1;
   header.objects = static_cast<std::uint32_t>(scene.materials.size());
@@ -149,7 +151,6 @@ Scene described_scene(const Header& header) {
                  header.probes,       RadiusRule{header.radius_rule},
                  header.radius_scale, header.samples,
                  header.seed,         (header.attributes & HAS_FIELDS) != 0};
-  scene.splat_count = header.splats;
   scene.up = header.up;
   scene.bounds_min_world = header.bounds_min;
   scene.bounds_max_world = header.bounds_max;
@@ -218,7 +219,7 @@ class Reader {
                sizeof header_);  // fewer bytes than a header are told below
     if (std::memcmp(header_.magic, MAGIC, sizeof MAGIC) != 0)
       refuse("another file type", "the letters SOCT at its start");
-    if (size_ < sizeof header_) refuse(std::to_string(size_) + " bytes", "a header of 568 (file truncated)");
+    if (size_ < sizeof header_) refuse(std::to_string(size_) + " bytes", "a header of 600 (file truncated)");
     position_ = sizeof header_;
     if (header_.endianness != ENDIANNESS) refuse("a foreign byte order", "little-endian");
     if (header_.version != SCENE_FILE_VERSION)
@@ -235,7 +236,7 @@ class Reader {
   void check_table() const {
     Header expected = header_;
     for (const std::uint64_t count :
-         {header_.nodes, header_.leaves, header_.references, header_.string_bytes})
+         {header_.nodes, header_.leaves, header_.references, header_.splats, header_.string_bytes})
       if (count > MOST_ELEMENTS) refuse("a count of " + std::to_string(count), "one that fits the file");
     if (header_.has_camera > 1) refuse("a flag above 1", "0 or 1");
     if (header_.attributes > (HAS_COLORS | HAS_FIELDS))
@@ -297,9 +298,11 @@ void write_scene(const Scene& scene, const std::filesystem::path& path) {
   const std::vector<LightRecord> lights = light_records(scene.lights);
   const std::string strings = joined_strings(scene);
   const void* const contents[SECTION_COUNT] = {
-      scene.node_pool.data(), scene.begin_end.data(),  scene.slab_pool.data(),
-      scene.data_pool.data(), scene.color_pool.data(), scene.field_pool.data(),
-      scene.materials.data(), lights.data(),           scene.camera ? &*scene.camera : nullptr,
+      scene.node_pool.data(),  scene.begin_end.data(),
+      scene.slab_pool.data(),  scene.reference_pool.data(),
+      scene.data_pool.data(),  scene.color_pool.data(),
+      scene.field_pool.data(), scene.materials.data(),
+      lights.data(),           scene.camera ? &*scene.camera : nullptr,
       strings.data()};
   Header header = describe(scene, strings.size());
   lay_out(header);
@@ -324,6 +327,7 @@ Scene read_scene(const std::filesystem::path& path) {
   scene.node_pool = reader.section<std::uint32_t>(NODES);
   scene.begin_end = reader.section<std::uint32_t>(LEAVES);
   scene.slab_pool = reader.section<std::uint32_t>(SLABS);
+  scene.reference_pool = reader.section<std::uint32_t>(REFERENCES);
   scene.data_pool = reader.section<uvec4>(SPLATS);
   scene.color_pool = reader.section<std::uint32_t>(COLORS);
   scene.field_pool = reader.section<std::uint32_t>(FIELDS);

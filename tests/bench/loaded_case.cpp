@@ -19,8 +19,8 @@ LoadedVariant::LoadedVariant(const Context& context, const std::filesystem::path
   tracer.upload(scene);
   tracer.set_environment(read_environment_file(folder / "environment.bin"));
   root = scene.root;
-  splats = scene.splat_count;
-  references = scene.data_pool.size();
+  splats = scene.data_pool.size();
+  references = scene.reference_pool.size();
 }
 
 LoadedCase::LoadedCase(const Context& context, const Case& one, const std::filesystem::path& folder)

@@ -31,13 +31,12 @@ bool Discs::any_one_sided() const {
 
 Discs discs_of(const Scene& scene) {
   Discs discs;
-  for (const std::uint32_t reference : home_references(scene)) {
-    const Splat splat = unpack_splat(scene.data_pool[reference]);
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const Splat splat = unpack_splat(scene.data_pool[i]);
     discs.center_radius.emplace_back(vec3(splat.center), static_cast<float>(std::sqrt(splat.radius_squared)));
     discs.normal.emplace_back(splat.normal);
     discs.object.push_back(splat.object);
-    if (!scene.field_pool.empty())
-      discs.slope.emplace_back(unpack_field(scene.field_pool[reference], splat.normal));
+    if (!scene.field_pool.empty()) discs.slope.emplace_back(unpack_field(scene.field_pool[i], splat.normal));
   }
   for (const Material& material : scene.materials)
     discs.two_sided.push_back((material.flags & MATERIAL_TWO_SIDED) != 0 ? 1 : 0);

@@ -65,18 +65,19 @@ TEST(SceneCheck, FindsBadBeginEnd) {
   EXPECT_NE(found_after([](Scene& s) { s.begin_end = {1, 2, 5}; }), "");
   EXPECT_NE(found_after([](Scene& s) { s.begin_end = {0, 5, 5}; }), "");
   EXPECT_NE(found_after([](Scene& s) { s.begin_end = {0, 6, 5}; }), "");
+  EXPECT_EQ(found_after([](Scene& s) { s.reference_pool[2] = 4; }), "a reference to splat 4");
 }
 
 TEST(SceneCheck, FindsBadSplats) {
-  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[3].w |= 2U; }), "splat 3 of object 2");
-  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[3].y |= 1U << 21U; }),
-            "splat 3 with its reserved bit set");
-  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[3].z |= 0xFFFFU; }), "splat 3 with an invalid normal");
-  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[3].z |= 0xFFFF0000U; }), "splat 3 with an invalid normal");
+  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[2].w |= 2U; }), "splat 2 of object 2");
+  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[2].y |= 1U << 21U; }),
+            "splat 2 with its reserved bit set");
+  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[2].z |= 0xFFFFU; }), "splat 2 with an invalid normal");
+  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[2].z |= 0xFFFF0000U; }), "splat 2 with an invalid normal");
   for (const std::uint32_t bits :
        {0xFFFF0000U, 0xFE000000U, 0xC0000000U})  // NaN, infinity, larger than the root
-    EXPECT_EQ(found_after([&](Scene& s) { s.data_pool[3].w |= bits; }),
-              "splat 3 with a radius that is not finite or exceeds the root");
+    EXPECT_EQ(found_after([&](Scene& s) { s.data_pool[2].w |= bits; }),
+              "splat 2 with a radius that is not finite or exceeds the root");
 }
 
 TEST(SceneCheck, FindsBadSizesAndLooks) {
@@ -84,7 +85,10 @@ TEST(SceneCheck, FindsBadSizesAndLooks) {
   EXPECT_NE(found_after([](Scene& s) { s.color_pool.pop_back(); }), "");
   EXPECT_NE(found_after([](Scene& s) { s.field_pool.pop_back(); }), "");
   EXPECT_NE(found_after([](Scene& s) { s.object_names.pop_back(); }), "");
-  EXPECT_NE(found_after([](Scene& s) { s.splat_count = 6; }), "");
+  EXPECT_EQ(found_after([](Scene& s) {
+              s.data_pool.resize(6, s.data_pool[0]), s.color_pool.clear(), s.field_pool.clear();
+            }),
+            "6 splats in 5 references");
   EXPECT_NE(found_after([](Scene& s) { s.materials[1].diffuse.x = NAN; }), "");
   EXPECT_NE(found_after([](Scene& s) { s.materials[0].ior = 0.0F; }), "");
   EXPECT_NE(found_after([](Scene& s) { s.materials[0].mask_bit = 32; }), "");

@@ -72,7 +72,7 @@ TEST_F(SceneFile, GoldenBytes) {
 
 TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(bytes.substr(0, 4), "SOCT");
-  EXPECT_EQ(get<std::uint32_t>(bytes, 4), 3U);
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), 4U);
   EXPECT_EQ(get<std::uint32_t>(bytes, 12), HEADER);
   EXPECT_EQ(get<std::uint64_t>(bytes, 16), bytes.size());
   EXPECT_EQ(get<std::uint64_t>(bytes, 32), 4U);
@@ -82,9 +82,9 @@ TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(get<double>(bytes, 136), 1.25);
   EXPECT_EQ(get<double>(bytes, 176), 1.0);
   EXPECT_EQ(get<double>(bytes, 232), 12.5);
-  EXPECT_EQ(bytes.substr(section_offset(bytes, 10), 15), Bytes("glass\0\0sky.hdr\0", 15));
+  EXPECT_EQ(bytes.substr(section_offset(bytes, 11), 15), Bytes("glass\0\0sky.hdr\0", 15));
   EXPECT_EQ(bytes.substr(bytes.size() - 8), "SOCT.END");
-  for (std::size_t id = 1; id <= 10; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
+  for (std::size_t id = 1; id <= 11; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
 }
 
 TEST_F(SceneFile, RoundTrip) {
@@ -92,6 +92,7 @@ TEST_F(SceneFile, RoundTrip) {
   EXPECT_EQ(copy.node_pool, scene.node_pool);
   EXPECT_EQ(copy.begin_end, scene.begin_end);
   EXPECT_EQ(copy.slab_pool, scene.slab_pool);
+  EXPECT_EQ(copy.reference_pool, scene.reference_pool);
   EXPECT_EQ(copy.data_pool, scene.data_pool);
   EXPECT_EQ(copy.color_pool, scene.color_pool);
   EXPECT_EQ(copy.field_pool, scene.field_pool);
@@ -148,7 +149,7 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
   put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 3");
+  says(other, "found version 2, expected version 4");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");
@@ -169,10 +170,11 @@ TEST_F(SceneFile, RefusesForgedContent) {
   says(1, 4, 0x40000002, "leaf 1");
   says(2, 4, 5, "Begin-End entry 2");
   says(2, 8, 6, "a Begin-End from 0 to 6");
-  says(4, 12, 0xFFFF0000, "splat 0 with a radius");
-  says(4, 28, 0x20000002, "splat 1 of object 2");
-  says(8, 0, 7, "light 0");
-  says(10, 0, 0, "names, expected one per object");
+  says(4, 8, 4, "a reference to splat 4");
+  says(5, 12, 0xFFFF0000, "splat 0 with a radius");
+  says(5, 28, 0x20000002, "splat 1 of object 2");
+  says(9, 0, 7, "light 0");
+  says(11, 0, 0, "names, expected one per object");
 }
 
 TEST_F(SceneFile, RefusesForgedCounts) {

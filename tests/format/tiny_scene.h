@@ -13,17 +13,16 @@ inline Scene tiny_scene() {
   Scene scene;
   scene.root = {{10.0, -20.0, 30.0}, 0.5};
   scene.build = {3, Insertion::probe, 16, RadiusRule::knn, 1.25, 7, 11, true};
-  scene.splat_count = 4;
   scene.node_pool = {leaf(NODE_INNER, 1), leaf(NODE_FILLED, 0)};
   scene.node_pool.resize(9, leaf(NODE_EMPTY, 0));
   scene.node_pool[8] = leaf(NODE_FILLED, 1);
   scene.begin_end = {0, 2, 5};
   scene.slab_pool = {SLAB_FULL, SLAB_FULL};
+  scene.reference_pool = {0, 1, 1, 2, 3};
   scene.data_pool = {tiny_splat(5000, 6000, 7000, 0), tiny_splat(1048000, 1048000, 1048000, 1),
-                     tiny_splat(1048000, 1048000, 1048000, 1), tiny_splat(1100000, 1200000, 1300000, 0),
-                     tiny_splat(2000000, 2000000, 2000000, 1)};
-  scene.color_pool = {0xFF000001, 0xFF000002, 0xFF000002, 0xFF000004, 0xFF000005};
-  scene.field_pool = {FIELD_FLAT, FIELD_FLAT + 1, FIELD_FLAT + 1, FIELD_FLAT + 2, FIELD_FLAT - 3};
+                     tiny_splat(1100000, 1200000, 1300000, 0), tiny_splat(2000000, 2000000, 2000000, 1)};
+  scene.color_pool = {0xFF000001, 0xFF000002, 0xFF000004, 0xFF000005};
+  scene.field_pool = {FIELD_FLAT, FIELD_FLAT + 1, FIELD_FLAT + 2, FIELD_FLAT - 3};
   Material glass{};
   glass.tint = vec3(0.5F, 0.25F, 1.0F);
   glass.shininess = 1.0F;

@@ -47,7 +47,8 @@ std::uint32_t cut_flags(Bytes& bytes, std::size_t offset, std::uint32_t mask) {
 
 /// The elements of each section, after the counts and flags have been cut.
 std::vector<std::size_t> cut_counts(Bytes& bytes) {
-  const std::size_t references = cut_count<std::uint64_t>(bytes, 40, 16);
+  const std::size_t splats = cut_count<std::uint64_t>(bytes, 32, 16);
+  const std::size_t references = cut_count<std::uint64_t>(bytes, 40, 4);
   const std::size_t nodes = cut_count<std::uint64_t>(bytes, 48, 4);
   const std::size_t leaves = cut_count<std::uint64_t>(bytes, 56, 4);
   const std::size_t objects = cut_count<std::uint32_t>(bytes, 64, 48);
@@ -55,9 +56,9 @@ std::vector<std::size_t> cut_counts(Bytes& bytes) {
   const std::uint32_t attributes = cut_flags(bytes, 72, 3);
   const std::size_t cameras = cut_flags(bytes, 76, 1);
   const std::size_t strings = cut_count<std::uint64_t>(bytes, 80, 1);
-  const std::size_t colors = (attributes & 1U) != 0 ? references : 0;
-  const std::size_t fields = (attributes & 2U) != 0 ? references : 0;
-  return {nodes, leaves + 1, leaves, references, colors, fields, objects, lights, cameras, strings};
+  const std::size_t colors = (attributes & 1U) != 0 ? splats : 0;
+  const std::size_t fields = (attributes & 2U) != 0 ? splats : 0;
+  return {nodes, leaves + 1, leaves, references, splats, colors, fields, objects, lights, cameras, strings};
 }
 
 /// The bytes with a scene file's form: magic, version, sizes, section table, gaps, end marker and checksums are put
@@ -109,14 +110,13 @@ void send_rays(const Scene& scene) {
 }
 
 void check_scene(const Scene& scene) {
-  require(scene.splat_count <= scene.data_pool.size(), "a reference per splat");
+  require(scene.data_pool.size() <= scene.reference_pool.size(), "a reference per splat");
   for (const uvec4& words : scene.data_pool) {
     const Splat splat = unpack_splat(words);
     require(std::isfinite(splat.radius_squared) && splat.radius_squared > 0.0, "radii are finite");
     require(std::abs(glm::length(splat.normal) - 1.0) < 1e-6, "normals are unit vectors");
     require(splat.object < scene.materials.size(), "splats are of existing objects");
   }
-  require(home_references(scene).size() <= scene.data_pool.size(), "home references are references");
   send_rays(scene);
 }
 

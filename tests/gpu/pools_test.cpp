@@ -57,6 +57,25 @@ TEST_F(PoolUpload, BothAccessesGiveTheSamePicture) {
               storage.render(disc_view(50, 40), plain_settings()).rgba);
 }
 
+TEST_F(PoolUpload, BothDataPoolsGiveTheSamePicture) {
+  Scene scene = disc_scene(3);
+  scene.reference_pool = {2, 0, 1};
+  scene.color_pool = {pack_color({1.0F, 0.0F, 0.0F}), pack_color({0.0F, 1.0F, 0.0F}),
+                      pack_color({0.0F, 0.0F, 1.0F})};
+  Tracer copies(context, PoolAccess::automatic, Arithmetic::automatic, DataPool::copies);
+  Tracer references(context, PoolAccess::automatic, Arithmetic::automatic, DataPool::references);
+  copies.upload(scene);
+  references.upload(scene);
+  EXPECT_EQ(copies.pool_bytes().reference_pool, 0U);
+  EXPECT_EQ(copies.pool_bytes().data_pool, 48U);
+  EXPECT_EQ(copies.pool_bytes().color_pool, 12U);
+  EXPECT_EQ(references.pool_bytes().reference_pool, 12U);
+  EXPECT_EQ(references.pool_bytes().data_pool, 48U);
+  EXPECT_EQ(references.pool_bytes().color_pool, 12U);
+  EXPECT_TRUE(copies.render(disc_view(50, 40), plain_settings()).rgba ==
+              references.render(disc_view(50, 40), plain_settings()).rgba);
+}
+
 TEST_F(PoolUpload, ReportsBytesByPool) {
   Tracer tracer(context);
   tracer.upload(disc_scene(3));

@@ -79,15 +79,13 @@ Scene lattice_scene(const std::vector<Disc>& discs, const Material& material, st
 
 double overlap_of(const Scene& scene, double area_world) {
   double sum = 0.0;
-  for (const std::uint32_t reference : home_references(scene))
-    sum += unpack_splat(scene.data_pool[reference]).radius_squared;
+  for (const uvec4& words : scene.data_pool) sum += unpack_splat(words).radius_squared;
   return sum * std::numbers::pi * scene.root.unit_world * scene.root.unit_world / area_world;
 }
 
 double median_radius_root(const Scene& scene) {
   std::vector<double> squared;
-  for (const std::uint32_t reference : home_references(scene))
-    squared.push_back(unpack_splat(scene.data_pool[reference]).radius_squared);
+  for (const uvec4& words : scene.data_pool) squared.push_back(unpack_splat(words).radius_squared);
   const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
   return std::sqrt(*middle);

@@ -152,8 +152,7 @@ TEST(Shadow, LightInAndBehindSplats) {
   for (const double height_r : {-0.1, -10.0})
     conclude(floor_lit_from(scene, aside + dvec3(0.0, height_r * radius, 0.0),
                             "light " + short_number(-height_r) + " r behind a floor: dark"));
-  const dvec3 center =
-      scene.root.to_world(unpack_splat(scene.data_pool[home_references(scene)[10000]]).center);
+  const dvec3 center = scene.root.to_world(unpack_splat(scene.data_pool[10000]).center);
   Lit lit = lit_by(scene, {LIGHT_POINT, center, vec3(1.0F)}, from_above(), true,
                    "light at a splat's centre: finite");
   conclude(lit.row);

@@ -165,7 +165,7 @@ TEST(Splat, NormalsThatAreNotUnit) {
   }
   conclude({.compared = "splats, those of unit normals",
             .count = scene.data_pool.size(),
-            .unit = "references",
+            .unit = "splats",
             .exceptions = far_off});
 }
 

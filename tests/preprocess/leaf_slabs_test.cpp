@@ -71,7 +71,7 @@ Tried tried_points(const Scene& scene) {
   for (std::size_t leaf = 0; leaf < cells.size(); ++leaf) {
     const Slab slab = unpack_slab(scene.slab_pool[leaf]);
     for (std::uint32_t i = scene.begin_end[leaf]; i < scene.begin_end[leaf + 1]; ++i)
-      try_points(unpack_splat(scene.data_pool[i]), cells[leaf], slab, random, tried);
+      try_points(unpack_splat(scene.data_pool[scene.reference_pool[i]]), cells[leaf], slab, random, tried);
   }
   return tried;
 }
@@ -82,7 +82,7 @@ TEST(LeafSlabs, HoldWhatDiscsHaveInTheCell) {
       for (const bool ball : {false, true}) {
         const Scene scene = scene_of(soup(ball, leaf_size), leaf_size, insertion);
         const Tried tried = tried_points(scene);
-        EXPECT_GT(tried.inside, scene.splat_count);
+        EXPECT_GT(tried.inside, scene.data_pool.size());
         EXPECT_EQ(tried.cut_off, 0U) << "leaf size " << leaf_size << ", policy " << int(insertion);
       }
     }

@@ -99,15 +99,5 @@ TEST(NormalField, OnlyCurvedScenesHaveThem) {
   EXPECT_TRUE(scene_of(test::even_sphere(1000), false).field_pool.empty());
 }
 
-TEST(NormalField, CopiesOfASplatHaveTheSame) {
-  const Scene scene = scene_of(test::random_sphere(2000, 5));
-  std::map<std::array<std::uint32_t, 4>, std::uint32_t> fields;
-  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
-    const uvec4& w = scene.data_pool[i];
-    EXPECT_EQ(fields.try_emplace({w.x, w.y, w.z, w.w}, scene.field_pool[i]).first->second,
-              scene.field_pool[i]);
-  }
-}
-
 }  // namespace
 }  // namespace splatray

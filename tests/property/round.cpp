@@ -95,7 +95,7 @@ class Round {
     judge_all(brute, asked, gpu);
     judge_all(brute, asked, twin);
     // A tree drops equal splats beyond its leaf size: then the other scene has other splats.
-    if (scene.splat_count == other.splat_count) compare_bits(brute, asked, gpu, gpu_other);
+    if (scene.data_pool.size() == other.data_pool.size()) compare_bits(brute, asked, gpu, gpu_other);
   }
 
  private:

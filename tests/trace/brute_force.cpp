@@ -29,14 +29,13 @@ double fall_of(double share) {
 }  // namespace
 
 BruteForce::BruteForce(const Scene& scene) : materials_(scene.materials) {
-  for (const std::uint32_t reference : home_references(scene)) {
-    const uvec4& words = scene.data_pool[reference];
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const uvec4& words = scene.data_pool[i];
     words_.push_back(words);
     splats_.push_back(unpack_splat(words));
-    slopes_.push_back(scene.field_pool.empty()
-                          ? glm::dmat3(0.0)
-                          : unpack_field(scene.field_pool[reference], splats_.back().normal));
-    if (!scene.color_pool.empty()) colors_.push_back(scene.color_pool[reference]);
+    slopes_.push_back(scene.field_pool.empty() ? glm::dmat3(0.0)
+                                               : unpack_field(scene.field_pool[i], splats_.back().normal));
+    if (!scene.color_pool.empty()) colors_.push_back(scene.color_pool[i]);
     x_.push_back(splats_.back().center.x);
     y_.push_back(splats_.back().center.y);
     z_.push_back(splats_.back().center.z);

@@ -54,10 +54,18 @@ void expect_exact(const Agreement& agreement, const std::string& what) {
 }
 
 std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery>& rays,
-                                  const Settings& settings, Arithmetic arithmetic = Arithmetic::automatic) {
-  Tracer tracer(shared_context(), PoolAccess::automatic, arithmetic);
+                                  const Settings& settings, Arithmetic arithmetic = Arithmetic::automatic,
+                                  DataPool data = DataPool::automatic) {
+  Tracer tracer(shared_context(), PoolAccess::automatic, arithmetic, data);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
+}
+
+std::size_t different_bits(const std::vector<RayHit>& a, const std::vector<RayHit>& b) {
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    different += std::memcmp(&a[i], &b[i], sizeof(RayHit)) != 0 ? 1 : 0;
+  return different;
 }
 
 /// Compares the GPU with brute force for each scene; the scenes differ in leaf size only.
@@ -73,10 +81,10 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
     expect_exact(agreement_of(brute, truth.hits, answers),
                  "leaf size " + std::to_string(scene.build.leaf_size));
     if (first_answers.empty()) first_answers = answers;
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < answers.size(); ++i)
-      different += std::memcmp(&answers[i], &first_answers[i], sizeof(RayHit)) != 0 ? 1 : 0;
-    EXPECT_EQ(different, 0U) << "answers are not the same bits for another leaf size";
+    EXPECT_EQ(different_bits(answers, first_answers), 0U) << "other bits for another leaf size";
+    const auto through_references =
+        gpu_intersect(scene, truth.rays, settings, Arithmetic::automatic, DataPool::references);
+    EXPECT_EQ(different_bits(answers, through_references), 0U) << "other bits through references";
   }
 }
 

@@ -31,10 +31,11 @@ uvec2 top_entry(uint index) { return top.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
 uint begin_end_at(uint index) { return bound->begin_end.at(index); }
 uint slab_word(uint index) { return bound->slab_pool.at(index); }
-uvec4 splat_words(uint index) { return bound->data_pool.at(index); }
+uint splat_at(uint place) { return bound->reference_pool.at(place); }
+uvec4 splat_words(uint splat) { return bound->data_pool.at(splat); }
 Material material_at(uint object) { return bound->materials.at(object); }
-vec3 color_at(uint index) { return unpack_color(bound->color_pool.at(index)); }
-uint field_word(uint index) { return bound->field_pool.at(index); }
+vec3 color_at(uint splat) { return unpack_color(bound->color_pool.at(splat)); }
+uint field_word(uint splat) { return bound->field_pool.at(splat); }
 
 #include "shaders/query.glsl"
 

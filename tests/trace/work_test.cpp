@@ -31,7 +31,7 @@ Work work_of(Scene scene) {
   const auto rays = double(tracer.stats().rays());
   const std::uint64_t pools = total_bytes(tracer.pool_bytes()) - tracer.pool_bytes().top_table;
   return {double(count[COUNT_TESTS]) / rays, double(count[COUNT_NODE_STEPS]) / rays,
-          double(count[COUNT_LEAVES]) / rays, double(pools) / double(scene.splat_count)};
+          double(count[COUNT_LEAVES]) / rays, double(pools) / double(scene.data_pool.size())};
 }
 
 void expect_near(double measured, double known, const char* what) {

@@ -15,7 +15,7 @@ namespace {
 const glm::dvec3 CENTER(561234.125, 5912345.25, 87.5);
 constexpr double SPACING = 1e-3;
 
-Scene plane_scene() {
+Scene plane_scene(Insertion insertion = Insertion::overlap) {
   Input input;
   InputObject& object = input.objects.emplace_back();
   object.name = "plane";
@@ -26,7 +26,7 @@ Scene plane_scene() {
       object.points.normal.emplace_back(0.0F, 0.0F, 1.0F);
     }
   BuildStats stats;
-  return build_scene(std::move(input), BuildParams{}, 1, stats);
+  return build_scene(std::move(input), {.insertion = insertion}, 1, stats);
 }
 
 View plane_view() {
@@ -48,11 +48,11 @@ RayHit hit_of(const RayQuery& query, const uvec4& words) {
   return hit;
 }
 
-/// The home reference nearest to a world point.
-std::uint32_t nearest_reference(const Scene& scene, const glm::dvec3& point) {
-  std::uint32_t nearest = 0;
+/// The splat nearest to a world point.
+std::size_t nearest_splat(const Scene& scene, const glm::dvec3& point) {
+  std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t i : home_references(scene)) {
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     const double distance = glm::length(scene.root.to_world(unpack_splat(scene.data_pool[i]).center) - point);
     if (distance < least) nearest = i;
     least = std::min(least, distance);
@@ -80,8 +80,8 @@ TEST(InspectTest, TellsTheSplatInWorldCoordinates) {
   const View view = plane_view();
   const glm::dvec3 point = CENTER + SPACING * glm::dvec3(7, -4, 0);
   const RayQuery query = cursor_query(scene, view, projected(view.camera, point, {400.0, 300.0}));
-  const std::uint32_t reference = nearest_reference(scene, point);
-  const auto inspected = inspect(scene, view.camera, query, hit_of(query, scene.data_pool[reference]));
+  const std::size_t splat = nearest_splat(scene, point);
+  const auto inspected = inspect(scene, view.camera, query, hit_of(query, scene.data_pool[splat]));
   ASSERT_TRUE(inspected.has_value());
   EXPECT_EQ(inspected->object_name, "plane");
   EXPECT_LT(glm::length(inspected->center_world - point), 1e-6);  // a thousandth of the spacing at 6e6
@@ -92,7 +92,7 @@ TEST(InspectTest, TellsTheSplatInWorldCoordinates) {
   EXPECT_NEAR(inspected->distance_world, glm::length(point - view.camera.eye), 1e-5);
 }
 
-/// Depth and range of the leaf that lists data pool entry `reference`, found by walking the whole tree.
+/// Depth and range of the leaf that has entry `reference` of the reference pool, found by walking the whole tree.
 void find_leaf(const Scene& scene, std::uint32_t node, std::uint32_t depth, std::uint32_t reference,
                std::uint32_t& leaf_depth, std::uint32_t& leaf_references) {
   const std::uint32_t word = scene.node_pool[node], address = word & NODE_ADDRESS_MASK;
@@ -106,11 +106,11 @@ void find_leaf(const Scene& scene, std::uint32_t node, std::uint32_t depth, std:
 }
 
 TEST(InspectTest, FindsTheLeafOfEverySplatsCentre) {
-  const Scene scene = plane_scene();
+  const Scene scene = plane_scene(Insertion::centre);
   const View view = plane_view();
   const RayQuery query = cursor_query(scene, view, {200.0, 150.0});
   std::uint32_t deepest = 0;
-  for (const std::uint32_t reference : home_references(scene)) {
+  for (std::uint32_t reference = 0; reference < scene.reference_pool.size(); ++reference) {
     std::uint32_t depth = 0, references = 0;
     find_leaf(scene, 0, 0, reference, depth, references);
     const auto inspected = inspect(scene, view.camera, query, hit_of(query, scene.data_pool[reference]));

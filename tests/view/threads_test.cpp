@@ -159,7 +159,7 @@ TEST_F(LoadThreadTest, OpensWithADocumentThatShowsIt) {
   load(write("grid.ply", grid_ply(true)));
   await([](const LoadNews& news) {
     if (!news.opened) return false;
-    EXPECT_EQ(news.opened->scene->splat_count, 144U);
+    EXPECT_EQ(news.opened->scene->data_pool.size(), 144U);
     EXPECT_EQ(news.opened->document.object_names, std::vector<std::string>{"grid"});
     EXPECT_FALSE(news.opened->document.lights.empty());
     return true;
