@@ -59,7 +59,7 @@ struct Growing {
 }  // namespace
 
 struct Tracer::Impl {
-  Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic);
+  Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, ProgramCode code);
 
   void set_materials(std::span<const Material> source);
   void set_lights(std::span<const SceneLight> lights);
@@ -105,12 +105,12 @@ struct Tracer::Impl {
   std::uint32_t pools_uploaded = 0;
 };
 
-Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic)
+Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, ProgramCode code)
     : context(device),
       wanted_access(access),
       arithmetic(device.arithmetic(wanted_arithmetic)),
       queue(device),
-      pipelines(device),
+      pipelines(device, code),
       environment(device, queue, {}) {
   reserve(device, frame_buffer, sizeof(FrameParams));
   for (Buffer* buffer : {&material_buffer, &light_buffer, &accumulation, &aov, &rays, &hits})
@@ -228,8 +228,8 @@ void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, std::vector<Ao
   place(tile, pixels, picture, dispatch.frame.width);
 }
 
-Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic)
-    : impl_(std::make_unique<Impl>(context, access, arithmetic)) {}
+Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic, ProgramCode code)
+    : impl_(std::make_unique<Impl>(context, access, arithmetic, code)) {}
 
 Tracer::~Tracer() = default;
 
