@@ -12,10 +12,16 @@
 const uint BVH_STRIDE = 1u + BVH_WIDTH / 2u;   ///< texels of a node
 const uint BVH_DEPTH = 32u;                    ///< most nodes on the way to a splat
 const float BVH_STEEPEST = 1e20f;              ///< most of 1 / direction: infinity times 0 is NaN
+const uint BVH_LIST = 16u;                     ///< most nodes whose accepted splats are kept for blending
+const float BVH_MARGIN = 1.5f;                 ///< of the window while the first splat is not known yet
 const int BVH_MISS = 0x7FFFFFFF;
 
 /// What each thread left on its way down: where a node's children begin, bits 23..0, and which of them are left to visit.
 shared uint bvh_stack[BVH_DEPTH * GROUP_SIZE];
+
+/// The accepted splats of a thread's ray, in the order in which they were found: child 0 of their node as in BvhWalk, bits
+/// 23..0, and which children.
+shared uint bvh_accepted[BVH_LIST * GROUP_SIZE];
 
 /// Where a ray is in the hierarchy.
 struct BvhWalk {
@@ -68,7 +74,7 @@ void bvh_visit(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end) {
     walk.nearest = findLSB(walk.group >> 24u);
   }
   uint child = uint(walk.nearest);
-  uint node = (walk.group & 0xFFFFFFu) + child;
+  uint node = (walk.group + child) & 0xFFFFFFu;
   walk.group &= ~(0x1000000u << child);
   if ((walk.group >> 24u) != 0u) {
     bvh_stack[walk.depth * GROUP_SIZE + thread] = walk.group;
@@ -108,6 +114,7 @@ void bvh_visit(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end) {
 /// The next candidates of [t_begin, t_end]: bit i of the answer is splat walk.chunk + i. None at the end only.
 uint bvh_candidates(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end, INOUT(Tally) tally) {
   uint candidates = 0u;
+  t_begin = max(t_begin, EARLIEST);
   bool searching = bvh_alive(walk);
   do {
     bool visiting = searching;
@@ -141,12 +148,10 @@ Walk whole_ray(Ray ray) {
   return walk;
 }
 
-/// Adds the first splat's cluster, which lies in the window behind it.
-void bvh_accumulate(Ray ray, First first, float depth, INOUT(Cluster) cluster, INOUT(Tally) tally) {
-  bool found = first.measure.x < INFINITY_F;
-  float t_begin = first.t.x - WINDOW_SLACK;
-  float t_end = min(first.t.x + depth * 1.0001f + WINDOW_SLACK, ray.t_max);
-  BvhWalk walk = bvh_start(ray, found);
+/// Adds the first splat's cluster, which lies in [t_begin, t_end], by a walk of its own.
+void bvh_collect(Ray ray, bool needed, float t_begin, float t_end, First first, float depth, INOUT(Cluster) cluster,
+                 INOUT(Tally) tally) {
+  BvhWalk walk = bvh_start(ray, needed);
   do {
     uint candidates = bvh_candidates(walk, ray, t_begin, t_end, tally);
     uint accepted = accept_candidates(walk.chunk, candidates, ray, whole_ray(ray), false, first);
@@ -154,22 +159,44 @@ void bvh_accumulate(Ray ray, First first, float depth, INOUT(Cluster) cluster, I
   } while (bvh_alive(walk));
 }
 
+/// Adds those of the first `count` entries of bvh_accepted that are in the first splat's cluster.
+void bvh_accumulate(uint count, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
+  uint i = 0u;
+  do {
+    uint entry = i < count ? bvh_accepted[i * GROUP_SIZE + gl_LocalInvocationIndex] : 0u;
+    accumulate_chunk(entry & 0xFFFFFFu, entry >> 24u, ray, first, depth, cluster);
+    i += 1u;
+  } while (i < count);
+}
+
+/// What the ray sees first. On the way to the first splat all accepted ones are noted, as far as a window behind the first
+/// so far; where that was not far enough, or they were too many, the cluster is looked for again.
 Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);
   First first = no_first();
-  BvhWalk walk = bvh_start(ray, enters);
-  do {
-    float t_end = min(first.t.x + WINDOW_SLACK, ray.t_max);
-    uint candidates = bvh_candidates(walk, ray, ray.t_min, t_end, tally);
-    accept_candidates(walk.chunk, candidates, ray, whole_ray(ray), true, first);
-  } while (bvh_alive(walk));
   Cluster cluster = empty_cluster();
   float depth = 0.0f;
+  float t_seen = ray.t_max;
+  uint count = 0u;
+  BvhWalk walk = bvh_start(ray, enters);
+  do {
+    t_seen = min(t_seen, first.t.x + BVH_MARGIN * depth + WINDOW_SLACK);
+    uint candidates = bvh_candidates(walk, ray, ray.t_min, t_seen, tally);
+    uint accepted = accept_candidates(walk.chunk, candidates, ray, whole_ray(ray), true, first);
+    if (BLEND != BLEND_NEAREST) {
+      depth = window_depth(first, ray.dir, kappa);
+      if (accepted != 0u && count < BVH_LIST)
+        bvh_accepted[count * GROUP_SIZE + gl_LocalInvocationIndex] = walk.chunk | (accepted << 24u);
+      count += accepted != 0u ? 1u : 0u;
+    }
+  } while (bvh_alive(walk));
   if (BLEND != BLEND_NEAREST) {
-    depth = window_depth(first, ray.dir, kappa);
-    bvh_accumulate(ray, first, depth, cluster, tally);
+    float t_end = min(first.t.x + depth * 1.0001f + WINDOW_SLACK, ray.t_max);
+    bool again = first.measure.x < INFINITY_F && (count > BVH_LIST || t_end > t_seen);
+    bvh_accumulate(again ? 0u : count, ray, first, depth, cluster);
+    bvh_collect(ray, again, first.t.x - WINDOW_SLACK, t_end, first, depth, cluster, tally);
   }
   return finish_hit(ray, first, cluster, depth, shift);
 }
