@@ -113,30 +113,19 @@ void bvh_visit(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end) {
 
 /// The next candidates of [t_begin, t_end]: bit i of the answer is splat walk.chunk + i. None at the end only.
 uint bvh_candidates(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end, INOUT(Tally) tally) {
-  uint candidates = 0u;
   t_begin = max(t_begin, EARLIEST);
-  bool searching = bvh_alive(walk);
+  walk.pending = 0u;
+  bool visiting = bvh_alive(walk);
   do {
-    bool visiting = searching;
-    do {
-      if (visiting) {
-        bvh_visit(walk, ray, t_begin, t_end);
-        if (COUNTERS == 1u) tally.node_steps += 1u;
-      }
-      visiting = visiting && walk.pending == 0u && bvh_alive(walk);
-    } while (visiting);
-    if (COUNTERS == 1u) tally.leaves += walk.pending != 0u ? 1u : 0u;
-    do {
-      if (walk.pending != 0u) {
-        uint bit = uint(findLSB(walk.pending));
-        bool maybe = splat_maybe_hit(splat_words(walk.chunk + bit), ray.origin, ray.dir, t_begin, t_end);
-        candidates |= maybe ? 1u << bit : 0u;
-        walk.pending &= walk.pending - 1u;
-        if (COUNTERS == 1u) tally.tests += 1u;
-      }
-    } while (walk.pending != 0u);
-    searching = searching && candidates == 0u && bvh_alive(walk);
-  } while (searching);
+    if (visiting) {
+      bvh_visit(walk, ray, t_begin, t_end);
+      if (COUNTERS == 1u) tally.node_steps += 1u;
+    }
+    visiting = visiting && walk.pending == 0u && bvh_alive(walk);
+  } while (visiting);
+  uint candidates = walk.pending;
+  if (COUNTERS == 1u) tally.leaves += walk.pending != 0u ? 1u : 0u;
+  if (COUNTERS == 1u) tally.tests += uint(bitCount(candidates));
   return candidates;
 }
 

@@ -1,4 +1,4 @@
-/// splatray-bench-bvh FOLDER [--device D] [--case NAME] [--width 4|8]: the octree against a wide bounding volume
+/// splatray-bench-bvh FOLDER [--device D] [--case NAME] [--width 4|8] [--rounds N]: the octree against a wide bounding volume
 /// hierarchy (bvh.h), on the scenes that splatray-bench-prepare made; a table on stdout. Links the engine only.
 #include <algorithm>
 #include <cstdio>
@@ -20,22 +20,24 @@ namespace splatray::testing {
 namespace {
 
 constexpr const char* USAGE =
-    "splatray-bench-bvh FOLDER [--device NUMBER|NAME] [--case NAME] [--width 4|8]\n"
+    "splatray-bench-bvh FOLDER [--device NUMBER|NAME] [--case NAME] [--width 4|8] [--rounds N]\n"
     "Times the octree and a wide bounding volume hierarchy on the cases that splatray-bench-prepare made in\n"
     "FOLDER: primary rays of the case's picture, and random rays.\n"
     "  --device   number or part of a name, as splatray-render --list-devices shows them; default the best\n"
     "  --case     only this case\n"
-    "  --width    children of a node, default 4\n";
+    "  --width    children of a node, default 4\n"
+    "  --rounds   frames of each, default 9\n";
 
 constexpr const char* CASES[] = {"bunny 35k",     "dragon 100k",    "igea 134k",
                                  "Table I David", "sphere even 1M", "sphere random 1M"};
-constexpr std::size_t ROUNDS = 9, RANDOM_RAYS = 1U << 18U;
+constexpr std::size_t RANDOM_RAYS = 1U << 18U;
 
 struct Options {
   std::filesystem::path folder;
   std::string device;
   std::string only;
   std::uint32_t width = 4;
+  std::size_t rounds = 9;
 };
 
 /// Nothing when help was asked for.
@@ -53,6 +55,8 @@ std::optional<Options> parse(const std::vector<std::string>& words) {
       options.device = value();
     } else if (word == "--case") {
       options.only = value();
+    } else if (word == "--rounds") {
+      options.rounds = std::max(1UL, std::strtoul(value().c_str(), nullptr, 10));
     } else if (word == "--width") {
       options.width = static_cast<std::uint32_t>(std::atoi(value().c_str()));
     } else if (!word.starts_with('-') && options.folder.empty()) {
@@ -76,20 +80,21 @@ struct Rival {
 };
 
 void print_row(const std::string& scene, const char* rays, const char* blend, Rival& rival, const Work& work,
-               Settings settings, double octree_ms) {
+               Settings settings, double of_octree) {
   settings.counters = true;
   work(rival.tracer, settings);
   const auto& count = rival.tracer.stats().counters;
   const auto all = static_cast<double>(rival.tracer.stats().rays());
   const double ms = quantile(rival.times, 0.5);
   std::printf("| %s | %s | %s | %s | %.1f | %.1f | %.2f | %.1f | %.1f | %.1f |\n", scene.c_str(), rays, blend,
-              rival.name, ms, *std::min_element(rival.times.begin(), rival.times.end()), ms / octree_ms,
+              rival.name, ms, *std::min_element(rival.times.begin(), rival.times.end()), of_octree,
               static_cast<double>(count[COUNT_NODE_STEPS]) / all,
               static_cast<double>(count[COUNT_LEAVES]) / all, static_cast<double>(count[COUNT_TESTS]) / all);
 }
 
 /// One round after the other, each with one turn of both, so that what else the machine does meets them alike.
-void compare(const std::string& scene, const char* rays, Rival octree, Rival bvh, const Work& work) {
+void compare(const std::string& scene, const char* rays, Rival octree, Rival bvh, const Work& work,
+             std::size_t rounds) {
   for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST}) {
     Settings settings;
     settings.blend = blend;
@@ -97,15 +102,17 @@ void compare(const std::string& scene, const char* rays, Rival octree, Rival bvh
     settings.samples = 1;
     octree.times.clear();
     bvh.times.clear();
-    for (std::size_t round = 0; round <= ROUNDS; ++round) {
+    for (std::size_t round = 0; round <= rounds; ++round) {
       for (Rival* rival : {&octree, &bvh}) {
         work(rival->tracer, settings);
         if (round > 0) rival->times.push_back(rival->tracer.stats().trace_ms);
       }
     }
-    const double octree_ms = quantile(octree.times, 0.5);
-    for (Rival* rival : {&octree, &bvh})
-      print_row(scene, rays, blend_word(blend).c_str(), *rival, work, settings, octree_ms);
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < rounds; ++round)
+      ratios.push_back(bvh.times[round] / octree.times[round]);
+    print_row(scene, rays, blend_word(blend).c_str(), octree, work, settings, 1.0);
+    print_row(scene, rays, blend_word(blend).c_str(), bvh, work, settings, quantile(ratios, 0.5));
   }
 }
 
@@ -125,11 +132,13 @@ void compare_case(const Context& context, const Case& one, const Options& option
   const View view{prepared.camera, one.width, one.height};
   compare(
       one.name, "primary", {"octree", octree}, {"BVH", bvh},
-      [&](Tracer& tracer, const Settings& settings) { static_cast<void>(tracer.render(view, settings)); });
+      [&](Tracer& tracer, const Settings& settings) { static_cast<void>(tracer.render(view, settings)); },
+      options.rounds);
   const std::vector<RayQuery> rays = random_primary_rays(scene, RANDOM_RAYS, 1);
   compare(
       one.name, "random", {"octree", octree}, {"BVH", bvh},
-      [&](Tracer& tracer, const Settings& settings) { static_cast<void>(tracer.intersect(rays, settings)); });
+      [&](Tracer& tracer, const Settings& settings) { static_cast<void>(tracer.intersect(rays, settings)); },
+      options.rounds);
   const auto per_splat = [&](std::uint64_t bytes) {
     return static_cast<double>(bytes) / static_cast<double>(scene.splat_count);
   };
