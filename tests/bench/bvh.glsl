@@ -17,11 +17,11 @@ const float BVH_MARGIN = 1.5f;                 ///< of the window while the firs
 const int BVH_MISS = 0x7FFFFFFF;
 
 /// What each thread left on its way down: where a node's children begin, bits 23..0, and which of them are left to visit.
-shared uint bvh_stack[BVH_DEPTH * GROUP_SIZE];
+uint bvh_stack[BVH_DEPTH];
 
 /// The accepted splats of a thread's ray, in the order in which they were found: child 0 of their node as in BvhWalk, bits
 /// 23..0, and which children.
-shared uint bvh_accepted[BVH_LIST * GROUP_SIZE];
+uint bvh_accepted[BVH_LIST];
 
 /// Where a ray is in the hierarchy.
 struct BvhWalk {
@@ -67,17 +67,16 @@ int bvh_child(uint place, uvec3 near, uvec3 far, vec3 start, vec3 step, int t_en
 /// Goes to the next child of the group, or of the last group of the stack; which of its children does the ray meet in
 /// [t_begin, t_end]?
 void bvh_visit(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end) {
-  uint thread = gl_LocalInvocationIndex;
   if ((walk.group >> 24u) == 0u) {
     walk.depth -= 1u;
-    walk.group = bvh_stack[walk.depth * GROUP_SIZE + thread];
+    walk.group = bvh_stack[walk.depth];
     walk.nearest = findLSB(walk.group >> 24u);
   }
   uint child = uint(walk.nearest);
   uint node = (walk.group + child) & 0xFFFFFFu;
   walk.group &= ~(0x1000000u << child);
   if ((walk.group >> 24u) != 0u) {
-    bvh_stack[walk.depth * GROUP_SIZE + thread] = walk.group;
+    bvh_stack[walk.depth] = walk.group;
     walk.depth += 1u;
   }
   uint at = walk.nodes + node * BVH_STRIDE;
@@ -152,7 +151,7 @@ void bvh_collect(Ray ray, bool needed, float t_begin, float t_end, First first, 
 void bvh_accumulate(uint count, Ray ray, First first, float depth, INOUT(Cluster) cluster) {
   uint i = 0u;
   do {
-    uint entry = i < count ? bvh_accepted[i * GROUP_SIZE + gl_LocalInvocationIndex] : 0u;
+    uint entry = i < count ? bvh_accepted[i] : 0u;
     accumulate_chunk(entry & 0xFFFFFFu, entry >> 24u, ray, first, depth, cluster);
     i += 1u;
   } while (i < count);
@@ -177,7 +176,7 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
     if (BLEND != BLEND_NEAREST) {
       depth = window_depth(first, ray.dir, kappa);
       if (accepted != 0u && count < BVH_LIST)
-        bvh_accepted[count * GROUP_SIZE + gl_LocalInvocationIndex] = walk.chunk | (accepted << 24u);
+        bvh_accepted[count] = walk.chunk | (accepted << 24u);
       count += accepted != 0u ? 1u : 0u;
     }
   } while (bvh_alive(walk));
