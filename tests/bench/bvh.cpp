@@ -21,6 +21,7 @@ constexpr float WIDENING = 2.0F;
 /// bvh.glsl's BVH_DEPTH.
 constexpr std::uint32_t MOST_DEPTH = 32;
 constexpr std::size_t BINS = 16;
+constexpr std::uint32_t WIDTH = 4;  ///< most children of a node
 
 struct Box {
   glm::vec3 low{std::numeric_limits<float>::max()};
@@ -164,8 +165,7 @@ struct Grid {
 /// Makes wide nodes from a binary hierarchy.
 class WideBuilder {
  public:
-  WideBuilder(const BinaryBuilder& binary, std::uint32_t width)
-      : binary_(binary.nodes()), order_(binary.order()), width_(width) {
+  explicit WideBuilder(const BinaryBuilder& binary) : binary_(binary.nodes()), order_(binary.order()) {
     find_least_areas();
     roots_ = {0};
     depths_ = {1};
@@ -180,7 +180,7 @@ class WideBuilder {
 
  private:
   /// Index k: of all wide nodes below a binary node, where at most k children of one wide node stand for it.
-  using LeastAreas = std::array<float, 9>;
+  using LeastAreas = std::array<float, WIDTH + 1>;
 
   void find_least_areas();
   [[nodiscard]] std::uint32_t best_left(const BinaryNode& node, std::uint32_t count) const;
@@ -189,7 +189,6 @@ class WideBuilder {
 
   const std::vector<BinaryNode>& binary_;
   const std::vector<std::uint32_t>& order_;
-  const std::uint32_t width_;
   std::vector<LeastAreas> least_;      ///< beside binary_
   std::vector<std::uint32_t> roots_;   ///< binary node of each wide node
   std::vector<std::uint32_t> depths_;  ///< beside roots_
@@ -216,8 +215,8 @@ void WideBuilder::find_least_areas() {
       const std::uint32_t left = best_left(node, count);
       return least_[node.left][left] + least_[node.left + 1][count - left];
     };
-    least_[n][1] = node.box.half_area() + divided(width_);
-    for (std::uint32_t k = 2; k <= width_; ++k) least_[n][k] = std::min(divided(k), least_[n][k - 1]);
+    least_[n][1] = node.box.half_area() + divided(WIDTH);
+    for (std::uint32_t k = 2; k <= WIDTH; ++k) least_[n][k] = std::min(divided(k), least_[n][k - 1]);
   }
 }
 
@@ -239,29 +238,29 @@ void WideBuilder::emit(std::size_t index) {
   if (root.left == 0) {
     children = {roots_[index]};  // a scene of one splat
   } else {
-    const std::uint32_t left = best_left(root, width_);
+    const std::uint32_t left = best_left(root, WIDTH);
     add_children(root.left, left, children);
-    add_children(root.left + 1, width_ - left, children);
+    add_children(root.left + 1, WIDTH - left, children);
   }
   const auto nodes = std::stable_partition(children.begin(), children.end(),
                                            [&](std::uint32_t i) { return binary_[i].left == 0; });
   const auto splat_count = static_cast<std::uint32_t>(nodes - children.begin());
 
   const std::size_t at = texels_.size();
-  texels_.resize(at + 1 + width_ / 2, uvec4(0xFFFFFFFFU, 0U, 0xFFFFFFFFU, 0U));
+  texels_.resize(at + 3, uvec4(0xFFFFFFFFU, 0U, 0xFFFFFFFFU, 0U));
   const auto first_node = static_cast<std::uint32_t>(roots_.size()) - splat_count;
   texels_[at] = uvec4(grid.corner | grid.exponent << 21U, first_node);
+  uvec4& xy = texels_[at + 1];
+  uvec4& z = texels_[at + 2];
   for (std::uint32_t i = 0; i < children.size(); ++i) {
     const Box& box = binary_[children[i]].box;
     const glm::uvec3 low = grid.low(box), high = grid.high(box);
-    const std::uint32_t shift = i % 4 * 8;
-    uvec4& xy = texels_[at + 1 + i / 4 * 2];
-    uvec4& z = texels_[at + 2 + i / 4 * 2];
+    const std::uint32_t shift = 8 * i;
     xy = (xy & ~(uvec4(255U) << shift)) | uvec4(low.x, high.x, low.y, high.y) << shift;
     z = (z & ~(uvec4(255U) << shift)) | uvec4(low.z, high.z, 0U, 0U) << shift;
   }
-  texels_[at + 2].z = static_cast<std::uint32_t>(splats_.size());
-  texels_[at + 2].w = splat_count;
+  z.z = static_cast<std::uint32_t>(splats_.size());
+  z.w = splat_count;
   for (auto child = children.begin(); child != nodes; ++child)
     splats_.push_back(order_[binary_[*child].begin]);
   for (auto child = nodes; child != children.end(); ++child) {
@@ -279,15 +278,14 @@ void append_picked(std::vector<Value>& to, const std::vector<Value>& from,
 
 }  // namespace
 
-Scene bvh_scene(const Scene& scene, std::uint32_t width, BvhStats& stats) {
-  assert(width == 4 || width == 8);
+Scene bvh_scene(const Scene& scene, BvhStats& stats) {
   std::vector<std::uint32_t> indices = home_references(scene);
   const auto start = std::chrono::steady_clock::now();
   std::vector<Box> boxes;
   boxes.reserve(indices.size());
   for (const std::uint32_t i : indices) boxes.push_back(box_of(scene.data_pool[i]));
   const BinaryBuilder binary(boxes);
-  const WideBuilder wide(binary, width);
+  const WideBuilder wide(binary);
   stats = wide.stats();
   if (stats.depth > MOST_DEPTH)
     throw Error(ExitCode::failed, "found a hierarchy " + std::to_string(stats.depth) +
@@ -311,28 +309,15 @@ Scene bvh_scene(const Scene& scene, std::uint32_t width, BvhStats& stats) {
   return made;
 }
 
-ProgramCode bvh_code(std::uint32_t width) {
-  if (width == 8)
-    return [](Program program, PoolAccess access, Arithmetic arithmetic) {
-      const bool texel = access == PoolAccess::texel;
-      const bool trace = program == Program::trace;
-      if (arithmetic == Arithmetic::float64) {
-        if (trace) return texel ? BVH8_TRACE_TEXEL_FLOAT64 : BVH8_TRACE_STORAGE_FLOAT64;
-        return texel ? BVH8_RAYS_TEXEL_FLOAT64 : BVH8_RAYS_STORAGE_FLOAT64;
-      }
-      if (trace) return texel ? BVH8_TRACE_TEXEL : BVH8_TRACE_STORAGE;
-      return texel ? BVH8_RAYS_TEXEL : BVH8_RAYS_STORAGE;
-    };
-  return [](Program program, PoolAccess access, Arithmetic arithmetic) {
-    const bool texel = access == PoolAccess::texel;
-    const bool trace = program == Program::trace;
-    if (arithmetic == Arithmetic::float64) {
-      if (trace) return texel ? BVH4_TRACE_TEXEL_FLOAT64 : BVH4_TRACE_STORAGE_FLOAT64;
-      return texel ? BVH4_RAYS_TEXEL_FLOAT64 : BVH4_RAYS_STORAGE_FLOAT64;
-    }
-    if (trace) return texel ? BVH4_TRACE_TEXEL : BVH4_TRACE_STORAGE;
-    return texel ? BVH4_RAYS_TEXEL : BVH4_RAYS_STORAGE;
-  };
+std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access, Arithmetic arithmetic) {
+  const bool texel = access == PoolAccess::texel;
+  const bool trace = program == Program::trace;
+  if (arithmetic == Arithmetic::float64) {
+    if (trace) return texel ? BVH_TRACE_TEXEL_FLOAT64 : BVH_TRACE_STORAGE_FLOAT64;
+    return texel ? BVH_RAYS_TEXEL_FLOAT64 : BVH_RAYS_STORAGE_FLOAT64;
+  }
+  if (trace) return texel ? BVH_TRACE_TEXEL : BVH_TRACE_STORAGE;
+  return texel ? BVH_RAYS_TEXEL : BVH_RAYS_STORAGE;
 }
 
 }  // namespace splatray::testing

@@ -1,6 +1,6 @@
 // What a ray hits, found in a wide bounding volume hierarchy (bvh.h) instead of the octree: included behind bindings.glsl,
-// it takes the place of trace.glsl's trace_nearest and trace_shadow. All that decides and sums hits is trace.glsl's.
-// BVH_WIDTH: children of a node. Blends BLEND_WINDOW and BLEND_NEAREST, no dielectrics.
+// it takes the place of trace.glsl's trace_nearest and trace_shadow. All that decides and sums hits is trace.glsl's. For
+// BLEND_WINDOW and BLEND_NEAREST; shadows of dielectrics are black. As in traverse.glsl, loops test at their end.
 #ifndef SPLATRAY_BVH_GLSL
 #define SPLATRAY_BVH_GLSL
 #define trace_nearest trace_nearest_in_octree
@@ -9,29 +9,32 @@
 #undef trace_nearest
 #undef trace_shadow
 
-const uint BVH_STRIDE = 1u + BVH_WIDTH / 2u;   ///< texels of a node
-const uint BVH_DEPTH = 32u;                    ///< most nodes on the way to a splat
-const float BVH_STEEPEST = 1e20f;              ///< most of 1 / direction: infinity times 0 is NaN
-const uint BVH_LIST = 16u;                     ///< most nodes whose accepted splats are kept for blending
-const float BVH_MARGIN = 1.5f;                 ///< of the window while the first splat is not known yet
+const uint BVH_STRIDE = 3u;          ///< texels of a node
+const uint BVH_DEPTH = 32u;          ///< most nodes on the way to a splat
+const uint BVH_LIST = 16u;           ///< most nodes whose accepted splats are kept for blending
+const uint BVH_ADDRESS = 0xFFFFFFu;  ///< bits 23..0: a node or a splat
+const uint BVH_ONE = 0x40000000u;    ///< one child in a group
+const float BVH_STEEPEST = 1e20f;    ///< most of 1 / direction: infinity times 0 is NaN
+const float BVH_MARGIN = 1.5f;       ///< of the window while the first splat is not known yet
 const int BVH_MISS = 0x7FFFFFFF;
+const int BVH_PLACE = 3;             ///< bits of a child's distance that tell which child it is
 
-/// What each thread left on its way down: where a node's children begin, bits 23..0, and which of them are left to visit.
+/// What the ray left on its way down, groups: where a node's children begin, bits 23..0; which of them are left to visit,
+/// nearest first, 2 bits each from 24 on; how many, 31..30. Private, not shared: llvmpipe is slower with shared memory.
 uint bvh_stack[BVH_DEPTH];
 
-/// The accepted splats of a thread's ray, in the order in which they were found: child 0 of their node as in BvhWalk, bits
-/// 23..0, and which children.
+/// The ray's accepted splats in the order in which they were found: child 0 of their node as in BvhWalk, bits 23..0, and
+/// which children, 27..24.
 uint bvh_accepted[BVH_LIST];
 
 /// Where a ray is in the hierarchy.
 struct BvhWalk {
   vec3 inverse;   ///< 1 / direction
   uint nodes;     ///< texel of node 0
-  uint group;     ///< as on the stack
-  int nearest;    ///< which child of the group to visit next; negative: none
+  int nearest;    ///< which child of the group to visit next; negative: one of the stack's
+  uint group;     ///< with the other children
   uint depth;     ///< of the stack
   uint chunk;     ///< child 0 of the last node visited if it were a splat
-  uint pending;   ///< its splats not looked at yet, bit i: chunk + i
 };
 
 float bvh_inverse(float dir) {
@@ -43,87 +46,100 @@ BvhWalk bvh_start(Ray ray, bool enters) {
   BvhWalk walk;
   walk.inverse = vec3(bvh_inverse(ray.dir.x), bvh_inverse(ray.dir.y), bvh_inverse(ray.dir.z));
   walk.nodes = node_word(0u) & NODE_ADDRESS_MASK;
-  walk.group = enters ? 0x1000000u : 0u;
-  walk.nearest = 0;
+  walk.nearest = enters ? 0 : -1;
+  walk.group = 0u;
   walk.depth = 0u;
   walk.chunk = 0u;
-  walk.pending = 0u;
   return walk;
 }
 
-bool bvh_alive(BvhWalk walk) { return (walk.group >> 24u) != 0u || walk.depth != 0u; }
+bool bvh_alive(BvhWalk walk) { return walk.nearest >= 0 || walk.depth != 0u; }
 
-/// Where the ray enters the box of child `place` of 4, as bits, which are in the order of the numbers as none is negative;
-/// BVH_MISS if it does not before t_end.
-int bvh_child(uint place, uvec3 near, uvec3 far, vec3 start, vec3 step, int t_end) {
-  uint shift = 8u * place;
-  ivec3 t_near = floatBitsToInt(start + step * vec3(ivec3((near >> shift) & 0xFFu)));
-  ivec3 t_far = floatBitsToInt(start + step * vec3(ivec3((far >> shift) & 0xFFu)));
-  int t_in = max(max(t_near.x, t_near.y), max(t_near.z, 0));
-  int t_out = min(min(t_far.x, t_far.y), min(t_far.z, t_end));
-  return t_in <= t_out ? t_in : BVH_MISS;
-}
-
-/// Goes to the next child of the group, or of the last group of the stack; which of its children does the ray meet in
-/// [t_begin, t_end]?
-void bvh_visit(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end) {
-  if ((walk.group >> 24u) == 0u) {
+/// The node to visit next; what else is in its group goes to the stack.
+uint bvh_next(INOUT(BvhWalk) walk) {
+  if (walk.nearest < 0) {
     walk.depth -= 1u;
-    walk.group = bvh_stack[walk.depth];
-    walk.nearest = findLSB(walk.group >> 24u);
+    uint group = bvh_stack[walk.depth];
+    walk.nearest = int((group >> 24u) & 3u);
+    walk.group = (group & BVH_ADDRESS) | ((group >> 2u) & 0xF000000u) | ((group & 0xC0000000u) - BVH_ONE);
   }
-  uint child = uint(walk.nearest);
-  uint node = (walk.group + child) & 0xFFFFFFu;
-  walk.group &= ~(0x1000000u << child);
-  if ((walk.group >> 24u) != 0u) {
+  if (walk.group >= BVH_ONE) {
     bvh_stack[walk.depth] = walk.group;
     walk.depth += 1u;
   }
-  uint at = walk.nodes + node * BVH_STRIDE;
-  uvec4 header = splat_words(at);
+  return (walk.group + uint(walk.nearest)) & BVH_ADDRESS;
+}
+
+/// Where the ray meets the planes of 4 children, as bits: their order is that of the numbers where none is negative.
+ivec4 bvh_planes(uint bytes, float start, float step) {
+  ivec4 q = ivec4((uvec4(bytes) >> uvec4(0u, 8u, 16u, 24u)) & 255u);
+  return floatBitsToInt(vec4(start) + step * vec4(q));
+}
+
+/// Where the ray enters the boxes of a node's 4 children, in units after t_begin, as bits; BVH_MISS if it does not meet one
+/// in [t_begin, t_end].
+ivec4 bvh_boxes(uvec4 header, uvec4 xy, uvec4 z, BvhWalk walk, Ray ray, float t_begin, float t_end) {
   vec3 scale = uintBitsToFloat(((header.xyz >> 21u) + uvec3(127u)) << 23u);
-  vec3 start = (vec3(ivec3(header.xyz & 0x1FFFFFu)) - ray.origin) * walk.inverse - vec3(t_begin);
   vec3 step = scale * walk.inverse;
-  int t_last = floatBitsToInt(t_end - t_begin);
-  uint hits = 0u;
-  uint splats = 0u;
-  int nearest = BVH_MISS;
-  for (uint quad = 0u; quad < BVH_WIDTH / 4u; ++quad) {
-    uvec4 xy = splat_words(at + 1u + 2u * quad);
-    uvec4 z = splat_words(at + 2u + 2u * quad);
-    if (quad == 0u) {
-      walk.chunk = z.z;
-      splats = (1u << z.w) - 1u;
-    }
-    uvec3 near = uvec3(ray.dir.x < 0.0f ? xy.y : xy.x, ray.dir.y < 0.0f ? xy.w : xy.z, ray.dir.z < 0.0f ? z.y : z.x);
-    uvec3 far = uvec3(ray.dir.x < 0.0f ? xy.x : xy.y, ray.dir.y < 0.0f ? xy.z : xy.w, ray.dir.z < 0.0f ? z.x : z.y);
-    for (uint place = 0u; place < 4u; ++place) {
-      uint i = 4u * quad + place;
-      int t_in = bvh_child(place, near, far, start, step, t_last);
-      hits |= t_in == BVH_MISS ? 0u : 1u << i;
-      bool is_splat = ((splats >> i) & 1u) != 0u;
-      nearest = min(nearest, is_splat ? BVH_MISS : (t_in & ~7) | int(i));
-    }
-  }
-  walk.group = (header.w & 0xFFFFFFu) | ((hits & ~splats) << 24u);
-  walk.nearest = nearest & 7;
-  walk.pending = hits & splats;
+  vec3 start = (vec3(ivec3(header.xyz & 0x1FFFFFu)) - ray.origin) * walk.inverse - vec3(t_begin);
+  bool left = ray.dir.x < 0.0f;
+  bool down = ray.dir.y < 0.0f;
+  bool back = ray.dir.z < 0.0f;
+  ivec4 in_x = bvh_planes(left ? xy.y : xy.x, start.x, step.x);
+  ivec4 in_y = bvh_planes(down ? xy.w : xy.z, start.y, step.y);
+  ivec4 in_z = bvh_planes(back ? z.y : z.x, start.z, step.z);
+  ivec4 out_x = bvh_planes(left ? xy.x : xy.y, start.x, step.x);
+  ivec4 out_y = bvh_planes(down ? xy.z : xy.w, start.y, step.y);
+  ivec4 out_z = bvh_planes(back ? z.x : z.y, start.z, step.z);
+  ivec4 t_in = max(max(in_x, in_y), max(in_z, ivec4(0)));
+  ivec4 t_out = min(min(out_x, out_y), min(out_z, ivec4(floatBitsToInt(t_end - t_begin))));
+  return mix(ivec4(BVH_MISS), t_in, lessThanEqual(t_in, t_out));
+}
+
+/// Makes the group of the children met: where their node's children begin, and where the ray meets them.
+void bvh_sort(INOUT(BvhWalk) walk, uint children, ivec4 t) {
+  ivec4 key = (t & ~BVH_PLACE) | ivec4(0, 1, 2, 3);
+  ivec2 low = min(key.xz, key.yw);
+  ivec2 high = max(key.xz, key.yw);
+  int first = min(low.x, low.y);
+  int last = max(high.x, high.y);
+  int one = max(low.x, low.y);
+  int other = min(high.x, high.y);
+  ivec3 others = ivec3(min(one, other), max(one, other), last);
+  uvec3 met = mix(uvec3(0u), uvec3(BVH_ONE), lessThan(others, ivec3(BVH_MISS & ~BVH_PLACE)));
+  uvec3 places = uvec3(others & BVH_PLACE) << uvec3(24u, 26u, 28u);
+  walk.nearest = first < (BVH_MISS & ~BVH_PLACE) ? first & BVH_PLACE : -1;
+  walk.group = (children & BVH_ADDRESS) | places.x | places.y | places.z;
+  walk.group += met.x + met.y + met.z;
+}
+
+/// Visits the next node. Which of its splats may the ray hit in [t_begin, t_end]?
+uint bvh_visit(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end) {
+  uint at = walk.nodes + bvh_next(walk) * BVH_STRIDE;
+  uvec4 header = splat_words(at);
+  uvec4 xy = splat_words(at + 1u);
+  uvec4 z = splat_words(at + 2u);
+  ivec4 t = bvh_boxes(header, xy, z, walk, ray, t_begin, t_end);
+  bvec4 is_splat = lessThan(uvec4(0u, 1u, 2u, 3u), uvec4(z.w));
+  uvec4 splats = mix(uvec4(0u), mix(uvec4(1u, 2u, 4u, 8u), uvec4(0u), equal(t, ivec4(BVH_MISS))), is_splat);
+  bvh_sort(walk, header.w, mix(t, ivec4(BVH_MISS), is_splat));
+  walk.chunk = z.z;
+  return splats.x | splats.y | splats.z | splats.w;
 }
 
 /// The next candidates of [t_begin, t_end]: bit i of the answer is splat walk.chunk + i. None at the end only.
 uint bvh_candidates(INOUT(BvhWalk) walk, Ray ray, float t_begin, float t_end, INOUT(Tally) tally) {
-  t_begin = max(t_begin, EARLIEST);
-  walk.pending = 0u;
+  uint candidates = 0u;
+  float begin = max(t_begin, EARLIEST);
   bool visiting = bvh_alive(walk);
   do {
     if (visiting) {
-      bvh_visit(walk, ray, t_begin, t_end);
+      candidates = bvh_visit(walk, ray, begin, t_end);
       if (COUNTERS == 1u) tally.node_steps += 1u;
     }
-    visiting = visiting && walk.pending == 0u && bvh_alive(walk);
+    visiting = visiting && candidates == 0u && bvh_alive(walk);
   } while (visiting);
-  uint candidates = walk.pending;
-  if (COUNTERS == 1u) tally.leaves += walk.pending != 0u ? 1u : 0u;
+  if (COUNTERS == 1u) tally.leaves += candidates != 0u ? 1u : 0u;
   if (COUNTERS == 1u) tally.tests += uint(bitCount(candidates));
   return candidates;
 }
@@ -152,7 +168,7 @@ void bvh_accumulate(uint count, Ray ray, First first, float depth, INOUT(Cluster
   uint i = 0u;
   do {
     uint entry = i < count ? bvh_accepted[i] : 0u;
-    accumulate_chunk(entry & 0xFFFFFFu, entry >> 24u, ray, first, depth, cluster);
+    accumulate_chunk(entry & BVH_ADDRESS, entry >> 24u, ray, first, depth, cluster);
     i += 1u;
   } while (i < count);
 }

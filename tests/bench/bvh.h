@@ -2,17 +2,18 @@
 /// traversal (bvh.glsl), so that only the structures differ.
 ///
 /// Binned SAH (Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies") down to single splats, made into
-/// nodes of up to WIDTH children so that the SAH's sum of areas is least, with 8 bits for a plane of a child's box (Ylitie et
-/// al. 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", sections 3.1 and 3.3).
+/// nodes of up to 4 children so that the SAH's sum of areas is least, with 8 bits for a plane of a child's box (Ylitie et al.
+/// 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", sections 3.1 and 3.3).
 ///
-/// A node has 1 + WIDTH / 2 texels of 128 bits. Its children, up to WIDTH, are splats, then nodes:
-///   header: x, y, z: lowest corner, lattice units, bits 20..0; exponent e of the axis, 25..21: a plane's byte q means
-///           corner + q 2^e. w: index of child 0 if it were a node; child i is node w + i
-///   for each 4 children, a byte for each child in every word: low x, high x, low y, high y; low z, high z; in the first 4
-///           also the index of child 0 if it were a splat (child i is splat z + i), and how many children are splats.
-///           Where there is no child low is above high.
+/// A node is 3 texels of 128 bits. Its children are splats, then nodes:
+///   x, y, z of the first: lowest corner, lattice units, bits 20..0; exponent e of the axis, 25..21: a plane's byte q means
+///       corner + q 2^e. w: index of child 0 if it were a node, bits 23..0; child i is node w + i
+///   the others, a byte for each child in a word: low x, high x, low y, high y; low z, high z; then the index of child 0 if
+///       it were a splat, child i is splat z + i; and how many children are splats. Where there is no child low is above
+///       high.
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "engine/gpu/program.h"
 #include "engine/host/scene.h"
@@ -27,10 +28,11 @@ struct BvhStats {
 };
 
 /// The scene with the hierarchy in the octree's place, for a tracer with bvh_code. data_pool: the splats, each once, then the
-/// nodes; node_pool: where these begin. `width` is 4 or 8.
-[[nodiscard]] Scene bvh_scene(const Scene& scene, std::uint32_t width, BvhStats& stats);
+/// nodes; node_pool: where these begin. Throws Error (failed) where it would be too deep for bvh.glsl.
+[[nodiscard]] Scene bvh_scene(const Scene& scene, BvhStats& stats);
 
 /// The tracer's programs with bvh.glsl.
-[[nodiscard]] ProgramCode bvh_code(std::uint32_t width);
+[[nodiscard]] std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access,
+                                                      Arithmetic arithmetic);
 
 }  // namespace splatray::testing

@@ -1,4 +1,4 @@
-/// splatray-bench-bvh FOLDER [--device D] [--case NAME] [--width 4|8] [--rounds N]: the octree against a wide bounding volume
+/// splatray-bench-bvh FOLDER [--device D] [--case NAME] [--rounds N]: the octree against a wide bounding volume
 /// hierarchy (bvh.h), on the scenes that splatray-bench-prepare made; a table on stdout. Links the engine only.
 #include <algorithm>
 #include <cstdio>
@@ -20,12 +20,11 @@ namespace splatray::testing {
 namespace {
 
 constexpr const char* USAGE =
-    "splatray-bench-bvh FOLDER [--device NUMBER|NAME] [--case NAME] [--width 4|8] [--rounds N]\n"
+    "splatray-bench-bvh FOLDER [--device NUMBER|NAME] [--case NAME] [--rounds N]\n"
     "Times the octree and a wide bounding volume hierarchy on the cases that splatray-bench-prepare made in\n"
     "FOLDER: primary rays of the case's picture, and random rays.\n"
     "  --device   number or part of a name, as splatray-render --list-devices shows them; default the best\n"
     "  --case     only this case\n"
-    "  --width    children of a node, default 4\n"
     "  --rounds   frames of each, default 9\n";
 
 constexpr const char* CASES[] = {"bunny 35k",     "dragon 100k",    "igea 134k",
@@ -36,7 +35,6 @@ struct Options {
   std::filesystem::path folder;
   std::string device;
   std::string only;
-  std::uint32_t width = 4;
   std::size_t rounds = 9;
 };
 
@@ -57,16 +55,14 @@ std::optional<Options> parse(const std::vector<std::string>& words) {
       options.only = value();
     } else if (word == "--rounds") {
       options.rounds = std::max(1UL, std::strtoul(value().c_str(), nullptr, 10));
-    } else if (word == "--width") {
-      options.width = static_cast<std::uint32_t>(std::atoi(value().c_str()));
     } else if (!word.starts_with('-') && options.folder.empty()) {
       options.folder = word;
     } else {
       throw Error(ExitCode::usage, "found '" + word + "', expected FOLDER (--help lists the options)");
     }
   }
-  if (options.folder.empty() || (options.width != 4 && options.width != 8))
-    throw Error(ExitCode::usage, "found no FOLDER or another width than 4 or 8 (--help lists the options)");
+  if (options.folder.empty())
+    throw Error(ExitCode::usage, "found no FOLDER, expected one (--help lists the options)");
   return options;
 }
 
@@ -125,8 +121,8 @@ void compare_case(const Context& context, const Case& one, const Options& option
   octree.upload(scene);
   octree.set_environment(read_environment_file(folder / "environment.bin"));
   BvhStats stats;
-  Tracer bvh(context, PoolAccess::automatic, Arithmetic::automatic, bvh_code(options.width));
-  bvh.upload(bvh_scene(scene, options.width, stats));
+  Tracer bvh(context, PoolAccess::automatic, Arithmetic::automatic, bvh_code);
+  bvh.upload(bvh_scene(scene, stats));
   bvh.set_environment(read_environment_file(folder / "environment.bin"));
 
   const View view{prepared.camera, one.width, one.height};

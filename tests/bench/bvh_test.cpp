@@ -44,31 +44,30 @@ std::vector<RayQuery> rays_of(const Scene& scene) {
   return rays;
 }
 
-void expect_same_answers(const Scene& scene, std::uint32_t width) {
+void expect_same_answers(const Scene& scene) {
   const Context context;
   const std::vector<RayQuery> rays = rays_of(scene);
   BvhStats stats;
-  const Scene bvh = bvh_scene(scene, width, stats);
+  const Scene bvh = bvh_scene(scene, stats);
   for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST}) {
     Settings settings;
     settings.blend = blend;
     const auto octree_hits = answers(context, scene, rays, settings, engine_code);
-    const auto bvh_hits = answers(context, bvh, rays, settings, bvh_code(width));
+    const auto bvh_hits = answers(context, bvh, rays, settings, bvh_code);
     EXPECT_EQ(count_differences(octree_hits, bvh_hits), 0U) << "blend " << blend;
   }
 }
 
 TEST(Bvh, AnswersAsTheOctreeOnARandomSphere) {
   const Scene scene = random_sphere();
-  expect_same_answers(scene, 4);
-  expect_same_answers(scene, 8);
+  expect_same_answers(scene);
 }
 
 TEST(Bvh, AnswersAsTheOctreeOnScans) {
   for (const std::string name : {"bunny", "dragon"}) {
     const auto scene = scan(name);
     if (!scene) GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set";
-    expect_same_answers(*scene, 4);
+    expect_same_answers(*scene);
   }
 }
 
@@ -76,13 +75,13 @@ TEST(Bvh, AMovedSplatIsSeen) {
   const Context context;
   const Scene scene = random_sphere();
   BvhStats stats;
-  Scene bvh = bvh_scene(scene, 4, stats);
+  Scene bvh = bvh_scene(scene, stats);
   const std::vector<RayQuery> rays = rays_of(scene);
   const auto octree_hits = answers(context, scene, rays, {}, engine_code);
   const auto moved = std::find(bvh.data_pool.begin(), bvh.data_pool.end(), octree_hits[0].first);
   ASSERT_NE(moved, bvh.data_pool.end());
   moved->x ^= 1U << 15U;
-  EXPECT_GT(count_differences(octree_hits, answers(context, bvh, rays, {}, bvh_code(4))), 0U);
+  EXPECT_GT(count_differences(octree_hits, answers(context, bvh, rays, {}, bvh_code)), 0U);
 }
 
 }  // namespace
