@@ -66,15 +66,16 @@ std::optional<Options> parse(const std::vector<std::string>& words) {
   return options;
 }
 
-/// Traces something once, with these settings.
+/// Traces something once with these settings.
 using Work = std::function<void(Tracer&, const Settings&)>;
 
 struct Rival {
   const char* name;
   Tracer& tracer;
-  std::vector<double> times{};
+  std::vector<double> times{};  ///< of the dispatches, ms, by round
 };
 
+/// `of_octree` is the median over the rounds of this rival's time in the octree's. What is counted is per ray.
 void print_row(const std::string& scene, const char* rays, const char* blend, Rival& rival, const Work& work,
                Settings settings, double of_octree) {
   settings.counters = true;
@@ -139,8 +140,8 @@ void compare_case(const Context& context, const Case& one, const Options& option
     return static_cast<double>(bytes) / static_cast<double>(scene.splat_count);
   };
   std::printf(
-      "%s: %llu splats; octree %.1f bytes a splat, %.2f s with its points' radii; BVH %.1f, %.2f s, %u "
-      "nodes, depth %u\n",
+      "%s: %llu splats; octree %.1f bytes a splat, built in %.2f s; BVH %.1f, built in %.2f s, "
+      "%u nodes, depth %u\n",
       one.name.c_str(), static_cast<unsigned long long>(scene.splat_count),
       per_splat(total_bytes(octree.pool_bytes())), prepared.variants.at(file).build_s,
       per_splat(total_bytes(bvh.pool_bytes()) - bvh.pool_bytes().top_table), stats.build_s, stats.nodes,

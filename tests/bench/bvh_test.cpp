@@ -1,11 +1,15 @@
 // The rival must answer what the octree answers, bit for bit, or the comparison is not fair.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <optional>
+#include <string>
 
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
 #include "tests/bench/bvh.h"
+#include "tests/bench/random_rays.h"
 #include "tests/trace/rays.h"
 #include "tests/trace/scenes.h"
 
@@ -24,8 +28,10 @@ std::optional<Scene> scan(const std::string& name) {
 }
 
 std::vector<RayHit> answers(const Context& context, const Scene& scene, const std::vector<RayQuery>& rays,
-                            const Settings& settings, ProgramCode code) {
-  Tracer tracer(context, PoolAccess::automatic, Arithmetic::automatic, code);
+                            const Settings& settings, ProgramCode code,
+                            PoolAccess access = PoolAccess::automatic,
+                            Arithmetic arithmetic = Arithmetic::automatic) {
+  Tracer tracer(context, access, arithmetic, code);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
 }
@@ -38,37 +44,79 @@ std::size_t count_differences(const std::vector<RayHit>& a, const std::vector<Ra
   return different;
 }
 
-/// Rays from outside, and mirrored ones from what these hit.
-std::vector<RayQuery> rays_of(const Scene& scene) {
-  std::vector<RayQuery> rays = random_primary_rays(scene, RAYS, 11);
-  return rays;
+void expect_same_answers(const Context& context, const Scene& scene, const Scene& bvh,
+                         const std::vector<RayQuery>& rays, const Settings& settings) {
+  const auto octree_hits = answers(context, scene, rays, settings, engine_code);
+  EXPECT_EQ(count_differences(octree_hits, answers(context, bvh, rays, settings, bvh_code)), 0U);
 }
 
+/// Rays from outside, and the mirrored ones of those that hit.
 void expect_same_answers(const Scene& scene) {
   const Context context;
-  const std::vector<RayQuery> rays = rays_of(scene);
   BvhStats stats;
   const Scene bvh = bvh_scene(scene, stats);
+  const std::vector<RayQuery> rays = random_primary_rays(scene, RAYS, 11);
+  std::vector<RayQuery> mirrored;
+  const auto hits = answers(context, scene, rays, {}, engine_code);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (hits[i].object != NO_OBJECT) mirrored.push_back(mirrored_query(rays[i], hits[i]));
+  ASSERT_GT(mirrored.size(), RAYS / 10);
   for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST}) {
+    SCOPED_TRACE("blend " + std::to_string(blend));
     Settings settings;
     settings.blend = blend;
-    const auto octree_hits = answers(context, scene, rays, settings, engine_code);
-    const auto bvh_hits = answers(context, bvh, rays, settings, bvh_code);
-    EXPECT_EQ(count_differences(octree_hits, bvh_hits), 0U) << "blend " << blend;
+    expect_same_answers(context, scene, bvh, rays, settings);
+    expect_same_answers(context, scene, bvh, mirrored, settings);
   }
 }
 
-TEST(Bvh, AnswersAsTheOctreeOnARandomSphere) {
-  const Scene scene = random_sphere();
-  expect_same_answers(scene);
-}
+TEST(Bvh, AnswersAsTheOctreeOnARandomSphere) { expect_same_answers(random_sphere()); }
 
 TEST(Bvh, AnswersAsTheOctreeOnScans) {
-  for (const std::string name : {"bunny", "dragon"}) {
+  for (const std::string name : {"bunny", "dragon", "igea"}) {
+    SCOPED_TRACE(name);
     const auto scene = scan(name);
     if (!scene) GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set";
     expect_same_answers(*scene);
   }
+}
+
+TEST(Bvh, AnswersAsTheOctreeOnObjectsWithinEachOther) {
+  const TestObject outer{sphere({.count = 5000, .even = true}, 1.0), test_material(0)};
+  const TestObject inner{sphere({.count = 20000, .even = false, .seed = 5}, 0.5),
+                         test_material(MATERIAL_TWO_SIDED)};
+  expect_same_answers(scene_of({outer, inner}));
+}
+
+TEST(Bvh, AnswersAsTheOctreeInEveryProgram) {
+  const Context context;
+  const Scene scene = random_sphere();
+  BvhStats stats;
+  const Scene bvh = bvh_scene(scene, stats);
+  const std::vector<RayQuery> rays = random_primary_rays(scene, RAYS / 10, 13);
+  for (const PoolAccess access : {PoolAccess::texel, PoolAccess::storage})
+    for (const Arithmetic arithmetic : {Arithmetic::double_float, Arithmetic::float64}) {
+      const auto octree_hits = answers(context, scene, rays, {}, engine_code, access, arithmetic);
+      const auto bvh_hits = answers(context, bvh, rays, {}, bvh_code, access, arithmetic);
+      EXPECT_EQ(count_differences(octree_hits, bvh_hits), 0U);
+    }
+}
+
+TEST(Bvh, AnswersAsTheOctreeOnOneSplat) {
+  Scene scene = random_sphere();
+  const uvec4 only = scene.data_pool.front();
+  scene.node_pool = {NODE_FILLED << NODE_TAG_SHIFT};
+  scene.begin_end = {0, 1};
+  scene.slab_pool = {SLAB_FULL};
+  scene.data_pool = {only};
+  scene.field_pool.resize(1);
+  scene.splat_count = 1;
+  const Context context;
+  BvhStats stats;
+  const Scene bvh = bvh_scene(scene, stats);
+  std::vector<RayQuery> rays = random_primary_rays(scene, 1000, 3);
+  for (RayQuery& ray : rays) ray.dir = glm::normalize(glm::vec3(unpack_splat(only).center) - ray.origin);
+  expect_same_answers(context, scene, bvh, rays, {});
 }
 
 TEST(Bvh, AMovedSplatIsSeen) {
@@ -76,9 +124,11 @@ TEST(Bvh, AMovedSplatIsSeen) {
   const Scene scene = random_sphere();
   BvhStats stats;
   Scene bvh = bvh_scene(scene, stats);
-  const std::vector<RayQuery> rays = rays_of(scene);
+  const std::vector<RayQuery> rays = random_primary_rays(scene, RAYS, 11);
   const auto octree_hits = answers(context, scene, rays, {}, engine_code);
-  const auto moved = std::find(bvh.data_pool.begin(), bvh.data_pool.end(), octree_hits[0].first);
+  const auto hit = std::find_if(octree_hits.begin(), octree_hits.end(),
+                                [](const RayHit& one) { return one.object != NO_OBJECT; });
+  const auto moved = std::find(bvh.data_pool.begin(), bvh.data_pool.end(), hit->first);
   ASSERT_NE(moved, bvh.data_pool.end());
   moved->x ^= 1U << 15U;
   EXPECT_GT(count_differences(octree_hits, answers(context, bvh, rays, {}, bvh_code)), 0U);
