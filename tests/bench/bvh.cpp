@@ -16,10 +16,10 @@ namespace splatray::testing {
 namespace {
 
 /// By how much boxes are wider than their discs, lattice units. What a ray's float32 distance to a plane is off moves the
-/// point there along the axis by at most 6 * 2^-24 of its distance from the origin, 2^22: less than 2.
+/// point there along the axis by at most 6 roundings, each 2^-24 of its distance from the origin, 2^22: less than 2.
 constexpr float WIDENING = 2.0F;
-/// bvh.glsl's BVH_DEPTH.
-constexpr std::uint32_t MOST_DEPTH = 32;
+/// bvh.glsl's BVH_DEPTH and BVH_ADDRESS.
+constexpr std::uint32_t MOST_DEPTH = 32, MOST_SPLATS = 0xFFFFFF;
 constexpr std::size_t BINS = 16;
 constexpr std::uint32_t WIDTH = 4;  ///< most children of a node
 
@@ -287,9 +287,10 @@ Scene bvh_scene(const Scene& scene, BvhStats& stats) {
   const BinaryBuilder binary(boxes);
   const WideBuilder wide(binary);
   stats = wide.stats();
-  if (stats.depth > MOST_DEPTH)
-    throw Error(ExitCode::failed, "found a hierarchy " + std::to_string(stats.depth) +
-                                      " nodes deep, expected at most " + std::to_string(MOST_DEPTH));
+  if (stats.depth > MOST_DEPTH || indices.size() > MOST_SPLATS)
+    throw Error(ExitCode::failed, "found " + std::to_string(indices.size()) + " splats in a hierarchy " +
+                                      std::to_string(stats.depth) + " nodes deep, expected at most " +
+                                      std::to_string(MOST_SPLATS) + " and " + std::to_string(MOST_DEPTH));
   stats.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   std::vector<std::uint32_t> picked;

@@ -28,7 +28,7 @@ struct BvhStats {
 };
 
 /// The scene with the hierarchy in the octree's place, for a tracer with bvh_code. data_pool: the splats, each once, then the
-/// nodes; node_pool: where these begin. Throws Error (failed) where it would be too deep for bvh.glsl.
+/// nodes; node_pool: where these begin. Throws Error (failed) where it would be too deep or too large for bvh.glsl.
 [[nodiscard]] Scene bvh_scene(const Scene& scene, BvhStats& stats);
 
 /// The tracer's programs with bvh.glsl.
