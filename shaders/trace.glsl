@@ -277,10 +277,11 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
 }
 
 /// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics
-/// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root.
+/// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root; one that ends before it
+/// starts is not traced.
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   First first = no_first();
-  Walk walk = walk_start(ray, 0.0f, true);
+  Walk walk = walk_start(ray, 0.0f, ray.t_max >= 0.0f);
   vec3 light = vec3(1.0f);
   uint passed = 0u;
   do {

@@ -29,17 +29,6 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   }
 }
 
-std::span<const std::uint32_t> spirv(const PipelineKey& key) {
-  const bool texel = key.access == PoolAccess::texel;
-  const bool trace = key.program == Program::trace;
-  if (key.arithmetic == Arithmetic::float64) {
-    if (trace) return texel ? TRACE_TEXEL_FLOAT64 : TRACE_STORAGE_FLOAT64;
-    return texel ? RAYS_TEXEL_FLOAT64 : RAYS_STORAGE_FLOAT64;
-  }
-  if (trace) return texel ? TRACE_TEXEL : TRACE_STORAGE;
-  return texel ? RAYS_TEXEL : RAYS_STORAGE;
-}
-
 Handle<VkShaderModule, vkDestroyShaderModule> make_module(const Context& context,
                                                           std::span<const std::uint32_t> code) {
   VkShaderModuleCreateInfo info{};
@@ -52,13 +41,14 @@ Handle<VkShaderModule, vkDestroyShaderModule> make_module(const Context& context
 }
 
 Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, const PipelineKey& key,
+                                                    std::span<const std::uint32_t> code,
                                                     VkPipelineLayout layout) {
   std::array<VkSpecializationMapEntry, SPEC_COUNT> entries{};
   for (std::uint32_t i = 0; i < SPEC_COUNT; ++i)
     entries[i] = {i, i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)};
   const VkSpecializationInfo specialization{SPEC_COUNT, entries.data(), sizeof(key.constants),
                                             key.constants.data()};
-  const auto module = make_module(context, spirv(key));
+  const auto module = make_module(context, code);
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -74,6 +64,17 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
 }
 
 }  // namespace
+
+std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, Arithmetic arithmetic) {
+  const bool texel = access == PoolAccess::texel;
+  const bool trace = program == Program::trace;
+  if (arithmetic == Arithmetic::float64) {
+    if (trace) return texel ? TRACE_TEXEL_FLOAT64 : TRACE_STORAGE_FLOAT64;
+    return texel ? RAYS_TEXEL_FLOAT64 : RAYS_STORAGE_FLOAT64;
+  }
+  if (trace) return texel ? TRACE_TEXEL : TRACE_STORAGE;
+  return texel ? RAYS_TEXEL : RAYS_STORAGE;
+}
 
 BindingSet::BindingSet(const Context& context, PoolAccess access) : context_(context), access_(access) {
   assert(access != PoolAccess::automatic);
@@ -153,7 +154,10 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
 
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
-  if (found == pipelines_.end()) found = pipelines_.emplace(key, make_pipeline(context_, key, layout)).first;
+  if (found == pipelines_.end()) {
+    const auto code = code_(key.program, key.access, key.arithmetic);
+    found = pipelines_.emplace(key, make_pipeline(context_, key, code, layout)).first;
+  }
   return found->second.get();
 }
 

@@ -7,6 +7,7 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pools.h"
+#include "engine/gpu/program.h"
 #include "engine/gpu/texture.h"
 
 namespace splatray {
@@ -39,12 +40,6 @@ class BindingSet {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-/// The engine's shaders.
-enum class Program {
-  trace,  ///< trace.comp.glsl: a tile of a picture
-  rays,   ///< rays.comp.glsl: ray queries
-};
-
 /// What a pipeline is made of, and so its name in the cache.
 struct PipelineKey {
   Program program = Program::trace;
@@ -58,7 +53,7 @@ struct PipelineKey {
 /// Builds each pipeline once. The context must outlive it.
 class PipelineCache {
  public:
-  explicit PipelineCache(const Context& context) : context_(context) {}
+  PipelineCache(const Context& context, ProgramCode code) : context_(context), code_(code) {}
 
   /// The pipeline of the key, with that layout; built when it is the first such.
   [[nodiscard]] VkPipeline get(const PipelineKey& key, VkPipelineLayout layout);
@@ -67,6 +62,7 @@ class PipelineCache {
 
  private:
   const Context& context_;
+  ProgramCode code_;
   std::map<PipelineKey, Handle<VkPipeline, vkDestroyPipeline>> pipelines_;
 };
 

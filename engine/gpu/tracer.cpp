@@ -59,7 +59,8 @@ struct Growing {
 }  // namespace
 
 struct Tracer::Impl {
-  Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data);
+  Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data,
+       ProgramCode code);
 
   void set_materials(std::span<const Material> source);
   void set_lights(std::span<const SceneLight> lights);
@@ -107,13 +108,14 @@ struct Tracer::Impl {
   std::uint32_t pools_uploaded = 0;
 };
 
-Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data)
+Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data,
+                   ProgramCode code)
     : context(device),
       wanted_access(access),
       wanted_data(data),
       arithmetic(device.arithmetic(wanted_arithmetic)),
       queue(device),
-      pipelines(device),
+      pipelines(device, code),
       environment(device, queue, {}) {
   reserve(device, frame_buffer, sizeof(FrameParams));
   for (Buffer* buffer : {&material_buffer, &light_buffer, &accumulation, &aov, &rays, &hits})
@@ -231,8 +233,9 @@ void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, std::vector<Ao
   place(tile, pixels, picture, dispatch.frame.width);
 }
 
-Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic, DataPool data)
-    : impl_(std::make_unique<Impl>(context, access, arithmetic, data)) {}
+Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic, DataPool data,
+               ProgramCode code)
+    : impl_(std::make_unique<Impl>(context, access, arithmetic, data, code)) {}
 
 Tracer::~Tracer() = default;
 

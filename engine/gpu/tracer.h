@@ -9,6 +9,7 @@
 
 #include "engine/gpu/context.h"
 #include "engine/gpu/pools.h"
+#include "engine/gpu/program.h"
 #include "engine/host/environment.h"
 #include "engine/host/image.h"
 #include "engine/host/scene.h"
@@ -33,9 +34,11 @@ struct RenderStats {
 
 class Tracer {
  public:
-  /// The context must outlive the tracer. Anything but automatic is for tests and benchmarks.
+  /// The context must outlive the tracer. Anything but automatic is for tests and benchmarks, and so is other code: it
+  /// reads the pools as it likes.
   explicit Tracer(const Context& context, PoolAccess access = PoolAccess::automatic,
-                  Arithmetic arithmetic = Arithmetic::automatic, DataPool data = DataPool::automatic);
+                  Arithmetic arithmetic = Arithmetic::automatic, DataPool data = DataPool::automatic,
+                  ProgramCode code = engine_code);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;

@@ -1,0 +1,26 @@
+/// The engine's programs, and where their code comes from.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "engine/gpu/context.h"
+#include "engine/gpu/pools.h"
+
+namespace splatray {
+
+/// The engine's shaders.
+enum class Program {
+  trace,  ///< trace.comp.glsl: a tile of a picture
+  rays,   ///< rays.comp.glsl: ray queries
+};
+
+/// SPIR-V of a program for pools that are read this way (texel or storage) and hits decided by this arithmetic (double_float
+/// or float64).
+using ProgramCode = std::span<const std::uint32_t> (*)(Program program, PoolAccess access,
+                                                       Arithmetic arithmetic);
+
+/// That of shaders/.
+[[nodiscard]] std::span<const std::uint32_t> engine_code(Program program, PoolAccess access,
+                                                         Arithmetic arithmetic);
+
+}  // namespace splatray
