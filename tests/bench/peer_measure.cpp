@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "engine/host/scene_file.h"
 #include "preprocess/points.h"
@@ -14,6 +12,7 @@
 #include "tests/bench/peer_embree_discs.h"
 #include "tests/bench/peer_embree_mesh.h"
 #include "tests/bench/peer_frame.h"
+#include "tests/bench/processor.h"
 #include "tests/bench/statistics.h"
 
 namespace splatray::testing {
@@ -42,16 +41,8 @@ struct Entry {
 
 /// One, and all.
 std::vector<unsigned> thread_counts() {
-  const unsigned all = std::max(std::thread::hardware_concurrency(), 1U);
+  const unsigned all = processor_threads();
   return all > 1 ? std::vector<unsigned>{1, all} : std::vector<unsigned>{1};
-}
-
-/// "Intel(R) Xeon(R) Processor", from Linux; "CPU" elsewhere.
-std::string processor_name() {
-  std::ifstream stream("/proc/cpuinfo");
-  for (std::string line; std::getline(stream, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "CPU";
 }
 
 /// Builds a peer with `make` and starts its records.
