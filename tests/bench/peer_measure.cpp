@@ -1,6 +1,5 @@
 #include "tests/bench/peer_measure.h"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -13,7 +12,7 @@
 #include "tests/bench/peer_embree_mesh.h"
 #include "tests/bench/peer_frame.h"
 #include "tests/bench/processor.h"
-#include "tests/bench/statistics.h"
+#include "tests/bench/speed_record.h"
 
 namespace splatray::testing {
 namespace {
@@ -126,14 +125,9 @@ void time_rounds(const Source& source, std::vector<Entry>& entries) {
         if (round > 0) entry.times_ms[i].push_back(ms);
       }
   for (Entry& entry : entries)
-    for (std::size_t i = 0; i < threads.size(); ++i) {
-      const double median_ms = quantile(entry.times_ms[i], 0.5);
-      Json& speed = entry.records[i]["speed"];
-      speed["frame_ms_median"] = median_ms;
-      speed["frame_ms_min"] = *std::min_element(entry.times_ms[i].begin(), entry.times_ms[i].end());
-      speed["frames"] = ROUNDS;
-      speed["rays_per_s"] = double(source.frame.width) * source.frame.height / (median_ms / 1000.0);
-    }
+    for (std::size_t i = 0; i < threads.size(); ++i)
+      add_times(entry.records[i]["speed"], entry.times_ms[i],
+                double(source.frame.width) * source.frame.height);
 }
 
 void add_peer_errors(const Source& source, const Truth& truth, const std::optional<Probes>& probes,

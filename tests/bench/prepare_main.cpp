@@ -14,7 +14,7 @@ namespace splatray::testing {
 namespace {
 
 /// Most memory of making a scene, for each of its points.
-constexpr std::uint64_t BYTES_PER_POINT = 220;
+constexpr std::uint64_t BYTES_PER_POINT = 160;
 
 std::vector<Case> cases_of_scale(bool quick) {
   std::vector<Case> list = scale_spheres(quick);

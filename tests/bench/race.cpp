@@ -7,6 +7,7 @@
 
 #include "engine/host/error.h"
 #include "tests/bench/bounces.h"
+#include "tests/bench/speed_record.h"
 #include "tests/bench/statistics.h"
 
 namespace splatray::testing {
@@ -96,9 +97,7 @@ void add_speed(const Course& course, Racer& racer, const RayClass& rays, const T
   const double count = rays.frame == Frame::primary ? double(course.outside.width) * course.outside.height
                                                     : static_cast<double>(racer.count_rays(rays.frame));
   Json& speed = record["speed"];
-  speed["frame_ms_median"] = quantile(frame, 0.5);
-  speed["frame_ms_min"] = *std::min_element(frame.begin(), frame.end());
-  speed["frames"] = frame.size();
+  add_times(speed, frame, count);
   speed["cost_ms_median"] = cost_ms;
   speed["cost_ms_min"] = *std::min_element(cost.begin(), cost.end());
   speed["cost_ms_max"] = *std::max_element(cost.begin(), cost.end());

@@ -48,6 +48,21 @@ std::vector<PeerMaker> peers_of(const Scene& scene) {
   return makers;
 }
 
+/// Adds the case's records; what became of it.
+std::string measure(const Context& context, const Case& one, const std::filesystem::path& folder,
+                    Json& records) {
+  const std::string reason = reason_of_memory(BYTES_PER_SPLAT * one.runs.front().variant.points);
+  if (!reason.empty()) return "left out, " + reason;
+  if (!std::filesystem::exists(folder / "case.json")) return "left out, it was not prepared";
+  try {
+    for (const Json& record : measure_rays(context, one, folder, peers_of)) records.push_back(record);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::out_of_memory) throw;
+    return std::string("left out, ") + error.what();
+  }
+  return "measured";
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Races splatray and Embree on the spheres that splatray-bench-prepare --scale made in FOLDER.",
                "splatray-bench-scale-peers");
@@ -66,12 +81,8 @@ int run(int argc, char** argv) {
   Json records = Json::array();
   for (const Case& one : scale_spheres(quick)) {
     if (!only.empty() && one.name != only) continue;
-    const std::filesystem::path prepared = folder / folder_name(one);
-    std::string reason = reason_of_memory(BYTES_PER_SPLAT * one.runs.front().variant.points);
-    if (!std::filesystem::exists(prepared / "case.json")) reason = "it was not prepared";
-    if (reason.empty())
-      for (const Json& record : measure_rays(context, one, prepared, peers_of)) records.push_back(record);
-    std::printf("%s: %s\n", one.name.c_str(), reason.empty() ? "measured" : ("left out, " + reason).c_str());
+    const std::string outcome = measure(context, one, folder / folder_name(one), records);
+    std::printf("%s: %s\n", one.name.c_str(), outcome.c_str());
     std::fflush(stdout);
   }
   write_text_file(records.dump(1) + '\n', output);

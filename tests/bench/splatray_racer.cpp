@@ -1,6 +1,6 @@
 #include "tests/bench/splatray_racer.h"
 
-#include <thread>
+#include "tests/bench/speed_record.h"
 
 namespace splatray::testing {
 namespace {
@@ -85,16 +85,10 @@ void SplatrayRacer::describe(Json& record) {
   Settings settings = settings_of(Frame::primary);
   settings.counters = true;
   trace(Frame::primary, settings);
-  const RenderStats& stats = tracer_.stats();
-  const auto rays = static_cast<double>(stats.rays());
   record["method"] = blend_word(blend_);
   record["settings"]["blend"] = blend_word(blend_);
-  if (context_.device_info().type == "CPU")
-    record["settings"]["threads"] = std::thread::hardware_concurrency();
-  record["device"] = {{"name", context_.device_info().name}, {"driver", context_.device_info().driver}};
-  record["speed"]["tests_per_ray"] = static_cast<double>(stats.counters[COUNT_TESTS]) / rays;
-  record["speed"]["steps_per_ray"] = static_cast<double>(stats.counters[COUNT_NODE_STEPS]) / rays;
-  record["speed"]["leaves_per_ray"] = static_cast<double>(stats.counters[COUNT_LEAVES]) / rays;
+  add_device(record, context_);
+  add_work(record["speed"], tracer_.stats());
   record["speed"]["bytes_per_splat"] =
       static_cast<double>(total_bytes(tracer_.pool_bytes())) / static_cast<double>(course_.splats);
 }
