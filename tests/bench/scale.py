@@ -100,8 +100,12 @@ def growth_table(records):
 
 
 def steps_sentence(races):
+    """How the work of a ray grows; empty for one number of splats."""
     points = [(math.log2(splats), races.own(splats).get("steps_per_ray")) for splats, _ in races.curve("window")]
-    slope, start = line_fit(points)
+    fit = line_fit(points)
+    if not fit:
+        return ""
+    slope, start = fit
     worst = max(abs(slope * x + start - y) for x, y in points)
     return (
         f"A primary ray reads {number(slope)} more node words with each doubling of the splats; the straight line over "

@@ -57,10 +57,10 @@ def draw_work(axes, races):
 
 def plot_growth(races, path):
     """Writes the picture; the laws fitted stand below the panels."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8, 4.9))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8, 5.1))
     draw_times(left, races)
     draw_work(right, races)
-    figure.tight_layout(rect=(0, 0.24, 1, 1))
-    for axes, where in ((left, (0.08, 0.24)), (right, (0.58, 0.24))):
+    figure.tight_layout(rect=(0, 0.27, 1, 1))
+    for axes, where in ((left, (0.08, 0.28)), (right, (0.58, 0.28))):
         figure.legend(*axes.get_legend_handles_labels(), loc="upper left", bbox_to_anchor=where, frameon=False, fontsize=8.5)
     save(figure, path)
