@@ -1,12 +1,11 @@
 /// splatray-bench FOLDER -o RUNS.json [--quick] [--device D]: measures what splatray-bench-prepare made; one JSON array of
 /// records (record.h). Links the engine only, so that it runs on a bare GPU machine.
 #include <cstdio>
-#include <fstream>
-#include <optional>
 
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
 #include "tests/bench/measure.h"
+#include "tests/bench/measuring_options.h"
 
 namespace splatray::testing {
 namespace {
@@ -18,48 +17,8 @@ constexpr const char* USAGE =
     "  --device   number or part of a name, as splatray-render --list-devices shows them; default the best\n"
     "  --case     only this case\n";
 
-struct Options {
-  std::filesystem::path folder;
-  std::filesystem::path output;
-  std::string device;
-  std::string only;
-  bool quick = false;
-};
-
-/// Nothing when help was asked for.
-std::optional<Options> parse(const std::vector<std::string>& words) {
-  Options options;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    const auto value = [&] {
-      if (i + 1 == words.size())
-        throw Error(ExitCode::usage, word + ": found nothing behind it, expected a value");
-      return words[++i];
-    };
-    if (word == "-h" || word == "--help") return {};
-    if (word == "--quick") {
-      options.quick = true;
-    } else if (word == "-o" || word == "--output") {
-      options.output = value();
-    } else if (word == "--device") {
-      options.device = value();
-    } else if (word == "--case") {
-      options.only = value();
-    } else if (!word.starts_with('-') && options.folder.empty()) {
-      options.folder = word;
-    } else {
-      throw Error(ExitCode::usage,
-                  "found '" + word + "', expected FOLDER -o RUNS.json (--help lists the options)");
-    }
-  }
-  if (options.folder.empty() || options.output.empty())
-    throw Error(ExitCode::usage,
-                "found no FOLDER or no -o RUNS.json, expected both (--help lists the options)");
-  return options;
-}
-
 int run(int argc, char** argv) {
-  const std::optional<Options> options = parse({argv + 1, argv + argc});
+  const std::optional<MeasuringOptions> options = parse_measuring({argv + 1, argv + argc}, "--case");
   if (!options) {
     std::fputs(USAGE, stdout);
     return static_cast<int>(ExitCode::done);

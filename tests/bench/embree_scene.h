@@ -39,6 +39,12 @@ struct EmbreeBundle {
   void intersect(RTCScene scene, RTCIntersectContext& context) {
     rtcIntersect8(valid, scene, &context, &query);
   }
+  /// 1 for each ray that anything lies on.
+  void occluded(RTCScene scene, RTCIntersectContext& context, std::span<std::uint8_t> blocked) {
+    rtcOccluded8(valid, scene, &context, &query.ray);
+    for (std::size_t lane = 0; lane < blocked.size(); ++lane)
+      blocked[lane] = query.ray.tfar[lane] < 0.0F ? 1 : 0;
+  }
 
   alignas(32) int valid[8];
   RTCRayHit8 query;

@@ -1,9 +1,8 @@
 #include "tests/bench/frames.h"
 
-#include <algorithm>
 #include <chrono>
 
-#include "tests/bench/statistics.h"
+#include "tests/bench/speed_record.h"
 
 namespace splatray::testing {
 namespace {
@@ -15,20 +14,13 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// Work per ray of all classes, and memory.
-Json work_json(const LoadedVariant& variant, const RenderStats& counted) {
-  const auto& count = counted.counters;
-  const auto rays = static_cast<double>(counted.rays());
+void add_work_and_memory(Json& speed, const LoadedVariant& variant, const RenderStats& counted) {
   const auto splats = static_cast<double>(variant.splats);
-  Json json;
-  json["tests_per_ray"] = static_cast<double>(count[COUNT_TESTS]) / rays;
-  json["steps_per_ray"] = static_cast<double>(count[COUNT_NODE_STEPS]) / rays;
-  json["leaves_per_ray"] = static_cast<double>(count[COUNT_LEAVES]) / rays;
-  json["bytes_per_splat"] = static_cast<double>(total_bytes(variant.tracer.pool_bytes())) / splats;
-  json["growth"] = static_cast<double>(variant.references) / splats - 1.0;
-  if (variant.prepared.overlap > 0.0) json["overlap"] = variant.prepared.overlap;
-  json["build_s"] = variant.prepared.build_s;
-  json["rays"] = rays;
-  return json;
+  add_work(speed, counted);
+  speed["bytes_per_splat"] = static_cast<double>(total_bytes(variant.tracer.pool_bytes())) / splats;
+  speed["growth"] = static_cast<double>(variant.references) / splats - 1.0;
+  if (variant.prepared.overlap > 0.0) speed["overlap"] = variant.prepared.overlap;
+  speed["build_s"] = variant.prepared.build_s;
 }
 
 /// Counts with one sample, which has the rays of all in proportion.
@@ -65,15 +57,10 @@ void time_frames(LoadedCase& loaded, std::vector<Json>& records) {
     for (std::size_t i = 0; i < runs.size(); ++i)
       times[i].push_back(frame_ms(loaded, runs[i], runs[i].settings.samples));
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    Json work = work_json(loaded.variant_of(runs[i]), count_work(loaded, runs[i]));
-    const double median = quantile(times[i], 0.5);
+    const RenderStats counted = count_work(loaded, runs[i]);
     Json& speed = records[i]["speed"];
-    speed["frame_ms_median"] = median;
-    speed["frame_ms_min"] = *std::min_element(times[i].begin(), times[i].end());
-    speed["frames"] = times[i].size();
-    speed["rays_per_s"] = work["rays"].get<double>() * runs[i].settings.samples / (median / 1000.0);
-    work.erase("rays");
-    speed.update(work);
+    add_times(speed, times[i], static_cast<double>(counted.rays()) * runs[i].settings.samples);
+    add_work_and_memory(speed, loaded.variant_of(runs[i]), counted);
   }
 }
 

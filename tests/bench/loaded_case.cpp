@@ -1,9 +1,8 @@
 #include "tests/bench/loaded_case.h"
 
-#include <thread>
-
 #include "engine/host/error.h"
 #include "engine/host/scene_file.h"
+#include "tests/bench/speed_record.h"
 
 namespace splatray::testing {
 namespace {
@@ -45,9 +44,7 @@ Settings LoadedCase::settings_of(const Run& run) const {
 
 Json LoadedCase::start_record(const Run& run) {
   Json record = testing::start_record(case_, run, variant_of(run).splats);
-  if (context_.device_info().type == "CPU")
-    record["settings"]["threads"] = std::thread::hardware_concurrency();
-  record["device"] = {{"name", context_.device_info().name}, {"driver", context_.device_info().driver}};
+  add_device(record, context_);
   return record;
 }
 

@@ -63,6 +63,7 @@ EmbreeClusters::EmbreeClusters(const Discs& discs, const Settings& settings, std
   rtcSetGeometryUserData(geometry, this);
   rtcSetGeometryBoundsFunction(geometry, bounds_of, nullptr);
   rtcSetGeometryIntersectFunction(geometry, intersect);
+  rtcSetGeometryOccludedFunction(geometry, occlude);
   embree_.build(geometry);
 }
 
@@ -81,25 +82,40 @@ void EmbreeClusters::bounds_of(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
 }
 
+template <class Visit>
+void EmbreeClusters::visit_meetings(unsigned primitive, RTCRayN* ray, const Visit& visit) const {
+  const std::size_t begin = primitive * group_;
+  const std::size_t count = std::min(group_, discs_.size() - begin);
+  const Lists lists{&center_x_[begin], &center_y_[begin], &center_z_[begin],      &normal_x_[begin],
+                    &normal_y_[begin], &normal_z_[begin], &radius_squared_[begin]};
+  const vec3 origin(RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0));
+  const vec3 dir(RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0));
+  const float tnear = RTCRayN_tnear(ray, 1, 0);
+  Meetings meetings;
+  meet(lists, count, origin, dir, meetings);
+  for (std::size_t i = 0; i < count; ++i)
+    if (meetings.beyond[i] <= 0.0F && meetings.t[i] > tnear && discs_.faces(begin + i, dir))
+      visit(begin + i, meetings.t[i]);
+}
+
 void EmbreeClusters::intersect(const RTCIntersectFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
   const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
   auto& traversal = *reinterpret_cast<Traversal*>(args->context);
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, 1);
-  const std::size_t begin = args->primID * self.group_;
-  const std::size_t count = std::min(self.group_, self.discs_.size() - begin);
-  const Lists lists{&self.center_x_[begin],      &self.center_y_[begin], &self.center_z_[begin],
-                    &self.normal_x_[begin],      &self.normal_y_[begin], &self.normal_z_[begin],
-                    &self.radius_squared_[begin]};
-  const vec3 origin(RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0));
-  const float tnear = RTCRayN_tnear(ray, 1, 0);
-  Meetings meetings;
-  meet(lists, count, origin, traversal.dir, meetings);
-  for (std::size_t i = 0; i < count; ++i)
-    if (meetings.beyond[i] <= 0.0F && meetings.t[i] > tnear && self.discs_.faces(begin + i, traversal.dir))
-      traversal.gathered.add(begin + i, meetings.t[i], traversal.dir, self.discs_, self.settings_);
+  self.visit_meetings(args->primID, ray, [&](std::size_t disc, float t) {
+    traversal.gathered.add(disc, t, traversal.dir, self.discs_, self.settings_);
+  });
   RTCRayN_tfar(ray, 1, 0) = traversal.gathered.end();
+}
+
+void EmbreeClusters::occlude(const RTCOccludedFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (args->valid[0] == 0) return;
+  const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
+  self.visit_meetings(args->primID, args->ray,
+                      [&](std::size_t, float) { RTCRayN_tfar(args->ray, 1, 0) = -INFINITY; });
 }
 
 void EmbreeClusters::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
@@ -109,6 +125,16 @@ void EmbreeClusters::trace(std::span<const RayQuery> rays, std::span<RayHit> hit
     RTCRayHit query = embree_ray(rays[i]);
     rtcIntersect1(embree_.scene(), &traversal.context, &query);
     hits[i] = traversal.gathered.blended(rays[i], discs_, settings_);
+  }
+}
+
+void EmbreeClusters::occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = embree_ray(rays[i]).ray;
+    rtcOccluded1(embree_.scene(), &context, &ray);
+    blocked[i] = ray.tfar < 0.0F ? 1 : 0;
   }
 }
 

@@ -17,11 +17,16 @@ class EmbreeClusters : public Peer {
   /// `discs` must outlive the peer; `group` in 1..GROUP_MOST.
   EmbreeClusters(const Discs& discs, const Settings& settings, std::size_t group);
   void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const override;
+  void occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
 
  private:
   static void bounds_of(const RTCBoundsFunctionArguments* args);
   static void intersect(const RTCIntersectFunctionNArguments* args);
+  static void occlude(const RTCOccludedFunctionNArguments* args);
+  /// Calls visit(disc, t) for each disc of a primitive that the ray meets beyond its tnear.
+  template <class Visit>
+  void visit_meetings(unsigned primitive, RTCRayN* ray, const Visit& visit) const;
 
   const Discs& discs_;
   Settings settings_;

@@ -18,7 +18,7 @@ vec3 dir_of(const RTCFilterFunctionNArguments* args, unsigned lane) {
           RTCRayN_dir_z(args->ray, args->N, lane)};
 }
 
-/// BLEND_NEAREST: rejects faces that do not count.
+/// BLEND_NEAREST, and rays that anything may end: rejects faces that do not count.
 void cull(const RTCFilterFunctionNArguments* args) {
   const auto& discs = *static_cast<const Discs*>(args->geometryUserPtr);
   for (unsigned lane = 0; lane < args->N; ++lane)
@@ -56,6 +56,7 @@ EmbreeDiscs::EmbreeDiscs(const Discs& discs, const Settings& settings) : discs_(
   } else if (discs.any_one_sided()) {
     rtcSetGeometryIntersectFilterFunction(geometry, cull);
   }
+  if (discs.any_one_sided()) rtcSetGeometryOccludedFilterFunction(geometry, cull);
   embree_.build(geometry);
 }
 
@@ -63,7 +64,8 @@ void EmbreeDiscs::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) 
   assert(rays.size() <= BUNDLE);
   Traversal traversal{{}, discs_, settings_, {}};
   rtcInitIntersectContext(&traversal.context);
-  traversal.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  traversal.context.flags =
+      coherent_ ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   EmbreeBundle bundle(rays);
   bundle.intersect(embree_.scene(), traversal.context);
   for (unsigned lane = 0; lane < rays.size(); ++lane) {
@@ -73,6 +75,14 @@ void EmbreeDiscs::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) 
                    settings_);
     hits[lane] = gathered.blended(rays[lane], discs_, settings_);
   }
+}
+
+void EmbreeDiscs::occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const {
+  assert(rays.size() <= BUNDLE && blocked.size() == rays.size());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = coherent_ ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  EmbreeBundle(rays).occluded(embree_.scene(), context, blocked);
 }
 
 }  // namespace splatray::testing

@@ -14,11 +14,14 @@ class EmbreeDiscs : public Peer {
   /// `discs` must outlive the peer.
   EmbreeDiscs(const Discs& discs, const Settings& settings);
   void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const override;
+  void occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const override;
+  void expect_coherent(bool coherent) override { coherent_ = coherent; }
   [[nodiscard]] std::uint64_t bytes() const override { return embree_.bytes() + discs_.bytes_of_fields(); }
 
  private:
   const Discs& discs_;
   Settings settings_;
+  bool coherent_ = true;
   EmbreeScene embree_;
 };
 

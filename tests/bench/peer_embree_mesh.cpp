@@ -31,6 +31,12 @@ void EmbreeMesh::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) c
   }
 }
 
+void EmbreeMesh::occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  EmbreeBundle(rays).occluded(embree_.scene(), context, blocked);
+}
+
 std::uint64_t EmbreeMesh::bytes() const { return embree_.bytes() + sizeof(vec3) * corner_normals_.size(); }
 
 }  // namespace splatray::testing

@@ -12,6 +12,7 @@ class EmbreeMesh : public Peer {
   /// `mesh` must outlive the peer; `root` is where rays are.
   EmbreeMesh(const Mesh& mesh, const RootTransform& root);
   void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const override;
+  void occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
 
  private:

@@ -35,52 +35,70 @@ AovPixel aov_of(const RayHit& hit, const FrameParams& frame) {
   return pixel;
 }
 
-void trace_bundle(const Peer& peer, const FrameParams& frame, std::uint32_t left, std::uint32_t top,
-                  Image& image) {
+/// The pixels of one bundle, in rows.
+void visit_bundle(const FrameParams& frame, std::uint32_t left, std::uint32_t top,
+                  const BundleVisitor& visit) {
   std::array<RayQuery, Peer::BUNDLE> rays;
-  std::array<RayHit, Peer::BUNDLE> hits;
   std::array<std::size_t, Peer::BUNDLE> pixels;
   std::size_t count = 0;
-  for (std::uint32_t y = top; y < std::min(top + BUNDLE_HEIGHT, image.height); ++y)
-    for (std::uint32_t x = left; x < std::min(left + BUNDLE_WIDTH, image.width); ++x) {
+  for (std::uint32_t y = top; y < std::min(top + BUNDLE_HEIGHT, frame.height); ++y)
+    for (std::uint32_t x = left; x < std::min(left + BUNDLE_WIDTH, frame.width); ++x) {
       rays[count] = primary_ray(frame, x, y);
-      pixels[count++] = std::size_t{y} * image.width + x;
+      pixels[count++] = std::size_t{y} * frame.width + x;
     }
-  peer.trace(std::span(rays).first(count), std::span(hits).first(count));
-  for (std::size_t i = 0; i < count; ++i) image.aov[pixels[i]] = aov_of(hits[i], frame);
+  visit(std::span(rays).first(count), std::span(pixels).first(count));
 }
 
-void trace_into(const Peer& peer, const FrameParams& frame, Image& image) {
-  const std::uint32_t tasks = (image.height + TASK_ROWS - 1) / TASK_ROWS;
+void visit_all(const FrameParams& frame, const BundleVisitor& visit) {
+  const std::uint32_t tasks = (frame.height + TASK_ROWS - 1) / TASK_ROWS;
   tbb::parallel_for(std::uint32_t{0}, tasks, [&](std::uint32_t task) {
-    const std::uint32_t end = std::min((task + 1) * TASK_ROWS, image.height);
+    const std::uint32_t end = std::min((task + 1) * TASK_ROWS, frame.height);
     for (std::uint32_t y = task * TASK_ROWS; y < end; y += BUNDLE_HEIGHT)
-      for (std::uint32_t x = 0; x < image.width; x += BUNDLE_WIDTH) trace_bundle(peer, frame, x, y, image);
+      for (std::uint32_t x = 0; x < frame.width; x += BUNDLE_WIDTH) visit_bundle(frame, x, y, visit);
   });
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
 
-double trace_frame(const Peer& peer, const FrameParams& frame, unsigned threads, Image& image) {
-  using Clock = std::chrono::steady_clock;
+double visit_bundles(const FrameParams& frame, unsigned threads, const BundleVisitor& visit) {
   assert(frame.t_min >= 0.0F);
+  tbb::task_arena arena(static_cast<int>(threads));
+  const auto begin = std::chrono::steady_clock::now();
+  arena.execute([&] { visit_all(frame, visit); });
+  return milliseconds_since(begin);
+}
+
+double trace_frame(const Peer& peer, const FrameParams& frame, unsigned threads, Image& image) {
   image.width = frame.width;
   image.height = frame.height;
   image.aov.resize(std::size_t{image.width} * image.height);
-  tbb::task_arena arena(static_cast<int>(threads));
-  const auto begin = Clock::now();
-  arena.execute([&] { trace_into(peer, frame, image); });
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  return visit_bundles(frame, threads,
+                       [&](std::span<const RayQuery> rays, std::span<const std::size_t> pixels) {
+                         std::array<RayHit, Peer::BUNDLE> hits;
+                         peer.trace(rays, std::span(hits).first(rays.size()));
+                         for (std::size_t i = 0; i < rays.size(); ++i)
+                           image.aov[pixels[i]] = aov_of(hits[i], frame);
+                       });
+}
+
+double trace_rays(const Peer& peer, std::span<const RayQuery> rays, std::span<RayHit> hits) {
+  const std::size_t bundles = (rays.size() + Peer::BUNDLE - 1) / Peer::BUNDLE;
+  const auto start = std::chrono::steady_clock::now();
+  tbb::parallel_for(std::size_t{0}, bundles, [&](std::size_t bundle) {
+    const std::size_t begin = bundle * Peer::BUNDLE;
+    const std::size_t count = std::min(Peer::BUNDLE, rays.size() - begin);
+    peer.trace(rays.subspan(begin, count), hits.subspan(begin, count));
+  });
+  return milliseconds_since(start);
 }
 
 std::vector<RayHit> intersect(const Peer& peer, std::span<const RayQuery> rays) {
   std::vector<RayHit> hits(rays.size());
-  const std::size_t bundles = (rays.size() + Peer::BUNDLE - 1) / Peer::BUNDLE;
-  tbb::parallel_for(std::size_t{0}, bundles, [&](std::size_t bundle) {
-    const std::size_t begin = bundle * Peer::BUNDLE;
-    const std::size_t count = std::min(Peer::BUNDLE, rays.size() - begin);
-    peer.trace(rays.subspan(begin, count), std::span(hits).subspan(begin, count));
-  });
+  trace_rays(peer, rays, hits);
   return hits;
 }
 

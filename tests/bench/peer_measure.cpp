@@ -1,11 +1,8 @@
 #include "tests/bench/peer_measure.h"
 
-#include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "engine/host/scene_file.h"
 #include "preprocess/points.h"
@@ -14,7 +11,8 @@
 #include "tests/bench/peer_embree_discs.h"
 #include "tests/bench/peer_embree_mesh.h"
 #include "tests/bench/peer_frame.h"
-#include "tests/bench/statistics.h"
+#include "tests/bench/processor.h"
+#include "tests/bench/speed_record.h"
 
 namespace splatray::testing {
 namespace {
@@ -42,16 +40,8 @@ struct Entry {
 
 /// One, and all.
 std::vector<unsigned> thread_counts() {
-  const unsigned all = std::max(std::thread::hardware_concurrency(), 1U);
+  const unsigned all = processor_threads();
   return all > 1 ? std::vector<unsigned>{1, all} : std::vector<unsigned>{1};
-}
-
-/// "Intel(R) Xeon(R) Processor", from Linux; "CPU" elsewhere.
-std::string processor_name() {
-  std::ifstream stream("/proc/cpuinfo");
-  for (std::string line; std::getline(stream, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "CPU";
 }
 
 /// Builds a peer with `make` and starts its records.
@@ -135,14 +125,9 @@ void time_rounds(const Source& source, std::vector<Entry>& entries) {
         if (round > 0) entry.times_ms[i].push_back(ms);
       }
   for (Entry& entry : entries)
-    for (std::size_t i = 0; i < threads.size(); ++i) {
-      const double median_ms = quantile(entry.times_ms[i], 0.5);
-      Json& speed = entry.records[i]["speed"];
-      speed["frame_ms_median"] = median_ms;
-      speed["frame_ms_min"] = *std::min_element(entry.times_ms[i].begin(), entry.times_ms[i].end());
-      speed["frames"] = ROUNDS;
-      speed["rays_per_s"] = double(source.frame.width) * source.frame.height / (median_ms / 1000.0);
-    }
+    for (std::size_t i = 0; i < threads.size(); ++i)
+      add_times(entry.records[i]["speed"], entry.times_ms[i],
+                double(source.frame.width) * source.frame.height);
 }
 
 void add_peer_errors(const Source& source, const Truth& truth, const std::optional<Probes>& probes,

@@ -7,6 +7,7 @@
 #include "tests/bench/peer_embree_discs.h"
 #include "tests/bench/peer_embree_mesh.h"
 #include "tests/bench/peer_frame.h"
+#include "tests/bench/peer_paths.h"
 #include "tests/bench/statistics.h"
 #include "tests/trace/rays.h"
 #include "tests/trace/scenes.h"
@@ -95,6 +96,60 @@ TEST(EmbreePeers, NormalFieldsAreThoseOfBruteForce) {
   flat_discs.slope.clear();
   const EmbreeDiscs flat(flat_discs, settings);
   EXPECT_GT(count_differences(flat, brute, scene, settings), 5 * FEW) << "flat discs must differ";
+}
+
+std::size_t count_wrongly_blocked(const Peer& peer, const std::vector<RayQuery>& rays,
+                                  const std::vector<TrueHit>& truth) {
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    std::uint8_t blocked = 2;
+    peer.occluded(std::span(rays).subspan(i, 1), {&blocked, 1});
+    wrong += (blocked == 1) != truth[i].found ? 1 : 0;
+  }
+  return wrong;
+}
+
+TEST(EmbreePeers, ShadowRaysAreBlockedWhereBruteForceHits) {
+  for (const std::uint32_t flags : {MATERIAL_TWO_SIDED, 0U}) {
+    const Scene scene = small_sphere(flags);
+    const Discs discs = discs_of(scene);
+    const Settings settings = settings_of(BLEND_WINDOW);
+    BruteForce brute(scene);
+    std::vector<RayQuery> rays = random_primary_rays(scene, RAYS, 7);
+    for (std::size_t i = 0; i < RAYS; i += 2) rays[i].dir = -rays[i].dir;
+    const std::vector<TrueHit> truth = all_nearest(brute, rays, settings);
+    const EmbreeDiscs built_in(discs, settings);
+    const EmbreeClusters clusters(discs, settings, 8);
+    EXPECT_LE(count_wrongly_blocked(built_in, rays, truth), FEW);
+    EXPECT_LE(count_wrongly_blocked(clusters, rays, truth), FEW);
+    for (std::size_t i = 0; i < discs.size(); ++i) brute.move_splat(i, glm::dvec3(2e5));
+    EXPECT_GT(count_wrongly_blocked(built_in, rays, all_nearest(brute, rays, settings)), 5 * FEW)
+        << "moved splats must be seen";
+  }
+}
+
+TEST(EmbreePeers, PathsInsideAMirroredBallGoOnAndShadowRaysOutsideDoNotEnd) {
+  const Scene scene = small_sphere(MATERIAL_TWO_SIDED);
+  const Discs discs = discs_of(scene);
+  const EmbreeDiscs peer(discs, settings_of(BLEND_WINDOW));
+  const float lift = 0.02F / static_cast<float>(scene.root.unit_world);
+  const auto count = [&](const glm::dvec3& eye, const PathRays& what) {
+    const View view{{eye, {0.0, 0.1, -0.5}, {0.0, 1.0, 0.0}, 30.0, 0.0}, 37, 23};
+    std::vector<PathCount> counts;
+    trace_paths(peer, make_frame_params(scene, view, {}), 2, what, counts);
+    std::pair<std::size_t, std::size_t> sums;
+    for (const PathCount& pixel : counts) {
+      sums.first += pixel.secondary;
+      sums.second += pixel.blocked;
+    }
+    return sums;
+  };
+  EXPECT_EQ(count({0.1, 0.2, 0.3}, {{}, 3, lift}).first, 3U * 37U * 23U);
+  const auto outside = count({0.0, 0.1, 4.0}, {vec3(0.0F, 0.0F, 1.0F), 0, lift});
+  EXPECT_GT(outside.first, 100U);
+  EXPECT_EQ(outside.second, 0U);
+  const auto inside = count({0.1, 0.2, 0.3}, {vec3(0.0F, 0.0F, 1.0F), 0, lift});
+  EXPECT_GT(inside.second, 100U) << "the other side of the ball is in the way";
 }
 
 TEST(EmbreePeers, MeshIsSeenWithSmoothNormals) {

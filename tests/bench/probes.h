@@ -26,6 +26,8 @@ class Probes {
   /// About `count` rays for scenes of this transform.
   Probes(Shape shape, const RootTransform& root, std::size_t count, std::uint64_t seed);
 
+  /// The rays, in no order.
+  [[nodiscard]] std::span<const RayQuery> rays() const { return rays_; }
   /// The errors of answers. `radius_world`: median radius of the discs.
   [[nodiscard]] ProbeErrors measure(const Intersect& intersect, double radius_world) const;
 

@@ -1,0 +1,97 @@
+/// splatray-bench-scale-peers FOLDER -o RAYS.json [--quick] [--device D] [--case NAME]: splatray and Embree on the spheres
+/// that splatray-bench-prepare --scale made, one frame each in turn; one JSON array of records (race.h).
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+
+#include "engine/host/atomic_file.h"
+#include "engine/host/error.h"
+#include "preprocess/option_types.h"
+#include "tests/bench/memory.h"
+#include "tests/bench/peer_embree_clusters.h"
+#include "tests/bench/peer_embree_discs.h"
+#include "tests/bench/peer_racer.h"
+#include "tests/bench/scale_cases.h"
+#include "tests/bench/scale_rays.h"
+
+namespace splatray::testing {
+namespace {
+
+/// Of a splat, at most: the scene twice, the discs in float32, a peer and what it takes to build it.
+constexpr std::uint64_t BYTES_PER_SPLAT = 300;
+
+template <class Make>
+PeerMaker maker(const std::string& method, std::uint32_t blend, std::size_t group, bool secondary,
+                const Make& make) {
+  Settings settings;
+  settings.blend = blend;
+  return {blend, secondary, [=](const Course& course) {
+            const auto begin = std::chrono::steady_clock::now();
+            std::unique_ptr<Peer> peer = make(settings);
+            const std::chrono::duration<double> build = std::chrono::steady_clock::now() - begin;
+            return std::make_unique<PeerRacer>(std::move(peer), method, settings, group, build.count(),
+                                               course);
+          }};
+}
+
+std::vector<PeerMaker> peers_of(const Scene& scene) {
+  const auto discs = std::make_shared<const Discs>(discs_of(scene));
+  const auto built_in = [=](const Settings& settings) {
+    return std::make_unique<EmbreeDiscs>(*discs, settings);
+  };
+  std::vector<PeerMaker> makers{maker("embree window", BLEND_WINDOW, 0, true, built_in),
+                                maker("embree nearest", BLEND_NEAREST, 0, false, built_in)};
+  for (const std::size_t group : {1, 8})
+    makers.push_back(maker(
+        "embree user " + std::to_string(group), BLEND_WINDOW, group, group == 1,
+        [=](const Settings& settings) { return std::make_unique<EmbreeClusters>(*discs, settings, group); }));
+  return makers;
+}
+
+/// Adds the case's records; what became of it.
+std::string measure(const Context& context, const Case& one, const std::filesystem::path& folder,
+                    Json& records) {
+  const std::string reason = reason_of_memory(BYTES_PER_SPLAT * one.runs.front().variant.points);
+  if (!reason.empty()) return "left out, " + reason;
+  if (!std::filesystem::exists(folder / "case.json")) return "left out, it was not prepared";
+  try {
+    for (const Json& record : measure_rays(context, one, folder, peers_of)) records.push_back(record);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::out_of_memory) throw;
+    return std::string("left out, ") + error.what();
+  }
+  return "measured";
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Races splatray and Embree on the spheres that splatray-bench-prepare --scale made in FOLDER.",
+               "splatray-bench-scale-peers");
+  std::filesystem::path folder, output;
+  std::string device, only;
+  bool quick = false;
+  app.add_option("folder", folder, "what splatray-bench-prepare wrote")->required();
+  app.add_option("-o,--output", output, "JSON file to write: one record for each run")->required();
+  app.add_flag("--quick", quick, "only what splatray-bench-prepare --scale --quick made");
+  app.add_option("--device", device,
+                 "number or part of a name, as splatray-render --list-devices shows them");
+  app.add_option("--case", only, "only this case");
+  if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
+  require_writable(output);
+  const Context context(device);
+  Json records = Json::array();
+  for (const Case& one : scale_spheres(quick)) {
+    if (!only.empty() && one.name != only) continue;
+    const std::string outcome = measure(context, one, folder / folder_name(one), records);
+    std::printf("%s: %s\n", one.name.c_str(), outcome.c_str());
+    std::fflush(stdout);
+  }
+  write_text_file(records.dump(1) + '\n', output);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+}  // namespace splatray::testing
+
+int main(int argc, char** argv) {
+  return splatray::run_main("splatray-bench-scale-peers", splatray::testing::run, argc, argv);
+}

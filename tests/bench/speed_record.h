@@ -1,0 +1,20 @@
+/// What records of frames on a device have in common (record.h).
+#pragma once
+#include <vector>
+
+#include "engine/gpu/context.h"
+#include "engine/gpu/tracer.h"
+#include "tests/bench/record.h"
+
+namespace splatray::testing {
+
+/// Sets `device`, and settings.threads of a software device.
+void add_device(Json& record, const Context& context);
+
+/// Adds frame_ms_median, frame_ms_min, frames and rays_per_s: `rays` over the median.
+void add_times(Json& speed, const std::vector<double>& times_ms, double rays);
+
+/// Adds tests_per_ray, steps_per_ray and leaves_per_ray, of all classes, as counted.
+void add_work(Json& speed, const RenderStats& counted);
+
+}  // namespace splatray::testing

@@ -1,0 +1,20 @@
+# What tests/bench/report and tests/bench/scale share. Needs `root`.
+
+find_models() {  # exports SPLATRAY_DATA_DIR where there are models
+  if [ -z "${SPLATRAY_DATA_DIR:-}" ] && [ -d "$root/../shared/data" ]; then
+    SPLATRAY_DATA_DIR=$(cd "$root/../shared/data" && pwd)
+  fi
+  if [ -n "${SPLATRAY_DATA_DIR:-}" ]; then
+    export SPLATRAY_DATA_DIR
+  else
+    echo "No folder of real models (SPLATRAY_DATA_DIR): the cases that need one are left out."
+  fi
+}
+
+stage() {  # stage TITLE COMMAND...: runs the command and tells how long it took
+  local title=$1 begin=$SECONDS
+  shift
+  printf '\n== %s\n' "$title"
+  "$@"
+  printf '== %s: %d s\n' "$title" $((SECONDS - begin))
+}
