@@ -145,20 +145,22 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
   if (fields) cloud.field.resize(cloud.size());
   if (!unknown.empty() || fields) {
     const bool knn = rule == RadiusRule::knn;
-    const NeighbourSearch search(cloud, Sites::oriented_positions);
-    std::optional<NeighbourSearch> places;
-    if (knn) places.emplace(cloud, Sites::positions);
+    std::optional<NeighbourSearch> sheets, places;
+    if (fields || !knn) sheets.emplace(cloud, Sites::oriented_positions);
+    if (knn && !unknown.empty()) places.emplace(cloud, Sites::positions);
     parallel_each(stage, cloud.size(), [&](std::size_t n) {
       const auto i = static_cast<std::uint32_t>(n);
+      const bool missing = cloud.radius[i] == 0.0F;
       std::array<Neighbour, FEW> few;
-      const std::span<const Neighbour> nearest = std::span(few).first(search.find(cloud.coord[i], few));
+      std::span<const Neighbour> nearest;
+      if (fields || (missing && !knn)) nearest = std::span(few).first(sheets->find(cloud.coord[i], few));
       if (fields) cloud.field[i] = fit_normal_field(cloud, i, nearest);
-      if (cloud.radius[i] == 0.0F) {
+      if (missing) {
         cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i)
-                                                 : coverage_radius(cloud, search, i, nearest));
+                                                 : coverage_radius(cloud, *sheets, i, nearest));
       }
     });
-    if (!unknown.empty()) bound_strays(cloud, places ? *places : search, unknown);
+    if (!unknown.empty()) bound_strays(cloud, knn ? *places : *sheets, unknown);
   }
   for (float& radius : cloud.radius) radius = static_cast<float>(radius * scale);
 }

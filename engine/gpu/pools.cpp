@@ -1,6 +1,7 @@
 #include "engine/gpu/pools.h"
 
 #include <cstdio>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -59,6 +60,11 @@ bool texel_format_supported(const Context& context, VkFormat format) {
 }
 
 }  // namespace
+
+std::uint64_t total_bytes(const PoolBytes& bytes) {
+  const auto all = sizes(bytes);
+  return std::accumulate(all.begin(), all.end(), std::uint64_t{0});
+}
 
 PoolLimits pool_limits(const Context& context) {
   PoolLimits limits;

@@ -29,6 +29,9 @@ struct PoolBytes {
   bool texel_buffers = false;  ///< pools are read through texel buffers
 };
 
+/// Of all pools and the top table, without the environment.
+[[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
+
 /// What the device allows a pool to be.
 struct PoolLimits {
   std::uint64_t texel_elements = 0;    ///< most elements of a texel buffer; 0 where a format is not supported

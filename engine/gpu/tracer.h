@@ -23,6 +23,12 @@ struct RenderStats {
   double wall_ms = 0.0;  ///< the whole call, read-back included
   std::array<std::uint64_t, COUNTER_COUNT>
       counters{};  ///< zero unless Settings::counters; without the AOVs' rays
+
+  /// Rays of all kinds, as counted.
+  [[nodiscard]] std::uint64_t rays() const {
+    return counters[COUNT_PRIMARY] + counters[COUNT_SHADOW] + counters[COUNT_REFLECTED] +
+           counters[COUNT_REFRACTED];
+  }
 };
 
 class Tracer {

@@ -17,18 +17,13 @@ double seconds_since(Clock::time_point start) {
 /// Work per ray of all classes, and memory.
 Json work_json(const LoadedVariant& variant, const RenderStats& counted) {
   const auto& count = counted.counters;
-  const auto rays = static_cast<double>(count[COUNT_PRIMARY] + count[COUNT_SHADOW] + count[COUNT_REFLECTED] +
-                                        count[COUNT_REFRACTED]);
-  const PoolBytes& bytes = variant.tracer.pool_bytes();
+  const auto rays = static_cast<double>(counted.rays());
   const auto splats = static_cast<double>(variant.splats);
   Json json;
   json["tests_per_ray"] = static_cast<double>(count[COUNT_TESTS]) / rays;
   json["steps_per_ray"] = static_cast<double>(count[COUNT_NODE_STEPS]) / rays;
   json["leaves_per_ray"] = static_cast<double>(count[COUNT_LEAVES]) / rays;
-  json["bytes_per_splat"] =
-      static_cast<double>(bytes.node_pool + bytes.begin_end + bytes.slab_pool + bytes.data_pool +
-                          bytes.color_pool + bytes.field_pool + bytes.top_table) /
-      splats;
+  json["bytes_per_splat"] = static_cast<double>(total_bytes(variant.tracer.pool_bytes())) / splats;
   json["growth"] = static_cast<double>(variant.references) / splats - 1.0;
   if (variant.prepared.overlap > 0.0) json["overlap"] = variant.prepared.overlap;
   json["build_s"] = variant.prepared.build_s;

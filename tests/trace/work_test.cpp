@@ -28,11 +28,8 @@ Work work_of(Scene scene) {
   tracer.upload(scene);
   static_cast<void>(tracer.render(view, settings));
   const auto& count = tracer.stats().counters;
-  const double rays = double(count[COUNT_PRIMARY]) + double(count[COUNT_SHADOW]) +
-                      double(count[COUNT_REFLECTED]) + double(count[COUNT_REFRACTED]);
-  const PoolBytes& bytes = tracer.pool_bytes();
-  const std::uint64_t pools = bytes.node_pool + bytes.begin_end + bytes.slab_pool + bytes.data_pool +
-                              bytes.color_pool + bytes.field_pool;
+  const auto rays = double(tracer.stats().rays());
+  const std::uint64_t pools = total_bytes(tracer.pool_bytes()) - tracer.pool_bytes().top_table;
   return {double(count[COUNT_TESTS]) / rays, double(count[COUNT_NODE_STEPS]) / rays,
           double(count[COUNT_LEAVES]) / rays, double(pools) / double(scene.splat_count)};
 }
