@@ -8,13 +8,10 @@ namespace splatray {
 namespace {
 
 /// Sum of the normals, each turned to the side of the first; some axis where they cancel out.
-glm::dvec3 mean_direction(std::span<const uvec4> splats) {
-  const glm::dvec3 first = unpack_splat(splats.front()).normal;
+glm::dvec3 mean_direction(std::span<const Splat> splats) {
+  const glm::dvec3 first = splats.front().normal;
   glm::dvec3 sum(0.0);
-  for (const uvec4& words : splats) {
-    const glm::dvec3 normal = unpack_splat(words).normal;
-    sum += glm::dot(normal, first) < 0.0 ? -normal : normal;
-  }
+  for (const Splat& splat : splats) sum += glm::dot(splat.normal, first) < 0.0 ? -splat.normal : splat.normal;
   return glm::dot(sum, sum) > 0.0 ? sum : first;
 }
 
@@ -36,14 +33,14 @@ Interval extent(const Splat& splat, const glm::dvec3& axis, const glm::dvec3& ce
           std::min(disc_middle + disc_reach, ball_middle + ball_reach)};
 }
 
-std::uint32_t slab_of(std::span<const uvec4> splats, const LeafCell& cell) {
+std::uint32_t slab_of(std::span<const Splat> splats, const LeafCell& cell) {
   const glm::dvec3 axis = unpack_slab(pack_slab({mean_direction(splats), -1.0, 1.0})).axis;
   const double half_size = 0.5 * cell.size;
   const glm::dvec3 center = glm::dvec3(cell.low) + half_size;
   Interval all{half_size, -half_size};
-  for (const uvec4& words : splats) {
+  for (const Splat& splat : splats) {
     // The two ends may be swapped: by rounding in a flat leaf, or for a disc that only touches the inflated cell.
-    const Interval one = extent(unpack_splat(words), axis, center, half_size);
+    const Interval one = extent(splat, axis, center, half_size);
     const auto [low, high] = std::minmax(one.low, one.high);
     all = {std::min(all.low, low), std::max(all.high, high)};
   }
@@ -57,8 +54,10 @@ std::vector<std::uint32_t> leaf_slabs(const Scene& scene, const Stage& stage) {
   const std::vector<LeafCell> cells = leaf_cells(scene);
   std::vector<std::uint32_t> slabs(cells.size());
   parallel_each(stage, cells.size(), [&](std::size_t leaf) {
-    const std::size_t begin = scene.begin_end[leaf], end = scene.begin_end[leaf + 1];
-    slabs[leaf] = slab_of(std::span(scene.data_pool).subspan(begin, end - begin), cells[leaf]);
+    std::vector<Splat> splats(scene.begin_end[leaf + 1] - scene.begin_end[leaf]);
+    for (std::size_t i = 0; i < splats.size(); ++i)
+      splats[i] = unpack_splat(scene.data_pool[scene.begin_end[leaf] + i]);
+    slabs[leaf] = slab_of(splats, cells[leaf]);
   });
   return slabs;
 }
