@@ -1,6 +1,7 @@
 #include "preprocess/build.h"
 
 #include <tbb/global_control.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <chrono>
@@ -147,9 +148,14 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildP
 RootTransform fit_root(const std::vector<Cloud>& clouds) {
   DiscBounds bounds;
   for (const Cloud& cloud : clouds) {
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      bounds.add(cloud.position[i], glm::dvec3(cloud.normal[i]), cloud.radius[i] * cloud.half_extent_world);
-    }
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto add_discs = [&cloud](const Range& range, DiscBounds some) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        some.add(cloud.position[i], glm::dvec3(cloud.normal[i]), cloud.radius[i] * cloud.half_extent_world);
+      return some;
+    };
+    const auto join = [](DiscBounds a, const DiscBounds& b) { return a.add(b), a; };
+    bounds = tbb::parallel_reduce(Range(0, cloud.size()), bounds, add_discs, join);
   }
   return fit_root(bounds);
 }
@@ -227,15 +233,9 @@ void fill_pools(Octree tree, const SplatList& splats, const LeafLists& lists, Sc
     stats.depth = std::max<std::uint64_t>(stats.depth, tree.leaves[i].level);
   }
   scene.splat_count = splats.size();
-  scene.data_pool.resize(lists.splat.size());
-  for (std::size_t i = 0; i < lists.splat.size(); ++i) scene.data_pool[i] = splats.words[lists.splat[i]];
-  const auto listed = [&lists](const std::vector<std::uint32_t>& attribute) {
-    std::vector<std::uint32_t> pool(attribute.empty() ? 0 : lists.splat.size());
-    for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = attribute[lists.splat[i]];
-    return pool;
-  };
-  scene.color_pool = listed(splats.color);
-  scene.field_pool = listed(splats.field);
+  scene.data_pool = gather(splats.words, lists.splat);
+  scene.color_pool = gather(splats.color, lists.splat);
+  scene.field_pool = gather(splats.field, lists.splat);
 }
 
 void count_result(const Scene& scene, const SplatList& splats, BuildStats& stats) {
@@ -244,11 +244,10 @@ void count_result(const Scene& scene, const SplatList& splats, BuildStats& stats
   stats.nodes = scene.node_pool.size();
   stats.filled_leaves = scene.begin_end.size() - 1;
   stats.growth = static_cast<double>(stats.references) / static_cast<double>(stats.splats) - 1.0;
-  double sum_squared = 0.0;
   std::vector<double> squared(splats.size());
-  for (std::size_t i = 0; i < splats.size(); ++i) {
-    sum_squared += squared[i] = unpack_splat(splats.words[i]).radius_squared;
-  }
+  tbb::parallel_for(std::size_t{0}, splats.size(),
+                    [&](std::size_t i) { squared[i] = unpack_splat(splats.words[i]).radius_squared; });
+  const double sum_squared = std::accumulate(squared.begin(), squared.end(), 0.0);
   const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
   stats.radius_median_world = std::sqrt(*middle) * scene.root.unit_world;
