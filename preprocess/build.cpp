@@ -1,6 +1,7 @@
 #include "preprocess/build.h"
 
 #include <tbb/global_control.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <chrono>
@@ -147,9 +148,14 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildP
 RootTransform fit_root(const std::vector<Cloud>& clouds) {
   DiscBounds bounds;
   for (const Cloud& cloud : clouds) {
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      bounds.add(cloud.position[i], glm::dvec3(cloud.normal[i]), cloud.radius[i] * cloud.half_extent_world);
-    }
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto add_discs = [&cloud](const Range& range, DiscBounds some) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        some.add(cloud.position[i], glm::dvec3(cloud.normal[i]), cloud.radius[i] * cloud.half_extent_world);
+      return some;
+    };
+    const auto join = [](DiscBounds a, const DiscBounds& b) { return a.add(b), a; };
+    bounds = tbb::parallel_reduce(Range(0, cloud.size()), bounds, add_discs, join);
   }
   return fit_root(bounds);
 }
@@ -237,11 +243,10 @@ void count_result(const Scene& scene, BuildStats& stats) {
   stats.nodes = scene.node_pool.size();
   stats.filled_leaves = scene.begin_end.size() - 1;
   stats.growth = static_cast<double>(stats.references) / static_cast<double>(stats.splats) - 1.0;
-  double sum_squared = 0.0;
   std::vector<double> squared(scene.data_pool.size());
-  for (std::size_t i = 0; i < squared.size(); ++i) {
-    sum_squared += squared[i] = unpack_splat(scene.data_pool[i]).radius_squared;
-  }
+  tbb::parallel_for(std::size_t{0}, scene.data_pool.size(),
+                    [&](std::size_t i) { squared[i] = unpack_splat(scene.data_pool[i]).radius_squared; });
+  const double sum_squared = std::accumulate(squared.begin(), squared.end(), 0.0);
   const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
   stats.radius_median_world = std::sqrt(*middle) * scene.root.unit_world;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "preprocess/morton.h"
+#include "preprocess/parallel.h"
 
 namespace splatray {
 namespace {
@@ -38,29 +39,26 @@ std::vector<std::uint32_t> usable_points(const Points& points) {
   return usable;
 }
 
-/// Copies the points named by `order` and frees the source arrays one by one.
-Cloud take_points(Points&& points, const std::vector<std::uint32_t>& order) {
+/// The points named by `usable`; frees the source arrays one by one.
+Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
+  const auto take = [&](auto& values) {
+    auto taken = usable.size() == values.size() ? std::move(values) : gather(values, usable);
+    values = {};
+    return taken;
+  };
   Cloud cloud;
-  cloud.position.reserve(order.size());
-  for (const std::uint32_t i : order) cloud.position.push_back(points.position[i]);
-  points.position = {};
-  cloud.normal.resize(order.size(), glm::vec3(0.0F));
-  if (!points.normal.empty()) {
-    for (std::size_t i = 0; i < order.size(); ++i) cloud.normal[i] = unit_or_zero(points.normal[order[i]]);
-  }
-  points.normal = {};
-  if (!points.color.empty()) {
-    cloud.color.reserve(order.size());
-    for (const std::uint32_t i : order) cloud.color.push_back(pack_color(points.color[i]));
-  }
-  points.color = {};
-  cloud.radius.resize(order.size(), 0.0F);
-  if (!points.radius.empty()) {
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const float radius = points.radius[order[i]];
-      if (std::isfinite(radius) && radius > 0.0F) cloud.radius[i] = radius;
-    }
-  }
+  cloud.position = take(points.position);
+  cloud.normal = take(points.normal);
+  cloud.normal.resize(usable.size(), glm::vec3(0.0F));
+  const std::vector<glm::vec3> color = take(points.color);
+  cloud.color.resize(color.size());
+  cloud.radius = take(points.radius);
+  cloud.radius.resize(usable.size(), 0.0F);
+  tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
+    cloud.normal[i] = unit_or_zero(cloud.normal[i]);
+    if (!color.empty()) cloud.color[i] = pack_color(color[i]);
+    if (!(std::isfinite(cloud.radius[i]) && cloud.radius[i] > 0.0F)) cloud.radius[i] = 0.0F;
+  });
   return cloud;
 }
 
@@ -76,7 +74,7 @@ void normalise_coordinates(Cloud& cloud) {
   const double longest = std::max({half.x, half.y, half.z});
   cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
   cloud.coord.resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
     const glm::dvec3 unit = (cloud.position[i] - cloud.center_world) / cloud.half_extent_world;
     const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
     cloud.coord[i] = glm::vec3(steps) * COORD_STEP;
@@ -84,7 +82,7 @@ void normalise_coordinates(Cloud& cloud) {
       const double radius = cloud.radius[i] / cloud.half_extent_world;
       cloud.radius[i] = static_cast<float>(std::clamp(radius, 0x1p-100, 0x1p100));
     }
-  }
+  });
 }
 
 auto sort_key(const glm::vec3& v) { return std::make_tuple(v.x, v.y, v.z); }
@@ -102,24 +100,16 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
 /// Points' indices, ascending by Morton key of the coordinates, then by every attribute.
 std::vector<std::uint32_t> canonical_order(const Cloud& cloud) {
   std::vector<SortEntry> entries(cloud.size());
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(cloud.size()), [&](std::uint32_t i) {
     const glm::uvec3 cell = glm::min(glm::uvec3((cloud.coord[i] + 1.0F) * 0x1p20F), glm::uvec3(0x1FFFFF));
     entries[i] = {morton_key(cell), i};
-  }
+  });
   tbb::parallel_sort(entries.begin(), entries.end(), [&cloud](const SortEntry& a, const SortEntry& b) {
     return a.key != b.key ? a.key < b.key : point_less(cloud, a.index, b.index);
   });
   std::vector<std::uint32_t> order(entries.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries[i].index;
   return order;
-}
-
-template <typename Value>
-void permute(std::vector<Value>& values, const std::vector<std::uint32_t>& order) {
-  if (values.empty()) return;
-  std::vector<Value> ordered(values.size());
-  for (std::size_t i = 0; i < order.size(); ++i) ordered[i] = values[order[i]];
-  values = std::move(ordered);
 }
 
 void count_given(const Cloud& cloud, bool has_radii, BuildStats& stats) {
@@ -145,11 +135,11 @@ Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
   if (cloud.size() == 0) return cloud;
   normalise_coordinates(cloud);
   const std::vector<std::uint32_t> order = canonical_order(cloud);
-  permute(cloud.position, order);
-  permute(cloud.coord, order);
-  permute(cloud.normal, order);
-  permute(cloud.color, order);
-  permute(cloud.radius, order);
+  cloud.position = gather(cloud.position, order);
+  cloud.coord = gather(cloud.coord, order);
+  cloud.normal = gather(cloud.normal, order);
+  cloud.color = gather(cloud.color, order);
+  cloud.radius = gather(cloud.radius, order);
   count_given(cloud, has_radii, stats);
   return cloud;
 }

@@ -5,18 +5,57 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace splatray {
 namespace {
 
-/// Calls visit(leaf index) for every leaf of the tree that a disc may meet.
-template <typename Visit>
+constexpr std::size_t CHUNK = 4096;               // splats whose leaves are listed together
+constexpr std::uint32_t LAST_LEAF = 0x80000000U;  // of a splat; above all leaf indices
+
+/// Which children of a node a disc may come within LIST_INFLATION of: its bounding box against the inflated cell, its plane
+/// against it and the distance of its centre from it. True for every child that it does come near, and for few others.
+/// Children share what is worked out axis by axis.
+class ChildTest {
+ public:
+  ChildTest(const Disc& disc, glm::uvec3 cell_min, std::uint32_t child_size)
+      : radius_squared_(disc.radius_squared) {
+    const double half = 0.5 * child_size + LIST_INFLATION;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        const double offset = disc.center[axis] - (cell_min[axis] + side * child_size + 0.5 * child_size);
+        const double outside = std::abs(offset) - half;
+        const double gap = std::max(outside, 0.0);
+        apart_[axis][side] = outside > disc.half_box[axis];
+        along_normal_[axis][side] = disc.normal[axis] * offset;
+        gap_squared_[axis][side] = gap * gap;
+      }
+    }
+    const glm::dvec3 n = glm::abs(disc.normal);
+    reach_ = half * (n.x + n.y + n.z);
+  }
+
+  [[nodiscard]] bool may_meet(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+    if (apart_[0][x] || apart_[1][y] || apart_[2][z]) return false;
+    if (std::abs(along_normal_[0][x] + along_normal_[1][y] + along_normal_[2][z]) > reach_) return false;
+    return gap_squared_[0][x] + gap_squared_[1][y] + gap_squared_[2][z] <= radius_squared_;
+  }
+
+ private:
+  double radius_squared_;
+  double reach_;  // of the inflated cell along the disc's normal
+  bool apart_[3][2];
+  double along_normal_[3][2];
+  double gap_squared_[3][2];
+};
+
+/// Lists every leaf of the tree that a disc may meet.
 class LeafWalk {
  public:
-  LeafWalk(const Octree& tree, const Disc& disc, const Visit& visit)
+  LeafWalk(const Octree& tree, const Disc& disc, std::vector<std::uint32_t>& leaves)
       : tree_(tree),
         disc_(disc),
-        visit_(visit),
+        leaves_(leaves),
         low_(glm::floor(disc.center - disc.half_box) - (LIST_INFLATION + 1.0)),
         high_(glm::ceil(disc.center + disc.half_box) + (LIST_INFLATION + 1.0)) {}
 
@@ -27,7 +66,7 @@ class LeafWalk {
     const std::uint32_t word = tree_.node_pool[node];
     const std::uint32_t address = word & NODE_ADDRESS_MASK;
     if (word >> NODE_TAG_SHIFT != NODE_INNER) {
-      visit_(address);
+      leaves_.push_back(address);
       return;
     }
     const std::uint32_t half = cell_size / 2;
@@ -38,11 +77,12 @@ class LeafWalk {
       descend(address + first.x + 2 * first.y + 4 * first.z, cell_min + first * half, half);
       return;
     }
+    const ChildTest test(disc_, cell_min, half);
     for (std::uint32_t z = first.z; z <= last.z; ++z) {
       for (std::uint32_t y = first.y; y <= last.y; ++y) {
         for (std::uint32_t x = first.x; x <= last.x; ++x) {
-          const glm::uvec3 child_min = cell_min + glm::uvec3(x, y, z) * half;
-          if (may_meet(disc_, child_min, half)) descend(address + x + 2 * y + 4 * z, child_min, half);
+          if (test.may_meet(x, y, z))
+            descend(address + x + 2 * y + 4 * z, cell_min + glm::uvec3(x, y, z) * half, half);
         }
       }
     }
@@ -50,26 +90,39 @@ class LeafWalk {
 
   const Octree& tree_;
   const Disc& disc_;
-  const Visit& visit_;
+  std::vector<std::uint32_t>& leaves_;
   glm::uvec3 low_;  // lattice box around everything the disc may meet
   glm::uvec3 high_;
 };
 
-template <typename Visit>
-void visit_leaves(const Octree& tree, const Disc& disc, const Visit& visit) {
-  LeafWalk<Visit>(tree, disc, visit).walk();
+/// The leaves of CHUNK consecutive splats, splat by splat; the last one of each is marked LAST_LEAF.
+std::vector<std::uint32_t> leaves_of_chunk(const Octree& tree, const SplatList& splats, std::size_t chunk) {
+  const std::size_t end = std::min((chunk + 1) * CHUNK, splats.size());
+  std::vector<std::uint32_t> leaves;
+  leaves.reserve(4 * CHUNK);
+  for (std::size_t i = chunk * CHUNK; i < end; ++i) {
+    LeafWalk(tree, Disc(splats.words[i]), leaves).walk();
+    leaves.back() |= LAST_LEAF;
+  }
+  leaves.shrink_to_fit();
+  return leaves;
 }
 
-/// Turns counts, at [i + 1], into begins; checks that the sum can be addressed.
-void counts_to_begins(std::vector<std::uint32_t>& counts) {
-  const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-  if (total > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(ExitCode::failed,
-                "the leaves would list " + std::to_string(total) +
-                    " splats, at most 2^32 - 1 can be addressed; use smaller radii or fewer points");
+/// Adds up references; throws when there are more than can be addressed.
+class ReferenceCount {
+ public:
+  void add(std::uint64_t count) {
+    if ((total_ += count) > std::numeric_limits<std::uint32_t>::max()) {
+      throw Error(
+          ExitCode::failed,
+          "the leaves would list more than 2^32 - 1 splats, which cannot be addressed; use smaller radii or "
+          "fewer points");
+    }
   }
-  std::partial_sum(counts.begin(), counts.end(), counts.begin());
-}
+
+ private:
+  std::atomic<std::uint64_t> total_ = 0;
+};
 
 }  // namespace
 
@@ -79,17 +132,6 @@ Disc::Disc(const uvec4& words) {
   normal = splat.normal;
   radius_squared = splat.radius_squared;
   half_box = std::sqrt(radius_squared) * glm::sqrt(glm::max(1.0 - normal * normal, 0.0));
-}
-
-bool may_meet(const Disc& disc, glm::uvec3 cell_min, std::uint32_t cell_size) {
-  const double half = 0.5 * cell_size + LIST_INFLATION;
-  const glm::dvec3 offset = disc.center - (glm::dvec3(cell_min) + 0.5 * cell_size);
-  const glm::dvec3 outside = glm::abs(offset) - half;
-  if (glm::any(glm::greaterThan(outside, disc.half_box))) return false;
-  const glm::dvec3 n = glm::abs(disc.normal);
-  if (std::abs(glm::dot(disc.normal, offset)) > half * (n.x + n.y + n.z)) return false;
-  const glm::dvec3 gap = glm::max(outside, 0.0);
-  return glm::dot(gap, gap) <= disc.radius_squared;
 }
 
 LeafLists insert_centres(const Octree& tree, const SplatList& splats) {
@@ -104,21 +146,26 @@ LeafLists insert_centres(const Octree& tree, const SplatList& splats) {
 
 LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Stage& stage) {
   const std::size_t leaves = tree.leaves.size();
+  std::vector<std::vector<std::uint32_t>> met((splats.size() + CHUNK - 1) / CHUNK);
   LeafLists lists;
   lists.begin.assign(leaves + 1, 0);
-  parallel_each(stage, splats.size(), [&](std::size_t i) {
-    visit_leaves(tree, Disc(splats.words[i]), [&](std::uint32_t leaf) {
-      std::atomic_ref(lists.begin[leaf + 1]).fetch_add(1, std::memory_order_relaxed);
-    });
-  });
-  counts_to_begins(lists.begin);
+  ReferenceCount total;
+  const auto walk = [&](std::size_t chunk) {
+    met[chunk] = leaves_of_chunk(tree, splats, chunk);
+    total.add(met[chunk].size());
+    for (const std::uint32_t leaf : met[chunk])
+      std::atomic_ref(lists.begin[(leaf & ~LAST_LEAF) + 1]).fetch_add(1, std::memory_order_relaxed);
+  };
+  parallel_each(stage, met.size(), walk, /*grain=*/1);
+  std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
   lists.splat.resize(lists.begin.back());
   std::vector<std::uint32_t> place(lists.begin.begin(), lists.begin.end() - 1);
-  parallel_each(stage, splats.size(), [&](std::size_t i) {
-    visit_leaves(tree, Disc(splats.words[i]), [&](std::uint32_t leaf) {
-      const std::uint32_t slot = std::atomic_ref(place[leaf]).fetch_add(1, std::memory_order_relaxed);
-      lists.splat[slot] = static_cast<std::uint32_t>(i);
-    });
+  tbb::parallel_for(std::size_t{0}, met.size(), [&](std::size_t chunk) {
+    auto splat = static_cast<std::uint32_t>(chunk * CHUNK);
+    for (const std::uint32_t leaf : std::exchange(met[chunk], {})) {
+      lists.splat[std::atomic_ref(place[leaf & ~LAST_LEAF]).fetch_add(1, std::memory_order_relaxed)] = splat;
+      if ((leaf & LAST_LEAF) != 0) ++splat;
+    }
   });
   parallel_each(stage, leaves, [&](std::size_t leaf) {
     std::sort(lists.splat.begin() + lists.begin[leaf], lists.splat.begin() + lists.begin[leaf + 1]);

@@ -25,14 +25,10 @@ struct Disc {
   double radius_squared;
 };
 
-/// Whether a disc may come within LIST_INFLATION of a cell: bounding box against the inflated cell, plane
-/// against it and distance of the centre from it. True for every disc that does, and for few others.
-[[nodiscard]] bool may_meet(const Disc& disc, glm::uvec3 cell_min, std::uint32_t cell_size);
-
 /// Policy `centre`: each splat in the leaf that holds its centre.
 [[nodiscard]] LeafLists insert_centres(const Octree& tree, const SplatList& splats);
 
-/// Policy `overlap`: each splat in every leaf it may meet. Throws Error (failed) above 2^32 - 1 references.
+/// Policy `overlap`: each splat in every leaf whose cell it comes within LIST_INFLATION of, and in few others. Throws Error (failed) above 2^32 - 1 references.
 [[nodiscard]] LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Stage& stage);
 
 /// Policy `probe` (Goradia et al. 2010, sec. III-C), given the lists of `overlap`: `probes` segments from a

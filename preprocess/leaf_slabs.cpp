@@ -54,9 +54,9 @@ std::vector<std::uint32_t> leaf_slabs(const Scene& scene, const Stage& stage) {
   const std::vector<LeafCell> cells = leaf_cells(scene);
   std::vector<std::uint32_t> slabs(cells.size());
   parallel_each(stage, cells.size(), [&](std::size_t leaf) {
-    std::vector<Splat> splats;
-    for (std::uint32_t i = scene.begin_end[leaf]; i < scene.begin_end[leaf + 1]; ++i)
-      splats.push_back(unpack_splat(scene.data_pool[scene.reference_pool[i]]));
+    std::vector<Splat> splats(scene.begin_end[leaf + 1] - scene.begin_end[leaf]);
+    for (std::size_t i = 0; i < splats.size(); ++i)
+      splats[i] = unpack_splat(scene.data_pool[scene.reference_pool[scene.begin_end[leaf] + i]]);
     slabs[leaf] = slab_of(splats, cells[leaf]);
   });
   return slabs;

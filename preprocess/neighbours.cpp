@@ -3,6 +3,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -12,15 +13,14 @@ namespace {
 
 constexpr std::size_t MAX_COINCIDENT = 8;
 constexpr std::size_t PARALLEL_SIZE = 1U << 14;  // sites worth another task
+constexpr std::size_t GROUPS_PER_TASK = 8;
+constexpr float REACH_GROWTH = 1.25F;  // of the squared distance searched, over what the block before needed
+constexpr std::size_t MOST_NEAREST = 32;
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
-/// Distance of a value from an interval. Twice max(x, 0) is exactly x + |x|, which vectorises where max does
-/// not.
-float outside(float low, float value, float high) {
-  const float below = low - value;
-  const float above = value - high;
-  return 0.5F * ((below + std::abs(below)) + (above + std::abs(above)));
-}
+/// max(below, above, 0), of which one at most is positive. Twice max(x, 0) is exactly x + |x|, which vectorises where max
+/// does not.
+float gap(float below, float above) { return 0.5F * ((below + std::abs(below)) + (above + std::abs(above))); }
 
 }  // namespace
 
@@ -51,7 +51,7 @@ struct NeighbourSearch::Nearest {
   }
 };
 
-NeighbourSearch::NeighbourSearch(const Cloud& cloud, Sites kind) {
+NeighbourSearch::NeighbourSearch(const Cloud& cloud, Sites kind) : cloud_(cloud) {
   std::vector<Site> sites = choose_sites(cloud, kind);
   arrange(sites, std::bit_ceil(std::max<std::size_t>(sites.size(), WIDTH)));
   add_blocks(sites);
@@ -67,8 +67,12 @@ std::vector<NeighbourSearch::Site> NeighbourSearch::choose_sites(const Cloud& cl
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     const bool same_place = i > 0 && cloud.coord[i] == cloud.coord[i - 1];
     if (!same_place) coincident = 0;
-    if (same_place && (kind == Sites::positions || cloud.normal[i] == cloud.normal[i - 1])) continue;
-    if (++coincident <= MAX_COINCIDENT) chosen.push_back({cloud.coord[i], i});
+    const bool copy = same_place && (kind == Sites::positions || cloud.normal[i] == cloud.normal[i - 1]);
+    if (!copy && ++coincident <= MAX_COINCIDENT) {
+      chosen.push_back({cloud.coord[i], i});
+    } else {
+      copies_.push_back(i);
+    }
   }
   return chosen;
 }
@@ -100,7 +104,7 @@ void NeighbourSearch::add_blocks(std::span<const Site> sites) {
   levels_.emplace_back((blocks_.size() + WIDTH - 1) / WIDTH);
   std::fill_n(reinterpret_cast<float*>(levels_[0].data()), levels_[0].size() * sizeof(Boxes) / sizeof(float),
               INFINITE);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+  tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
     Boxes& boxes = levels_[0][b / WIDTH];
     glm::vec3 low(INFINITE);
@@ -119,7 +123,7 @@ void NeighbourSearch::add_blocks(std::span<const Site> sites) {
       boxes.low[axis][b % WIDTH] = low[axis];
       boxes.high[axis][b % WIDTH] = high[axis];
     }
-  }
+  });
 }
 
 void NeighbourSearch::add_levels() {
@@ -153,9 +157,9 @@ void NeighbourSearch::visit(std::size_t level, std::uint32_t node, const glm::ve
   const Boxes& boxes = levels_[level][node];
   float distance[WIDTH];
   for (std::uint32_t j = 0; j < WIDTH; ++j) {
-    const float x = outside(boxes.low[0][j], query.x, boxes.high[0][j]);
-    const float y = outside(boxes.low[1][j], query.y, boxes.high[1][j]);
-    const float z = outside(boxes.low[2][j], query.z, boxes.high[2][j]);
+    const float x = gap(boxes.low[0][j] - query.x, query.x - boxes.high[0][j]);
+    const float y = gap(boxes.low[1][j] - query.y, query.y - boxes.high[1][j]);
+    const float z = gap(boxes.low[2][j] - query.z, query.z - boxes.high[2][j]);
     distance[j] = x * x + y * y + z * z;  // NaN for boxes at infinity
   }
   Neighbour order[WIDTH];  // children that may matter, nearest first
@@ -177,20 +181,148 @@ void NeighbourSearch::visit(std::size_t level, std::uint32_t node, const glm::ve
   }
 }
 
+void NeighbourSearch::Block::measure(const glm::vec3& query, float (&distance)[WIDTH]) const {
+  for (std::uint32_t j = 0; j < WIDTH; ++j) {
+    const float dx = x[j] - query.x;
+    const float dy = y[j] - query.y;
+    const float dz = z[j] - query.z;
+    distance[j] = dx * dx + dy * dy + dz * dz;
+  }
+}
+
 void NeighbourSearch::visit_block(const Block& block, const glm::vec3& query, Nearest& nearest) const {
   float distance[WIDTH];
-  for (std::uint32_t j = 0; j < WIDTH; ++j) {
-    const float x = block.x[j] - query.x;
-    const float y = block.y[j] - query.y;
-    const float z = block.z[j] - query.z;
-    distance[j] = x * x + y * y + z * z;
-  }
+  block.measure(query, distance);
   const float bound = nearest.bound();
   for (std::uint32_t j = 0; j < WIDTH; ++j) {
     if (distance[j] > 0.0F && distance[j] <= bound && distance[j] < INFINITE) {
       nearest.add(Neighbour(distance[j], block.index[j]));
     }
   }
+}
+
+/// The blocks that come within some distance of a box of queries, so that all sites near these are among theirs.
+class NeighbourSearch::Ball {
+ public:
+  Ball(const NeighbourSearch& search, const glm::vec3& low, const glm::vec3& high, float reach_squared)
+      : search_(search), low_(low), high_(high), reach_squared_(reach_squared) {
+    nodes_[0] = 0;
+    count_ = 1;
+    for (std::size_t level = search.levels_.size(); level-- > 0 && count_ > 0;) descend(level);
+  }
+
+  /// Finds the `nearest.size()` nearest sites of a query in the box, or returns false: they may be farther away, or
+  /// there are too many.
+  bool find(const glm::vec3& query, std::span<Neighbour> nearest) const {
+    double keys[MOST_SITES];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (count > MOST_SITES - WIDTH) return false;
+      count = add(search_.blocks_[nodes_[i]], query, keys, count);
+    }
+    if (count < nearest.size()) return false;
+    double smaller[MOST_SITES];  // how many keys are: the place among them
+    std::fill_n(smaller, count, 0.0);
+    for (std::size_t j = 0; j < count; ++j) {
+      for (std::size_t i = 0; i < count; ++i) smaller[i] += keys[j] < keys[i] ? 1.0 : 0.0;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto place = static_cast<std::size_t>(smaller[i]);
+      if (place < nearest.size()) nearest[place] = std::bit_cast<Neighbour>(keys[i]);
+    }
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t MOST_NODES = 128;
+  static constexpr std::size_t MOST_SITES = 128;
+
+  /// Replaces the nodes by those of their children that are near; by none when these are too many.
+  void descend(std::size_t level) {
+    std::uint32_t children[MOST_NODES];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (count > MOST_NODES - WIDTH) {
+        count = 0;
+        break;
+      }
+      const Boxes& boxes = search_.levels_[level][nodes_[i]];
+      float distance[WIDTH];
+      for (std::uint32_t j = 0; j < WIDTH; ++j) {
+        const float x = apart(boxes, 0, j), y = apart(boxes, 1, j), z = apart(boxes, 2, j);
+        distance[j] = x * x + y * y + z * z;  // NaN for boxes at infinity
+      }
+      for (std::uint32_t j = 0; j < WIDTH; ++j) {
+        children[count] = nodes_[i] * WIDTH + j;
+        count += static_cast<std::size_t>(distance[j] <= reach_squared_);
+      }
+    }
+    std::copy_n(children, count_ = count, nodes_);
+  }
+
+  [[nodiscard]] float apart(const Boxes& boxes, int axis, std::uint32_t j) const {
+    return gap(boxes.low[axis][j] - high_[axis], low_[axis] - boxes.high[axis][j]);
+  }
+
+  std::size_t add(const Block& block, const glm::vec3& query, double* keys, std::size_t count) const {
+    float distance[WIDTH];
+    block.measure(query, distance);
+    for (std::uint32_t j = 0; j < WIDTH; ++j) {
+      keys[count] = std::bit_cast<double>(Neighbour(distance[j], block.index[j]));
+      count += static_cast<std::size_t>(distance[j] > 0.0F) &
+               static_cast<std::size_t>(distance[j] <= reach_squared_);
+    }
+    return count;
+  }
+
+  const NeighbourSearch& search_;
+  glm::vec3 low_, high_;
+  float reach_squared_;
+  std::uint32_t nodes_[MOST_NODES];
+  std::size_t count_;
+};
+
+std::size_t NeighbourSearch::find(const glm::vec3& query, std::span<Neighbour> nearest, float guess) const {
+  if (!blocks_.empty() && Ball(*this, query, query, guess).find(query, nearest)) return nearest.size();
+  return find(query, nearest);
+}
+
+float NeighbourSearch::find_block(std::uint32_t block, float reach_squared, std::size_t count,
+                                  const Visit& visit) const {
+  const Boxes& boxes = levels_[0][block / WIDTH];
+  const auto corner = [&](const float(&planes)[3][WIDTH]) {
+    return glm::vec3(planes[0][block % WIDTH], planes[1][block % WIDTH], planes[2][block % WIDTH]);
+  };
+  const Ball ball(*this, corner(boxes.low), corner(boxes.high), reach_squared);
+  std::array<Neighbour, MOST_NEAREST> places;
+  float widest = 0.0F;
+  const Block& sites = blocks_[block];
+  for (std::uint32_t j = 0; j < WIDTH && sites.x[j] < INFINITE; ++j) {
+    const glm::vec3 query(sites.x[j], sites.y[j], sites.z[j]);
+    std::span<Neighbour> nearest = std::span(places).first(count);
+    if (!ball.find(query, nearest)) nearest = nearest.first(find(query, nearest));
+    if (!nearest.empty()) widest = std::max(widest, nearest.back().distance_squared());
+    visit(sites.index[j], nearest);
+  }
+  return REACH_GROWTH * widest;
+}
+
+void NeighbourSearch::find_all(std::size_t count, const Stage& stage, const Visit& visit) const {
+  const auto group = [&](std::size_t g) {
+    const std::size_t begin = g * WIDTH, end = std::min(begin + WIDTH, blocks_.size());
+    const Block& first = blocks_[begin];
+    std::array<Neighbour, MOST_NEAREST> places;
+    const std::size_t found = find({first.x[0], first.y[0], first.z[0]}, std::span(places).first(count));
+    float reach_squared = found > 0 ? REACH_GROWTH * places[found - 1].distance_squared() : 0.0F;
+    for (std::size_t b = begin; b < end; ++b)
+      reach_squared = find_block(static_cast<std::uint32_t>(b), reach_squared, count, visit);
+  };
+  parallel_each(stage, blocks_.empty() ? 0 : levels_[0].size(), group, GROUPS_PER_TASK);
+  tbb::parallel_for(std::size_t{0}, copies_.size(), [&](std::size_t i) {
+    std::array<Neighbour, MOST_NEAREST> places;
+    const std::size_t found = find(cloud_.coord[copies_[i]], std::span(places).first(count));
+    visit(copies_[i], std::span(places).first(found));
+  });
 }
 
 }  // namespace splatray

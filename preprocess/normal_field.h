@@ -1,11 +1,8 @@
 /// How the normal changes across a disc.
 #pragma once
-#include <cstdint>
 #include <glm/glm.hpp>
-#include <span>
 
-#include "preprocess/cloud.h"
-#include "preprocess/neighbours.h"
+#include "preprocess/neighbourhood.h"
 
 namespace splatray {
 
@@ -13,7 +10,6 @@ namespace splatray {
 /// Linsen et al. 2007. Symmetric least-squares fit to how the normals of those of its nearest places that lie on the same
 /// sheet lean, weighted by the inverse squared distance, times the share of their variance that it explains: noise and
 /// creases leave a disc flat. Normals must be known.
-[[nodiscard]] glm::vec3 fit_normal_field(const Cloud& cloud, std::uint32_t point,
-                                         std::span<const Neighbour> nearest);
+[[nodiscard]] glm::vec3 fit_normal_field(const Neighbourhood& around);
 
 }  // namespace splatray

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/host/error.h"
+#include "preprocess/parallel.h"
 
 namespace splatray {
 namespace {
@@ -75,26 +76,27 @@ class Builder {
 
 std::uint64_t order_splats(SplatList& splats, std::uint32_t copies) {
   std::vector<SortEntry> entries(splats.size());
-  for (std::uint32_t i = 0; i < splats.size(); ++i) entries[i] = {splats.key[i], i};
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(splats.size()), [&](std::uint32_t i) {
+    entries[i] = {splats.key[i], i};
+  });
   tbb::parallel_sort(entries.begin(), entries.end(), [&splats](const SortEntry& a, const SortEntry& b) {
     return a.key != b.key ? a.key < b.key : splat_less(splats, a.index, b.index);
   });
-  SplatList ordered;
-  ordered.key.reserve(splats.size());
-  ordered.words.reserve(splats.size());
-  ordered.color.reserve(splats.color.size());
-  ordered.field.reserve(splats.field.size());
-  for (const SortEntry& entry : entries) {
-    const uvec4& words = splats.words[entry.index];
-    const std::size_t size = ordered.size();
-    if (size >= copies && ordered.words[size - copies] == words) continue;
-    ordered.key.push_back(entry.key);
-    ordered.words.push_back(words);
-    if (!splats.color.empty()) ordered.color.push_back(splats.color[entry.index]);
-    if (!splats.field.empty()) ordered.field.push_back(splats.field[entry.index]);
+  const auto is_surplus = [&](std::size_t i) {
+    return i >= copies && entries[i].key == entries[i - copies].key &&
+           splats.words[entries[i].index] == splats.words[entries[i - copies].index];
+  };
+  std::vector<std::uint32_t> order;
+  order.reserve(splats.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (!is_surplus(i)) order.push_back(entries[i].index);
   }
-  const std::uint64_t dropped = splats.size() - ordered.size();
-  splats = std::move(ordered);
+  entries = {};
+  const std::uint64_t dropped = splats.size() - order.size();
+  splats.key = gather(splats.key, order);
+  splats.words = gather(splats.words, order);
+  splats.color = gather(splats.color, order);
+  splats.field = gather(splats.field, order);
   return dropped;
 }
 

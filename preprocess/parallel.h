@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "engine/host/error.h"
 #include "preprocess/build.h"
@@ -25,18 +27,27 @@ struct Stage {
 
 /// Calls body(i) for every i in [0, count), in parallel, and reports in between, always from the calling
 /// thread. `body` must write only what belongs to i, so that the result does not depend on the number of
-/// threads.
+/// threads. A task is at least `grain` calls.
 template <typename Body>
-void parallel_each(const Stage& stage, std::size_t count, const Body& body) {
-  const std::size_t slice = std::max<std::size_t>(count / 32 + 1, 1U << 15);
+void parallel_each(const Stage& stage, std::size_t count, const Body& body, std::size_t grain = 256) {
+  const std::size_t slice = std::max<std::size_t>(count / 32 + 1, 128 * grain);
   for (std::size_t begin = 0; begin < count; begin += slice) {
     stage.report(static_cast<double>(begin) / static_cast<double>(count));
     const std::size_t end = std::min(begin + slice, count);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 256), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
     });
   }
   stage.report(1.0);
+}
+
+/// values[order[0]], values[order[1]] and so on; nothing where there are no values.
+template <typename Value>
+[[nodiscard]] std::vector<Value> gather(const std::vector<Value>& values,
+                                        const std::vector<std::uint32_t>& order) {
+  std::vector<Value> gathered(values.empty() ? 0 : order.size());
+  tbb::parallel_for(std::size_t{0}, gathered.size(), [&](std::size_t i) { gathered[i] = values[order[i]]; });
+  return gathered;
 }
 
 }  // namespace splatray

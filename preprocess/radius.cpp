@@ -12,12 +12,13 @@
 namespace splatray {
 namespace {
 
-constexpr double KNN_FACTOR = 0.65;       // x distance to the RING-th neighbour: closed for even samples
-constexpr std::size_t RING = 6;           // neighbours around a point of an even sampling
-constexpr std::size_t FEW = 12;           // neighbours that settle most Voronoi cells
-constexpr std::size_t CLOSE = 8;          // neighbours whose discs meet a point's own
-constexpr std::size_t MANY = 32;          // neighbours asked for when FEW do not
-constexpr double COVERAGE_MARGIN = 1.02;  // discs of a curved surface lie in different planes
+constexpr double KNN_FACTOR = 0.65;  // x distance to the RING-th neighbour: closed for even samples
+constexpr std::size_t RING = 6;      // neighbours around a point of an even sampling
+constexpr std::size_t FEW = 12;      // neighbours that settle most Voronoi cells
+constexpr std::size_t CLOSE = 8;     // neighbours whose discs meet a point's own
+constexpr std::size_t MANY = 32;     // neighbours asked for when FEW do not
+constexpr float MANY_OVER_FEW = 1.3F * MANY / FEW;  // of their squared distances on a surface, with some room
+constexpr double COVERAGE_MARGIN = 1.02;            // discs of a curved surface lie in different planes
 // More where discs lie at different heights, in standard deviations of the heights.
 constexpr double ROUGHNESS_REACH = 1.0;
 constexpr double SIMILAR = 0.5;      // cosine of normals of one sheet
@@ -34,81 +35,98 @@ double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32
   return count == 0 ? 0.0 : KNN_FACTOR * std::sqrt(nearest[count - 1].distance_squared());
 }
 
-/// What surrounds a point on its tangent plane.
-struct Surroundings {
-  std::array<TangentNeighbour, MANY> neighbours;
-  std::array<TangentCrease, MANY> creases;
-  std::size_t neighbour_count = 0;
-  std::size_t crease_count = 0;
+/// What surrounds a point on its tangent plane. Neighbours of the point's own sheet are turned into the plane with their
+/// distance kept, so that curvature does not shrink the cell. Those on the far side of a sharp edge give the line where
+/// their plane meets this one.
+class Surroundings {
+ public:
+  explicit Surroundings(const Neighbourhood& around) : around_(around) {
+    const glm::dvec3& normal = around.normal;
+    const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(normal, side));
+    const glm::dvec3 v = glm::cross(normal, u);
+    around.normals.dot(normal, around.count, alignment_);
+    around.offset.dot(u, around.count, across_u_);
+    around.offset.dot(v, around.count, across_v_);
+    for (std::size_t j = 0; j < around.count; ++j) {
+      distance_[j] = std::sqrt(static_cast<float>(around.distance_squared[j]));
+      lateral_[j] = std::sqrt(across_u_[j] * across_u_[j] + across_v_[j] * across_v_[j]);
+      stretch_[j] = distance_[j] / lateral_[j];
+    }
+    for (std::size_t j = 0; j < around.count; ++j) {
+      if ((around.oriented ? alignment_[j] : std::abs(alignment_[j])) < SIMILAR) {
+        add_crease(j, u, v);
+      } else if (!(lateral_[j] < LATERAL * distance_[j])) {
+        neighbours_[neighbour_count_++] = {glm::dvec2(across_u_[j], across_v_[j]) * stretch_[j],
+                                           distance_[j]};
+      }
+    }
+  }
+
+  [[nodiscard]] std::span<const TangentNeighbour> neighbours() const {
+    return std::span(neighbours_).first(neighbour_count_);
+  }
+  [[nodiscard]] std::span<const TangentCrease> creases() const {
+    return std::span(creases_).first(crease_count_);
+  }
+
+  /// Standard deviation of the heights over the point's plane of the `most` nearest points that lie parallel.
+  [[nodiscard]] double noise(std::size_t most) const {
+    double count = 1.0, sum = 0.0, sum_squared = 0.0;
+    for (std::size_t j = 0; j < std::min(most, around_.count); ++j) {
+      if (alignment_[j] < PARALLEL) continue;
+      const double height = glm::dot(around_.normal, offset(j));
+      count += 1.0, sum += height, sum_squared += height * height;
+    }
+    return std::sqrt(std::max(sum_squared / count - sum * sum / (count * count), 0.0));
+  }
+
+ private:
+  [[nodiscard]] glm::dvec3 offset(std::size_t j) const {
+    return {around_.offset.x[j], around_.offset.y[j], around_.offset.z[j]};
+  }
+
+  void add_crease(std::size_t j, const glm::dvec3& u, const glm::dvec3& v) {
+    const glm::dvec3 normal(around_.normals.x[j], around_.normals.y[j], around_.normals.z[j]);
+    const glm::dvec2 across(glm::dot(normal, u), glm::dot(normal, v));
+    const double slant = glm::length(across);
+    const double height = glm::dot(normal, offset(j));
+    const double to_crease = std::abs(height) / slant;
+    if (slant < LEAST_SLANT || to_crease > distance_[j] || height == 0.0) return;
+    creases_[crease_count_++] = {across / std::copysign(slant, height), to_crease};
+  }
+
+  const Neighbourhood& around_;
+  Around alignment_, across_u_, across_v_, distance_, lateral_, stretch_;
+  std::array<TangentNeighbour, MANY> neighbours_;
+  std::array<TangentCrease, MANY> creases_;
+  std::size_t neighbour_count_ = 0;
+  std::size_t crease_count_ = 0;
 };
 
-/// Neighbours of the point's own sheet are turned into the plane with their distance kept, so that curvature
-/// does not shrink the cell. Those on the far side of a sharp edge give the line where their plane meets this
-/// one.
-Surroundings flatten(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest) {
-  const glm::dvec3 normal(cloud.normal[point]);
-  const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 u = glm::normalize(glm::cross(normal, side));
-  const glm::dvec3 v = glm::cross(normal, u);
-  const auto on_plane = [&](const glm::dvec3& w) { return glm::dvec2(glm::dot(w, u), glm::dot(w, v)); };
-  Surroundings around;
-  for (const Neighbour& neighbour : nearest) {
-    const glm::dvec3 other_normal(cloud.normal[neighbour.index()]);
-    const glm::dvec3 offset(cloud.coord[neighbour.index()] - cloud.coord[point]);
-    const double distance = std::sqrt(neighbour.distance_squared());
-    const double alignment = glm::dot(normal, other_normal);
-    if ((cloud.oriented ? alignment : std::abs(alignment)) < SIMILAR) {
-      const glm::dvec2 across = on_plane(other_normal);
-      const double slant = glm::length(across);
-      const double height = glm::dot(other_normal, offset);
-      const double to_crease = std::abs(height) / slant;
-      if (slant < LEAST_SLANT || to_crease > distance || height == 0.0) continue;
-      around.creases[around.crease_count++] = {across / std::copysign(slant, height), to_crease};
-      continue;
-    }
-    const glm::dvec2 projected = on_plane(offset);
-    const double lateral = glm::length(projected);
-    if (lateral < LATERAL * distance) continue;
-    around.neighbours[around.neighbour_count++] = {projected * (distance / lateral), distance};
-  }
-  return around;
+/// The radius that covers the point's cell, 0 where there is none; nothing when `wanted` neighbours do not settle it.
+std::optional<double> covering_radius(const Neighbourhood& around, std::size_t wanted) {
+  const std::size_t found = around.count;
+  if (found == 0) return 0.0;
+  const Surroundings surroundings(around);
+  const VoronoiReach reach = voronoi_reach(surroundings.neighbours(), surroundings.creases());
+  const double seen = std::sqrt(static_cast<float>(around.distance_squared[found - 1]));
+  const bool settled = found < wanted || wanted == MANY ||
+                       (surroundings.neighbours().size() >= RING && reach.decisive_distance <= seen);
+  if (!settled || !(reach.radius > 0.0)) return {};
+  const double covering = COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * surroundings.noise(CLOSE);
+  return std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW)), NOISE_LIMIT * reach.radius);
 }
 
-/// Standard deviation of the heights over the point's plane of near points that lie parallel.
-double sheet_noise(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest) {
-  const glm::dvec3 normal(cloud.normal[point]);
-  double count = 1.0, sum = 0.0, sum_squared = 0.0;
-  for (const Neighbour& neighbour : nearest) {
-    if (glm::dot(normal, glm::dvec3(cloud.normal[neighbour.index()])) < PARALLEL) continue;
-    const double height = glm::dot(normal, glm::dvec3(cloud.coord[neighbour.index()] - cloud.coord[point]));
-    count += 1.0, sum += height, sum_squared += height * height;
-  }
-  return std::sqrt(std::max(sum_squared / count - sum * sum / (count * count), 0.0));
-}
-
-/// `nearest`: the FEW nearest places, or all where there are fewer.
+/// `around`: the FEW nearest places, or all where there are fewer.
 double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point,
-                       std::span<const Neighbour> nearest) {
+                       const Neighbourhood& around) {
+  if (const auto radius = covering_radius(around, FEW)) return *radius;
   std::array<Neighbour, MANY> more;
-  for (const std::size_t wanted : {FEW, MANY}) {
-    if (wanted == MANY) nearest = std::span(more).first(search.find(cloud.coord[point], more));
-    const std::size_t found = nearest.size();
-    if (found == 0) return 0.0;
-    const Surroundings around = flatten(cloud, point, nearest);
-    const VoronoiReach reach = voronoi_reach(std::span(around.neighbours).first(around.neighbour_count),
-                                             std::span(around.creases).first(around.crease_count));
-    const double seen = std::sqrt(nearest[found - 1].distance_squared());
-    const bool settled = found < wanted || wanted == MANY ||
-                         (around.neighbour_count >= RING && reach.decisive_distance <= seen);
-    if (!settled) continue;
-    if (reach.radius > 0.0) {
-      const auto heights_among = [&](std::size_t count) {
-        return sheet_noise(cloud, point, nearest.first(std::min(found, count)));
-      };
-      const double covering = COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * heights_among(CLOSE);
-      return std::min(std::max(covering, NOISE_REACH * heights_among(FEW)), NOISE_LIMIT * reach.radius);
-    }
-  }
+  const float guess = MANY_OVER_FEW * static_cast<float>(around.distance_squared[around.count - 1]);
+  const std::size_t found = search.find(cloud.coord[point], more, guess);
+  const Neighbourhood wider(cloud, point, std::span(more).first(found));
+  if (const auto radius = covering_radius(wider, MANY)) return *radius;
   return knn_radius(cloud, search, point);
 }
 
@@ -148,18 +166,18 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
     std::optional<NeighbourSearch> sheets, places;
     if (fields || !knn) sheets.emplace(cloud, Sites::oriented_positions);
     if (knn && !unknown.empty()) places.emplace(cloud, Sites::positions);
-    parallel_each(stage, cloud.size(), [&](std::size_t n) {
-      const auto i = static_cast<std::uint32_t>(n);
-      const bool missing = cloud.radius[i] == 0.0F;
-      std::array<Neighbour, FEW> few;
-      std::span<const Neighbour> nearest;
-      if (fields || (missing && !knn)) nearest = std::span(few).first(sheets->find(cloud.coord[i], few));
-      if (fields) cloud.field[i] = fit_normal_field(cloud, i, nearest);
-      if (missing) {
-        cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i)
-                                                 : coverage_radius(cloud, *sheets, i, nearest));
-      }
-    });
+    const auto fill = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
+      const Neighbourhood around(cloud, i, nearest);
+      if (fields) cloud.field[i] = fit_normal_field(around);
+      if (cloud.radius[i] != 0.0F) return;
+      cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i)
+                                               : coverage_radius(cloud, *sheets, i, around));
+    };
+    if (sheets) {
+      sheets->find_all(FEW, stage, fill);
+    } else {
+      parallel_each(stage, cloud.size(), [&](std::size_t i) { fill(static_cast<std::uint32_t>(i), {}); });
+    }
     if (!unknown.empty()) bound_strays(cloud, knn ? *places : *sheets, unknown);
   }
   for (float& radius : cloud.radius) radius = static_cast<float>(radius * scale);

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace splatray {
 namespace {
@@ -33,7 +34,7 @@ struct Corner {
 /// A convex polygon around the origin, counter-clockwise.
 class Cell {
  public:
-  explicit Cell(double apothem) : size_(OCTAGON) {
+  explicit Cell(double apothem) : corners_(stores_[0]), spare_(stores_[1]), size_(OCTAGON) {
     const double circumradius = apothem / std::cos(std::numbers::pi / OCTAGON);
     for (std::size_t i = 0; i < OCTAGON; ++i) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / OCTAGON;
@@ -43,7 +44,10 @@ class Cell {
     }
   }
 
-  [[nodiscard]] std::span<const Corner> corners() const { return std::span(corners_).first(size_); }
+  Cell(const Cell&) = delete;
+  Cell& operator=(const Cell&) = delete;
+
+  [[nodiscard]] std::span<const Corner> corners() const { return corners_.first(size_); }
 
   [[nodiscard]] double reach() const {
     double squared = 0.0;
@@ -53,27 +57,33 @@ class Cell {
 
   /// Keeps the side of a line that the origin is on. Returns whether anything was cut.
   bool clip(const glm::dvec2& dir, double distance, int edge) {
-    const auto beyond = [&](const Corner& corner) { return glm::dot(corner.place, dir) - distance; };
-    std::array<Corner, OCTAGON + MAX_CUTS + 1> kept;
-    std::size_t count = 0;
+    std::array<double, MOST_CORNERS + 1> beyond;
     bool cut = false;
     for (std::size_t i = 0; i < size_; ++i) {
-      const Corner& here = corners_[i];
-      const Corner& next = corners_[i + 1 < size_ ? i + 1 : 0];
-      const double a = beyond(here);
-      const double b = beyond(next);
-      cut = cut || a > 0.0;
-      if (a <= 0.0) kept[count++] = here;
-      if ((a <= 0.0) == (b <= 0.0)) continue;
-      const glm::dvec2 crossing = here.place + (next.place - here.place) * (a / (a - b));
-      kept[count++] = a <= 0.0 ? Corner{crossing, edge, dir} : Corner{crossing, here.edge, here.normal};
+      beyond[i] = glm::dot(corners_[i].place, dir) - distance;
+      cut = cut || beyond[i] > 0.0;
     }
-    if (cut) std::copy_n(kept.begin(), size_ = count, corners_.begin());
-    return cut;
+    if (!cut) return false;
+    beyond[size_] = beyond[0];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const double a = beyond[i], b = beyond[i + 1];
+      const Corner& here = corners_[i];
+      if (a <= 0.0) spare_[count++] = here;
+      if ((a <= 0.0) == (b <= 0.0)) continue;
+      const Corner& next = corners_[i + 1 < size_ ? i + 1 : 0];
+      const glm::dvec2 crossing = here.place + (next.place - here.place) * (a / (a - b));
+      spare_[count++] = a <= 0.0 ? Corner{crossing, edge, dir} : Corner{crossing, here.edge, here.normal};
+    }
+    std::swap(corners_, spare_);
+    size_ = count;
+    return true;
   }
 
  private:
-  std::array<Corner, OCTAGON + MAX_CUTS + 1> corners_;
+  static constexpr std::size_t MOST_CORNERS = OCTAGON + MAX_CUTS + 1;
+  std::array<Corner, MOST_CORNERS> stores_[2];
+  std::span<Corner, MOST_CORNERS> corners_, spare_;
   std::size_t size_;
 };
 

@@ -24,14 +24,34 @@ std::vector<Neighbour> brute_force(const Cloud& cloud, const glm::vec3& query, s
   return all;
 }
 
+void expect_same_for_all(const Cloud& cloud, const NeighbourSearch& search, std::size_t wanted) {
+  const BuildProgress silent;
+  std::vector<std::vector<Neighbour>> all(cloud.size());
+  search.find_all(wanted, {"neighbours", silent},
+                  [&](std::uint32_t point, std::span<const Neighbour> nearest) {
+                    all[point].assign(nearest.begin(), nearest.end());
+                  });
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::vector<Neighbour> found(wanted);
+    found.resize(search.find(cloud.coord[i], found));
+    ASSERT_EQ(all[i], found) << "point " << i << ", " << wanted << " neighbours";
+  }
+}
+
 void expect_same_as_brute_force(const Cloud& cloud, std::size_t stride) {
   const NeighbourSearch search(cloud, Sites::positions);
   for (const std::size_t wanted : {1U, 6U, 12U, 32U}) {
+    expect_same_for_all(cloud, search, wanted);
     for (std::size_t i = 0; i < cloud.size(); i += stride) {
       std::vector<Neighbour> found(wanted);
       found.resize(search.find(cloud.coord[i], found));
       ASSERT_EQ(found, brute_force(cloud, cloud.coord[i], wanted))
           << "point " << i << ", " << wanted << " neighbours";
+      for (const float share : {0.5F, 1.0F, 4.0F}) {
+        std::vector<Neighbour> guessed(wanted);
+        guessed.resize(search.find(cloud.coord[i], guessed, share * found.back().distance_squared()));
+        ASSERT_EQ(guessed, found) << "point " << i << ", a guess of " << share << " of the distance";
+      }
     }
   }
 }
