@@ -182,7 +182,8 @@ void accumulate_candidates(uint chunk, uint candidates, Ray ray, Walk walk, Firs
       weight = member ? weight * WEIGHT_UNIT : 0.0f;
       share = member ? clamp((behind + facet.behind) / depth, -1.0f, 1.0f) : 0.0f;
       cluster.weight += int(weight + 0.5f);
-      cluster.normal += ivec3(floor(facet.normal * weight + vec3(0.5f)));
+      vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
+      cluster.normal += ivec3(floor(normal + vec3(0.5f)));
       cluster.depth += int(floor(weight * share + 0.5f));
       if (COLORS == 1u) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
       cluster.members += member ? 1u : 0u;

@@ -13,6 +13,7 @@
 #include "app/image_file.h"
 #include "tests/cli/child_process.h"
 #include "tests/view/desktop.h"
+#include "tests/view/foreign_load.h"
 
 namespace splatray {
 namespace {
@@ -160,7 +161,7 @@ TEST_F(ViewSession, InterruptEndsIt) {
 }
 
 /// At once, and 15 pictures a second while moving: the best of three starts, as the first is the one in which the driver
-/// compiles the kernels, and machines are noisy.
+/// compiles the kernels, and machines are noisy. Says nothing where others take more than a third of the processors.
 TEST_F(ViewSession, DragonOfAMillionIsFluid) {
   const char* const data = std::getenv("SPLATRAY_DATA_DIR");
   if (data == nullptr) GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: rates on the dragon are not tested";
@@ -168,8 +169,9 @@ TEST_F(ViewSession, DragonOfAMillionIsFluid) {
   const ChildResult made =
       run_program({PREPROCESS, std::string(data) + "/models/dragon.ply", "--samples=1000000", "-o", dragon});
   ASSERT_EQ(made.code, 0) << made.err;
-  double first_picture_ms = 1e9, per_second = 0.0;
+  double first_picture_ms = 1e9, per_second = 0.0, foreign = 1.0;
   for (int i = 0; i < 3; ++i) {
+    const ForeignLoad load;
     start({dragon});
     const unsigned long window = desktop.wait_for_window("dragon.soct");
     ASSERT_NE(window, 0U);
@@ -179,7 +181,9 @@ TEST_F(ViewSession, DragonOfAMillionIsFluid) {
     EXPECT_EQ(stats["pools_uploaded"], 1);
     first_picture_ms = std::min<double>(first_picture_ms, stats["first_picture_ms"]);
     per_second = std::max<double>(per_second, stats["moving"]["per_second"]);
+    foreign = std::min(foreign, load.share());
   }
+  if (foreign > 1.0 / 3.0) GTEST_SKIP() << "others take " << 100.0 * foreign << " % of the processors";
   std::cout << "first picture " << first_picture_ms << " ms, " << per_second << " pictures/s while moving\n";
   EXPECT_LE(first_picture_ms, 1000.0);
   EXPECT_GE(per_second, 15.0);
