@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -37,16 +38,33 @@ std::string read_text(const std::string& path) {
   _exit(127);
 }
 
+/// Whether a child has ended; it stays to be waited for.
+bool has_ended(pid_t child) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == child;
+}
+
+/// Whether a process has a handler for SIGINT, as the kernel tells it (proc(5), SigCgt).
+bool catches_interrupt(pid_t process) {
+  std::istringstream status(read_text("/proc/" + std::to_string(process) + "/status"));
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("SigCgt:"))
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1U) != 0;
+  return false;
+}
+
 }  // namespace
 
 ChildResult run_program(const std::vector<std::string>& command, const std::vector<std::string>& environment,
-                        int interrupt_after_ms) {
+                        const std::function<bool()>& interrupt_when) {
   const std::string stem = testing::TempDir() + "child_" + std::to_string(getpid());
   const std::string out = stem + ".out", err = stem + ".err";
   const pid_t child = fork();
   if (child == 0) become(command, environment, out, err);
-  if (interrupt_after_ms > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
+  if (interrupt_when) {
+    while (!has_ended(child) && !(catches_interrupt(child) && interrupt_when()))
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     kill(child, SIGINT);
   }
   int status = 0;

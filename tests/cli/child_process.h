@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,11 @@ struct ChildResult {
   std::string out, err;
 };
 
-/// Runs a program to its end. `environment`: further variables, NAME=VALUE. `interrupt_after_ms` > 0: sends
-/// it SIGINT then.
+/// Runs a program to its end. `environment`: further variables, NAME=VALUE. `interrupt_when`: the program gets SIGINT once
+/// it catches that and this says so.
 [[nodiscard]] ChildResult run_program(const std::vector<std::string>& command,
                                       const std::vector<std::string>& environment = {},
-                                      int interrupt_after_ms = 0);
+                                      const std::function<bool()>& interrupt_when = {});
 
 /// A test with a folder of its own, gone afterwards.
 class CliTest : public testing::Test {

@@ -86,7 +86,7 @@ TEST_F(CliSequences, OneFailedFrameFailsAlone) {
 TEST_F(CliSequences, InterruptLeavesWholeFrames) {
   const ChildResult result = run_program({RENDER, "--quiet", grid, "--resolution=64x64", "--samples=64",
                                           "--turntable=100000", "-o", file("t.######.png")},
-                                         {}, 2000);
+                                         {}, [&] { return std::filesystem::exists(file("t.000001.png")); });
   EXPECT_EQ(result.code, 130);
   EXPECT_GT(names().size(), 1U);
   std::filesystem::remove(grid);

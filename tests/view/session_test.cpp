@@ -156,7 +156,8 @@ TEST_F(ViewSession, FilesThatCannotBeReadAreToldInTheWindow) {
 
 TEST_F(ViewSession, InterruptEndsIt) {
   const ChildResult result =
-      run_program({VIEW, first}, {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")}, 2000);
+      run_program({VIEW, first}, {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")},
+                  [&] { return desktop.wait_for_window("first.ply") != 0; });
   EXPECT_EQ(result.code, 130) << result.err;
 }
 
