@@ -18,7 +18,8 @@ layout(constant_id = SPEC_COUNTERS) const uint COUNTERS = 0u;
 layout(constant_id = SPEC_AOV) const uint AOV = 0u;
 layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
 layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
-layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = 0u;
+layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = REFERENCES_NONE;
+layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
 
 layout(local_size_x = GROUP_SIZE) in;
 
@@ -51,7 +52,12 @@ uvec2 top_entry(uint index) { return texelFetch(top_table, int(index)).xy; }
 uint node_word(uint index) { return texelFetch(node_pool, int(index)).x; }
 uint begin_end_at(uint index) { return texelFetch(begin_end, int(index)).x; }
 uint slab_word(uint index) { return texelFetch(slab_pool, int(index)).x; }
-uint reference_word(uint index) { return texelFetch(reference_pool, int(index)).x; }
+uint reference_word(uint index) {
+  if (REFERENCES == REFERENCES_ONE) return texelFetch(reference_pool, int(index)).x;
+  uvec4 four = texelFetch(reference_pool, int(index >> 2u));
+  uvec2 two = (index & 2u) != 0u ? four.zw : four.xy;
+  return (index & 1u) != 0u ? two.y : two.x;
+}
 uvec4 splat_words(uint index) { return texelFetch(data_pool, int(index)); }
 uint color_word(uint index) { return texelFetch(color_pool, int(index)).x; }
 uint field_word(uint index) { return texelFetch(field_pool, int(index)).x; }
@@ -75,7 +81,7 @@ uint field_word(uint index) { return field_pool[index]; }
 #endif
 
 /// Where the data pool has the splat that a place in the leaves' lists refers to.
-uint splat_at(uint place) { return REFERENCES == 1u ? reference_word(place) : place; }
+uint splat_at(uint place) { return REFERENCES == REFERENCES_NONE ? place : reference_word(place); }
 
 Material material_at(uint object) { return materials[object]; }
 

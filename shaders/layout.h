@@ -32,12 +32,12 @@
 ///   NODE_INNER  : address of the first of 8 children in the node pool; child = x + 2y + 4z (Z-order)
 ///   NODE_FILLED : index into Begin-End; the leaf's splats are those of reference_pool[begin_end[a] .. begin_end[a+1]), its
 ///                 slab is slab_pool[a]
-///
-/// Reference, 32 bits: index of a splat in the data pool, and of its colour and normal field. A device may hold copies of the
-/// splats, leaf by leaf, in place of references (REFERENCES = 0).
 ///   NODE_EMPTY  : address is zero
 ///
-/// Top table, 64 bits for each cell of TOP_LEVELS below the root, made from the node pool: descents begin here.
+/// Reference, 32 bits: index of a splat in the data pool, and of its colour and normal field. A device may hold copies of the
+/// splats, leaf by leaf, in place of references (REFERENCES_NONE).
+///
+/// Top table, 64 bits for each cell of TOP_LEVELS below the root, x fastest, made from the node pool: descents begin here.
 ///   x: node word of the deepest node that holds the cell and lies no deeper than TOP_LEVELS
 ///   y: its edge is 2^y lattice units
 #ifndef SPLATRAY_LAYOUT_H
@@ -68,7 +68,7 @@ SPLATRAY_CONST LIST_INFLATION = 4u;
 /// No disc comes closer to the root's faces than this, lattice units, so that all hits lie strictly inside the root.
 SPLATRAY_CONST ROOT_MARGIN = 16u;
 
-SPLATRAY_CONST TOP_LEVELS = 5u;  ///< the top table has 8^TOP_LEVELS entries, x fastest
+SPLATRAY_CONST TOP_LEVELS_MOST = 7u;  ///< a top table of 16 MiB
 
 SPLATRAY_CONST NODE_TAG_SHIFT = 30u;
 SPLATRAY_CONST NODE_ADDRESS_MASK = 0x3FFFFFFFu;
@@ -233,9 +233,9 @@ SPLATRAY_CONST SPEC_COUNTERS = 10u;    ///< 1: counters
 SPLATRAY_CONST SPEC_AOV = 11u;         ///< 1: write AovPixel of the centre ray instead of colour
 SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
 SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
-SPLATRAY_CONST SPEC_REFERENCES =
-    14u;  ///< 1: the data pool is read through the reference pool, 0: it holds copies, leaf by leaf
-SPLATRAY_CONST SPEC_COUNT = 15u;
+SPLATRAY_CONST SPEC_REFERENCES = 14u;  ///< REFERENCES_*
+SPLATRAY_CONST SPEC_TOP_LEVELS = 15u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
+SPLATRAY_CONST SPEC_COUNT = 16u;
 
 SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1
@@ -249,9 +249,12 @@ SPLATRAY_CONST SIDE_NONE = 2u;        ///< neither: the failures of Goradia et a
 SPLATRAY_CONST FACES_BOTH = 0u;       ///< every object is two-sided
 SPLATRAY_CONST FACES_FRONT = 1u;      ///< every object is one-sided and none is a dielectric
 SPLATRAY_CONST FACES_MIXED = 2u;
-SPLATRAY_CONST ORDER_Z = 0u;       ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
-SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
-SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
+SPLATRAY_CONST REFERENCES_NONE = 0u;  ///< the data pool holds copies, leaf by leaf
+SPLATRAY_CONST REFERENCES_ONE = 1u;   ///< it is read through the reference pool, one reference in a texel
+SPLATRAY_CONST REFERENCES_FOUR = 2u;  ///< ... four in a texel, for more of them than a buffer has texels
+SPLATRAY_CONST ORDER_Z = 0u;          ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
+SPLATRAY_CONST ORDER_LINEAR = 1u;     ///< pixels of a group in a row
+SPLATRAY_CONST GROUP_SIZE = 64u;      ///< threads in a group; ORDER_Z: 8 x 8 pixels
 
 #ifdef __cplusplus
 static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 &&

@@ -66,14 +66,9 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
 }  // namespace
 
 std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, Arithmetic arithmetic) {
-  const bool texel = access == PoolAccess::texel;
-  const bool trace = program == Program::trace;
-  if (arithmetic == Arithmetic::float64) {
-    if (trace) return texel ? TRACE_TEXEL_FLOAT64 : TRACE_STORAGE_FLOAT64;
-    return texel ? RAYS_TEXEL_FLOAT64 : RAYS_STORAGE_FLOAT64;
-  }
-  if (trace) return texel ? TRACE_TEXEL : TRACE_STORAGE;
-  return texel ? RAYS_TEXEL : RAYS_STORAGE;
+  const ProgramVariants trace{TRACE_STORAGE, TRACE_TEXEL, TRACE_STORAGE_FLOAT64, TRACE_TEXEL_FLOAT64};
+  const ProgramVariants rays{RAYS_STORAGE, RAYS_TEXEL, RAYS_STORAGE_FLOAT64, RAYS_TEXEL_FLOAT64};
+  return (program == Program::trace ? trace : rays).get(access, arithmetic);
 }
 
 BindingSet::BindingSet(const Context& context, PoolAccess access) : context_(context), access_(access) {

@@ -19,14 +19,34 @@ struct PoolKind {
 };
 
 /// In the order of their bindings.
-constexpr std::array<PoolKind, POOLS> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
-                                                {"Begin-End", VK_FORMAT_R32_UINT, 4},
-                                                {"pool of slabs", VK_FORMAT_R32_UINT, 4},
-                                                {"reference pool", VK_FORMAT_R32_UINT, 4},
-                                                {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
-                                                {"colour pool", VK_FORMAT_R32_UINT, 4},
-                                                {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
-                                                {"top table", VK_FORMAT_R32G32_UINT, 8}}};
+using PoolKinds = std::array<PoolKind, POOLS>;
+constexpr PoolKinds KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
+                              {"Begin-End", VK_FORMAT_R32_UINT, 4},
+                              {"pool of slabs", VK_FORMAT_R32_UINT, 4},
+                              {"reference pool", VK_FORMAT_R32_UINT, 4},
+                              {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
+                              {"colour pool", VK_FORMAT_R32_UINT, 4},
+                              {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
+                              {"top table", VK_FORMAT_R32G32_UINT, 8}}};
+
+PoolKinds kinds(std::uint32_t references) {
+  PoolKinds list = KINDS;
+  if (references == REFERENCES_FOUR) {
+    PoolKind& pool = list[BIND_REFERENCE_POOL - BIND_NODE_POOL];
+    pool.format = VK_FORMAT_R32G32B32A32_UINT;
+    pool.element_bytes = 16;
+  }
+  return list;
+}
+
+std::uint32_t choose_references(DataPool wanted, std::size_t references, const PoolLimits& limits) {
+  const bool copies =
+      wanted == DataPool::copies || (wanted == DataPool::automatic && references <= MOST_COPIES);
+  if (copies) return REFERENCES_NONE;
+  const bool wide = wanted == DataPool::wide_references ||
+                    (wanted == DataPool::automatic && references > limits.texel_elements);
+  return wide ? REFERENCES_FOUR : REFERENCES_ONE;
+}
 
 std::array<std::uint64_t, POOLS> sizes(const PoolBytes& bytes) {
   return {bytes.node_pool, bytes.begin_end,  bytes.slab_pool,  bytes.reference_pool,
@@ -41,29 +61,19 @@ std::string mib_text(std::uint64_t bytes) {
 
 /// Why pools of these sizes cannot be read this way; nothing when they can.
 std::optional<std::string> misfit(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess access) {
-  for (std::size_t i = 0; i < KINDS.size(); ++i) {
+  for (std::size_t i = 0; i < POOLS; ++i) {
+    const PoolKind kind = kinds(bytes.references)[i];
     const std::uint64_t size = sizes(bytes)[i];
-    const std::string found =
-        std::string("the ") + KINDS[i].name + " has " + mib_text(size) + ", the device's ";
+    const std::string found = std::string("the ") + kind.name + " has " + mib_text(size) + ", the device's ";
     if (size > limits.allocation_bytes)
       return found + "largest allocation is " + mib_text(limits.allocation_bytes);
     if (access == PoolAccess::storage && size > limits.storage_bytes)
       return found + "largest storage buffer is " + mib_text(limits.storage_bytes);
-    if (access == PoolAccess::texel && size / KINDS[i].element_bytes > limits.texel_elements)
+    if (access == PoolAccess::texel && size / kind.element_bytes > limits.texel_elements)
       return found + "largest texel buffer of its kind is " +
-             mib_text(limits.texel_elements * KINDS[i].element_bytes);
+             mib_text(limits.texel_elements * kind.element_bytes);
   }
   return std::nullopt;
-}
-
-/// What the references refer to, one after the other; nothing of an empty pool.
-template <typename T>
-std::vector<T> listed(const std::vector<T>& pool, std::span<const std::uint32_t> references) {
-  std::vector<T> list;
-  if (pool.empty()) return list;
-  list.reserve(references.size());
-  for (const std::uint32_t splat : references) list.push_back(pool[splat]);
-  return list;
 }
 
 bool texel_format_supported(const Context& context, VkFormat format) {
@@ -101,10 +111,12 @@ PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolA
 
 Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted,
              DataPool data) {
-  const std::vector<uvec2> top = top_table(scene);
+  top_levels = splatray::top_levels(scene);
+  const std::vector<uvec2> top = top_table(scene, top_levels);
   const std::vector<std::uint32_t>& references = scene.reference_pool;
-  const bool copies =
-      data == DataPool::copies || (data == DataPool::automatic && references.size() <= MOST_COPIES);
+  const PoolLimits limits = pool_limits(context);
+  bytes.references = choose_references(data, references.size(), limits);
+  const bool copies = bytes.references == REFERENCES_NONE;
   const auto splats = copies ? listed(scene.data_pool, references) : std::vector<uvec4>();
   const auto colors = copies ? listed(scene.color_pool, references) : std::vector<std::uint32_t>();
   const auto fields = copies ? listed(scene.field_pool, references) : std::vector<std::uint32_t>();
@@ -125,13 +137,15 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, Po
   bytes.color_pool = sources[5].size();
   bytes.field_pool = sources[6].size();
   bytes.top_table = sources[7].size();
-  access = choose_access(bytes, pool_limits(context), wanted);
+  access = choose_access(bytes, limits, wanted);
   bytes.texel_buffers = access == PoolAccess::texel;
   const VkBufferUsageFlags usage =
       bytes.texel_buffers ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-  for (std::size_t i = 0; i < KINDS.size(); ++i) {
-    buffers[i] = Buffer(context, sources[i].size(), usage,
-                        bytes.texel_buffers ? KINDS[i].format : VK_FORMAT_UNDEFINED);
+  for (std::size_t i = 0; i < POOLS; ++i) {
+    const PoolKind kind = kinds(bytes.references)[i];
+    const std::size_t whole_texels = (sources[i].size() + kind.element_bytes - 1) / kind.element_bytes;
+    buffers[i] = Buffer(context, whole_texels * kind.element_bytes, usage,
+                        bytes.texel_buffers ? kind.format : VK_FORMAT_UNDEFINED);
     buffers[i].upload(queue, sources[i]);
   }
 }

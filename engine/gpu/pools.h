@@ -21,6 +21,7 @@ enum class DataPool {
   automatic,   ///< copies, unless there are more than MOST_COPIES references
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
+  wide_references,  ///< ... four in a texel; what `automatic` takes when there are more than a texel buffer has texels
 };
 inline constexpr std::size_t MOST_COPIES = std::size_t{1} << 23;
 
@@ -35,7 +36,8 @@ struct PoolBytes {
   std::uint64_t field_pool = 0;
   std::uint64_t top_table = 0;
   std::uint64_t environment = 0;
-  bool texel_buffers = false;  ///< pools are read through texel buffers
+  bool texel_buffers = false;                  ///< pools are read through texel buffers
+  std::uint32_t references = REFERENCES_NONE;  ///< REFERENCES_*, how the data pool is read
 };
 
 /// Of all pools and the top table, without the environment.
@@ -61,6 +63,7 @@ struct Pools {
 
   PoolAccess access = PoolAccess::storage;  ///< never automatic
   PoolBytes bytes;                          ///< without the environment
+  std::uint32_t top_levels = 0;             ///< of the top table
   std::array<Buffer, 8> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 

@@ -78,7 +78,8 @@ struct Tracer::Impl {
     return {.materials = materials,
             .colors = pools.bytes.color_pool > 0,
             .fields = pools.bytes.field_pool > 0,
-            .references = pools.bytes.reference_pool > 0,
+            .references = pools.bytes.references,
+            .top_levels = pools.top_levels,
             .lights = light_count > 0,
             .environment_texture = environment_texture};
   }

@@ -169,19 +169,30 @@ std::vector<LeafCell> leaf_cells(const Scene& scene) {
   return cells;
 }
 
-std::vector<uvec2> top_table(const Scene& scene) {
-  std::vector<uvec2> table(std::size_t{1} << 3 * TOP_LEVELS);
-  for (std::uint32_t i = 0; i < table.size(); ++i) {
-    const glm::uvec3 cell = glm::uvec3(i, i >> TOP_LEVELS, i >> 2 * TOP_LEVELS) & ((1U << TOP_LEVELS) - 1);
-    std::uint32_t word = scene.node_pool[0];
-    std::uint32_t level = 0;
-    while (level < TOP_LEVELS && word >> NODE_TAG_SHIFT == NODE_INNER) {
-      ++level;
-      const glm::uvec3 bit = cell >> (TOP_LEVELS - level) & 1U;
-      word = scene.node_pool[(word & NODE_ADDRESS_MASK) + (bit.x | bit.y << 1 | bit.z << 2)];
+std::uint32_t top_levels(const Scene& scene) {
+  std::uint32_t levels = 0;
+  while (levels < TOP_LEVELS_MOST && std::size_t{2} << 3 * (levels + 1) <= scene.data_pool.size()) ++levels;
+  return levels;
+}
+
+std::vector<uvec2> top_table(const Scene& scene, std::uint32_t levels) {
+  std::vector<uvec2> table(std::size_t{1} << 3 * levels);
+  const auto fill = [&](const auto& self, std::uint32_t word, std::uint32_t level,
+                        const glm::uvec3& cell) -> void {
+    const std::uint32_t edge = 1U << (levels - level);
+    if (level < levels && word >> NODE_TAG_SHIFT == NODE_INNER) {
+      for (std::uint32_t i = 0; i < 8; ++i) {
+        const glm::uvec3 corner(i & 1U, i >> 1 & 1U, i >> 2);
+        self(self, scene.node_pool[(word & NODE_ADDRESS_MASK) + i], level + 1, cell + edge / 2 * corner);
+      }
+      return;
     }
-    table[i] = {word, LATTICE_BITS - level};
-  }
+    const uvec2 entry(word, LATTICE_BITS - level);
+    for (std::size_t z = cell.z; z < cell.z + edge; ++z)
+      for (std::size_t y = cell.y; y < cell.y + edge; ++y)
+        std::fill_n(&table[(z << levels | y) << levels | cell.x], edge, entry);
+  };
+  fill(fill, scene.node_pool[0], 0, glm::uvec3(0));
   return table;
 }
 

@@ -126,6 +126,17 @@ struct Scene {
   [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }
 };
 
+/// What the references refer to, one after the other; nothing of an empty pool.
+template <typename Value>
+[[nodiscard]] std::vector<Value> listed(const std::vector<Value>& pool,
+                                        const std::vector<std::uint32_t>& references) {
+  std::vector<Value> list;
+  if (pool.empty()) return list;
+  list.reserve(references.size());
+  for (const std::uint32_t i : references) list.push_back(pool[i]);
+  return list;
+}
+
 /// Most dielectrics that a ray can be inside of at once.
 inline constexpr std::uint32_t MASK_BITS = 32;
 
@@ -138,7 +149,9 @@ struct LeafCell {
 /// The cells of the filled leaves, in the order of Begin-End.
 [[nodiscard]] std::vector<LeafCell> leaf_cells(const Scene& scene);
 
-/// The top table of the node pool (layout.h), 8^TOP_LEVELS entries.
-[[nodiscard]] std::vector<uvec2> top_table(const Scene& scene);
+/// Levels of the top table that suits a scene: as many as leave it no more than one entry for two splats.
+[[nodiscard]] std::uint32_t top_levels(const Scene& scene);
+/// The top table of the node pool (layout.h), 8^levels entries.
+[[nodiscard]] std::vector<uvec2> top_table(const Scene& scene, std::uint32_t levels);
 
 }  // namespace splatray

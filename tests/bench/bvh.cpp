@@ -269,15 +269,6 @@ void WideBuilder::emit(std::size_t index) {
   }
 }
 
-template <class Value>
-std::vector<Value> picked(const std::vector<Value>& from, const std::vector<std::uint32_t>& indices) {
-  std::vector<Value> list;
-  if (from.empty()) return list;
-  list.reserve(indices.size());
-  for (const std::uint32_t i : indices) list.push_back(from[i]);
-  return list;
-}
-
 }  // namespace
 
 Scene bvh_scene(const Scene& scene, BvhStats& stats) {
@@ -298,23 +289,20 @@ Scene bvh_scene(const Scene& scene, BvhStats& stats) {
   made.begin_end.clear();
   made.slab_pool.clear();
   made.reference_pool.clear();
-  made.data_pool = picked(scene.data_pool, wide.splats());
-  made.color_pool = picked(scene.color_pool, wide.splats());
-  made.field_pool = picked(scene.field_pool, wide.splats());
+  made.data_pool = listed(scene.data_pool, wide.splats());
+  made.color_pool = listed(scene.color_pool, wide.splats());
+  made.field_pool = listed(scene.field_pool, wide.splats());
   made.node_pool = {NODE_EMPTY << NODE_TAG_SHIFT | static_cast<std::uint32_t>(made.data_pool.size())};
   made.data_pool.insert(made.data_pool.end(), wide.texels().begin(), wide.texels().end());
   return made;
 }
 
 std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access, Arithmetic arithmetic) {
-  const bool texel = access == PoolAccess::texel;
-  const bool trace = program == Program::trace;
-  if (arithmetic == Arithmetic::float64) {
-    if (trace) return texel ? BVH_TRACE_TEXEL_FLOAT64 : BVH_TRACE_STORAGE_FLOAT64;
-    return texel ? BVH_RAYS_TEXEL_FLOAT64 : BVH_RAYS_STORAGE_FLOAT64;
-  }
-  if (trace) return texel ? BVH_TRACE_TEXEL : BVH_TRACE_STORAGE;
-  return texel ? BVH_RAYS_TEXEL : BVH_RAYS_STORAGE;
+  const ProgramVariants trace{BVH_TRACE_STORAGE, BVH_TRACE_TEXEL, BVH_TRACE_STORAGE_FLOAT64,
+                              BVH_TRACE_TEXEL_FLOAT64};
+  const ProgramVariants rays{BVH_RAYS_STORAGE, BVH_RAYS_TEXEL, BVH_RAYS_STORAGE_FLOAT64,
+                             BVH_RAYS_TEXEL_FLOAT64};
+  return (program == Program::trace ? trace : rays).get(access, arithmetic);
 }
 
 }  // namespace splatray::testing

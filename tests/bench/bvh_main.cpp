@@ -13,6 +13,7 @@
 #include "tests/bench/bvh.h"
 #include "tests/bench/case_file.h"
 #include "tests/bench/cases.h"
+#include "tests/bench/measuring_options.h"
 #include "tests/bench/statistics.h"
 #include "tests/trace/rays.h"
 
@@ -41,26 +42,12 @@ struct Options {
 /// Nothing when help was asked for.
 std::optional<Options> parse(const std::vector<std::string>& words) {
   Options options;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    const auto value = [&] {
-      if (i + 1 == words.size())
-        throw Error(ExitCode::usage, word + ": found nothing behind it, expected a value");
-      return words[++i];
-    };
-    if (word == "-h" || word == "--help") return {};
-    if (word == "--device") {
-      options.device = value();
-    } else if (word == "--case") {
-      options.only = value();
-    } else if (word == "--rounds") {
-      options.rounds = std::max(1UL, std::strtoul(value().c_str(), nullptr, 10));
-    } else if (!word.starts_with('-') && options.folder.empty()) {
-      options.folder = word;
-    } else {
-      throw Error(ExitCode::usage, "found '" + word + "', expected FOLDER (--help lists the options)");
-    }
-  }
+  const ValueOptions values{{"--device", [&](const std::string& value) { options.device = value; }},
+                            {"--case", [&](const std::string& value) { options.only = value; }},
+                            {"--rounds", [&](const std::string& value) {
+                               options.rounds = std::max(1UL, std::strtoul(value.c_str(), nullptr, 10));
+                             }}};
+  if (!parse_words(words, options.folder, values, {}, "FOLDER")) return {};
   if (options.folder.empty())
     throw Error(ExitCode::usage, "found no FOLDER, expected one (--help lists the options)");
   return options;

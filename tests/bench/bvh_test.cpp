@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "engine/gpu/tracer.h"
 #include "tests/bench/bvh.h"
 #include "tests/bench/random_rays.h"
+#include "tests/trace/different_bits.h"
 #include "tests/trace/rays.h"
 #include "tests/trace/scenes.h"
 
@@ -37,18 +37,10 @@ std::vector<RayHit> answers(const Context& context, const Scene& scene, const st
   return tracer.intersect(rays, settings);
 }
 
-/// Rays with another first splat, t, blended normal or any other bit of the answer.
-std::size_t count_differences(const std::vector<RayHit>& a, const std::vector<RayHit>& b) {
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    different += std::memcmp(&a[i], &b[i], sizeof(RayHit)) == 0 ? 0 : 1;
-  return different;
-}
-
 void expect_same_answers(const Context& context, const Scene& scene, const Scene& bvh,
                          const std::vector<RayQuery>& rays, const Settings& settings) {
   const auto octree_hits = answers(context, scene, rays, settings, engine_code);
-  EXPECT_EQ(count_differences(octree_hits, answers(context, bvh, rays, settings, bvh_code)), 0U);
+  EXPECT_EQ(different_bits(octree_hits, answers(context, bvh, rays, settings, bvh_code)), 0U);
 }
 
 /// Rays from outside, and the mirrored ones of those that hit.
@@ -99,7 +91,7 @@ TEST(Bvh, AnswersAsTheOctreeInEveryProgram) {
     for (const Arithmetic arithmetic : {Arithmetic::double_float, Arithmetic::float64}) {
       const auto octree_hits = answers(context, scene, rays, {}, engine_code, access, arithmetic);
       const auto bvh_hits = answers(context, bvh, rays, {}, bvh_code, access, arithmetic);
-      EXPECT_EQ(count_differences(octree_hits, bvh_hits), 0U);
+      EXPECT_EQ(different_bits(octree_hits, bvh_hits), 0U);
     }
 }
 
@@ -132,7 +124,7 @@ TEST(Bvh, AMovedSplatIsSeen) {
   const auto moved = std::find(bvh.data_pool.begin(), bvh.data_pool.end(), hit->first);
   ASSERT_NE(moved, bvh.data_pool.end());
   moved->x ^= 1U << 15U;
-  EXPECT_GT(count_differences(octree_hits, answers(context, bvh, rays, {}, bvh_code)), 0U);
+  EXPECT_GT(different_bits(octree_hits, answers(context, bvh, rays, {}, bvh_code)), 0U);
 }
 
 }  // namespace

@@ -39,6 +39,16 @@ std::vector<Case> scale_scenes(bool quick) {
   return list;
 }
 
+Material scale_material() {
+  Material material{};
+  material.diffuse = vec3(0.7F);
+  material.tint = vec3(1.0F);
+  material.shininess = 30.0F;
+  material.ior = 1.0F;
+  material.flags = MATERIAL_TWO_SIDED;
+  return material;
+}
+
 Case scale_sphere(bool quick) {
   return quick ? sphere_case("100k", 100'000, true) : sphere_case("1M", MILLION, false);
 }

@@ -12,6 +12,9 @@ namespace splatray::testing {
 /// The cases of Goradia et al. 2010, Table I; with `quick` none.
 [[nodiscard]] std::vector<Case> scale_scenes(bool quick);
 
+/// What these spheres are made of: matte, grey and two-sided.
+[[nodiscard]] Material scale_material();
+
 /// The sphere of features and coverage: of 1 M splats, with `quick` of 100 k.
 [[nodiscard]] Case scale_sphere(bool quick);
 

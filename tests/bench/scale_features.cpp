@@ -9,6 +9,7 @@
 #include "engine/gpu/tracer.h"
 #include "engine/host/scene_file.h"
 #include "tests/bench/case_file.h"
+#include "tests/bench/scale_cases.h"
 #include "tests/bench/speed_record.h"
 
 namespace splatray::testing {
@@ -34,38 +35,28 @@ struct Entry {
   bool shadows = false;
 };
 
-Material plain() {
-  Material material{};
-  material.diffuse = vec3(0.7F);
-  material.tint = vec3(1.0F);
-  material.shininess = 30.0F;
-  material.ior = 1.0F;
-  material.flags = MATERIAL_TWO_SIDED;
-  return material;
-}
-
 Material mirror() {
-  Material material = plain();
+  Material material = scale_material();
   material.mirror = 0.9F;
   return material;
 }
 
 Material glass() {
-  Material material = plain();
+  Material material = scale_material();
   material.ior = 1.5F;
   material.flags = MATERIAL_DIELECTRIC;
   return material;
 }
 
 Material one_sided() {
-  Material material = plain();
+  Material material = scale_material();
   material.flags = 0;
   return material;
 }
 
 /// Each feature absent, unused and used. `key` lights what is in view, `behind` does not.
 std::vector<Entry> entries_of(const SceneLight& key, const SceneLight& behind) {
-  const Material base = plain();
+  const Material base = scale_material();
   return {
       {"lights", "absent", Pools::default_, base, base},
       {"lights", "unused", Pools::default_, base, base, {behind}},
@@ -117,7 +108,7 @@ void set_colors(Scene& scene) {
 /// A copy of the sphere, whose default is two objects: what `forward` (unit, the view's direction) sees, and a cap behind.
 Scene with_pools(Scene scene, Pools pools, const glm::dvec3& forward) {
   const glm::dvec3 across = glm::normalize(glm::cross(forward, {0.3, 1.0, 0.2}));
-  scene.materials.assign(2, plain());
+  scene.materials.assign(2, scale_material());
   scene.object_names = {"near", "far"};
   set_objects(scene, [&](const glm::dvec3& center) {
     if (pools == Pools::one_object) return 0U;

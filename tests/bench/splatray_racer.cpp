@@ -1,17 +1,13 @@
 #include "tests/bench/splatray_racer.h"
 
+#include "tests/bench/scale_cases.h"
 #include "tests/bench/speed_record.h"
 
 namespace splatray::testing {
 namespace {
 
 Material material_of(Frame frame) {
-  Material material{};
-  material.diffuse = vec3(0.7F);
-  material.tint = vec3(1.0F);
-  material.shininess = 30.0F;
-  material.ior = 1.0F;
-  material.flags = MATERIAL_TWO_SIDED;
+  Material material = scale_material();
   material.mirror = frame == Frame::inside || frame == Frame::mirror ? 1.0F : 0.0F;
   return material;
 }

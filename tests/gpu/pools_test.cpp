@@ -31,6 +31,13 @@ TEST(PoolAccess, FallsBackToStorageBuffers) {
   EXPECT_EQ(choose_access(bytes, LIMITS, PoolAccess::automatic), PoolAccess::storage);
 }
 
+TEST(PoolAccess, FourReferencesInATexelFitWhereOneDoesNot) {
+  PoolBytes bytes{.reference_pool = 12000, .references = REFERENCES_ONE};
+  EXPECT_NE(refusal(bytes, PoolAccess::texel), "");
+  bytes.references = REFERENCES_FOUR;
+  EXPECT_EQ(choose_access(bytes, LIMITS, PoolAccess::texel), PoolAccess::texel);
+}
+
 TEST(PoolAccess, CanBeForced) {
   EXPECT_EQ(choose_access({.data_pool = 16}, LIMITS, PoolAccess::storage), PoolAccess::storage);
   EXPECT_NE(refusal({.node_pool = 4004}, PoolAccess::texel), "");
@@ -57,23 +64,24 @@ TEST_F(PoolUpload, BothAccessesGiveTheSamePicture) {
               storage.render(disc_view(50, 40), plain_settings()).rgba);
 }
 
-TEST_F(PoolUpload, BothDataPoolsGiveTheSamePicture) {
+TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
   Scene scene = disc_scene(3);
   scene.reference_pool = {2, 0, 1};
   scene.color_pool = {pack_color({1.0F, 0.0F, 0.0F}), pack_color({0.0F, 1.0F, 0.0F}),
                       pack_color({0.0F, 0.0F, 1.0F})};
-  Tracer copies(context, PoolAccess::automatic, Arithmetic::automatic, DataPool::copies);
-  Tracer references(context, PoolAccess::automatic, Arithmetic::automatic, DataPool::references);
-  copies.upload(scene);
-  references.upload(scene);
-  EXPECT_EQ(copies.pool_bytes().reference_pool, 0U);
-  EXPECT_EQ(copies.pool_bytes().data_pool, 48U);
-  EXPECT_EQ(copies.pool_bytes().color_pool, 12U);
-  EXPECT_EQ(references.pool_bytes().reference_pool, 12U);
-  EXPECT_EQ(references.pool_bytes().data_pool, 48U);
-  EXPECT_EQ(references.pool_bytes().color_pool, 12U);
-  EXPECT_TRUE(copies.render(disc_view(50, 40), plain_settings()).rgba ==
-              references.render(disc_view(50, 40), plain_settings()).rgba);
+  const auto picture = [&](DataPool data, PoolAccess access, std::uint64_t reference_bytes) {
+    Tracer tracer(context, access, Arithmetic::automatic, data);
+    tracer.upload(scene);
+    EXPECT_EQ(tracer.pool_bytes().reference_pool, reference_bytes);
+    EXPECT_EQ(tracer.pool_bytes().data_pool, 48U);
+    EXPECT_EQ(tracer.pool_bytes().color_pool, 12U);
+    return tracer.render(disc_view(50, 40), plain_settings()).rgba;
+  };
+  for (const PoolAccess access : {PoolAccess::texel, PoolAccess::storage}) {
+    const auto copies = picture(DataPool::copies, access, 0);
+    EXPECT_TRUE(copies == picture(DataPool::references, access, 12));
+    EXPECT_TRUE(copies == picture(DataPool::wide_references, access, 12));
+  }
 }
 
 TEST_F(PoolUpload, ReportsBytesByPool) {
@@ -83,7 +91,7 @@ TEST_F(PoolUpload, ReportsBytesByPool) {
   EXPECT_EQ(tracer.pool_bytes().begin_end, 8U);
   EXPECT_EQ(tracer.pool_bytes().slab_pool, 4U);
   EXPECT_EQ(tracer.pool_bytes().data_pool, 48U);
-  EXPECT_EQ(tracer.pool_bytes().top_table, 8U << 3 * TOP_LEVELS);
+  EXPECT_EQ(tracer.pool_bytes().top_table, 8U);
   EXPECT_EQ(tracer.pool_bytes().color_pool, 0U);
 }
 

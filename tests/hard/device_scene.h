@@ -1,14 +1,13 @@
 /// A scene on the device, with the counters always on.
 #pragma once
-#include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <span>
 #include <vector>
 
 #include "engine/gpu/tracer.h"
 #include "tests/hard/case_table.h"
 #include "tests/trace/brute_force.h"
+#include "tests/trace/different_bits.h"
 
 namespace splatray::testing {
 
@@ -58,15 +57,5 @@ enum class Compared {
 [[nodiscard]] CaseRow compare_with_brute_force(DeviceScene& device, const BruteForce& brute,
                                                const std::vector<RayQuery>& rays, const std::string& what,
                                                Compared compared = Compared::blends);
-
-/// How many of the elements do not have the same bits; all when the lengths differ.
-template <typename Value>
-[[nodiscard]] std::uint64_t different_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
-  if (a.size() != b.size()) return std::max(a.size(), b.size());
-  std::uint64_t different = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    different += std::memcmp(&a[i], &b[i], sizeof(Value)) != 0 ? 1 : 0;
-  return different;
-}
 
 }  // namespace splatray::testing

@@ -26,6 +26,7 @@ namespace glsl {
 #define COLORS features[SPEC_COLORS]
 #define COUNTERS features[SPEC_COUNTERS]
 #define FIELDS features[SPEC_FIELDS]
+#define TOP_LEVELS features[SPEC_TOP_LEVELS]
 
 uvec2 top_entry(uint index) { return top.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
@@ -66,14 +67,15 @@ Features twin_features(const Scene& scene, const Settings& settings) {
   const bool blends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
   chosen[SPEC_FIELDS] = blends && !scene.field_pool.empty() ? 1 : 0;
   chosen[SPEC_COUNTERS] = 1;
+  chosen[SPEC_TOP_LEVELS] = 5;
   return chosen;
 }
 
 std::vector<RayHit> twin_intersect(const Scene& scene, std::span<const RayQuery> rays,
                                    const Settings& settings) {
   bound = &scene;
-  top = top_table(scene);
   features = twin_features(scene, settings);
+  top = top_table(scene, features[SPEC_TOP_LEVELS]);
   std::vector<RayHit> hits;
   hits.reserve(rays.size());
   glsl::Tally tally{};
