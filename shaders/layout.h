@@ -142,9 +142,9 @@ struct FrameParams {
   vec3 environment;     ///< radiance factor of the texture, or the constant radiance
   uint tile_first;      ///< where the accumulation holds this dispatch's first pixel
   vec3 environment_up;  ///< unit vector the environment's +y (its pole) points to
-  float unused_0;
+  uint first_group;     ///< where the group list holds this dispatch's groups
   vec3 environment_right;  ///< unit vector the environment's +x points to; its +z is cross(right, up)
-  float unused_1;
+  uint group_count;        ///< and how many
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
   vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
@@ -217,6 +217,7 @@ SPLATRAY_CONST BIND_AOV = 13u;
 SPLATRAY_CONST BIND_COUNTERS = 14u;
 SPLATRAY_CONST BIND_RAYS = 15u;
 SPLATRAY_CONST BIND_HITS = 16u;
+SPLATRAY_CONST BIND_GROUPS = 17u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
 
 /// Specialization constants: the features of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_BLEND = 0u;        ///< BLEND_*
@@ -235,7 +236,8 @@ SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
 SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
 SPLATRAY_CONST SPEC_REFERENCES = 14u;  ///< REFERENCES_*
 SPLATRAY_CONST SPEC_TOP_LEVELS = 15u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
-SPLATRAY_CONST SPEC_COUNT = 16u;
+SPLATRAY_CONST SPEC_EMPTY = 16u;       ///< 1: no primary ray of the dispatch hits anything
+SPLATRAY_CONST SPEC_COUNT = 17u;
 
 SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1

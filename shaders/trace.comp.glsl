@@ -6,6 +6,7 @@
 
 layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };
 layout(std430, binding = BIND_ACCUMULATION) buffer Accumulation { vec4 accumulation[]; };
+layout(std430, binding = BIND_GROUPS) readonly buffer GroupList { uint group_list[]; };
 layout(std430, binding = BIND_AOV) writeonly buffer AovTable { AovPixel aov[]; };
 layout(binding = BIND_ENVIRONMENT) uniform sampler2D environment_map;
 
@@ -28,10 +29,11 @@ uint even_bits(uint x) {
 }
 
 /// This thread's pixel in the tile: groups of 8 x 8 in Z-order (Goradia et al. 2010, sec. IV-A), or rows.
-uvec2 tile_pixel() {
+uvec2 tile_pixel(uint group_word) {
+  uvec2 group = uvec2(group_word & 0xFFFFu, group_word >> 16u);
   uint thread = gl_LocalInvocationIndex;
-  if (ORDER == ORDER_LINEAR) return uvec2(gl_WorkGroupID.x * GROUP_SIZE + thread, gl_WorkGroupID.y);
-  return gl_WorkGroupID.xy * 8u + uvec2(even_bits(thread), even_bits(thread >> 1u));
+  if (ORDER == ORDER_LINEAR) return uvec2(group.x * GROUP_SIZE + thread, group.y);
+  return group * 8u + uvec2(even_bits(thread), even_bits(thread >> 1u));
 }
 
 /// A number that tells splats apart.
@@ -91,8 +93,9 @@ void add_samples(uvec2 pixel, uint index) {
 
 void main() {
   read_frame();
-  uvec2 in_tile = tile_pixel();
-  if (in_tile.x >= frame.tile_width || in_tile.y >= frame.tile_height) return;
+  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uvec2 in_tile = tile_pixel(group_list[frame.first_group + min(group, frame.group_count - 1u)]);
+  if (group >= frame.group_count || in_tile.x >= frame.tile_width || in_tile.y >= frame.tile_height) return;
   uvec2 pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);
   uint index = in_tile.y * frame.tile_width + in_tile.x;
   if (AOV == 1u) {

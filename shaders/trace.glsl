@@ -2,7 +2,7 @@
 // anything is hit at all. The result depends on the splats alone, not on the tree: intervals tile the ray,
 // each hit is decided exactly and counts in one leaf, and sums are integers. Needs, beside traverse.glsl:
 // splat_at(place), splat_words(splat), color_at(splat), field_word(splat), material_at(object), and the constants BLEND, KERNEL,
-// SIDE, FACES, COLORS, FIELDS, COUNTERS.
+// SIDE, FACES, COLORS, FIELDS, COUNTERS, EMPTY.
 #ifndef SPLATRAY_TRACE_GLSL
 #define SPLATRAY_TRACE_GLSL
 #include "traverse.glsl"
@@ -245,6 +245,7 @@ Cluster empty_cluster() {
 /// What the ray sees first. The ray may start anywhere. The leaf with the first hit is looked through to its end before
 /// any of its splats is accumulated; one of more than CHUNK splats is then gone through again.
 Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
+  if (EMPTY == 1u) return finish_hit(ray, no_first(), empty_cluster(), 0.0f, 0.0f);
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);

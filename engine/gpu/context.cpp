@@ -152,8 +152,7 @@ void Context::choose_device(const std::string& wanted, const WindowNeeds& needs)
 Arithmetic Context::arithmetic(Arithmetic wanted) const {
   assert(wanted != Arithmetic::float64 || float64);
   if (wanted != Arithmetic::automatic) return wanted;
-  const bool processor = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-  return processor && float64 ? Arithmetic::float64 : Arithmetic::double_float;
+  return is_processor() && float64 ? Arithmetic::float64 : Arithmetic::double_float;
 }
 
 void Context::create_device(const WindowNeeds& needs) {

@@ -48,6 +48,8 @@ class Context {
 
   [[nodiscard]] const DeviceInfo& device_info() const { return info_; }
   [[nodiscard]] std::uint32_t validation_messages() const { return validation_messages_; }
+  /// Whether the device is a processor, which runs both sides of a branch where one would do.
+  [[nodiscard]] bool is_processor() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
   /// What automatic means on this device; `wanted` itself if it is not that. Asserts that the device has it.
   [[nodiscard]] Arithmetic arithmetic(Arithmetic wanted) const;
 

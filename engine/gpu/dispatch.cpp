@@ -8,19 +8,38 @@ namespace {
 constexpr double DISPATCH_MS = 200.0;
 /// Most times larger than the one before: its time may have been a start-up's.
 constexpr double GROWTH = 4.0;
+/// Any device takes 65535.
+constexpr std::uint32_t MOST_GROUPS_X = 1U << 15U;
 
 }  // namespace
 
 std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
 
-void aim(Dispatch& dispatch, const Tile& tile) {
-  dispatch.frame.tile_x = tile.x;
-  dispatch.frame.tile_y = tile.y;
-  dispatch.frame.tile_width = tile.width;
-  dispatch.frame.tile_height = tile.height;
+TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& footprint) {
   const bool linear = dispatch.constants[SPEC_ORDER] == ORDER_LINEAR;
-  dispatch.groups_x = groups(tile.width, linear ? GROUP_SIZE : 8);
-  dispatch.groups_y = linear ? tile.height : groups(tile.height, 8);
+  const std::uint32_t width = linear ? GROUP_SIZE : 8, height = linear ? 1 : 8;
+  TileDispatch aimed{dispatch, dispatch, {}};
+  std::vector<std::uint32_t> empty;
+  for (std::uint32_t y = 0; y < groups(tile.height, height); ++y)
+    for (std::uint32_t x = 0; x < groups(tile.width, width); ++x) {
+      const bool seen = footprint.meets(tile.x + x * width, tile.y + y * height, width, height);
+      (seen ? aimed.group_list : empty).push_back(x | y << 16);
+    }
+  const auto part = [&tile](Dispatch& one, std::size_t first, std::size_t count) {
+    one.frame.tile_x = tile.x;
+    one.frame.tile_y = tile.y;
+    one.frame.tile_width = tile.width;
+    one.frame.tile_height = tile.height;
+    one.frame.first_group = static_cast<std::uint32_t>(first);
+    one.frame.group_count = static_cast<std::uint32_t>(count);
+    one.groups_x = std::min(one.frame.group_count, MOST_GROUPS_X);
+    one.groups_y = groups(one.frame.group_count, std::max(one.groups_x, 1U));
+  };
+  part(aimed.seen, 0, aimed.group_list.size());
+  part(aimed.empty, aimed.group_list.size(), empty.size());
+  aimed.empty.constants = empty_features(dispatch.constants);
+  aimed.group_list.insert(aimed.group_list.end(), empty.begin(), empty.end());
+  return aimed;
 }
 
 std::uint32_t next_batch(std::uint32_t batch, double ms) {

@@ -1,10 +1,12 @@
 /// One dispatch of a picture or a query, and how large the next one should be.
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/tiles.h"
+#include "engine/host/footprint.h"
 #include "shaders/layout.h"
 
 namespace splatray {
@@ -18,11 +20,17 @@ struct Dispatch {
   std::uint32_t groups_y = 1;
 };
 
+/// The dispatches of a picture's tile: of the groups of pixels that may see something, and of the rest.
+struct TileDispatch {
+  Dispatch seen, empty;
+  std::vector<std::uint32_t> group_list;  ///< of both (BIND_GROUPS)
+};
+
 /// Groups of `group` threads that hold `threads`.
 [[nodiscard]] std::uint32_t groups(std::uint32_t threads, std::uint32_t group);
 
-/// Points a picture's dispatch to a tile.
-void aim(Dispatch& dispatch, const Tile& tile);
+/// Points a picture's dispatch to a tile. A dispatch of no groups is not needed.
+[[nodiscard]] TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& footprint);
 
 /// Samples of the next dispatch after one of `batch` samples that took `ms`: long enough to hide the cost of a
 /// submission, short enough for progress and for drivers that stop long work.

@@ -49,6 +49,14 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   return constants;
 }
 
+SpecConstants empty_features(const SpecConstants& constants) {
+  SpecConstants kept{};
+  for (const std::uint32_t constant : {SPEC_ENVIRONMENT, SPEC_ORDER, SPEC_COUNTERS, SPEC_AOV})
+    kept[constant] = constants[constant];
+  kept[SPEC_EMPTY] = 1;
+  return kept;
+}
+
 SpecConstants query_features(const SceneContent& content, const Settings& settings) {
   SpecConstants constants = picture_features(content, settings);
   for (const std::uint32_t shading : {SPEC_MIRRORS, SPEC_SHADOWS, SPEC_ENVIRONMENT, SPEC_ORDER, SPEC_LIGHTS})

@@ -8,7 +8,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::uint32_t BINDING_COUNT = BIND_HITS + 1;
+constexpr std::uint32_t BINDING_COUNT = BIND_GROUPS + 1;
 
 VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   switch (binding) {

@@ -51,6 +51,7 @@ void place(const Tile& tile, const std::vector<Value>& values, std::vector<Value
 /// A picture that advance() adds to.
 struct Growing {
   Dispatch dispatch;
+  Footprint footprint;
   std::uint32_t samples = 0;   ///< in every pixel
   std::uint32_t next_row = 0;  ///< rows above it have one more
   std::uint32_t rows = 8;      ///< of the next dispatch
@@ -66,13 +67,17 @@ struct Tracer::Impl {
   void set_lights(std::span<const SceneLight> lights);
   void bind_all();
   double run(const Dispatch& dispatch);
+  double run(const TileDispatch& tile);
   void add_counters();
   [[nodiscard]] FrameParams frame_params(const View& view, const Settings& settings) const;
   [[nodiscard]] Dispatch picture_dispatch(const View& view, const Settings& settings) const;
   [[nodiscard]] std::uint32_t most_samples(const Dispatch& dispatch) const;
-  void trace_samples(const Tile& tile, Dispatch dispatch, const std::function<void(std::uint64_t)>& advance);
+  [[nodiscard]] Footprint footprint(const View& view, const Settings& settings) const;
+  void trace_samples(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+                     const std::function<void(std::uint64_t)>& advance);
   void read_colors(const Tile& tile, Image& image);
-  void trace_aov(const Tile& tile, Dispatch dispatch, std::vector<AovPixel>& picture);
+  void trace_aov(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+                 std::vector<AovPixel>& picture);
 
   [[nodiscard]] SceneContent content() const {
     return {.materials = materials,
@@ -94,13 +99,14 @@ struct Tracer::Impl {
 
   Scene frame_of_reference;  ///< the scene without its arrays: transform, bounds, up
   Pools pools;
+  std::vector<LeafCell> cells;  ///< that hold the scene's filled leaves
   std::vector<Material> materials;
   std::uint32_t light_count = 0;
   bool environment_texture = false;
   glm::vec3 environment_constant{0.0F};
   std::array<glm::vec3, 9> irradiance{};
 
-  Buffer frame_buffer, material_buffer, light_buffer, accumulation, aov, counters, rays, hits;
+  Buffer frame_buffer, material_buffer, light_buffer, accumulation, aov, counters, rays, hits, groups;
   EnvironmentTexture environment;
 
   Growing growing;
@@ -119,7 +125,7 @@ Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_a
       pipelines(device, code),
       environment(device, queue, {}) {
   reserve(device, frame_buffer, sizeof(FrameParams));
-  for (Buffer* buffer : {&material_buffer, &light_buffer, &accumulation, &aov, &rays, &hits})
+  for (Buffer* buffer : {&material_buffer, &light_buffer, &accumulation, &aov, &rays, &hits, &groups})
     reserve(device, *buffer, 0);
   reserve(device, counters, COUNTER_COUNT * sizeof(std::uint32_t));
   pool_bytes.environment = environment.size();
@@ -150,12 +156,13 @@ void Tracer::Impl::bind_all() {
   bindings->bind(BIND_COUNTERS, counters);
   bindings->bind(BIND_RAYS, rays);
   bindings->bind(BIND_HITS, hits);
+  bindings->bind(BIND_GROUPS, groups);
 }
 
 double Tracer::Impl::run(const Dispatch& dispatch) {
   const VkPipeline pipeline =
       pipelines.get({dispatch.program, pools.access, arithmetic, dispatch.constants}, bindings->layout());
-  return queue.run([&](VkCommandBuffer commands) {
+  const double ms = queue.run([&](VkCommandBuffer commands) {
     vkCmdUpdateBuffer(commands, frame_buffer.get(), 0, sizeof(FrameParams), &dispatch.frame);
     if (dispatch.constants[SPEC_COUNTERS] != 0)
       vkCmdFillBuffer(commands, counters.get(), 0, VK_WHOLE_SIZE, 0);
@@ -166,6 +173,21 @@ double Tracer::Impl::run(const Dispatch& dispatch) {
                             nullptr);
     vkCmdDispatch(commands, dispatch.groups_x, dispatch.groups_y, 1);
   });
+  if (dispatch.constants[SPEC_COUNTERS] != 0) add_counters();
+  return ms;
+}
+
+double Tracer::Impl::run(const TileDispatch& tile) {
+  const std::span list(tile.group_list);
+  if (groups.size() < list.size_bytes()) {
+    reserve(context, groups, list.size_bytes());
+    bindings->bind(BIND_GROUPS, groups);
+  }
+  groups.upload(queue, std::as_bytes(list));
+  double ms = 0.0;
+  for (const Dispatch* part : {&tile.seen, &tile.empty})
+    if (part->groups_x > 0) ms += run(*part);
+  return ms;
 }
 
 void Tracer::Impl::add_counters() {
@@ -195,13 +217,17 @@ Dispatch Tracer::Impl::picture_dispatch(const View& view, const Settings& settin
 }
 
 std::uint32_t Tracer::Impl::most_samples(const Dispatch& dispatch) const {
-  if (context.properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU) return UINT32_MAX;
+  if (!context.is_processor()) return UINT32_MAX;
   return dispatch.frame.max_bounces > 0 ? PROCESSOR_BATCH_OF_PATHS : PROCESSOR_BATCH;
 }
 
-void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch,
+Footprint Tracer::Impl::footprint(const View& view, const Settings& settings) const {
+  if (!settings.cull || !context.is_processor()) return {view.width, view.height};
+  return {cells, frame_of_reference.root, view};
+}
+
+void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
                                  const std::function<void(std::uint64_t)>& advance) {
-  aim(dispatch, tile);
   const bool counting = dispatch.constants[SPEC_COUNTERS] != 0;
   const std::uint32_t total = dispatch.frame.sample_total;
   const std::uint32_t most = most_samples(dispatch);
@@ -209,9 +235,8 @@ void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch,
   for (std::uint32_t sample = 0; sample < total;) {
     dispatch.frame.sample_begin = sample;
     dispatch.frame.sample_end = sample + std::min(batch, total - sample);
-    const double ms = run(dispatch);
+    const double ms = run(aim(dispatch, tile, footprint));
     stats.trace_ms += ms;
-    if (counting) add_counters();
     advance(tile.pixels() * (dispatch.frame.sample_end - sample));
     sample = dispatch.frame.sample_end;
     // The device counts in 32 bits, which many samples of a large tile would overflow.
@@ -225,10 +250,10 @@ void Tracer::Impl::read_colors(const Tile& tile, Image& image) {
   place(tile, means, image.rgba, image.width);
 }
 
-void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, std::vector<AovPixel>& picture) {
-  aim(dispatch, tile);
+void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+                             std::vector<AovPixel>& picture) {
   dispatch.constants[SPEC_AOV] = 1;
-  run(dispatch);
+  run(aim(dispatch, tile, footprint));
   std::vector<AovPixel> pixels(tile.pixels());
   aov.download(queue, std::as_writable_bytes(std::span(pixels)));
   place(tile, pixels, picture, dispatch.frame.width);
@@ -246,6 +271,7 @@ void Tracer::upload(const Scene& scene) {
   impl.pools = {};  // the device may not have room for two scenes
   impl.pools = Pools(impl.context, impl.queue, scene, impl.wanted_access, impl.wanted_data);
   impl.bindings.emplace(impl.context, impl.pools.access);
+  impl.cells = filled_cells(scene);
   impl.frame_of_reference = {};
   impl.frame_of_reference.root = scene.root;
   impl.frame_of_reference.up = scene.up;
@@ -282,6 +308,7 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   const Clock::time_point start = Clock::now();
   impl.stats = {};
   const Dispatch dispatch = impl.picture_dispatch(view, settings);
+  const Footprint footprint = impl.footprint(view, settings);
   Image image{view.width, view.height, {}, {}};
   const std::size_t pixels = std::size_t{view.width} * view.height;
   image.rgba.resize(pixels);
@@ -297,9 +324,9 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
     report(progress, static_cast<double>(done) / (static_cast<double>(pixels) * settings.samples));
   };
   for (const Tile& tile : tiles) {
-    impl.trace_samples(tile, dispatch, advance);
+    impl.trace_samples(tile, dispatch, footprint, advance);
     impl.read_colors(tile, image);
-    if (settings.aov) impl.trace_aov(tile, dispatch, image.aov);
+    if (settings.aov) impl.trace_aov(tile, dispatch, footprint, image.aov);
   }
   impl.stats.wall_ms = milliseconds_since(start);
   return image;
@@ -309,7 +336,7 @@ void Tracer::begin(const View& view, const Settings& settings) {
   Impl& impl = *impl_;
   assert(impl.bindings && settings.samples >= 1);
   impl.stats = {};
-  impl.growing = {impl.picture_dispatch(view, settings)};
+  impl.growing = {impl.picture_dispatch(view, settings), impl.footprint(view, settings)};
   const VkDeviceSize bytes = VkDeviceSize{view.width} * view.height * sizeof(vec4);
   if (bytes > impl.context.properties.limits.maxStorageBufferRange)
     throw Error(ExitCode::out_of_memory,
@@ -324,15 +351,14 @@ bool Tracer::advance(double wanted_ms) {
   Growing& growing = impl.growing;
   FrameParams& frame = growing.dispatch.frame;
   const std::uint32_t rows = std::min(growing.rows, frame.height - growing.next_row);
-  aim(growing.dispatch, {0, growing.next_row, frame.width, rows});
   frame.tile_first = growing.next_row * frame.width;
   frame.sample_begin = growing.samples;
   frame.sample_end = growing.samples + 1;
   const Clock::time_point start = Clock::now();
-  impl.stats.trace_ms += impl.run(growing.dispatch);
+  impl.stats.trace_ms +=
+      impl.run(aim(growing.dispatch, {0, growing.next_row, frame.width, rows}, growing.footprint));
   const double ms = milliseconds_since(start);
   impl.stats.wall_ms += ms;
-  if (growing.dispatch.constants[SPEC_COUNTERS] != 0) impl.add_counters();
   growing.rows = next_rows(rows, ms, wanted_ms, frame.height);
   growing.next_row += rows;
   if (growing.next_row == frame.height) {
@@ -361,12 +387,13 @@ std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settin
   const Clock::time_point start = Clock::now();
   impl.stats = {};
   const Dispatch dispatch = impl.picture_dispatch(view, settings);
+  const Footprint footprint = impl.footprint(view, settings);
   const auto tiles = cut_into_tiles(view.width, view.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
   reserve(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
   impl.bind_all();
   std::vector<AovPixel> pixels(std::size_t{view.width} * view.height);
   for (const Tile& tile : tiles) {
-    impl.trace_aov(tile, dispatch, pixels);
+    impl.trace_aov(tile, dispatch, footprint, pixels);
     report(progress, double(tile.y + tile.height) / view.height);
   }
   impl.stats.wall_ms = impl.stats.trace_ms = milliseconds_since(start);
@@ -396,7 +423,6 @@ std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Sett
     dispatch.frame.tile_width = dispatch.frame.width = static_cast<std::uint32_t>(count);
     dispatch.groups_x = groups(dispatch.frame.width, GROUP_SIZE);
     impl.stats.trace_ms += impl.run(dispatch);
-    if (settings.counters) impl.add_counters();
     impl.hits.download(impl.queue, std::as_writable_bytes(std::span(hits).subspan(at, count)));
   }
   impl.stats.wall_ms = milliseconds_since(start);

@@ -18,12 +18,6 @@ constexpr double MAX_DISTANCE_ROOT = 1e18;
 
 constexpr double ROOT_EDGE = 1U << LATTICE_BITS;
 
-/// The image plane in root space, float64: position of (px, py) = corner + px * dx + py * dy, relative to the
-/// eye, for a plane at unit distance (perspective) or through the eye (orthographic).
-struct ImagePlane {
-  glm::dvec3 eye, forward, corner, dx, dy;
-};
-
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void refuse(const char* sentence) { throw Error(ExitCode::usage, sentence); }
@@ -43,20 +37,6 @@ void check_view(const View& view) {
   const double up_length = glm::length(camera.up);
   if (!(up_length > 0.0) || glm::length(glm::cross(forward, camera.up / up_length)) < 1e-9)
     refuse("the camera's up is zero or parallel to its view direction, expected a direction across it");
-}
-
-ImagePlane image_plane(const RootTransform& root, const View& view) {
-  const Camera& camera = view.camera;
-  const bool ortho = camera.ortho_height > 0.0;
-  const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
-  const glm::dvec3 down = glm::cross(forward, right);
-  const double height = ortho ? camera.ortho_height / root.unit_world
-                              : 2.0 * std::tan(camera.fov_y_deg * std::numbers::pi / 360.0);
-  const double pixel = height / view.height;
-  ImagePlane plane{root.to_root(camera.eye), forward, {}, right * pixel, down * pixel};
-  plane.corner = -0.5 * (double(view.width) * plane.dx + double(view.height) * plane.dy);
-  return plane;
 }
 
 /// Rays of one direction from the plane through the root's centre; only what lies before the eye plane is
@@ -102,6 +82,20 @@ void set_rays(const Scene& scene, const View& view, FrameParams& frame) {
 }
 
 }  // namespace
+
+ImagePlane image_plane(const RootTransform& root, const View& view) {
+  const Camera& camera = view.camera;
+  const bool ortho = camera.ortho_height > 0.0;
+  const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
+  const glm::dvec3 down = glm::cross(forward, right);
+  const double height = ortho ? camera.ortho_height / root.unit_world
+                              : 2.0 * std::tan(camera.fov_y_deg * std::numbers::pi / 360.0);
+  const double pixel = height / view.height;
+  ImagePlane plane{root.to_root(camera.eye), forward, {}, right * pixel, down * pixel};
+  plane.corner = -0.5 * (double(view.width) * plane.dx + double(view.height) * plane.dy);
+  return plane;
+}
 
 glm::dmat3 upright_axes(const glm::dvec3& up) {
   const glm::dvec3 unit_up = glm::normalize(up);

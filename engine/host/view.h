@@ -14,6 +14,14 @@ struct View {
   std::uint32_t height = 1080;  ///< pixels, >= 1
 };
 
+/// The image plane in root space, float64: position of (px, py) = corner + px * dx + py * dy, relative to the
+/// eye, for a plane at unit distance (perspective) or through the eye (orthographic). dx and dy, per pixel, are perpendicular.
+struct ImagePlane {
+  glm::dvec3 eye, forward, corner, dx, dy;
+};
+/// That of a view that make_frame_params accepts.
+[[nodiscard]] ImagePlane image_plane(const RootTransform& root, const View& view);
+
 /// The method of a picture. Enumerators are the BLEND_*, KERNEL_*, SIDE_*, ORDER_* numbers of
 /// shaders/layout.h.
 struct Settings {
@@ -27,6 +35,8 @@ struct Settings {
   std::uint32_t side = SIDE_SIDE;
   double delta_world = 0.0;  ///< SIDE_DELTA: minimum distance, world units
   std::uint32_t order = ORDER_Z;
+  bool cull =
+      true;  ///< on processors: do not trace outside the footprint (footprint.h); pictures are the same
   bool counters = false;  ///< compile the counters in
   bool aov = false;       ///< also trace the centre rays' normal, depth, object
   float environment_strength = 1.0F;

@@ -5,24 +5,13 @@
 #include <cmath>
 
 #include "engine/host/error.h"
+#include "tests/host/pixel_ray.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {
 namespace {
 
 constexpr double EDGE = 1U << LATTICE_BITS;
-
-/// A primary ray as a shader forms it, in float32.
-struct PixelRay {
-  glm::vec3 point, dir;
-  float eye_distance;  ///< of the ray point, along the ray
-};
-
-PixelRay pixel_ray(const FrameParams& frame, float px, float py) {
-  const glm::vec3 dir = frame.dir_00 + px * frame.dir_dx + py * frame.dir_dy;
-  return {frame.origin_00 + px * frame.origin_dx + py * frame.origin_dy, dir,
-          frame.depth_offset + frame.depth_per_dir * glm::length(dir)};
-}
 
 /// Pixel position of a world point, by the textbook: axes of the camera, then perspective division.
 glm::dvec2 project(const View& view, const glm::dvec3& world) {
