@@ -16,6 +16,11 @@ class FramesTest : public DeviceTest {
   /// The picture's middle pixel.
   vec4 center() { return tracer.render(view, settings).rgba[9 / 2 * 9 + 9 / 2]; }
 
+  void look_from(double x) {
+    view.camera.eye = {x, 0.0, 3.0};
+    view.camera.target = {x, 0.0, 0.0};
+  }
+
   void expect_changed_without_rebuilding() {
     EXPECT_NE(center(), first);
     EXPECT_EQ(tracer.pipelines_built(), built);
@@ -33,9 +38,17 @@ class FramesTest : public DeviceTest {
 TEST_F(FramesTest, FirstFrameBuildsOnePipeline) { EXPECT_EQ(built, 1U); }
 
 TEST_F(FramesTest, ViewChanges) {
-  view.camera.eye = {3.0, 0.0, 3.0};
-  view.camera.target = {3.0, 0.0, 0.0};
+  settings.cull = false;
+  look_from(3.0);
   expect_changed_without_rebuilding();
+}
+
+TEST_F(FramesTest, PixelsThatSeeNothingTakeOneMorePipelineOnce) {
+  for (const double x : {3.0, 4.0}) {
+    look_from(x);
+    EXPECT_NE(center(), first);
+    EXPECT_EQ(tracer.pipelines_built(), built + (context.is_processor() ? 1 : 0));
+  }
 }
 
 TEST_F(FramesTest, MaterialsChange) {
