@@ -109,6 +109,7 @@ struct Tracer::Impl {
   Buffer frame_buffer, material_buffer, light_buffer, accumulation, aov, counters, rays, hits, groups;
   EnvironmentTexture environment;
 
+  std::vector<std::uint32_t> group_list;  ///< what `groups` holds
   Growing growing;
   RenderStats stats;
   PoolBytes pool_bytes;
@@ -178,12 +179,12 @@ double Tracer::Impl::run(const Dispatch& dispatch) {
 }
 
 double Tracer::Impl::run(const TileDispatch& tile) {
-  const std::span list(tile.group_list);
-  if (groups.size() < list.size_bytes()) {
-    reserve(context, groups, list.size_bytes());
+  if (tile.group_list != group_list) {
+    group_list = tile.group_list;
+    reserve(context, groups, std::span(group_list).size_bytes());
     bindings->bind(BIND_GROUPS, groups);
+    groups.upload(queue, std::as_bytes(std::span(group_list)));
   }
-  groups.upload(queue, std::as_bytes(list));
   double ms = 0.0;
   for (const Dispatch* part : {&tile.seen, &tile.empty})
     if (part->groups_x > 0) ms += run(*part);
