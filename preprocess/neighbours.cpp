@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace splatray {
@@ -181,7 +182,7 @@ void NeighbourSearch::visit(std::size_t level, std::uint32_t node, const glm::ve
   }
 }
 
-void NeighbourSearch::Block::measure(const glm::vec3& query, float (&distance)[WIDTH]) const {
+void NeighbourSearch::Block::measure(const glm::vec3& query, float* distance) const {
   for (std::uint32_t j = 0; j < WIDTH; ++j) {
     const float dx = x[j] - query.x;
     const float dy = y[j] - query.y;
@@ -214,22 +215,19 @@ class NeighbourSearch::Ball {
   /// Finds the `nearest.size()` nearest sites of a query in the box, or returns false: they may be farther away, or
   /// there are too many.
   bool find(const glm::vec3& query, std::span<Neighbour> nearest) const {
-    double keys[MOST_SITES];
+    float distance[MOST_NODES * WIDTH];
+    for (std::size_t i = 0; i < count_; ++i) search_.blocks_[nodes_[i]].measure(query, distance + i * WIDTH);
+    double keys[MOST_SITES + WIDTH];
     std::size_t count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       if (count > MOST_SITES - WIDTH) return false;
-      count = add(search_.blocks_[nodes_[i]], query, keys, count);
+      count = add(search_.blocks_[nodes_[i]], distance + i * WIDTH, keys, count);
     }
     if (count < nearest.size()) return false;
-    double smaller[MOST_SITES];  // how many keys are: the place among them
-    std::fill_n(smaller, count, 0.0);
-    for (std::size_t j = 0; j < count; ++j) {
-      for (std::size_t i = 0; i < count; ++i) smaller[i] += keys[j] < keys[i] ? 1.0 : 0.0;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto place = static_cast<std::size_t>(smaller[i]);
-      if (place < nearest.size()) nearest[place] = std::bit_cast<Neighbour>(keys[i]);
-    }
+    std::fill_n(keys + count, WIDTH, std::numeric_limits<double>::infinity());  // they come last
+    double sorted[MOST_SITES + 1];
+    for (std::size_t i = 0; i < count; i += WIDTH) place(keys + i, keys, count, sorted);
+    for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::bit_cast<Neighbour>(sorted[i]);
     return true;
   }
 
@@ -264,13 +262,27 @@ class NeighbourSearch::Ball {
     return gap(boxes.low[axis][j] - high_[axis], low_[axis] - boxes.high[axis][j]);
   }
 
-  std::size_t add(const Block& block, const glm::vec3& query, double* keys, std::size_t count) const {
-    float distance[WIDTH];
-    block.measure(query, distance);
+  /// Puts WIDTH of the keys where they belong: as many keys are smaller. Two at a time, as every processor can.
+  static void place(const double* some, const double* keys, std::size_t count, double* sorted) {
+    using Pair = double __attribute__((vector_size(16)));
+    using Count = std::int64_t __attribute__((vector_size(16)));
+    Pair values[WIDTH / 2];
+    std::memcpy(values, some, sizeof values);
+    Count smaller[WIDTH / 2]{};
+    for (std::size_t j = 0; j < count; ++j) {
+      const Pair key{keys[j], keys[j]};
+      for (std::size_t k = 0; k < WIDTH / 2; ++k) smaller[k] -= key < values[k];  // true is -1
+    }
+    for (std::size_t k = 0; k < WIDTH; ++k) sorted[smaller[k / 2][k % 2]] = some[k];
+  }
+
+  /// Adds the sites of a block that are near, but not at the query. Bits of floats >= 0 order like their values; less 1,
+  /// zero is the largest.
+  std::size_t add(const Block& block, const float* distance, double* keys, std::size_t count) const {
+    const auto reach_bits = std::bit_cast<std::uint32_t>(reach_squared_);
     for (std::uint32_t j = 0; j < WIDTH; ++j) {
       keys[count] = std::bit_cast<double>(Neighbour(distance[j], block.index[j]));
-      count += static_cast<std::size_t>(distance[j] > 0.0F) &
-               static_cast<std::size_t>(distance[j] <= reach_squared_);
+      count += static_cast<std::size_t>(std::bit_cast<std::uint32_t>(distance[j]) - 1U < reach_bits);
     }
     return count;
   }
