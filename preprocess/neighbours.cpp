@@ -9,11 +9,14 @@
 #include <cstring>
 #include <limits>
 
+#include "preprocess/select.h"
+
 namespace splatray {
 namespace {
 
 constexpr std::size_t MAX_COINCIDENT = 8;
 constexpr std::size_t PARALLEL_SIZE = 1U << 14;  // sites worth another task
+constexpr std::size_t MOST_MEASURED = 64;  // of a part's sites, to find its longest axis
 constexpr std::size_t GROUPS_PER_TASK = 8;
 constexpr float REACH_GROWTH = 1.25F;  // of the squared distance searched, over what the block before needed
 constexpr std::size_t MOST_NEAREST = 32;
@@ -86,11 +89,16 @@ void NeighbourSearch::arrange(std::span<Site> sites, std::size_t capacity) {
   if (sites.size() <= half) return arrange(sites, half);
   glm::vec3 low(INFINITE);
   glm::vec3 high(-INFINITE);
-  for (const Site& site : sites) low = glm::min(low, site.coord), high = glm::max(high, site.coord);
+  const std::size_t step = (sites.size() + MOST_MEASURED - 1) / MOST_MEASURED;
+  for (std::size_t i = 0; i < sites.size(); i += step) {
+    low = glm::min(low, sites[i].coord);
+    high = glm::max(high, sites[i].coord);
+  }
   const glm::vec3 extent = high - low;
   const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
-  std::nth_element(sites.begin(), sites.begin() + static_cast<std::ptrdiff_t>(half), sites.end(),
-                   [axis](const Site& a, const Site& b) { return a.coord[axis] < b.coord[axis]; });
+  if (axis == 0) select_nth(sites, half, [](const Site& site) { return site.coord.x; });
+  if (axis == 1) select_nth(sites, half, [](const Site& site) { return site.coord.y; });
+  if (axis == 2) select_nth(sites, half, [](const Site& site) { return site.coord.z; });
   if (capacity > PARALLEL_SIZE) {
     tbb::parallel_invoke([&] { arrange(sites.first(half), half); },
                          [&] { arrange(sites.subspan(half), half); });
