@@ -1,22 +1,16 @@
 #include "preprocess/cloud.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <cmath>
 #include <tuple>
 
 #include "preprocess/morton.h"
 #include "preprocess/parallel.h"
+#include "preprocess/sorted_order.h"
 
 namespace splatray {
 namespace {
 
 constexpr double LARGEST_COORDINATE = 1e100;  // squares and sums of such stay finite in float64
-
-struct SortEntry {
-  std::uint64_t key;
-  std::uint32_t index;
-};
 
 bool is_usable(const glm::dvec3& position) {
   const auto in_range = [](double value) { return std::abs(value) <= LARGEST_COORDINATE; };  // false on NaN
@@ -99,17 +93,11 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
 
 /// Points' indices, ascending by Morton key of the coordinates, then by every attribute.
 std::vector<std::uint32_t> canonical_order(const Cloud& cloud) {
-  std::vector<SortEntry> entries(cloud.size());
-  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(cloud.size()), [&](std::uint32_t i) {
-    const glm::uvec3 cell = glm::min(glm::uvec3((cloud.coord[i] + 1.0F) * 0x1p20F), glm::uvec3(0x1FFFFF));
-    entries[i] = {morton_key(cell), i};
-  });
-  tbb::parallel_sort(entries.begin(), entries.end(), [&cloud](const SortEntry& a, const SortEntry& b) {
-    return a.key != b.key ? a.key < b.key : point_less(cloud, a.index, b.index);
-  });
-  std::vector<std::uint32_t> order(entries.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries[i].index;
-  return order;
+  const auto key = [&cloud](std::size_t i) {
+    return morton_key(glm::min(glm::uvec3((cloud.coord[i] + 1.0F) * 0x1p20F), glm::uvec3(0x1FFFFF)));
+  };
+  return sorted_order(cloud.size(), key,
+                      [&cloud](std::uint32_t a, std::uint32_t b) { return point_less(cloud, a, b); });
 }
 
 void count_given(const Cloud& cloud, bool has_radii, BuildStats& stats) {
