@@ -65,20 +65,25 @@ NeighbourSearch::NeighbourSearch(const Cloud& cloud, Sites kind) : cloud_(cloud)
 /// The points that stand for their position (and normal). Coincident points are next to each other in
 /// canonical order, those of equal normals among them too.
 std::vector<NeighbourSearch::Site> NeighbourSearch::choose_sites(const Cloud& cloud, Sites kind) {
-  std::vector<Site> chosen;
-  chosen.reserve(cloud.size());
-  std::size_t coincident = 0;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    const bool same_place = i > 0 && cloud.coord[i] == cloud.coord[i - 1];
-    if (!same_place) coincident = 0;
-    const bool copy = same_place && (kind == Sites::positions || cloud.normal[i] == cloud.normal[i - 1]);
-    if (!copy && ++coincident <= MAX_COINCIDENT) {
-      chosen.push_back({cloud.coord[i], i});
-    } else {
-      copies_.push_back(i);
+  std::vector<std::uint8_t> is_site(cloud.size());
+  const auto same_place = [&](std::size_t i) { return i > 0 && cloud.coord[i] == cloud.coord[i - 1]; };
+  const auto choose = [&](std::size_t first) {  // among the points at one place
+    std::size_t coincident = 0;
+    for (std::size_t i = first; i == first || (i < cloud.size() && same_place(i)); ++i) {
+      const bool copy = i > first && (kind == Sites::positions || cloud.normal[i] == cloud.normal[i - 1]);
+      is_site[i] = !copy && ++coincident <= MAX_COINCIDENT;
     }
-  }
-  return chosen;
+  };
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    if (!same_place(i)) choose(i);
+  });
+  copies_ = numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] == 0; });
+  const auto chosen = numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] != 0; });
+  std::vector<Site> sites(chosen.size());
+  tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t n) {
+    sites[n] = {cloud.coord[chosen[n]], chosen[n]};
+  });
+  return sites;
 }
 
 /// Puts sites into the order of a k-d tree: halves of `capacity`, a power of two >= sites.size(), down to one

@@ -1,10 +1,7 @@
 #include "preprocess/octree.h"
 
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <tuple>
 
 #include "engine/host/error.h"
@@ -36,21 +33,10 @@ std::uint64_t drop_surplus(SplatList& splats, std::uint32_t copies) {
   const auto is_surplus = [&](std::size_t i) {
     return i >= copies && splats.words[i] == splats.words[i - copies];
   };
-  using Range = tbb::blocked_range<std::size_t>;
-  const auto count = [&](const Range& range, std::uint64_t surplus) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) surplus += is_surplus(i) ? 1 : 0;
-    return surplus;
-  };
-  const std::uint64_t surplus =
-      tbb::parallel_reduce(Range(0, splats.size()), std::uint64_t{0}, count, std::plus<>());
-  if (surplus == 0) return 0;
-  std::vector<std::uint32_t> kept;
-  kept.reserve(splats.size() - surplus);
-  for (std::uint32_t i = 0; i < splats.size(); ++i) {
-    if (!is_surplus(i)) kept.push_back(i);
-  }
-  take(splats, kept);
-  return surplus;
+  const std::uint64_t before = splats.size();
+  const auto kept = numbers_where(before, [&](std::size_t i) { return !is_surplus(i); });
+  if (kept.size() < before) take(splats, kept);
+  return before - kept.size();
 }
 
 class Builder {

@@ -31,19 +31,17 @@ glm::ivec2 octahedral_nearest(const glm::dvec3& normal, int scale) {
     exact = {(scale - std::abs(exact.y)) * sign_not_zero(exact.x),
              (scale - std::abs(exact.x)) * sign_not_zero(exact.y)};
   }
-  glm::ivec2 best{0};
-  double best_dot = -2.0;
-  for (int corner = 0; corner < 4; ++corner) {
+  constexpr int CORNERS = 4;
+  glm::ivec2 corners[CORNERS];
+  double cosines[CORNERS];
+  for (int corner = 0; corner < CORNERS; ++corner) {
     const int u = std::clamp(static_cast<int>(std::floor(exact.x)) + (corner & 1), -scale, scale);
     const int v = std::clamp(static_cast<int>(std::floor(exact.y)) + (corner >> 1), -scale, scale);
     const glm::dvec3 vector = octahedral_vector(u, v, scale);
-    const double dot = glm::dot(normal, vector) / glm::length(vector);
-    if (dot > best_dot) {
-      best_dot = dot;
-      best = {u, v};
-    }
+    corners[corner] = {u, v};
+    cosines[corner] = glm::dot(normal, vector) / glm::length(vector);
   }
-  return best;
+  return corners[std::max_element(cosines, cosines + CORNERS) - cosines];
 }
 
 std::uint32_t lattice_coordinate(double value) {
@@ -109,9 +107,13 @@ Splat unpack_splat(const uvec4& words) {
   const int u = static_cast<int>(words.z & 0xFFFFU) - OCT;
   const int v = static_cast<int>(words.z >> 16) - OCT;
   splat.normal = glm::normalize(octahedral_vector(u, v, OCT));
-  splat.radius_squared = std::bit_cast<float>(RADIUS_EXPONENT_BIT | words.w >> 16 << 14);
+  splat.radius_squared = unpack_radius_squared(words);
   splat.object = words.w & OBJECT_MASK;
   return splat;
+}
+
+double unpack_radius_squared(const uvec4& words) {
+  return std::bit_cast<float>(RADIUS_EXPONENT_BIT | words.w >> 16 << 14);
 }
 
 std::uint32_t pack_color(glm::vec3 linear) {

@@ -1,4 +1,4 @@
-/// The radix sort against std::stable_sort.
+/// The radix sort against std::stable_sort; numbers found in parallel against those found one by one.
 #include "preprocess/sorted_order.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,8 @@
 #include <numeric>
 #include <random>
 #include <vector>
+
+#include "preprocess/parallel.h"
 
 namespace splatray {
 namespace {
@@ -60,6 +62,17 @@ TEST(SortedOrder, SortedKeys) {
   check_order(keys);
   std::reverse(keys.begin(), keys.end());
   check_order(keys);
+}
+
+TEST(NumbersWhere, AsOneByOne) {
+  for (const std::size_t count : {0, 1, 16384, 50001}) {
+    const Keys keys = random_keys(count, 3);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (keys[i] == 1) expected.push_back(i);
+    }
+    EXPECT_EQ(numbers_where(count, [&](std::size_t i) { return keys[i] == 1; }), expected);
+  }
 }
 
 }  // namespace
