@@ -9,7 +9,7 @@
 namespace splatray {
 namespace {
 
-constexpr int DIGIT_BITS = 8;
+constexpr int DIGIT_BITS = 11;
 constexpr std::size_t DIGITS = std::size_t{1} << DIGIT_BITS;
 constexpr std::size_t CHUNK = std::size_t{1} << 16;  // entries that one task counts and moves
 

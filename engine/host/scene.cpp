@@ -31,17 +31,19 @@ glm::ivec2 octahedral_nearest(const glm::dvec3& normal, int scale) {
     exact = {(scale - std::abs(exact.y)) * sign_not_zero(exact.x),
              (scale - std::abs(exact.x)) * sign_not_zero(exact.y)};
   }
-  constexpr int CORNERS = 4;
-  glm::ivec2 corners[CORNERS];
-  double cosines[CORNERS];
-  for (int corner = 0; corner < CORNERS; ++corner) {
+  glm::ivec2 best{0};
+  double best_dot = -2.0;
+  for (int corner = 0; corner < 4; ++corner) {
     const int u = std::clamp(static_cast<int>(std::floor(exact.x)) + (corner & 1), -scale, scale);
     const int v = std::clamp(static_cast<int>(std::floor(exact.y)) + (corner >> 1), -scale, scale);
     const glm::dvec3 vector = octahedral_vector(u, v, scale);
-    corners[corner] = {u, v};
-    cosines[corner] = glm::dot(normal, vector) / glm::length(vector);
+    const double dot = glm::dot(normal, vector) / glm::length(vector);
+    if (dot > best_dot) {
+      best_dot = dot;
+      best = {u, v};
+    }
   }
-  return corners[std::max_element(cosines, cosines + CORNERS) - cosines];
+  return best;
 }
 
 std::uint32_t lattice_coordinate(double value) {
