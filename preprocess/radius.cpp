@@ -9,6 +9,7 @@
 #include "preprocess/neighbours.h"
 #include "preprocess/normal_field.h"
 #include "preprocess/select.h"
+#include "preprocess/vector_clones.h"
 #include "preprocess/voronoi.h"
 
 namespace splatray {
@@ -107,7 +108,8 @@ class Surroundings {
 };
 
 /// The radius that covers the point's cell, 0 where there is none; nothing when `wanted` neighbours do not settle it.
-std::optional<double> covering_radius(const Neighbourhood& around, std::size_t wanted) {
+SPLATRAY_VECTOR_CLONES std::optional<double> covering_radius(const Neighbourhood& around,
+                                                             std::size_t wanted) {
   const std::size_t found = around.count;
   if (found == 0) return 0.0;
   const Surroundings surroundings(around);
