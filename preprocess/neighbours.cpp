@@ -18,7 +18,7 @@ constexpr std::size_t MAX_COINCIDENT = 8;
 constexpr std::size_t PARALLEL_SIZE = 1U << 14;  // sites worth another task
 constexpr std::size_t MOST_MEASURED = 64;        // of a part's sites, to find its longest axis
 constexpr std::size_t GROUPS_PER_TASK = 8;
-constexpr float REACH_GROWTH = 1.25F;  // of the squared distance searched, over what the block before needed
+constexpr float REACH_GROWTH = 1.1F;  // of the squared distance searched, over what the block before needed
 constexpr std::size_t MOST_NEAREST = 32;
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
