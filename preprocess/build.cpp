@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -21,6 +22,7 @@
 #include "preprocess/parallel.h"
 #include "preprocess/radius.h"
 #include "preprocess/root.h"
+#include "preprocess/select.h"
 
 namespace splatray {
 namespace {
@@ -119,14 +121,10 @@ void estimate_all_normals(std::vector<Cloud>& clouds, Scene& scene, const BuildP
 }
 
 void find_bounds(const std::vector<Cloud>& clouds, Scene& scene) {
-  scene.bounds_min_world = glm::dvec3(INFINITY);
-  scene.bounds_max_world = glm::dvec3(-INFINITY);
-  for (const Cloud& cloud : clouds) {
-    for (const glm::dvec3& position : cloud.position) {
-      scene.bounds_min_world = glm::min(scene.bounds_min_world, position);
-      scene.bounds_max_world = glm::max(scene.bounds_max_world, position);
-    }
-  }
+  Bounds bounds;
+  for (const Cloud& cloud : clouds) bounds.add(bounds_of(cloud.position));
+  scene.bounds_min_world = bounds.low;
+  scene.bounds_max_world = bounds.high;
 }
 
 void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildProgress& progress,
@@ -137,11 +135,11 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildP
   for (Cloud& cloud : clouds) {
     find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale, scene.build.normal_fields,
                {"radii", progress});
-    for (float& radius : cloud.radius) {
-      if (radius > 0.0F) continue;
-      radius = static_cast<float>(isolated_world / cloud.half_extent_world);
-      ++stats.radii_isolated;
-    }
+    const auto isolated =
+        numbers_where(cloud.size(), [&](std::size_t i) { return !(cloud.radius[i] > 0.0F); });
+    for (const std::uint32_t i : isolated)
+      cloud.radius[i] = static_cast<float>(isolated_world / cloud.half_extent_world);
+    stats.radii_isolated += isolated.size();
   }
 }
 
@@ -245,11 +243,11 @@ void count_result(const Scene& scene, BuildStats& stats) {
   stats.growth = static_cast<double>(stats.references) / static_cast<double>(stats.splats) - 1.0;
   std::vector<double> squared(scene.data_pool.size());
   tbb::parallel_for(std::size_t{0}, scene.data_pool.size(),
-                    [&](std::size_t i) { squared[i] = unpack_splat(scene.data_pool[i]).radius_squared; });
+                    [&](std::size_t i) { squared[i] = unpack_radius_squared(scene.data_pool[i]); });
   const double sum_squared = std::accumulate(squared.begin(), squared.end(), 0.0);
-  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
-  std::nth_element(squared.begin(), middle, squared.end());
-  stats.radius_median_world = std::sqrt(*middle) * scene.root.unit_world;
+  const std::size_t middle = squared.size() / 2;
+  select_nth(std::span(squared), middle, std::identity());
+  stats.radius_median_world = std::sqrt(squared[middle]) * scene.root.unit_world;
   if (scene.surface_area_world > 0.0) {
     stats.overlap = std::numbers::pi * sum_squared * scene.root.unit_world * scene.root.unit_world /
                     scene.surface_area_world;

@@ -1,22 +1,19 @@
 #include "preprocess/cloud.h"
 
-#include <tbb/parallel_sort.h>
+#include <tbb/parallel_reduce.h>
 
 #include <cmath>
 #include <tuple>
+#include <type_traits>
 
 #include "preprocess/morton.h"
 #include "preprocess/parallel.h"
+#include "preprocess/sorted_order.h"
 
 namespace splatray {
 namespace {
 
 constexpr double LARGEST_COORDINATE = 1e100;  // squares and sums of such stay finite in float64
-
-struct SortEntry {
-  std::uint64_t key;
-  std::uint32_t index;
-};
 
 bool is_usable(const glm::dvec3& position) {
   const auto in_range = [](double value) { return std::abs(value) <= LARGEST_COORDINATE; };  // false on NaN
@@ -31,12 +28,7 @@ glm::vec3 unit_or_zero(const glm::vec3& vector) {
 }
 
 std::vector<std::uint32_t> usable_points(const Points& points) {
-  std::vector<std::uint32_t> usable;
-  usable.reserve(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (is_usable(points.position[i])) usable.push_back(i);
-  }
-  return usable;
+  return numbers_where(points.size(), [&](std::size_t i) { return is_usable(points.position[i]); });
 }
 
 /// The points named by `usable`; frees the source arrays one by one.
@@ -63,14 +55,9 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
 }
 
 void normalise_coordinates(Cloud& cloud) {
-  glm::dvec3 low = cloud.position.front();
-  glm::dvec3 high = low;
-  for (const glm::dvec3& position : cloud.position) {
-    low = glm::min(low, position);
-    high = glm::max(high, position);
-  }
-  cloud.center_world = 0.5 * (low + high);
-  const glm::dvec3 half = 0.5 * (high - low);
+  const Bounds bounds = bounds_of(cloud.position);
+  cloud.center_world = 0.5 * (bounds.low + bounds.high);
+  const glm::dvec3 half = 0.5 * (bounds.high - bounds.low);
   const double longest = std::max({half.x, half.y, half.z});
   cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
   cloud.coord.resize(cloud.size());
@@ -99,31 +86,35 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
 
 /// Points' indices, ascending by Morton key of the coordinates, then by every attribute.
 std::vector<std::uint32_t> canonical_order(const Cloud& cloud) {
-  std::vector<SortEntry> entries(cloud.size());
-  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(cloud.size()), [&](std::uint32_t i) {
-    const glm::uvec3 cell = glm::min(glm::uvec3((cloud.coord[i] + 1.0F) * 0x1p20F), glm::uvec3(0x1FFFFF));
-    entries[i] = {morton_key(cell), i};
-  });
-  tbb::parallel_sort(entries.begin(), entries.end(), [&cloud](const SortEntry& a, const SortEntry& b) {
-    return a.key != b.key ? a.key < b.key : point_less(cloud, a.index, b.index);
-  });
-  std::vector<std::uint32_t> order(entries.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries[i].index;
-  return order;
+  const auto key = [&cloud](std::size_t i) {
+    return morton_key(glm::min(glm::uvec3((cloud.coord[i] + 1.0F) * 0x1p20F), glm::uvec3(0x1FFFFF)));
+  };
+  return sorted_order(cloud.size(), key,
+                      [&cloud](std::uint32_t a, std::uint32_t b) { return point_less(cloud, a, b); });
 }
 
 void count_given(const Cloud& cloud, bool has_radii, BuildStats& stats) {
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.normal[i] != glm::vec3(0.0F)) ++stats.normals_given;
-    if (cloud.radius[i] > 0.0F) {
-      ++stats.radii_given;
-    } else if (has_radii) {
-      ++stats.radii_repaired;
-    }
-  }
+  const auto unknown = [&](const auto& values) {
+    const auto is_zero = [&](std::size_t i) { return values[i] == std::decay_t<decltype(values[i])>(0.0F); };
+    return numbers_where(cloud.size(), is_zero).size();
+  };
+  const std::size_t unknown_radii = unknown(cloud.radius);
+  stats.normals_given += cloud.size() - unknown(cloud.normal);
+  stats.radii_given += cloud.size() - unknown_radii;
+  if (has_radii) stats.radii_repaired += unknown_radii;
 }
 
 }  // namespace
+
+Bounds bounds_of(const std::vector<glm::dvec3>& points) {
+  using Range = tbb::blocked_range<std::size_t>;
+  const auto add = [&](const Range& range, Bounds bounds) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) bounds.add({points[i], points[i]});
+    return bounds;
+  };
+  const auto join = [](Bounds a, const Bounds& b) { return a.add(b), a; };
+  return tbb::parallel_reduce(Range(0, points.size()), Bounds{}, add, join);
+}
 
 Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
   const std::vector<std::uint32_t> usable = usable_points(points);

@@ -1,5 +1,6 @@
 /// An object's points, repaired and in an order that depends on the points alone.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -28,6 +29,18 @@ struct Cloud {
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
+
+/// The smallest box around points; empty, from infinity to minus infinity, where there are none.
+struct Bounds {
+  glm::dvec3 low{INFINITY};
+  glm::dvec3 high{-INFINITY};
+
+  void add(const Bounds& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
+};
+[[nodiscard]] Bounds bounds_of(const std::vector<glm::dvec3>& points);
 
 /// Takes an object's points: drops positions that are not finite (or beyond 1e100), normalises normals in
 /// float64, turns normals and radii that cannot be used into "unknown" and orders the points. Adds to the

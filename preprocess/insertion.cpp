@@ -1,6 +1,7 @@
 #include "preprocess/insertion.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -49,50 +50,72 @@ class ChildTest {
   double gap_squared_[3][2];
 };
 
-/// Lists every leaf of the tree that a disc may meet.
+/// Lists every leaf of the tree that a disc may meet. Discs come in Z-order: most walks begin near where the one before
+/// branched.
 class LeafWalk {
  public:
-  LeafWalk(const Octree& tree, const Disc& disc, std::vector<std::uint32_t>& leaves)
-      : tree_(tree),
-        disc_(disc),
-        leaves_(leaves),
-        low_(glm::floor(disc.center - disc.half_box) - (LIST_INFLATION + 1.0)),
-        high_(glm::ceil(disc.center + disc.half_box) + (LIST_INFLATION + 1.0)) {}
+  LeafWalk(const Octree& tree, std::vector<std::uint32_t>& leaves) : tree_(tree), leaves_(leaves) {}
 
-  void walk() { descend(0, glm::uvec3(0), 1U << LATTICE_BITS); }
+  void walk(const Disc& disc) {
+    disc_ = &disc;
+    low_ = glm::floor(disc.center - disc.half_box) - (LIST_INFLATION + 1.0);
+    high_ = glm::ceil(disc.center + disc.half_box) + (LIST_INFLATION + 1.0);
+    while (path_size_ > 1 && !holds_box(path_[path_size_ - 1])) --path_size_;
+    descend(path_[path_size_ - 1], /*on_path=*/true);
+  }
 
  private:
-  void descend(std::uint32_t node, glm::uvec3 cell_min, std::uint32_t cell_size) {
-    const std::uint32_t word = tree_.node_pool[node];
-    const std::uint32_t address = word & NODE_ADDRESS_MASK;
-    if (word >> NODE_TAG_SHIFT != NODE_INNER) {
-      leaves_.push_back(address);
-      return;
+  struct Cell {
+    std::uint32_t node;
+    glm::uvec3 low;
+    std::uint32_t size;
+  };
+
+  [[nodiscard]] bool holds_box(const Cell& cell) const {
+    return glm::all(glm::greaterThanEqual(low_, cell.low)) &&
+           glm::all(glm::lessThan(high_, cell.low + cell.size));
+  }
+
+  /// `on_path`: the cell is the last of path_ and holds the whole box.
+  void descend(Cell cell, bool on_path) {
+    while (true) {
+      const std::uint32_t word = tree_.node_pool[cell.node];
+      const std::uint32_t address = word & NODE_ADDRESS_MASK;
+      if (word >> NODE_TAG_SHIFT != NODE_INNER) {
+        leaves_.push_back(address);
+        return;
+      }
+      const std::uint32_t half = cell.size / 2;
+      const glm::uvec3 middle = cell.low + half;
+      const glm::uvec3 first{low_.x >= middle.x, low_.y >= middle.y, low_.z >= middle.z};
+      const glm::uvec3 last{high_.x >= middle.x, high_.y >= middle.y, high_.z >= middle.z};
+      if (first != last) return branch({address, cell.low, half}, first, last);
+      cell = {address + first.x + 2 * first.y + 4 * first.z, cell.low + first * half, half};
+      if (on_path) path_[path_size_++] = cell;  // the box lies in one child
     }
-    const std::uint32_t half = cell_size / 2;
-    const glm::uvec3 middle = cell_min + half;
-    const glm::uvec3 first{low_.x >= middle.x, low_.y >= middle.y, low_.z >= middle.z};
-    const glm::uvec3 last{high_.x >= middle.x, high_.y >= middle.y, high_.z >= middle.z};
-    if (first == last) {  // the whole box lies in one child
-      descend(address + first.x + 2 * first.y + 4 * first.z, cell_min + first * half, half);
-      return;
-    }
-    const ChildTest test(disc_, cell_min, half);
+  }
+
+  /// `child`: the first one.
+  void branch(const Cell& child, const glm::uvec3& first, const glm::uvec3& last) {
+    const ChildTest test(*disc_, child.low, child.size);
     for (std::uint32_t z = first.z; z <= last.z; ++z) {
       for (std::uint32_t y = first.y; y <= last.y; ++y) {
         for (std::uint32_t x = first.x; x <= last.x; ++x) {
-          if (test.may_meet(x, y, z))
-            descend(address + x + 2 * y + 4 * z, cell_min + glm::uvec3(x, y, z) * half, half);
+          if (!test.may_meet(x, y, z)) continue;
+          descend({child.node + x + 2 * y + 4 * z, child.low + glm::uvec3(x, y, z) * child.size, child.size},
+                  /*on_path=*/false);
         }
       }
     }
   }
 
   const Octree& tree_;
-  const Disc& disc_;
+  const Disc* disc_ = nullptr;
   std::vector<std::uint32_t>& leaves_;
-  glm::uvec3 low_;  // lattice box around everything the disc may meet
-  glm::uvec3 high_;
+  glm::uvec3 low_{0};  // lattice box around everything the disc may meet
+  glm::uvec3 high_{0};
+  std::array<Cell, MAX_DEPTH + 1> path_{{{0, glm::uvec3(0), 1U << LATTICE_BITS}}};  // from the root on
+  std::size_t path_size_ = 1;
 };
 
 /// The leaves of CHUNK consecutive splats, splat by splat; the last one of each is marked LAST_LEAF.
@@ -100,8 +123,9 @@ std::vector<std::uint32_t> leaves_of_chunk(const Octree& tree, const SplatList& 
   const std::size_t end = std::min((chunk + 1) * CHUNK, splats.size());
   std::vector<std::uint32_t> leaves;
   leaves.reserve(4 * CHUNK);
+  LeafWalk walk(tree, leaves);
   for (std::size_t i = chunk * CHUNK; i < end; ++i) {
-    LeafWalk(tree, Disc(splats.words[i]), leaves).walk();
+    walk.walk(Disc(splats.words[i]));
     leaves.back() |= LAST_LEAF;
   }
   leaves.shrink_to_fit();

@@ -6,15 +6,19 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
+
+#include "preprocess/select.h"
 
 namespace splatray {
 namespace {
 
 constexpr std::size_t MAX_COINCIDENT = 8;
 constexpr std::size_t PARALLEL_SIZE = 1U << 14;  // sites worth another task
+constexpr std::size_t MOST_MEASURED = 64;        // of a part's sites, to find its longest axis
 constexpr std::size_t GROUPS_PER_TASK = 8;
-constexpr float REACH_GROWTH = 1.25F;  // of the squared distance searched, over what the block before needed
+constexpr float REACH_GROWTH = 1.1F;  // of the squared distance searched, over what the block before needed
 constexpr std::size_t MOST_NEAREST = 32;
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
@@ -61,20 +65,25 @@ NeighbourSearch::NeighbourSearch(const Cloud& cloud, Sites kind) : cloud_(cloud)
 /// The points that stand for their position (and normal). Coincident points are next to each other in
 /// canonical order, those of equal normals among them too.
 std::vector<NeighbourSearch::Site> NeighbourSearch::choose_sites(const Cloud& cloud, Sites kind) {
-  std::vector<Site> chosen;
-  chosen.reserve(cloud.size());
-  std::size_t coincident = 0;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    const bool same_place = i > 0 && cloud.coord[i] == cloud.coord[i - 1];
-    if (!same_place) coincident = 0;
-    const bool copy = same_place && (kind == Sites::positions || cloud.normal[i] == cloud.normal[i - 1]);
-    if (!copy && ++coincident <= MAX_COINCIDENT) {
-      chosen.push_back({cloud.coord[i], i});
-    } else {
-      copies_.push_back(i);
+  std::vector<std::uint8_t> is_site(cloud.size());
+  const auto same_place = [&](std::size_t i) { return i > 0 && cloud.coord[i] == cloud.coord[i - 1]; };
+  const auto choose = [&](std::size_t first) {  // among the points at one place
+    std::size_t coincident = 0;
+    for (std::size_t i = first; i == first || (i < cloud.size() && same_place(i)); ++i) {
+      const bool copy = i > first && (kind == Sites::positions || cloud.normal[i] == cloud.normal[i - 1]);
+      is_site[i] = !copy && ++coincident <= MAX_COINCIDENT;
     }
-  }
-  return chosen;
+  };
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    if (!same_place(i)) choose(i);
+  });
+  copies_ = numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] == 0; });
+  const auto chosen = numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] != 0; });
+  std::vector<Site> sites(chosen.size());
+  tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t n) {
+    sites[n] = {cloud.coord[chosen[n]], chosen[n]};
+  });
+  return sites;
 }
 
 /// Puts sites into the order of a k-d tree: halves of `capacity`, a power of two >= sites.size(), down to one
@@ -85,11 +94,16 @@ void NeighbourSearch::arrange(std::span<Site> sites, std::size_t capacity) {
   if (sites.size() <= half) return arrange(sites, half);
   glm::vec3 low(INFINITE);
   glm::vec3 high(-INFINITE);
-  for (const Site& site : sites) low = glm::min(low, site.coord), high = glm::max(high, site.coord);
+  const std::size_t step = (sites.size() + MOST_MEASURED - 1) / MOST_MEASURED;
+  for (std::size_t i = 0; i < sites.size(); i += step) {
+    low = glm::min(low, sites[i].coord);
+    high = glm::max(high, sites[i].coord);
+  }
   const glm::vec3 extent = high - low;
   const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
-  std::nth_element(sites.begin(), sites.begin() + static_cast<std::ptrdiff_t>(half), sites.end(),
-                   [axis](const Site& a, const Site& b) { return a.coord[axis] < b.coord[axis]; });
+  if (axis == 0) select_nth(sites, half, [](const Site& site) { return site.coord.x; });
+  if (axis == 1) select_nth(sites, half, [](const Site& site) { return site.coord.y; });
+  if (axis == 2) select_nth(sites, half, [](const Site& site) { return site.coord.z; });
   if (capacity > PARALLEL_SIZE) {
     tbb::parallel_invoke([&] { arrange(sites.first(half), half); },
                          [&] { arrange(sites.subspan(half), half); });
@@ -181,7 +195,7 @@ void NeighbourSearch::visit(std::size_t level, std::uint32_t node, const glm::ve
   }
 }
 
-void NeighbourSearch::Block::measure(const glm::vec3& query, float (&distance)[WIDTH]) const {
+void NeighbourSearch::Block::measure(const glm::vec3& query, float* distance) const {
   for (std::uint32_t j = 0; j < WIDTH; ++j) {
     const float dx = x[j] - query.x;
     const float dy = y[j] - query.y;
@@ -214,22 +228,19 @@ class NeighbourSearch::Ball {
   /// Finds the `nearest.size()` nearest sites of a query in the box, or returns false: they may be farther away, or
   /// there are too many.
   bool find(const glm::vec3& query, std::span<Neighbour> nearest) const {
-    double keys[MOST_SITES];
+    float distance[MOST_NODES * WIDTH];
+    for (std::size_t i = 0; i < count_; ++i) search_.blocks_[nodes_[i]].measure(query, distance + i * WIDTH);
+    double keys[MOST_SITES + WIDTH];
     std::size_t count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       if (count > MOST_SITES - WIDTH) return false;
-      count = add(search_.blocks_[nodes_[i]], query, keys, count);
+      count = add(search_.blocks_[nodes_[i]], distance + i * WIDTH, keys, count);
     }
     if (count < nearest.size()) return false;
-    double smaller[MOST_SITES];  // how many keys are: the place among them
-    std::fill_n(smaller, count, 0.0);
-    for (std::size_t j = 0; j < count; ++j) {
-      for (std::size_t i = 0; i < count; ++i) smaller[i] += keys[j] < keys[i] ? 1.0 : 0.0;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto place = static_cast<std::size_t>(smaller[i]);
-      if (place < nearest.size()) nearest[place] = std::bit_cast<Neighbour>(keys[i]);
-    }
+    std::fill_n(keys + count, WIDTH, std::numeric_limits<double>::infinity());  // they come last
+    double sorted[MOST_SITES + 1];
+    for (std::size_t i = 0; i < count; i += WIDTH) place(keys + i, keys, count, sorted);
+    for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::bit_cast<Neighbour>(sorted[i]);
     return true;
   }
 
@@ -264,13 +275,27 @@ class NeighbourSearch::Ball {
     return gap(boxes.low[axis][j] - high_[axis], low_[axis] - boxes.high[axis][j]);
   }
 
-  std::size_t add(const Block& block, const glm::vec3& query, double* keys, std::size_t count) const {
-    float distance[WIDTH];
-    block.measure(query, distance);
+  /// Puts WIDTH of the keys where they belong: as many keys are smaller. Two at a time, as every processor can.
+  static void place(const double* some, const double* keys, std::size_t count, double* sorted) {
+    using Pair = double __attribute__((vector_size(16)));
+    using Count = std::int64_t __attribute__((vector_size(16)));
+    Pair values[WIDTH / 2];
+    std::memcpy(values, some, sizeof values);
+    Count smaller[WIDTH / 2]{};
+    for (std::size_t j = 0; j < count; ++j) {
+      const Pair key{keys[j], keys[j]};
+      for (std::size_t k = 0; k < WIDTH / 2; ++k) smaller[k] -= key < values[k];  // true is -1
+    }
+    for (std::size_t k = 0; k < WIDTH; ++k) sorted[smaller[k / 2][k % 2]] = some[k];
+  }
+
+  /// Adds the sites of a block that are near, but not at the query. Bits of floats >= 0 order like their values; less 1,
+  /// zero is the largest.
+  std::size_t add(const Block& block, const float* distance, double* keys, std::size_t count) const {
+    const auto reach_bits = std::bit_cast<std::uint32_t>(reach_squared_);
     for (std::uint32_t j = 0; j < WIDTH; ++j) {
       keys[count] = std::bit_cast<double>(Neighbour(distance[j], block.index[j]));
-      count += static_cast<std::size_t>(distance[j] > 0.0F) &
-               static_cast<std::size_t>(distance[j] <= reach_squared_);
+      count += static_cast<std::size_t>(std::bit_cast<std::uint32_t>(distance[j]) - 1U < reach_bits);
     }
     return count;
   }

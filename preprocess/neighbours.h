@@ -60,7 +60,7 @@ class NeighbourSearch {
     float x[WIDTH], y[WIDTH], z[WIDTH];  // unused places are at infinity
     std::uint32_t index[WIDTH];
 
-    void measure(const glm::vec3& query, float (&distance)[WIDTH]) const;  ///< squared distances
+    void measure(const glm::vec3& query, float* distance) const;  ///< WIDTH squared distances
   };
   struct Boxes {
     float low[3][WIDTH],

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "preprocess/vector_clones.h"
+
 namespace splatray {
 namespace {
 
@@ -74,7 +76,7 @@ struct Leans {
 
 }  // namespace
 
-glm::vec3 fit_normal_field(const Neighbourhood& around) {
+SPLATRAY_VECTOR_CLONES glm::vec3 fit_normal_field(const Neighbourhood& around) {
   const Leans leans(around, glm::normalize(around.normal));
   SlopeFit fit;
   for (std::size_t j = 0; j < around.count; ++j) {

@@ -106,10 +106,8 @@ glm::dvec3 plane_normal(std::span<const glm::dvec3> points, const glm::dvec3& up
 }
 
 std::uint64_t estimate_normals(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
-  std::vector<std::uint32_t> unknown;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.normal[i] == glm::vec3(0.0F)) unknown.push_back(i);
-  }
+  const auto unknown =
+      numbers_where(cloud.size(), [&](std::size_t i) { return cloud.normal[i] == glm::vec3(0.0F); });
   if (unknown.empty()) return 0;
   const NeighbourSearch search(cloud, Sites::positions);
   const Sides sides(cloud, up);

@@ -1,21 +1,15 @@
 #include "preprocess/octree.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <tuple>
 
 #include "engine/host/error.h"
 #include "preprocess/parallel.h"
+#include "preprocess/sorted_order.h"
 
 namespace splatray {
 namespace {
-
-struct SortEntry {
-  std::uint64_t key;
-  std::uint32_t index;
-};
 
 bool splat_less(const SplatList& splats, std::uint32_t a, std::uint32_t b) {
   const auto key = [&splats](std::uint32_t i) {
@@ -24,6 +18,25 @@ bool splat_less(const SplatList& splats, std::uint32_t a, std::uint32_t b) {
                       splats.field.empty() ? 0U : splats.field[i]);
   };
   return key(a) < key(b);
+}
+
+/// Makes splats those of the order.
+void take(SplatList& splats, const std::vector<std::uint32_t>& order) {
+  splats.key = gather(splats.key, order);
+  splats.words = gather(splats.words, order);
+  splats.color = gather(splats.color, order);
+  splats.field = gather(splats.field, order);
+}
+
+/// Keeps the first `copies` of equal words, which are next to each other. Returns how many splats it dropped.
+std::uint64_t drop_surplus(SplatList& splats, std::uint32_t copies) {
+  const auto is_surplus = [&](std::size_t i) {
+    return i >= copies && splats.words[i] == splats.words[i - copies];
+  };
+  const std::uint64_t before = splats.size();
+  const auto kept = numbers_where(before, [&](std::size_t i) { return !is_surplus(i); });
+  if (kept.size() < before) take(splats, kept);
+  return before - kept.size();
 }
 
 class Builder {
@@ -75,29 +88,10 @@ class Builder {
 }  // namespace
 
 std::uint64_t order_splats(SplatList& splats, std::uint32_t copies) {
-  std::vector<SortEntry> entries(splats.size());
-  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(splats.size()), [&](std::uint32_t i) {
-    entries[i] = {splats.key[i], i};
-  });
-  tbb::parallel_sort(entries.begin(), entries.end(), [&splats](const SortEntry& a, const SortEntry& b) {
-    return a.key != b.key ? a.key < b.key : splat_less(splats, a.index, b.index);
-  });
-  const auto is_surplus = [&](std::size_t i) {
-    return i >= copies && entries[i].key == entries[i - copies].key &&
-           splats.words[entries[i].index] == splats.words[entries[i - copies].index];
-  };
-  std::vector<std::uint32_t> order;
-  order.reserve(splats.size());
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (!is_surplus(i)) order.push_back(entries[i].index);
-  }
-  entries = {};
-  const std::uint64_t dropped = splats.size() - order.size();
-  splats.key = gather(splats.key, order);
-  splats.words = gather(splats.words, order);
-  splats.color = gather(splats.color, order);
-  splats.field = gather(splats.field, order);
-  return dropped;
+  take(splats, sorted_order(
+                   splats.size(), [&](std::size_t i) { return splats.key[i]; },
+                   [&](std::uint32_t a, std::uint32_t b) { return splat_less(splats, a, b); }));
+  return drop_surplus(splats, copies);
 }
 
 Octree build_octree(const SplatList& splats, std::uint32_t leaf_size) {

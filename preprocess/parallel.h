@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "engine/host/error.h"
@@ -39,6 +40,26 @@ void parallel_each(const Stage& stage, std::size_t count, const Body& body, std:
     });
   }
   stage.report(1.0);
+}
+
+/// The numbers i < count that test(i) is true of, ascending. It is called twice for each, in parallel.
+template <typename Test>
+[[nodiscard]] std::vector<std::uint32_t> numbers_where(std::size_t count, const Test& test) {
+  constexpr std::size_t CHUNK = std::size_t{1} << 14;
+  std::vector<std::size_t> found(count / CHUNK + 2);  // in the chunks before
+  const auto each_chunk = [&](const auto& body) {
+    tbb::parallel_for(std::size_t{0}, found.size() - 1, [&](std::size_t chunk) {
+      const std::size_t end = std::min((chunk + 1) * CHUNK, count);
+      for (std::size_t i = chunk * CHUNK; i < end; ++i) body(chunk, i);
+    });
+  };
+  each_chunk([&](std::size_t chunk, std::size_t i) { found[chunk + 1] += test(i) ? 1 : 0; });
+  std::partial_sum(found.begin(), found.end(), found.begin());
+  std::vector<std::uint32_t> numbers(found.back());
+  each_chunk([&](std::size_t chunk, std::size_t i) {
+    if (test(i)) numbers[found[chunk]++] = static_cast<std::uint32_t>(i);
+  });
+  return numbers;
 }
 
 /// values[order[0]], values[order[1]] and so on; nothing where there are no values.

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "preprocess/neighbours.h"
 #include "preprocess/normal_field.h"
+#include "preprocess/select.h"
+#include "preprocess/vector_clones.h"
 #include "preprocess/voronoi.h"
 
 namespace splatray {
@@ -105,7 +108,8 @@ class Surroundings {
 };
 
 /// The radius that covers the point's cell, 0 where there is none; nothing when `wanted` neighbours do not settle it.
-std::optional<double> covering_radius(const Neighbourhood& around, std::size_t wanted) {
+SPLATRAY_VECTOR_CLONES std::optional<double> covering_radius(const Neighbourhood& around,
+                                                             std::size_t wanted) {
   const std::size_t found = around.count;
   if (found == 0) return 0.0;
   const Surroundings surroundings(around);
@@ -131,15 +135,13 @@ double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::u
 }
 
 float median(std::span<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  select_nth(values, values.size() / 2, std::identity());
+  return values[values.size() / 2];
 }
 
 /// Keeps stray points from covering the scene with discs as wide as their distance to it.
 void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector<std::uint32_t>& computed) {
-  std::vector<float> radii(computed.size());
-  for (std::size_t n = 0; n < computed.size(); ++n) radii[n] = cloud.radius[computed[n]];
+  std::vector<float> radii = gather(cloud.radius, computed);
   const float limit = STRAY * median(radii);
   const std::vector<float> before = cloud.radius;
   tbb::parallel_for(std::size_t{0}, computed.size(), [&](std::size_t n) {
@@ -156,10 +158,7 @@ void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector
 }  // namespace
 
 void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const Stage& stage) {
-  std::vector<std::uint32_t> unknown;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.radius[i] == 0.0F) unknown.push_back(i);
-  }
+  const auto unknown = numbers_where(cloud.size(), [&](std::size_t i) { return cloud.radius[i] == 0.0F; });
   if (fields) cloud.field.resize(cloud.size());
   if (!unknown.empty() || fields) {
     const bool knn = rule == RadiusRule::knn;
@@ -180,7 +179,8 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
     }
     if (!unknown.empty()) bound_strays(cloud, knn ? *places : *sheets, unknown);
   }
-  for (float& radius : cloud.radius) radius = static_cast<float>(radius * scale);
+  tbb::parallel_for(std::size_t{0}, cloud.size(),
+                    [&](std::size_t i) { cloud.radius[i] = static_cast<float>(cloud.radius[i] * scale); });
 }
 
 }  // namespace splatray

@@ -53,6 +53,7 @@ void note_many_dielectrics(Input& input) {
 
 /// Puts the camera's target beside the middle of what there is, so that turning about it makes sense.
 void aim_camera(Input& input) {
+  if (!input.camera) return;
   glm::dvec3 sum{0.0};
   double count = 0.0;
   for (const InputObject& object : input.objects) {
@@ -62,7 +63,7 @@ void aim_camera(Input& input) {
       count += finite ? 1.0 : 0.0;
     }
   }
-  if (input.camera && count > 0.0) {
+  if (count > 0.0) {
     const glm::dvec3 ahead = input.camera->target - input.camera->eye;
     const double distance = glm::dot(sum / count - input.camera->eye, ahead);
     input.camera->target = input.camera->eye + ahead * (distance > 0.0 ? distance : 1.0);

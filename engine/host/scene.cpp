@@ -109,9 +109,13 @@ Splat unpack_splat(const uvec4& words) {
   const int u = static_cast<int>(words.z & 0xFFFFU) - OCT;
   const int v = static_cast<int>(words.z >> 16) - OCT;
   splat.normal = glm::normalize(octahedral_vector(u, v, OCT));
-  splat.radius_squared = std::bit_cast<float>(RADIUS_EXPONENT_BIT | words.w >> 16 << 14);
+  splat.radius_squared = unpack_radius_squared(words);
   splat.object = words.w & OBJECT_MASK;
   return splat;
+}
+
+double unpack_radius_squared(const uvec4& words) {
+  return std::bit_cast<float>(RADIUS_EXPONENT_BIT | words.w >> 16 << 14);
 }
 
 std::uint32_t pack_color(glm::vec3 linear) {

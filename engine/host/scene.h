@@ -70,6 +70,8 @@ struct Splat {
 [[nodiscard]] uvec4 pack_splat(const Splat& splat);
 /// The exact splat of 128 bits. The reference implementation of the decoding, in float64.
 [[nodiscard]] Splat unpack_splat(const uvec4& words);
+/// Its squared radius alone.
+[[nodiscard]] double unpack_radius_squared(const uvec4& words);
 
 /// 8 bits a channel, square-root encoded: byte = round(255 sqrt(linear)); r lowest, then g, b, a = 255.
 [[nodiscard]] std::uint32_t pack_color(glm::vec3 linear);
