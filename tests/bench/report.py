@@ -14,7 +14,8 @@ NOTES = """
 - Times are medians of at least 9 frames measured in rounds, one frame of every setting in turn; splatray's are those of the
   dispatches and include shading, Embree's are wall times of tracing alone, on all threads unless the table says
   otherwise. "Embree window" blends as splatray's default does, with the splats' normal fields, so that their errors are
-  the same; "flat, Gaussian" are Embree's discs as they are usually blended. Both send one ray through each pixel's centre.
+  the same; "flat, Gaussian" are Embree's discs as they are usually blended. Both send one ray through each pixel's centre;
+  splatray leaves out the pixels that no leaf projects to.
 - Errors are measured on the same rays against the same truth: analytic shapes in float64, or the source mesh in
   float64. Holes, rms and jump of sphere and torus come from rays from all around that meet the surface at less than
   78 degrees from its normal.

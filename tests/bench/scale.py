@@ -28,7 +28,8 @@ CLASSES = {
 NOTES = """
 - Times are medians over rounds in which splatray and one peer trace one frame each in turn; a ratio is that of the two in
   the same rounds. splatray's are those of the dispatches and include shading, Embree's are wall times of tracing alone on
-  all threads. Shadow rays stop at any hit in both.
+  all threads. Shadow rays stop at any hit in both. Beside Embree splatray traces every pixel's ray; elsewhere it leaves
+  out the pixels that no leaf projects to.
 - Embree's shadow and mirrored rays start 0.1 median radii off the surface; splatray's know the sheet that they leave.
   Embree's rays are traced in bundles of eight, told to be incoherent in the random class.
 - Errors are measured in the same run: of primary rays against the exact sphere's picture, of random rays against the
