@@ -20,7 +20,6 @@ layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
 layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
 layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = REFERENCES_NONE;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
-layout(constant_id = SPEC_EMPTY) const uint EMPTY = 0u;
 
 layout(local_size_x = GROUP_SIZE) in;
 

@@ -8,6 +8,8 @@ namespace splatray {
 
 extern const std::span<const std::uint32_t> TRACE_STORAGE, TRACE_TEXEL, TRACE_STORAGE_FLOAT64,
     TRACE_TEXEL_FLOAT64;
+/// trace.comp.glsl where nothing is hit (empty.glsl).
+extern const std::span<const std::uint32_t> EMPTY, EMPTY_FLOAT64;
 extern const std::span<const std::uint32_t> RAYS_STORAGE, RAYS_TEXEL, RAYS_STORAGE_FLOAT64,
     RAYS_TEXEL_FLOAT64;
 

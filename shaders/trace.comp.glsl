@@ -3,6 +3,9 @@
 // A tile of the picture: for each pixel and sample, camera -> path -> accumulation; or, with AOV, what the
 // centre ray hits.
 #include "bindings.glsl"
+#ifdef EMPTY
+#include "empty.glsl"
+#endif
 
 layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };
 layout(std430, binding = BIND_ACCUMULATION) buffer Accumulation { vec4 accumulation[]; };

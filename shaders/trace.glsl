@@ -2,7 +2,7 @@
 // anything is hit at all. The result depends on the splats alone, not on the tree: intervals tile the ray,
 // each hit is decided exactly and counts in one leaf, and sums are integers. Needs, beside traverse.glsl:
 // splat_at(place), splat_words(splat), color_at(splat), field_word(splat), material_at(object), and the constants BLEND, KERNEL,
-// SIDE, FACES, COLORS, FIELDS, COUNTERS, EMPTY.
+// SIDE, FACES, COLORS, FIELDS, COUNTERS.
 #ifndef SPLATRAY_TRACE_GLSL
 #define SPLATRAY_TRACE_GLSL
 #include "traverse.glsl"
@@ -12,20 +12,6 @@ const float WEIGHT_LEAST = 0.00390625f;     ///< 2^-8: a lone hit at the rim sti
 const uint MEMBERS_MOST = 500u;             ///< further members do not count, so that the sums stay in 31 bits
 const float WINDOW_SLACK = 1.0f;            ///< lattice units; float32's step of t: no leaf with a member is left out
 const float MIN_COSINE = 0.1f;              ///< the window grows as 1 / |n.d| up to this
-
-/// The answer to a ray. Distances are from the ray's own origin, in units of |dir|.
-struct Hit {
-  bool found;
-  float t;          ///< blended
-  vec3 position;    ///< blended, root space
-  vec3 normal;      ///< blended unit normal, turned against the ray
-  vec3 color;       ///< blended linear colour; 1 without colours
-  bool front;       ///< the first splat's front face was hit
-  uint object;
-  uint members;
-  float t_first;
-  uvec4 first;      ///< words of the first splat (BLEND_PAPER, BLEND_LEAF: the reference splat)
-};
 
 /// The splat that decides the cluster, while the ray looks for it.
 struct First {
@@ -245,7 +231,6 @@ Cluster empty_cluster() {
 /// What the ray sees first. The ray may start anywhere. The leaf with the first hit is looked through to its end before
 /// any of its splats is accumulated; one of more than CHUNK splats is then gone through again.
 Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
-  if (EMPTY == 1u) return finish_hit(ray, no_first(), empty_cluster(), 0.0f, 0.0f);
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);

@@ -7,6 +7,7 @@
 // loops that some lanes skip by an `if` around them.
 #ifndef SPLATRAY_TRAVERSE_GLSL
 #define SPLATRAY_TRAVERSE_GLSL
+#include "answer.glsl"
 #include "slab.glsl"
 
 const float ROOT_SIZE = 2097152.0f;      ///< 2^LATTICE_BITS
@@ -28,14 +29,6 @@ struct Walk {
   uint exit_axis;
   uint exit_cell;  ///< the next leaf's cell coordinate on exit_axis; >= CELL_LIMIT outside the root
   uint leaves;     ///< visited
-};
-
-/// Work done by this invocation; kept only with COUNTERS.
-struct Tally {
-  uint leaves;
-  uint node_steps;
-  uint tests;
-  uint lost;
 };
 
 /// Directions below this are parallel to the axis' planes: over the whole root they move a ray by less than

@@ -150,7 +150,8 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const auto code = code_(key.program, key.access, key.arithmetic);
+    const auto empty = key.arithmetic == Arithmetic::float64 ? EMPTY_FLOAT64 : EMPTY;
+    const auto code = key.constants[SPEC_EMPTY] != 0 ? empty : code_(key.program, key.access, key.arithmetic);
     found = pipelines_.emplace(key, make_pipeline(context_, key, code, layout)).first;
   }
   return found->second.get();

@@ -27,7 +27,6 @@ namespace glsl {
 #define COUNTERS features[SPEC_COUNTERS]
 #define FIELDS features[SPEC_FIELDS]
 #define TOP_LEVELS features[SPEC_TOP_LEVELS]
-#define EMPTY features[SPEC_EMPTY]
 
 uvec2 top_entry(uint index) { return top.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
