@@ -27,23 +27,18 @@ class Culling : public ::testing::Test {
     settings.counters = true;
     settings.cull = false;
     const Image whole = tracer.render(view, settings);
+    const RenderStats all = tracer.stats();
     const std::vector<AovPixel> whole_aov = tracer.trace_aov(view, {.cull = false});
-    const RenderStats all = stats_of(view, settings);
     settings.cull = true;
     const Image culled = tracer.render(view, settings);
+    const RenderStats less = tracer.stats();
     EXPECT_EQ(different_bits(whole.rgba, culled.rgba), 0U);
     EXPECT_EQ(different_bits(whole_aov, tracer.trace_aov(view, {})), 0U);
-    const RenderStats less = stats_of(view, settings);
     EXPECT_EQ(less.counters[COUNT_PRIMARY], all.counters[COUNT_PRIMARY]);
     EXPECT_EQ(less.counters[COUNT_HITS], all.counters[COUNT_HITS]);
     EXPECT_EQ(less.counters[COUNT_SHADOW], all.counters[COUNT_SHADOW]);
     leaves += all.counters[COUNT_LEAVES];
     culled_leaves += less.counters[COUNT_LEAVES];
-  }
-
-  RenderStats stats_of(const View& view, const Settings& settings) {
-    static_cast<void>(tracer.render(view, settings));
-    return tracer.stats();
   }
 
   Context context;
