@@ -2,9 +2,9 @@
 
 #include <tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <type_traits>
 
 #include "preprocess/morton.h"
 #include "preprocess/parallel.h"
@@ -94,14 +94,11 @@ std::vector<std::uint32_t> canonical_order(const Cloud& cloud) {
 }
 
 void count_given(const Cloud& cloud, bool has_radii, BuildStats& stats) {
-  const auto unknown = [&](const auto& values) {
-    const auto is_zero = [&](std::size_t i) { return values[i] == std::decay_t<decltype(values[i])>(0.0F); };
-    return numbers_where(cloud.size(), is_zero).size();
-  };
-  const std::size_t unknown_radii = unknown(cloud.radius);
-  stats.normals_given += cloud.size() - unknown(cloud.normal);
-  stats.radii_given += cloud.size() - unknown_radii;
-  if (has_radii) stats.radii_repaired += unknown_radii;
+  const auto unknown_normals = std::count(cloud.normal.begin(), cloud.normal.end(), glm::vec3(0.0F));
+  const auto unknown_radii = std::count(cloud.radius.begin(), cloud.radius.end(), 0.0F);
+  stats.normals_given += cloud.size() - static_cast<std::size_t>(unknown_normals);
+  stats.radii_given += cloud.size() - static_cast<std::size_t>(unknown_radii);
+  if (has_radii) stats.radii_repaired += static_cast<std::size_t>(unknown_radii);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ Interval extent(const Splat& splat, const glm::dvec3& axis, const glm::dvec3& ce
           std::min(disc_middle + disc_reach, ball_middle + ball_reach)};
 }
 
-std::uint32_t slab_of(std::span<const Splat> splats, const LeafCell& cell) {
+std::uint32_t slab_of(std::span<const Splat> splats, const OctreeCell& cell) {
   const glm::dvec3 axis = unpack_slab(pack_slab({mean_direction(splats), -1.0, 1.0})).axis;
   const double half_size = 0.5 * cell.size;
   const glm::dvec3 center = glm::dvec3(cell.low) + half_size;
@@ -51,7 +51,7 @@ std::uint32_t slab_of(std::span<const Splat> splats, const LeafCell& cell) {
 }  // namespace
 
 std::vector<std::uint32_t> leaf_slabs(const Scene& scene, const Stage& stage) {
-  const std::vector<LeafCell> cells = leaf_cells(scene);
+  const std::vector<OctreeCell> cells = leaf_cells(scene);
   std::vector<std::uint32_t> slabs(cells.size());
   parallel_each(stage, cells.size(), [&](std::size_t leaf) {
     std::vector<Splat> splats(scene.begin_end[leaf + 1] - scene.begin_end[leaf]);

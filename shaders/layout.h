@@ -236,8 +236,7 @@ SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
 SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
 SPLATRAY_CONST SPEC_REFERENCES = 14u;  ///< REFERENCES_*
 SPLATRAY_CONST SPEC_TOP_LEVELS = 15u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
-SPLATRAY_CONST SPEC_EMPTY = 16u;       ///< 1: no primary ray of the dispatch hits anything
-SPLATRAY_CONST SPEC_COUNT = 17u;
+SPLATRAY_CONST SPEC_COUNT = 16u;
 
 SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1

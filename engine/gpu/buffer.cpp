@@ -118,4 +118,9 @@ void Buffer::download(CommandQueue& queue, std::span<std::byte> bytes) const {
   }
 }
 
+void reserve_storage(const Context& context, Buffer& buffer, VkDeviceSize bytes) {
+  if (buffer.size() < bytes || buffer.get() == VK_NULL_HANDLE)
+    buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
 }  // namespace splatray

@@ -55,4 +55,7 @@ class Buffer {
   std::byte* mapped_ = nullptr;
 };
 
+/// Makes a storage buffer at least that large; keeps it when it is.
+void reserve_storage(const Context& context, Buffer& buffer, VkDeviceSize bytes);
+
 }  // namespace splatray

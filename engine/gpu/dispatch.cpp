@@ -15,6 +15,13 @@ constexpr std::uint32_t MOST_GROUPS_X = 1U << 15U;
 
 std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
 
+void TileDispatch::set_samples(std::uint32_t begin, std::uint32_t end) {
+  for (Dispatch* part : {&seen, &empty}) {
+    part->frame.sample_begin = begin;
+    part->frame.sample_end = end;
+  }
+}
+
 TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& footprint) {
   const bool linear = dispatch.constants[SPEC_ORDER] == ORDER_LINEAR;
   const std::uint32_t width = linear ? GROUP_SIZE : 8, height = linear ? 1 : 8;
@@ -37,6 +44,7 @@ TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& fo
   };
   part(aimed.seen, 0, aimed.group_list.size());
   part(aimed.empty, aimed.group_list.size(), empty.size());
+  aimed.empty.program = Program::empty;
   aimed.empty.constants = empty_features(dispatch.constants);
   aimed.group_list.insert(aimed.group_list.end(), empty.begin(), empty.end());
   return aimed;

@@ -24,6 +24,9 @@ struct Dispatch {
 struct TileDispatch {
   Dispatch seen, empty;
   std::vector<std::uint32_t> group_list;  ///< of both (BIND_GROUPS)
+
+  /// Has them trace samples [begin, end) of each pixel.
+  void set_samples(std::uint32_t begin, std::uint32_t end);
 };
 
 /// Groups of `group` threads that hold `threads`.

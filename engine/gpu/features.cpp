@@ -53,7 +53,6 @@ SpecConstants empty_features(const SpecConstants& constants) {
   SpecConstants kept{};
   for (const std::uint32_t constant : {SPEC_ENVIRONMENT, SPEC_ORDER, SPEC_COUNTERS, SPEC_AOV})
     kept[constant] = constants[constant];
-  kept[SPEC_EMPTY] = 1;
   return kept;
 }
 

@@ -25,7 +25,7 @@ struct SceneContent {
 
 /// Constants of pictures (trace.comp.glsl), with SPEC_AOV = 0.
 [[nodiscard]] SpecConstants picture_features(const SceneContent& content, const Settings& settings);
-/// Constants of pictures with these, where no primary ray hits anything.
+/// Those of them that matter where no primary ray hits anything.
 [[nodiscard]] SpecConstants empty_features(const SpecConstants& constants);
 /// Constants of ray queries (rays.comp.glsl): those of pictures without what only shading needs.
 [[nodiscard]] SpecConstants query_features(const SceneContent& content, const Settings& settings);

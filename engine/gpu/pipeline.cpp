@@ -68,7 +68,15 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
 std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, Arithmetic arithmetic) {
   const ProgramVariants trace{TRACE_STORAGE, TRACE_TEXEL, TRACE_STORAGE_FLOAT64, TRACE_TEXEL_FLOAT64};
   const ProgramVariants rays{RAYS_STORAGE, RAYS_TEXEL, RAYS_STORAGE_FLOAT64, RAYS_TEXEL_FLOAT64};
-  return (program == Program::trace ? trace : rays).get(access, arithmetic);
+  const ProgramVariants empty{EMPTY, EMPTY, EMPTY_FLOAT64, EMPTY_FLOAT64};
+  switch (program) {
+    case Program::trace:
+      return trace.get(access, arithmetic);
+    case Program::empty:
+      return empty.get(access, arithmetic);
+    default:
+      return rays.get(access, arithmetic);
+  }
 }
 
 BindingSet::BindingSet(const Context& context, PoolAccess access) : context_(context), access_(access) {
@@ -150,8 +158,7 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const auto empty = key.arithmetic == Arithmetic::float64 ? EMPTY_FLOAT64 : EMPTY;
-    const auto code = key.constants[SPEC_EMPTY] != 0 ? empty : code_(key.program, key.access, key.arithmetic);
+    const auto code = code_(key.program, key.access, key.arithmetic);
     found = pipelines_.emplace(key, make_pipeline(context_, key, code, layout)).first;
   }
   return found->second.get();

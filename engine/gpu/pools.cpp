@@ -117,7 +117,6 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, Po
   const PoolLimits limits = pool_limits(context);
   bytes.references = choose_references(data, references.size(), limits);
   const bool copies = bytes.references == REFERENCES_NONE;
-  if (references.empty()) bytes.references = REFERENCES_NONE;
   const auto splats = copies ? listed(scene.data_pool, references) : std::vector<uvec4>();
   const auto colors = copies ? listed(scene.color_pool, references) : std::vector<std::uint32_t>();
   const auto fields = copies ? listed(scene.field_pool, references) : std::vector<std::uint32_t>();

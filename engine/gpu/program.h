@@ -11,6 +11,7 @@ namespace splatray {
 /// The engine's shaders.
 enum class Program {
   trace,  ///< trace.comp.glsl: a tile of a picture
+  empty,  ///< ... where no primary ray hits anything (empty.glsl)
   rays,   ///< rays.comp.glsl: ray queries
 };
 

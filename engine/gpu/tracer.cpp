@@ -7,10 +7,9 @@
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/command_queue.h"
+#include "engine/gpu/device_scene.h"
 #include "engine/gpu/dispatch.h"
-#include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/gpu/texture.h"
 #include "engine/gpu/tiles.h"
 #include "engine/host/error.h"
 
@@ -30,12 +29,6 @@ double milliseconds_since(Clock::time_point start) {
 
 void report(const Tracer::Progress& progress, double share) {
   if (progress && !progress(share)) throw Error(ExitCode::interrupted, "rendering was interrupted");
-}
-
-/// Makes a storage buffer at least that large; keeps it when it is.
-void reserve(const Context& context, Buffer& buffer, VkDeviceSize bytes) {
-  if (buffer.size() < bytes || buffer.get() == VK_NULL_HANDLE)
-    buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
 /// Puts a tile's values into a picture of `width` columns.
@@ -63,114 +56,67 @@ struct Tracer::Impl {
   Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data,
        ProgramCode code);
 
-  void set_materials(std::span<const Material> source);
-  void set_lights(std::span<const SceneLight> lights);
   void bind_all();
   double run(const Dispatch& dispatch);
   double run(const TileDispatch& tile);
   void add_counters();
-  [[nodiscard]] FrameParams frame_params(const View& view, const Settings& settings) const;
   [[nodiscard]] Dispatch picture_dispatch(const View& view, const Settings& settings) const;
   [[nodiscard]] std::uint32_t most_samples(const Dispatch& dispatch) const;
-  [[nodiscard]] Footprint footprint(const View& view, const Settings& settings) const;
-  void trace_samples(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+  void trace_samples(const Tile& tile, const Dispatch& dispatch, const Footprint& footprint,
                      const std::function<void(std::uint64_t)>& advance);
   void read_colors(const Tile& tile, Image& image);
   void trace_aov(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
                  std::vector<AovPixel>& picture);
 
-  [[nodiscard]] SceneContent content() const {
-    return {.materials = materials,
-            .colors = pools.bytes.color_pool > 0,
-            .fields = pools.bytes.field_pool > 0,
-            .references = pools.bytes.references,
-            .top_levels = pools.top_levels,
-            .lights = light_count > 0,
-            .environment_texture = environment_texture};
-  }
-
   const Context& context;
-  const PoolAccess wanted_access;
-  const DataPool wanted_data;
   const Arithmetic arithmetic;
   CommandQueue queue;
   PipelineCache pipelines;
-  std::optional<BindingSet> bindings;  ///< of pools.access
-
-  Scene frame_of_reference;  ///< the scene without its arrays: transform, bounds, up
-  Pools pools;
-  std::vector<LeafCell> cells;  ///< that hold the scene's filled leaves
-  std::vector<Material> materials;
-  std::uint32_t light_count = 0;
-  bool environment_texture = false;
-  glm::vec3 environment_constant{0.0F};
-  std::array<glm::vec3, 9> irradiance{};
-
-  Buffer frame_buffer, material_buffer, light_buffer, accumulation, aov, counters, rays, hits, groups;
-  EnvironmentTexture environment;
+  DeviceScene scene;
+  Buffer frame_buffer, accumulation, aov, counters, rays, hits, groups;
 
   std::vector<std::uint32_t> group_list;  ///< what `groups` holds
   Growing growing;
   RenderStats stats;
-  PoolBytes pool_bytes;
   std::uint32_t pools_uploaded = 0;
 };
 
 Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data,
                    ProgramCode code)
     : context(device),
-      wanted_access(access),
-      wanted_data(data),
       arithmetic(device.arithmetic(wanted_arithmetic)),
       queue(device),
       pipelines(device, code),
-      environment(device, queue, {}) {
-  reserve(device, frame_buffer, sizeof(FrameParams));
-  for (Buffer* buffer : {&material_buffer, &light_buffer, &accumulation, &aov, &rays, &hits, &groups})
-    reserve(device, *buffer, 0);
-  reserve(device, counters, COUNTER_COUNT * sizeof(std::uint32_t));
-  pool_bytes.environment = environment.size();
-}
-
-void Tracer::Impl::set_materials(std::span<const Material> source) {
-  materials.assign(source.begin(), source.end());
-  reserve(context, material_buffer, source.size_bytes());
-  material_buffer.upload(queue, std::as_bytes(source));
-}
-
-void Tracer::Impl::set_lights(std::span<const SceneLight> lights) {
-  const std::vector<Light> in_root = lights_in_root(frame_of_reference, {lights.begin(), lights.end()});
-  light_count = static_cast<std::uint32_t>(in_root.size());
-  reserve(context, light_buffer, std::span(in_root).size_bytes());
-  light_buffer.upload(queue, std::as_bytes(std::span(in_root)));
+      scene(device, queue, access, data) {
+  reserve_storage(device, frame_buffer, sizeof(FrameParams));
+  for (Buffer* buffer : {&accumulation, &aov, &rays, &hits, &groups}) reserve_storage(device, *buffer, 0);
+  reserve_storage(device, counters, COUNTER_COUNT * sizeof(std::uint32_t));
 }
 
 void Tracer::Impl::bind_all() {
-  for (std::uint32_t i = 0; i < pools.buffers.size(); ++i)
-    bindings->bind(BIND_NODE_POOL + i, pools.buffers[i]);
-  bindings->bind(BIND_FRAME, frame_buffer);
-  bindings->bind(BIND_MATERIALS, material_buffer);
-  bindings->bind(BIND_LIGHTS, light_buffer);
-  bindings->bind(environment);
-  bindings->bind(BIND_ACCUMULATION, accumulation);
-  bindings->bind(BIND_AOV, aov);
-  bindings->bind(BIND_COUNTERS, counters);
-  bindings->bind(BIND_RAYS, rays);
-  bindings->bind(BIND_HITS, hits);
-  bindings->bind(BIND_GROUPS, groups);
+  scene.bind();
+  BindingSet& bindings = scene.bindings();
+  bindings.bind(BIND_FRAME, frame_buffer);
+  bindings.bind(BIND_ACCUMULATION, accumulation);
+  bindings.bind(BIND_AOV, aov);
+  bindings.bind(BIND_COUNTERS, counters);
+  bindings.bind(BIND_RAYS, rays);
+  bindings.bind(BIND_HITS, hits);
+  bindings.bind(BIND_GROUPS, groups);
 }
 
 double Tracer::Impl::run(const Dispatch& dispatch) {
+  const BindingSet& bindings = scene.bindings();
   const VkPipeline pipeline =
-      pipelines.get({dispatch.program, pools.access, arithmetic, dispatch.constants}, bindings->layout());
+      pipelines.get({dispatch.program, scene.access(), arithmetic, dispatch.constants}, bindings.layout());
   const double ms = queue.run([&](VkCommandBuffer commands) {
     vkCmdUpdateBuffer(commands, frame_buffer.get(), 0, sizeof(FrameParams), &dispatch.frame);
     if (dispatch.constants[SPEC_COUNTERS] != 0)
       vkCmdFillBuffer(commands, counters.get(), 0, VK_WHOLE_SIZE, 0);
     record_barrier(commands);
-    const VkDescriptorSet set = bindings->set();
+    const VkDescriptorSet set = bindings.set();
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bindings->layout(), 0, 1, &set, 0,
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bindings.layout(), 0, 1, &set, 0,
                             nullptr);
     vkCmdDispatch(commands, dispatch.groups_x, dispatch.groups_y, 1);
   });
@@ -181,8 +127,8 @@ double Tracer::Impl::run(const Dispatch& dispatch) {
 double Tracer::Impl::run(const TileDispatch& tile) {
   if (tile.group_list != group_list) {
     group_list = tile.group_list;
-    reserve(context, groups, std::span(group_list).size_bytes());
-    bindings->bind(BIND_GROUPS, groups);
+    reserve_storage(context, groups, std::span(group_list).size_bytes());
+    scene.bindings().bind(BIND_GROUPS, groups);
     groups.upload(queue, std::as_bytes(std::span(group_list)));
   }
   double ms = 0.0;
@@ -197,23 +143,10 @@ void Tracer::Impl::add_counters() {
   for (std::size_t i = 0; i < values.size(); ++i) stats.counters[i] += values[i];
 }
 
-FrameParams Tracer::Impl::frame_params(const View& view, const Settings& settings) const {
-  FrameParams frame = make_frame_params(frame_of_reference, view, settings);
-  const SpecConstants constants = picture_features(content(), settings);
-  if (constants[SPEC_MIRRORS] == 0 && constants[SPEC_GLASS] == 0) frame.max_bounces = 0;
-  frame.light_count = light_count;
-  set_media(frame, materials);
-  frame.environment =
-      settings.environment_strength * (environment_texture ? glm::vec3(1.0F) : environment_constant);
-  for (std::size_t i = 0; i < irradiance.size(); ++i)
-    frame.irradiance[i] = glm::vec4(settings.environment_strength * irradiance[i], 0.0F);
-  return frame;
-}
-
 Dispatch Tracer::Impl::picture_dispatch(const View& view, const Settings& settings) const {
   Dispatch dispatch;
-  dispatch.constants = picture_features(content(), settings);
-  dispatch.frame = frame_params(view, settings);
+  dispatch.constants = picture_features(scene.content(), settings);
+  dispatch.frame = scene.picture_params(view, settings);
   return dispatch;
 }
 
@@ -222,24 +155,20 @@ std::uint32_t Tracer::Impl::most_samples(const Dispatch& dispatch) const {
   return dispatch.frame.max_bounces > 0 ? PROCESSOR_BATCH_OF_PATHS : PROCESSOR_BATCH;
 }
 
-Footprint Tracer::Impl::footprint(const View& view, const Settings& settings) const {
-  if (!settings.cull || !context.is_processor()) return {view.width, view.height};
-  return {cells, frame_of_reference.root, view};
-}
-
-void Tracer::Impl::trace_samples(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+void Tracer::Impl::trace_samples(const Tile& tile, const Dispatch& dispatch, const Footprint& footprint,
                                  const std::function<void(std::uint64_t)>& advance) {
   const bool counting = dispatch.constants[SPEC_COUNTERS] != 0;
   const std::uint32_t total = dispatch.frame.sample_total;
   const std::uint32_t most = most_samples(dispatch);
+  TileDispatch aimed = aim(dispatch, tile, footprint);
   std::uint32_t batch = 1;
   for (std::uint32_t sample = 0; sample < total;) {
-    dispatch.frame.sample_begin = sample;
-    dispatch.frame.sample_end = sample + std::min(batch, total - sample);
-    const double ms = run(aim(dispatch, tile, footprint));
+    const std::uint32_t end = sample + std::min(batch, total - sample);
+    aimed.set_samples(sample, end);
+    const double ms = run(aimed);
     stats.trace_ms += ms;
-    advance(tile.pixels() * (dispatch.frame.sample_end - sample));
-    sample = dispatch.frame.sample_end;
+    advance(tile.pixels() * (end - sample));
+    sample = end;
     // The device counts in 32 bits, which many samples of a large tile would overflow.
     if (!counting) batch = std::min(next_batch(batch, ms), most);
   }
@@ -267,57 +196,36 @@ Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic,
 Tracer::~Tracer() = default;
 
 void Tracer::upload(const Scene& scene) {
-  Impl& impl = *impl_;
-  impl.bindings.reset();
-  impl.pools = {};  // the device may not have room for two scenes
-  impl.pools = Pools(impl.context, impl.queue, scene, impl.wanted_access, impl.wanted_data);
-  impl.bindings.emplace(impl.context, impl.pools.access);
-  impl.cells = filled_cells(scene);
-  impl.frame_of_reference = {};
-  impl.frame_of_reference.root = scene.root;
-  impl.frame_of_reference.up = scene.up;
-  impl.frame_of_reference.bounds_min_world = scene.bounds_min_world;
-  impl.frame_of_reference.bounds_max_world = scene.bounds_max_world;
-  impl.set_materials(scene.materials);
-  impl.set_lights(scene.lights);
-  impl.pool_bytes = impl.pools.bytes;
-  impl.pool_bytes.environment = impl.environment.size();
-  ++impl.pools_uploaded;
+  impl_->scene.upload(scene);
+  ++impl_->pools_uploaded;
 }
 
 void Tracer::set_materials(std::span<const Material> materials) {
-  assert(materials.size() == impl_->materials.size());
-  impl_->set_materials(materials);
+  assert(materials.size() == impl_->scene.materials());
+  impl_->scene.set_materials(materials);
 }
 
-void Tracer::set_lights(std::span<const SceneLight> lights) { impl_->set_lights(lights); }
+void Tracer::set_lights(std::span<const SceneLight> lights) { impl_->scene.set_lights(lights); }
 
-void Tracer::set_up(const glm::dvec3& up) { impl_->frame_of_reference.up = up; }
+void Tracer::set_up(const glm::dvec3& up) { impl_->scene.set_up(up); }
 
-void Tracer::set_environment(const Environment& environment) {
-  Impl& impl = *impl_;
-  impl.environment = EnvironmentTexture(impl.context, impl.queue, environment);
-  impl.environment_texture = !environment.texels.empty();
-  impl.environment_constant = environment.constant;
-  impl.irradiance = irradiance_coefficients(environment);
-  impl.pool_bytes.environment = impl.environment.size();
-}
+void Tracer::set_environment(const Environment& environment) { impl_->scene.set_environment(environment); }
 
 Image Tracer::render(const View& view, const Settings& settings, const Progress& progress) {
   Impl& impl = *impl_;
-  assert(impl.bindings && settings.samples >= 1);
+  assert(impl.scene.uploaded() && settings.samples >= 1);
   const Clock::time_point start = Clock::now();
   impl.stats = {};
   const Dispatch dispatch = impl.picture_dispatch(view, settings);
-  const Footprint footprint = impl.footprint(view, settings);
+  const Footprint footprint = impl.scene.footprint(view, settings);
   Image image{view.width, view.height, {}, {}};
   const std::size_t pixels = std::size_t{view.width} * view.height;
   image.rgba.resize(pixels);
   if (settings.aov) image.aov.resize(pixels);
 
   const std::vector<Tile> tiles = cut_into_tiles(view.width, view.height);
-  reserve(impl.context, impl.accumulation, tiles.front().pixels() * sizeof(vec4));
-  if (settings.aov) reserve(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
+  reserve_storage(impl.context, impl.accumulation, tiles.front().pixels() * sizeof(vec4));
+  if (settings.aov) reserve_storage(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
   impl.bind_all();
   std::uint64_t done = 0;
   const auto advance = [&](std::uint64_t samples) {
@@ -335,15 +243,15 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
 
 void Tracer::begin(const View& view, const Settings& settings) {
   Impl& impl = *impl_;
-  assert(impl.bindings && settings.samples >= 1);
+  assert(impl.scene.uploaded() && settings.samples >= 1);
   impl.stats = {};
-  impl.growing = {impl.picture_dispatch(view, settings), impl.footprint(view, settings)};
+  impl.growing = {impl.picture_dispatch(view, settings), impl.scene.footprint(view, settings)};
   const VkDeviceSize bytes = VkDeviceSize{view.width} * view.height * sizeof(vec4);
   if (bytes > impl.context.properties.limits.maxStorageBufferRange)
     throw Error(ExitCode::out_of_memory,
                 "found a picture of " + std::to_string(bytes) + " bytes, expected at most " +
                     std::to_string(impl.context.properties.limits.maxStorageBufferRange));
-  reserve(impl.context, impl.accumulation, bytes);
+  reserve_storage(impl.context, impl.accumulation, bytes);
   impl.bind_all();
 }
 
@@ -384,13 +292,13 @@ Image Tracer::picture() {
 std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings,
                                         const Progress& progress) {
   Impl& impl = *impl_;
-  assert(impl.bindings);
+  assert(impl.scene.uploaded());
   const Clock::time_point start = Clock::now();
   impl.stats = {};
   const Dispatch dispatch = impl.picture_dispatch(view, settings);
-  const Footprint footprint = impl.footprint(view, settings);
+  const Footprint footprint = impl.scene.footprint(view, settings);
   const auto tiles = cut_into_tiles(view.width, view.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
-  reserve(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
+  reserve_storage(impl.context, impl.aov, tiles.front().pixels() * sizeof(AovPixel));
   impl.bind_all();
   std::vector<AovPixel> pixels(std::size_t{view.width} * view.height);
   for (const Tile& tile : tiles) {
@@ -403,20 +311,17 @@ std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settin
 
 std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Settings& settings) {
   Impl& impl = *impl_;
-  assert(impl.bindings);
+  assert(impl.scene.uploaded());
   const Clock::time_point start = Clock::now();
   impl.stats = {};
   const std::size_t most = std::min<std::size_t>(rays.size(), QUERY_RAYS);
-  reserve(impl.context, impl.rays, most * sizeof(RayQuery));
-  reserve(impl.context, impl.hits, most * sizeof(RayHit));
+  reserve_storage(impl.context, impl.rays, most * sizeof(RayQuery));
+  reserve_storage(impl.context, impl.hits, most * sizeof(RayHit));
   impl.bind_all();
   Dispatch dispatch;
   dispatch.program = Program::rays;
-  dispatch.constants = query_features(impl.content(), settings);
-  dispatch.frame.tile_height = dispatch.frame.height = 1;
-  dispatch.frame.kappa = settings.kappa;
-  dispatch.frame.root_unit_world = static_cast<float>(impl.frame_of_reference.root.unit_world);
-  dispatch.frame.delta = static_cast<float>(settings.delta_world / impl.frame_of_reference.root.unit_world);
+  dispatch.constants = query_features(impl.scene.content(), settings);
+  dispatch.frame = impl.scene.query_params(settings);
   std::vector<RayHit> hits(rays.size());
   for (std::size_t at = 0; at < rays.size(); at += most) {
     const std::size_t count = std::min(most, rays.size() - at);
@@ -431,7 +336,7 @@ std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Sett
 }
 
 const RenderStats& Tracer::stats() const { return impl_->stats; }
-const PoolBytes& Tracer::pool_bytes() const { return impl_->pool_bytes; }
+PoolBytes Tracer::pool_bytes() const { return impl_->scene.bytes(); }
 std::uint32_t Tracer::pipelines_built() const { return impl_->pipelines.built(); }
 std::uint32_t Tracer::pools_uploaded() const { return impl_->pools_uploaded; }
 

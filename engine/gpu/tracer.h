@@ -78,7 +78,7 @@ class Tracer {
 
   [[nodiscard]] const RenderStats& stats()
       const;  ///< of the last call of begin and advance, render, trace_aov or intersect
-  [[nodiscard]] const PoolBytes& pool_bytes() const;
+  [[nodiscard]] PoolBytes pool_bytes() const;
   [[nodiscard]] std::uint32_t pipelines_built() const;  ///< since construction
   [[nodiscard]] std::uint32_t pools_uploaded() const;   ///< upload() calls since construction
 

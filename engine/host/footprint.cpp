@@ -14,21 +14,6 @@ constexpr double RAY_ERROR = 1e-6;
 constexpr double PIXEL_MARGIN = 0.01;
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
-void add_filled(const Scene& scene, std::uint32_t word, const LeafCell& cell, std::vector<LeafCell>& cells) {
-  const std::uint32_t tag = word >> NODE_TAG_SHIFT;
-  if (tag == NODE_EMPTY) return;
-  if (tag == NODE_FILLED || cell.size == 1U << (LATTICE_BITS - FOOTPRINT_LEVELS)) {
-    cells.push_back(cell);
-    return;
-  }
-  const std::uint32_t half = cell.size / 2;
-  for (std::uint32_t i = 0; i < 8; ++i) {
-    const glm::uvec3 corner(i & 1U, i >> 1 & 1U, i >> 2);
-    add_filled(scene, scene.node_pool[(word & NODE_ADDRESS_MASK) + i], {cell.low + half * corner, half},
-               cells);
-  }
-}
-
 /// Pixel positions, in float64.
 struct PixelRectangle {
   double left = INFINITE, top = INFINITE;
@@ -50,7 +35,7 @@ class Projection {
   }
 
   /// What a cell covers: nothing behind the eye's plane, everything where it reaches behind it.
-  [[nodiscard]] PixelRectangle rectangle(const LeafCell& cell) const {
+  [[nodiscard]] PixelRectangle rectangle(const OctreeCell& cell) const {
     const glm::dvec3 first = to_picture_ * (glm::dvec3(cell.low) - CELL_MARGIN - eye_);
     const glm::dmat3 edges = (cell.size + 2.0 * CELL_MARGIN) * to_picture_;
     PixelRectangle bounds;
@@ -85,9 +70,14 @@ std::uint32_t block_of(double pixel, std::uint32_t count) {
 
 }  // namespace
 
-std::vector<LeafCell> filled_cells(const Scene& scene) {
-  std::vector<LeafCell> cells;
-  add_filled(scene, scene.node_pool[0], {glm::uvec3(0), 1U << LATTICE_BITS}, cells);
+std::vector<OctreeCell> filled_cells(const Scene& scene) {
+  std::vector<OctreeCell> cells;
+  visit_cells(scene, [&cells](std::uint32_t word, const OctreeCell& cell) {
+    const std::uint32_t tag = word >> NODE_TAG_SHIFT;
+    const bool deeper = tag == NODE_INNER && cell.size > 1U << (LATTICE_BITS - FOOTPRINT_LEVELS);
+    if (tag != NODE_EMPTY && !deeper) cells.push_back(cell);
+    return deeper;
+  });
   return cells;
 }
 
@@ -96,13 +86,13 @@ Footprint::Footprint(std::uint32_t width, std::uint32_t height)
       rows_((height + BLOCK - 1) / BLOCK),
       blocks_(std::size_t{columns_} * rows_, 1) {}
 
-Footprint::Footprint(const std::vector<LeafCell>& cells, const RootTransform& root, const View& view)
+Footprint::Footprint(const std::vector<OctreeCell>& cells, const RootTransform& root, const View& view)
     : Footprint(view.width, view.height) {
   const Projection projection(root, view);
   const std::size_t stride = columns_ + 1;
   // How many cells begin less end at a block; summed over the blocks before it, how many cover it.
   std::vector<std::int32_t> change(stride * (rows_ + 1), 0);
-  for (const LeafCell& cell : cells) {
+  for (const OctreeCell& cell : cells) {
     const PixelRectangle bounds = projection.rectangle(cell);
     if (!(bounds.left <= bounds.right)) continue;
     const std::uint32_t left = block_of(bounds.left, columns_),

@@ -9,7 +9,7 @@
 namespace splatray {
 
 /// Cells that hold all filled leaves, none smaller than 2^-FOOTPRINT_LEVELS of the root.
-[[nodiscard]] std::vector<LeafCell> filled_cells(const Scene& scene);
+[[nodiscard]] std::vector<OctreeCell> filled_cells(const Scene& scene);
 inline constexpr std::uint32_t FOOTPRINT_LEVELS = 5;
 
 /// The blocks of 8 x 8 pixels of a picture that primary rays may hit something in.
@@ -23,7 +23,7 @@ class Footprint {
   Footprint(std::uint32_t width, std::uint32_t height);
   /// Of these cells. Blocks that a cell's bounding rectangle comes near are in it, all of them where a cell reaches behind
   /// the eye's plane. The view must be one that make_frame_params accepts.
-  Footprint(const std::vector<LeafCell>& cells, const RootTransform& root, const View& view);
+  Footprint(const std::vector<OctreeCell>& cells, const RootTransform& root, const View& view);
 
   /// Whether some pixel of the rectangle [x, x + width) x [y, y + height) is in a block of the footprint.
   [[nodiscard]] bool meets(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) const;

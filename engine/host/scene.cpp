@@ -75,20 +75,6 @@ double decode_slope(std::uint32_t bits) {
   return 0.5 * q * std::abs(q);
 }
 
-void collect_leaf_cells(const Scene& scene, std::uint32_t node, LeafCell cell, std::vector<LeafCell>& cells) {
-  const std::uint32_t word = scene.node_pool[node];
-  const std::uint32_t address = word & NODE_ADDRESS_MASK;
-  if (word >> NODE_TAG_SHIFT == NODE_INNER) {
-    const std::uint32_t half = cell.size / 2;
-    for (std::uint32_t child = 0; child < 8; ++child) {
-      const glm::uvec3 offset{child & 1U, child >> 1 & 1U, child >> 2};
-      collect_leaf_cells(scene, address + child, {cell.low + offset * half, half}, cells);
-    }
-  } else if (word >> NODE_TAG_SHIFT == NODE_FILLED) {
-    cells[address] = cell;
-  }
-}
-
 }  // namespace
 
 uvec4 pack_splat(const Splat& splat) {
@@ -167,9 +153,12 @@ Slab unpack_slab(std::uint32_t word) {
           (static_cast<double>(word >> 22) - 512.0) / SLAB_SCALE};
 }
 
-std::vector<LeafCell> leaf_cells(const Scene& scene) {
-  std::vector<LeafCell> cells(scene.begin_end.size() - 1);
-  collect_leaf_cells(scene, 0, {glm::uvec3(0), LATTICE_SIZE}, cells);
+std::vector<OctreeCell> leaf_cells(const Scene& scene) {
+  std::vector<OctreeCell> cells(scene.begin_end.size() - 1);
+  visit_cells(scene, [&cells](std::uint32_t word, const OctreeCell& cell) {
+    if (word >> NODE_TAG_SHIFT == NODE_FILLED) cells[word & NODE_ADDRESS_MASK] = cell;
+    return true;
+  });
   return cells;
 }
 
@@ -180,23 +169,18 @@ std::uint32_t top_levels(const Scene& scene) {
 }
 
 std::vector<uvec2> top_table(const Scene& scene, std::uint32_t levels) {
+  const std::uint32_t shift = LATTICE_BITS - levels;
   std::vector<uvec2> table(std::size_t{1} << 3 * levels);
-  const auto fill = [&](const auto& self, std::uint32_t word, std::uint32_t level,
-                        const glm::uvec3& cell) -> void {
-    const std::uint32_t edge = 1U << (levels - level);
-    if (level < levels && word >> NODE_TAG_SHIFT == NODE_INNER) {
-      for (std::uint32_t i = 0; i < 8; ++i) {
-        const glm::uvec3 corner(i & 1U, i >> 1 & 1U, i >> 2);
-        self(self, scene.node_pool[(word & NODE_ADDRESS_MASK) + i], level + 1, cell + edge / 2 * corner);
-      }
-      return;
-    }
-    const uvec2 entry(word, LATTICE_BITS - level);
-    for (std::size_t z = cell.z; z < cell.z + edge; ++z)
-      for (std::size_t y = cell.y; y < cell.y + edge; ++y)
-        std::fill_n(&table[(z << levels | y) << levels | cell.x], edge, entry);
-  };
-  fill(fill, scene.node_pool[0], 0, glm::uvec3(0));
+  visit_cells(scene, [&](std::uint32_t word, const OctreeCell& cell) {
+    const bool deeper = word >> NODE_TAG_SHIFT == NODE_INNER && cell.size > 1U << shift;
+    const glm::uvec3 first = cell.low >> shift;
+    const std::size_t edge = deeper ? 0 : cell.size >> shift;
+    const uvec2 entry(word, std::countr_zero(cell.size));
+    for (std::size_t z = first.z; z < first.z + edge; ++z)
+      for (std::size_t y = first.y; y < first.y + edge; ++y)
+        std::fill_n(&table[(z << levels | y) << levels | first.x], edge, entry);
+    return deeper;
+  });
   return table;
 }
 

@@ -128,10 +128,11 @@ struct Scene {
   [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }
 };
 
-/// What the references refer to, one after the other; nothing of an empty pool.
+/// What the references refer to, one after the other; the pool as it is where there are none, nothing of an empty pool.
 template <typename Value>
 [[nodiscard]] std::vector<Value> listed(const std::vector<Value>& pool,
                                         const std::vector<std::uint32_t>& references) {
+  if (references.empty()) return pool;
   std::vector<Value> list;
   if (pool.empty()) return list;
   list.reserve(references.size());
@@ -142,14 +143,28 @@ template <typename Value>
 /// Most dielectrics that a ray can be inside of at once.
 inline constexpr std::uint32_t MASK_BITS = 32;
 
-/// The cell of a leaf, lattice units; size 0 for leaves that are not in the tree.
-struct LeafCell {
+/// A cell of the octree, lattice units.
+struct OctreeCell {
   glm::uvec3 low{0};
   std::uint32_t size = 0;
 };
 
-/// The cells of the filled leaves, in the order of Begin-End.
-[[nodiscard]] std::vector<LeafCell> leaf_cells(const Scene& scene);
+/// Calls visit(node word, OctreeCell) for the root and, where that returns true for an inner node, for its children in Z-order, and
+/// so on.
+template <typename Visit>
+void visit_cells(const Scene& scene, const Visit& visit, std::uint32_t node = 0,
+                 const OctreeCell& cell = {glm::uvec3(0), 1U << LATTICE_BITS}) {
+  const std::uint32_t word = scene.node_pool[node];
+  if (!visit(word, cell) || word >> NODE_TAG_SHIFT != NODE_INNER) return;
+  const std::uint32_t half = cell.size / 2;
+  for (std::uint32_t child = 0; child < 8; ++child) {
+    const glm::uvec3 corner(child & 1U, child >> 1 & 1U, child >> 2);
+    visit_cells(scene, visit, (word & NODE_ADDRESS_MASK) + child, {cell.low + half * corner, half});
+  }
+}
+
+/// The cells of the filled leaves, in the order of Begin-End; size 0 for leaves that are not in the tree.
+[[nodiscard]] std::vector<OctreeCell> leaf_cells(const Scene& scene);
 
 /// Levels of the top table that suits a scene: as many as leave it no more than one entry for two splats.
 [[nodiscard]] std::uint32_t top_levels(const Scene& scene);

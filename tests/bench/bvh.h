@@ -27,11 +27,11 @@ struct BvhStats {
   std::uint32_t depth = 0;  ///< of the deepest node, the root's is 1
 };
 
-/// The scene with the hierarchy in the octree's place, for a tracer with bvh_code and DataPool::references. data_pool: the splats, each once, then the
+/// The scene with the hierarchy in the octree's place, for a tracer with bvh_code. data_pool: the splats, each once, then the
 /// nodes; node_pool: where these begin. Throws Error (failed) where it would be too deep or too large for bvh.glsl.
 [[nodiscard]] Scene bvh_scene(const Scene& scene, BvhStats& stats);
 
-/// The tracer's programs with bvh.glsl.
+/// The tracer's programs with bvh.glsl; none for pixels left out (Settings::cull).
 [[nodiscard]] std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access,
                                                       Arithmetic arithmetic);
 

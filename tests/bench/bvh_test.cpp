@@ -31,8 +31,7 @@ std::vector<RayHit> answers(const Context& context, const Scene& scene, const st
                             const Settings& settings, ProgramCode code,
                             PoolAccess access = PoolAccess::automatic,
                             Arithmetic arithmetic = Arithmetic::automatic) {
-  const DataPool data = code == engine_code ? DataPool::automatic : DataPool::references;
-  Tracer tracer(context, access, arithmetic, data, code);
+  Tracer tracer(context, access, arithmetic, DataPool::automatic, code);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
 }

@@ -21,8 +21,8 @@ double uniform(Random& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-std::vector<LeafCell> random_cells(Random& random, std::size_t count) {
-  std::vector<LeafCell> cells;
+std::vector<OctreeCell> random_cells(Random& random, std::size_t count) {
+  std::vector<OctreeCell> cells;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t size = 1U << static_cast<std::uint32_t>(uniform(random, 12.0, 18.0));
     const auto place = [&] { return static_cast<std::uint32_t>(uniform(random, 0.0, EDGE)) / size * size; };
@@ -32,7 +32,7 @@ std::vector<LeafCell> random_cells(Random& random, std::size_t count) {
 }
 
 /// Whether the ray has a point after t_min that is within LIST_INFLATION of the cell.
-bool meets(const PixelRay& ray, double t_min, const LeafCell& cell) {
+bool meets(const PixelRay& ray, double t_min, const OctreeCell& cell) {
   double enter = t_min * glm::length(glm::dvec3(ray.dir)), leave = std::numeric_limits<double>::infinity();
   const glm::dvec3 dir = glm::normalize(glm::dvec3(ray.dir));
   for (int axis = 0; axis < 3; ++axis) {
@@ -52,7 +52,7 @@ struct Count {
 };
 
 /// Tests rays through random pixel positions against a footprint of `marked`.
-Count count(const View& view, const std::vector<LeafCell>& cells, const std::vector<LeafCell>& marked,
+Count count(const View& view, const std::vector<OctreeCell>& cells, const std::vector<OctreeCell>& marked,
             Random& random) {
   const Scene scene = box_scene();
   const FrameParams frame = make_frame_params(scene, view, {});
@@ -63,7 +63,7 @@ Count count(const View& view, const std::vector<LeafCell>& cells, const std::vec
     const auto y = static_cast<float>(uniform(random, 0.0, view.height));
     const PixelRay ray = pixel_ray(frame, x, y);
     const bool met = std::any_of(cells.begin(), cells.end(),
-                                 [&](const LeafCell& cell) { return meets(ray, frame.t_min, cell); });
+                                 [&](const OctreeCell& cell) { return meets(ray, frame.t_min, cell); });
     result.met += met ? 1 : 0;
     if (met && !footprint.meets(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 1, 1))
       ++result.missed;
@@ -87,7 +87,7 @@ TEST(Footprint, HoldsEveryRayThatMeetsACell) {
   Random random(1);
   std::size_t met = 0;
   for (const View& view : views()) {
-    const std::vector<LeafCell> cells = random_cells(random, 40);
+    const std::vector<OctreeCell> cells = random_cells(random, 40);
     const Count found = count(view, cells, cells, random);
     EXPECT_EQ(found.missed, 0U) << view.camera.eye.x << ' ' << view.camera.fov_y_deg;
     met += found.met;
@@ -97,9 +97,9 @@ TEST(Footprint, HoldsEveryRayThatMeetsACell) {
 
 TEST(Footprint, OfOtherCellsIsNoticed) {
   Random random(2);
-  std::vector<LeafCell> cells = random_cells(random, 40);
-  std::vector<LeafCell> moved = cells;
-  for (LeafCell& cell : moved) cell.low.x += 2 * cell.size;
+  std::vector<OctreeCell> cells = random_cells(random, 40);
+  std::vector<OctreeCell> moved = cells;
+  for (OctreeCell& cell : moved) cell.low.x += 2 * cell.size;
   EXPECT_GT(count(views().front(), cells, moved, random).missed, 100U);
 }
 
@@ -118,7 +118,7 @@ TEST(Footprint, IsNoLargerThanABlockMore) {
 TEST(Footprint, IsEmptyBehindTheEyeAndWholeAroundIt) {
   const Scene scene = box_scene();
   View view = view_of({0.0, 0.0, 3.0}, 40.0);
-  const std::vector<LeafCell> root = {{glm::uvec3(0), 1U << LATTICE_BITS}};
+  const std::vector<OctreeCell> root = {{glm::uvec3(0), 1U << LATTICE_BITS}};
   view.camera.target = {0.0, 0.0, 4.0};
   EXPECT_FALSE(Footprint(root, scene.root, view).meets(0, 0, WIDTH, HEIGHT));
   view.camera.eye = {0.0, 0.0, 0.0};

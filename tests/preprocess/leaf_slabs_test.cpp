@@ -43,7 +43,7 @@ struct Tried {
 
 /// Random points of the inflated cell and of the disc's surroundings, dropped onto the disc's plane: those that lie on the
 /// disc and in the inflated cell are tried.
-void try_points(const Splat& splat, const LeafCell& cell, const Slab& slab, std::mt19937_64& random,
+void try_points(const Splat& splat, const OctreeCell& cell, const Slab& slab, std::mt19937_64& random,
                 Tried& tried) {
   const double half_size = 0.5 * cell.size;
   const double reach = half_size + LIST_INFLATION;
@@ -67,7 +67,7 @@ void try_points(const Splat& splat, const LeafCell& cell, const Slab& slab, std:
 Tried tried_points(const Scene& scene) {
   std::mt19937_64 random(7);
   Tried tried;
-  const std::vector<LeafCell> cells = leaf_cells(scene);
+  const std::vector<OctreeCell> cells = leaf_cells(scene);
   for (std::size_t leaf = 0; leaf < cells.size(); ++leaf) {
     const Slab slab = unpack_slab(scene.slab_pool[leaf]);
     for (std::uint32_t i = scene.begin_end[leaf]; i < scene.begin_end[leaf + 1]; ++i)

@@ -1,0 +1,100 @@
+#include "engine/gpu/device_scene.h"
+
+#include <cassert>
+
+namespace splatray {
+
+DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, PoolAccess access, DataPool data)
+    : context_(context),
+      queue_(queue),
+      wanted_access_(access),
+      wanted_data_(data),
+      environment_(context, queue, {}) {}
+
+void DeviceScene::upload(const Scene& scene) {
+  bindings_.reset();
+  pools_ = {};  // the device may not have room for two scenes
+  pools_ = Pools(context_, queue_, scene, wanted_access_, wanted_data_);
+  bindings_.emplace(context_, pools_.access);
+  cells_ = filled_cells(scene);
+  outline_ = {};
+  outline_.root = scene.root;
+  outline_.up = scene.up;
+  outline_.bounds_min_world = scene.bounds_min_world;
+  outline_.bounds_max_world = scene.bounds_max_world;
+  set_materials(scene.materials);
+  set_lights(scene.lights);
+}
+
+void DeviceScene::set_materials(std::span<const Material> materials) {
+  materials_.assign(materials.begin(), materials.end());
+  reserve_storage(context_, material_buffer_, materials.size_bytes());
+  material_buffer_.upload(queue_, std::as_bytes(materials));
+}
+
+void DeviceScene::set_lights(std::span<const SceneLight> lights) {
+  const std::vector<Light> in_root = lights_in_root(outline_, {lights.begin(), lights.end()});
+  light_count_ = static_cast<std::uint32_t>(in_root.size());
+  reserve_storage(context_, light_buffer_, std::span(in_root).size_bytes());
+  light_buffer_.upload(queue_, std::as_bytes(std::span(in_root)));
+}
+
+void DeviceScene::set_environment(const Environment& environment) {
+  environment_ = EnvironmentTexture(context_, queue_, environment);
+  environment_texture_ = !environment.texels.empty();
+  environment_constant_ = environment.constant;
+  irradiance_ = irradiance_coefficients(environment);
+}
+
+void DeviceScene::bind() {
+  for (std::uint32_t i = 0; i < pools_.buffers.size(); ++i)
+    bindings_->bind(BIND_NODE_POOL + i, pools_.buffers[i]);
+  bindings_->bind(BIND_MATERIALS, material_buffer_);
+  bindings_->bind(BIND_LIGHTS, light_buffer_);
+  bindings_->bind(environment_);
+}
+
+PoolBytes DeviceScene::bytes() const {
+  PoolBytes bytes = pools_.bytes;
+  bytes.environment = environment_.size();
+  return bytes;
+}
+
+SceneContent DeviceScene::content() const {
+  return {.materials = materials_,
+          .colors = pools_.bytes.color_pool > 0,
+          .fields = pools_.bytes.field_pool > 0,
+          .references = pools_.bytes.references,
+          .top_levels = pools_.top_levels,
+          .lights = light_count_ > 0,
+          .environment_texture = environment_texture_};
+}
+
+FrameParams DeviceScene::picture_params(const View& view, const Settings& settings) const {
+  FrameParams frame = make_frame_params(outline_, view, settings);
+  const SpecConstants constants = picture_features(content(), settings);
+  if (constants[SPEC_MIRRORS] == 0 && constants[SPEC_GLASS] == 0) frame.max_bounces = 0;
+  frame.light_count = light_count_;
+  set_media(frame, materials_);
+  frame.environment =
+      settings.environment_strength * (environment_texture_ ? glm::vec3(1.0F) : environment_constant_);
+  for (std::size_t i = 0; i < irradiance_.size(); ++i)
+    frame.irradiance[i] = glm::vec4(settings.environment_strength * irradiance_[i], 0.0F);
+  return frame;
+}
+
+FrameParams DeviceScene::query_params(const Settings& settings) const {
+  FrameParams frame{};
+  frame.tile_height = frame.height = 1;
+  frame.kappa = settings.kappa;
+  frame.root_unit_world = static_cast<float>(outline_.root.unit_world);
+  frame.delta = static_cast<float>(settings.delta_world / outline_.root.unit_world);
+  return frame;
+}
+
+Footprint DeviceScene::footprint(const View& view, const Settings& settings) const {
+  if (!settings.cull || !context_.is_processor()) return {view.width, view.height};
+  return {cells_, outline_.root, view};
+}
+
+}  // namespace splatray

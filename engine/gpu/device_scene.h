@@ -1,0 +1,69 @@
+/// A scene on the device, and the materials, lights and environment it is seen with.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/gpu/command_queue.h"
+#include "engine/gpu/features.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/pools.h"
+#include "engine/gpu/texture.h"
+#include "engine/host/environment.h"
+#include "engine/host/footprint.h"
+#include "engine/host/scene.h"
+#include "engine/host/view.h"
+
+namespace splatray {
+
+class DeviceScene {
+ public:
+  /// Nothing yet, black all around. The context and the queue must outlive it.
+  DeviceScene(const Context& context, CommandQueue& queue, PoolAccess access, DataPool data);
+
+  /// As the tracer's functions of these names.
+  void upload(const Scene& scene);
+  void set_materials(std::span<const Material> materials);
+  void set_lights(std::span<const SceneLight> lights);
+  void set_environment(const Environment& environment);
+  void set_up(const glm::dvec3& up) { outline_.up = up; }
+
+  /// Whether there is a scene.
+  [[nodiscard]] bool uploaded() const { return bindings_.has_value(); }
+  /// Of the scene uploaded; its own bindings are set by bind().
+  [[nodiscard]] BindingSet& bindings() { return *bindings_; }
+  void bind();
+
+  [[nodiscard]] PoolAccess access() const { return pools_.access; }  ///< texel or storage
+  [[nodiscard]] PoolBytes bytes() const;
+  [[nodiscard]] std::size_t materials() const { return materials_.size(); }
+  /// What the features of a pipeline depend on.
+  [[nodiscard]] SceneContent content() const;
+  /// Parameters of a picture, and of ray queries.
+  [[nodiscard]] FrameParams picture_params(const View& view, const Settings& settings) const;
+  [[nodiscard]] FrameParams query_params(const Settings& settings) const;
+  /// The pixels whose rays must be traced: all but on a processor.
+  [[nodiscard]] Footprint footprint(const View& view, const Settings& settings) const;
+
+ private:
+  const Context& context_;
+  CommandQueue& queue_;
+  const PoolAccess wanted_access_;
+  const DataPool wanted_data_;
+  std::optional<BindingSet> bindings_;  ///< of access()
+
+  Scene outline_;  ///< the scene without its arrays: transform, bounds, up
+  Pools pools_;
+  std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
+  std::vector<Material> materials_;
+  Buffer material_buffer_, light_buffer_;
+  std::uint32_t light_count_ = 0;
+  EnvironmentTexture environment_;
+  bool environment_texture_ = false;
+  glm::vec3 environment_constant_{0.0F};
+  std::array<glm::vec3, 9> irradiance_{};
+};
+
+}  // namespace splatray
