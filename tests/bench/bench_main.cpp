@@ -5,6 +5,7 @@
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
 #include "tests/bench/measure.h"
+#include "tests/bench/measure_cases.h"
 #include "tests/bench/measuring_options.h"
 
 namespace splatray::testing {
@@ -26,19 +27,10 @@ int run(int argc, char** argv) {
   require_writable(options->output);
   const Context context(options->device);
   std::printf("%s, %s\n", context.device_info().name.c_str(), context.device_info().driver.c_str());
-  Json records = Json::array();
-  for (const Case& one : cases(options->quick)) {
-    if (!options->only.empty() && one.name != options->only) continue;
-    const std::filesystem::path folder = options->folder / folder_name(one);
-    if (!std::filesystem::exists(folder / "case.json")) {
-      std::printf("%s: left out, it was not prepared\n", one.name.c_str());
-      continue;
-    }
-    for (const Json& record : measure_case(context, one, folder)) records.push_back(record);
-    std::printf("%s: %zu runs\n", one.name.c_str(), one.runs.size());
-    std::fflush(stdout);
-  }
-  write_text_file(records.dump(1) + '\n', options->output);
+  measure_cases(named(cases(options->quick), options->only), options->folder, options->output,
+                [&](const Case& one, const std::filesystem::path& prepared) {
+                  return measure_case(context, one, prepared);
+                });
   return static_cast<int>(ExitCode::done);
 }
 

@@ -1,11 +1,11 @@
 /// splatray-bench-peers FOLDER -o PEERS.json [--quick] [--case NAME]: measures other ray tracers on what
 /// splatray-bench-prepare made; one JSON array of records (record.h).
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
 #include "preprocess/option_types.h"
+#include "tests/bench/measure_cases.h"
 #include "tests/bench/peer_measure.h"
 #include "tests/trace/scenes.h"
 
@@ -24,20 +24,11 @@ int run(int argc, char** argv) {
   app.add_option("--case", only, "only this case");
   if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(output);
-  Json records = Json::array();
-  for (const Case& one : cases(quick)) {
-    const std::filesystem::path prepared = folder / folder_name(one);
-    if (!has_peers(one) || (!only.empty() && one.name != only)) continue;
-    if (!std::filesystem::exists(prepared / "case.json")) {
-      std::printf("%s: left out, it was not prepared\n", one.name.c_str());
-      continue;
-    }
-    for (const Json& record : measure_peers(one, prepared, data_folder().value_or(""), quick))
-      records.push_back(record);
-    std::printf("%s: measured\n", one.name.c_str());
-    std::fflush(stdout);
-  }
-  write_text_file(records.dump(1) + '\n', output);
+  std::vector<Case> list = named(cases(quick), only);
+  std::erase_if(list, [](const Case& one) { return !has_peers(one); });
+  measure_cases(list, folder, output, [&](const Case& one, const std::filesystem::path& prepared) {
+    return measure_peers(one, prepared, data_folder().value_or(""), quick);
+  });
   return static_cast<int>(ExitCode::done);
 }
 

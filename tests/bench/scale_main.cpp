@@ -4,6 +4,7 @@
 
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
+#include "tests/bench/measure_cases.h"
 #include "tests/bench/measuring_options.h"
 #include "tests/bench/scale_cases.h"
 #include "tests/bench/scale_coverage.h"
@@ -39,19 +40,6 @@ std::vector<Json> measure_part(const std::string& part, const Context& context, 
   return measure_coverage(context, one, folder);
 }
 
-/// Adds the case's records; what became of it.
-std::string measure(const MeasuringOptions& options, const Context& context, const Case& one, Json& records) {
-  const std::filesystem::path folder = options.folder / folder_name(one);
-  if (!std::filesystem::exists(folder / "case.json")) return "left out, it was not prepared";
-  try {
-    for (const Json& record : measure_part(options.only, context, one, folder)) records.push_back(record);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::out_of_memory) throw;
-    return std::string("left out, ") + error.what();
-  }
-  return "measured";
-}
-
 int run(int argc, char** argv) {
   const std::optional<MeasuringOptions> options = parse_measuring({argv + 1, argv + argc}, "--part");
   if (!options) {
@@ -62,12 +50,10 @@ int run(int argc, char** argv) {
   require_writable(options->output);
   const Context context(options->device);
   std::printf("%s, %s\n", context.device_info().name.c_str(), context.device_info().driver.c_str());
-  Json records = Json::array();
-  for (const Case& one : cases) {
-    std::printf("%s: %s\n", one.name.c_str(), measure(*options, context, one, records).c_str());
-    std::fflush(stdout);
-  }
-  write_text_file(records.dump(1) + '\n', options->output);
+  measure_cases(cases, options->folder, options->output,
+                [&](const Case& one, const std::filesystem::path& prepared) {
+                  return measure_part(options->only, context, one, prepared);
+                });
   return static_cast<int>(ExitCode::done);
 }
 

@@ -2,11 +2,11 @@
 /// that splatray-bench-prepare --scale made, one frame each in turn; one JSON array of records (race.h).
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdio>
 
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
 #include "preprocess/option_types.h"
+#include "tests/bench/measure_cases.h"
 #include "tests/bench/memory.h"
 #include "tests/bench/peer_embree_clusters.h"
 #include "tests/bench/peer_embree_discs.h"
@@ -48,19 +48,10 @@ std::vector<PeerMaker> peers_of(const Scene& scene) {
   return makers;
 }
 
-/// Adds the case's records; what became of it.
-std::string measure(const Context& context, const Case& one, const std::filesystem::path& folder,
-                    Json& records) {
+std::vector<Json> measure(const Context& context, const Case& one, const std::filesystem::path& prepared) {
   const std::string reason = reason_of_memory(BYTES_PER_SPLAT * one.runs.front().variant.points);
-  if (!reason.empty()) return "left out, " + reason;
-  if (!std::filesystem::exists(folder / "case.json")) return "left out, it was not prepared";
-  try {
-    for (const Json& record : measure_rays(context, one, folder, peers_of)) records.push_back(record);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::out_of_memory) throw;
-    return std::string("left out, ") + error.what();
-  }
-  return "measured";
+  if (!reason.empty()) throw Error(ExitCode::out_of_memory, reason);
+  return measure_rays(context, one, prepared, peers_of);
 }
 
 int run(int argc, char** argv) {
@@ -78,14 +69,10 @@ int run(int argc, char** argv) {
   if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(output);
   const Context context(device);
-  Json records = Json::array();
-  for (const Case& one : scale_spheres(quick)) {
-    if (!only.empty() && one.name != only) continue;
-    const std::string outcome = measure(context, one, folder / folder_name(one), records);
-    std::printf("%s: %s\n", one.name.c_str(), outcome.c_str());
-    std::fflush(stdout);
-  }
-  write_text_file(records.dump(1) + '\n', output);
+  measure_cases(named(scale_spheres(quick), only), folder, output,
+                [&](const Case& one, const std::filesystem::path& prepared) {
+                  return measure(context, one, prepared);
+                });
   return static_cast<int>(ExitCode::done);
 }
 
