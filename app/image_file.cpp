@@ -1,12 +1,12 @@
 #include "app/image_file.h"
 
-#include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
 
+#include "app/image_codec.h"
 #include "engine/host/atomic_file.h"
 #include "engine/host/error.h"
 
@@ -14,20 +14,6 @@ namespace splatray {
 namespace {
 
 constexpr std::uint64_t MOST_PIXELS = 1ULL << 30;
-
-float encode_srgb(float linear) {
-  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
-}
-
-float decode_srgb(float encoded) {
-  return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
-}
-
-float shoulder(float x) {
-  constexpr float KNEE = 0.8F, ROOM = 1.0F - KNEE;
-  if (!(x > 0.0F)) return 0.0F;
-  return x <= KNEE ? x : 1.0F - ROOM * std::exp((KNEE - x) / ROOM);
-}
 
 /// Pixels of a file as float rgb, grey repeated. `encoded`: stored with 8 or 16 bits, so already
 /// display-encoded.
@@ -46,53 +32,59 @@ struct Picture {
 
 constexpr const char* EXPECTED = "an image such as HDR, EXR or PNG";
 
-/// Opens a picture file and reads its header.
-std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path& path) {
+/// The library image_codec.h describes, which lies beside the program.
+const ImageCodec& codec() {
+  static const ImageCodec& loaded = []() -> const ImageCodec& {
+    const auto path = std::filesystem::read_symlink("/proc/self/exe").replace_filename(IMAGE_CODEC);
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* symbol = library == nullptr ? nullptr : dlsym(library, "splatray_image_codec");
+    if (symbol == nullptr)
+      throw Error(ExitCode::failed, std::string("cannot load what reads and writes pictures: ") + dlerror());
+    return *reinterpret_cast<decltype(&splatray_image_codec)>(symbol)();
+  }();
+  return loaded;
+}
+
+PictureHeader read_header(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) refuse(path, "no such file", EXPECTED);
   if (!std::filesystem::is_regular_file(path, error)) refuse(path, "a folder or device", EXPECTED);
-  auto input = OIIO::ImageInput::open(path.string());
-  if (!input) {
-    (void)OIIO::geterror();
-    refuse(path, "no picture OpenImageIO can open", EXPECTED);
-  }
-  return input;
+  PictureHeader header;
+  if (!codec().read_header(path.string(), header)) refuse(path, "no picture OpenImageIO can open", EXPECTED);
+  return header;
 }
 
 Picture read_picture(const std::filesystem::path& path) {
-  const auto input = open_picture(path);
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
-      spec.image_pixels() > MOST_PIXELS)
-    refuse(path, std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels",
+  const PictureHeader header = read_header(path);
+  const bool positive = header.width >= 1 && header.height >= 1 && !header.channels.empty();
+  const std::uint64_t pixels = positive ? std::uint64_t(header.width) * std::uint64_t(header.height) : 0;
+  if (pixels == 0 || header.depth > 1 || pixels > MOST_PIXELS)
+    refuse(path, std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels",
            "a flat picture of up to 2^30");
-  const int channels = std::min(spec.nchannels, 3);
-  std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(channels));
-  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()))
-    refuse(path, "damage (" + input->geterror() + ")", "a whole image");
-  Picture picture{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}, false};
-  picture.encoded = spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
-  picture.rgb.reserve(spec.image_pixels());
-  for (auto value = values.cbegin(); value != values.cend(); value += channels)
+  const auto channels = std::min<std::size_t>(header.channels.size(), 3);
+  std::vector<float> values(pixels * channels);
+  std::string damage;
+  if (!codec().read_pixels(path.string(), static_cast<int>(channels), values.data(), damage))
+    refuse(path, "damage (" + damage + ")", "a whole image");
+  Picture picture{static_cast<std::uint32_t>(header.width),
+                  static_cast<std::uint32_t>(header.height),
+                  {},
+                  header.integers};
+  picture.rgb.reserve(pixels);
+  for (const float* value = values.data(); value != values.data() + values.size(); value += channels)
     picture.rgb.push_back(channels == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]));
   return picture;
 }
 
 constexpr const char* PREFIX = "splatray.";  ///< of the names of our metadata
 
-void add_metadata(const Metadata& metadata, OIIO::ImageSpec& spec) {
-  for (const auto& [name, value] : metadata) spec.attribute(PREFIX + name, value);
-}
-
 /// Writes pixels under a temporary name; all formats and failures the same way.
-void write_picture(const OIIO::ImageSpec& spec, const void* pixels, OIIO::TypeDesc type, const char* format,
+void write_picture(PictureHeader header, const Metadata& metadata, const void* values, const char* format,
                    const std::filesystem::path& path) {
+  for (const auto& [name, value] : metadata) header.attributes.emplace_back(PREFIX + name, value);
   AtomicFile file(path);
-  const auto output = OIIO::ImageOutput::create(format);
-  const bool written = output && output->open(file.temporary().string(), spec) &&
-                       output->write_image(type, pixels) && output->close();
-  if (!written) {
-    std::string reason = output ? output->geterror() : OIIO::geterror();
+  std::string reason;
+  if (!codec().write(file.temporary().string(), format, header, values, reason)) {
     std::replace(reason.begin(), reason.end(), '\n', ' ');
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
   }
@@ -101,22 +93,7 @@ void write_picture(const OIIO::ImageSpec& spec, const void* pixels, OIIO::TypeDe
 
 }  // namespace
 
-vec3 display_value(vec3 radiance, double exposure_ev) {
-  const auto factor = static_cast<float>(std::exp2(exposure_ev));
-  const auto channel = [factor](float x) { return encode_srgb(shoulder(factor * x)); };
-  return {channel(radiance.x), channel(radiance.y), channel(radiance.z)};
-}
-
-DisplayImage display_image(const Image& image, double exposure_ev) {
-  DisplayImage display{image.width, image.height, {}};
-  display.rgb.reserve(image.rgba.size());
-  for (const vec4& pixel : image.rgba) display.rgb.push_back(display_value(vec3(pixel), exposure_ev));
-  return display;
-}
-
-void quantise(DisplayImage& image) {
-  for (vec3& pixel : image.rgb) pixel = glm::round(pixel * 255.0F) / 255.0F;
-}
+void load_image_codec() { static_cast<void>(codec()); }
 
 void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path) {
   std::vector<std::uint8_t> bytes;
@@ -124,11 +101,10 @@ void write_png(const DisplayImage& image, const Metadata& metadata, const std::f
   for (const vec3& pixel : image.rgb)
     for (int channel = 0; channel < 3; ++channel)
       bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * pixel[channel])));
-  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3,
-                       OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  add_metadata(metadata, spec);
-  write_picture(spec, bytes.data(), OIIO::TypeDesc::UINT8, "png", path);
+  PictureHeader header{
+      static_cast<int>(image.width), static_cast<int>(image.height), 1, {"R", "G", "B"}, true,
+      {{"oiio:ColorSpace", "sRGB"}}};
+  write_picture(std::move(header), metadata, bytes.data(), "png", path);
 }
 
 void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
@@ -147,25 +123,20 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
     if (aovs.id)
       values.push_back(image.aov[i].object == NO_OBJECT ? -1.0F : static_cast<float>(image.aov[i].object));
   }
-  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
-                       static_cast<int>(names.size()), OIIO::TypeDesc::FLOAT);
-  spec.channelnames = names;
-  spec.alpha_channel = 3;
-  spec.attribute("oiio:ColorSpace", "Linear");
-  spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // else the time of writing: the same picture makes the same file
-  add_metadata(metadata, spec);
-  write_picture(spec, values.data(), OIIO::TypeDesc::FLOAT, "openexr", path);
+  // An empty DateTime: else it is the time of writing, and the same picture would make another file.
+  PictureHeader header{static_cast<int>(image.width),
+                       static_cast<int>(image.height),
+                       1,
+                       std::move(names),
+                       false,
+                       {{"oiio:ColorSpace", "Linear"}, {"compression", "zip"}, {"DateTime", ""}}};
+  write_picture(std::move(header), metadata, values.data(), "openexr", path);
 }
 
 Metadata read_metadata(const std::filesystem::path& path) {
-  const auto input = open_picture(path);
   Metadata metadata;
-  for (const OIIO::ParamValue& attribute : input->spec().extra_attribs) {
-    const std::string name = attribute.name().string();
-    if (name.starts_with(PREFIX))
-      metadata.emplace_back(name.substr(std::strlen(PREFIX)), attribute.get_string());
-  }
+  for (const auto& [name, value] : read_header(path).attributes)
+    if (name.starts_with(PREFIX)) metadata.emplace_back(name.substr(std::strlen(PREFIX)), value);
   return metadata;
 }
 

@@ -5,25 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "app/display_image.h"
 #include "engine/host/environment.h"
 #include "engine/host/image.h"
 
 namespace splatray {
-
-/// Display-encoded picture, 0..1 per channel, top row first.
-struct DisplayImage {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::vector<vec3> rgb;
-};
-
-/// Linear radiance to display value: factor 2^exposure_ev, a soft shoulder (identity up to 0.8, then 1 - 0.2
-/// exp(-(x - 0.8) / 0.2), which joins with equal slope and reaches 1 at infinity; NaN and negative values
-/// become 0), then the sRGB transfer function.
-[[nodiscard]] vec3 display_value(vec3 radiance, double exposure_ev);
-[[nodiscard]] DisplayImage display_image(const Image& image, double exposure_ev);
-/// Rounds each channel to the 8 bits a PNG stores.
-void quantise(DisplayImage& image);
 
 /// Which auxiliary channels an EXR gets beside R G B A: Z; N.X N.Y N.Z; id.
 struct AovChannels {
@@ -51,5 +37,9 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
 /// sRGB. Values that are negative or not finite become 0. Throws Error (input_unreadable) with path, found
 /// and expected.
 [[nodiscard]] Environment read_environment(const std::filesystem::path& path);
+
+/// Loads OpenImageIO (0.2 s), as the first of the functions above would; any thread. Throws Error (failed) where that
+/// fails.
+void load_image_codec();
 
 }  // namespace splatray

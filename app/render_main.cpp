@@ -1,6 +1,8 @@
 /// splatray-render: a scene in, pictures out.
 #include <cstdio>
+#include <future>
 
+#include "app/image_file.h"
 #include "app/options.h"
 #include "app/picture.h"
 #include "app/render_sequence.h"
@@ -57,6 +59,8 @@ int render(int argc, char** argv) {
     std::fprintf(stderr, "splatray-render: device: %s\n", context.device_info().name.c_str());
   times.device_ms = watch.lap_ms();
 
+  // After the driver is there, as one library is loaded at a time.
+  const std::future<void> codec = std::async(std::launch::async, load_image_codec);
   ProgressLine progress(options.quiet);
   const LoadedScene loaded = load(options, progress);
   const Environment environment = choose_environment(loaded.environment_name);

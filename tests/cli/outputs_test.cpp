@@ -37,6 +37,16 @@ TEST_F(CliOutputs, UnwritableOutput) {
       1, "out.soct");
 }
 
+TEST_F(CliOutputs, WithoutTheLibraryBesideIt) {
+  const std::string alone = file("splatray-render");
+  std::filesystem::copy_file(RENDER, alone);
+  expect_refused(
+      [&] {
+        return run_program({alone, grid, "--quiet", "-o", file("a.png"), "--resolution=8x8"});
+      },
+      1, "libsplatray_image_codec.so");
+}
+
 TEST_F(CliOutputs, PictureAndStatistics) {
   const ChildResult result = render({grid, "--stats-json", file("stats.json"), "--counters"});
   EXPECT_EQ(result.code, 0) << result.err;
