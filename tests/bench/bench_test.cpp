@@ -73,7 +73,7 @@ TEST_F(BenchOfACase, AMovedSplatChangesTheRecord) {
 }
 
 TEST_F(BenchOfACase, FillsAsMuchOfThePictureAsItSays) {
-  const Truth truth = read_truth(folder() / "truth.bin");
+  const Truth truth = read_truth(folder() / "truth.bin", case_.width, case_.height);
   std::set<std::size_t> rows;
   for (std::size_t i = 0; i < truth.pixels.size(); ++i)
     if (truth.pixels[i].hit()) rows.insert(i / truth.width);

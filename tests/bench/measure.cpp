@@ -20,7 +20,7 @@ Intersect intersect_of(LoadedCase& loaded, const Run& run) {
 }
 
 void compare_with_truth(LoadedCase& loaded, std::vector<Json>& records) {
-  const Truth truth = read_truth(loaded.folder() / "truth.bin");
+  const Truth truth = read_truth(loaded.folder() / "truth.bin", loaded.view().width, loaded.view().height);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Run& run = loaded.about().runs[i];
     Settings settings = loaded.settings_of(run);

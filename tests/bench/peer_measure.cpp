@@ -165,7 +165,7 @@ bool has_peers(const Case& one) { return one.measure == Measure::picture; }
 std::vector<Json> measure_peers(const Case& one, const std::filesystem::path& folder,
                                 const std::filesystem::path& data, bool quick) {
   const PreparedCase prepared = read_case(folder);
-  const Truth truth = read_truth(folder / "truth.bin");
+  const Truth truth = read_truth(folder / "truth.bin", one.width, one.height);
   const std::optional<Mesh> mesh = mesh_of(one, data);
   const View view{prepared.camera, one.width, one.height};
   std::vector<Json> records;

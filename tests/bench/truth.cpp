@@ -69,13 +69,20 @@ void write_truth(const Truth& truth, const std::filesystem::path& path) {
   file.commit();
 }
 
-Truth read_truth(const std::filesystem::path& path) {
+Truth read_truth(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height) {
   std::ifstream stream(path, std::ios::binary);
   Header header{};
   stream.read(reinterpret_cast<char*>(&header), sizeof(header));
   if (!stream || header.magic != MAGIC)
     throw Error(ExitCode::input_unreadable,
                 path.string() + ": found no truth, expected bytes that begin with SPLTRUTH");
+  const auto size = [](std::uint32_t columns, std::uint32_t rows) {
+    return std::to_string(columns) + " x " + std::to_string(rows) + " pixels";
+  };
+  if (header.width != width || header.height != height)
+    throw Error(ExitCode::input_unreadable, path.string() + ": found " + size(header.width, header.height) +
+                                                ", expected " + size(width, height) +
+                                                "; was it prepared with --quick, or measured so?");
   Truth truth{header.width, header.height, header.jump_world, {}};
   truth.pixels.resize(std::size_t{header.width} * header.height);
   for (TruePixel& pixel : truth.pixels) {

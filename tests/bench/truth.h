@@ -33,7 +33,8 @@ void mark_edges(Truth& truth, double jump_world);
 /// Writes the truth as a plain binary file in this machine's byte order: bytes "SPLTRUTH", uint32 width and height, float64
 /// jump_world, then for each pixel float64 depth and normal[3] and a byte edge. Throws Error (failed); leaves no partial file.
 void write_truth(const Truth& truth, const std::filesystem::path& path);
-/// Reads it back. Throws Error (input_unreadable) when the file is not that long or begins otherwise.
-[[nodiscard]] Truth read_truth(const std::filesystem::path& path);
+/// Reads that of a picture of this size back. Throws Error (input_unreadable) when it is of another size, not that long, or
+/// begins otherwise.
+[[nodiscard]] Truth read_truth(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height);
 
 }  // namespace splatray::testing

@@ -82,12 +82,12 @@ TEST(TrueEdges, LieOnBothSidesOfStepsAndOfSilhouettes) {
   for (std::size_t x = 0; x < 6; ++x) EXPECT_EQ(truth.pixels[x].edge, x == 3 || x == 4) << x;
 }
 
-TEST(TruthFile, ComesBackAndIsRefusedWhenShort) {
+TEST(TruthFile, ComesBackAndIsRefusedWhenShortOrOfAnotherSize) {
   const TempFolder folder;
   const std::filesystem::path path = folder.path() / "truth.bin";
   const Truth truth = analytic_truth(Shape::torus, view_of_shapes(16));
   write_truth(truth, path);
-  const Truth back = read_truth(path);
+  const Truth back = read_truth(path, 16, 16);
   ASSERT_EQ(back.pixels.size(), truth.pixels.size());
   EXPECT_EQ(back.jump_world, truth.jump_world);
   for (std::size_t i = 0; i < back.pixels.size(); ++i) {
@@ -95,8 +95,9 @@ TEST(TruthFile, ComesBackAndIsRefusedWhenShort) {
     EXPECT_EQ(back.pixels[i].normal_world, truth.pixels[i].normal_world);
     EXPECT_EQ(back.pixels[i].edge, truth.pixels[i].edge);
   }
+  EXPECT_THROW(static_cast<void>(read_truth(path, 16, 8)), Error);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
-  EXPECT_THROW(static_cast<void>(read_truth(path)), Error);
+  EXPECT_THROW(static_cast<void>(read_truth(path, 16, 16)), Error);
 }
 
 class KnownErrors : public ::testing::TestWithParam<Shape> {
