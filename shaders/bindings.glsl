@@ -48,7 +48,7 @@ layout(binding = BIND_DATA_POOL) uniform usamplerBuffer data_pool;
 layout(binding = BIND_COLOR_POOL) uniform usamplerBuffer color_pool;
 layout(binding = BIND_FIELD_POOL) uniform usamplerBuffer field_pool;
 layout(binding = BIND_TOP_TABLE) uniform usamplerBuffer top_table;
-uvec2 top_entry(uint index) { return texelFetch(top_table, int(index)).xy; }
+uint top_entry(uint index) { return texelFetch(top_table, int(index)).x; }
 uint node_word(uint index) { return texelFetch(node_pool, int(index)).x; }
 uint begin_end_at(uint index) { return texelFetch(begin_end, int(index)).x; }
 uint slab_word(uint index) { return texelFetch(slab_pool, int(index)).x; }
@@ -69,8 +69,8 @@ layout(std430, binding = BIND_REFERENCE_POOL) readonly buffer ReferencePool { ui
 layout(std430, binding = BIND_DATA_POOL) readonly buffer DataPool { uvec4 data_pool[]; };
 layout(std430, binding = BIND_COLOR_POOL) readonly buffer ColorPool { uint color_pool[]; };
 layout(std430, binding = BIND_FIELD_POOL) readonly buffer FieldPool { uint field_pool[]; };
-layout(std430, binding = BIND_TOP_TABLE) readonly buffer TopTable { uvec2 top_table[]; };
-uvec2 top_entry(uint index) { return top_table[index]; }
+layout(std430, binding = BIND_TOP_TABLE) readonly buffer TopTable { uint top_table[]; };
+uint top_entry(uint index) { return top_table[index]; }
 uint node_word(uint index) { return node_pool[index]; }
 uint begin_end_at(uint index) { return begin_end[index]; }
 uint slab_word(uint index) { return slab_pool[index]; }

@@ -37,9 +37,9 @@
 /// Reference, 32 bits: index of a splat in the data pool, and of its colour and normal field. A device may hold copies of the
 /// splats, leaf by leaf, in place of references (REFERENCES_NONE).
 ///
-/// Top table, 64 bits for each cell of TOP_LEVELS below the root, x fastest, made from the node pool: descents begin here.
-///   x: node word of the deepest node that holds the cell and lies no deeper than TOP_LEVELS
-///   y: its edge is 2^y lattice units
+/// Top table, 32 bits for each cell of TOP_LEVELS below the root, x fastest, made from the node pool: descents begin here.
+/// The node word of the deepest node that holds the cell and lies no deeper than TOP_LEVELS; that of a leaf has in bits
+/// 29..27 of its address how many levels below the root it lies.
 #ifndef SPLATRAY_LAYOUT_H
 #define SPLATRAY_LAYOUT_H
 
@@ -68,7 +68,9 @@ SPLATRAY_CONST LIST_INFLATION = 4u;
 /// No disc comes closer to the root's faces than this, lattice units, so that all hits lie strictly inside the root.
 SPLATRAY_CONST ROOT_MARGIN = 16u;
 
-SPLATRAY_CONST TOP_LEVELS_MOST = 7u;  ///< a top table of 16 MiB
+SPLATRAY_CONST TOP_LEVELS_MOST = 7u;         ///< a top table of 8 MiB
+SPLATRAY_CONST TOP_LEAF_SHIFT = 27u;         ///< bits 29..27: a leaf's level
+SPLATRAY_CONST TOP_LEAF_MASK = 0xC7FFFFFFu;  ///< the leaf's node word
 
 SPLATRAY_CONST NODE_TAG_SHIFT = 30u;
 SPLATRAY_CONST NODE_ADDRESS_MASK = 0x3FFFFFFFu;

@@ -106,9 +106,11 @@ void walk_list(INOUT(Walk) walk, Ray ray, uint word, uvec3 low, uint size) {
 uint walk_descend(INOUT(Walk) walk, Ray ray) {
   // Behind the root's last leaf the cell lies outside: masked, as the children below are.
   uvec3 top_cell = (walk.cell >> (LATTICE_BITS - TOP_LEVELS)) & uvec3((1u << TOP_LEVELS) - 1u);
-  uvec2 top = top_entry(top_cell.x | (top_cell.y << TOP_LEVELS) | (top_cell.z << (2u * TOP_LEVELS)));
-  uint word = top.x;
-  uint shift = top.y;
+  uint top = top_entry(top_cell.x | (top_cell.y << TOP_LEVELS) | (top_cell.z << (2u * TOP_LEVELS)));
+  bool top_is_leaf = (top >> NODE_TAG_SHIFT) != NODE_INNER;
+  uint word = top_is_leaf ? top & TOP_LEAF_MASK : top;
+  uint top_shift = LATTICE_BITS - (top_is_leaf ? (top & ~TOP_LEAF_MASK) >> TOP_LEAF_SHIFT : TOP_LEVELS);
+  uint shift = top_shift;
   do {
     if ((word >> NODE_TAG_SHIFT) == NODE_INNER) {
       shift -= 1u;
@@ -135,7 +137,7 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   uvec3 cell = cell_at(ray, walk.t_out, low, low + uvec3(size - 1u));
   walk.cell = uvec3(x_first ? walk.exit_cell : cell.x, y_first ? walk.exit_cell : cell.y,
                     walk.exit_axis == 2u ? walk.exit_cell : cell.z);
-  return top.y - shift + 1u;
+  return top_shift - shift + 1u;
 }
 
 /// Before the first leaf of a ray that is inside the root at t_start.

@@ -27,7 +27,7 @@ constexpr PoolKinds KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
                               {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
                               {"colour pool", VK_FORMAT_R32_UINT, 4},
                               {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
-                              {"top table", VK_FORMAT_R32G32_UINT, 8}}};
+                              {"top table", VK_FORMAT_R32_UINT, 4}}};
 
 PoolKinds kinds(std::uint32_t references) {
   PoolKinds list = KINDS;
@@ -92,7 +92,6 @@ std::uint64_t total_bytes(const PoolBytes& bytes) {
 PoolLimits pool_limits(const Context& context) {
   PoolLimits limits;
   const bool texel_formats = texel_format_supported(context, VK_FORMAT_R32_UINT) &&
-                             texel_format_supported(context, VK_FORMAT_R32G32_UINT) &&
                              texel_format_supported(context, VK_FORMAT_R32G32B32A32_UINT);
   limits.texel_elements = texel_formats ? context.properties.limits.maxTexelBufferElements : 0;
   limits.storage_bytes = context.properties.limits.maxStorageBufferRange;
@@ -111,8 +110,8 @@ PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolA
 
 Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted,
              DataPool data) {
-  top_levels = splatray::top_levels(scene);
-  const std::vector<uvec2> top = top_table(scene, top_levels);
+  top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
+  const std::vector<std::uint32_t> top = top_table(scene, top_levels);
   const std::vector<std::uint32_t>& references = scene.reference_pool;
   const PoolLimits limits = pool_limits(context);
   bytes.references = choose_references(data, references.size(), limits);

@@ -162,20 +162,22 @@ std::vector<OctreeCell> leaf_cells(const Scene& scene) {
   return cells;
 }
 
-std::uint32_t top_levels(const Scene& scene) {
+std::uint32_t top_levels(std::size_t splats, std::size_t filled_leaves) {
+  if (filled_leaves > std::size_t{1} << TOP_LEAF_SHIFT) return 0;
   std::uint32_t levels = 0;
-  while (levels < TOP_LEVELS_MOST && std::size_t{2} << 3 * (levels + 1) <= scene.data_pool.size()) ++levels;
+  while (levels < TOP_LEVELS_MOST && std::size_t{1} << 3 * (levels + 1) <= splats) ++levels;
   return levels;
 }
 
-std::vector<uvec2> top_table(const Scene& scene, std::uint32_t levels) {
+std::vector<std::uint32_t> top_table(const Scene& scene, std::uint32_t levels) {
   const std::uint32_t shift = LATTICE_BITS - levels;
-  std::vector<uvec2> table(std::size_t{1} << 3 * levels);
+  std::vector<std::uint32_t> table(std::size_t{1} << 3 * levels);
   visit_cells(scene, [&](std::uint32_t word, const OctreeCell& cell) {
     const bool deeper = word >> NODE_TAG_SHIFT == NODE_INNER && cell.size > 1U << shift;
     const glm::uvec3 first = cell.low >> shift;
     const std::size_t edge = deeper ? 0 : cell.size >> shift;
-    const uvec2 entry(word, std::countr_zero(cell.size));
+    const auto level = static_cast<std::uint32_t>(std::countr_zero((1U << LATTICE_BITS) / cell.size));
+    const std::uint32_t entry = word >> NODE_TAG_SHIFT == NODE_INNER ? word : word | level << TOP_LEAF_SHIFT;
     for (std::size_t z = first.z; z < first.z + edge; ++z)
       for (std::size_t y = first.y; y < first.y + edge; ++y)
         std::fill_n(&table[(z << levels | y) << levels | first.x], edge, entry);

@@ -166,9 +166,10 @@ void visit_cells(const Scene& scene, const Visit& visit, std::uint32_t node = 0,
 /// The cells of the filled leaves, in the order of Begin-End; size 0 for leaves that are not in the tree.
 [[nodiscard]] std::vector<OctreeCell> leaf_cells(const Scene& scene);
 
-/// Levels of the top table that suits a scene: as many as leave it no more than one entry for two splats.
-[[nodiscard]] std::uint32_t top_levels(const Scene& scene);
-/// The top table of the node pool (layout.h), 8^levels entries.
-[[nodiscard]] std::vector<uvec2> top_table(const Scene& scene, std::uint32_t levels);
+/// Levels of the top table that suits a scene: as many as leave it no more entries than splats. None where a leaf's address
+/// has no place beside its level.
+[[nodiscard]] std::uint32_t top_levels(std::size_t splats, std::size_t filled_leaves);
+/// The top table of the node pool (layout.h), 8^levels entries; levels as above or fewer.
+[[nodiscard]] std::vector<std::uint32_t> top_table(const Scene& scene, std::uint32_t levels);
 
 }  // namespace splatray

@@ -91,7 +91,7 @@ TEST_F(PoolUpload, ReportsBytesByPool) {
   EXPECT_EQ(tracer.pool_bytes().begin_end, 8U);
   EXPECT_EQ(tracer.pool_bytes().slab_pool, 4U);
   EXPECT_EQ(tracer.pool_bytes().data_pool, 48U);
-  EXPECT_EQ(tracer.pool_bytes().top_table, 8U);
+  EXPECT_EQ(tracer.pool_bytes().top_table, 4U);
   EXPECT_EQ(tracer.pool_bytes().color_pool, 0U);
 }
 

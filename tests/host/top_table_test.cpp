@@ -22,8 +22,8 @@ Scene deep_scene() {
   return scene;
 }
 
-/// What a descent of at most `levels` from the root finds at a lattice point.
-uvec2 descend(const Scene& scene, const glm::uvec3& point, std::uint32_t levels) {
+/// The entry that a descent of at most `levels` from the root makes at a lattice point.
+std::uint32_t descend(const Scene& scene, const glm::uvec3& point, std::uint32_t levels) {
   std::uint32_t word = scene.node_pool[0];
   std::uint32_t shift = LATTICE_BITS;
   while (word >> NODE_TAG_SHIFT == NODE_INNER && shift > LATTICE_BITS - levels) {
@@ -31,13 +31,14 @@ uvec2 descend(const Scene& scene, const glm::uvec3& point, std::uint32_t levels)
     const glm::uvec3 bit = point >> shift & 1U;
     word = scene.node_pool[(word & NODE_ADDRESS_MASK) + bit.x + 2 * bit.y + 4 * bit.z];
   }
-  return {word, shift};
+  if (word >> NODE_TAG_SHIFT == NODE_INNER) return word;
+  return word | (LATTICE_BITS - shift) << TOP_LEAF_SHIFT;
 }
 
 TEST(TopTable, HoldsWhatDescentsFind) {
   const Scene scene = deep_scene();
   for (std::uint32_t levels = 0; levels <= 5; ++levels) {
-    const std::vector<uvec2> table = top_table(scene, levels);
+    const std::vector<std::uint32_t> table = top_table(scene, levels);
     const std::uint32_t edge = 1U << levels;
     ASSERT_EQ(table.size(), std::size_t{edge} * edge * edge);
     for (std::uint32_t i = 0; i < table.size(); ++i) {
@@ -47,18 +48,18 @@ TEST(TopTable, HoldsWhatDescentsFind) {
   }
 }
 
-TEST(TopTable, HasNoMoreThanAnEntryForTwoSplats) {
-  Scene scene;
-  const auto levels = [&](std::size_t splats) {
-    scene.data_pool.resize(splats);
-    return top_levels(scene);
-  };
-  EXPECT_EQ(levels(0), 0U);
-  EXPECT_EQ(levels(15), 0U);
-  EXPECT_EQ(levels(16), 1U);
-  EXPECT_EQ(levels(2 << 15), 5U);
-  EXPECT_EQ(levels((2 << 18) - 1), 5U);
-  EXPECT_EQ(levels(5'000'000), TOP_LEVELS_MOST);
+TEST(TopTable, HasNoMoreEntriesThanSplats) {
+  EXPECT_EQ(top_levels(0, 0), 0U);
+  EXPECT_EQ(top_levels(7, 1), 0U);
+  EXPECT_EQ(top_levels(8, 1), 1U);
+  EXPECT_EQ(top_levels(1 << 15, 1000), 5U);
+  EXPECT_EQ(top_levels((1 << 18) - 1, 1000), 5U);
+  EXPECT_EQ(top_levels(5'000'000, 1000), TOP_LEVELS_MOST);
+}
+
+TEST(TopTable, IsOfTheRootAloneWhereLeavesHaveTooLongAddresses) {
+  EXPECT_EQ(top_levels(400'000'000, 1U << TOP_LEAF_SHIFT), TOP_LEVELS_MOST);
+  EXPECT_EQ(top_levels(400'000'000, (1U << TOP_LEAF_SHIFT) + 1), 0U);
 }
 
 }  // namespace

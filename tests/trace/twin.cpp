@@ -11,7 +11,7 @@ namespace {
 
 /// What bindings.glsl declares. One set a thread, so that tests may run several twins.
 thread_local const Scene* bound = nullptr;
-thread_local std::vector<uvec2> top;
+thread_local std::vector<std::uint32_t> top;
 thread_local Features features;
 
 namespace glsl {
@@ -28,7 +28,7 @@ namespace glsl {
 #define FIELDS features[SPEC_FIELDS]
 #define TOP_LEVELS features[SPEC_TOP_LEVELS]
 
-uvec2 top_entry(uint index) { return top.at(index); }
+uint top_entry(uint index) { return top.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
 uint begin_end_at(uint index) { return bound->begin_end.at(index); }
 uint slab_word(uint index) { return bound->slab_pool.at(index); }
