@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "app/image_file.h"
+#include "app/display_image.h"
 
 namespace splatray {
 

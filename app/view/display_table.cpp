@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/image_file.h"
+#include "app/display_image.h"
 
 namespace splatray {
 

@@ -10,7 +10,7 @@
 
 namespace splatray {
 
-/// display_value of app/image_file.h, rounded to 8 bits, as a table over the sign, exponent and upper 8 bits of the
+/// display_value of app/display_image.h, rounded to 8 bits, as a table over the sign, exponent and upper 8 bits of the
 /// fraction of a float: at most 1 off.
 class DisplayTable {
  public:

@@ -1,7 +1,5 @@
 #include "engine/gpu/device_scene.h"
 
-#include <cassert>
-
 namespace splatray {
 
 DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, PoolAccess access, DataPool data)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <optional>
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/command_queue.h"

@@ -74,9 +74,9 @@ std::vector<OctreeCell> filled_cells(const Scene& scene) {
   std::vector<OctreeCell> cells;
   visit_cells(scene, [&cells](std::uint32_t word, const OctreeCell& cell) {
     const std::uint32_t tag = word >> NODE_TAG_SHIFT;
-    const bool deeper = tag == NODE_INNER && cell.size > 1U << (LATTICE_BITS - FOOTPRINT_LEVELS);
-    if (tag != NODE_EMPTY && !deeper) cells.push_back(cell);
-    return deeper;
+    if (tag == NODE_INNER && cell.size > 1U << (LATTICE_BITS - FOOTPRINT_LEVELS)) return true;
+    if (tag != NODE_EMPTY) cells.push_back(cell);
+    return false;
   });
   return cells;
 }

@@ -173,15 +173,16 @@ std::vector<std::uint32_t> top_table(const Scene& scene, std::uint32_t levels) {
   const std::uint32_t shift = LATTICE_BITS - levels;
   std::vector<std::uint32_t> table(std::size_t{1} << 3 * levels);
   visit_cells(scene, [&](std::uint32_t word, const OctreeCell& cell) {
-    const bool deeper = word >> NODE_TAG_SHIFT == NODE_INNER && cell.size > 1U << shift;
+    const bool inner = word >> NODE_TAG_SHIFT == NODE_INNER;
+    if (inner && cell.size > 1U << shift) return true;
+    const std::uint32_t level = LATTICE_BITS - static_cast<std::uint32_t>(std::countr_zero(cell.size));
+    const std::uint32_t entry = inner ? word : word | level << TOP_LEAF_SHIFT;
     const glm::uvec3 first = cell.low >> shift;
-    const std::size_t edge = deeper ? 0 : cell.size >> shift;
-    const auto level = static_cast<std::uint32_t>(std::countr_zero((1U << LATTICE_BITS) / cell.size));
-    const std::uint32_t entry = word >> NODE_TAG_SHIFT == NODE_INNER ? word : word | level << TOP_LEAF_SHIFT;
+    const std::size_t edge = cell.size >> shift;
     for (std::size_t z = first.z; z < first.z + edge; ++z)
       for (std::size_t y = first.y; y < first.y + edge; ++y)
         std::fill_n(&table[(z << levels | y) << levels | first.x], edge, entry);
-    return deeper;
+    return false;
   });
   return table;
 }

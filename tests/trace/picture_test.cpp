@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "app/compare.h"
+#include "app/image_file.h"
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
 #include "tests/trace/reference_path.h"
