@@ -27,7 +27,8 @@
 namespace splatray {
 namespace {
 
-constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
+constexpr double ISOLATED_SHARE = 0.01;   // of the scene's diagonal: radius where nothing else is known
+constexpr std::uint32_t MOST_EQUAL = 10;  // splats with the same words that are kept: more only add weight
 
 /// Adds the time since its construction to a number of milliseconds when it ends.
 class Stopwatch {
@@ -276,14 +277,14 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
     const Stopwatch octree_watch(stats.octree_ms);
     scene.root = fit_root(clouds);
     splats = pack_clouds(std::move(clouds), scene.root, {"packing", progress});
-    stats.dropped_duplicates = order_splats(splats, params.leaf_size);
+    stats.dropped_duplicates = order_splats(splats, std::min(params.leaf_size, MOST_EQUAL));
     tree = build_octree(splats, params.leaf_size);
   }
   LeafLists lists = insert(tree, splats, params, progress, stats);
   fill_pools(std::move(tree), std::move(splats), std::move(lists), scene, stats);
   {
     const Stopwatch slab_watch(stats.slabs_ms);
-    scene.slab_pool = leaf_slabs(scene, {"slabs", progress});
+    add_slabs(scene, {"slabs", progress});
   }
   count_result(scene, stats);
   return scene;

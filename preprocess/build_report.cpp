@@ -42,7 +42,7 @@ std::string build_summary(const BuildStats& stats, const std::filesystem::path& 
     if (count > 0) text << "  " << count << ' ' << what << '\n';
   };
   repair(stats.dropped_non_finite, "points dropped: position not finite");
-  repair(stats.dropped_duplicates, "points dropped: copies beyond the leaf size");
+  repair(stats.dropped_duplicates, "points dropped: copies of one splat beyond the most that are kept");
   repair(stats.normals_estimated, "normals estimated");
   repair(stats.radii_repaired, "given radii computed anew: zero, negative or not finite");
   repair(stats.radii_isolated, "points without neighbours: radius relative to the scene");

@@ -3,52 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "preprocess/disc.h"
 
 namespace splatray {
 namespace {
 
 constexpr std::size_t CHUNK = 4096;               // splats whose leaves are listed together
 constexpr std::uint32_t LAST_LEAF = 0x80000000U;  // of a splat; above all leaf indices
-
-/// Which children of a node a disc may come within LIST_INFLATION of: its bounding box against the inflated cell, its plane
-/// against it and the distance of its centre from it. True for every child that it does come near, and for few others.
-/// Children share what is worked out axis by axis.
-class ChildTest {
- public:
-  ChildTest(const Disc& disc, glm::uvec3 cell_min, std::uint32_t child_size)
-      : radius_squared_(disc.radius_squared) {
-    const double half = 0.5 * child_size + LIST_INFLATION;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (std::uint32_t side = 0; side < 2; ++side) {
-        const double offset = disc.center[axis] - (cell_min[axis] + side * child_size + 0.5 * child_size);
-        const double outside = std::abs(offset) - half;
-        const double gap = std::max(outside, 0.0);
-        apart_[axis][side] = outside > disc.half_box[axis];
-        along_normal_[axis][side] = disc.normal[axis] * offset;
-        gap_squared_[axis][side] = gap * gap;
-      }
-    }
-    const glm::dvec3 n = glm::abs(disc.normal);
-    reach_ = half * (n.x + n.y + n.z);
-  }
-
-  [[nodiscard]] bool may_meet(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-    if (apart_[0][x] || apart_[1][y] || apart_[2][z]) return false;
-    if (std::abs(along_normal_[0][x] + along_normal_[1][y] + along_normal_[2][z]) > reach_) return false;
-    return gap_squared_[0][x] + gap_squared_[1][y] + gap_squared_[2][z] <= radius_squared_;
-  }
-
- private:
-  double radius_squared_;
-  double reach_;  // of the inflated cell along the disc's normal
-  bool apart_[3][2];
-  double along_normal_[3][2];
-  double gap_squared_[3][2];
-};
 
 /// Lists every leaf of the tree that a disc may meet. Discs come in Z-order: most walks begin near where the one before
 /// branched.
@@ -125,7 +90,7 @@ std::vector<std::uint32_t> leaves_of_chunk(const Octree& tree, const SplatList& 
   leaves.reserve(4 * CHUNK);
   LeafWalk walk(tree, leaves);
   for (std::size_t i = chunk * CHUNK; i < end; ++i) {
-    walk.walk(Disc(splats.words[i]));
+    walk.walk(Disc(unpack_splat(splats.words[i])));
     leaves.back() |= LAST_LEAF;
   }
   leaves.shrink_to_fit();
@@ -149,14 +114,6 @@ class ReferenceCount {
 };
 
 }  // namespace
-
-Disc::Disc(const uvec4& words) {
-  const Splat splat = unpack_splat(words);
-  center = splat.center;
-  normal = splat.normal;
-  radius_squared = splat.radius_squared;
-  half_box = std::sqrt(radius_squared) * glm::sqrt(glm::max(1.0 - normal * normal, 0.0));
-}
 
 LeafLists insert_centres(const Octree& tree, const SplatList& splats) {
   LeafLists lists;

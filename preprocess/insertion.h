@@ -16,15 +16,6 @@ struct LeafLists {
   std::vector<std::uint32_t> splat;
 };
 
-/// A disc in root space and the half-size of its bounding box.
-struct Disc {
-  explicit Disc(const uvec4& words);
-  glm::dvec3 center;
-  glm::dvec3 normal;
-  glm::dvec3 half_box;
-  double radius_squared;
-};
-
 /// Policy `centre`: each splat in the leaf that holds its centre.
 [[nodiscard]] LeafLists insert_centres(const Octree& tree, const SplatList& splats);
 

@@ -1,8 +1,11 @@
 #include "preprocess/leaf_slabs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+
+#include "preprocess/disc.h"
 
 namespace splatray {
 namespace {
@@ -33,10 +36,9 @@ Interval extent(const Splat& splat, const glm::dvec3& axis, const glm::dvec3& ce
           std::min(disc_middle + disc_reach, ball_middle + ball_reach)};
 }
 
-std::uint32_t slab_of(std::span<const Splat> splats, const OctreeCell& cell) {
-  const glm::dvec3 axis = unpack_slab(pack_slab({mean_direction(splats), -1.0, 1.0})).axis;
-  const double half_size = 0.5 * cell.size;
-  const glm::dvec3 center = glm::dvec3(cell.low) + half_size;
+/// Between which planes across the axis the splats of a leaf lie.
+Interval extent(std::span<const Splat> splats, const glm::dvec3& axis, const glm::dvec3& center,
+                double half_size) {
   Interval all{half_size, -half_size};
   for (const Splat& splat : splats) {
     // The two ends may be swapped: by rounding in a flat leaf, or for a disc that only touches the inflated cell.
@@ -44,22 +46,57 @@ std::uint32_t slab_of(std::span<const Splat> splats, const OctreeCell& cell) {
     const auto [low, high] = std::minmax(one.low, one.high);
     all = {std::min(all.low, low), std::max(all.high, high)};
   }
+  return all;
+}
+
+enum Side : std::uint8_t { LOWER, BOTH, UPPER };
+
+/// Which halves of a cell a disc may reach; lower where it reaches neither, as then no ray hits it in the cell.
+Side side_of(const Splat& splat, const OctreeCell& cell, int axis) {
+  const std::uint32_t half = cell.size / 2;
+  const ChildTest test(Disc(splat), cell.low, half);
+  bool reached[2] = {false, false};
+  for (std::uint32_t child = 0; child < 8; ++child) {
+    const std::uint32_t x = child & 1U, y = child >> 1 & 1U, z = child >> 2;
+    if (test.may_meet(x, y, z)) reached[child >> axis & 1U] = true;
+  }
+  if (reached[0] && reached[1]) return BOTH;
+  return reached[1] ? UPPER : LOWER;
+}
+
+/// The slab of one leaf; its list is put in the order of the halves.
+std::uint32_t halve_leaf(std::span<std::uint32_t> list, std::span<const uvec4> data_pool,
+                         const OctreeCell& cell) {
+  std::vector<Splat> splats;
+  splats.reserve(list.size());
+  for (const std::uint32_t i : list) splats.push_back(unpack_splat(data_pool[i]));
+  const auto listed = static_cast<std::uint32_t>(list.size());
+  const glm::dvec3 axis =
+      unpack_slab(pack_slab({mean_direction(splats), -1.0, 1.0, listed, 0}, listed), listed).axis;
+  const double half_size = 0.5 * cell.size;
+  const Interval all = extent(splats, axis, glm::dvec3(cell.low) + half_size, half_size);
+  std::array<std::vector<std::uint32_t>, 3> sides;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    sides[side_of(splats[i], cell, halved_axis(axis))].push_back(list[i]);
+  auto place = list.begin();
+  for (const auto& side : sides) place = std::copy(side.begin(), side.end(), place);
+  const auto upper_begin = static_cast<std::uint32_t>(sides[LOWER].size());
   return pack_slab(
-      {axis, std::clamp(all.low / half_size, -1.0, 1.0), std::clamp(all.high / half_size, -1.0, 1.0)});
+      {axis, std::clamp(all.low / half_size, -1.0, 1.0), std::clamp(all.high / half_size, -1.0, 1.0),
+       upper_begin + static_cast<std::uint32_t>(sides[BOTH].size()), upper_begin},
+      listed);
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> leaf_slabs(const Scene& scene, const Stage& stage) {
+void add_slabs(Scene& scene, const Stage& stage) {
   const std::vector<OctreeCell> cells = leaf_cells(scene);
-  std::vector<std::uint32_t> slabs(cells.size());
+  scene.slab_pool.resize(cells.size());
   parallel_each(stage, cells.size(), [&](std::size_t leaf) {
-    std::vector<Splat> splats(scene.begin_end[leaf + 1] - scene.begin_end[leaf]);
-    for (std::size_t i = 0; i < splats.size(); ++i)
-      splats[i] = unpack_splat(scene.data_pool[scene.reference_pool[scene.begin_end[leaf] + i]]);
-    slabs[leaf] = slab_of(splats, cells[leaf]);
+    const std::uint32_t begin = scene.begin_end[leaf];
+    const std::span list = std::span(scene.reference_pool).subspan(begin, scene.begin_end[leaf + 1] - begin);
+    scene.slab_pool[leaf] = halve_leaf(list, scene.data_pool, cells[leaf]);
   });
-  return slabs;
 }
 
 }  // namespace splatray

@@ -24,9 +24,13 @@
 ///
 /// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
 /// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them
-/// if low h <= a.(p - c) <= high h, where a is the axis, |x| + |y| + |z| = 1.
+/// if low h <= a.(p - c) <= (low + thickness) h, where a is the axis, |x| + |y| + |z| = 1.
 ///   bits 5..0 axis, octahedral u + 31, 11..6 v + 31, u and v in [-31, 31] (axis times 31, as a splat's normal);
-///   21..12 low: q + 512, 31..22 high: q + 512; value = q / 511
+///   19..12 low: q + 128, value = q / 128; 23..20 thickness: t, value = (1 + (t & 1) / 2) 2^(t >> 1) / 96
+/// Halves. The plane through c across the coordinate axis along which a is least (x before y before z) divides the cell,
+/// and the leaf's list: first come splats that are on its lower side alone, then those on both, then those on its upper
+/// side alone. In units of n / 16 splats, rounded up, of a list of n:
+///   27..24 the first l + 1 hold all that reach the lower half, 31..28 all but the first r those that reach the upper
 ///
 /// Node word, 32 bits. Bits 31..30 tag, bits 29..0 address (Goradia et al. 2010, sec. III-A).
 ///   NODE_INNER  : address of the first of 8 children in the node pool; child = x + 2y + 4z (Z-order)
@@ -82,9 +86,12 @@ SPLATRAY_CONST OCT_SCALE = 32767u;        ///< octahedral normals: |u| + |v| + |
 SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;     ///< word 3: object index
 SPLATRAY_CONST FIELD_FLAT = 0x20080200u;  ///< the normal field of a flat disc
 SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
-SPLATRAY_CONST SLAB_FULL = 0xFFC007DFu;   ///< a slab that holds the whole cell
-SPLATRAY_CONST SLAB_AXIS_SCALE = 31u;     ///< slab axes: |u| + |v| + |w| = SLAB_AXIS_SCALE
-SPLATRAY_CONST SLAB_SCALE = 511u;         ///< q of the cell's half size
+SPLATRAY_CONST SLAB_FULL =
+    0x0FF007DFu;  ///< a slab that holds the whole cell, and halves that hold the whole list
+SPLATRAY_CONST SLAB_AXIS_SCALE = 31u;  ///< slab axes: |u| + |v| + |w| = SLAB_AXIS_SCALE
+SPLATRAY_CONST SLAB_SCALE = 128u;      ///< q of the cell's half size
+SPLATRAY_CONST SLAB_THINNEST = 96u;    ///< thinnest slabs in a cell's half size
+SPLATRAY_CONST SLAB_SHARES = 16u;      ///< a leaf's halves are told in so many parts of its list
 
 /// Material flags.
 SPLATRAY_CONST MATERIAL_DIELECTRIC = 1u;  ///< refracts and reflects by Fresnel; `tint` on each crossing

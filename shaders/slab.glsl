@@ -1,4 +1,4 @@
-// A leaf's slab (layout.h): rays that pass beside it need none of the leaf's splats.
+// A leaf's slab and halves (layout.h): rays that pass beside the slab need none of the leaf's splats, others often but a half.
 #ifndef SPLATRAY_SLAB_GLSL
 #define SPLATRAY_SLAB_GLSL
 #include "splat.glsl"
@@ -22,16 +22,60 @@ vec3 slab_axis(uint word) {
   return vec3(x >= 0.0f ? x - fold : x + fold, y >= 0.0f ? y - fold : y + fold, z) * (1.0f / float(SLAB_AXIS_SCALE));
 }
 
-/// Whether a ray's interval [t_in, t_out) in a cell surely lies on one side of the cell's slab.
-bool slab_missed(uint word, Ray ray, float t_in, float t_out, vec3 center, float half_size) {
-  vec3 axis = slab_axis(word);
-  float unit = half_size * (1.0f / float(SLAB_SCALE));
-  float low = (float((word >> 12u) & 1023u) - 512.0f) * unit - SLAB_WIDENING;
-  float high = (float(word >> 22u) - 512.0f) * unit + SLAB_WIDENING;
+/// A ray's interval [t_in, t_out) in a leaf's cell, against the leaf's slab.
+struct SlabCrossing {
+  vec3 axis;
+  vec3 point_in;   ///< where the interval begins and ends, from the cell's centre
+  vec3 point_out;
+  float at_in;     ///< these along the axis
+  float at_out;
+  float low;       ///< the slab's planes, as wide apart as they must be
+  float high;
+};
+
+SlabCrossing slab_crossing(uint word, Ray ray, float t_in, float t_out, vec3 center, float half_size) {
+  SlabCrossing crossing;
+  crossing.axis = slab_axis(word);
+  float thickness = uintBitsToFloat((254u << 22u) + (((word >> 20u) & 15u) << 22u));
+  crossing.low = (float((word >> 12u) & 255u) - float(SLAB_SCALE)) * (half_size * (1.0f / float(SLAB_SCALE))) - SLAB_WIDENING;
+  crossing.high = crossing.low + thickness * (half_size * (1.0f / float(SLAB_THINNEST))) + 2.0f * SLAB_WIDENING;
   vec3 from_center = ray.origin - center;
-  float at_in = dot(axis, from_center + ray.dir * max(t_in, EARLIEST));
-  float at_out = dot(axis, from_center + ray.dir * t_out);
-  return max(at_in, at_out) < low || min(at_in, at_out) > high;
+  crossing.point_in = from_center + ray.dir * max(t_in, EARLIEST);
+  crossing.point_out = from_center + ray.dir * t_out;
+  crossing.at_in = dot(crossing.axis, crossing.point_in);
+  crossing.at_out = dot(crossing.axis, crossing.point_out);
+  return crossing;
+}
+
+/// Whether the interval surely lies on one side of the slab.
+bool slab_missed(SlabCrossing crossing) {
+  return max(crossing.at_in, crossing.at_out) < crossing.low || min(crossing.at_in, crossing.at_out) > crossing.high;
+}
+
+/// The part [begin, end) of the list of a leaf whose slab is not missed that holds all the interval may meet: the halves which
+/// it reaches between the slab's planes. What float32 adds to the points and the share of the interval, less than 2, is within
+/// SLAB_WIDENING.
+void slab_halves(uint word, SlabCrossing crossing, INOUT(uint) begin, INOUT(uint) end) {
+  float across = crossing.at_out - crossing.at_in;
+  bool along = abs(across) < 1.0f;
+  float inverse = 1.0f / across;
+  float enter = ((across > 0.0f ? crossing.low : crossing.high) - crossing.at_in) * inverse;
+  float leave = ((across > 0.0f ? crossing.high : crossing.low) - crossing.at_in) * inverse;
+  vec3 size = abs(crossing.axis);
+  bool is_x = size.x <= size.y && size.x <= size.z;
+  bool is_y = size.y <= size.z;
+  float in_u = is_x ? crossing.point_in.x : (is_y ? crossing.point_in.y : crossing.point_in.z);
+  float out_u = is_x ? crossing.point_out.x : (is_y ? crossing.point_out.y : crossing.point_out.z);
+  float enter_u = in_u + (out_u - in_u) * (along ? 0.0f : clamp(enter, 0.0f, 1.0f));
+  float leave_u = in_u + (out_u - in_u) * (along ? 1.0f : clamp(leave, 0.0f, 1.0f));
+  bool lower = min(enter_u, leave_u) < SLAB_WIDENING;
+  bool upper = max(enter_u, leave_u) > -SLAB_WIDENING;
+  uint listed = end - begin;
+  uint share = (listed + (SLAB_SHARES - 1u)) / SLAB_SHARES;
+  uint lower_end = min(share * (((word >> 24u) & 15u) + 1u), listed);
+  uint upper_begin = min(share * (word >> 28u), listed);
+  end = upper ? end : begin + lower_end;
+  begin = lower ? begin : begin + upper_begin;
 }
 
 #endif

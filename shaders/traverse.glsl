@@ -14,20 +14,22 @@ const float ROOT_SIZE = 2097152.0f;      ///< 2^LATTICE_BITS
 const uint CELL_LIMIT = 1u << LATTICE_BITS;
 const uint MAX_LEAVES = 65536u;          ///< iteration cap; a ray that reaches it is counted as lost
 
+const uint NO_LEAF = 0xFFFFFFFFu;
 const uint CHUNK = 32u;                  ///< splats whose candidates one word records
 
 /// Where a ray is in the octree.
 struct Walk {
   bool inside;     ///< the ray is still in the root and before its end
   vec3 inverse;    ///< 1 / direction; unused where the direction is 0
-  uvec3 cell;      ///< a lattice cell inside the current leaf
-  float t_in;      ///< the leaf's interval; t_in never decreases
+  uvec3 cell;      ///< a lattice cell inside the next leaf; one coordinate is >= CELL_LIMIT outside the root
+  float t_in;      ///< the current leaf's interval; t_in never decreases
   float t_out;
-  uint begin;      ///< the leaf's splats, none where the ray passes beside its slab
+  vec3 center;     ///< its cell's
+  float half_size;
+  uint filled;     ///< its index in Begin-End, NO_LEAF where it is empty or the ray passes beside its slab
+  uint begin;      ///< its splats that the ray may meet, none where there is no such leaf
   uint end;
   uint next;       ///< the first of them not looked at yet
-  uint exit_axis;
-  uint exit_cell;  ///< the next leaf's cell coordinate on exit_axis; >= CELL_LIMIT outside the root
   uint leaves;     ///< visited
 };
 
@@ -88,21 +90,13 @@ float clip_to_root(INOUT(Ray) ray, OUT(bool) enters, OUT(float) t_start) {
   return shift;
 }
 
-/// The splats of the leaf with this node word and cell.
-void walk_list(INOUT(Walk) walk, Ray ray, uint word, uvec3 low, uint size) {
-  walk.begin = 0u;
-  walk.end = 0u;
-  if ((word >> NODE_TAG_SHIFT) != NODE_FILLED) return;
-  uint leaf = word & NODE_ADDRESS_MASK;
-  float half_size = 0.5f * float(size);
-  vec3 center = vec3(low) + vec3(half_size);
-  if (slab_missed(slab_word(leaf), ray, walk.t_in, walk.t_out, center, half_size)) return;
-  walk.begin = begin_end_at(leaf);
-  walk.end = begin_end_at(leaf + 1u);
+/// The ray's interval in the current leaf against its slab.
+SlabCrossing walk_crossing(uint slab, Walk walk, Ray ray) {
+  return slab_crossing(slab, ray, walk.t_in, walk.t_out, walk.center, walk.half_size);
 }
 
-/// DESCEND from the top table, so from at most TOP_LEVELS below the root, to the leaf that holds walk.cell; finds its splats and its end of the ray's
-/// interval. Returns the number of node words read.
+/// DESCEND from the top table, so from at most TOP_LEVELS below the root, to the leaf that holds walk.cell; finds its end of the
+/// ray's interval and the next leaf. Returns the number of node words read.
 uint walk_descend(INOUT(Walk) walk, Ray ray) {
   // Behind the root's last leaf the cell lies outside: masked, as the children below are.
   uvec3 top_cell = (walk.cell >> (LATTICE_BITS - TOP_LEVELS)) & uvec3((1u << TOP_LEVELS) - 1u);
@@ -128,15 +122,17 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   float t_z = plane_t(float(next.z), ray.origin.z, ray.dir.z, walk.inverse.z);
   bool x_first = t_x <= t_y && t_x <= t_z;
   bool y_first = !x_first && t_y <= t_z;
-  walk.exit_axis = x_first ? 0u : (y_first ? 1u : 2u);
   uint plane = x_first ? next.x : (y_first ? next.y : next.z);
   float dir = x_first ? ray.dir.x : (y_first ? ray.dir.y : ray.dir.z);
-  walk.exit_cell = dir > 0.0f ? plane : plane - 1u;
+  uint exit_cell = dir > 0.0f ? plane : plane - 1u;
   walk.t_out = max(x_first ? t_x : (y_first ? t_y : t_z), walk.t_in);
-  walk_list(walk, ray, word, low, size);
+  walk.half_size = 0.5f * float(size);
+  walk.center = vec3(low) + vec3(walk.half_size);
+  bool filled = (word >> NODE_TAG_SHIFT) == NODE_FILLED;
+  walk.filled = filled ? word & NODE_ADDRESS_MASK : NO_LEAF;
+  if (filled && slab_missed(walk_crossing(slab_word(walk.filled), walk, ray))) walk.filled = NO_LEAF;
   uvec3 cell = cell_at(ray, walk.t_out, low, low + uvec3(size - 1u));
-  walk.cell = uvec3(x_first ? walk.exit_cell : cell.x, y_first ? walk.exit_cell : cell.y,
-                    walk.exit_axis == 2u ? walk.exit_cell : cell.z);
+  walk.cell = uvec3(x_first ? exit_cell : cell.x, y_first ? exit_cell : cell.y, x_first || y_first ? cell.z : exit_cell);
   return top_shift - shift + 1u;
 }
 
@@ -148,11 +144,12 @@ Walk walk_start(Ray ray, float t_start, bool inside) {
   walk.cell = cell_at(ray, t_start, uvec3(0u), uvec3(CELL_LIMIT - 1u));
   walk.t_in = ray.t_min;
   walk.t_out = ray.t_min;
+  walk.center = vec3(0.0f);
+  walk.half_size = 0.0f;
+  walk.filled = NO_LEAF;
   walk.begin = 0u;
   walk.end = 0u;
   walk.next = 0u;
-  walk.exit_axis = 0u;
-  walk.exit_cell = 0u;
   walk.leaves = 0u;
   return walk;
 }
@@ -160,13 +157,25 @@ Walk walk_start(Ray ray, float t_start, bool inside) {
 /// ADVANCE to the leaf behind walk.t_out, unless that is outside the root or behind t_end.
 void walk_advance(INOUT(Walk) walk, Ray ray, float t_end, INOUT(Tally) tally) {
   walk.t_in = walk.t_out;
-  walk.inside = walk.exit_cell < CELL_LIMIT && walk.t_in <= t_end && walk.leaves < MAX_LEAVES;
+  walk.inside = (walk.cell.x | walk.cell.y | walk.cell.z) < CELL_LIMIT && walk.t_in <= t_end && walk.leaves < MAX_LEAVES;
   if (COUNTERS == 1u) tally.lost += walk.leaves == MAX_LEAVES ? 1u : 0u;
   uint steps = walk_descend(walk, ray);
-  walk.next = walk.begin;
   walk.leaves += 1u;
   if (COUNTERS == 1u) tally.node_steps += steps;
   if (COUNTERS == 1u) tally.leaves += 1u;
+}
+
+/// The current leaf's splats that the ray may meet.
+void walk_list(INOUT(Walk) walk, Ray ray) {
+  walk.begin = 0u;
+  walk.end = 0u;
+  if (walk.filled != NO_LEAF) {
+    uint slab = slab_word(walk.filled);
+    walk.begin = begin_end_at(walk.filled);
+    walk.end = begin_end_at(walk.filled + 1u);
+    slab_halves(slab, walk_crossing(slab, walk, ray), walk.begin, walk.end);
+  }
+  walk.next = walk.begin;
 }
 
 /// TEST: the ray's next candidates: bit i of the answer is splat chunk + i. Goes from leaf to leaf until
@@ -176,11 +185,13 @@ uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint
   bool searching = walk.inside;
   chunk = walk.next;
   do {
-    bool advancing = searching && walk.next >= walk.end && !stay;
+    bool advances = searching && walk.next >= walk.end && !stay;
+    bool advancing = advances;
     do {
       if (advancing) walk_advance(walk, ray, t_end, tally);
-      advancing = advancing && walk.inside && walk.next >= walk.end;
+      advancing = advancing && walk.inside && walk.filled == NO_LEAF;
     } while (advancing);
+    if (advances) walk_list(walk, ray);
     chunk = walk.next;
     uint chunk_end = walk.inside ? min(chunk + CHUNK, walk.end) : chunk;
     uint bit = 1u;

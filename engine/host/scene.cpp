@@ -70,6 +70,14 @@ std::uint32_t encode_slope(double slope) {
   return static_cast<std::uint32_t>(std::lround(q) + 512);
 }
 
+/// Of a slab's four bits, in units of the cell's half size.
+double slab_thickness(std::uint32_t bits) {
+  return (1.0 + 0.5 * (bits & 1U)) * (1U << (bits >> 1)) / SLAB_THINNEST;
+}
+
+/// Splats in one of the parts that a leaf's halves are told in.
+std::uint32_t list_share(std::uint32_t listed) { return (listed + SLAB_SHARES - 1) / SLAB_SHARES; }
+
 double decode_slope(std::uint32_t bits) {
   const double q = (static_cast<double>(bits & 0x3FFU) - 512.0) / FIELD_SCALE;
   return 0.5 * q * std::abs(q);
@@ -136,21 +144,35 @@ glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal) {
          decode_slope(field >> 20) * glm::outerProduct(frame.v, frame.v);
 }
 
-std::uint32_t pack_slab(const Slab& slab) {
+std::uint32_t pack_slab(const Slab& slab, std::uint32_t listed) {
   assert(slab.low >= -1.0 && slab.low <= slab.high && slab.high <= 1.0);
+  assert(slab.lower_end <= listed && slab.upper_begin <= listed);
   const glm::ivec2 oct = octahedral_nearest(slab.axis, AXIS_SCALE);
-  const auto low = static_cast<std::uint32_t>(std::floor(slab.low * SLAB_SCALE) + 512.0);
-  const auto high = static_cast<std::uint32_t>(std::ceil(slab.high * SLAB_SCALE) + 512.0);
+  const double low = std::min(std::floor(slab.low * SLAB_SCALE), SLAB_SCALE - 1.0);
+  std::uint32_t thickness = 0;
+  while (low / SLAB_SCALE + slab_thickness(thickness) < slab.high) ++thickness;
+  const std::uint32_t share = list_share(listed);
+  const std::uint32_t lower = std::max((slab.lower_end + share - 1) / share, 1U) - 1;
+  const std::uint32_t upper = std::min(slab.upper_begin / share, SLAB_SHARES - 1);
   return static_cast<std::uint32_t>(oct.x + AXIS_SCALE) |
-         static_cast<std::uint32_t>(oct.y + AXIS_SCALE) << 6 | low << 12 | high << 22;
+         static_cast<std::uint32_t>(oct.y + AXIS_SCALE) << 6 |
+         static_cast<std::uint32_t>(low + SLAB_SCALE) << 12 | thickness << 20 | lower << 24 | upper << 28;
 }
 
-Slab unpack_slab(std::uint32_t word) {
+Slab unpack_slab(std::uint32_t word, std::uint32_t listed) {
   const int u = static_cast<int>(word & 63U) - AXIS_SCALE;
   const int v = static_cast<int>(word >> 6 & 63U) - AXIS_SCALE;
-  return {octahedral_vector(u, v, AXIS_SCALE) / static_cast<double>(AXIS_SCALE),
-          (static_cast<double>(word >> 12 & 1023U) - 512.0) / SLAB_SCALE,
-          (static_cast<double>(word >> 22) - 512.0) / SLAB_SCALE};
+  const double low = static_cast<double>(word >> 12 & 255U) / SLAB_SCALE - 1.0;
+  const std::uint32_t share = list_share(listed);
+  return {octahedral_vector(u, v, AXIS_SCALE) / static_cast<double>(AXIS_SCALE), low,
+          low + slab_thickness(word >> 20 & 15U), std::min(share * ((word >> 24 & 15U) + 1), listed),
+          std::min(share * (word >> 28), listed)};
+}
+
+int halved_axis(const glm::dvec3& slab_axis) {
+  const glm::dvec3 along = glm::abs(slab_axis);
+  if (along.x <= along.y && along.x <= along.z) return 0;
+  return along.y <= along.z ? 1 : 2;
 }
 
 std::vector<OctreeCell> leaf_cells(const Scene& scene) {

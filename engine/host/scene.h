@@ -44,7 +44,7 @@ enum class RadiusRule : std::uint32_t { coverage = 0, knn = 1, given = 2 };
 
 /// How the octree was built; kept in the file so that a build can be repeated.
 struct BuildParams {
-  std::uint32_t leaf_size = 10;  ///< k: most splat centres in a leaf above MAX_DEPTH, >= 1
+  std::uint32_t leaf_size = 16;  ///< k: most splat centres in a leaf above MAX_DEPTH, >= 1
   Insertion insertion = Insertion::overlap;
   std::uint32_t probes = 32;                      ///< probe rays per leaf, insertion == probe only
   RadiusRule radius_rule = RadiusRule::coverage;  ///< for points without a radius of their own
@@ -90,18 +90,23 @@ struct TangentFrame {
 /// The reference implementation of the decoding; `normal` is the splat's own, as unpack_splat gives it.
 [[nodiscard]] glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal);
 
-/// A leaf's slab (layout.h), full precision: low <= axis.(p - centre) / half size <= high.
+/// A leaf's slab and halves (layout.h): low <= axis.(p - centre) / half size <= high.
 struct Slab {
-  glm::dvec3 axis;  ///< |x| + |y| + |z| = 1
-  double low;       ///< in units of the cell's half size, [-1, 1]
-  double high;
+  glm::dvec3 axis;            ///< |x| + |y| + |z| = 1
+  double low;                 ///< in units of the cell's half size, [-1, 1]
+  double high;                ///< >= low
+  std::uint32_t lower_end;    ///< splats [0, lower_end) of the leaf's list hold all that reach the lower half
+  std::uint32_t upper_begin;  ///< splats [upper_begin, listed) hold all that reach the upper half
 };
 
-/// Packs a slab: the axis, of any length but 0, to the nearest that there is, low and high outwards. The planes that it
-/// means are those across the packed axis.
-[[nodiscard]] std::uint32_t pack_slab(const Slab& slab);
-/// The reference implementation of the decoding.
-[[nodiscard]] Slab unpack_slab(std::uint32_t word);
+/// Packs the slab of a leaf that lists `listed` splats, >= 1: the axis, of any length but 0, to the nearest that there is,
+/// all else outwards. The planes that it means are those across the packed axis.
+[[nodiscard]] std::uint32_t pack_slab(const Slab& slab, std::uint32_t listed);
+/// The reference implementation of the decoding; `high` may be above 1.
+[[nodiscard]] Slab unpack_slab(std::uint32_t word, std::uint32_t listed);
+
+/// The coordinate axis across which a leaf with this slab axis is halved: 0 x, 1 y, 2 z.
+[[nodiscard]] int halved_axis(const glm::dvec3& slab_axis);
 
 struct Scene {
   RootTransform root;
@@ -109,10 +114,11 @@ struct Scene {
   std::vector<std::uint32_t> node_pool;  ///< node words; the root is word 0, never empty
   std::vector<std::uint32_t>
       begin_end;  ///< filled leaves + 1 entries, ascending, last = reference_pool.size()
-  std::vector<std::uint32_t> slab_pool;       ///< one slab per filled leaf
-  std::vector<std::uint32_t> reference_pool;  ///< indices into data_pool, leaf by leaf
-  std::vector<uvec4> data_pool;               ///< the splats, in Z-order of their centres
-  std::vector<std::uint32_t> color_pool;      ///< beside data_pool, or empty (no colours)
+  std::vector<std::uint32_t> slab_pool;  ///< one slab per filled leaf
+  std::vector<std::uint32_t>
+      reference_pool;            ///< indices into data_pool, leaf by leaf, in the order of its halves
+  std::vector<uvec4> data_pool;  ///< the splats, in Z-order of their centres
+  std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
   std::vector<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
   std::vector<Material> materials;        ///< one per object
   std::vector<std::string> object_names;  ///< beside materials

@@ -66,7 +66,7 @@ void vary_insertion(Case& one) {
 }
 
 void vary_tree(Case& one) {
-  for (const std::uint32_t size : {4U, 40U})
+  for (const std::uint32_t size : {4U, 10U, 40U})
     vary(one, "leaf_size", [=](Run& run) { run.variant.build.leaf_size = size; });
   vary_insertion(one);
 }

@@ -20,7 +20,8 @@ struct TestObject {
 [[nodiscard]] Material test_material(std::uint32_t flags);
 
 /// The objects as a scene, preprocessed with this leaf size.
-[[nodiscard]] Scene scene_of(const std::vector<TestObject>& objects, std::uint32_t leaf_size = 10);
+[[nodiscard]] Scene scene_of(const std::vector<TestObject>& objects,
+                             std::uint32_t leaf_size = BuildParams().leaf_size);
 
 /// A file or glTF scene, preprocessed; `points` > 0 samples that many on its meshes. Files that a scene names
 /// are looked for in `data_path`.
