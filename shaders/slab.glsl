@@ -7,7 +7,7 @@
 /// cell, to which slabs are cut; the rest, 4, is for float32. |origin| <= 2^22 and |dir t| < 2^23 on each axis, so a point
 /// from the centre is off by 2^-3 for the origin's low part left out, 2^-3 for origin - center, 2^-2 for dir t and 2^-3 for
 /// the sum, less than 1; along the axis by no more, as |x| + |y| + |z| = 1. That point is at most 2^22 away: axis, products
-/// and their sums add 5 * 2^-24 of it, less than 2. The planes, at most 2^20 away, are off by 4 * 2^-24 of that, 1/4.
+/// and their sums add 5 * 2^-24 of it, less than 2. The planes, at most 3 * 2^20 away, are off by 5 * 2^-24 of that, less than 1.
 const float SLAB_WIDENING = float(LIST_INFLATION) + 4.0f;
 
 /// Earlier than any t in the root for a ray whose origin is in it or beside it.
