@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "preprocess/disc.h"
 
@@ -75,16 +76,22 @@ std::uint32_t halve_leaf(std::span<std::uint32_t> list, std::span<const uvec4> d
       unpack_slab(pack_slab({mean_direction(splats), -1.0, 1.0, listed, 0}, listed), listed).axis;
   const double half_size = 0.5 * cell.size;
   const Interval all = extent(splats, axis, glm::dvec3(cell.low) + half_size, half_size);
-  std::array<std::vector<std::uint32_t>, 3> sides;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    sides[side_of(splats[i], cell, halved_axis(axis))].push_back(list[i]);
+  const int across = halved_axis(axis);
+  std::vector<std::pair<Side, std::uint32_t>> sides;
+  sides.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) sides.emplace_back(side_of(splats[i], cell, across), list[i]);
+  std::array<std::uint32_t, 3> count{};
   auto place = list.begin();
-  for (const auto& side : sides) place = std::copy(side.begin(), side.end(), place);
-  const auto upper_begin = static_cast<std::uint32_t>(sides[LOWER].size());
-  return pack_slab(
-      {axis, std::clamp(all.low / half_size, -1.0, 1.0), std::clamp(all.high / half_size, -1.0, 1.0),
-       upper_begin + static_cast<std::uint32_t>(sides[BOTH].size()), upper_begin},
-      listed);
+  for (const Side side : {LOWER, BOTH, UPPER}) {
+    for (const auto& [its, splat] : sides) {
+      if (its != side) continue;
+      *place++ = splat;
+      ++count[side];
+    }
+  }
+  return pack_slab({axis, std::clamp(all.low / half_size, -1.0, 1.0),
+                    std::clamp(all.high / half_size, -1.0, 1.0), count[LOWER] + count[BOTH], count[LOWER]},
+                   listed);
 }
 
 }  // namespace
