@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t CHUNK = 4096;               // splats whose leaves are listed together
 constexpr std::uint32_t LAST_LEAF = 0x80000000U;  // of a splat; above all leaf indices
 
-/// Lists every leaf of the tree that a disc may meet. Discs come in Z-order: most walks begin near where the one before
+/// Lists every leaf of the tree that a disc comes near. Discs come in Z-order: most walks begin near where the one before
 /// branched.
 class LeafWalk {
  public:
@@ -23,8 +23,10 @@ class LeafWalk {
 
   void walk(const Disc& disc) {
     disc_ = &disc;
-    low_ = glm::floor(disc.center - disc.half_box) - (LIST_INFLATION + 1.0);
-    high_ = glm::ceil(disc.center + disc.half_box) + (LIST_INFLATION + 1.0);
+    const glm::dvec3 center(disc.x.center, disc.y.center, disc.z.center);
+    const glm::dvec3 half_box(disc.x.half_box, disc.y.half_box, disc.z.half_box);
+    low_ = glm::floor(center - half_box) - (LIST_INFLATION + 1.0);
+    high_ = glm::ceil(center + half_box) + (LIST_INFLATION + 1.0);
     while (path_size_ > 1 && !holds_box(path_[path_size_ - 1])) --path_size_;
     descend(path_[path_size_ - 1], /*on_path=*/true);
   }
@@ -62,13 +64,12 @@ class LeafWalk {
 
   /// `child`: the first one.
   void branch(const Cell& child, const glm::uvec3& first, const glm::uvec3& last) {
-    const ChildTest test(*disc_, child.low, child.size);
     for (std::uint32_t z = first.z; z <= last.z; ++z) {
       for (std::uint32_t y = first.y; y <= last.y; ++y) {
         for (std::uint32_t x = first.x; x <= last.x; ++x) {
-          if (!test.may_meet(x, y, z)) continue;
-          descend({child.node + x + 2 * y + 4 * z, child.low + glm::uvec3(x, y, z) * child.size, child.size},
-                  /*on_path=*/false);
+          const glm::uvec3 low = child.low + glm::uvec3(x, y, z) * child.size;
+          if (beyond(*disc_, low, low + child.size) > 0.0) continue;
+          descend({child.node + x + 2 * y + 4 * z, low, child.size}, /*on_path=*/false);
         }
       }
     }

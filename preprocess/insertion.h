@@ -19,7 +19,8 @@ struct LeafLists {
 /// Policy `centre`: each splat in the leaf that holds its centre.
 [[nodiscard]] LeafLists insert_centres(const Octree& tree, const SplatList& splats);
 
-/// Policy `overlap`: each splat in every leaf whose cell it comes within LIST_INFLATION of, and in few others. Throws Error (failed) above 2^32 - 1 references.
+/// Policy `overlap`: each splat in every leaf whose cell it comes within LIST_INFLATION of, and in no
+/// others. Throws Error (failed) above 2^32 - 1 references.
 [[nodiscard]] LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Stage& stage);
 
 /// Policy `probe` (Goradia et al. 2010, sec. III-C), given the lists of `overlap`: `probes` segments from a

@@ -1,96 +1,163 @@
 #include "preprocess/leaf_slabs.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
-#include <utility>
+#include <vector>
 
 #include "preprocess/disc.h"
+#include "preprocess/vector_clones.h"
 
 namespace splatray {
 namespace {
 
+/// Which halves of its cell a disc reaches; lower where it reaches neither, as then no ray hits it in the cell.
+enum Side : std::uint8_t { LOWER, BOTH, UPPER };
+
+constexpr std::size_t LANES = 8;
+
+/// So many splats, one array for each number, for loops that take several splats at once.
+struct SplatBlock {
+  double x[LANES], y[LANES], z[LANES];
+  double normal_x[LANES], normal_y[LANES], normal_z[LANES];
+  double radius_squared[LANES];
+};
+
+/// Where they lie in a cell.
+struct BlockReach {
+  double low[LANES], high[LANES];                   ///< along the slab's axis, from the cell's centre
+  double beyond_lower[LANES], beyond_upper[LANES];  ///< above 0 where they do not come near the half
+};
+
+/// A cell's halves and the axis of its slab.
+struct HalvedCell {
+  HalvedCell(const OctreeCell& cell, const glm::dvec3& slab_axis)
+      : axis(slab_axis),
+        half_size(0.5 * cell.size),
+        low(cell.low),
+        high(low + 2.0 * half_size),
+        lower_high(high),
+        upper_low(low) {
+    const int across = halved_axis(axis);
+    lower_high[across] = upper_low[across] = low[across] + half_size;
+  }
+  glm::dvec3 axis;
+  double half_size;
+  glm::dvec3 low, high;
+  glm::dvec3 lower_high;  ///< upper corner of the lower half
+  glm::dvec3 upper_low;
+};
+
+SPLATRAY_VECTOR_CLONES void unpack_blocks(std::span<const std::uint32_t> list,
+                                          std::span<const uvec4> data_pool, std::vector<SplatBlock>& blocks) {
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    uvec4 words[LANES];
+    for (std::size_t i = 0; i < LANES; ++i)
+      words[i] = data_pool[list[std::min(b * LANES + i, list.size() - 1)]];
+    SplatBlock block;
+    for (std::size_t i = 0; i < LANES; ++i) {
+      const Splat splat = unpack_splat(words[i]);
+      block.x[i] = splat.center.x;
+      block.y[i] = splat.center.y;
+      block.z[i] = splat.center.z;
+      block.normal_x[i] = splat.normal.x;
+      block.normal_y[i] = splat.normal.y;
+      block.normal_z[i] = splat.normal.z;
+      block.radius_squared[i] = splat.radius_squared;
+    }
+    blocks[b] = block;
+  }
+}
+
+/// How far along the slab's axis, from the cell's centre, the part of a disc inside the ball around the inflated cell
+/// reaches.
+[[gnu::always_inline]] inline void extent(const Disc& disc, const HalvedCell& cell, double& low,
+                                          double& high) {
+  const glm::dvec3& axis = cell.axis;
+  const double x = disc.x.center - cell.low.x - cell.half_size;
+  const double y = disc.y.center - cell.low.y - cell.half_size;
+  const double z = disc.z.center - cell.low.z - cell.half_size;
+  const double ball_radius = std::sqrt(3.0) * (cell.half_size + LIST_INFLATION);
+  const double plane_distance = disc.x.normal * x + disc.y.normal * y + disc.z.normal * z;
+  const double cut = std::sqrt(std::max(ball_radius * ball_radius - plane_distance * plane_distance, 0.0));
+  const double along_normal = axis.x * disc.x.normal + axis.y * disc.y.normal + axis.z * disc.z.normal;
+  const double across = std::sqrt(std::max(glm::dot(axis, axis) - along_normal * along_normal, 0.0));
+  const double disc_middle = axis.x * x + axis.y * y + axis.z * z, disc_reach = across * disc.radius;
+  const double ball_middle = along_normal * plane_distance, ball_reach = across * cut;
+  const double a = std::max(disc_middle - disc_reach, ball_middle - ball_reach);
+  const double b = std::min(disc_middle + disc_reach, ball_middle + ball_reach);
+  // Swapped by rounding in a flat leaf, or for a disc that only touches the inflated cell.
+  low = std::min(a, b);
+  high = std::max(a, b);
+}
+
+SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks, const HalvedCell& its_cell,
+                                           std::vector<BlockReach>& reaches) {
+  const HalvedCell cell = its_cell;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const SplatBlock& block = blocks[b];
+    BlockReach reach;
+    for (std::size_t i = 0; i < LANES; ++i) {
+      const Disc disc({block.x[i], block.y[i], block.z[i]},
+                      {block.normal_x[i], block.normal_y[i], block.normal_z[i]}, block.radius_squared[i]);
+      extent(disc, cell, reach.low[i], reach.high[i]);
+      reach.beyond_lower[i] = beyond(disc, cell.low, cell.lower_high);
+      reach.beyond_upper[i] = beyond(disc, cell.upper_low, cell.high);
+    }
+    reaches[b] = reach;
+  }
+}
+
 /// Sum of the normals, each turned to the side of the first; some axis where they cancel out.
-glm::dvec3 mean_direction(std::span<const Splat> splats) {
-  const glm::dvec3& first = splats.front().normal;
+glm::dvec3 mean_direction(const std::vector<SplatBlock>& blocks, std::size_t count) {
+  const auto normal = [&](std::size_t i) {
+    const SplatBlock& block = blocks[i / LANES];
+    return glm::dvec3(block.normal_x[i % LANES], block.normal_y[i % LANES], block.normal_z[i % LANES]);
+  };
+  const glm::dvec3 first = normal(0);
   glm::dvec3 sum(0.0);
-  for (const Splat& splat : splats) sum += glm::dot(splat.normal, first) < 0.0 ? -splat.normal : splat.normal;
+  for (std::size_t i = 0; i < count; ++i) sum += glm::dot(normal(i), first) < 0.0 ? -normal(i) : normal(i);
   return glm::dot(sum, sum) > 0.0 ? sum : first;
 }
 
-struct Interval {
-  double low, high;
+/// What the leaves of a thread use one after the other.
+struct Workspace {
+  std::vector<SplatBlock> blocks;
+  std::vector<BlockReach> reaches;
+  std::vector<std::uint32_t> list;
 };
-
-/// Where along the axis, from the cell's centre, the part of a disc inside the ball around the inflated cell lies.
-Interval extent(const Splat& splat, const glm::dvec3& axis, const glm::dvec3& center, double half_size) {
-  const glm::dvec3 offset = splat.center - center;
-  const double ball_radius = std::sqrt(3.0) * (half_size + LIST_INFLATION);
-  const double plane_distance = glm::dot(splat.normal, offset);
-  const double cut_squared = std::max(ball_radius * ball_radius - plane_distance * plane_distance, 0.0);
-  const double along_normal = glm::dot(axis, splat.normal);
-  const double across = std::sqrt(std::max(glm::dot(axis, axis) - along_normal * along_normal, 0.0));
-  const double disc_middle = glm::dot(axis, offset), disc_reach = across * std::sqrt(splat.radius_squared);
-  const double ball_middle = along_normal * plane_distance, ball_reach = across * std::sqrt(cut_squared);
-  return {std::max(disc_middle - disc_reach, ball_middle - ball_reach),
-          std::min(disc_middle + disc_reach, ball_middle + ball_reach)};
-}
-
-/// Between which planes across the axis the splats of a leaf lie.
-Interval extent(std::span<const Splat> splats, const glm::dvec3& axis, const glm::dvec3& center,
-                double half_size) {
-  Interval all{half_size, -half_size};
-  for (const Splat& splat : splats) {
-    // The two ends may be swapped: by rounding in a flat leaf, or for a disc that only touches the inflated cell.
-    const Interval one = extent(splat, axis, center, half_size);
-    const auto [low, high] = std::minmax(one.low, one.high);
-    all = {std::min(all.low, low), std::max(all.high, high)};
-  }
-  return all;
-}
-
-enum Side : std::uint8_t { LOWER, BOTH, UPPER };
-
-/// Which halves of a cell a disc may reach; lower where it reaches neither, as then no ray hits it in the cell.
-Side side_of(const Splat& splat, const OctreeCell& cell, int axis) {
-  const std::uint32_t half = cell.size / 2;
-  const ChildTest test(Disc(splat), cell.low, half);
-  bool reached[2] = {false, false};
-  for (std::uint32_t child = 0; child < 8; ++child) {
-    const std::uint32_t x = child & 1U, y = child >> 1 & 1U, z = child >> 2;
-    if (test.may_meet(x, y, z)) reached[child >> axis & 1U] = true;
-  }
-  if (reached[0] && reached[1]) return BOTH;
-  return reached[1] ? UPPER : LOWER;
-}
 
 /// The slab of one leaf; its list is put in the order of the halves.
 std::uint32_t halve_leaf(std::span<std::uint32_t> list, std::span<const uvec4> data_pool,
-                         const OctreeCell& cell) {
-  std::vector<Splat> splats;
-  splats.reserve(list.size());
-  for (const std::uint32_t i : list) splats.push_back(unpack_splat(data_pool[i]));
+                         const OctreeCell& cell, Workspace& space) {
+  space.blocks.resize((list.size() + LANES - 1) / LANES);
+  space.reaches.resize(space.blocks.size());
+  unpack_blocks(list, data_pool, space.blocks);
   const auto listed = static_cast<std::uint32_t>(list.size());
-  const glm::dvec3 axis =
-      unpack_slab(pack_slab({mean_direction(splats), -1.0, 1.0, listed, 0}, listed), listed).axis;
-  const double half_size = 0.5 * cell.size;
-  const Interval all = extent(splats, axis, glm::dvec3(cell.low) + half_size, half_size);
-  const int across = halved_axis(axis);
-  std::vector<std::pair<Side, std::uint32_t>> sides;
-  sides.reserve(list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) sides.emplace_back(side_of(splats[i], cell, across), list[i]);
+  const HalvedCell halved(cell, nearest_slab_axis(mean_direction(space.blocks, list.size())));
+  measure_blocks(space.blocks, halved, space.reaches);
+  double low = halved.half_size, high = -halved.half_size;
   std::array<std::uint32_t, 3> count{};
+  space.list.assign(list.begin(), list.end());
   auto place = list.begin();
   for (const Side side : {LOWER, BOTH, UPPER}) {
-    for (const auto& [its, splat] : sides) {
+    for (std::size_t i = 0; i < space.list.size(); ++i) {
+      const BlockReach& reach = space.reaches[i / LANES];
+      const std::size_t lane = i % LANES;
+      const Side its =
+          reach.beyond_upper[lane] > 0.0 ? LOWER : (reach.beyond_lower[lane] > 0.0 ? UPPER : BOTH);
       if (its != side) continue;
-      *place++ = splat;
+      low = std::min(low, reach.low[lane]);
+      high = std::max(high, reach.high[lane]);
+      *place++ = space.list[i];
       ++count[side];
     }
   }
-  return pack_slab({axis, std::clamp(all.low / half_size, -1.0, 1.0),
-                    std::clamp(all.high / half_size, -1.0, 1.0), count[LOWER] + count[BOTH], count[LOWER]},
+  return pack_slab({halved.axis, std::clamp(low / halved.half_size, -1.0, 1.0),
+                    std::clamp(high / halved.half_size, -1.0, 1.0), count[LOWER] + count[BOTH], count[LOWER]},
                    listed);
 }
 
@@ -99,10 +166,11 @@ std::uint32_t halve_leaf(std::span<std::uint32_t> list, std::span<const uvec4> d
 void add_slabs(Scene& scene, const Stage& stage) {
   const std::vector<OctreeCell> cells = leaf_cells(scene);
   scene.slab_pool.resize(cells.size());
+  tbb::enumerable_thread_specific<Workspace> spaces;
   parallel_each(stage, cells.size(), [&](std::size_t leaf) {
     const std::uint32_t begin = scene.begin_end[leaf];
     const std::span list = std::span(scene.reference_pool).subspan(begin, scene.begin_end[leaf + 1] - begin);
-    scene.slab_pool[leaf] = halve_leaf(list, scene.data_pool, cells[leaf]);
+    scene.slab_pool[leaf] = halve_leaf(list, scene.data_pool, cells[leaf], spaces.local());
   });
 }
 

@@ -24,9 +24,9 @@
 ///
 /// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
 /// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them
-/// if low h <= a.(p - c) <= (low + thickness) h, where a is the axis, |x| + |y| + |z| = 1.
-///   bits 5..0 axis, octahedral u + 31, 11..6 v + 31, u and v in [-31, 31] (axis times 31, as a splat's normal);
-///   19..12 low: q + 128, value = q / 128; 23..20 thickness: t, value = (1 + (t & 1) / 2) 2^(t >> 1) / 96
+/// if low h <= a.(p - c) <= (low + thickness) h, where a is the axis, |x| + |y| + |z| = 1, x >= 0.
+///   bits 4..0 axis, octahedral u, in [0, 31], 10..5 v + 31, v in [-31, 31] (axis times 31, as a splat's normal);
+///   18..11 low: q + 128, value = q / 128; 23..19 thickness: t, value = (1 + (t & 3) / 4) 2^(t >> 2) / 112
 /// Halves. The plane through c across the coordinate axis along which a is least (x before y before z) divides the cell,
 /// and the leaf's list: first come splats that are on its lower side alone, then those on both, then those on its upper
 /// side alone. In units of n / 16 splats, rounded up, of a list of n:
@@ -53,7 +53,6 @@
 namespace splatray {
 using glm::ivec3;
 using glm::uint;
-using glm::uvec2;
 using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
@@ -87,10 +86,10 @@ SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;     ///< word 3: object index
 SPLATRAY_CONST FIELD_FLAT = 0x20080200u;  ///< the normal field of a flat disc
 SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
 SPLATRAY_CONST SLAB_FULL =
-    0x0FF007DFu;  ///< a slab that holds the whole cell, and halves that hold the whole list
+    0x0FF803E0u;  ///< a slab that holds the whole cell, and halves that hold the whole list
 SPLATRAY_CONST SLAB_AXIS_SCALE = 31u;  ///< slab axes: |u| + |v| + |w| = SLAB_AXIS_SCALE
 SPLATRAY_CONST SLAB_SCALE = 128u;      ///< q of the cell's half size
-SPLATRAY_CONST SLAB_THINNEST = 96u;    ///< thinnest slabs in a cell's half size
+SPLATRAY_CONST SLAB_THINNEST = 112u;   ///< thinnest slabs in a cell's half size
 SPLATRAY_CONST SLAB_SHARES = 16u;      ///< a leaf's halves are told in so many parts of its list
 
 /// Material flags.

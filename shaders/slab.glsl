@@ -13,13 +13,13 @@ const float SLAB_WIDENING = float(LIST_INFLATION) + 4.0f;
 /// Earlier than any t in the root for a ray whose origin is in it or beside it.
 const float EARLIEST = -2.0f * float(1u << LATTICE_BITS);
 
-/// Axis, |x| + |y| + |z| = 1.
+/// Axis, |x| + |y| + |z| = 1, x >= 0.
 vec3 slab_axis(uint word) {
-  float x = float(word & 63u) - float(SLAB_AXIS_SCALE);
-  float y = float((word >> 6u) & 63u) - float(SLAB_AXIS_SCALE);
-  float z = float(SLAB_AXIS_SCALE) - abs(x) - abs(y);
+  float x = float(word & 31u);
+  float y = float((word >> 5u) & 63u) - float(SLAB_AXIS_SCALE);
+  float z = float(SLAB_AXIS_SCALE) - x - abs(y);
   float fold = max(-z, 0.0f);
-  return vec3(x >= 0.0f ? x - fold : x + fold, y >= 0.0f ? y - fold : y + fold, z) * (1.0f / float(SLAB_AXIS_SCALE));
+  return vec3(x - fold, y >= 0.0f ? y - fold : y + fold, z) * (1.0f / float(SLAB_AXIS_SCALE));
 }
 
 /// A ray's interval [t_in, t_out) in a leaf's cell, against the leaf's slab.
@@ -36,8 +36,8 @@ struct SlabCrossing {
 SlabCrossing slab_crossing(uint word, Ray ray, float t_in, float t_out, vec3 center, float half_size) {
   SlabCrossing crossing;
   crossing.axis = slab_axis(word);
-  float thickness = uintBitsToFloat((254u << 22u) + (((word >> 20u) & 15u) << 22u));
-  crossing.low = (float((word >> 12u) & 255u) - float(SLAB_SCALE)) * (half_size * (1.0f / float(SLAB_SCALE))) - SLAB_WIDENING;
+  float thickness = uintBitsToFloat((508u << 21u) + (((word >> 19u) & 31u) << 21u));
+  crossing.low = (float((word >> 11u) & 255u) - float(SLAB_SCALE)) * (half_size * (1.0f / float(SLAB_SCALE))) - SLAB_WIDENING;
   crossing.high = crossing.low + thickness * (half_size * (1.0f / float(SLAB_THINNEST))) + 2.0f * SLAB_WIDENING;
   vec3 from_center = ray.origin - center;
   crossing.point_in = from_center + ray.dir * max(t_in, EARLIEST);

@@ -11,7 +11,6 @@ namespace {
 constexpr int OCT = static_cast<int>(OCT_SCALE);
 constexpr int AXIS_SCALE = static_cast<int>(SLAB_AXIS_SCALE);
 constexpr std::uint32_t LATTICE_SIZE = 1U << LATTICE_BITS;
-constexpr std::uint32_t RADIUS_EXPONENT_BIT = 0x40000000U;  // bit 30 of every stored float32: r^2 >= 2
 
 int sign_not_zero(double value) { return value < 0.0 ? -1 : 1; }
 
@@ -22,15 +21,19 @@ glm::dvec3 octahedral_vector(int u, int v, int scale) {
   return {(scale - std::abs(v)) * sign_not_zero(u), (scale - std::abs(u)) * sign_not_zero(v), w};
 }
 
+/// The octahedral coordinates of a normal, not rounded.
+glm::dvec2 octahedral_exact(const glm::dvec3& normal, int scale) {
+  const double sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
+  const glm::dvec2 exact = glm::dvec2(normal) * (scale / sum);
+  if (normal.z >= 0.0) return exact;
+  return {(scale - std::abs(exact.y)) * sign_not_zero(exact.x),
+          (scale - std::abs(exact.x)) * sign_not_zero(exact.y)};
+}
+
 /// The two octahedral coordinates, of the four around the exact ones, whose direction is nearest the normal
 /// ("precise" encoding, Cigolle et al. 2014, sec. 3.3).
 glm::ivec2 octahedral_nearest(const glm::dvec3& normal, int scale) {
-  const double sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-  glm::dvec2 exact = glm::dvec2(normal) * (scale / sum);
-  if (normal.z < 0.0) {
-    exact = {(scale - std::abs(exact.y)) * sign_not_zero(exact.x),
-             (scale - std::abs(exact.x)) * sign_not_zero(exact.y)};
-  }
+  const glm::dvec2 exact = octahedral_exact(normal, scale);
   glm::ivec2 best{0};
   double best_dot = -2.0;
   for (int corner = 0; corner < 4; ++corner) {
@@ -70,9 +73,9 @@ std::uint32_t encode_slope(double slope) {
   return static_cast<std::uint32_t>(std::lround(q) + 512);
 }
 
-/// Of a slab's four bits, in units of the cell's half size.
+/// Of a slab's five bits, in units of the cell's half size.
 double slab_thickness(std::uint32_t bits) {
-  return (1.0 + 0.5 * (bits & 1U)) * (1U << (bits >> 1)) / SLAB_THINNEST;
+  return (1.0 + 0.25 * (bits & 3U)) * (1U << (bits >> 2)) / SLAB_THINNEST;
 }
 
 /// Splats in one of the parts that a leaf's halves are told in.
@@ -95,21 +98,6 @@ uvec4 pack_splat(const Splat& splat) {
   return {x << 11 | y >> 10, y << 22 | z,
           static_cast<std::uint32_t>(oct.x + OCT) | static_cast<std::uint32_t>(oct.y + OCT) << 16,
           pack_radius_squared(splat.radius_squared) << 16 | splat.object};
-}
-
-Splat unpack_splat(const uvec4& words) {
-  Splat splat{};
-  splat.center = {words.x >> 11, (words.x & 0x7FFU) << 10 | words.y >> 22, words.y & 0x1FFFFFU};
-  const int u = static_cast<int>(words.z & 0xFFFFU) - OCT;
-  const int v = static_cast<int>(words.z >> 16) - OCT;
-  splat.normal = glm::normalize(octahedral_vector(u, v, OCT));
-  splat.radius_squared = unpack_radius_squared(words);
-  splat.object = words.w & OBJECT_MASK;
-  return splat;
-}
-
-double unpack_radius_squared(const uvec4& words) {
-  return std::bit_cast<float>(RADIUS_EXPONENT_BIT | words.w >> 16 << 14);
 }
 
 std::uint32_t pack_color(glm::vec3 linear) {
@@ -144,28 +132,33 @@ glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal) {
          decode_slope(field >> 20) * glm::outerProduct(frame.v, frame.v);
 }
 
+glm::dvec3 nearest_slab_axis(const glm::dvec3& direction) {
+  const glm::ivec2 oct = octahedral_nearest(direction.x < 0.0 ? -direction : direction, AXIS_SCALE);
+  return octahedral_vector(oct.x, oct.y, AXIS_SCALE) / static_cast<double>(AXIS_SCALE);
+}
+
 std::uint32_t pack_slab(const Slab& slab, std::uint32_t listed) {
   assert(slab.low >= -1.0 && slab.low <= slab.high && slab.high <= 1.0);
   assert(slab.lower_end <= listed && slab.upper_begin <= listed);
-  const glm::ivec2 oct = octahedral_nearest(slab.axis, AXIS_SCALE);
+  assert(slab.axis == nearest_slab_axis(slab.axis));
+  const auto oct = glm::ivec2(glm::round(octahedral_exact(slab.axis, AXIS_SCALE)));
   const double low = std::min(std::floor(slab.low * SLAB_SCALE), SLAB_SCALE - 1.0);
   std::uint32_t thickness = 0;
   while (low / SLAB_SCALE + slab_thickness(thickness) < slab.high) ++thickness;
   const std::uint32_t share = list_share(listed);
   const std::uint32_t lower = std::max((slab.lower_end + share - 1) / share, 1U) - 1;
   const std::uint32_t upper = std::min(slab.upper_begin / share, SLAB_SHARES - 1);
-  return static_cast<std::uint32_t>(oct.x + AXIS_SCALE) |
-         static_cast<std::uint32_t>(oct.y + AXIS_SCALE) << 6 |
-         static_cast<std::uint32_t>(low + SLAB_SCALE) << 12 | thickness << 20 | lower << 24 | upper << 28;
+  return static_cast<std::uint32_t>(oct.x) | static_cast<std::uint32_t>(oct.y + AXIS_SCALE) << 5 |
+         static_cast<std::uint32_t>(low + SLAB_SCALE) << 11 | thickness << 19 | lower << 24 | upper << 28;
 }
 
 Slab unpack_slab(std::uint32_t word, std::uint32_t listed) {
-  const int u = static_cast<int>(word & 63U) - AXIS_SCALE;
-  const int v = static_cast<int>(word >> 6 & 63U) - AXIS_SCALE;
-  const double low = static_cast<double>(word >> 12 & 255U) / SLAB_SCALE - 1.0;
+  const int u = static_cast<int>(word & 31U);
+  const int v = static_cast<int>(word >> 5 & 63U) - AXIS_SCALE;
+  const double low = static_cast<double>(word >> 11 & 255U) / SLAB_SCALE - 1.0;
   const std::uint32_t share = list_share(listed);
   return {octahedral_vector(u, v, AXIS_SCALE) / static_cast<double>(AXIS_SCALE), low,
-          low + slab_thickness(word >> 20 & 15U), std::min(share * ((word >> 24 & 15U) + 1), listed),
+          low + slab_thickness(word >> 19 & 31U), std::min(share * ((word >> 24 & 15U) + 1), listed),
           std::min(share * (word >> 28), listed)};
 }
 

@@ -2,7 +2,10 @@
 /// scene file stores and what the engine uploads. shaders/layout.h draws the words.
 #pragma once
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -68,10 +71,24 @@ struct Splat {
 /// Packs a splat: centre rounded to the lattice (must lie in [0, 2^21 - 1]), normal to 16-bit octahedral,
 /// squared radius rounded up. Asserts on non-finite input and on an object index above OBJECT_MASK.
 [[nodiscard]] uvec4 pack_splat(const Splat& splat);
-/// The exact splat of 128 bits. The reference implementation of the decoding, in float64.
-[[nodiscard]] Splat unpack_splat(const uvec4& words);
 /// Its squared radius alone.
-[[nodiscard]] double unpack_radius_squared(const uvec4& words);
+[[nodiscard]] inline double unpack_radius_squared(const uvec4& words) {
+  constexpr std::uint32_t EXPONENT_BIT = 0x40000000U;  // set in every stored float32: r^2 >= 2
+  return std::bit_cast<float>(EXPONENT_BIT | words.w >> 16 << 14);
+}
+/// The exact splat of 128 bits. The reference implementation of the decoding, in float64; without branches, for loops.
+[[nodiscard]] inline Splat unpack_splat(const uvec4& words) {
+  const int u = static_cast<int>(words.z & 0xFFFFU) - static_cast<int>(OCT_SCALE);
+  const int v = static_cast<int>(words.z >> 16) - static_cast<int>(OCT_SCALE);
+  const int w = static_cast<int>(OCT_SCALE) - std::abs(u) - std::abs(v);
+  const int fold = w < 0 ? -w : 0;
+  const glm::dvec3 normal(u < 0 ? u + fold : u - fold, v < 0 ? v + fold : v - fold, w);
+  return {{static_cast<int>(words.x >> 11), static_cast<int>((words.x & 0x7FFU) << 10 | words.y >> 22),
+           static_cast<int>(words.y & 0x1FFFFFU)},
+          normal * (1.0 / std::sqrt(glm::dot(normal, normal))),
+          unpack_radius_squared(words),
+          words.w & OBJECT_MASK};
+}
 
 /// 8 bits a channel, square-root encoded: byte = round(255 sqrt(linear)); r lowest, then g, b, a = 255.
 [[nodiscard]] std::uint32_t pack_color(glm::vec3 linear);
@@ -92,15 +109,18 @@ struct TangentFrame {
 
 /// A leaf's slab and halves (layout.h): low <= axis.(p - centre) / half size <= high.
 struct Slab {
-  glm::dvec3 axis;            ///< |x| + |y| + |z| = 1
+  glm::dvec3 axis;            ///< |x| + |y| + |z| = 1, x >= 0
   double low;                 ///< in units of the cell's half size, [-1, 1]
   double high;                ///< >= low
   std::uint32_t lower_end;    ///< splats [0, lower_end) of the leaf's list hold all that reach the lower half
   std::uint32_t upper_begin;  ///< splats [upper_begin, listed) hold all that reach the upper half
 };
 
-/// Packs the slab of a leaf that lists `listed` splats, >= 1: the axis, of any length but 0, to the nearest that there is,
-/// all else outwards. The planes that it means are those across the packed axis.
+/// The nearest axis that a slab may have to a direction, of any length but 0, or to its opposite.
+[[nodiscard]] glm::dvec3 nearest_slab_axis(const glm::dvec3& direction);
+
+/// Packs the slab of a leaf that lists `listed` splats, >= 1; its axis must be one that slabs may have, all else turns
+/// outwards.
 [[nodiscard]] std::uint32_t pack_slab(const Slab& slab, std::uint32_t listed);
 /// The reference implementation of the decoding; `high` may be above 1.
 [[nodiscard]] Slab unpack_slab(std::uint32_t word, std::uint32_t listed);
