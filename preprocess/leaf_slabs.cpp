@@ -72,26 +72,41 @@ SPLATRAY_VECTOR_CLONES void unpack_blocks(std::span<const std::uint32_t> list,
   }
 }
 
-/// How far along the slab's axis, from the cell's centre, the part of a disc inside the ball around the inflated cell
-/// reaches.
-[[gnu::always_inline]] inline void extent(const Disc& disc, const HalvedCell& cell, double& low,
-                                          double& high) {
+/// From where to where something reaches along the slab's axis, from the cell's centre.
+struct Reach {
+  double low, high;
+};
+
+/// What bounds where the plane n.p = distance reaches in the cube |x|, |y|, |z| <= half_size along the axis a: for any factor,
+/// a = factor n + rest, and a.p differs from factor times the distance by what the cube reaches along the rest. Where the
+/// bound is tightest one component of the rest is 0 (the dual of the linear program, which has a kink there).
+[[gnu::always_inline]] inline Reach plane_in_cube(double factor, const Disc& disc, const glm::dvec3& axis,
+                                                  double distance, double half_size) {
+  const double rest = std::abs(axis.x - factor * disc.x.normal) + std::abs(axis.y - factor * disc.y.normal) +
+                      std::abs(axis.z - factor * disc.z.normal);
+  return {factor * distance - half_size * rest, factor * distance + half_size * rest};
+}
+
+/// Between what the part of a disc in the inflated cell lies: the disc's own ends, or those of its plane in the cell.
+[[gnu::always_inline]] inline Reach reach_in_cell(const Disc& disc, const HalvedCell& cell) {
   const glm::dvec3& axis = cell.axis;
   const double x = disc.x.center - cell.low.x - cell.half_size;
   const double y = disc.y.center - cell.low.y - cell.half_size;
   const double z = disc.z.center - cell.low.z - cell.half_size;
-  const double ball_radius = std::sqrt(3.0) * (cell.half_size + LIST_INFLATION);
-  const double plane_distance = disc.x.normal * x + disc.y.normal * y + disc.z.normal * z;
-  const double cut = std::sqrt(std::max(ball_radius * ball_radius - plane_distance * plane_distance, 0.0));
+  const double distance = disc.x.normal * x + disc.y.normal * y + disc.z.normal * z;
+  const double half_size = cell.half_size + LIST_INFLATION;
+  // Not a number where the axis and the normal have no such component; std::max and min then keep the other.
+  const Reach at_x = plane_in_cube(axis.x / disc.x.normal, disc, axis, distance, half_size);
+  const Reach at_y = plane_in_cube(axis.y / disc.y.normal, disc, axis, distance, half_size);
+  const Reach at_z = plane_in_cube(axis.z / disc.z.normal, disc, axis, distance, half_size);
   const double along_normal = axis.x * disc.x.normal + axis.y * disc.y.normal + axis.z * disc.z.normal;
-  const double across = std::sqrt(std::max(glm::dot(axis, axis) - along_normal * along_normal, 0.0));
-  const double disc_middle = axis.x * x + axis.y * y + axis.z * z, disc_reach = across * disc.radius;
-  const double ball_middle = along_normal * plane_distance, ball_reach = across * cut;
-  const double a = std::max(disc_middle - disc_reach, ball_middle - ball_reach);
-  const double b = std::min(disc_middle + disc_reach, ball_middle + ball_reach);
+  const double middle = axis.x * x + axis.y * y + axis.z * z;
+  const double across =
+      disc.radius * std::sqrt(std::max(glm::dot(axis, axis) - along_normal * along_normal, 0.0));
+  const double low = std::max(std::max(std::max(middle - across, at_x.low), at_y.low), at_z.low);
+  const double high = std::min(std::min(std::min(middle + across, at_x.high), at_y.high), at_z.high);
   // Swapped by rounding in a flat leaf, or for a disc that only touches the inflated cell.
-  low = std::min(a, b);
-  high = std::max(a, b);
+  return {std::min(low, high), std::max(low, high)};
 }
 
 SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks, const HalvedCell& its_cell,
@@ -103,7 +118,9 @@ SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks
     for (std::size_t i = 0; i < LANES; ++i) {
       const Disc disc({block.x[i], block.y[i], block.z[i]},
                       {block.normal_x[i], block.normal_y[i], block.normal_z[i]}, block.radius_squared[i]);
-      extent(disc, cell, reach.low[i], reach.high[i]);
+      const Reach along = reach_in_cell(disc, cell);
+      reach.low[i] = along.low;
+      reach.high[i] = along.high;
       reach.beyond_lower[i] = beyond(disc, cell.low, cell.lower_high);
       reach.beyond_upper[i] = beyond(disc, cell.upper_low, cell.high);
     }

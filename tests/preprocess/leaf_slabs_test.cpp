@@ -134,7 +134,7 @@ TEST(LeafSlabs, AreThinOnASmoothSurface) {
     const Slab slab = unpack_slab(word, 1);
     thickness += (slab.high - slab.low) / glm::length(slab.axis);
   }
-  EXPECT_LT(thickness / static_cast<double>(scene.slab_pool.size()), 0.1) << "in units of half a cell";
+  EXPECT_LT(thickness / static_cast<double>(scene.slab_pool.size()), 0.08) << "in units of half a cell";
 }
 
 TEST(LeafSlabs, PackingTurnsOutwards) {
