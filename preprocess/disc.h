@@ -72,8 +72,8 @@ struct BoxAxis {
 }
 
 /// Above 0 where a disc does not come within LIST_INFLATION, on each axis, of the box with these corners. Exact but for
-/// rounding, which errs towards near. The disc's plane in the box is a polygon, and what of it is nearest lies on two sides of
-/// the box at most: it is enough to look at each pair of axes alone.
+/// rounding. The disc's plane in the box is a polygon, and what of it is nearest lies on two sides of the box at most: it is
+/// enough to look at each pair of axes alone.
 [[gnu::always_inline]] inline double beyond(const Disc& disc, const glm::dvec3& low, const glm::dvec3& high) {
   const DiscAxis &x = disc.x, &y = disc.y, &z = disc.z;
   const BoxAxis box_x(x, low.x, high.x), box_y(y, low.y, high.y), box_z(z, low.z, high.z);
