@@ -109,9 +109,8 @@ struct Reach {
   return {std::min(low, high), std::max(low, high)};
 }
 
-SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks, const HalvedCell& its_cell,
+SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks, const HalvedCell& cell,
                                            std::vector<BlockReach>& reaches) {
-  const HalvedCell cell = its_cell;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const SplatBlock& block = blocks[b];
     BlockReach reach;

@@ -14,13 +14,6 @@ constexpr std::uint32_t LATTICE_SIZE = 1U << LATTICE_BITS;
 
 int sign_not_zero(double value) { return value < 0.0 ? -1 : 1; }
 
-/// The integer vector (u, v, w), |u| + |v| + |w| = scale, of two octahedral coordinates.
-glm::dvec3 octahedral_vector(int u, int v, int scale) {
-  const int w = scale - std::abs(u) - std::abs(v);
-  if (w >= 0) return {u, v, w};
-  return {(scale - std::abs(v)) * sign_not_zero(u), (scale - std::abs(u)) * sign_not_zero(v), w};
-}
-
 /// The octahedral coordinates of a normal, not rounded.
 glm::dvec2 octahedral_exact(const glm::dvec3& normal, int scale) {
   const double sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);

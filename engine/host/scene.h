@@ -76,13 +76,17 @@ struct Splat {
   constexpr std::uint32_t EXPONENT_BIT = 0x40000000U;  // set in every stored float32: r^2 >= 2
   return std::bit_cast<float>(EXPONENT_BIT | words.w >> 16 << 14);
 }
+/// The integer vector (u, v, w), |u| + |v| + |w| = scale, of two octahedral coordinates; without branches, for loops.
+[[nodiscard]] inline glm::dvec3 octahedral_vector(int u, int v, int scale) {
+  const int w = scale - std::abs(u) - std::abs(v);
+  const int fold = w < 0 ? -w : 0;
+  return {u < 0 ? u + fold : u - fold, v < 0 ? v + fold : v - fold, w};
+}
 /// The exact splat of 128 bits. The reference implementation of the decoding, in float64; without branches, for loops.
 [[nodiscard]] inline Splat unpack_splat(const uvec4& words) {
-  const int u = static_cast<int>(words.z & 0xFFFFU) - static_cast<int>(OCT_SCALE);
-  const int v = static_cast<int>(words.z >> 16) - static_cast<int>(OCT_SCALE);
-  const int w = static_cast<int>(OCT_SCALE) - std::abs(u) - std::abs(v);
-  const int fold = w < 0 ? -w : 0;
-  const glm::dvec3 normal(u < 0 ? u + fold : u - fold, v < 0 ? v + fold : v - fold, w);
+  constexpr int SCALE = OCT_SCALE;
+  const glm::dvec3 normal = octahedral_vector(static_cast<int>(words.z & 0xFFFFU) - SCALE,
+                                              static_cast<int>(words.z >> 16) - SCALE, SCALE);
   return {{static_cast<int>(words.x >> 11), static_cast<int>((words.x & 0x7FFU) << 10 | words.y >> 22),
            static_cast<int>(words.y & 0x1FFFFFU)},
           normal * (1.0 / std::sqrt(glm::dot(normal, normal))),
