@@ -33,10 +33,12 @@ Discs discs_of(const Scene& scene) {
   Discs discs;
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     const Splat splat = unpack_splat(scene.data_pool[i]);
-    discs.center_radius.emplace_back(vec3(splat.center), static_cast<float>(std::sqrt(splat.radius_squared)));
-    discs.normal.emplace_back(splat.normal);
-    discs.object.push_back(splat.object);
-    if (!scene.field_pool.empty()) discs.slope.emplace_back(unpack_field(scene.field_pool[i], splat.normal));
+    discs.list.push_back({vec3(splat.center), static_cast<float>(std::sqrt(splat.radius_squared)),
+                          vec3(splat.normal), splat.object});
+    if (scene.field_pool.empty()) continue;
+    const glm::dmat3 field = unpack_field(scene.field_pool[i], splat.normal);
+    discs.slope.push_back(
+        {vec3(field[0][0], field[1][1], field[2][2]), vec3(field[1][2], field[0][2], field[0][1])});
   }
   for (const Material& material : scene.materials)
     discs.two_sided.push_back((material.flags & MATERIAL_TWO_SIDED) != 0 ? 1 : 0);
@@ -44,10 +46,10 @@ Discs discs_of(const Scene& scene) {
 }
 
 DiscFacet facet_of(const Discs& discs, std::size_t disc, float t, const vec3& from_center, const vec3& dir) {
-  const vec3& plane_normal = discs.normal[disc];
+  const vec3& plane_normal = discs.list[disc].normal;
   if (discs.slope.empty()) return {against(plane_normal, dir), t};
   const float cosine = glm::dot(plane_normal, dir);
-  const vec3 lean = discs.slope[disc] * (from_center / discs.center_radius[disc].w);
+  const vec3 lean = discs.slope[disc].times(from_center / discs.list[disc].radius);
   vec3 normal = glm::normalize(plane_normal + lean);
   if (cosine > 0.0F) normal = -normal;
   normal = glm::normalize(normal - dir * std::max(glm::dot(normal, dir), 0.0F));
@@ -61,8 +63,8 @@ void Gathering::add(std::size_t disc, float t, const vec3& dir, const Discs& dis
   const Meeting meeting{t, static_cast<std::uint32_t>(disc)};
   if (t < first_.t) {
     first_ = meeting;
-    const float cosine = std::abs(glm::dot(discs.normal[disc], dir));
-    depth_ = settings.kappa * discs.center_radius[disc].w / std::max(cosine, MIN_COSINE);
+    const float cosine = std::abs(glm::dot(discs.list[disc].normal, dir));
+    depth_ = settings.kappa * discs.list[disc].radius / std::max(cosine, MIN_COSINE);
     end_ = settings.blend == BLEND_NEAREST ? t : t + depth_;
   }
   if (settings.blend != BLEND_NEAREST && count_ < MOST) met_[count_++] = meeting;
@@ -73,9 +75,9 @@ RayHit Gathering::blended(const RayQuery& ray, const Discs& discs, const Setting
   hit.t = hit.t_first = first_.t;
   hit.object = NO_OBJECT;
   if (first_.t == INFINITY) return hit;
-  hit.object = discs.object[first_.disc];
+  hit.object = discs.list[first_.disc].object;
   const auto from_center_of = [&](const Meeting& meeting) {
-    return ray.origin + meeting.t * ray.dir - vec3(discs.center_radius[meeting.disc]);
+    return ray.origin + meeting.t * ray.dir - discs.list[meeting.disc].center;
   };
   if (settings.blend == BLEND_NEAREST) {
     const DiscFacet facet = facet_of(discs, first_.disc, first_.t, from_center_of(first_), ray.dir);
@@ -84,16 +86,16 @@ RayHit Gathering::blended(const RayQuery& ray, const Discs& discs, const Setting
     hit.members = 1;
     return hit;
   }
-  const vec3 first_normal = against(discs.normal[first_.disc], ray.dir);
+  const vec3 first_normal = against(discs.list[first_.disc].normal, ray.dir);
   vec3 normal_sum(0.0F);
   float weight_sum = 0.0F, depth_sum = 0.0F;
   for (std::size_t i = 0; i < count_; ++i) {
     const auto [t, disc] = met_[i];
     const float share = (t - first_.t) / depth_;
-    const float like = glm::dot(against(discs.normal[disc], ray.dir), first_normal);
-    if (share > 1.0F || discs.object[disc] != hit.object || like <= 0.5F) continue;
+    const float like = glm::dot(against(discs.list[disc].normal, ray.dir), first_normal);
+    if (share > 1.0F || discs.list[disc].object != hit.object || like <= 0.5F) continue;
     const vec3 from_center = from_center_of(met_[i]);
-    const float radius = discs.center_radius[disc].w;
+    const float radius = discs.list[disc].radius;
     const float u_squared = glm::dot(from_center, from_center) / (radius * radius);
     const float weight = std::max(kernel_at(u_squared, settings) * fall_at(share), 1.0F / 256.0F);
     const DiscFacet facet = facet_of(discs, disc, t, from_center, ray.dir);

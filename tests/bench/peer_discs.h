@@ -8,20 +8,39 @@
 
 namespace splatray::testing {
 
-/// Every splat once, in the order of the octree's leaves (Z-order). Root space, lattice units.
+/// A splat in root space, lattice units; never across two lines of a cache.
+struct alignas(32) Disc {
+  vec3 center;
+  float radius;
+  vec3 normal;  ///< unit
+  std::uint32_t object;
+};
+
+/// A normal field (unpack_field): a symmetric matrix.
+struct alignas(32) Slope {
+  vec3 diagonal;  ///< xx, yy, zz
+  vec3 beside;    ///< yz, xz, xy
+
+  [[nodiscard]] vec3 times(const vec3& v) const {
+    return diagonal * v + vec3(beside.y * v.z + beside.z * v.y, beside.x * v.z + beside.z * v.x,
+                               beside.x * v.y + beside.y * v.x);
+  }
+};
+
+/// Every splat once, in the order of the octree's leaves (Z-order).
 struct Discs {
-  std::vector<vec4> center_radius;
-  std::vector<vec3> normal;      ///< unit
-  std::vector<glm::mat3> slope;  ///< normal fields (unpack_field), or empty: all discs are flat
-  std::vector<std::uint32_t> object;
+  std::vector<Disc> list;
+  std::vector<Slope> slope;             ///< beside them, or empty: all discs are flat
   std::vector<std::uint8_t> two_sided;  ///< per object: both faces are hit
 
-  [[nodiscard]] std::size_t size() const { return object.size(); }
-  [[nodiscard]] std::uint64_t bytes_of_fields() const { return sizeof(glm::mat3) * slope.size(); }
+  [[nodiscard]] std::size_t size() const { return list.size(); }
+  [[nodiscard]] std::uint64_t bytes() const {
+    return sizeof(Disc) * list.size() + sizeof(Slope) * slope.size();
+  }
   [[nodiscard]] bool any_one_sided() const;
   /// Whether the ray's direction meets a face that counts.
   [[nodiscard]] bool faces(std::size_t disc, const vec3& dir) const {
-    return two_sided[object[disc]] != 0 || glm::dot(normal[disc], dir) < 0.0F;
+    return two_sided[list[disc].object] != 0 || glm::dot(list[disc].normal, dir) < 0.0F;
   }
 };
 
@@ -39,6 +58,8 @@ struct DiscFacet {
 /// The discs that one ray meets, in any order, as a traversal finds them.
 class Gathering {
  public:
+  Gathering() {}  // NOLINT(modernize-use-equals-default): met_ is not set to zero for every ray
+
   /// Notes that the ray meets `disc` at t. Discs beyond the window of the nearest one so far, and those that find no
   /// more room, are left out. `dir` is unit.
   void add(std::size_t disc, float t, const vec3& dir, const Discs& discs, const Settings& settings);

@@ -13,51 +13,67 @@ struct Traversal {
   Gathering gathered;
 };
 
-/// A list per coordinate of a group's discs.
-struct Lists {
-  const float *center_x, *center_y, *center_z, *normal_x, *normal_y, *normal_z, *radius_squared;
-};
+/// Numbers of a disc that are tested.
+constexpr std::size_t NUMBERS = 7;
 
-/// How a ray meets the discs' planes: where, and how far beyond the rim (squared distance, > 0 outside).
+/// How a ray meets the discs of a group.
 struct Meetings {
   std::array<float, EmbreeClusters::GROUP_MOST> t;
-  std::array<float, EmbreeClusters::GROUP_MOST> beyond;
+  std::array<std::int32_t, EmbreeClusters::GROUP_MOST> met;  ///< 1 where the ray meets the disc, else 0
 };
 
-/// One clone for each width of vectors, chosen when the program starts, as Embree does.
-[[gnu::target_clones("avx512f", "avx2", "default")]] void meet(const Lists& discs, std::size_t count,
-                                                               const vec3& origin, const vec3& dir,
-                                                               Meetings& meetings) {
+/// Where a ray meets the planes of a group's discs (EmbreeClusters::groups_), and whether on the disc within [tnear, tfar].
+/// One clone for each width of vectors, chosen when the program starts, as Embree does. GCC makes scalar code of it where any
+/// two of the lists might overlap.
+[[gnu::target_clones("avx512f", "avx2", "default")]] void meet(const float* __restrict group,
+                                                               std::size_t count, const RTCRay ray,
+                                                               Meetings& __restrict meetings) {
+  const float* __restrict center_x = group;
+  const float* __restrict center_y = group + count;
+  const float* __restrict center_z = group + 2 * count;
+  const float* __restrict normal_x = group + 3 * count;
+  const float* __restrict normal_y = group + 4 * count;
+  const float* __restrict normal_z = group + 5 * count;
+  const float* __restrict radius_squared = group + 6 * count;
+  float* __restrict t_of = meetings.t.data();
+  std::int32_t* __restrict met = meetings.met.data();
   for (std::size_t i = 0; i < count; ++i) {
-    const float x = discs.center_x[i] - origin.x;
-    const float y = discs.center_y[i] - origin.y;
-    const float z = discs.center_z[i] - origin.z;
-    const float along = discs.normal_x[i] * x + discs.normal_y[i] * y + discs.normal_z[i] * z;
-    const float cosine = discs.normal_x[i] * dir.x + discs.normal_y[i] * dir.y + discs.normal_z[i] * dir.z;
+    const float x = center_x[i] - ray.org_x;
+    const float y = center_y[i] - ray.org_y;
+    const float z = center_z[i] - ray.org_z;
+    const float along = normal_x[i] * x + normal_y[i] * y + normal_z[i] * z;
+    const float cosine = normal_x[i] * ray.dir_x + normal_y[i] * ray.dir_y + normal_z[i] * ray.dir_z;
     const float t = along / cosine;
-    const float from_x = dir.x * t - x;
-    const float from_y = dir.y * t - y;
-    const float from_z = dir.z * t - z;
-    meetings.t[i] = t;
-    meetings.beyond[i] = from_x * from_x + from_y * from_y + from_z * from_z - discs.radius_squared[i];
+    const float from_x = ray.dir_x * t - x;
+    const float from_y = ray.dir_y * t - y;
+    const float from_z = ray.dir_z * t - z;
+    const float rho_squared = from_x * from_x + from_y * from_y + from_z * from_z;
+    t_of[i] = t;
+    met[i] =
+        static_cast<std::int32_t>((rho_squared <= radius_squared[i]) & (t > ray.tnear) & (t <= ray.tfar));
   }
+}
+
+/// The discs as EmbreeClusters::groups_; the last group is filled up with discs that no ray meets.
+std::vector<float> in_groups(const std::vector<Disc>& discs, std::size_t group) {
+  const std::size_t places = (discs.size() + group - 1) / group * group;
+  std::vector<float> groups(places * NUMBERS, -1.0F);
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const auto& [center, radius, normal, object] = discs[i];
+    float* place = &groups[i / group * group * NUMBERS + i % group];
+    for (const float number : {center.x, center.y, center.z, normal.x, normal.y, normal.z, radius * radius}) {
+      *place = number;
+      place += group;
+    }
+  }
+  return groups;
 }
 
 }  // namespace
 
 EmbreeClusters::EmbreeClusters(const Discs& discs, const Settings& settings, std::size_t group)
-    : discs_(discs), settings_(settings), group_(group) {
+    : discs_(discs), settings_(settings), group_(group), groups_(in_groups(discs.list, group)) {
   assert(group >= 1 && group <= GROUP_MOST);
-  for (std::size_t i = 0; i < discs.size(); ++i) {
-    const vec4& disc = discs.center_radius[i];
-    center_x_.push_back(disc.x);
-    center_y_.push_back(disc.y);
-    center_z_.push_back(disc.z);
-    normal_x_.push_back(discs.normal[i].x);
-    normal_y_.push_back(discs.normal[i].y);
-    normal_z_.push_back(discs.normal[i].z);
-    radius_squared_.push_back(disc.w * disc.w);
-  }
   RTCGeometry geometry = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>((discs.size() + group - 1) / group));
   rtcSetGeometryUserData(geometry, this);
@@ -72,30 +88,23 @@ void EmbreeClusters::bounds_of(const RTCBoundsFunctionArguments* args) {
   const std::size_t begin = args->primID * self.group_;
   vec3 lower(INFINITY), upper(-INFINITY);
   for (std::size_t i = begin; i < std::min(begin + self.group_, self.discs_.size()); ++i) {
-    const vec3& normal = self.discs_.normal[i];
-    const vec3 center(self.discs_.center_radius[i]);
-    const vec3 reach =
-        self.discs_.center_radius[i].w * glm::sqrt(glm::max(vec3(1.0F) - normal * normal, vec3(0.0F)));
-    lower = glm::min(lower, center - reach);
-    upper = glm::max(upper, center + reach);
+    const Disc& disc = self.discs_.list[i];
+    const vec3 reach = disc.radius * glm::sqrt(glm::max(vec3(1.0F) - disc.normal * disc.normal, vec3(0.0F)));
+    lower = glm::min(lower, disc.center - reach);
+    upper = glm::max(upper, disc.center + reach);
   }
   *args->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
 }
 
 template <class Visit>
-void EmbreeClusters::visit_meetings(unsigned primitive, RTCRayN* ray, const Visit& visit) const {
-  const std::size_t begin = primitive * group_;
-  const std::size_t count = std::min(group_, discs_.size() - begin);
-  const Lists lists{&center_x_[begin], &center_y_[begin], &center_z_[begin],      &normal_x_[begin],
-                    &normal_y_[begin], &normal_z_[begin], &radius_squared_[begin]};
-  const vec3 origin(RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0));
-  const vec3 dir(RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0));
-  const float tnear = RTCRayN_tnear(ray, 1, 0);
+void EmbreeClusters::visit_meetings(unsigned primitive, const RTCRay& ray, const Visit& visit) const {
   Meetings meetings;
-  meet(lists, count, origin, dir, meetings);
-  for (std::size_t i = 0; i < count; ++i)
-    if (meetings.beyond[i] <= 0.0F && meetings.t[i] > tnear && discs_.faces(begin + i, dir))
-      visit(begin + i, meetings.t[i]);
+  meet(&groups_[primitive * group_ * NUMBERS], group_, ray, meetings);
+  const vec3 dir(ray.dir_x, ray.dir_y, ray.dir_z);
+  for (std::size_t i = 0; i < group_; ++i) {
+    const std::size_t disc = primitive * group_ + i;
+    if (meetings.met[i] != 0 && discs_.faces(disc, dir)) visit(disc, meetings.t[i]);
+  }
 }
 
 void EmbreeClusters::intersect(const RTCIntersectFunctionNArguments* args) {
@@ -103,19 +112,19 @@ void EmbreeClusters::intersect(const RTCIntersectFunctionNArguments* args) {
   if (args->valid[0] == 0) return;
   const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
   auto& traversal = *reinterpret_cast<Traversal*>(args->context);
-  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, 1);
+  auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;  // what an RTCRayHitN of one ray is
   self.visit_meetings(args->primID, ray, [&](std::size_t disc, float t) {
     traversal.gathered.add(disc, t, traversal.dir, self.discs_, self.settings_);
   });
-  RTCRayN_tfar(ray, 1, 0) = traversal.gathered.end();
+  ray.tfar = traversal.gathered.end();
 }
 
 void EmbreeClusters::occlude(const RTCOccludedFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
   const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
-  self.visit_meetings(args->primID, args->ray,
-                      [&](std::size_t, float) { RTCRayN_tfar(args->ray, 1, 0) = -INFINITY; });
+  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+  self.visit_meetings(args->primID, ray, [&](std::size_t, float) { ray.tfar = -INFINITY; });
 }
 
 void EmbreeClusters::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
@@ -139,8 +148,7 @@ void EmbreeClusters::occluded(std::span<const RayQuery> rays, std::span<std::uin
 }
 
 std::uint64_t EmbreeClusters::bytes() const {
-  constexpr std::uint64_t LISTS = 7;
-  return embree_.bytes() + LISTS * sizeof(float) * discs_.size() + discs_.bytes_of_fields();
+  return embree_.bytes() + sizeof(float) * groups_.size() + discs_.bytes();
 }
 
 }  // namespace splatray::testing

@@ -24,15 +24,15 @@ class EmbreeClusters : public Peer {
   static void bounds_of(const RTCBoundsFunctionArguments* args);
   static void intersect(const RTCIntersectFunctionNArguments* args);
   static void occlude(const RTCOccludedFunctionNArguments* args);
-  /// Calls visit(disc, t) for each disc of a primitive that the ray meets beyond its tnear.
+  /// Calls visit(disc, t) for each disc of a primitive that the ray meets.
   template <class Visit>
-  void visit_meetings(unsigned primitive, RTCRayN* ray, const Visit& visit) const;
+  void visit_meetings(unsigned primitive, const RTCRay& ray, const Visit& visit) const;
 
   const Discs& discs_;
   Settings settings_;
   std::size_t group_;
-  /// The discs again, a list per coordinate.
-  std::vector<float> center_x_, center_y_, center_z_, normal_x_, normal_y_, normal_z_, radius_squared_;
+  /// The discs again, group by group: a list of each coordinate of the centres, then of the normals, then of squared radii.
+  std::vector<float> groups_;
   EmbreeScene embree_;
 };
 

@@ -44,12 +44,10 @@ void gather(const RTCFilterFunctionNArguments* args) {
 
 EmbreeDiscs::EmbreeDiscs(const Discs& discs, const Settings& settings) : discs_(discs), settings_(settings) {
   RTCGeometry geometry = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
-  auto* places = static_cast<vec4*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                            RTC_FORMAT_FLOAT4, sizeof(vec4), discs.size()));
-  auto* normals = static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0,
-                                                             RTC_FORMAT_FLOAT3, sizeof(vec3), discs.size()));
-  std::copy(discs.center_radius.begin(), discs.center_radius.end(), places);
-  std::copy(discs.normal.begin(), discs.normal.end(), normals);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, discs.list.data(),
+                             offsetof(Disc, center), sizeof(Disc), discs.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, discs.list.data(),
+                             offsetof(Disc, normal), sizeof(Disc), discs.size());
   rtcSetGeometryUserData(geometry, const_cast<Discs*>(&discs_));
   if (settings.blend == BLEND_WINDOW) {
     rtcSetGeometryIntersectFilterFunction(geometry, gather);

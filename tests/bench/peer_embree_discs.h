@@ -16,7 +16,7 @@ class EmbreeDiscs : public Peer {
   void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const override;
   void occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const override;
   void expect_coherent(bool coherent) override { coherent_ = coherent; }
-  [[nodiscard]] std::uint64_t bytes() const override { return embree_.bytes() + discs_.bytes_of_fields(); }
+  [[nodiscard]] std::uint64_t bytes() const override { return embree_.bytes() + discs_.bytes(); }
 
  private:
   const Discs& discs_;

@@ -61,7 +61,7 @@ TEST(Race, RunnersOfTheSameSplatsAgreeInEveryClass) {
 
 TEST(Race, OtherSplatsAreNoticed) {
   SmallRace small;
-  for (std::size_t i = 0; i < small.discs.size(); i += 20) small.discs.center_radius[i].w *= 0.5F;
+  for (std::size_t i = 0; i < small.discs.size(); i += 20) small.discs.list[i].radius *= 0.5F;
   EXPECT_THROW(static_cast<void>(small.run()), Error);
 }
 

@@ -41,7 +41,7 @@ std::vector<PeerMaker> peers_of(const Scene& scene) {
   };
   std::vector<PeerMaker> makers{maker("embree window", BLEND_WINDOW, 0, true, built_in),
                                 maker("embree nearest", BLEND_NEAREST, 0, false, built_in)};
-  for (const std::size_t group : {1, 8})
+  for (const std::size_t group : {1, 8, 32})
     makers.push_back(maker(
         "embree user " + std::to_string(group), BLEND_WINDOW, group, group == 1,
         [=](const Settings& settings) { return std::make_unique<EmbreeClusters>(*discs, settings, group); }));

@@ -9,7 +9,11 @@ from report_plots import STYLE, plain, save
 from report_records import splats_text
 from scale_records import PEERS, exponent, line_fit
 
-STYLES = STYLE | {"embree user 1": STYLE["embree user"], "embree user 8": ("#56B4E9", "h")}
+STYLES = STYLE | {
+    "embree user 1": STYLE["embree user"],
+    "embree user 8": ("#56B4E9", "h"),
+    "embree user 32": ("#999999", "8"),
+}
 NAMES = {"window": "splatray window", "nearest": "splatray nearest"} | PEERS
 
 

@@ -7,6 +7,7 @@ PEERS = {
     "embree window": "Embree window",
     "embree user 1": "Embree, 1 disc a box",
     "embree user 8": "Embree, 8 discs a box",
+    "embree user 32": "Embree, 32 discs a box",
     "embree nearest": "Embree nearest",
 }
 
