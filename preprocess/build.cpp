@@ -14,6 +14,7 @@
 
 #include "engine/host/error.h"
 #include "preprocess/cloud.h"
+#include "preprocess/empty_space.h"
 #include "preprocess/insertion.h"
 #include "preprocess/leaf_slabs.h"
 #include "preprocess/morton.h"
@@ -285,6 +286,10 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   {
     const Stopwatch slab_watch(stats.slabs_ms);
     add_slabs(scene, {"slabs", progress});
+  }
+  {
+    const Stopwatch empty_watch(stats.empty_ms);
+    grow_empty_leaves(scene);
   }
   count_result(scene, stats);
   return scene;

@@ -31,7 +31,7 @@ struct BuildStats {
   double overlap = 0.0;         ///< sum(pi r^2) / surface area; 0 = area unknown
   double radius_median_world = 0.0;
   double read_ms = 0.0, normals_ms = 0.0, radii_ms = 0.0, octree_ms = 0.0, insertion_ms = 0.0, slabs_ms = 0.0,
-         total_ms = 0.0;
+         empty_ms = 0.0, total_ms = 0.0;
 };
 
 /// A stage's name and the share done, 0..1; returns false to stop (build_scene then throws Error

@@ -29,6 +29,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"octree_ms", stats.octree_ms},
                                        {"insertion_ms", stats.insertion_ms},
                                        {"slabs_ms", stats.slabs_ms},
+                                       {"empty_ms", stats.empty_ms},
                                        {"total_ms", stats.total_ms}};
   return json.dump(2);
 }

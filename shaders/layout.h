@@ -36,7 +36,8 @@
 ///   NODE_INNER  : address of the first of 8 children in the node pool; child = x + 2y + 4z (Z-order)
 ///   NODE_FILLED : index into Begin-End; the leaf's splats are those of reference_pool[begin_end[a] .. begin_end[a+1]), its
 ///                 slab is slab_pool[a]
-///   NODE_EMPTY  : address is zero
+///   NODE_EMPTY  : how far the empty space around the leaf's cell reaches: a box without filled leaves, wider than the cell by so
+///                 many of the cell's sizes on each side: bits 1..0 -x, 3..2 +x, 5..4 -y, 7..6 +y, 9..8 -z, 11..10 +z; 29..12 zero
 ///
 /// Reference, 32 bits: index of a splat in the data pool, and of its colour and normal field. A device may hold copies of the
 /// splats, leaf by leaf, in place of references (REFERENCES_NONE).
@@ -80,6 +81,8 @@ SPLATRAY_CONST NODE_ADDRESS_MASK = 0x3FFFFFFFu;
 SPLATRAY_CONST NODE_INNER = 0u;
 SPLATRAY_CONST NODE_FILLED = 1u;
 SPLATRAY_CONST NODE_EMPTY = 2u;
+SPLATRAY_CONST EMPTY_STEPS_MOST = 3u;  ///< on each side of an empty leaf
+SPLATRAY_CONST EMPTY_STEPS_MASK = 0xFFFu;
 
 SPLATRAY_CONST OCT_SCALE = 32767u;        ///< octahedral normals: |u| + |v| + |w| = OCT_SCALE
 SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;     ///< word 3: object index

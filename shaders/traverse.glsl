@@ -95,8 +95,14 @@ SlabCrossing walk_crossing(uint slab, Walk walk, Ray ray) {
   return slab_crossing(slab, ray, walk.t_in, walk.t_out, walk.center, walk.half_size);
 }
 
-/// DESCEND from the top table, so from at most TOP_LEVELS below the root, to the leaf that holds walk.cell; finds its end of the
-/// ray's interval and the next leaf. Returns the number of node words read.
+/// The bits of an empty leaf's word that tell of the space ahead. Behind a ray its leaf ends with the cell: where float32 took a
+/// ray back behind planes of two axes that it has passed, it could go in circles.
+uint steps_ahead(vec3 dir) {
+  return (dir.x > 0.0f ? 0xCu : 0x3u) | (dir.y > 0.0f ? 0xC0u : 0x30u) | (dir.z > 0.0f ? 0xC00u : 0x300u);
+}
+
+/// DESCEND from the top table, so from at most TOP_LEVELS below the root, to the leaf that holds walk.cell; finds the end of the
+/// ray's interval in it, or in the empty space around an empty leaf, and the next leaf. Returns the number of node words read.
 uint walk_descend(INOUT(Walk) walk, Ray ray) {
   // Behind the root's last leaf the cell lies outside: masked, as the children below are.
   uvec3 top_cell = (walk.cell >> (LATTICE_BITS - TOP_LEVELS)) & uvec3((1u << TOP_LEVELS) - 1u);
@@ -115,8 +121,13 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   } while ((word >> NODE_TAG_SHIFT) == NODE_INNER);
   uint size = 1u << shift;
   uvec3 low = uvec3(walk.cell.x & ~(size - 1u), walk.cell.y & ~(size - 1u), walk.cell.z & ~(size - 1u));
-  uvec3 next = uvec3(ray.dir.x > 0.0f ? low.x + size : low.x, ray.dir.y > 0.0f ? low.y + size : low.y,
-                     ray.dir.z > 0.0f ? low.z + size : low.z);
+  walk.half_size = 0.5f * float(size);
+  walk.center = vec3(low) + vec3(walk.half_size);
+  uint steps = (word >> NODE_TAG_SHIFT) == NODE_EMPTY ? word & steps_ahead(ray.dir) : 0u;
+  uvec3 high = low + uvec3(size) + (uvec3((steps >> 2u) & 3u, (steps >> 6u) & 3u, (steps >> 10u) & 3u) << shift);
+  low -= uvec3(steps & 3u, (steps >> 4u) & 3u, (steps >> 8u) & 3u) << shift;
+  uvec3 next = uvec3(ray.dir.x > 0.0f ? high.x : low.x, ray.dir.y > 0.0f ? high.y : low.y,
+                     ray.dir.z > 0.0f ? high.z : low.z);
   float t_x = plane_t(float(next.x), ray.origin.x, ray.dir.x, walk.inverse.x);
   float t_y = plane_t(float(next.y), ray.origin.y, ray.dir.y, walk.inverse.y);
   float t_z = plane_t(float(next.z), ray.origin.z, ray.dir.z, walk.inverse.z);
@@ -126,12 +137,10 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   float dir = x_first ? ray.dir.x : (y_first ? ray.dir.y : ray.dir.z);
   uint exit_cell = dir > 0.0f ? plane : plane - 1u;
   walk.t_out = max(x_first ? t_x : (y_first ? t_y : t_z), walk.t_in);
-  walk.half_size = 0.5f * float(size);
-  walk.center = vec3(low) + vec3(walk.half_size);
   bool filled = (word >> NODE_TAG_SHIFT) == NODE_FILLED;
   walk.filled = filled ? word & NODE_ADDRESS_MASK : NO_LEAF;
   if (filled && slab_missed(walk_crossing(slab_word(walk.filled), walk, ray))) walk.filled = NO_LEAF;
-  uvec3 cell = cell_at(ray, walk.t_out, low, low + uvec3(size - 1u));
+  uvec3 cell = cell_at(ray, walk.t_out, low, high - uvec3(1u));
   walk.cell = uvec3(x_first ? exit_cell : cell.x, y_first ? exit_cell : cell.y, x_first || y_first ? cell.z : exit_cell);
   return top_shift - shift + 1u;
 }

@@ -161,6 +161,15 @@ int halved_axis(const glm::dvec3& slab_axis) {
   return along.y <= along.z ? 1 : 2;
 }
 
+OctreeBox empty_box(std::uint32_t word, const OctreeCell& cell) {
+  const auto steps = [word](int first_bit) {
+    return glm::ivec3(word >> first_bit & 3U, word >> (first_bit + 4) & 3U, word >> (first_bit + 8) & 3U);
+  };
+  const auto size = static_cast<int>(cell.size);
+  const glm::ivec3 low(cell.low);
+  return {low - size * steps(0), low + size + size * steps(2)};
+}
+
 std::vector<OctreeCell> leaf_cells(const Scene& scene) {
   std::vector<OctreeCell> cells(scene.begin_end.size() - 1);
   visit_cells(scene, [&cells](std::uint32_t word, const OctreeCell& cell) {

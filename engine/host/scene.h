@@ -179,6 +179,15 @@ struct OctreeCell {
   std::uint32_t size = 0;
 };
 
+/// A part of the root, lattice units; `high` is outside.
+struct OctreeBox {
+  glm::ivec3 low{0};
+  glm::ivec3 high{0};
+};
+
+/// The box without filled leaves around an empty leaf, from its node word: the reference implementation of the decoding.
+[[nodiscard]] OctreeBox empty_box(std::uint32_t word, const OctreeCell& cell);
+
 /// Calls visit(node word, OctreeCell) for the root and, where that returns true for an inner node, for its children in Z-order, and
 /// so on.
 template <typename Visit>

@@ -104,7 +104,7 @@ Defect check_nodes(const Scene& scene) {
         if (reached > pool.size())
           return SceneDefect{at("node", i) + " with children that have another parent", "a tree"};
         open.push_back({address, 8, block.depth + 1});
-      } else if (tag == NODE_FILLED ? address >= leaves : tag != NODE_EMPTY || address != 0) {
+      } else if (tag == NODE_FILLED ? address >= leaves : tag != NODE_EMPTY || address > EMPTY_STEPS_MASK) {
         return SceneDefect{at("leaf", i) + " with word " + std::to_string(pool[i]),
                            "a filled leaf below " + std::to_string(leaves) + " or an empty one"};
       }

@@ -56,7 +56,7 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t SCENE_FILE_VERSION = 6;
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 7;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot; leaves nothing behind.
 void write_scene(const Scene& scene, const std::filesystem::path& path);

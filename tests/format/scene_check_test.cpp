@@ -43,7 +43,7 @@ TEST(SceneCheck, FindsBadNodes) {
             "node 8 with children that have another parent");
   EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = filled(2); }).substr(0, 6), "leaf 8");
   EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = 0xC0000000U; }).substr(0, 6), "leaf 8");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] |= 1U; }).substr(0, 6), "leaf 2");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] |= EMPTY_STEPS_MASK + 1U; }).substr(0, 6), "leaf 2");
   EXPECT_EQ(found_after([](Scene& s) { s.node_pool.push_back(filled(0)); }), "1 node words outside the tree");
   EXPECT_EQ(found_after([](Scene& s) { s.node_pool.clear(); }), "no octree");
 }

@@ -72,7 +72,7 @@ TEST_F(SceneFile, GoldenBytes) {
 
 TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(bytes.substr(0, 4), "SOCT");
-  EXPECT_EQ(get<std::uint32_t>(bytes, 4), 6U);
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), 7U);
   EXPECT_EQ(get<std::uint32_t>(bytes, 12), HEADER);
   EXPECT_EQ(get<std::uint64_t>(bytes, 16), bytes.size());
   EXPECT_EQ(get<std::uint64_t>(bytes, 32), 4U);
@@ -149,7 +149,7 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
   put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 6");
+  says(other, "found version 2, expected version 7");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");

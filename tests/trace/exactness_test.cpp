@@ -142,6 +142,18 @@ TEST(Exactness, GaussianKernelAndNearestAgreeToo) {
   }
 }
 
+TEST(Exactness, EmptySpaceThatIsTooWideIsNoticed) {
+  Scene scene = scene_of({sphere_object(5000, true, 0)});
+  const Settings settings;
+  const BruteForce brute(scene);
+  const std::vector<RayQuery> rays = random_primary_rays(scene, 20000, 9);
+  for (std::uint32_t& word : scene.node_pool)
+    if (word >> NODE_TAG_SHIFT == NODE_EMPTY) word |= EMPTY_STEPS_MASK;
+  const Agreement agreement =
+      agreement_of(brute, all_nearest(brute, rays, settings), gpu_intersect(scene, rays, settings));
+  EXPECT_GT(agreement.exceptions(), agreement.rays / 100) << agreement;
+}
+
 TEST(Exactness, AMovedSplatIsNoticed) {
   const Scene scene = scene_of({sphere_object(5000, true, 0)});
   const Settings settings;
