@@ -1,6 +1,7 @@
 #include "tests/bench/peer_embree_discs.h"
 
 #include <cassert>
+#include <cstddef>
 
 namespace splatray::testing {
 namespace {

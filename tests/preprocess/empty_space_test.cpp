@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "preprocess/build.h"
 #include "tests/preprocess/shapes.h"
 
