@@ -26,11 +26,6 @@ struct Ancestor {
   }
 };
 
-OctreeCell child_cell(const OctreeCell& cell, std::uint32_t child) {
-  const std::uint32_t half = cell.size / 2;
-  return {cell.low + half * glm::uvec3(child & 1U, child >> 1 & 1U, child >> 2), half};
-}
-
 /// Children, a bit each, whose cells overlap a box that overlaps their parent's.
 std::uint32_t children_in(const OctreeCell& cell, const OctreeBox& box) {
   const glm::ivec3 middle = glm::ivec3(cell.low) + static_cast<int>(cell.size / 2);

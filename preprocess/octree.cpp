@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 
 #include "engine/host/error.h"
@@ -39,6 +40,13 @@ std::uint64_t drop_surplus(SplatList& splats, std::uint32_t copies) {
   return before - kept.size();
 }
 
+/// Root mean square of the radii of splats [begin, end), lattice units.
+double mean_radius(const SplatList& splats, std::uint32_t begin, std::uint32_t end) {
+  double sum_squared = 0.0;
+  for (std::uint32_t i = begin; i < end; ++i) sum_squared += unpack_radius_squared(splats.words[i]);
+  return std::sqrt(sum_squared / (end - begin));
+}
+
 class Builder {
  public:
   Builder(const SplatList& splats, std::uint32_t leaf_size) : splats_(splats), leaf_size_(leaf_size) {}
@@ -52,7 +60,7 @@ class Builder {
  private:
   /// Writes the word of a node, given as the leaf it would be, and everything below it.
   void fill(const Leaf& node) {
-    if (node.end - node.begin <= leaf_size_ || node.level == MAX_DEPTH) {
+    if (!is_divided(node)) {
       const std::uint32_t tag = node.begin < node.end ? NODE_FILLED : NODE_EMPTY;
       tree_.node_pool[node.node] = tag << NODE_TAG_SHIFT | static_cast<std::uint32_t>(tree_.leaves.size());
       tree_.leaves.push_back(node);
@@ -78,6 +86,13 @@ class Builder {
       child.begin = child.end;
       ++child.node;
     }
+  }
+
+  [[nodiscard]] bool is_divided(const Leaf& node) const {
+    const std::uint32_t centers = node.end - node.begin;
+    if (centers <= leaf_size_ || node.level == MAX_DEPTH) return false;
+    if (centers > CROWDED_MOST * leaf_size_) return true;
+    return mean_radius(splats_, node.begin, node.end) <= WIDEST_SPLATS * (0.5 * node.cell_size());
   }
 
   const SplatList& splats_;

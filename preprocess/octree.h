@@ -39,7 +39,12 @@ struct Octree {
   std::vector<Leaf> leaves;  ///< in Z-order, empty ones too
 };
 
-/// Splits every node above MAX_DEPTH that holds more than `leaf_size` centres.
+/// A node of at most so many times `leaf_size` centres stays a leaf where the root mean square of their splats' radii is more than
+/// WIDEST_SPLATS of the width its children would have: these would list mostly the same splats, each with copies of its own.
+inline constexpr double CROWDED_MOST = 1.75;
+inline constexpr double WIDEST_SPLATS = 0.36;
+
+/// Divides every node above MAX_DEPTH that holds more than `leaf_size` centres, but for those crowded ones.
 [[nodiscard]] Octree build_octree(const SplatList& splats, std::uint32_t leaf_size);
 
 }  // namespace splatray

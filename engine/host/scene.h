@@ -47,7 +47,7 @@ enum class RadiusRule : std::uint32_t { coverage = 0, knn = 1, given = 2 };
 
 /// How the octree was built; kept in the file so that a build can be repeated.
 struct BuildParams {
-  std::uint32_t leaf_size = 16;  ///< k: most splat centres in a leaf above MAX_DEPTH, >= 1
+  std::uint32_t leaf_size = 16;  ///< k: cells of more splat centres are divided (build_octree), >= 1
   Insertion insertion = Insertion::overlap;
   std::uint32_t probes = 32;                      ///< probe rays per leaf, insertion == probe only
   RadiusRule radius_rule = RadiusRule::coverage;  ///< for points without a radius of their own
@@ -188,6 +188,12 @@ struct OctreeBox {
 /// The box without filled leaves around an empty leaf, from its node word: the reference implementation of the decoding.
 [[nodiscard]] OctreeBox empty_box(std::uint32_t word, const OctreeCell& cell);
 
+/// The cell of a child, 0 to 7 in Z-order.
+[[nodiscard]] inline OctreeCell child_cell(const OctreeCell& cell, std::uint32_t child) {
+  const std::uint32_t half = cell.size / 2;
+  return {cell.low + half * glm::uvec3(child & 1U, child >> 1 & 1U, child >> 2), half};
+}
+
 /// Calls visit(node word, OctreeCell) for the root and, where that returns true for an inner node, for its children in Z-order, and
 /// so on.
 template <typename Visit>
@@ -195,11 +201,8 @@ void visit_cells(const Scene& scene, const Visit& visit, std::uint32_t node = 0,
                  const OctreeCell& cell = {glm::uvec3(0), 1U << LATTICE_BITS}) {
   const std::uint32_t word = scene.node_pool[node];
   if (!visit(word, cell) || word >> NODE_TAG_SHIFT != NODE_INNER) return;
-  const std::uint32_t half = cell.size / 2;
-  for (std::uint32_t child = 0; child < 8; ++child) {
-    const glm::uvec3 corner(child & 1U, child >> 1 & 1U, child >> 2);
-    visit_cells(scene, visit, (word & NODE_ADDRESS_MASK) + child, {cell.low + half * corner, half});
-  }
+  for (std::uint32_t child = 0; child < 8; ++child)
+    visit_cells(scene, visit, (word & NODE_ADDRESS_MASK) + child, child_cell(cell, child));
 }
 
 /// The cells of the filled leaves, in the order of Begin-End; size 0 for leaves that are not in the tree.

@@ -12,13 +12,13 @@ namespace splatray {
 namespace {
 
 /// Ordered splats at the given lattice points, all different by their normals.
-SplatList splats_at(const std::vector<glm::uvec3>& centers) {
+SplatList splats_at(const std::vector<glm::uvec3>& centers, double radius = 10.0) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> gauss;
   SplatList splats;
   for (const glm::uvec3& center : centers) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random)));
-    splats.words.push_back(pack_splat({glm::dvec3(center), normal, 100.0, 0}));
+    splats.words.push_back(pack_splat({glm::dvec3(center), normal, radius * radius, 0}));
     splats.key.push_back(morton_key(center));
   }
   order_splats(splats, 1U << 20);
@@ -47,7 +47,22 @@ class Checker {
     EXPECT_EQ(leaves_, tree_.leaves.size());
   }
 
+  [[nodiscard]] std::size_t crowded_leaves() const { return crowded_leaves_; }
+  [[nodiscard]] std::size_t divided_like_crowded() const { return divided_like_crowded_; }
+
  private:
+  /// Whether a node that is too full, but not by much, has splats too large for its children.
+  bool is_crowded(std::size_t begin, std::size_t end, std::uint32_t level) const {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += unpack_splat(splats_.words[i]).radius_squared;
+    const double child = double(1U << (LATTICE_BITS - level - 1));
+    return is_little_too_full(end - begin) && sum > 0.36 * 0.36 * child * child * double(end - begin);
+  }
+
+  bool is_little_too_full(std::size_t centers) const {
+    return centers > leaf_size_ && 4 * centers <= 7 * std::size_t(leaf_size_);
+  }
+
   /// Returns the number of centres in the node.
   std::uint32_t check_node(std::uint32_t node, std::uint64_t key, std::uint32_t level) {
     ++nodes_;
@@ -62,6 +77,8 @@ class Checker {
                             level + 1);
     }
     EXPECT_GT(centers, leaf_size_) << "only what is too full is divided";
+    EXPECT_FALSE(is_crowded(centers_ - centers, centers_, level)) << "but not among large splats";
+    divided_like_crowded_ += is_little_too_full(centers) ? 1 : 0;
     return centers;
   }
 
@@ -74,7 +91,11 @@ class Checker {
     EXPECT_LE(level, MAX_DEPTH);
     const std::uint32_t centers = leaf.end - leaf.begin;
     EXPECT_EQ(tag, centers > 0 ? NODE_FILLED : NODE_EMPTY);
-    EXPECT_TRUE(centers <= leaf_size_ || level == MAX_DEPTH);
+    const bool crowded = is_crowded(leaf.begin, leaf.end, level);
+    EXPECT_TRUE(centers <= leaf_size_ || level == MAX_DEPTH || crowded);
+    crowded_leaves_ += crowded ? 1 : 0;
+    EXPECT_EQ(leaf.begin, centers_);
+    centers_ += centers;
     const glm::uvec3 low = morton_point(key);
     for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) {
       const glm::uvec3 center(unpack_splat(splats_.words[i]).center);
@@ -89,6 +110,9 @@ class Checker {
   std::uint32_t leaf_size_;
   std::size_t nodes_ = 0;
   std::size_t leaves_ = 0;
+  std::size_t centers_ = 0;  ///< in the leaves so far
+  std::size_t crowded_leaves_ = 0;
+  std::size_t divided_like_crowded_ = 0;  ///< inner nodes as full as crowded leaves
 };
 
 void check_tree(const std::vector<glm::uvec3>& centers, std::uint32_t leaf_size) {
@@ -99,6 +123,21 @@ void check_tree(const std::vector<glm::uvec3>& centers, std::uint32_t leaf_size)
 TEST(Octree, RandomCentres) {
   for (const std::uint32_t leaf_size : {1U, 4U, 10U, 100U})
     check_tree(random_centers(5000, 1U << LATTICE_BITS), leaf_size);
+}
+
+TEST(Octree, CrowdedCellsOfLargeSplatsStayWhole) {
+  std::size_t crowded = 0;
+  std::size_t divided = 0;
+  for (const std::uint32_t leaf_size : {1U, 4U, 10U, 16U, 100U}) {
+    const SplatList splats = splats_at(random_centers(5000, 1U << LATTICE_BITS), 30000.0);
+    const Octree tree = build_octree(splats, leaf_size);
+    Checker checker(tree, splats, leaf_size);
+    checker.check();
+    crowded += checker.crowded_leaves();
+    divided += checker.divided_like_crowded();
+  }
+  EXPECT_GT(crowded, 0U);
+  EXPECT_GT(divided, 0U);
 }
 
 TEST(Octree, FewCentresAreOneLeaf) {
