@@ -19,7 +19,7 @@ constexpr const char* USAGE =
     "Measures the cases that splatray-bench-prepare --scale made in FOLDER.\n"
     "  --part     rays: primary, shadow, mirrored and random rays at spheres of 10 k to 30 M splats\n"
     "             features: what each costs that is absent, there but out of view, and in view\n"
-    "             coverage: frames of which 30 % of the pixels hit\n"
+    "             coverage: frames of which 30 % or 99 % of the pixels hit\n"
     "  --quick    only the cases of splatray-bench-prepare --scale --quick\n"
     "  --device   number or part of a name, as splatray-render --list-devices shows them; default the best\n";
 
