@@ -146,15 +146,19 @@ Facet facet_at(uvec4 words, uint splat, vec3 from_center, vec3 dir) {
   return facet;
 }
 
-/// Adds the candidates that are hits and belong to the first splat's cluster. Where each is met is computed anew in
-/// double-float, so that grazing rays and small discs far away have exact weights.
-void accumulate_candidates(uint chunk, uint candidates, Ray ray, Walk walk, First first, float depth,
+/// Adds the candidates that are hits and belong to the first splat's cluster: bit i of x is splat chunk + i, of y splat
+/// chunk + CHUNK + i. Where each is met is computed anew in double-float, so that grazing rays and small discs far away have
+/// exact weights.
+void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, First first, float depth,
                            INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
   do {
-    if (candidates != 0u) {
-      uint splat = splat_at(chunk + uint(findLSB(candidates)));
-      candidates &= candidates - 1u;
+    if ((candidates.x | candidates.y) != 0u) {
+      bool low = candidates.x != 0u;
+      uint mask = low ? candidates.x : candidates.y;
+      uint splat = splat_at(chunk + (low ? 0u : CHUNK) + uint(findLSB(mask)));
+      mask &= mask - 1u;
+      candidates = low ? uvec2(mask, candidates.y) : uvec2(0u, mask);
       uvec4 words = splat_words(splat);
       PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
       float behind = df_add(hit.t, -first.t).x;
@@ -174,7 +178,7 @@ void accumulate_candidates(uint chunk, uint candidates, Ray ray, Walk walk, Firs
       if (COLORS == 1u) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
       cluster.members += member ? 1u : 0u;
     }
-  } while (candidates != 0u);
+  } while ((candidates.x | candidates.y) != 0u);
 }
 
 /// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds
@@ -229,7 +233,7 @@ Cluster empty_cluster() {
 }
 
 /// What the ray sees first. The ray may start anywhere. The leaf with the first hit is looked through to its end before
-/// any of its splats is accumulated; one of more than CHUNK splats is then gone through again.
+/// any of its splats is accumulated; one of more than two CHUNKs is then gone through again.
 Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
@@ -238,10 +242,12 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
   First first = no_first();
   uint chunk = 0u;
   uint candidates = 0u;
+  uvec2 hits = uvec2(0u, 0u);  // of this leaf: none in the leaves before
   bool found = false;
   do {
     candidates = walk_candidates(walk, ray, ray.t_max, found, chunk, tally);
     candidates = accept_candidates(chunk, candidates, ray, walk, true, first);
+    hits = uvec2(chunk == walk.begin ? candidates : hits.x, chunk == walk.begin + CHUNK ? candidates : hits.y);
     found = first.measure.x < INFINITY_F;
   } while (walk.inside && !(found && walk.next >= walk.end));
   Cluster cluster = empty_cluster();
@@ -250,15 +256,16 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
     depth = window_depth(first, ray.dir, kappa);
     float t_end = BLEND == BLEND_WINDOW ? first.t.x + depth * 1.0001f + WINDOW_SLACK : ray.t_max;
     uint last_leaf = BLEND == BLEND_WINDOW ? MAX_LEAVES : (BLEND == BLEND_PAPER ? walk.leaves + 1u : walk.leaves);
-    bool again = walk.end - walk.begin > CHUNK;
+    bool again = walk.end - walk.begin > 2u * CHUNK;
     walk.next = again ? walk.begin : walk.next;
-    candidates = again ? 0u : candidates;
+    hits = again ? uvec2(0u, 0u) : hits;
+    chunk = walk.begin;
     do {
-      accumulate_candidates(chunk, candidates, ray, walk, first, depth, cluster);
+      accumulate_candidates(chunk, hits, ray, walk, first, depth, cluster);
       bool more = walk.next < walk.end || (walk.leaves < last_leaf && walk.t_out <= t_end);
       walk.inside = walk.inside && more;
-      candidates = walk_candidates(walk, ray, t_end, false, chunk, tally);
-    } while (candidates != 0u);
+      hits = uvec2(walk_candidates(walk, ray, t_end, false, chunk, tally), 0u);
+    } while (hits.x != 0u);
   }
   return finish_hit(ray, first, cluster, depth, shift);
 }
