@@ -158,7 +158,7 @@ void bvh_collect(Ray ray, bool needed, float t_begin, float t_end, First first, 
   BvhWalk walk = bvh_start(ray, needed);
   do {
     uint candidates = bvh_candidates(walk, ray, t_begin, t_end, tally);
-    accumulate_candidates(walk.chunk, candidates, ray, whole_ray(ray), first, depth, cluster);
+    accumulate_candidates(walk.chunk, uvec2(candidates, 0u), ray, whole_ray(ray), first, depth, cluster);
   } while (bvh_alive(walk));
 }
 
@@ -167,7 +167,7 @@ void bvh_accumulate(uint count, Ray ray, First first, float depth, INOUT(Cluster
   uint i = 0u;
   do {
     uint entry = i < count ? bvh_accepted[i] : 0u;
-    accumulate_candidates(entry & BVH_ADDRESS, entry >> 24u, ray, whole_ray(ray), first, depth, cluster);
+    accumulate_candidates(entry & BVH_ADDRESS, uvec2(entry >> 24u, 0u), ray, whole_ray(ray), first, depth, cluster);
     i += 1u;
   } while (i < count);
 }
