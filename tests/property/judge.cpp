@@ -67,8 +67,9 @@ bool Judge::is_right_in_float32(const BruteForce& exact, const RayQuery& ray, co
     for (std::size_t i = 0; i < moved.splats().size(); ++i) {
       const Splat& splat = moved.splats()[i];
       const double distance = glm::distance(splat.center, first_hit);
-      if (distance < window + 2.0 * std::sqrt(splat.radius_squared))
-        moved.move_splat(i, FLOAT_SHARE * distance * dice.in_cube());
+      if (distance >= window + 2.0 * std::sqrt(splat.radius_squared)) continue;
+      moved.move_splat(i, FLOAT_SHARE * distance * dice.in_cube());
+      if (i != truth.first) moved.turn_splat(i, FLOAT_SHARE * dice.in_cube());
     }
     const TrueHit hit = moved.nearest(ray, settings_);
     if (hit.found && hit.first == truth.first && is_right(moved, ray, hit, answer)) return true;

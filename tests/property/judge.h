@@ -11,7 +11,7 @@
 ///   brute force in float64 is finer); so each centre may be moved by up to 2^-42 of the ray's way to it;
 /// - which splats belong to the sheet left, and which to the cluster and with what weight, is decided in float32: there a
 ///   centre may be moved by up to 2^-21 of its distance from the ray's origin, or from the first hit, respectively, and the
-///   normal of the sheet left by 2^-21; the first hit itself stays the same splat.
+///   normals of the sheet left and of splats other than the first by 2^-21; the first hit itself stays the same splat.
 /// Such moves are tried a fixed number of times, each time by asking brute force again.
 #pragma once
 #include <cstdint>

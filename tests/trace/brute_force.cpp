@@ -51,6 +51,10 @@ void BruteForce::move_splat(std::size_t index, dvec3 by_root) {
   z_[index] = splat.center.z;
 }
 
+void BruteForce::turn_splat(std::size_t index, dvec3 by) {
+  splats_[index].normal = glm::normalize(splats_[index].normal + by);
+}
+
 bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Settings& settings) const {
   const Splat& splat = splats_[meeting.index];
   const Material& material = materials_[splat.object];

@@ -37,6 +37,8 @@ class BruteForce {
   [[nodiscard]] const std::vector<Splat>& splats() const { return splats_; }
   /// Moves one splat's centre, to prove that a comparison can fail.
   void move_splat(std::size_t index, glm::dvec3 by_root);
+  /// Turns one splat's unit normal towards normal + by.
+  void turn_splat(std::size_t index, glm::dvec3 by);
 
  private:
   /// A disc the ray meets.
