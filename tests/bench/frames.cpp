@@ -17,7 +17,7 @@ double seconds_since(Clock::time_point start) {
 void add_work_and_memory(Json& speed, const LoadedVariant& variant, const RenderStats& counted) {
   const auto splats = static_cast<double>(variant.splats);
   add_work(speed, counted);
-  speed["bytes_per_splat"] = static_cast<double>(total_bytes(variant.tracer.pool_bytes())) / splats;
+  speed["bytes_per_splat"] = bytes_per_splat(variant.tracer, variant.splats);
   speed["growth"] = static_cast<double>(variant.references) / splats - 1.0;
   if (variant.prepared.overlap > 0.0) speed["overlap"] = variant.prepared.overlap;
   speed["build_s"] = variant.prepared.build_s;

@@ -22,6 +22,10 @@ def at_most(what, limit, unit, value):
     return Target(what, f"at most {limit:g}{unit}", f"{value:.3g}{unit}", value <= limit)
 
 
+def at_least(what, limit, unit, value):
+    return Target(what, f"at least {limit:g}{unit}", f"{value:.3g}{unit}", value >= limit)
+
+
 def default_run(records, **wanted):
     """The window run with all knobs at their defaults, on the first device; None when there is none."""
     runs = records.choose(method="window", varied=("", "splats"), device=records.devices()[0], **wanted)
@@ -37,8 +41,7 @@ def mesh_targets(records):
             yield at_most(name + "normals p99", 3.5, "°", run.get("normal_p99_deg"))
             yield at_most(name + "median depth error / diagonal", 1e-5, "", run.get("depth_abs_median"))
             yield at_most(name + "hit or miss differs", 300, " ppm", run.get("mismatch_ppm"))
-            psnr = run.get("psnr_db")
-            yield Target(name + "PSNR", "at least 42 dB", f"{psnr:.1f} dB", psnr >= 42)
+            yield at_least(name + "PSNR", 42, " dB", run.get("psnr_db"))
         run = default_run(records, scene=mesh, sampling="vertices")
         if run:
             yield at_most(f"{mesh}, vertices: normals p95", VERTEX_P95_DEG[mesh], "°", run.get("normal_p95_deg"))

@@ -106,17 +106,17 @@ std::vector<Json> measure_coverage(const Context& context, const Case& one,
     const View view = with_coverage(tracer, {prepared.camera, one.width, one.height}, wanted);
     const std::vector<RayQuery> rays = compared_rays(view, scene.root);
     const std::vector<std::vector<double>> times = times_in_turn(tracer, view, runs);
+    const double reached = coverage_of(tracer, view);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       Json record = start_record(one, {one.runs.front().variant, runs[i], ""}, scene.data_pool.size());
       add_device(record, context);
       const RenderStats counted = frame(tracer, view, runs[i], true);
       record["settings"]["coverage"] = wanted;
-      record["coverage"] = coverage_of(tracer, view);
+      record["coverage"] = reached;
       add_times(record["speed"], times[i], static_cast<double>(counted.rays()));
       record["speed"]["shadow_rays"] = counted.counters[COUNT_SHADOW];
       add_work(record["speed"], counted);
-      record["speed"]["bytes_per_splat"] =
-          static_cast<double>(total_bytes(tracer.pool_bytes())) / static_cast<double>(scene.data_pool.size());
+      record["speed"]["bytes_per_splat"] = bytes_per_splat(tracer, scene.data_pool.size());
       record["error"] = {{"truth", "brute force"},
                          {"mismatch_ppm", mismatch_ppm(tracer, brute, rays, runs[i])}};
       records.push_back(record);

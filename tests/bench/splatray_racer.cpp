@@ -86,8 +86,7 @@ void SplatrayRacer::describe(Json& record) {
   record["settings"]["blend"] = blend_word(blend_);
   add_device(record, context_);
   add_work(record["speed"], tracer_.stats());
-  record["speed"]["bytes_per_splat"] =
-      static_cast<double>(total_bytes(tracer_.pool_bytes())) / static_cast<double>(course_.splats);
+  record["speed"]["bytes_per_splat"] = bytes_per_splat(tracer_, course_.splats);
 }
 
 }  // namespace splatray::testing
