@@ -12,6 +12,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/host/copies.h"
 #include "engine/host/error.h"
 #include "preprocess/cloud.h"
 #include "preprocess/empty_space.h"
@@ -28,8 +29,13 @@
 namespace splatray {
 namespace {
 
-constexpr double ISOLATED_SHARE = 0.01;   // of the scene's diagonal: radius where nothing else is known
-constexpr std::uint32_t MOST_EQUAL = 10;  // splats with the same words that are kept: more only add weight
+constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
+constexpr std::uint32_t MOST_EQUAL = 8;  // splats with the same words that are kept: more only add weight
+
+/// Leaves of automatic size: where a device has copies of their splats, and where it has references, of which it can have more
+/// and follows as few as it can.
+constexpr std::uint32_t LEAF_SIZE = 16;
+constexpr std::uint32_t LEAF_SIZE_OF_REFERENCES = 8;
 
 /// Adds the time since its construction to a number of milliseconds when it ends.
 class Stopwatch {
@@ -220,8 +226,46 @@ LeafLists insert(const Octree& tree, const SplatList& splats, const BuildParams&
   return keep_probed(tree, splats, lists, params.probes, params.seed, {"probes", progress});
 }
 
+/// An octree and what its leaves list.
+struct ListedOctree {
+  Octree tree;
+  LeafLists lists;
+};
+
+ListedOctree build_lists(const SplatList& splats, const BuildParams& params, const BuildProgress& progress,
+                         BuildStats& stats) {
+  ListedOctree built;
+  {
+    const Stopwatch watch(stats.octree_ms);
+    built.tree = build_octree(splats, params.leaf_size);
+  }
+  built.lists = insert(built.tree, splats, params, progress, stats);
+  return built;
+}
+
+PoolCounts pool_counts(const ListedOctree& built, const SplatList& splats) {
+  const std::vector<std::uint32_t>& begin = built.lists.begin;
+  PoolCounts counts{splats.size(),         built.lists.splat.size(), built.tree.node_pool.size(), 0,
+                    !splats.color.empty(), !splats.field.empty()};
+  for (std::size_t i = 0; i + 1 < begin.size(); ++i) counts.filled_leaves += begin[i] < begin[i + 1] ? 1 : 0;
+  return counts;
+}
+
+/// With leaves of the size that is asked for, or of automatic size, which `params` is then told.
+ListedOctree build_lists_of_size(const SplatList& splats, BuildParams& params, const BuildProgress& progress,
+                                 BuildStats& stats) {
+  if (params.leaf_size > 0) return build_lists(splats, params, progress, stats);
+  params.leaf_size = LEAF_SIZE;
+  ListedOctree built = build_lists(splats, params, progress, stats);
+  if (copies_fit(pool_counts(built, splats))) return built;
+  built = {};  // there may not be room for both
+  params.leaf_size = LEAF_SIZE_OF_REFERENCES;
+  return build_lists(splats, params, progress, stats);
+}
+
 /// Writes the scene's pools: leaf words get their Begin-End index.
-void fill_pools(Octree tree, SplatList splats, LeafLists lists, Scene& scene, BuildStats& stats) {
+void fill_pools(ListedOctree built, SplatList splats, Scene& scene, BuildStats& stats) {
+  auto& [tree, lists] = built;
   scene.node_pool = std::move(tree.node_pool);
   scene.begin_end = {0};
   for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
@@ -273,16 +317,15 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   number_objects(clouds, scene.materials);
   find_all_radii(clouds, scene, progress, stats);
   SplatList splats;
-  Octree tree;
   {
     const Stopwatch octree_watch(stats.octree_ms);
     scene.root = fit_root(clouds);
     splats = pack_clouds(std::move(clouds), scene.root, {"packing", progress});
-    stats.dropped_duplicates = order_splats(splats, std::min(params.leaf_size, MOST_EQUAL));
-    tree = build_octree(splats, params.leaf_size);
+    stats.dropped_duplicates =
+        order_splats(splats, params.leaf_size > 0 ? std::min(params.leaf_size, MOST_EQUAL) : MOST_EQUAL);
   }
-  LeafLists lists = insert(tree, splats, params, progress, stats);
-  fill_pools(std::move(tree), std::move(splats), std::move(lists), scene, stats);
+  ListedOctree built = build_lists_of_size(splats, scene.build, progress, stats);
+  fill_pools(std::move(built), std::move(splats), scene, stats);
   {
     const Stopwatch slab_watch(stats.slabs_ms);
     add_slabs(scene, {"slabs", progress});

@@ -14,7 +14,7 @@ namespace splatray {
 struct BuildStats {
   std::uint64_t points_read = 0;
   std::uint64_t dropped_non_finite = 0;  ///< position not finite
-  std::uint64_t dropped_duplicates = 0;  ///< copies of a splat (same 128 bits) beyond leaf_size
+  std::uint64_t dropped_duplicates = 0;  ///< copies of a splat (same 128 bits) beyond 8, or leaf_size if less
   std::uint64_t normals_given = 0;
   std::uint64_t normals_estimated = 0;  ///< of points without a usable normal
   std::uint64_t radii_given = 0;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/host/copies.h"
 #include "engine/host/error.h"
 
 namespace splatray {
@@ -39,12 +40,12 @@ PoolKinds kinds(std::uint32_t references) {
   return list;
 }
 
-std::uint32_t choose_references(DataPool wanted, std::size_t references, const PoolLimits& limits) {
-  const bool copies =
-      wanted == DataPool::copies || (wanted == DataPool::automatic && references <= MOST_COPIES);
-  if (copies) return REFERENCES_NONE;
+std::uint32_t choose_references(DataPool wanted, const PoolCounts& counts, const PoolLimits& limits) {
+  if (wanted == DataPool::automatic && counts.references <= MOST_COPIES && copies_fit(counts))
+    wanted = DataPool::copies;
+  if (wanted == DataPool::copies) return REFERENCES_NONE;
   const bool wide = wanted == DataPool::wide_references ||
-                    (wanted == DataPool::automatic && references > limits.texel_elements);
+                    (wanted == DataPool::automatic && counts.references > limits.texel_elements);
   return wide ? REFERENCES_FOUR : REFERENCES_ONE;
 }
 
@@ -114,7 +115,7 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, Po
   const std::vector<std::uint32_t> top = top_table(scene, top_levels);
   const std::vector<std::uint32_t>& references = scene.reference_pool;
   const PoolLimits limits = pool_limits(context);
-  bytes.references = choose_references(data, references.size(), limits);
+  bytes.references = choose_references(data, pool_counts(scene), limits);
   const bool copies = bytes.references == REFERENCES_NONE;
   const auto splats = copies ? listed(scene.data_pool, references) : std::vector<uvec4>();
   const auto colors = copies ? listed(scene.color_pool, references) : std::vector<std::uint32_t>();

@@ -18,7 +18,7 @@ enum class PoolAccess {
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
-  automatic,   ///< copies, unless there are more than MOST_COPIES references
+  automatic,   ///< copies where they fit (engine/host/copies.h) and there are at most MOST_COPIES references
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
   wide_references,  ///< ... four in a texel; what `automatic` takes when there are more than a texel buffer has texels

@@ -47,7 +47,8 @@ enum class RadiusRule : std::uint32_t { coverage = 0, knn = 1, given = 2 };
 
 /// How the octree was built; kept in the file so that a build can be repeated.
 struct BuildParams {
-  std::uint32_t leaf_size = 16;  ///< k: cells of more splat centres are divided (build_octree), >= 1
+  /// k: cells of more splat centres are divided (build_octree). 0 leaves it to build_scene; a scene's is the one it took.
+  std::uint32_t leaf_size = 0;
   Insertion insertion = Insertion::overlap;
   std::uint32_t probes = 32;                      ///< probe rays per leaf, insertion == probe only
   RadiusRule radius_rule = RadiusRule::coverage;  ///< for points without a radius of their own

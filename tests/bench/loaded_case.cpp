@@ -19,6 +19,7 @@ LoadedVariant::LoadedVariant(const Context& context, const std::filesystem::path
   tracer.set_environment(read_environment_file(folder / "environment.bin"));
   root = scene.root;
   splats = scene.data_pool.size();
+  leaf_size = scene.build.leaf_size;
   references = scene.reference_pool.size();
 }
 
@@ -44,6 +45,7 @@ Settings LoadedCase::settings_of(const Run& run) const {
 
 Json LoadedCase::start_record(const Run& run) {
   Json record = testing::start_record(case_, run, variant_of(run).splats);
+  record["settings"]["leaf_size"] = variant_of(run).leaf_size;
   add_device(record, context_);
   return record;
 }

@@ -19,6 +19,7 @@ struct LoadedVariant {
   Tracer tracer;  ///< holds the scene and its surroundings
   RootTransform root;
   std::uint64_t splats = 0;
+  std::uint32_t leaf_size = 0;   ///< that the build took
   std::uint64_t references = 0;  ///< in the leaves
 
   LoadedVariant(const Context& context, const std::filesystem::path& folder, const std::string& file,

@@ -51,7 +51,7 @@ TEST_F(CliOptions, NonsenseIsRefused) {
                                                                {"--delta=-1"},
                                                                {"--material=wood"},
                                                                {"--insertion=some"},
-                                                               {"--leaf-size=0"},
+                                                               {"--leaf-size=65537"},
                                                                {"--radius-rule=big"},
                                                                {"--radius-scale=0"},
                                                                {"--aov=depth"},
@@ -77,7 +77,7 @@ TEST_F(CliOptions, MissingPartsAreRefused) {
   expect_refused([&] { return run_program({RENDER, grid, "a.soct", "-o", file("a.png")}); }, 2, ".soct");
   expect_refused([&] { return run_program({PREPROCESS}); }, 2, "");
   expect_refused([&] { return run_program({PREPROCESS, grid}); }, 2, "");
-  expect_refused([&] { return preprocess({grid, "--leaf-size=0"}); }, 2, "");
+  expect_refused([&] { return preprocess({grid, "--leaf-size=65537"}); }, 2, "");
   expect_refused([&] { return preprocess({grid, "--insertion=some"}); }, 2, "");
   expect_refused([&] { return preprocess({grid, "--no-such-option"}); }, 2, "");
 }

@@ -56,6 +56,15 @@ TEST(Work, EvenSphereInLargeLeaves) {
 }
 TEST(Work, RandomSphere) { expect_work(work_of(scene_of({ball(false, 0)})), {21.6, 8.80, 6.61, 60.5}); }
 
+TEST(Work, LayersOfAColoredScan) {
+  TestObject scan{{}, test_material(MATERIAL_TWO_SIDED)};
+  for (const double radius : {1.0, 1.004, 1.008})
+    append(scan.points,
+           painted(sphere({.count = 30000, .even = false, .seed = std::uint64_t(1000 * radius)}, radius),
+                   [](glm::dvec3 at) { return 0.5 + 0.4 * at; }));
+  expect_work(work_of(scene_of({scan})), {29.6, 10.3, 7.06, 45.1});
+}
+
 TEST(Work, GlassBallInARoom) {
   TestObject room{{}, test_material(0)};
   for (const Surface& face : box("room", glm::dvec3(4.0), true))

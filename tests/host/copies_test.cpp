@@ -1,0 +1,42 @@
+/// When a device's leaves have copies of their splats.
+#include "engine/host/copies.h"
+
+#include <gtest/gtest.h>
+
+namespace splatray {
+namespace {
+
+// Of 1000 splats: a top table of 8^3 entries is 2 bytes for each.
+TEST(Copies, TakeAtMost64BytesASplat) {
+  EXPECT_TRUE(copies_fit({1000, 3000, 1, 1, false, false})) << "48 bytes of copies and 2 of all else";
+  EXPECT_TRUE(copies_fit({1000, 3000, 1, 1, true, false})) << "60 and 2";
+  EXPECT_FALSE(copies_fit({1000, 4000, 1, 1, false, false})) << "64 and 2";
+  EXPECT_FALSE(copies_fit({1000, 3000, 1, 1, true, true})) << "72 and 2";
+  EXPECT_FALSE(copies_fit({1000, 3000, 1001, 1, true, false})) << "60 and 6";
+  EXPECT_FALSE(copies_fit({1000, 3000, 1, 501, true, false})) << "60 and 6";
+}
+
+TEST(Copies, FitToTheLastByte) {
+  // 64 000 bytes: 3096 copies of 20 bytes, and 4 (1 + 3 + 512) = 2064 of all else, leave 16.
+  EXPECT_TRUE(copies_fit({1000, 3096, 1, 1, true, false}));
+  EXPECT_FALSE(copies_fit({1000, 3097, 1, 1, true, false}));
+}
+
+TEST(Copies, AreCountedFromTheScene) {
+  Scene scene;
+  scene.data_pool.resize(5);
+  scene.reference_pool.resize(9);
+  scene.node_pool.resize(17);
+  scene.begin_end = {0, 4, 9};
+  scene.field_pool.resize(5);
+  const PoolCounts found = pool_counts(scene);
+  EXPECT_EQ(found.splats, 5U);
+  EXPECT_EQ(found.references, 9U);
+  EXPECT_EQ(found.node_words, 17U);
+  EXPECT_EQ(found.filled_leaves, 2U);
+  EXPECT_FALSE(found.colors);
+  EXPECT_TRUE(found.fields);
+}
+
+}  // namespace
+}  // namespace splatray
