@@ -4,6 +4,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -32,10 +33,9 @@ namespace {
 constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
 constexpr std::uint32_t MOST_EQUAL = 8;  // splats with the same words that are kept: more only add weight
 
-/// Leaves of automatic size: where a device has copies of their splats, and where it has references, of which it can have more
-/// and follows as few as it can.
-constexpr std::uint32_t LEAF_SIZE = 16;
-constexpr std::uint32_t LEAF_SIZE_OF_REFERENCES = 8;
+/// Leaf sizes to try where none is given, until a device can have copies of the leaves' splats. Larger leaves list a splat less
+/// often. Should all list too much, it has references, of which small leaves may have many and rays then follow few.
+constexpr std::array<std::uint32_t, 3> LEAF_SIZES = {16, 24, 8};
 
 /// Adds the time since its construction to a number of milliseconds when it ends.
 class Stopwatch {
@@ -255,12 +255,14 @@ PoolCounts pool_counts(const ListedOctree& built, const SplatList& splats) {
 ListedOctree build_lists_of_size(const SplatList& splats, BuildParams& params, const BuildProgress& progress,
                                  BuildStats& stats) {
   if (params.leaf_size > 0) return build_lists(splats, params, progress, stats);
-  params.leaf_size = LEAF_SIZE;
-  ListedOctree built = build_lists(splats, params, progress, stats);
-  if (copies_fit(pool_counts(built, splats))) return built;
-  built = {};  // there may not be room for both
-  params.leaf_size = LEAF_SIZE_OF_REFERENCES;
-  return build_lists(splats, params, progress, stats);
+  ListedOctree built;
+  for (const std::uint32_t leaf_size : LEAF_SIZES) {
+    built = {};  // there may not be room for two
+    params.leaf_size = leaf_size;
+    built = build_lists(splats, params, progress, stats);
+    if (copies_fit(pool_counts(built, splats))) break;
+  }
+  return built;
 }
 
 /// Writes the scene's pools: leaf words get their Begin-End index.

@@ -23,8 +23,8 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_number(list, samples_name, params.samples, 0, MOST_WHOLE,
              "points sampled on meshes by area; default 0 = their vertices where fine enough");
   add_number(list, "--leaf-size", params.leaf_size, 0, 65536,
-             "octree cells of more splat centres are divided; default 0 = 16, or 8 where 16 would "
-             "take more than 64 bytes of GPU memory a splat");
+             "octree cells of more splat centres are divided; default 0 = 16, or 24 or 8 where "
+             "that would take more than 64 bytes of GPU memory a splat");
   add_choice<Insertion>(
       list, "--insertion", params.insertion,
       {{"overlap", Insertion::overlap}, {"probe", Insertion::probe}, {"centre", Insertion::centre}},

@@ -1,8 +1,8 @@
 /// One line of the report as JSON. A key that was not measured is absent.
 /// Keys of the report of scale alone are told in race.h, scale_features.h and scale_coverage.h.
 ///   case, scene, method (blending, or a peer's name), varied (the knob not at its default, a key of settings; "" = none)
-///   settings: splats, sampling (even | random | vertices), radius_rule, radius_scale, normal_fields, leaf_size, insertion,
-///     probes, blend, kernel, kappa, side, samples, shadows, threads (of software devices), width, height
+///   settings: splats, sampling (even | random | vertices), radius_rule, radius_scale, normal_fields, leaf_size (0: automatic),
+///     insertion, probes, blend, kernel, kappa, side, samples, shadows, threads (of software devices), width, height
 ///   device: name, driver
 ///   commit, date (UTC, of the measurement)
 ///   speed: frame_ms_median, frame_ms_min, frames, rays_per_s (all classes), tests_per_ray, steps_per_ray, leaves_per_ray,

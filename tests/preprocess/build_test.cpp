@@ -57,9 +57,29 @@ TEST(Build, SceneDoesNotDependOnOrderOrThreads) {
   }
 }
 
-TEST(Build, LeavesAreSmallWhereADeviceReadsThemThroughReferences) {
-  EXPECT_EQ(build(test::even_sphere(5000)).build.leaf_size, 16U);
-  const InputObject object = colored_noise();
+/// Three spheres of points at random, closer to each other than their points are.
+InputObject colored_layers() {
+  InputObject layers = test::random_sphere(5000, 1);
+  for (const std::uint64_t seed : {2U, 3U}) {
+    const InputObject layer = test::random_sphere(5000, seed);
+    const double scale = 1.0 + 0.02 * static_cast<double>(seed);
+    for (const glm::dvec3& position : layer.points.position)
+      layers.points.position.push_back(scale * position);
+    layers.points.normal.insert(layers.points.normal.end(), layer.points.normal.begin(),
+                                layer.points.normal.end());
+  }
+  layers.points.color.assign(layers.points.size(), glm::vec3(0.5F));
+  return layers;
+}
+
+TEST(Build, LeafSizeSuitsTheDevice) {
+  InputObject sphere = test::even_sphere(20000);
+  EXPECT_EQ(build(sphere).build.leaf_size, 16U);
+  sphere.points.color.assign(20000, glm::vec3(0.5F));
+  const Scene colored = build(sphere);
+  EXPECT_EQ(colored.build.leaf_size, 24U);
+  EXPECT_TRUE(copies_fit(pool_counts(colored)));
+  const InputObject object = colored_layers();
   const Scene scene = build(object);
   EXPECT_EQ(scene.build.leaf_size, 8U);
   EXPECT_FALSE(copies_fit(pool_counts(scene)));
