@@ -85,6 +85,10 @@ uint splat_at(uint place) { return REFERENCES == REFERENCES_NONE ? place : refer
 
 Material material_at(uint object) { return materials[object]; }
 
+/// Index of refraction in the dielectric that has this bit of a ray's mask. Not of the copy of the parameters: llvmpipe would
+/// look through all of an array there.
+float medium_at(uint bit) { return frame_block.media[bit >> 2u][bit & 3u]; }
+
 /// Linear colour of a splat; square-root encoded in the pool.
 vec3 color_at(uint index) {
   vec3 root = unpackUnorm4x8(color_word(index)).xyz;

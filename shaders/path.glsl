@@ -22,20 +22,15 @@ struct PathResult {
   float energy_lost;   ///< its throughput then
 };
 
-/// Index of refraction where a ray with this mask runs: of the dielectric with the highest bit, `own` if it is its (more
-/// than 32 dielectrics share bits), 1 outside all.
-float medium(uint inside, Material own) {
-  if (inside == 0u) return 1.0f;
-  uint bit = uint(findMSB(inside));
-  return bit == own.mask_bit ? own.ior : frame.media[bit >> 2u][bit & 3u];
-}
-
 /// The ray that goes on from a hit on a dielectric: reflected when `choice` is below Fresnel's share, else
 /// refracted.
 Ray dielectric_ray(Hit hit, Ray ray, Material material, float choice, OUT(bool) reflected) {
   uint object_bit = 1u << material.mask_bit;
-  float eta = medium(ray.inside & ~object_bit, material) / medium(ray.inside | object_bit, material);
-  eta = hit.front ? eta : 1.0f / eta;
+  uint others = ray.inside & ~object_bit;
+  // Light runs in the dielectric with the highest bit of the mask.
+  float ior_without = others != 0u ? medium_at(uint(findMSB(others))) : 1.0f;
+  float ior_with = others > object_bit ? ior_without : material.ior;
+  float eta = hit.front ? ior_without / ior_with : ior_with / ior_without;
   float cosine = clamp(-dot(ray.dir, hit.normal), 0.0f, 1.0f);
   float cosine_behind = 0.0f;
   float share = fresnel(eta, cosine, cosine_behind);
