@@ -21,6 +21,12 @@ layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
 layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = REFERENCES_NONE;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
 
+#ifdef STAGED
+layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_FIRST;
+#else
+const uint STAGE = STAGE_ALL;
+#endif
+
 layout(local_size_x = GROUP_SIZE) in;
 
 // No uniform block: Mesa's lavapipe compiles a shader anew, 0.3 s and more, for other values of uniforms that a branch

@@ -156,10 +156,29 @@ struct FrameParams {
   uint first_group;     ///< where the group list holds this dispatch's groups
   vec3 environment_right;  ///< unit vector the environment's +x points to; its +z is cross(right, up)
   uint group_count;        ///< and how many
+  uint path_count;         ///< STAGE_NEXT: paths that go on
+  uint path_bounce;        ///< and how many secondary rays each has behind it
+  uint unused_0;
+  uint unused_1;
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
   vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
 };
+
+/// A path between two of its rays, where paths are traced in stages (STAGE_*). Five texels.
+struct PathState {
+  vec3 origin;  ///< of the next ray
+  uint place;   ///< its pixel's in the accumulation
+  vec3 dir;
+  uint inside;
+  vec3 from_normal;
+  uint from_object;
+  vec3 throughput;
+  uint unused_0;
+  vec3 radiance;  ///< found so far
+  uint unused_1;
+};
+SPLATRAY_CONST PATH_TEXELS = 5u;
 
 /// One ray of a query (rays.comp.glsl). Root space; the hits are those of exactly this ray.
 struct RayQuery {
@@ -208,6 +227,7 @@ SPLATRAY_CONST COUNT_LEAKED = 9u;         ///< rays that left the scene while in
 SPLATRAY_CONST COUNT_NON_FINITE = 10u;    ///< samples with a non-finite colour
 SPLATRAY_CONST COUNT_BOUNCE_LIMIT = 11u;  ///< paths cut by the bounce limit
 SPLATRAY_CONST COUNT_ENERGY_LOST = 12u;   ///< sum of their throughput, in units of 1/1024
+SPLATRAY_CONST COUNT_QUEUED = 13u;        ///< paths that go on to the next stage
 SPLATRAY_CONST COUNTER_COUNT = 16u;
 
 /// Descriptor bindings (set 0).
@@ -230,6 +250,9 @@ SPLATRAY_CONST BIND_RAYS = 15u;
 SPLATRAY_CONST BIND_HITS = 16u;
 SPLATRAY_CONST BIND_GROUPS = 17u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
 
+SPLATRAY_CONST BIND_PATHS = 18u;        ///< of this stage
+SPLATRAY_CONST BIND_PATHS_QUEUED = 19u;  ///< of the next
+
 /// Specialization constants: the features of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_BLEND = 0u;        ///< BLEND_*
 SPLATRAY_CONST SPEC_KERNEL = 1u;       ///< KERNEL_*
@@ -247,7 +270,12 @@ SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
 SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
 SPLATRAY_CONST SPEC_REFERENCES = 14u;  ///< REFERENCES_*
 SPLATRAY_CONST SPEC_TOP_LEVELS = 15u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
-SPLATRAY_CONST SPEC_COUNT = 16u;
+SPLATRAY_CONST SPEC_STAGE = 16u;       ///< STAGE_FIRST or STAGE_NEXT; in programs without stages STAGE_ALL
+SPLATRAY_CONST SPEC_COUNT = 17u;
+
+SPLATRAY_CONST STAGE_ALL = 0u;    ///< whole paths
+SPLATRAY_CONST STAGE_FIRST = 1u;  ///< primary rays; paths that go on are queued
+SPLATRAY_CONST STAGE_NEXT = 2u;   ///< one ray of each path queued before
 
 SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1
@@ -270,7 +298,7 @@ SPLATRAY_CONST GROUP_SIZE = 64u;      ///< threads in a group; ORDER_Z: 8 x 8 pi
 
 #ifdef __cplusplus
 static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 &&
-              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 464);
+              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 480 && sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif
 #endif

@@ -1,7 +1,7 @@
 // One light path through a pixel: trace, shade, follow the mirror or glass, until it ends. At glass one of
 // the two branches is followed, chosen by Fresnel's share with a stratified random number, so both are
 // accounted for over a pixel's samples. Needs shade.glsl, random.glsl, camera.glsl and the constants MIRRORS,
-// GLASS.
+// GLASS, STAGE.
 #ifndef SPLATRAY_PATH_GLSL
 #define SPLATRAY_PATH_GLSL
 #include "camera.glsl"
@@ -10,8 +10,12 @@
 
 const float THROUGHPUT_LEAST = 0.001953125f;  ///< 2^-9: a path that carries less ends
 
-/// What a path found, and the rays it took.
-struct PathResult {
+/// A path, what it found and the rays it took.
+struct Path {
+  Ray ray;             ///< its next, while it is alive
+  vec3 throughput;
+  uint bounce;         ///< secondary rays behind it
+  bool alive;
   vec3 radiance;
   float coverage;      ///< 1 when the primary ray hit something
   uint reflected;
@@ -21,6 +25,23 @@ struct PathResult {
   uint cut;            ///< 1 when the bounce limit ended it
   float energy_lost;   ///< its throughput then
 };
+
+Path path_start(Ray ray) {
+  Path path;
+  path.ray = ray;
+  path.throughput = vec3(1.0f);
+  path.bounce = 0u;
+  path.alive = true;
+  path.radiance = vec3(0.0f);
+  path.coverage = 0.0f;
+  path.reflected = 0u;
+  path.refracted = 0u;
+  path.shadow = 0u;
+  path.leaked = 0u;
+  path.cut = 0u;
+  path.energy_lost = 0.0f;
+  return path;
+}
 
 /// The ray that goes on from a hit on a dielectric: reflected when `choice` is below Fresnel's share, else
 /// refracted.
@@ -52,54 +73,42 @@ vec3 local_light(Hit hit, Ray ray, Material material, INOUT(uint) shadow_rays, I
   return light;
 }
 
-/// Follows one path. `pixel` numbers the pixel in the whole picture.
-PathResult trace_path(Ray ray, uint pixel, uint sample_index, INOUT(Tally) tally) {
-  PathResult result;
-  result.radiance = vec3(0.0f);
-  result.coverage = 0.0f;
-  result.reflected = 0u;
-  result.refracted = 0u;
-  result.shadow = 0u;
-  result.leaked = 0u;
-  result.cut = 0u;
-  result.energy_lost = 0.0f;
-  vec3 throughput = vec3(1.0f);
-  uint bounce = 0u;
-  bool alive = true;
+/// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture.
+void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) tally) {
   do {
-    Hit hit = trace_nearest(ray, frame.kappa, tally);
+    Hit hit = trace_nearest(path.ray, frame.kappa, tally);
     if (hit.found) {
       Material material = material_at(hit.object);
       bool dielectric = GLASS == 1u && (material.flags & MATERIAL_DIELECTRIC) != 0u;
       float mirror = MIRRORS == 1u && !dielectric ? material.mirror : 0.0f;
-      result.coverage = bounce == 0u ? 1.0f : result.coverage;
-      vec3 local = local_light(hit, ray, material, result.shadow, tally);
-      result.radiance += throughput * local * (1.0f - mirror);
-      alive = dielectric || mirror > 0.0f;
+      path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
+      vec3 local = local_light(hit, path.ray, material, path.shadow, tally);
+      path.radiance += path.throughput * local * (1.0f - mirror);
+      path.alive = dielectric || mirror > 0.0f;
       if (MIRRORS == 1u || GLASS == 1u) {
         bool reflected = true;
-        Ray next = ray_from_hit(hit, reflect(ray.dir, hit.normal), ray.inside);
+        Ray next = ray_from_hit(hit, reflect(path.ray.dir, hit.normal), path.ray.inside);
         if (GLASS == 1u && dielectric) {
-          next = dielectric_ray(hit, ray, material, path_random(pixel, sample_index, bounce, frame.seed), reflected);
+          float choice = path_random(pixel, sample_index, path.bounce, frame.seed);
+          next = dielectric_ray(hit, path.ray, material, choice, reflected);
         }
-        throughput *= dielectric ? (reflected ? vec3(1.0f) : material.tint) : material.tint * mirror;
-        bool bright = max(throughput.x, max(throughput.y, throughput.z)) >= THROUGHPUT_LEAST;
-        bool cut = alive && (bounce >= frame.max_bounces || !bright);
-        result.cut = cut ? 1u : result.cut;
-        result.energy_lost = cut ? (throughput.x + throughput.y + throughput.z) / 3.0f : result.energy_lost;
-        alive = alive && !cut;
-        result.reflected += alive && reflected ? 1u : 0u;
-        result.refracted += alive && !reflected ? 1u : 0u;
-        ray = next;
-        bounce += 1u;
+        path.throughput *= dielectric ? (reflected ? vec3(1.0f) : material.tint) : material.tint * mirror;
+        bool bright = max(path.throughput.x, max(path.throughput.y, path.throughput.z)) >= THROUGHPUT_LEAST;
+        bool cut = path.alive && (path.bounce >= frame.max_bounces || !bright);
+        path.cut = cut ? 1u : path.cut;
+        path.energy_lost = cut ? (path.throughput.x + path.throughput.y + path.throughput.z) / 3.0f : path.energy_lost;
+        path.alive = path.alive && !cut;
+        path.reflected += path.alive && reflected ? 1u : 0u;
+        path.refracted += path.alive && !reflected ? 1u : 0u;
+        path.ray = next;
+        path.bounce += 1u;
       }
     } else {
-      result.radiance += throughput * environment_radiance(ray.dir);
-      result.leaked = ray.inside != 0u ? 1u : 0u;
-      alive = false;
+      path.radiance += path.throughput * environment_radiance(path.ray.dir);
+      path.leaked = path.ray.inside != 0u ? 1u : 0u;
+      path.alive = false;
     }
-  } while (alive);
-  return result;
+  } while (path.alive && STAGE == STAGE_ALL);
 }
 
 #endif

@@ -30,19 +30,23 @@ vec3 environment_diffuse(vec3 normal) {
   return max(vec3(sum.x, sum.y, sum.z), vec3(0.0f));
 }
 
-/// A ray that leaves the surface at a hit. It ignores the sheet it leaves (design, section 4) or, with
-/// SIDE_DELTA, everything nearer than delta (Linsen et al. 2007).
-Ray ray_from_hit(Hit hit, vec3 dir, uint inside) {
+/// A ray that leaves a surface. It ignores the sheet it leaves (design, section 4) or, with SIDE_DELTA, everything nearer than
+/// delta (Linsen et al. 2007).
+Ray secondary_ray(vec3 origin, vec3 dir, uint inside, vec3 from_normal, uint from_object) {
   Ray ray;
-  ray.origin = hit.position;
+  ray.origin = origin;
   ray.origin_low = vec3(0.0f);
   ray.dir = dir;
   ray.t_min = SIDE == SIDE_DELTA ? frame.delta : 0.0f;
   ray.t_max = INFINITY_F;
   ray.inside = inside;
-  ray.from_normal = hit.front ? hit.normal : -hit.normal;
-  ray.from_object = hit.object;
+  ray.from_normal = from_normal;
+  ray.from_object = from_object;
   return ray;
+}
+
+Ray ray_from_hit(Hit hit, vec3 dir, uint inside) {
+  return secondary_ray(hit.position, dir, inside, hit.front ? hit.normal : -hit.normal, hit.object);
 }
 
 /// Phong shading of the hit by all lights: diffuse / pi and the energy-normalised specular lobe, per unit

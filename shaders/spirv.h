@@ -8,6 +8,9 @@ namespace splatray {
 
 extern const std::span<const std::uint32_t> TRACE_STORAGE, TRACE_TEXEL, TRACE_STORAGE_FLOAT64,
     TRACE_TEXEL_FLOAT64;
+/// trace.comp.glsl in stages (queue.glsl).
+extern const std::span<const std::uint32_t> STAGED_STORAGE, STAGED_TEXEL, STAGED_STORAGE_FLOAT64,
+    STAGED_TEXEL_FLOAT64;
 /// trace.comp.glsl where nothing is hit (empty.glsl).
 extern const std::span<const std::uint32_t> EMPTY, EMPTY_FLOAT64;
 extern const std::span<const std::uint32_t> RAYS_STORAGE, RAYS_TEXEL, RAYS_STORAGE_FLOAT64,

@@ -156,14 +156,19 @@ Arithmetic Context::arithmetic(Arithmetic wanted) const {
 }
 
 void Context::create_device(const WindowNeeds& needs) {
+  VkPhysicalDeviceSubgroupProperties subgroup{};
+  subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
   VkPhysicalDeviceMaintenance3Properties limits{};
   limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  limits.pNext = &subgroup;
   VkPhysicalDeviceProperties2 chain{};
   chain.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   chain.pNext = &limits;
   vkGetPhysicalDeviceProperties2(physical_device, &chain);
   properties = chain.properties;
   max_allocation_bytes = limits.maxMemoryAllocationSize;
+  ballot = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+           (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
   vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
 
   VkPhysicalDeviceFeatures supported{}, features{};

@@ -63,6 +63,7 @@ class Context {
   VkPhysicalDeviceMemoryProperties memory{};
   std::uint64_t max_allocation_bytes = 0;  ///< largest single allocation the device promises
   bool float64 = false;                    ///< shaders may use float64
+  bool ballot = false;                     ///< compute shaders may use ballots of their subgroups
 
  private:
   void create_instance(bool validation, const WindowNeeds& needs);

@@ -15,6 +15,11 @@ constexpr std::uint32_t MOST_GROUPS_X = 1U << 15U;
 
 std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
 
+void Dispatch::set_groups(std::uint32_t count) {
+  groups_x = std::min(count, MOST_GROUPS_X);
+  groups_y = groups(count, std::max(groups_x, 1U));
+}
+
 void TileDispatch::set_samples(std::uint32_t begin, std::uint32_t end) {
   for (Dispatch* part : {&seen, &empty}) {
     part->frame.sample_begin = begin;
@@ -39,8 +44,7 @@ TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& fo
     one.frame.tile_height = tile.height;
     one.frame.first_group = static_cast<std::uint32_t>(first);
     one.frame.group_count = static_cast<std::uint32_t>(count);
-    one.groups_x = std::min(one.frame.group_count, MOST_GROUPS_X);
-    one.groups_y = groups(one.frame.group_count, std::max(one.groups_x, 1U));
+    one.set_groups(one.frame.group_count);
   };
   part(aimed.seen, 0, aimed.group_list.size());
   part(aimed.empty, aimed.group_list.size(), empty.size());

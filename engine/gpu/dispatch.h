@@ -18,6 +18,9 @@ struct Dispatch {
   FrameParams frame{};
   std::uint32_t groups_x = 1;
   std::uint32_t groups_y = 1;
+
+  /// Over at least so many groups; none of 0.
+  void set_groups(std::uint32_t count);
 };
 
 /// The dispatches of a picture's tile: of the groups of pixels that may see something, and of the rest.

@@ -8,7 +8,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::uint32_t BINDING_COUNT = BIND_GROUPS + 1;
+constexpr std::uint32_t BINDING_COUNT = BIND_PATHS_QUEUED + 1;
 
 VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   switch (binding) {
@@ -22,6 +22,8 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
     case BIND_FIELD_POOL:
       return access == PoolAccess::texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                          : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case BIND_PATHS:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     case BIND_ENVIRONMENT:
       return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     default:
@@ -67,11 +69,14 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
 
 std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, Arithmetic arithmetic) {
   const ProgramVariants trace{TRACE_STORAGE, TRACE_TEXEL, TRACE_STORAGE_FLOAT64, TRACE_TEXEL_FLOAT64};
+  const ProgramVariants staged{STAGED_STORAGE, STAGED_TEXEL, STAGED_STORAGE_FLOAT64, STAGED_TEXEL_FLOAT64};
   const ProgramVariants rays{RAYS_STORAGE, RAYS_TEXEL, RAYS_STORAGE_FLOAT64, RAYS_TEXEL_FLOAT64};
   const ProgramVariants empty{EMPTY, EMPTY, EMPTY_FLOAT64, EMPTY_FLOAT64};
   switch (program) {
     case Program::trace:
       return trace.get(access, arithmetic);
+    case Program::staged:
+      return staged.get(access, arithmetic);
     case Program::empty:
       return empty.get(access, arithmetic);
     default:

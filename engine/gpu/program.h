@@ -10,9 +10,10 @@ namespace splatray {
 
 /// The engine's shaders.
 enum class Program {
-  trace,  ///< trace.comp.glsl: a tile of a picture
-  empty,  ///< ... where no primary ray hits anything (empty.glsl)
-  rays,   ///< rays.comp.glsl: ray queries
+  trace,   ///< trace.comp.glsl: a tile of a picture
+  staged,  ///< ... in stages (queue.glsl)
+  empty,   ///< ... where no primary ray hits anything (empty.glsl)
+  rays,    ///< rays.comp.glsl: ray queries
 };
 
 /// SPIR-V of one program, in all its variants.

@@ -21,6 +21,8 @@ constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
 /// Most samples of a dispatch on a processor, without and with secondary rays: Mesa's llvmpipe silently ends all loops of
 /// a thread after 65 535 turns in all (LP_MAX_TGSI_LOOP_ITERATIONS).
 constexpr std::uint32_t PROCESSOR_BATCH = 16, PROCESSOR_BATCH_OF_PATHS = 1;
+/// Most groups of pixels whose paths are traced in stages together: their queues take 42 MB.
+constexpr std::uint32_t STAGED_GROUPS = 4096;
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -57,8 +59,9 @@ struct Tracer::Impl {
 
   void bind_all();
   double run(const Dispatch& dispatch);
+  double run_in_stages(const Dispatch& dispatch);
   double run(const TileDispatch& tile);
-  void add_counters();
+  void reserve_queues(std::uint32_t pixel_groups);
   [[nodiscard]] Dispatch picture_dispatch(const View& view, const Settings& settings) const;
   [[nodiscard]] std::uint32_t most_samples(const Dispatch& dispatch) const;
   void trace_samples(const Tile& tile, const Dispatch& dispatch, const Footprint& footprint,
@@ -72,10 +75,11 @@ struct Tracer::Impl {
   CommandQueue queue;
   PipelineCache pipelines;
   DeviceScene scene;
-  Buffer frame_buffer, accumulation, aov, counters, rays, hits, groups;
+  Buffer frame_buffer, accumulation, aov, counters, rays, hits, groups, paths, queued_paths;
 
   std::vector<std::uint32_t> group_list;  ///< what `groups` holds
   Growing growing;
+  std::array<std::uint32_t, COUNTER_COUNT> counted{};  ///< by the last dispatch, if it counts
   RenderStats stats;
   std::uint32_t pools_uploaded = 0;
 };
@@ -90,6 +94,7 @@ Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_a
   reserve_storage(device, frame_buffer, sizeof(FrameParams));
   for (Buffer* buffer : {&accumulation, &aov, &rays, &hits, &groups}) reserve_storage(device, *buffer, 0);
   reserve_storage(device, counters, COUNTER_COUNT * sizeof(std::uint32_t));
+  reserve_queues(1);
 }
 
 void Tracer::Impl::bind_all() {
@@ -102,16 +107,19 @@ void Tracer::Impl::bind_all() {
   bindings.bind(BIND_RAYS, rays);
   bindings.bind(BIND_HITS, hits);
   bindings.bind(BIND_GROUPS, groups);
+  bindings.bind(BIND_PATHS, paths);
+  bindings.bind(BIND_PATHS_QUEUED, queued_paths);
 }
 
 double Tracer::Impl::run(const Dispatch& dispatch) {
   const BindingSet& bindings = scene.bindings();
+  const bool counts = dispatch.constants[SPEC_COUNTERS] != 0;
+  const bool queues = dispatch.program == Program::staged;
   const VkPipeline pipeline =
       pipelines.get({dispatch.program, scene.access(), arithmetic, dispatch.constants}, bindings.layout());
   const double ms = queue.run([&](VkCommandBuffer commands) {
     vkCmdUpdateBuffer(commands, frame_buffer.get(), 0, sizeof(FrameParams), &dispatch.frame);
-    if (dispatch.constants[SPEC_COUNTERS] != 0)
-      vkCmdFillBuffer(commands, counters.get(), 0, VK_WHOLE_SIZE, 0);
+    if (counts || queues) vkCmdFillBuffer(commands, counters.get(), 0, VK_WHOLE_SIZE, 0);
     record_barrier(commands);
     const VkDescriptorSet set = bindings.set();
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
@@ -119,7 +127,51 @@ double Tracer::Impl::run(const Dispatch& dispatch) {
                             nullptr);
     vkCmdDispatch(commands, dispatch.groups_x, dispatch.groups_y, 1);
   });
-  if (dispatch.constants[SPEC_COUNTERS] != 0) add_counters();
+  if (counts || queues) counters.download(queue, std::as_writable_bytes(std::span(counted)));
+  if (counts)
+    for (std::size_t i = 0; i < counted.size(); ++i) stats.counters[i] += counted[i];
+  return ms;
+}
+
+void Tracer::Impl::reserve_queues(std::uint32_t pixel_groups) {
+  const VkDeviceSize bytes = VkDeviceSize{pixel_groups} * GROUP_SIZE * sizeof(PathState);
+  constexpr VkBufferUsageFlags USAGE =
+      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+  for (Buffer* buffer : {&paths, &queued_paths})
+    if (buffer->size() < bytes) *buffer = Buffer(context, bytes, USAGE, VK_FORMAT_R32G32B32A32_UINT);
+}
+
+/// One sample of a dispatch's pixels: primary rays, then as long as paths go on one ray of each, packed together. Lanes of
+/// processors, which wait for each other's branches and loops, otherwise stay idle once their path has ended (Laine, Karras and Aila
+/// 2013, "Megakernels Considered Harmful").
+double Tracer::Impl::run_in_stages(const Dispatch& dispatch) {
+  assert(dispatch.frame.sample_end == dispatch.frame.sample_begin + 1);
+  const std::uint32_t texels = context.properties.limits.maxTexelBufferElements;
+  const std::uint32_t most =
+      std::min({STAGED_GROUPS, dispatch.frame.group_count, texels / (PATH_TEXELS * GROUP_SIZE)});
+  reserve_queues(most);
+  Buffer *traced = &paths, *queued = &queued_paths;
+  const auto run_stage = [&](const Dispatch& stage) {
+    scene.bindings().bind(BIND_PATHS, *traced);
+    scene.bindings().bind(BIND_PATHS_QUEUED, *queued);
+    return run(stage);
+  };
+  double ms = 0.0;
+  for (std::uint32_t first = 0; first < dispatch.frame.group_count; first += most) {
+    Dispatch stage = dispatch;
+    stage.constants[SPEC_STAGE] = STAGE_FIRST;
+    stage.frame.first_group += first;
+    stage.frame.group_count = std::min(most, dispatch.frame.group_count - first);
+    stage.set_groups(stage.frame.group_count);
+    ms += run_stage(stage);
+    stage.constants[SPEC_STAGE] = STAGE_NEXT;
+    while ((stage.frame.path_count = counted[COUNT_QUEUED]) > 0) {
+      std::swap(traced, queued);
+      ++stage.frame.path_bounce;
+      stage.set_groups(splatray::groups(stage.frame.path_count, GROUP_SIZE));
+      ms += run_stage(stage);
+    }
+  }
   return ms;
 }
 
@@ -132,20 +184,17 @@ double Tracer::Impl::run(const TileDispatch& tile) {
   }
   double ms = 0.0;
   for (const Dispatch* part : {&tile.seen, &tile.empty})
-    if (part->groups_x > 0) ms += run(*part);
+    if (part->groups_x > 0) ms += part->program == Program::staged ? run_in_stages(*part) : run(*part);
   return ms;
-}
-
-void Tracer::Impl::add_counters() {
-  std::array<std::uint32_t, COUNTER_COUNT> values{};
-  counters.download(queue, std::as_writable_bytes(std::span(values)));
-  for (std::size_t i = 0; i < values.size(); ++i) stats.counters[i] += values[i];
 }
 
 Dispatch Tracer::Impl::picture_dispatch(const View& view, const Settings& settings) const {
   Dispatch dispatch;
   dispatch.constants = picture_features(scene.content(), settings);
   dispatch.frame = scene.picture_params(view, settings);
+  const bool parts = dispatch.constants[SPEC_GLASS] != 0 && dispatch.frame.max_bounces > 0;
+  if (parts && settings.stages && context.is_processor() && context.ballot)
+    dispatch.program = Program::staged;
   return dispatch;
 }
 
@@ -182,6 +231,7 @@ void Tracer::Impl::read_colors(const Tile& tile, Image& image) {
 void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
                              std::vector<AovPixel>& picture) {
   dispatch.constants[SPEC_AOV] = 1;
+  dispatch.program = Program::trace;
   run(aim(dispatch, tile, footprint));
   std::vector<AovPixel> pixels(tile.pixels());
   aov.download(queue, std::as_writable_bytes(std::span(pixels)));

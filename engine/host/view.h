@@ -37,6 +37,8 @@ struct Settings {
   std::uint32_t order = ORDER_Z;
   bool cull =
       true;  ///< on processors: do not trace outside the footprint (footprint.h); pictures are the same
+  bool stages =
+      true;  ///< on processors: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same
   bool counters = false;  ///< compile the counters in
   bool aov = false;       ///< also trace the centre rays' normal, depth, object
   float environment_strength = 1.0F;

@@ -302,7 +302,7 @@ std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access, Arit
                               BVH_TRACE_TEXEL_FLOAT64};
   const ProgramVariants rays{BVH_RAYS_STORAGE, BVH_RAYS_TEXEL, BVH_RAYS_STORAGE_FLOAT64,
                              BVH_RAYS_TEXEL_FLOAT64};
-  assert(program != Program::empty);
+  assert(program == Program::trace || program == Program::rays);
   return (program == Program::trace ? trace : rays).get(access, arithmetic);
 }
 

@@ -31,7 +31,7 @@ struct BvhStats {
 /// nodes; node_pool: where these begin. Throws Error (failed) where it would be too deep or too large for bvh.glsl.
 [[nodiscard]] Scene bvh_scene(const Scene& scene, BvhStats& stats);
 
-/// The tracer's programs with bvh.glsl; none for pixels left out (Settings::cull).
+/// The tracer's programs with bvh.glsl; none for pixels left out (Settings::cull) nor for stages (Settings::stages).
 [[nodiscard]] std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access,
                                                       Arithmetic arithmetic);
 
