@@ -249,8 +249,7 @@ SPLATRAY_CONST BIND_COUNTERS = 14u;
 SPLATRAY_CONST BIND_RAYS = 15u;
 SPLATRAY_CONST BIND_HITS = 16u;
 SPLATRAY_CONST BIND_GROUPS = 17u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
-
-SPLATRAY_CONST BIND_PATHS = 18u;        ///< of this stage
+SPLATRAY_CONST BIND_PATHS = 18u;   ///< of this stage
 SPLATRAY_CONST BIND_PATHS_QUEUED = 19u;  ///< of the next
 
 /// Specialization constants: the features of a pipeline. What is off costs nothing.
@@ -298,7 +297,8 @@ SPLATRAY_CONST GROUP_SIZE = 64u;      ///< threads in a group; ORDER_Z: 8 x 8 pi
 
 #ifdef __cplusplus
 static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 &&
-              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 480 && sizeof(PathState) == 16 * PATH_TEXELS);
+              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 480 &&
+              sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif
 #endif
