@@ -1,11 +1,11 @@
 #include "engine/gpu/pools.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <numeric>
 #include <optional>
 #include <string>
 
-#include "engine/host/copies.h"
 #include "engine/host/error.h"
 
 namespace splatray {
@@ -38,15 +38,6 @@ PoolKinds kinds(std::uint32_t references) {
     pool.element_bytes = 16;
   }
   return list;
-}
-
-std::uint32_t choose_references(DataPool wanted, const PoolCounts& counts, const PoolLimits& limits) {
-  if (wanted == DataPool::automatic && counts.references <= MOST_COPIES && copies_fit(counts))
-    wanted = DataPool::copies;
-  if (wanted == DataPool::copies) return REFERENCES_NONE;
-  const bool wide = wanted == DataPool::wide_references ||
-                    (wanted == DataPool::automatic && counts.references > limits.texel_elements);
-  return wide ? REFERENCES_FOUR : REFERENCES_ONE;
 }
 
 std::array<std::uint64_t, POOLS> sizes(const PoolBytes& bytes) {
@@ -100,6 +91,19 @@ PoolLimits pool_limits(const Context& context) {
   return limits;
 }
 
+std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
+                                DataPool wanted) {
+  const bool storage = access == PoolAccess::storage || limits.texel_elements == 0;
+  const std::uint64_t buffer_bytes = storage ? limits.storage_bytes : limits.texel_elements * sizeof(uvec4);
+  const std::uint64_t most_copies = std::min(buffer_bytes, limits.allocation_bytes) / sizeof(uvec4);
+  if (wanted == DataPool::automatic && counts.references <= most_copies && copies_fit(counts))
+    wanted = DataPool::copies;
+  if (wanted == DataPool::copies) return REFERENCES_NONE;
+  const bool wide = wanted == DataPool::wide_references ||
+                    (wanted == DataPool::automatic && counts.references > limits.texel_elements);
+  return wide ? REFERENCES_FOUR : REFERENCES_ONE;
+}
+
 PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted) {
   const PoolAccess first = wanted == PoolAccess::storage ? PoolAccess::storage : PoolAccess::texel;
   const std::optional<std::string> reason = misfit(bytes, limits, first);
@@ -115,7 +119,7 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, Po
   const std::vector<std::uint32_t> top = top_table(scene, top_levels);
   const std::vector<std::uint32_t>& references = scene.reference_pool;
   const PoolLimits limits = pool_limits(context);
-  bytes.references = choose_references(data, pool_counts(scene), limits);
+  bytes.references = choose_references(pool_counts(scene), limits, wanted, data);
   const bool copies = bytes.references == REFERENCES_NONE;
   const auto splats = copies ? listed(scene.data_pool, references) : std::vector<uvec4>();
   const auto colors = copies ? listed(scene.color_pool, references) : std::vector<std::uint32_t>();

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/gpu/buffer.h"
-#include "engine/host/scene.h"
+#include "engine/host/copies.h"
 
 namespace splatray {
 
@@ -18,12 +18,11 @@ enum class PoolAccess {
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
-  automatic,   ///< copies where they fit (engine/host/copies.h) and there are at most MOST_COPIES references
+  automatic,   ///< copies where they fit (engine/host/copies.h) and one buffer of the device holds them
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
   wide_references,  ///< ... four in a texel; what `automatic` takes when there are more than a texel buffer has texels
 };
-inline constexpr std::size_t MOST_COPIES = std::size_t{1} << 23;
 
 /// Bytes on the device, by pool.
 struct PoolBytes {
@@ -50,6 +49,10 @@ struct PoolLimits {
   std::uint64_t allocation_bytes = 0;  ///< largest allocation
 };
 [[nodiscard]] PoolLimits pool_limits(const Context& context);
+
+/// How the data pool of such a scene is read, REFERENCES_*, where pools are read as `access` says.
+[[nodiscard]] std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits,
+                                              PoolAccess access, DataPool wanted);
 
 /// How pools of these sizes can be read; never automatic. Throws Error (out_of_memory) naming a pool, its
 /// size and the limit when none of the ways that `wanted` allows will do.

@@ -51,6 +51,31 @@ TEST(PoolAccess, RefusalNamesPoolSizeAndLimit) {
   EXPECT_NE(sentence.find("largest allocation is 0.0 MiB"), std::string::npos) << sentence;
 }
 
+/// What `automatic` makes of a scene of so many splats, with so many references, where LIMITS hold.
+std::uint32_t automatic_references(std::size_t splats, std::size_t references,
+                                   PoolAccess access = PoolAccess::automatic) {
+  return choose_references({splats, references, 1, 1, false, false}, LIMITS, access, DataPool::automatic);
+}
+
+TEST(DataPool, HasCopiesWhereTheyFit) {
+  EXPECT_EQ(automatic_references(400, 1000), REFERENCES_NONE);
+  EXPECT_EQ(automatic_references(200, 1000), REFERENCES_ONE) << "80 bytes a splat";
+}
+
+TEST(DataPool, HasReferencesWhereOneBufferDoesNotHoldCopies) {
+  EXPECT_EQ(automatic_references(400, 500, PoolAccess::storage), REFERENCES_NONE);
+  EXPECT_EQ(automatic_references(400, 501, PoolAccess::storage), REFERENCES_ONE)
+      << "8016 bytes of storage buffer";
+  EXPECT_EQ(automatic_references(1000, 1001), REFERENCES_FOUR) << "1001 texels";
+}
+
+TEST(DataPool, CanBeForced) {
+  const PoolCounts counts{200, 1000, 1, 1, false, false};
+  EXPECT_EQ(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::copies), REFERENCES_NONE);
+  EXPECT_EQ(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::wide_references),
+            REFERENCES_FOUR);
+}
+
 using PoolUpload = DeviceTest;
 
 TEST_F(PoolUpload, BothAccessesGiveTheSamePicture) {
