@@ -124,23 +124,24 @@ float field_slope(uint bits) {
 
 /// What a disc's normal field makes of a meeting with the disc's plane.
 struct FieldPoint {
-  vec3 normal;     ///< unit; may point away from the ray
+  vec3 normal;     ///< longer than 1; may point away from the ray
   float height;    ///< of the curved surface over the disc's plane, along the disc's normal, lattice units
 };
 
 /// The field's normal, and the height of the surface it belongs to, at an offset on the disc (layout.h). `normal` is the
 /// disc's unit normal.
-FieldPoint field_point(uint word, vec3 normal, vec3 from_center, float radius) {
+FieldPoint field_point(uint word, vec3 normal, vec3 from_center, float inverse_radius) {
   float side = normal.z >= 0.0f ? 1.0f : -1.0f;
   float a = -1.0f / (side + normal.z);
   vec3 u = vec3(1.0f + side * normal.x * normal.x * a, side * normal.x * normal.y * a, -side * normal.x);
   vec3 v = vec3(normal.x * normal.y * a, side + normal.y * normal.y * a, -normal.y);
-  vec2 offset = vec2(dot(from_center, u), dot(from_center, v)) * (1.0f / radius);
+  vec2 offset = vec2(dot(from_center, u), dot(from_center, v));
   float uv = field_slope(word >> 10u);
   vec2 lean = vec2(field_slope(word) * offset.x + uv * offset.y, uv * offset.x + field_slope(word >> 20u) * offset.y);
+  lean *= inverse_radius;
   FieldPoint point;
-  point.normal = normalize(normal + u * lean.x + v * lean.y);
-  point.height = -0.5f * radius * (lean.x * offset.x + lean.y * offset.y);
+  point.normal = normal + u * lean.x + v * lean.y;
+  point.height = -0.5f * (lean.x * offset.x + lean.y * offset.y);
   return point;
 }
 

@@ -130,7 +130,7 @@ struct Facet {
 };
 
 /// The disc itself, or what its normal field makes of it. A field's normal turns at most until it is square to the ray.
-Facet facet_at(uvec4 words, uint splat, vec3 from_center, vec3 dir) {
+Facet facet_at(uvec4 words, uint splat, vec3 from_center, float inverse_radius, vec3 dir) {
   vec3 normal = splat_normal(words);
   normal = normal * inversesqrt(dot(normal, normal));
   float cosine = dot(normal, dir);
@@ -138,9 +138,10 @@ Facet facet_at(uvec4 words, uint splat, vec3 from_center, vec3 dir) {
   facet.normal = cosine > 0.0f ? -normal : normal;
   facet.behind = 0.0f;
   if (FIELDS == 1u) {
-    FieldPoint point = field_point(field_word(splat), normal, from_center, sqrt(splat_radius_squared(words)));
+    FieldPoint point = field_point(field_word(splat), normal, from_center, inverse_radius);
     vec3 turned = cosine > 0.0f ? -point.normal : point.normal;
-    facet.normal = normalize(turned - dir * max(dot(turned, dir), 0.0f));
+    turned -= dir * max(dot(turned, dir), 0.0f);
+    facet.normal = turned * inversesqrt(dot(turned, turned));
     facet.behind = point.height / (cosine > 0.0f ? max(cosine, MIN_COSINE) : min(cosine, -MIN_COSINE));
   }
   return facet;
@@ -152,6 +153,7 @@ Facet facet_at(uvec4 words, uint splat, vec3 from_center, vec3 dir) {
 void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, First first, float depth,
                            INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
+  float inverse_depth = 1.0f / depth;
   do {
     if ((candidates.x | candidates.y) != 0u) {
       bool low = candidates.x != 0u;
@@ -162,15 +164,16 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       uvec4 words = splat_words(splat);
       PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
       float behind = df_add(hit.t, -first.t).x;
-      float u_squared = hit.rho_squared.x / splat_radius_squared(words);
-      Facet facet = facet_at(words, splat, hit.from_center, ray.dir);
-      float share = behind / depth;
+      float inverse_radius = inversesqrt(splat_radius_squared(words));
+      float u_squared = hit.rho_squared.x * (inverse_radius * inverse_radius);
+      Facet facet = facet_at(words, splat, hit.from_center, inverse_radius, ray.dir);
+      float share = behind * inverse_depth;
       bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
                     dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST &&
                     hit_accepted(words, hit, ray, walk);
       float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
       weight = member ? weight * WEIGHT_UNIT : 0.0f;
-      share = member ? clamp((behind + facet.behind) / depth, -1.0f, 1.0f) : 0.0f;
+      share = member ? clamp((behind + facet.behind) * inverse_depth, -1.0f, 1.0f) : 0.0f;
       cluster.weight += int(weight + 0.5f);
       vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
       cluster.normal += ivec3(floor(normal + vec3(0.5f)));
@@ -196,11 +199,13 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
   if (BLEND != BLEND_NEAREST && cluster.weight > 0) {
     float inverse = 1.0f / float(cluster.weight);
     t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
-    normal = normalize(vec3(cluster.normal));
+    normal = vec3(cluster.normal);
+    normal *= inversesqrt(dot(normal, normal));
     if (COLORS == 1u) hit.color = vec3(cluster.color) * inverse;
   } else if (hit.found) {
     if (COLORS == 1u) hit.color = color_at(first.splat);
-    Facet facet = facet_at(first.words, first.splat, first.from_center, ray.dir);
+    float inverse_radius = inversesqrt(splat_radius_squared(first.words));
+    Facet facet = facet_at(first.words, first.splat, first.from_center, inverse_radius, ray.dir);
     normal = facet.normal;
     t = df_add(t, vec2(facet.behind, 0.0f));
   }
