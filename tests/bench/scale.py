@@ -166,9 +166,9 @@ def coverage_runs(records):
             yield case, coverage, {(run.method, run.get("shadows")): run for run in runs}
 
 
-def blending_cost(runs):
-    """A shaded frame's time blended by window over that by nearest."""
-    return runs["window", False].ms / runs["nearest", False].ms
+def blending_cost(runs, shadows):
+    """A shaded frame's time blended by window over that by nearest, both with one shadow ray or without."""
+    return runs["window", shadows].ms / runs["nearest", shadows].ms
 
 
 def coverage_parts(records):
@@ -178,9 +178,10 @@ def coverage_parts(records):
         window = runs["window", True]
         errors = number(max(run.get("mismatch_ppm") for run in runs.values()))
         share = f"{100 * window.data['coverage']:.1f} %"
-        rows.append((case, share, *fps, number(blending_cost(runs)), number(window.get("bytes_per_splat")), errors))
+        costs = [number(blending_cost(runs, shadows)) for shadows in (False, True)]
+        rows.append((case, share, *fps, *costs, number(window.get("bytes_per_splat")), errors))
     head = ["scene", "pixels that hit", "`window`, frames/s", "one shadow ray", "`nearest`, frames/s", "one shadow ray"]
-    head += ["`window` / `nearest`, ms", "bytes/splat", "hits unlike brute force, ppm"]
+    head += ["`window` / `nearest`, ms", "one shadow ray", "bytes/splat", "hits unlike brute force, ppm"]
     return ["## Frames by coverage\n", table(head, rows)]
 
 
@@ -224,7 +225,8 @@ def coverage_targets(records):
         elif case.startswith("scale sphere"):
             yield at_least(f"{view}, primary rays", WANTED_MRAYS, " M/s", window.get("rays_per_s") / 1e6)
             yield at_most(f"{view}, splat tests of a ray", WANTED_TESTS, "", window.get("tests_per_ray"))
-        yield at_most(f"{view}, `window` / `nearest`", WANTED_BLENDING, "", blending_cost(runs))
+        for shadows, rays in ((False, ""), (True, ", one shadow ray")):
+            yield at_most(f"{view}, `window` / `nearest`{rays}", WANTED_BLENDING, "", blending_cost(runs, shadows))
     for case in records.unique("case"):
         yield at_most(f"{case}, bytes a splat", WANTED_BYTES, "", records.choose(case=case)[0].get("bytes_per_splat"))
 
