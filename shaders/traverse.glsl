@@ -20,7 +20,9 @@ const uint CHUNK = 32u;                  ///< splats whose candidates one word r
 /// Where a ray is in the octree.
 struct Walk {
   bool inside;     ///< the ray is still in the root and before its end
-  vec3 inverse;    ///< 1 / direction; unused where the direction is 0
+  vec3 inverse;    ///< 1 / direction
+  bvec3 parallel;  ///< to the planes of an axis, so that `inverse` is unused there
+  uint ahead;      ///< the bits of an empty leaf's word that tell of the space ahead
   uvec3 cell;      ///< a lattice cell inside the next leaf; one coordinate is >= CELL_LIMIT outside the root
   float t_in;      ///< the current leaf's interval; t_in never decreases
   float t_out;
@@ -38,8 +40,8 @@ struct Walk {
 const float PARALLEL = 1e-20f;
 
 /// t at which the ray meets the plane `plane` of one axis, +inf if it runs parallel to it.
-float plane_t(float plane, float origin, float dir, float inverse) {
-  return abs(dir) < PARALLEL ? INFINITY_F : (plane - origin) * inverse;
+float plane_t(uint plane, float origin, float inverse, bool parallel) {
+  return parallel ? INFINITY_F : (float(plane) - origin) * inverse;
 }
 
 uint cell_coordinate(float position, uint low, uint high) {
@@ -95,8 +97,8 @@ SlabCrossing walk_crossing(uint slab, Walk walk, Ray ray) {
   return slab_crossing(slab, ray, walk.t_in, walk.t_out, walk.center, walk.half_size);
 }
 
-/// The bits of an empty leaf's word that tell of the space ahead. Behind a ray its leaf ends with the cell: where float32 took a
-/// ray back behind planes of two axes that it has passed, it could go in circles.
+/// Walk.ahead. Behind a ray its leaf ends with the cell: where float32 took a ray back behind planes of two axes that it has
+/// passed, it could go in circles.
 uint steps_ahead(vec3 dir) {
   return (dir.x > 0.0f ? 0xCu : 0x3u) | (dir.y > 0.0f ? 0xC0u : 0x30u) | (dir.z > 0.0f ? 0xC00u : 0x300u);
 }
@@ -123,14 +125,14 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   uvec3 low = uvec3(walk.cell.x & ~(size - 1u), walk.cell.y & ~(size - 1u), walk.cell.z & ~(size - 1u));
   walk.half_size = 0.5f * float(size);
   walk.center = vec3(low) + vec3(walk.half_size);
-  uint steps = (word >> NODE_TAG_SHIFT) == NODE_EMPTY ? word & steps_ahead(ray.dir) : 0u;
+  uint steps = (word >> NODE_TAG_SHIFT) == NODE_EMPTY ? word & walk.ahead : 0u;
   uvec3 high = low + uvec3(size) + (uvec3((steps >> 2u) & 3u, (steps >> 6u) & 3u, (steps >> 10u) & 3u) << shift);
   low -= uvec3(steps & 3u, (steps >> 4u) & 3u, (steps >> 8u) & 3u) << shift;
   uvec3 next = uvec3(ray.dir.x > 0.0f ? high.x : low.x, ray.dir.y > 0.0f ? high.y : low.y,
                      ray.dir.z > 0.0f ? high.z : low.z);
-  float t_x = plane_t(float(next.x), ray.origin.x, ray.dir.x, walk.inverse.x);
-  float t_y = plane_t(float(next.y), ray.origin.y, ray.dir.y, walk.inverse.y);
-  float t_z = plane_t(float(next.z), ray.origin.z, ray.dir.z, walk.inverse.z);
+  float t_x = plane_t(next.x, ray.origin.x, walk.inverse.x, walk.parallel.x);
+  float t_y = plane_t(next.y, ray.origin.y, walk.inverse.y, walk.parallel.y);
+  float t_z = plane_t(next.z, ray.origin.z, walk.inverse.z, walk.parallel.z);
   bool x_first = t_x <= t_y && t_x <= t_z;
   bool y_first = !x_first && t_y <= t_z;
   uint plane = x_first ? next.x : (y_first ? next.y : next.z);
@@ -150,6 +152,8 @@ Walk walk_start(Ray ray, float t_start, bool inside) {
   Walk walk;
   walk.inside = inside;
   walk.inverse = vec3(1.0f / ray.dir.x, 1.0f / ray.dir.y, 1.0f / ray.dir.z);
+  walk.parallel = bvec3(abs(ray.dir.x) < PARALLEL, abs(ray.dir.y) < PARALLEL, abs(ray.dir.z) < PARALLEL);
+  walk.ahead = steps_ahead(ray.dir);
   walk.cell = cell_at(ray, t_start, uvec3(0u), uvec3(CELL_LIMIT - 1u));
   walk.t_in = ray.t_min;
   walk.t_out = ray.t_min;

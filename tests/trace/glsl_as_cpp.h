@@ -7,6 +7,7 @@
 #define INFINITY_F (std::numeric_limits<float>::infinity())
 
 using glm::abs;
+using glm::bvec3;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
