@@ -15,7 +15,7 @@
 namespace splatray::testing {
 namespace {
 
-constexpr std::size_t ROUNDS = 9;
+constexpr std::size_t ROUNDS = 25;
 constexpr int HALVINGS = 14;
 
 double coverage_of(Tracer& tracer, const View& view) {
