@@ -82,11 +82,11 @@ Buffer::Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags us
   view_ = {context.device, view};
 }
 
-void Buffer::upload(CommandQueue& queue, std::span<const std::byte> bytes) {
-  assert(bytes.size() <= size_);
+void Buffer::upload(CommandQueue& queue, std::span<const std::byte> bytes, VkDeviceSize begin) {
+  assert(begin + bytes.size() <= size_);
   if (bytes.empty()) return;
   if (mapped_ != nullptr) {
-    std::memcpy(mapped_, bytes.data(), bytes.size());
+    std::memcpy(mapped_ + begin, bytes.data(), bytes.size());
     return;
   }
   const Buffer& staging = queue.staging(bytes.size());
@@ -94,7 +94,7 @@ void Buffer::upload(CommandQueue& queue, std::span<const std::byte> bytes) {
     const std::size_t count = std::min<std::size_t>(staging.size(), bytes.size() - at);
     std::memcpy(staging.mapped(), bytes.data() + at, count);
     queue.run([&](VkCommandBuffer commands) {
-      const VkBufferCopy region{0, at, count};
+      const VkBufferCopy region{0, begin + at, count};
       vkCmdCopyBuffer(commands, staging.get(), get(), 1, &region);
     });
   }

@@ -36,8 +36,8 @@ class Buffer {
   Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage,
          VkFormat texel_format = VK_FORMAT_UNDEFINED, Residence residence = Residence::device);
 
-  /// Copies to the buffer's start, or from it; at most size() bytes. Waits until done.
-  void upload(CommandQueue& queue, std::span<const std::byte> bytes);
+  /// Copies to the buffer's bytes from `begin` on, or from its start; at most to its end. Waits until done.
+  void upload(CommandQueue& queue, std::span<const std::byte> bytes, VkDeviceSize begin = 0);
   void download(CommandQueue& queue, std::span<std::byte> bytes) const;
 
   [[nodiscard]] VkBuffer get() const { return buffer_.get(); }

@@ -68,6 +68,21 @@ std::optional<std::string> misfit(const PoolBytes& bytes, const PoolLimits& limi
   return std::nullopt;
 }
 
+/// What the references refer to, one after the other, in parts: a whole list beside the buffer would take its memory twice.
+template <typename Value>
+void upload_listed(CommandQueue& queue, Buffer& buffer, const std::vector<Value>& pool,
+                   std::span<const std::uint32_t> references) {
+  constexpr std::size_t PART = std::size_t{1} << 18U;
+  std::vector<Value> part;
+  part.reserve(std::min(PART, references.size()));
+  for (std::size_t at = 0; at < references.size(); at += part.size()) {
+    part.clear();
+    for (const std::uint32_t i : references.subspan(at, std::min(PART, references.size() - at)))
+      part.push_back(pool[i]);
+    buffer.upload(queue, std::as_bytes(std::span(part)), at * sizeof(Value));
+  }
+}
+
 bool texel_format_supported(const Context& context, VkFormat format) {
   VkFormatProperties properties{};
   vkGetPhysicalDeviceFormatProperties(context.physical_device, format, &properties);
@@ -121,37 +136,49 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, Po
   const PoolLimits limits = pool_limits(context);
   bytes.references = choose_references(pool_counts(scene), limits, wanted, data);
   const bool copies = bytes.references == REFERENCES_NONE;
-  const auto splats = copies ? listed(scene.data_pool, references) : std::vector<uvec4>();
-  const auto colors = copies ? listed(scene.color_pool, references) : std::vector<std::uint32_t>();
-  const auto fields = copies ? listed(scene.field_pool, references) : std::vector<std::uint32_t>();
+  const bool lists = copies && !references.empty();
   const std::array<std::span<const std::byte>, POOLS> sources = {
       std::as_bytes(std::span(scene.node_pool)),
       std::as_bytes(std::span(scene.begin_end)),
       std::as_bytes(std::span(scene.slab_pool)),
       std::as_bytes(std::span(references).first(copies ? 0 : references.size())),
-      std::as_bytes(std::span(copies ? splats : scene.data_pool)),
-      std::as_bytes(std::span(copies ? colors : scene.color_pool)),
-      std::as_bytes(std::span(copies ? fields : scene.field_pool)),
+      std::as_bytes(std::span(scene.data_pool)),
+      std::as_bytes(std::span(scene.color_pool)),
+      std::as_bytes(std::span(scene.field_pool)),
       std::as_bytes(std::span(top))};
-  bytes.node_pool = sources[0].size();
-  bytes.begin_end = sources[1].size();
-  bytes.slab_pool = sources[2].size();
-  bytes.reference_pool = sources[3].size();
-  bytes.data_pool = sources[4].size();
-  bytes.color_pool = sources[5].size();
-  bytes.field_pool = sources[6].size();
-  bytes.top_table = sources[7].size();
+  const auto bytes_of = [&](std::uint32_t binding) {
+    const std::size_t pool = binding - BIND_NODE_POOL;
+    const bool listed =
+        lists && !sources[pool].empty() &&
+        (binding == BIND_DATA_POOL || binding == BIND_COLOR_POOL || binding == BIND_FIELD_POOL);
+    return listed ? references.size() * KINDS[pool].element_bytes : sources[pool].size();
+  };
+  bytes.node_pool = bytes_of(BIND_NODE_POOL);
+  bytes.begin_end = bytes_of(BIND_BEGIN_END);
+  bytes.slab_pool = bytes_of(BIND_SLAB_POOL);
+  bytes.reference_pool = bytes_of(BIND_REFERENCE_POOL);
+  bytes.data_pool = bytes_of(BIND_DATA_POOL);
+  bytes.color_pool = bytes_of(BIND_COLOR_POOL);
+  bytes.field_pool = bytes_of(BIND_FIELD_POOL);
+  bytes.top_table = bytes_of(BIND_TOP_TABLE);
   access = choose_access(bytes, limits, wanted);
   bytes.texel_buffers = access == PoolAccess::texel;
   const VkBufferUsageFlags usage =
       bytes.texel_buffers ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   for (std::size_t i = 0; i < POOLS; ++i) {
     const PoolKind kind = kinds(bytes.references)[i];
-    const std::size_t whole_texels = (sources[i].size() + kind.element_bytes - 1) / kind.element_bytes;
+    const std::size_t size = sizes(bytes)[i];
+    const std::size_t whole_texels = (size + kind.element_bytes - 1) / kind.element_bytes;
     buffers[i] = Buffer(context, whole_texels * kind.element_bytes, usage,
                         bytes.texel_buffers ? kind.format : VK_FORMAT_UNDEFINED);
-    buffers[i].upload(queue, sources[i]);
+    if (size == sources[i].size()) buffers[i].upload(queue, sources[i]);
   }
+  if (!lists) return;
+  upload_listed(queue, buffers[BIND_DATA_POOL - BIND_NODE_POOL], scene.data_pool, references);
+  if (bytes.color_pool > 0)
+    upload_listed(queue, buffers[BIND_COLOR_POOL - BIND_NODE_POOL], scene.color_pool, references);
+  if (bytes.field_pool > 0)
+    upload_listed(queue, buffers[BIND_FIELD_POOL - BIND_NODE_POOL], scene.field_pool, references);
 }
 
 }  // namespace splatray
