@@ -68,18 +68,18 @@ std::optional<std::string> misfit(const PoolBytes& bytes, const PoolLimits& limi
   return std::nullopt;
 }
 
-/// What the references refer to, one after the other, in parts: a whole list beside the buffer would take its memory twice.
+/// What the references refer to, in parts: a whole list beside the buffer would take its memory twice.
 template <typename Value>
 void upload_listed(CommandQueue& queue, Buffer& buffer, const std::vector<Value>& pool,
-                   std::span<const std::uint32_t> references) {
-  constexpr std::size_t PART = std::size_t{1} << 18U;
-  std::vector<Value> part;
-  part.reserve(std::min(PART, references.size()));
-  for (std::size_t at = 0; at < references.size(); at += part.size()) {
-    part.clear();
-    for (const std::uint32_t i : references.subspan(at, std::min(PART, references.size() - at)))
-      part.push_back(pool[i]);
-    buffer.upload(queue, std::as_bytes(std::span(part)), at * sizeof(Value));
+                   const std::vector<std::uint32_t>& references) {
+  constexpr std::ptrdiff_t PART = std::ptrdiff_t{1} << 18;
+  if (pool.empty()) return;
+  for (auto part = references.begin(); part != references.end();) {
+    const auto end = part + std::min(PART, references.end() - part);
+    const std::vector<Value> list = listed(pool, {part, end});
+    buffer.upload(queue, std::as_bytes(std::span(list)),
+                  static_cast<std::size_t>(part - references.begin()) * sizeof(Value));
+    part = end;
   }
 }
 
@@ -108,10 +108,11 @@ PoolLimits pool_limits(const Context& context) {
 
 std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
                                 DataPool wanted) {
+  PoolBytes copies;
+  copies.data_pool = counts.references * sizeof(uvec4);
   const bool storage = access == PoolAccess::storage || limits.texel_elements == 0;
-  const std::uint64_t buffer_bytes = storage ? limits.storage_bytes : limits.texel_elements * sizeof(uvec4);
-  const std::uint64_t most_copies = std::min(buffer_bytes, limits.allocation_bytes) / sizeof(uvec4);
-  if (wanted == DataPool::automatic && counts.references <= most_copies && copies_fit(counts))
+  if (wanted == DataPool::automatic && copies_fit(counts) &&
+      !misfit(copies, limits, storage ? PoolAccess::storage : PoolAccess::texel))
     wanted = DataPool::copies;
   if (wanted == DataPool::copies) return REFERENCES_NONE;
   const bool wide = wanted == DataPool::wide_references ||
@@ -137,48 +138,40 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, Po
   bytes.references = choose_references(pool_counts(scene), limits, wanted, data);
   const bool copies = bytes.references == REFERENCES_NONE;
   const bool lists = copies && !references.empty();
-  const std::array<std::span<const std::byte>, POOLS> sources = {
-      std::as_bytes(std::span(scene.node_pool)),
-      std::as_bytes(std::span(scene.begin_end)),
-      std::as_bytes(std::span(scene.slab_pool)),
-      std::as_bytes(std::span(references).first(copies ? 0 : references.size())),
-      std::as_bytes(std::span(scene.data_pool)),
-      std::as_bytes(std::span(scene.color_pool)),
-      std::as_bytes(std::span(scene.field_pool)),
-      std::as_bytes(std::span(top))};
-  const auto bytes_of = [&](std::uint32_t binding) {
-    const std::size_t pool = binding - BIND_NODE_POOL;
-    const bool listed =
-        lists && !sources[pool].empty() &&
-        (binding == BIND_DATA_POOL || binding == BIND_COLOR_POOL || binding == BIND_FIELD_POOL);
-    return listed ? references.size() * KINDS[pool].element_bytes : sources[pool].size();
+  const auto bytes_listed = [&](const auto& pool) {
+    return (lists && !pool.empty() ? references.size() : pool.size()) * sizeof(pool.front());
   };
-  bytes.node_pool = bytes_of(BIND_NODE_POOL);
-  bytes.begin_end = bytes_of(BIND_BEGIN_END);
-  bytes.slab_pool = bytes_of(BIND_SLAB_POOL);
-  bytes.reference_pool = bytes_of(BIND_REFERENCE_POOL);
-  bytes.data_pool = bytes_of(BIND_DATA_POOL);
-  bytes.color_pool = bytes_of(BIND_COLOR_POOL);
-  bytes.field_pool = bytes_of(BIND_FIELD_POOL);
-  bytes.top_table = bytes_of(BIND_TOP_TABLE);
+  bytes.node_pool = std::span(scene.node_pool).size_bytes();
+  bytes.begin_end = std::span(scene.begin_end).size_bytes();
+  bytes.slab_pool = std::span(scene.slab_pool).size_bytes();
+  bytes.reference_pool = copies ? 0 : std::span(references).size_bytes();
+  bytes.data_pool = bytes_listed(scene.data_pool);
+  bytes.color_pool = bytes_listed(scene.color_pool);
+  bytes.field_pool = bytes_listed(scene.field_pool);
+  bytes.top_table = std::span(top).size_bytes();
   access = choose_access(bytes, limits, wanted);
   bytes.texel_buffers = access == PoolAccess::texel;
   const VkBufferUsageFlags usage =
       bytes.texel_buffers ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   for (std::size_t i = 0; i < POOLS; ++i) {
     const PoolKind kind = kinds(bytes.references)[i];
-    const std::size_t size = sizes(bytes)[i];
-    const std::size_t whole_texels = (size + kind.element_bytes - 1) / kind.element_bytes;
+    const std::size_t whole_texels = (sizes(bytes)[i] + kind.element_bytes - 1) / kind.element_bytes;
     buffers[i] = Buffer(context, whole_texels * kind.element_bytes, usage,
                         bytes.texel_buffers ? kind.format : VK_FORMAT_UNDEFINED);
-    if (size == sources[i].size()) buffers[i].upload(queue, sources[i]);
   }
-  if (!lists) return;
-  upload_listed(queue, buffers[BIND_DATA_POOL - BIND_NODE_POOL], scene.data_pool, references);
-  if (bytes.color_pool > 0)
-    upload_listed(queue, buffers[BIND_COLOR_POOL - BIND_NODE_POOL], scene.color_pool, references);
-  if (bytes.field_pool > 0)
-    upload_listed(queue, buffers[BIND_FIELD_POOL - BIND_NODE_POOL], scene.field_pool, references);
+  const auto upload = [&](std::uint32_t binding, const auto& pool, bool list) {
+    Buffer& buffer = buffers[binding - BIND_NODE_POOL];
+    if (list) upload_listed(queue, buffer, pool, references);
+    if (!list) buffer.upload(queue, std::as_bytes(std::span(pool)));
+  };
+  upload(BIND_NODE_POOL, scene.node_pool, false);
+  upload(BIND_BEGIN_END, scene.begin_end, false);
+  upload(BIND_SLAB_POOL, scene.slab_pool, false);
+  if (!copies) upload(BIND_REFERENCE_POOL, references, false);
+  upload(BIND_DATA_POOL, scene.data_pool, lists);
+  upload(BIND_COLOR_POOL, scene.color_pool, lists);
+  upload(BIND_FIELD_POOL, scene.field_pool, lists);
+  upload(BIND_TOP_TABLE, top, false);
 }
 
 }  // namespace splatray
