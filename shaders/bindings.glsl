@@ -20,6 +20,8 @@ layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
 layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
 layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = REFERENCES_NONE;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
+layout(constant_id = SPEC_PAGES) const uint PAGES = 0u;
+layout(constant_id = SPEC_PAGE_SHIFT) const uint PAGE_SHIFT = 0u;
 
 #ifdef STAGED
 layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_FIRST;
@@ -45,46 +47,47 @@ void read_frame() { frame = frame_block; }
 void read_frame() {}
 #endif
 
+// Pools of more than one page, and only they, look for the page first: by constants, as not all devices let an array of texel
+// buffers be indexed by anything else, and with early returns, which spirv-opt leaves functions, so that what is not paged stays as
+// small as it is.
+#define PAGES_OF(slot) (((PAGES >> (4u * (slot - BIND_NODE_POOL))) & 15u) + 1u)
+#define READ_PAGE(number, slot, READ, pool) \
+  if (PAGES_OF(slot) > number && index >> PAGE_SHIFT == number) \
+    return READ(pool, number, index & ((1u << PAGE_SHIFT) - 1u));
+#define POOL_READER(slot, Value, reader, READ, pool) \
+  Value reader##_of_page(uint index) { \
+    READ_PAGE(0u, slot, READ, pool) \
+    READ_PAGE(1u, slot, READ, pool) \
+    READ_PAGE(2u, slot, READ, pool) \
+    READ_PAGE(3u, slot, READ, pool) \
+    READ_PAGE(4u, slot, READ, pool) \
+    READ_PAGE(5u, slot, READ, pool) \
+    READ_PAGE(6u, slot, READ, pool) \
+    READ_PAGE(7u, slot, READ, pool) \
+    return Value(0u); \
+  } \
+  Value reader(uint index) { return PAGES_OF(slot) == 1u ? READ(pool, 0u, index) : reader##_of_page(index); }
 #ifdef POOL_TEXEL
-layout(binding = BIND_NODE_POOL) uniform usamplerBuffer node_pool;
-layout(binding = BIND_BEGIN_END) uniform usamplerBuffer begin_end;
-layout(binding = BIND_SLAB_POOL) uniform usamplerBuffer slab_pool;
-layout(binding = BIND_REFERENCE_POOL) uniform usamplerBuffer reference_pool;
-layout(binding = BIND_DATA_POOL) uniform usamplerBuffer data_pool;
-layout(binding = BIND_COLOR_POOL) uniform usamplerBuffer color_pool;
-layout(binding = BIND_FIELD_POOL) uniform usamplerBuffer field_pool;
-layout(binding = BIND_TOP_TABLE) uniform usamplerBuffer top_table;
-uint top_entry(uint index) { return texelFetch(top_table, int(index)).x; }
-uint node_word(uint index) { return texelFetch(node_pool, int(index)).x; }
-uint begin_end_at(uint index) { return texelFetch(begin_end, int(index)).x; }
-uint slab_word(uint index) { return texelFetch(slab_pool, int(index)).x; }
-uint reference_word(uint index) {
-  if (REFERENCES == REFERENCES_ONE) return texelFetch(reference_pool, int(index)).x;
-  uvec4 four = texelFetch(reference_pool, int(index >> 2u));
-  uvec2 two = (index & 2u) != 0u ? four.zw : four.xy;
-  return (index & 1u) != 0u ? two.y : two.x;
-}
-uvec4 splat_words(uint index) { return texelFetch(data_pool, int(index)); }
-uint color_word(uint index) { return texelFetch(color_pool, int(index)).x; }
-uint field_word(uint index) { return texelFetch(field_pool, int(index)).x; }
+#define READ_TEXEL(pool, page, at) texelFetch(pool[page], int(at))
+#define READ_WORD(pool, page, at) texelFetch(pool[page], int(at)).x
+#define POOL(slot, Block, pool, Value, reader, READ) \
+  layout(binding = slot) uniform usamplerBuffer pool[PAGES_OF(slot)]; \
+  POOL_READER(slot, Value, reader, READ, pool)
 #else
-layout(std430, binding = BIND_NODE_POOL) readonly buffer NodePool { uint node_pool[]; };
-layout(std430, binding = BIND_BEGIN_END) readonly buffer BeginEnd { uint begin_end[]; };
-layout(std430, binding = BIND_SLAB_POOL) readonly buffer SlabPool { uint slab_pool[]; };
-layout(std430, binding = BIND_REFERENCE_POOL) readonly buffer ReferencePool { uint reference_pool[]; };
-layout(std430, binding = BIND_DATA_POOL) readonly buffer DataPool { uvec4 data_pool[]; };
-layout(std430, binding = BIND_COLOR_POOL) readonly buffer ColorPool { uint color_pool[]; };
-layout(std430, binding = BIND_FIELD_POOL) readonly buffer FieldPool { uint field_pool[]; };
-layout(std430, binding = BIND_TOP_TABLE) readonly buffer TopTable { uint top_table[]; };
-uint top_entry(uint index) { return top_table[index]; }
-uint node_word(uint index) { return node_pool[index]; }
-uint begin_end_at(uint index) { return begin_end[index]; }
-uint slab_word(uint index) { return slab_pool[index]; }
-uint reference_word(uint index) { return reference_pool[index]; }
-uvec4 splat_words(uint index) { return data_pool[index]; }
-uint color_word(uint index) { return color_pool[index]; }
-uint field_word(uint index) { return field_pool[index]; }
+#define READ_TEXEL(pool, page, at) pool[page].values[at]
+#define READ_WORD(pool, page, at) pool[page].values[at]
+#define POOL(slot, Block, pool, Value, reader, READ) \
+  layout(std430, binding = slot) readonly buffer Block { Value values[]; } pool[PAGES_OF(slot)]; \
+  POOL_READER(slot, Value, reader, READ, pool)
 #endif
+POOL(BIND_NODE_POOL, NodePool, node_pool, uint, node_word, READ_WORD)
+POOL(BIND_BEGIN_END, BeginEnd, begin_end, uint, begin_end_at, READ_WORD)
+POOL(BIND_SLAB_POOL, SlabPool, slab_pool, uint, slab_word, READ_WORD)
+POOL(BIND_REFERENCE_POOL, ReferencePool, reference_pool, uint, reference_word, READ_WORD)
+POOL(BIND_DATA_POOL, DataPool, data_pool, uvec4, splat_words, READ_TEXEL)
+POOL(BIND_COLOR_POOL, ColorPool, color_pool, uint, color_word, READ_WORD)
+POOL(BIND_FIELD_POOL, FieldPool, field_pool, uint, field_word, READ_WORD)
+POOL(BIND_TOP_TABLE, TopTable, top_table, uint, top_entry, READ_WORD)
 
 /// Where the data pool has the splat that a place in the leaves' lists refers to.
 uint splat_at(uint place) { return REFERENCES == REFERENCES_NONE ? place : reference_word(place); }

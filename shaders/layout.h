@@ -270,7 +270,11 @@ SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
 SPLATRAY_CONST SPEC_REFERENCES = 14u;  ///< REFERENCES_*
 SPLATRAY_CONST SPEC_TOP_LEVELS = 15u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
 SPLATRAY_CONST SPEC_STAGE = 16u;       ///< STAGE_FIRST or STAGE_NEXT; in programs without stages STAGE_ALL
-SPLATRAY_CONST SPEC_COUNT = 17u;
+SPLATRAY_CONST SPEC_PAGES = 17u;       ///< pages of a pool less one, 4 bits each, BIND_NODE_POOL lowest
+SPLATRAY_CONST SPEC_PAGE_SHIFT = 18u;  ///< a page of a pool that has several holds 2^PAGE_SHIFT elements
+SPLATRAY_CONST SPEC_COUNT = 19u;
+
+SPLATRAY_CONST PAGES_MOST = 8u;  ///< of a pool: buffers one behind the other, where one cannot be as large
 
 SPLATRAY_CONST STAGE_ALL = 0u;    ///< whole paths
 SPLATRAY_CONST STAGE_FIRST = 1u;  ///< primary rays; paths that go on are queued
@@ -289,8 +293,7 @@ SPLATRAY_CONST FACES_BOTH = 0u;       ///< every object is two-sided
 SPLATRAY_CONST FACES_FRONT = 1u;      ///< every object is one-sided and none is a dielectric
 SPLATRAY_CONST FACES_MIXED = 2u;
 SPLATRAY_CONST REFERENCES_NONE = 0u;  ///< the data pool holds copies, leaf by leaf
-SPLATRAY_CONST REFERENCES_ONE = 1u;   ///< it is read through the reference pool, one reference in a texel
-SPLATRAY_CONST REFERENCES_FOUR = 2u;  ///< ... four in a texel, for more of them than a buffer has texels
+SPLATRAY_CONST REFERENCES_ONE = 1u;   ///< it is read through the reference pool
 SPLATRAY_CONST ORDER_Z = 0u;          ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
 SPLATRAY_CONST ORDER_LINEAR = 1u;     ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;      ///< threads in a group; ORDER_Z: 8 x 8 pixels

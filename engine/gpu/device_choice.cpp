@@ -4,14 +4,12 @@
 #include <optional>
 
 #include "engine/gpu/context.h"
+#include "engine/gpu/pools.h"
 #include "engine/host/error.h"
 #include "shaders/layout.h"
 
 namespace splatray {
 namespace {
-
-/// All storage buffers a program may bind (shaders/layout.h), the six pools included.
-constexpr std::uint32_t STORAGE_BUFFERS = 15;
 
 const char* type_name(VkPhysicalDeviceType type) {
   switch (type) {
@@ -45,9 +43,9 @@ std::string reason_to_refuse(VkPhysicalDevice device, const VkPhysicalDeviceProp
     return "Vulkan " + version_text(properties.apiVersion) + " found, 1.2 needed";
   if (compute_queue_family(device) == UINT32_MAX) return "no compute queue";
   const VkPhysicalDeviceLimits& limits = properties.limits;
-  if (limits.maxPerStageDescriptorStorageBuffers < STORAGE_BUFFERS)
+  if (limits.maxPerStageDescriptorStorageBuffers < OTHER_STORAGE_BUFFERS)
     return std::to_string(limits.maxPerStageDescriptorStorageBuffers) +
-           " storage buffers in a shader found, " + std::to_string(STORAGE_BUFFERS) + " needed";
+           " storage buffers in a shader found, " + std::to_string(OTHER_STORAGE_BUFFERS) + " needed";
   if (limits.maxComputeWorkGroupInvocations < GROUP_SIZE)
     return "work groups of " + std::to_string(limits.maxComputeWorkGroupInvocations) + " found, " +
            std::to_string(GROUP_SIZE) + " needed";

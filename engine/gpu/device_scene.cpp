@@ -2,18 +2,14 @@
 
 namespace splatray {
 
-DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, PoolAccess access, DataPool data)
-    : context_(context),
-      queue_(queue),
-      wanted_access_(access),
-      wanted_data_(data),
-      environment_(context, queue, {}) {}
+DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish)
+    : context_(context), queue_(queue), wish_(wish), environment_(context, queue, {}) {}
 
 void DeviceScene::upload(const Scene& scene) {
   bindings_.reset();
   pools_ = {};  // the device may not have room for two scenes
-  pools_ = Pools(context_, queue_, scene, wanted_access_, wanted_data_);
-  bindings_.emplace(context_, pools_.access);
+  pools_ = Pools(context_, queue_, scene, wish_);
+  bindings_.emplace(context_, pools_.paging);
   cells_ = filled_cells(scene);
   outline_ = {};
   outline_.root = scene.root;
@@ -62,8 +58,10 @@ SceneContent DeviceScene::content() const {
   return {.materials = materials_,
           .colors = pools_.bytes.color_pool > 0,
           .fields = pools_.bytes.field_pool > 0,
-          .references = pools_.bytes.references,
+          .references = pools_.references,
           .top_levels = pools_.top_levels,
+          .pages = pools_.paging.pages_constant(),
+          .page_shift = pools_.paging.page_shift_constant(),
           .lights = light_count_ > 0,
           .environment_texture = environment_texture_};
 }

@@ -21,7 +21,7 @@ namespace splatray {
 class DeviceScene {
  public:
   /// Nothing yet, black all around. The context and the queue must outlive it.
-  DeviceScene(const Context& context, CommandQueue& queue, PoolAccess access, DataPool data);
+  DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish);
 
   /// As the tracer's functions of these names.
   void upload(const Scene& scene);
@@ -36,7 +36,7 @@ class DeviceScene {
   [[nodiscard]] BindingSet& bindings() { return *bindings_; }
   void bind();
 
-  [[nodiscard]] PoolAccess access() const { return pools_.access; }  ///< texel or storage
+  [[nodiscard]] PoolAccess access() const { return pools_.paging.access; }  ///< texel or storage
   [[nodiscard]] PoolBytes bytes() const;
   [[nodiscard]] std::size_t materials() const { return materials_.size(); }
   /// What the features of a pipeline depend on.
@@ -50,9 +50,8 @@ class DeviceScene {
  private:
   const Context& context_;
   CommandQueue& queue_;
-  const PoolAccess wanted_access_;
-  const DataPool wanted_data_;
-  std::optional<BindingSet> bindings_;  ///< of access()
+  const PoolWish wish_;
+  std::optional<BindingSet> bindings_;  ///< of the pools
 
   Scene outline_;  ///< the scene without its arrays: transform, bounds, up
   Pools pools_;

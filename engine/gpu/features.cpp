@@ -45,13 +45,15 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   const bool faithful = settings.blend == BLEND_PAPER || settings.blend == BLEND_LEAF;
   constants[SPEC_REFERENCES] = content.references;
   constants[SPEC_TOP_LEVELS] = content.top_levels;
+  constants[SPEC_PAGES] = content.pages;
+  constants[SPEC_PAGE_SHIFT] = content.page_shift;
   constants[SPEC_FIELDS] = content.fields && !faithful ? 1 : 0;
   return constants;
 }
 
 SpecConstants empty_features(const SpecConstants& constants) {
   SpecConstants kept{};
-  for (const std::uint32_t constant : {SPEC_ENVIRONMENT, SPEC_ORDER, SPEC_COUNTERS, SPEC_AOV})
+  for (const std::uint32_t constant : {SPEC_ENVIRONMENT, SPEC_ORDER, SPEC_COUNTERS, SPEC_AOV, SPEC_PAGES})
     kept[constant] = constants[constant];
   return kept;
 }

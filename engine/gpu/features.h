@@ -19,13 +19,15 @@ struct SceneContent {
   bool fields = false;                         ///< there is a pool of normal fields
   std::uint32_t references = REFERENCES_NONE;  ///< how the data pool is read
   std::uint32_t top_levels = 0;                ///< of the top table
+  std::uint32_t pages = 0;                     ///< Paging::pages_constant
+  std::uint32_t page_shift = 0;                ///< Paging::page_shift_constant
   bool lights = false;                         ///< there are lights
   bool environment_texture = false;            ///< the environment is not constant
 };
 
 /// Constants of pictures (trace.comp.glsl), with SPEC_AOV = 0.
 [[nodiscard]] SpecConstants picture_features(const SceneContent& content, const Settings& settings);
-/// Those of them that matter where no primary ray hits anything.
+/// Those of them that matter where no primary ray hits anything, and the pages, which descriptor sets depend on.
 [[nodiscard]] SpecConstants empty_features(const SpecConstants& constants);
 /// Constants of ray queries (rays.comp.glsl): those of pictures without what only shading needs.
 [[nodiscard]] SpecConstants query_features(const SceneContent& content, const Settings& settings);

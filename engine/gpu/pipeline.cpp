@@ -31,6 +31,11 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   }
 }
 
+std::uint32_t descriptor_count(std::uint32_t binding, const Paging& paging) {
+  const bool pool = binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE;
+  return pool ? paging.pages[binding - BIND_NODE_POOL] : 1;
+}
+
 Handle<VkShaderModule, vkDestroyShaderModule> make_module(const Context& context,
                                                           std::span<const std::uint32_t> code) {
   VkShaderModuleCreateInfo info{};
@@ -84,8 +89,8 @@ std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, A
   }
 }
 
-BindingSet::BindingSet(const Context& context, PoolAccess access) : context_(context), access_(access) {
-  assert(access != PoolAccess::automatic);
+BindingSet::BindingSet(const Context& context, const Paging& paging) : context_(context), paging_(paging) {
+  assert(paging.access != PoolAccess::automatic);
   create_layout();
   create_set();
 }
@@ -93,7 +98,8 @@ BindingSet::BindingSet(const Context& context, PoolAccess access) : context_(con
 void BindingSet::create_layout() {
   std::array<VkDescriptorSetLayoutBinding, BINDING_COUNT> bindings{};
   for (std::uint32_t i = 0; i < BINDING_COUNT; ++i)
-    bindings[i] = {i, descriptor_type(i, access_), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+    bindings[i] = {i, descriptor_type(i, paging_.access), descriptor_count(i, paging_),
+                   VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   info.bindingCount = BINDING_COUNT;
@@ -114,7 +120,8 @@ void BindingSet::create_layout() {
 
 void BindingSet::create_set() {
   std::array<VkDescriptorPoolSize, BINDING_COUNT> sizes{};
-  for (std::uint32_t i = 0; i < BINDING_COUNT; ++i) sizes[i] = {descriptor_type(i, access_), 1};
+  for (std::uint32_t i = 0; i < BINDING_COUNT; ++i)
+    sizes[i] = {descriptor_type(i, paging_.access), descriptor_count(i, paging_)};
   VkDescriptorPoolCreateInfo pool_info{};
   pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   pool_info.maxSets = 1;
@@ -133,15 +140,22 @@ void BindingSet::create_set() {
   check(vkAllocateDescriptorSets(context_.device, &info, &set_), "making a descriptor set");
 }
 
-void BindingSet::bind(std::uint32_t binding, const Buffer& buffer) {
+void BindingSet::bind(std::uint32_t binding, const PagedBuffer& buffer) {
+  assert(buffer.pages().size() == descriptor_count(binding, paging_));
+  for (std::uint32_t page = 0; page < buffer.pages().size(); ++page)
+    bind(binding, buffer.pages()[page], page);
+}
+
+void BindingSet::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) {
   const VkDescriptorBufferInfo buffer_info{buffer.get(), 0, VK_WHOLE_SIZE};
   const VkBufferView view = buffer.view();
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set_;
   write.dstBinding = binding;
+  write.dstArrayElement = page;
   write.descriptorCount = 1;
-  write.descriptorType = descriptor_type(binding, access_);
+  write.descriptorType = descriptor_type(binding, paging_.access);
   write.pBufferInfo = &buffer_info;
   write.pTexelBufferView = &view;
   vkUpdateDescriptorSets(context_.device, 1, &write, 0, nullptr);

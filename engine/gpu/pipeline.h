@@ -12,17 +12,17 @@
 
 namespace splatray {
 
-/// The descriptor set (set 0, bindings BIND_*) shared by all programs of one pool access, and its pipeline
-/// layout.
+/// The descriptor set (set 0, bindings BIND_*) shared by all programs of one paging, and its pipeline layout.
 class BindingSet {
  public:
-  /// `access` is texel or storage. The context must outlive it.
-  BindingSet(const Context& context, PoolAccess access);
+  /// The context must outlive it.
+  BindingSet(const Context& context, const Paging& paging);
 
-  /// Points one binding to a buffer, or the environment's binding to a texture. The device must be idle; the
-  /// buffer must outlive its use. Every binding needs a buffer before a dispatch, also one that the program
+  /// Points one binding to a buffer, or to all pages of a pool, or the environment's binding to a texture. The device must
+  /// be idle; the buffer must outlive its use. Every binding needs a buffer before a dispatch, also one that the program
   /// does not use.
-  void bind(std::uint32_t binding, const Buffer& buffer);
+  void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page = 0);
+  void bind(std::uint32_t binding, const PagedBuffer& buffer);
   void bind(const EnvironmentTexture& texture);
 
   [[nodiscard]] VkDescriptorSet set() const { return set_; }
@@ -33,7 +33,7 @@ class BindingSet {
   void create_set();
 
   const Context& context_;
-  PoolAccess access_;
+  const Paging paging_;
   Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout_;
   Handle<VkPipelineLayout, vkDestroyPipelineLayout> pipeline_layout_;
   Handle<VkDescriptorPool, vkDestroyDescriptorPool> pool_;

@@ -1,17 +1,20 @@
 #include "engine/gpu/pools.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <numeric>
-#include <optional>
+#include <span>
 #include <string>
+#include <variant>
 
 #include "engine/host/error.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::size_t POOLS = std::tuple_size_v<decltype(Pools::buffers)>;
+/// Beside the pools: the environment, and the paths of stages.
+constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 2;
 
 struct PoolKind {
   const char* name;
@@ -20,25 +23,14 @@ struct PoolKind {
 };
 
 /// In the order of their bindings.
-using PoolKinds = std::array<PoolKind, POOLS>;
-constexpr PoolKinds KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
-                              {"Begin-End", VK_FORMAT_R32_UINT, 4},
-                              {"pool of slabs", VK_FORMAT_R32_UINT, 4},
-                              {"reference pool", VK_FORMAT_R32_UINT, 4},
-                              {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
-                              {"colour pool", VK_FORMAT_R32_UINT, 4},
-                              {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
-                              {"top table", VK_FORMAT_R32_UINT, 4}}};
-
-PoolKinds kinds(std::uint32_t references) {
-  PoolKinds list = KINDS;
-  if (references == REFERENCES_FOUR) {
-    PoolKind& pool = list[BIND_REFERENCE_POOL - BIND_NODE_POOL];
-    pool.format = VK_FORMAT_R32G32B32A32_UINT;
-    pool.element_bytes = 16;
-  }
-  return list;
-}
+constexpr std::array<PoolKind, POOLS> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
+                                                {"Begin-End", VK_FORMAT_R32_UINT, 4},
+                                                {"pool of slabs", VK_FORMAT_R32_UINT, 4},
+                                                {"reference pool", VK_FORMAT_R32_UINT, 4},
+                                                {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
+                                                {"colour pool", VK_FORMAT_R32_UINT, 4},
+                                                {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
+                                                {"top table", VK_FORMAT_R32_UINT, 4}}};
 
 std::array<std::uint64_t, POOLS> sizes(const PoolBytes& bytes) {
   return {bytes.node_pool, bytes.begin_end,  bytes.slab_pool,  bytes.reference_pool,
@@ -51,26 +43,59 @@ std::string mib_text(std::uint64_t bytes) {
   return text;
 }
 
-/// Why pools of these sizes cannot be read this way; nothing when they can.
-std::optional<std::string> misfit(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess access) {
+/// Most elements of that size in one buffer.
+std::uint64_t most_elements(const PoolLimits& limits, PoolAccess access, std::uint64_t element_bytes) {
+  const bool texel = access == PoolAccess::texel;
+  return std::min(texel ? limits.texel_elements : limits.storage_bytes / element_bytes,
+                  limits.allocation_bytes / element_bytes);
+}
+
+/// Pools of these sizes read this way, or why they cannot be.
+std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolLimits& limits,
+                                             PoolAccess access) {
+  const bool texel = access == PoolAccess::texel;
+  const std::uint64_t page = std::bit_floor(most_elements(limits, access, sizeof(uvec4)));
+  if (page == 0) return std::string("it has no such buffers");
+  Paging paging{access};
+  paging.page_shift = static_cast<std::uint32_t>(std::countr_zero(page));
+  std::uint64_t all = 0;
   for (std::size_t i = 0; i < POOLS; ++i) {
-    const PoolKind kind = kinds(bytes.references)[i];
-    const std::uint64_t size = sizes(bytes)[i];
-    const std::string found = std::string("the ") + kind.name + " has " + mib_text(size) + ", the device's ";
-    if (size > limits.allocation_bytes)
-      return found + "largest allocation is " + mib_text(limits.allocation_bytes);
-    if (access == PoolAccess::storage && size > limits.storage_bytes)
-      return found + "largest storage buffer is " + mib_text(limits.storage_bytes);
-    if (access == PoolAccess::texel && size / kind.element_bytes > limits.texel_elements)
-      return found + "largest texel buffer of its kind is " +
-             mib_text(limits.texel_elements * kind.element_bytes);
+    const auto [name, format, element_bytes] = KINDS[i];
+    const std::uint64_t elements = sizes(bytes)[i] / element_bytes;
+    const bool fits = elements <= most_elements(limits, access, element_bytes);
+    const std::uint64_t pages = fits ? 1 : (elements + page - 1) / page;
+    if (pages > PAGES_MOST)
+      return std::string("the ") + name + " has " + mib_text(sizes(bytes)[i]) + ", more than " +
+             std::to_string(PAGES_MOST) + " of its largest " + (texel ? "texel" : "storage") +
+             " buffers with " + mib_text(page * element_bytes) + " each";
+    paging.pages[i] = static_cast<std::uint32_t>(pages);
+    all += pages;
   }
-  return std::nullopt;
+  const std::uint32_t most = texel ? limits.texel_buffers : limits.storage_buffers;
+  if (all > most)
+    return "the pools take " + std::to_string(all) + (texel ? " texel" : " storage") +
+           " buffers, a program has room for " + std::to_string(most);
+  return paging;
+}
+
+/// The way of those that `wanted` allows with fewest pages, or why there is none.
+std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const PoolLimits& limits,
+                                              PoolAccess wanted) {
+  if (wanted != PoolAccess::automatic) return try_paging(bytes, limits, wanted);
+  const auto texel = try_paging(bytes, limits, PoolAccess::texel);
+  const auto storage = try_paging(bytes, limits, PoolAccess::storage);
+  const auto* first = std::get_if<Paging>(&texel);
+  const auto* second = std::get_if<Paging>(&storage);
+  const auto count = [](const Paging& paging) {
+    return std::accumulate(paging.pages.begin(), paging.pages.end(), 0U);
+  };
+  if (second == nullptr) return texel;
+  return first != nullptr && count(*first) <= count(*second) ? texel : storage;
 }
 
 /// What the references refer to, in parts: a whole list beside the buffer would take its memory twice.
 template <typename Value>
-void upload_listed(CommandQueue& queue, Buffer& buffer, const std::vector<Value>& pool,
+void upload_listed(CommandQueue& queue, PagedBuffer& buffer, const std::vector<Value>& pool,
                    const std::vector<std::uint32_t>& references) {
   constexpr std::ptrdiff_t PART = std::ptrdiff_t{1} << 18;
   if (pool.empty()) return;
@@ -97,77 +122,90 @@ std::uint64_t total_bytes(const PoolBytes& bytes) {
 }
 
 PoolLimits pool_limits(const Context& context) {
-  PoolLimits limits;
+  const VkPhysicalDeviceLimits& device = context.properties.limits;
   const bool texel_formats = texel_format_supported(context, VK_FORMAT_R32_UINT) &&
                              texel_format_supported(context, VK_FORMAT_R32G32B32A32_UINT);
-  limits.texel_elements = texel_formats ? context.properties.limits.maxTexelBufferElements : 0;
-  limits.storage_bytes = context.properties.limits.maxStorageBufferRange;
+  const auto beside = [](std::uint32_t of_stage, std::uint32_t of_set, std::uint32_t others) {
+    return std::max(std::min(of_stage, of_set), others) - others;
+  };
+  PoolLimits limits;
+  limits.texel_elements = texel_formats ? device.maxTexelBufferElements : 0;
+  limits.storage_bytes = device.maxStorageBufferRange;
   limits.allocation_bytes = context.max_allocation_bytes;
+  limits.texel_buffers = beside(device.maxPerStageDescriptorSampledImages,
+                                device.maxDescriptorSetSampledImages, OTHER_SAMPLED_IMAGES);
+  limits.storage_buffers = beside(device.maxPerStageDescriptorStorageBuffers,
+                                  device.maxDescriptorSetStorageBuffers, OTHER_STORAGE_BUFFERS);
   return limits;
 }
+
+std::uint32_t Paging::pages_constant() const {
+  std::uint32_t constant = 0;
+  for (std::uint32_t i = 0; i < POOLS; ++i) constant |= (pages[i] - 1) << 4 * i;
+  return constant;
+}
+
+std::uint32_t Paging::page_shift_constant() const { return pages_constant() == 0 ? 0 : page_shift; }
 
 std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
                                 DataPool wanted) {
   PoolBytes copies;
   copies.data_pool = counts.references * sizeof(uvec4);
-  const bool storage = access == PoolAccess::storage || limits.texel_elements == 0;
+  copies.color_pool = counts.colors ? counts.references * sizeof(std::uint32_t) : 0;
+  copies.field_pool = counts.fields ? counts.references * sizeof(std::uint32_t) : 0;
   if (wanted == DataPool::automatic && copies_fit(counts) &&
-      !misfit(copies, limits, storage ? PoolAccess::storage : PoolAccess::texel))
+      std::holds_alternative<Paging>(best_paging(copies, limits, access)))
     wanted = DataPool::copies;
-  if (wanted == DataPool::copies) return REFERENCES_NONE;
-  const bool wide = wanted == DataPool::wide_references ||
-                    (wanted == DataPool::automatic && counts.references > limits.texel_elements);
-  return wide ? REFERENCES_FOUR : REFERENCES_ONE;
+  return wanted == DataPool::copies ? REFERENCES_NONE : REFERENCES_ONE;
 }
 
-PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted) {
-  const PoolAccess first = wanted == PoolAccess::storage ? PoolAccess::storage : PoolAccess::texel;
-  const std::optional<std::string> reason = misfit(bytes, limits, first);
-  if (!reason) return first;
-  if (wanted == PoolAccess::automatic && !misfit(bytes, limits, PoolAccess::storage))
-    return PoolAccess::storage;
-  throw Error(ExitCode::out_of_memory, "the scene does not fit the device: " + *reason);
+Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted) {
+  const auto best = best_paging(bytes, limits, wanted);
+  if (const auto* reason = std::get_if<std::string>(&best))
+    throw Error(ExitCode::out_of_memory, "the scene does not fit the device: " + *reason);
+  return std::get<Paging>(best);
 }
 
-Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted,
-             DataPool data) {
+Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish) {
   top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
   const std::vector<std::uint32_t> top = top_table(scene, top_levels);
-  const std::vector<std::uint32_t>& references = scene.reference_pool;
-  const PoolLimits limits = pool_limits(context);
-  bytes.references = choose_references(pool_counts(scene), limits, wanted, data);
-  const bool copies = bytes.references == REFERENCES_NONE;
-  const bool lists = copies && !references.empty();
+  PoolLimits limits = pool_limits(context);
+  limits.texel_elements = std::min(limits.texel_elements, wish.page_elements);
+  limits.storage_bytes = std::min(limits.storage_bytes / sizeof(uvec4), wish.page_elements) * sizeof(uvec4);
+  references = choose_references(pool_counts(scene), limits, wish.access, wish.data);
+  const bool copies = references == REFERENCES_NONE;
+  const bool lists = copies && !scene.reference_pool.empty();
   const auto bytes_listed = [&](const auto& pool) {
-    return (lists && !pool.empty() ? references.size() : pool.size()) * sizeof(pool.front());
+    return (lists && !pool.empty() ? scene.reference_pool.size() : pool.size()) * sizeof(pool.front());
   };
   bytes.node_pool = std::span(scene.node_pool).size_bytes();
   bytes.begin_end = std::span(scene.begin_end).size_bytes();
   bytes.slab_pool = std::span(scene.slab_pool).size_bytes();
-  bytes.reference_pool = copies ? 0 : std::span(references).size_bytes();
+  bytes.reference_pool = copies ? 0 : std::span(scene.reference_pool).size_bytes();
   bytes.data_pool = bytes_listed(scene.data_pool);
   bytes.color_pool = bytes_listed(scene.color_pool);
   bytes.field_pool = bytes_listed(scene.field_pool);
   bytes.top_table = std::span(top).size_bytes();
-  access = choose_access(bytes, limits, wanted);
-  bytes.texel_buffers = access == PoolAccess::texel;
+  paging = choose_paging(bytes, limits, wish.access);
+  bytes.texel_buffers = paging.access == PoolAccess::texel;
+  bytes.pages = *std::max_element(paging.pages.begin(), paging.pages.end());
   const VkBufferUsageFlags usage =
       bytes.texel_buffers ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   for (std::size_t i = 0; i < POOLS; ++i) {
-    const PoolKind kind = kinds(bytes.references)[i];
-    const std::size_t whole_texels = (sizes(bytes)[i] + kind.element_bytes - 1) / kind.element_bytes;
-    buffers[i] = Buffer(context, whole_texels * kind.element_bytes, usage,
-                        bytes.texel_buffers ? kind.format : VK_FORMAT_UNDEFINED);
+    const std::uint64_t page =
+        paging.pages[i] > 1 ? KINDS[i].element_bytes << paging.page_shift : VK_WHOLE_SIZE;
+    buffers[i] = PagedBuffer(context, sizes(bytes)[i], page, usage,
+                             bytes.texel_buffers ? KINDS[i].format : VK_FORMAT_UNDEFINED);
   }
   const auto upload = [&](std::uint32_t binding, const auto& pool, bool list) {
-    Buffer& buffer = buffers[binding - BIND_NODE_POOL];
-    if (list) upload_listed(queue, buffer, pool, references);
+    PagedBuffer& buffer = buffers[binding - BIND_NODE_POOL];
+    if (list) upload_listed(queue, buffer, pool, scene.reference_pool);
     if (!list) buffer.upload(queue, std::as_bytes(std::span(pool)));
   };
   upload(BIND_NODE_POOL, scene.node_pool, false);
   upload(BIND_BEGIN_END, scene.begin_end, false);
   upload(BIND_SLAB_POOL, scene.slab_pool, false);
-  if (!copies) upload(BIND_REFERENCE_POOL, references, false);
+  if (!copies) upload(BIND_REFERENCE_POOL, scene.reference_pool, false);
   upload(BIND_DATA_POOL, scene.data_pool, lists);
   upload(BIND_COLOR_POOL, scene.color_pool, lists);
   upload(BIND_FIELD_POOL, scene.field_pool, lists);

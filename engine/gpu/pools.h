@@ -2,9 +2,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <span>
 
-#include "engine/gpu/buffer.h"
+#include "engine/gpu/paged_buffer.h"
 #include "engine/host/copies.h"
 
 namespace splatray {
@@ -18,10 +17,16 @@ enum class PoolAccess {
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
-  automatic,   ///< copies where they fit (engine/host/copies.h) and one buffer of the device holds them
+  automatic,   ///< copies where they fit (engine/host/copies.h) and the device has buffers enough for them
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
-  wide_references,  ///< ... four in a texel; what `automatic` takes when there are more than a texel buffer has texels
+};
+
+/// How the pools are to be held. Anything but automatic is for tests and benchmarks.
+struct PoolWish {
+  PoolAccess access = PoolAccess::automatic;
+  DataPool data = DataPool::automatic;
+  std::uint64_t page_elements = UINT64_MAX;  ///< most elements of the data pool in a page
 };
 
 /// Bytes on the device, by pool.
@@ -35,39 +40,57 @@ struct PoolBytes {
   std::uint64_t field_pool = 0;
   std::uint64_t top_table = 0;
   std::uint64_t environment = 0;
-  bool texel_buffers = false;                  ///< pools are read through texel buffers
-  std::uint32_t references = REFERENCES_NONE;  ///< REFERENCES_*, how the data pool is read
+  bool texel_buffers = false;  ///< pools are read through texel buffers
+  std::uint32_t pages = 0;     ///< of the pool with most
 };
 
 /// Of all pools and the top table, without the environment.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
 
-/// What the device allows a pool to be.
+inline constexpr std::uint32_t POOLS = BIND_TOP_TABLE - BIND_NODE_POOL + 1;
+/// Storage buffers of a program beside the pools (shaders/layout.h).
+inline constexpr std::uint32_t OTHER_STORAGE_BUFFERS = 10;
+
+/// What the device allows pools to be.
 struct PoolLimits {
   std::uint64_t texel_elements = 0;    ///< most elements of a texel buffer; 0 where a format is not supported
   std::uint64_t storage_bytes = 0;     ///< largest storage buffer
   std::uint64_t allocation_bytes = 0;  ///< largest allocation
+  std::uint32_t texel_buffers = 0;     ///< most texel buffers of a program for pools
+  std::uint32_t storage_buffers = 0;   ///< most storage buffers of a program for pools
 };
 [[nodiscard]] PoolLimits pool_limits(const Context& context);
+
+/// How pools are read, and in how many buffers each is.
+struct Paging {
+  PoolAccess access = PoolAccess::storage;   ///< never automatic
+  std::array<std::uint32_t, POOLS> pages{};  ///< of each pool, at least 1; in the order of their bindings
+  std::uint32_t page_shift = 0;  ///< a page of a pool that has several holds 2^page_shift elements
+
+  /// As the specialization constants SPEC_PAGES and SPEC_PAGE_SHIFT.
+  [[nodiscard]] std::uint32_t pages_constant() const;
+  [[nodiscard]] std::uint32_t page_shift_constant() const;
+};
 
 /// How the data pool of such a scene is read, REFERENCES_*, where pools are read as `access` says.
 [[nodiscard]] std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits,
                                               PoolAccess access, DataPool wanted);
 
-/// How pools of these sizes can be read; never automatic. Throws Error (out_of_memory) naming a pool, its
-/// size and the limit when none of the ways that `wanted` allows will do.
-[[nodiscard]] PoolAccess choose_access(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted);
+/// The way to read pools of these sizes that takes fewest pages, texel buffers first. Throws Error (out_of_memory) naming
+/// a pool, its size and the limit when none of the ways that `wanted` allows will do.
+[[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted);
 
 /// The uploaded pools; move-only.
 struct Pools {
   Pools() = default;
-  /// Uploads and waits; throws as choose_access does.
-  Pools(const Context& context, CommandQueue& queue, const Scene& scene, PoolAccess wanted, DataPool data);
+  /// Uploads and waits; throws as choose_paging does.
+  Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish);
 
-  PoolAccess access = PoolAccess::storage;  ///< never automatic
-  PoolBytes bytes;                          ///< without the environment
-  std::uint32_t top_levels = 0;             ///< of the top table
-  std::array<Buffer, 8> buffers;            ///< in the order of their bindings, from BIND_NODE_POOL on
+  Paging paging;
+  PoolBytes bytes;                             ///< without the environment
+  std::uint32_t references = REFERENCES_NONE;  ///< REFERENCES_*, how the data pool is read
+  std::uint32_t top_levels = 0;                ///< of the top table
+  std::array<PagedBuffer, POOLS> buffers;      ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 
 }  // namespace splatray

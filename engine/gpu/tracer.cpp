@@ -54,8 +54,7 @@ struct Growing {
 }  // namespace
 
 struct Tracer::Impl {
-  Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data,
-       ProgramCode code);
+  Impl(const Context& device, const PoolWish& wish, Arithmetic wanted_arithmetic, ProgramCode code);
 
   void bind_all();
   double run(const Dispatch& dispatch);
@@ -84,13 +83,13 @@ struct Tracer::Impl {
   std::uint32_t pools_uploaded = 0;
 };
 
-Tracer::Impl::Impl(const Context& device, PoolAccess access, Arithmetic wanted_arithmetic, DataPool data,
+Tracer::Impl::Impl(const Context& device, const PoolWish& wish, Arithmetic wanted_arithmetic,
                    ProgramCode code)
     : context(device),
       arithmetic(device.arithmetic(wanted_arithmetic)),
       queue(device),
       pipelines(device, code),
-      scene(device, queue, access, data) {
+      scene(device, queue, wish) {
   reserve_storage(device, frame_buffer, sizeof(FrameParams));
   for (Buffer* buffer : {&accumulation, &aov, &rays, &hits, &groups}) reserve_storage(device, *buffer, 0);
   reserve_storage(device, counters, COUNTER_COUNT * sizeof(std::uint32_t));
@@ -238,9 +237,8 @@ void Tracer::Impl::trace_aov(const Tile& tile, Dispatch dispatch, const Footprin
   place(tile, pixels, picture, dispatch.frame.width);
 }
 
-Tracer::Tracer(const Context& context, PoolAccess access, Arithmetic arithmetic, DataPool data,
-               ProgramCode code)
-    : impl_(std::make_unique<Impl>(context, access, arithmetic, data, code)) {}
+Tracer::Tracer(const Context& context, const PoolWish& wish, Arithmetic arithmetic, ProgramCode code)
+    : impl_(std::make_unique<Impl>(context, wish, arithmetic, code)) {}
 
 Tracer::~Tracer() = default;
 

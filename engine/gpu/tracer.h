@@ -34,11 +34,10 @@ struct RenderStats {
 
 class Tracer {
  public:
-  /// The context must outlive the tracer. Anything but automatic is for tests and benchmarks, and so is other code: it
-  /// reads the pools as it likes.
-  explicit Tracer(const Context& context, PoolAccess access = PoolAccess::automatic,
-                  Arithmetic arithmetic = Arithmetic::automatic, DataPool data = DataPool::automatic,
-                  ProgramCode code = engine_code);
+  /// The context must outlive the tracer. Other arithmetic and code are for tests and benchmarks, as wishes are; code reads
+  /// the pools as it likes.
+  explicit Tracer(const Context& context, const PoolWish& wish = {},
+                  Arithmetic arithmetic = Arithmetic::automatic, ProgramCode code = engine_code);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;

@@ -111,7 +111,7 @@ void compare_case(const Context& context, const Case& one, const Options& option
   octree.upload(scene);
   octree.set_environment(read_environment_file(folder / "environment.bin"));
   BvhStats stats;
-  Tracer bvh(context, PoolAccess::automatic, Arithmetic::automatic, DataPool::automatic, bvh_code);
+  Tracer bvh(context, {}, Arithmetic::automatic, bvh_code);
   bvh.upload(bvh_scene(scene, stats));
   bvh.set_environment(read_environment_file(folder / "environment.bin"));
 

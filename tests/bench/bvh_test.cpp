@@ -31,7 +31,7 @@ std::vector<RayHit> answers(const Context& context, const Scene& scene, const st
                             const Settings& settings, ProgramCode code,
                             PoolAccess access = PoolAccess::automatic,
                             Arithmetic arithmetic = Arithmetic::automatic) {
-  Tracer tracer(context, access, arithmetic, DataPool::automatic, code);
+  Tracer tracer(context, {.access = access}, arithmetic, code);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
 }

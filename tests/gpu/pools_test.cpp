@@ -1,5 +1,6 @@
 #include "engine/gpu/pools.h"
 
+#include <array>
 #include <string>
 
 #include "engine/gpu/tracer.h"
@@ -9,11 +10,16 @@
 namespace splatray {
 namespace {
 
-constexpr PoolLimits LIMITS{.texel_elements = 1000, .storage_bytes = 8000, .allocation_bytes = 20000};
+// 512 elements of any kind in a page of texel buffers, 256 in one of storage buffers.
+constexpr PoolLimits LIMITS{.texel_elements = 1000,
+                            .storage_bytes = 8000,
+                            .allocation_bytes = 20000,
+                            .texel_buffers = 20,
+                            .storage_buffers = 16};
 
 std::string refusal(const PoolBytes& bytes, PoolAccess wanted) {
   try {
-    (void)choose_access(bytes, LIMITS, wanted);
+    (void)choose_paging(bytes, LIMITS, wanted);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::out_of_memory);
     return error.what();
@@ -21,34 +27,67 @@ std::string refusal(const PoolBytes& bytes, PoolAccess wanted) {
   return "";
 }
 
-TEST(PoolAccess, PrefersTexelBuffersWithinTheirLimit) {
+using Pages = std::array<std::uint32_t, POOLS>;
+
+TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
   const PoolBytes bytes{.node_pool = 4000, .begin_end = 4000, .data_pool = 16000};
-  EXPECT_EQ(choose_access(bytes, LIMITS, PoolAccess::automatic), PoolAccess::texel);
+  const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
+  EXPECT_EQ(paging.access, PoolAccess::texel);
+  EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(paging.pages_constant(), 0U);
+  EXPECT_EQ(paging.page_shift_constant(), 0U) << "the same pipeline for all";
 }
 
-TEST(PoolAccess, FallsBackToStorageBuffers) {
+TEST(Paging, TakesStorageBuffersWhereTheyNeedFewerPages) {
   const PoolBytes bytes{.node_pool = 4004, .begin_end = 4000, .data_pool = 8000};
-  EXPECT_EQ(choose_access(bytes, LIMITS, PoolAccess::automatic), PoolAccess::storage);
+  const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
+  EXPECT_EQ(paging.access, PoolAccess::storage);
+  EXPECT_EQ(paging.pages_constant(), 0U);
 }
 
-TEST(PoolAccess, FourReferencesInATexelFitWhereOneDoesNot) {
-  PoolBytes bytes{.reference_pool = 12000, .references = REFERENCES_ONE};
-  EXPECT_NE(refusal(bytes, PoolAccess::texel), "");
-  bytes.references = REFERENCES_FOUR;
-  EXPECT_EQ(choose_access(bytes, LIMITS, PoolAccess::texel), PoolAccess::texel);
+TEST(Paging, PagesWhatOneBufferDoesNotHold) {
+  const PoolBytes bytes{.node_pool = 4004, .data_pool = 16 * 1537, .color_pool = 4 * 1000};
+  const Paging texel = choose_paging(bytes, LIMITS, PoolAccess::automatic);
+  EXPECT_EQ(texel.access, PoolAccess::texel);
+  EXPECT_EQ(texel.pages, (Pages{2, 1, 1, 1, 4, 1, 1, 1}));
+  EXPECT_EQ(texel.pages_constant(), 0x00030001U);
+  EXPECT_EQ(texel.page_shift_constant(), 9U);
+  const Paging storage = choose_paging(bytes, LIMITS, PoolAccess::storage);
+  EXPECT_EQ(storage.pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1}));
+  EXPECT_EQ(storage.page_shift_constant(), 8U);
 }
 
-TEST(PoolAccess, CanBeForced) {
-  EXPECT_EQ(choose_access({.data_pool = 16}, LIMITS, PoolAccess::storage), PoolAccess::storage);
-  EXPECT_NE(refusal({.node_pool = 4004}, PoolAccess::texel), "");
-  EXPECT_NE(refusal({.node_pool = 8004}, PoolAccess::storage), "");
+TEST(Paging, CanBeForced) {
+  EXPECT_EQ(choose_paging({.data_pool = 16}, LIMITS, PoolAccess::storage).access, PoolAccess::storage);
+  EXPECT_EQ(choose_paging({.data_pool = 16 * 900}, LIMITS, PoolAccess::texel).access, PoolAccess::texel);
 }
 
-TEST(PoolAccess, RefusalNamesPoolSizeAndLimit) {
-  const std::string sentence = refusal({.node_pool = 4, .data_pool = 30 << 20}, PoolAccess::automatic);
+TEST(Paging, RefusalNamesPoolSizeAndLimit) {
+  const std::string sentence = refusal({.node_pool = 4, .data_pool = 30 << 20}, PoolAccess::texel);
   EXPECT_NE(sentence.find("data pool"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("30.0 MiB"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("largest allocation is 0.0 MiB"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("8 of its largest texel buffers"), std::string::npos) << sentence;
+}
+
+TEST(Paging, EndsAtTheMostPagesOfAPool) {
+  EXPECT_EQ(choose_paging({.data_pool = 16 * 4096}, LIMITS, PoolAccess::texel).pages[4], PAGES_MOST);
+  EXPECT_NE(refusal({.data_pool = 16 * 4097}, PoolAccess::automatic), "");
+}
+
+TEST(Paging, EndsAtTheMostBuffersOfAProgram) {
+  PoolBytes bytes{.data_pool = 16 * 4096, .color_pool = 4 * 2560};
+  EXPECT_EQ(choose_paging(bytes, LIMITS, PoolAccess::texel).pages, (Pages{1, 1, 1, 1, 8, 5, 1, 1}));
+  bytes.field_pool = 4 * 1025;
+  const std::string sentence = refusal(bytes, PoolAccess::automatic);
+  EXPECT_NE(sentence.find("21 texel buffers"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("room for 20"), std::string::npos) << sentence;
+}
+
+TEST(Paging, NeedsBuffersOfItsKind) {
+  PoolLimits none = LIMITS;
+  none.texel_elements = 0;
+  EXPECT_THROW((void)choose_paging({.data_pool = 16}, none, PoolAccess::texel), Error);
+  EXPECT_EQ(choose_paging({.data_pool = 16}, none, PoolAccess::automatic).access, PoolAccess::storage);
 }
 
 /// What `automatic` makes of a scene of so many splats, with so many references, where LIMITS hold.
@@ -62,25 +101,26 @@ TEST(DataPool, HasCopiesWhereTheyFit) {
   EXPECT_EQ(automatic_references(200, 1000), REFERENCES_ONE) << "80 bytes a splat";
 }
 
-TEST(DataPool, HasReferencesWhereOneBufferDoesNotHoldCopies) {
-  EXPECT_EQ(automatic_references(400, 500, PoolAccess::storage), REFERENCES_NONE);
-  EXPECT_EQ(automatic_references(400, 501, PoolAccess::storage), REFERENCES_ONE)
-      << "8016 bytes of storage buffer";
-  EXPECT_EQ(automatic_references(1000, 1001), REFERENCES_FOUR) << "1001 texels";
+TEST(DataPool, HasReferencesWhereThereAreNoBuffersForCopies) {
+  EXPECT_EQ(automatic_references(1500, 2048, PoolAccess::storage), REFERENCES_NONE) << "8 pages";
+  EXPECT_EQ(automatic_references(1500, 2049, PoolAccess::storage), REFERENCES_ONE);
+  EXPECT_EQ(automatic_references(3000, 4096), REFERENCES_NONE) << "8 pages of texel buffers";
+  EXPECT_EQ(automatic_references(3000, 4097), REFERENCES_ONE);
 }
 
 TEST(DataPool, CanBeForced) {
   const PoolCounts counts{200, 1000, 1, 1, false, false};
   EXPECT_EQ(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::copies), REFERENCES_NONE);
-  EXPECT_EQ(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::wide_references),
-            REFERENCES_FOUR);
+  EXPECT_EQ(
+      choose_references({400, 500, 1, 1, false, false}, LIMITS, PoolAccess::automatic, DataPool::references),
+      REFERENCES_ONE);
 }
 
 using PoolUpload = DeviceTest;
 
 TEST_F(PoolUpload, BothAccessesGiveTheSamePicture) {
   const Scene scene = disc_scene(3);
-  Tracer texel(context, PoolAccess::texel), storage(context, PoolAccess::storage);
+  Tracer texel(context, {.access = PoolAccess::texel}), storage(context, {.access = PoolAccess::storage});
   texel.upload(scene);
   storage.upload(scene);
   EXPECT_TRUE(texel.pool_bytes().texel_buffers);
@@ -94,18 +134,21 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
   scene.reference_pool = {2, 0, 1};
   scene.color_pool = {pack_color({1.0F, 0.0F, 0.0F}), pack_color({0.0F, 1.0F, 0.0F}),
                       pack_color({0.0F, 0.0F, 1.0F})};
-  const auto picture = [&](DataPool data, PoolAccess access, std::uint64_t reference_bytes) {
-    Tracer tracer(context, access, Arithmetic::automatic, data);
+  const auto picture = [&](const PoolWish& wish, std::uint32_t pages) {
+    Tracer tracer(context, wish);
     tracer.upload(scene);
-    EXPECT_EQ(tracer.pool_bytes().reference_pool, reference_bytes);
+    EXPECT_EQ(tracer.pool_bytes().reference_pool, wish.data == DataPool::copies ? 0U : 12U);
     EXPECT_EQ(tracer.pool_bytes().data_pool, 48U);
     EXPECT_EQ(tracer.pool_bytes().color_pool, 12U);
+    EXPECT_EQ(tracer.pool_bytes().pages, pages);
     return tracer.render(disc_view(50, 40), plain_settings()).rgba;
   };
   for (const PoolAccess access : {PoolAccess::texel, PoolAccess::storage}) {
-    const auto copies = picture(DataPool::copies, access, 0);
-    EXPECT_TRUE(copies == picture(DataPool::references, access, 12));
-    EXPECT_TRUE(copies == picture(DataPool::wide_references, access, 12));
+    const auto copies = picture({access, DataPool::copies}, 1);
+    EXPECT_TRUE(copies == picture({access, DataPool::references}, 1));
+    EXPECT_TRUE(copies == picture({access, DataPool::copies, 1}, 3)) << "a page for each splat";
+    EXPECT_TRUE(copies == picture({access, DataPool::references, 1}, 3));
+    EXPECT_TRUE(copies == picture({access, DataPool::references, 2}, 2));
   }
 }
 
@@ -120,15 +163,32 @@ TEST_F(PoolUpload, ReportsBytesByPool) {
   EXPECT_EQ(tracer.pool_bytes().color_pool, 0U);
 }
 
-TEST_F(PoolUpload, PoolBeyondTheDevicesLimitIsRefused) {
+TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
+  Scene scene = disc_scene();
+  scene.node_pool.resize(2 * PAGES_MOST);
+  Tracer tracer(context, {.access = PoolAccess::texel, .page_elements = 1});
+  EXPECT_THROW(tracer.upload(scene), Error);
+  EXPECT_EQ(tracer.pools_uploaded(), 0U);
+}
+
+/// The device's own limit; the root's children, each with all discs, are behind it.
+TEST_F(PoolUpload, PoolBeyondTheLargestStorageBufferIsPaged) {
   const std::uint64_t limit = context.properties.limits.maxStorageBufferRange;
   if (limit > std::uint64_t{256} << 20U)
     GTEST_SKIP() << "the device's storage buffers are too large to exceed here";
   Scene scene = disc_scene();
-  scene.node_pool.resize(limit / sizeof(std::uint32_t) + 1);
-  Tracer tracer(context, PoolAccess::storage);
-  EXPECT_THROW(tracer.upload(scene), Error);
-  EXPECT_EQ(tracer.pools_uploaded(), 0U);
+  const std::uint32_t leaf = scene.node_pool[0];
+  const auto children = static_cast<std::uint32_t>(limit / sizeof(std::uint32_t));
+  scene.node_pool.resize(children);
+  scene.node_pool[0] = NODE_INNER << NODE_TAG_SHIFT | children;
+  scene.node_pool.insert(scene.node_pool.end(), 8, leaf);
+  Tracer tracer(context, {.access = PoolAccess::storage});
+  tracer.upload(scene);
+  EXPECT_GT(tracer.pool_bytes().pages, 1U);
+  const auto paged = tracer.render(disc_view(50, 40), plain_settings()).rgba;
+  tracer.upload(disc_scene());
+  EXPECT_EQ(tracer.pool_bytes().pages, 1U);
+  EXPECT_TRUE(paged == tracer.render(disc_view(50, 40), plain_settings()).rgba);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -56,8 +57,8 @@ void expect_exact(const Agreement& agreement, const std::string& what) {
 
 std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery>& rays,
                                   const Settings& settings, Arithmetic arithmetic = Arithmetic::automatic,
-                                  DataPool data = DataPool::automatic) {
-  Tracer tracer(shared_context(), PoolAccess::automatic, arithmetic, data);
+                                  const PoolWish& wish = {}) {
+  Tracer tracer(shared_context(), wish, arithmetic);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
 }
@@ -76,9 +77,15 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
                  "leaf size " + std::to_string(scene.build.leaf_size));
     if (first_answers.empty()) first_answers = answers;
     EXPECT_EQ(different_bits(answers, first_answers), 0U) << "other bits for another leaf size";
-    const DataPool data = &scene == &scenes.front() ? DataPool::wide_references : DataPool::references;
-    const auto through_references = gpu_intersect(scene, truth.rays, settings, Arithmetic::automatic, data);
+    const auto through_references =
+        gpu_intersect(scene, truth.rays, settings, Arithmetic::automatic, {.data = DataPool::references});
     EXPECT_EQ(different_bits(answers, through_references), 0U) << "other bits through references";
+  }
+  const std::uint64_t page = std::bit_ceil(scenes.front().reference_pool.size()) / PAGES_MOST;
+  for (const DataPool data : {DataPool::copies, DataPool::references}) {
+    const PoolWish wish{.data = data, .page_elements = page};
+    const auto paged = gpu_intersect(scenes.front(), truth.rays, settings, Arithmetic::automatic, wish);
+    EXPECT_EQ(different_bits(first_answers, paged), 0U) << "other bits from pages";
   }
 }
 
