@@ -78,7 +78,9 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolL
   return paging;
 }
 
-/// The way of those that `wanted` allows with fewest pages, or why there is none.
+bool paged(const Paging& paging) { return paging.pages_constant() != 0; }
+
+/// The way to read them that choose_paging tells, or why there is none.
 std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const PoolLimits& limits,
                                               PoolAccess wanted) {
   if (wanted != PoolAccess::automatic) return try_paging(bytes, limits, wanted);
@@ -86,11 +88,8 @@ std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const Pool
   const auto storage = try_paging(bytes, limits, PoolAccess::storage);
   const auto* first = std::get_if<Paging>(&texel);
   const auto* second = std::get_if<Paging>(&storage);
-  const auto count = [](const Paging& paging) {
-    return std::accumulate(paging.pages.begin(), paging.pages.end(), 0U);
-  };
   if (second == nullptr) return texel;
-  return first != nullptr && count(*first) <= count(*second) ? texel : storage;
+  return first != nullptr && (!paged(*first) || paged(*second)) ? texel : storage;
 }
 
 /// What the references refer to, in parts: a whole list beside the buffer would take its memory twice.

@@ -76,8 +76,8 @@ struct Paging {
 [[nodiscard]] std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits,
                                               PoolAccess access, DataPool wanted);
 
-/// The way to read pools of these sizes that takes fewest pages, texel buffers first. Throws Error (out_of_memory) naming
-/// a pool, its size and the limit when none of the ways that `wanted` allows will do.
+/// How to read pools of these sizes: without pages, then with, in texel buffers, then storage buffers. Throws Error
+/// (out_of_memory) naming a pool, its size and the limit when none of the ways that `wanted` allows will do.
 [[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted);
 
 /// The uploaded pools; move-only.

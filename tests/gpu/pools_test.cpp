@@ -38,7 +38,7 @@ TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
   EXPECT_EQ(paging.page_shift_constant(), 0U) << "the same pipeline for all";
 }
 
-TEST(Paging, TakesStorageBuffersWhereTheyNeedFewerPages) {
+TEST(Paging, TakesOneStorageBufferRatherThanPages) {
   const PoolBytes bytes{.node_pool = 4004, .begin_end = 4000, .data_pool = 8000};
   const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(paging.access, PoolAccess::storage);
