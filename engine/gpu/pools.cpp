@@ -152,10 +152,11 @@ std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limi
   copies.data_pool = counts.references * sizeof(uvec4);
   copies.color_pool = counts.colors ? counts.references * sizeof(std::uint32_t) : 0;
   copies.field_pool = counts.fields ? counts.references * sizeof(std::uint32_t) : 0;
-  if (wanted == DataPool::automatic && copies_fit(counts) &&
-      std::holds_alternative<Paging>(best_paging(copies, limits, access)))
-    wanted = DataPool::copies;
-  return wanted == DataPool::copies ? REFERENCES_NONE : REFERENCES_ONE;
+  const auto paging = best_paging(copies, limits, access);
+  const auto* ways = std::get_if<Paging>(&paging);
+  const bool fit = copies_fit(counts) && ways != nullptr && !paged(*ways);
+  return wanted == DataPool::copies || (wanted == DataPool::automatic && fit) ? REFERENCES_NONE
+                                                                              : REFERENCES_ONE;
 }
 
 Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted) {

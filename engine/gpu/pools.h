@@ -17,7 +17,7 @@ enum class PoolAccess {
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
-  automatic,   ///< copies where they fit (engine/host/copies.h) and the device has buffers enough for them
+  automatic,  ///< copies where they fit (engine/host/copies.h) and need no pages, which cost most of what copies gain
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
 };

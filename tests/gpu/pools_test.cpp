@@ -101,11 +101,11 @@ TEST(DataPool, HasCopiesWhereTheyFit) {
   EXPECT_EQ(automatic_references(200, 1000), REFERENCES_ONE) << "80 bytes a splat";
 }
 
-TEST(DataPool, HasReferencesWhereThereAreNoBuffersForCopies) {
-  EXPECT_EQ(automatic_references(1500, 2048, PoolAccess::storage), REFERENCES_NONE) << "8 pages";
-  EXPECT_EQ(automatic_references(1500, 2049, PoolAccess::storage), REFERENCES_ONE);
-  EXPECT_EQ(automatic_references(3000, 4096), REFERENCES_NONE) << "8 pages of texel buffers";
-  EXPECT_EQ(automatic_references(3000, 4097), REFERENCES_ONE);
+TEST(DataPool, HasReferencesWhereOneBufferDoesNotHoldCopies) {
+  EXPECT_EQ(automatic_references(400, 500, PoolAccess::storage), REFERENCES_NONE);
+  EXPECT_EQ(automatic_references(400, 501, PoolAccess::storage), REFERENCES_ONE)
+      << "8016 bytes of storage buffer";
+  EXPECT_EQ(automatic_references(1000, 1001), REFERENCES_ONE) << "1001 texels";
 }
 
 TEST(DataPool, CanBeForced) {
