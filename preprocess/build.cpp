@@ -334,7 +334,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   }
   {
     const Stopwatch empty_watch(stats.empty_ms);
-    grow_empty_leaves(scene);
+    grow_empty_leaves(scene, {"empty space", progress});
   }
   count_result(scene, stats);
   return scene;

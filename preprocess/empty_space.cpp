@@ -1,7 +1,5 @@
 #include "preprocess/empty_space.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <bit>
 #include <cassert>
@@ -11,7 +9,7 @@
 namespace splatray {
 namespace {
 
-/// Children of larger cells are looked at in parallel.
+/// Subtrees of cells of this size are looked at in parallel.
 constexpr std::uint32_t TASK_SIZE = 1U << (LATTICE_BITS - 4);
 
 /// An inner node on the way to a leaf.
@@ -90,6 +88,26 @@ std::uint32_t grown_word(const std::vector<std::uint32_t>& nodes, const OctreeCe
   return word;
 }
 
+/// A part of the tree, and the way from the root to the parent of its node.
+struct Subtree {
+  std::uint32_t node;
+  OctreeCell cell;
+  std::vector<Ancestor> path;
+};
+
+/// Cuts the tree into parts that lie in cells of at most TASK_SIZE, or are leaves.
+void cut(const std::vector<std::uint32_t>& nodes, const Subtree& tree, std::vector<Subtree>& parts) {
+  const std::uint32_t word = nodes[tree.node];
+  if (tree.cell.size <= TASK_SIZE || word >> NODE_TAG_SHIFT != NODE_INNER) {
+    parts.push_back(tree);
+    return;
+  }
+  std::vector<Ancestor> path = tree.path;
+  path.push_back({word, tree.cell});
+  for (std::uint32_t child = 0; child < 8; ++child)
+    cut(nodes, {(word & NODE_ADDRESS_MASK) + child, child_cell(tree.cell, child), path}, parts);
+}
+
 /// Writes into `grown` the words of a node's empty leaves.
 void grow_below(const std::vector<std::uint32_t>& nodes, std::uint32_t node, const OctreeCell& cell,
                 std::vector<Ancestor>& path, std::vector<std::uint32_t>& grown) {
@@ -97,26 +115,24 @@ void grow_below(const std::vector<std::uint32_t>& nodes, std::uint32_t node, con
   if (word >> NODE_TAG_SHIFT == NODE_EMPTY) grown[node] |= grown_word(nodes, cell, path);
   if (word >> NODE_TAG_SHIFT != NODE_INNER) return;
   path.push_back({word, cell});
-  const auto visit = [&](std::uint32_t child, std::vector<Ancestor>& way) {
-    grow_below(nodes, (word & NODE_ADDRESS_MASK) + child, child_cell(cell, child), way, grown);
-  };
-  if (cell.size > TASK_SIZE) {
-    tbb::parallel_for(0U, 8U, [&](std::uint32_t child) {
-      std::vector<Ancestor> way = path;
-      visit(child, way);
-    });
-  } else {
-    for (std::uint32_t child = 0; child < 8; ++child) visit(child, path);
-  }
+  for (std::uint32_t child = 0; child < 8; ++child)
+    grow_below(nodes, (word & NODE_ADDRESS_MASK) + child, child_cell(cell, child), path, grown);
   path.pop_back();
 }
 
 }  // namespace
 
-void grow_empty_leaves(Scene& scene) {
+void grow_empty_leaves(Scene& scene, const Stage& stage) {
   std::vector<std::uint32_t> grown = scene.node_pool;
-  std::vector<Ancestor> path;
-  grow_below(scene.node_pool, 0, {glm::uvec3(0), 1U << LATTICE_BITS}, path, grown);
+  std::vector<Subtree> parts;
+  cut(scene.node_pool, {0, {glm::uvec3(0), 1U << LATTICE_BITS}, {}}, parts);
+  parallel_each(
+      stage, parts.size(),
+      [&](std::size_t i) {
+        std::vector<Ancestor> path = parts[i].path;
+        grow_below(scene.node_pool, parts[i].node, parts[i].cell, path, grown);
+      },
+      1);
   scene.node_pool = std::move(grown);
 }
 

@@ -281,22 +281,26 @@ TEST(Build, ObjectWithoutNormalsIsTwoSided) {
   EXPECT_EQ(build(object).materials[0].flags & MATERIAL_TWO_SIDED, MATERIAL_TWO_SIDED);
 }
 
-TEST(Build, ProgressCanStopIt) {
-  BuildStats stats;
-  int calls = 0;
-  const auto stop_at_radii = [&calls](const char* stage, double share) {
-    EXPECT_GE(share, 0.0);
-    EXPECT_LE(share, 1.0);
-    ++calls;
-    return std::string(stage) != "radii";
-  };
-  try {
-    (void)build_scene(test::input_of(test::even_sphere(1000)), {}, 0, stats, stop_at_radii);
-    FAIL() << "the build was not stopped";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::interrupted);
+TEST(Build, ProgressCanStopItInEveryStage) {
+  InputObject object = test::even_sphere(1000);
+  object.points.normal.clear();
+  BuildParams params;
+  params.insertion = Insertion::probe;
+  for (const std::string stage :
+       {"normals", "radii", "packing", "insertion", "probes", "slabs", "empty space"}) {
+    BuildStats stats;
+    const auto stop_there = [&](const char* name, double share) {
+      EXPECT_GE(share, 0.0);
+      EXPECT_LE(share, 1.0);
+      return name != stage;
+    };
+    try {
+      (void)build_scene(test::input_of(object), params, 0, stats, stop_there);
+      ADD_FAILURE() << "not stopped: " << stage;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::interrupted);
+    }
   }
-  EXPECT_GT(calls, 0);
 }
 
 }  // namespace
