@@ -31,7 +31,7 @@ void memory_facts(const PoolBytes& bytes) {
                             Pool{"slabs", bytes.slab_pool},           Pool{"top table", bytes.top_table},
                             Pool{"references", bytes.reference_pool}, Pool{"data pool", bytes.data_pool},
                             Pool{"colour pool", bytes.color_pool},    Pool{"normal fields", bytes.field_pool},
-                            Pool{"environment", bytes.environment}};
+                            Pool{"environment", bytes.environment},   Pool{"frame", bytes.frame}};
   std::uint64_t sum = 0;
   for (const Pool& pool : pools) {
     if (pool.bytes > 0) fact(pool.name, bytes_text(pool.bytes));

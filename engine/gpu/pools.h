@@ -40,11 +40,13 @@ struct PoolBytes {
   std::uint64_t field_pool = 0;
   std::uint64_t top_table = 0;
   std::uint64_t environment = 0;
+  std::uint64_t frame =
+      0;  ///< picture, AOVs, ray queries and queues of paths: by the picture's size, not the scene's
   bool texel_buffers = false;  ///< pools are read through texel buffers
   std::uint32_t pages = 0;     ///< of the pool with most
 };
 
-/// Of all pools and the top table, without the environment.
+/// Of all pools and the top table, without environment and frame.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
 
 inline constexpr std::uint32_t POOLS = BIND_TOP_TABLE - BIND_NODE_POOL + 1;
@@ -87,7 +89,7 @@ struct Pools {
   Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish);
 
   Paging paging;
-  PoolBytes bytes;                             ///< without the environment
+  PoolBytes bytes;                             ///< without environment and frame
   std::uint32_t references = REFERENCES_NONE;  ///< REFERENCES_*, how the data pool is read
   std::uint32_t top_levels = 0;                ///< of the top table
   std::array<PagedBuffer, POOLS> buffers;      ///< in the order of their bindings, from BIND_NODE_POOL on

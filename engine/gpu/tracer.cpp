@@ -383,7 +383,14 @@ std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Sett
 }
 
 const RenderStats& Tracer::stats() const { return impl_->stats; }
-PoolBytes Tracer::pool_bytes() const { return impl_->scene.bytes(); }
+PoolBytes Tracer::pool_bytes() const {
+  const Impl& impl = *impl_;
+  PoolBytes bytes = impl.scene.bytes();
+  for (const Buffer* buffer :
+       {&impl.accumulation, &impl.aov, &impl.rays, &impl.hits, &impl.groups, &impl.paths, &impl.queued_paths})
+    bytes.frame += buffer->size();
+  return bytes;
+}
 std::uint32_t Tracer::pipelines_built() const { return impl_->pipelines.built(); }
 std::uint32_t Tracer::pools_uploaded() const { return impl_->pools_uploaded; }
 

@@ -77,7 +77,7 @@ class Tracer {
 
   [[nodiscard]] const RenderStats& stats()
       const;  ///< of the last call of begin and advance, render, trace_aov or intersect
-  [[nodiscard]] PoolBytes pool_bytes() const;
+  [[nodiscard]] PoolBytes pool_bytes() const;           ///< device memory as of now
   [[nodiscard]] std::uint32_t pipelines_built() const;  ///< since construction
   [[nodiscard]] std::uint32_t pools_uploaded() const;   ///< upload() calls since construction
 

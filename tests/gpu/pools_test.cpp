@@ -163,6 +163,24 @@ TEST_F(PoolUpload, ReportsBytesByPool) {
   EXPECT_EQ(tracer.pool_bytes().color_pool, 0U);
 }
 
+TEST_F(PoolUpload, ReportsBytesOfTheFrame) {
+  Tracer tracer(context);
+  tracer.upload(disc_scene());
+  const std::uint64_t before = tracer.pool_bytes().frame;
+  static_cast<void>(tracer.render(disc_view(50, 40), plain_settings()));
+  const std::uint64_t picture = tracer.pool_bytes().frame;
+  EXPECT_GE(picture - before, 50U * 40U * sizeof(vec4));
+  EXPECT_LT(picture - before, 2U * 50U * 40U * sizeof(vec4));
+  Scene glass = disc_scene();
+  glass.materials[0].flags = MATERIAL_DIELECTRIC;
+  tracer.upload(glass);
+  Settings settings = plain_settings();
+  settings.max_bounces = 2;
+  static_cast<void>(tracer.render(disc_view(50, 40), settings));
+  const bool stages = context.is_processor() && context.ballot;
+  EXPECT_EQ(tracer.pool_bytes().frame > picture, stages) << "queues, where a scene is traced in stages";
+}
+
 TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
   Scene scene = disc_scene();
   scene.node_pool.resize(2 * PAGES_MOST);
