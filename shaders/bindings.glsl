@@ -1,5 +1,5 @@
 // The GPU's side of what the other .glsl files need: features (specialization constants), pools, tables,
-// environment. POOL_TEXEL: the pools are texel buffers, else storage buffers.
+// environment. POOL_TEXEL: the pools are texel buffers, else storage buffers. PAGED: some pool has several pages.
 #ifndef SPLATRAY_BINDINGS_GLSL
 #define SPLATRAY_BINDINGS_GLSL
 #include "layout.h"
@@ -20,8 +20,10 @@ layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
 layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
 layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = REFERENCES_NONE;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
+#ifdef PAGED
 layout(constant_id = SPEC_PAGES) const uint PAGES = 0u;
 layout(constant_id = SPEC_PAGE_SHIFT) const uint PAGE_SHIFT = 0u;
+#endif
 
 #ifdef STAGED
 layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_FIRST;
@@ -47,15 +49,16 @@ void read_frame() { frame = frame_block; }
 void read_frame() {}
 #endif
 
-// Pools of more than one page, and only they, look for the page first: by constants, as not all devices let an array of texel
-// buffers be indexed by anything else, and with early returns, which spirv-opt leaves functions, so that what is not paged stays as
-// small as it is.
+#ifdef PAGED
 #define PAGES_OF(slot) (((PAGES >> (4u * (slot - BIND_NODE_POOL))) & 15u) + 1u)
+#define ARRAY(slot) [PAGES_OF(slot)]
+// By constants: not all devices let an array of texel buffers be indexed by anything else.
 #define READ_PAGE(number, slot, READ, pool) \
   if (PAGES_OF(slot) > number && index >> PAGE_SHIFT == number) \
-    return READ(pool, number, index & ((1u << PAGE_SHIFT) - 1u));
+    return READ(pool[number], index & ((1u << PAGE_SHIFT) - 1u));
 #define POOL_READER(slot, Value, reader, READ, pool) \
-  Value reader##_of_page(uint index) { \
+  Value reader(uint index) { \
+    if (PAGES_OF(slot) == 1u) return READ(pool[0u], index); \
     READ_PAGE(0u, slot, READ, pool) \
     READ_PAGE(1u, slot, READ, pool) \
     READ_PAGE(2u, slot, READ, pool) \
@@ -65,19 +68,23 @@ void read_frame() {}
     READ_PAGE(6u, slot, READ, pool) \
     READ_PAGE(7u, slot, READ, pool) \
     return Value(0u); \
-  } \
-  Value reader(uint index) { return PAGES_OF(slot) == 1u ? READ(pool, 0u, index) : reader##_of_page(index); }
+  }
+#else
+#define ARRAY(slot)
+#define POOL_READER(slot, Value, reader, READ, pool) \
+  Value reader(uint index) { return READ(pool, index); }
+#endif
 #ifdef POOL_TEXEL
-#define READ_TEXEL(pool, page, at) texelFetch(pool[page], int(at))
-#define READ_WORD(pool, page, at) texelFetch(pool[page], int(at)).x
+#define READ_TEXEL(page, at) texelFetch(page, int(at))
+#define READ_WORD(page, at) texelFetch(page, int(at)).x
 #define POOL(slot, Block, pool, Value, reader, READ) \
-  layout(binding = slot) uniform usamplerBuffer pool[PAGES_OF(slot)]; \
+  layout(binding = slot) uniform usamplerBuffer pool ARRAY(slot); \
   POOL_READER(slot, Value, reader, READ, pool)
 #else
-#define READ_TEXEL(pool, page, at) pool[page].values[at]
-#define READ_WORD(pool, page, at) pool[page].values[at]
+#define READ_TEXEL(page, at) page.values[at]
+#define READ_WORD(page, at) page.values[at]
 #define POOL(slot, Block, pool, Value, reader, READ) \
-  layout(std430, binding = slot) readonly buffer Block { Value values[]; } pool[PAGES_OF(slot)]; \
+  layout(std430, binding = slot) readonly buffer Block { Value values[]; } pool ARRAY(slot); \
   POOL_READER(slot, Value, reader, READ, pool)
 #endif
 POOL(BIND_NODE_POOL, NodePool, node_pool, uint, node_word, READ_WORD)

@@ -72,20 +72,27 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
 
 }  // namespace
 
-std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, Arithmetic arithmetic) {
+std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, bool paged,
+                                           Arithmetic arithmetic) {
   const ProgramVariants trace{TRACE_STORAGE, TRACE_TEXEL, TRACE_STORAGE_FLOAT64, TRACE_TEXEL_FLOAT64};
+  const ProgramVariants trace_paged{TRACE_PAGED_STORAGE, TRACE_PAGED_TEXEL, TRACE_PAGED_STORAGE_FLOAT64,
+                                    TRACE_PAGED_TEXEL_FLOAT64};
   const ProgramVariants staged{STAGED_STORAGE, STAGED_TEXEL, STAGED_STORAGE_FLOAT64, STAGED_TEXEL_FLOAT64};
+  const ProgramVariants staged_paged{STAGED_PAGED_STORAGE, STAGED_PAGED_TEXEL, STAGED_PAGED_STORAGE_FLOAT64,
+                                     STAGED_PAGED_TEXEL_FLOAT64};
   const ProgramVariants rays{RAYS_STORAGE, RAYS_TEXEL, RAYS_STORAGE_FLOAT64, RAYS_TEXEL_FLOAT64};
+  const ProgramVariants rays_paged{RAYS_PAGED_STORAGE, RAYS_PAGED_TEXEL, RAYS_PAGED_STORAGE_FLOAT64,
+                                   RAYS_PAGED_TEXEL_FLOAT64};
   const ProgramVariants empty{EMPTY, EMPTY, EMPTY_FLOAT64, EMPTY_FLOAT64};
   switch (program) {
     case Program::trace:
-      return trace.get(access, arithmetic);
+      return (paged ? trace_paged : trace).get(access, arithmetic);
     case Program::staged:
-      return staged.get(access, arithmetic);
+      return (paged ? staged_paged : staged).get(access, arithmetic);
     case Program::empty:
       return empty.get(access, arithmetic);
     default:
-      return rays.get(access, arithmetic);
+      return (paged ? rays_paged : rays).get(access, arithmetic);
   }
 }
 
@@ -177,7 +184,7 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const auto code = code_(key.program, key.access, key.arithmetic);
+    const auto code = code_(key.program, key.access, key.constants[SPEC_PAGES] != 0, key.arithmetic);
     found = pipelines_.emplace(key, make_pipeline(context_, key, code, layout)).first;
   }
   return found->second.get();

@@ -27,13 +27,13 @@ struct ProgramVariants {
   }
 };
 
-/// SPIR-V of a program for pools that are read this way (texel or storage) and hits decided by this arithmetic (double_float
-/// or float64).
-using ProgramCode = std::span<const std::uint32_t> (*)(Program program, PoolAccess access,
+/// SPIR-V of a program for pools that are read this way (texel or storage), some `paged` or none, and hits decided by this
+/// arithmetic (double_float or float64).
+using ProgramCode = std::span<const std::uint32_t> (*)(Program program, PoolAccess access, bool paged,
                                                        Arithmetic arithmetic);
 
 /// That of shaders/.
-[[nodiscard]] std::span<const std::uint32_t> engine_code(Program program, PoolAccess access,
+[[nodiscard]] std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, bool paged,
                                                          Arithmetic arithmetic);
 
 }  // namespace splatray

@@ -297,12 +297,13 @@ Scene bvh_scene(const Scene& scene, BvhStats& stats) {
   return made;
 }
 
-std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access, Arithmetic arithmetic) {
+std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access, [[maybe_unused]] bool paged,
+                                        Arithmetic arithmetic) {
   const ProgramVariants trace{BVH_TRACE_STORAGE, BVH_TRACE_TEXEL, BVH_TRACE_STORAGE_FLOAT64,
                               BVH_TRACE_TEXEL_FLOAT64};
   const ProgramVariants rays{BVH_RAYS_STORAGE, BVH_RAYS_TEXEL, BVH_RAYS_STORAGE_FLOAT64,
                              BVH_RAYS_TEXEL_FLOAT64};
-  assert(program == Program::trace || program == Program::rays);
+  assert((program == Program::trace || program == Program::rays) && !paged);
   return (program == Program::trace ? trace : rays).get(access, arithmetic);
 }
 

@@ -32,7 +32,7 @@ struct BvhStats {
 [[nodiscard]] Scene bvh_scene(const Scene& scene, BvhStats& stats);
 
 /// The tracer's programs with bvh.glsl; none for pixels left out (Settings::cull) nor for stages (Settings::stages).
-[[nodiscard]] std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access,
+[[nodiscard]] std::span<const std::uint32_t> bvh_code(Program program, PoolAccess access, bool paged,
                                                       Arithmetic arithmetic);
 
 }  // namespace splatray::testing
