@@ -15,7 +15,7 @@
 namespace splatray::testing {
 namespace {
 
-constexpr std::size_t ROUNDS = 9;
+constexpr std::size_t ROUNDS = 25;
 constexpr vec3 RADIANCE(0.5F);      // of the environment
 constexpr double CLOSER = 1.45;     // the sphere then fills the picture's corners
 constexpr double CAP_HEIGHT = 0.8;  // of the far side's object: farther than this from the centre, radii
