@@ -17,7 +17,7 @@ enum class PoolAccess {
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
-  automatic,  ///< copies where they fit (engine/host/copies.h) and need no pages, which cost most of what copies gain
+  automatic,   ///< copies where they fit (engine/host/copies.h) and need no pages, which take the gain
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
 };
@@ -40,8 +40,7 @@ struct PoolBytes {
   std::uint64_t field_pool = 0;
   std::uint64_t top_table = 0;
   std::uint64_t environment = 0;
-  std::uint64_t frame =
-      0;  ///< picture, AOVs, ray queries and queues of paths: by the picture's size, not the scene's
+  std::uint64_t frame = 0;     ///< picture, AOVs, ray queries, queues of paths: as large as pictures are
   bool texel_buffers = false;  ///< pools are read through texel buffers
   std::uint32_t pages = 0;     ///< of the pool with most
 };
@@ -74,7 +73,7 @@ struct Paging {
   [[nodiscard]] std::uint32_t page_shift_constant() const;
 };
 
-/// How the data pool of such a scene is read, REFERENCES_*, where pools are read as `access` says.
+/// How the data pool of such a scene is read, REFERENCES_*, where `access` tells how pools may be read.
 [[nodiscard]] std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits,
                                               PoolAccess access, DataPool wanted);
 

@@ -2,9 +2,9 @@
 
 #include <fcntl.h>
 #include <unistd.h>
-#include <fstream>
 
 #include <cerrno>
+#include <fstream>
 #include <system_error>
 
 #include "engine/host/error.h"
