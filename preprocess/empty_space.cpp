@@ -128,10 +128,7 @@ void grow_empty_leaves(Scene& scene, const Stage& stage) {
   cut(scene.node_pool, {0, {glm::uvec3(0), 1U << LATTICE_BITS}, {}}, parts);
   parallel_each(
       stage, parts.size(),
-      [&](std::size_t i) {
-        std::vector<Ancestor> path = parts[i].path;
-        grow_below(scene.node_pool, parts[i].node, parts[i].cell, path, grown);
-      },
+      [&](std::size_t i) { grow_below(scene.node_pool, parts[i].node, parts[i].cell, parts[i].path, grown); },
       1);
   scene.node_pool = std::move(grown);
 }

@@ -61,7 +61,7 @@ SceneContent DeviceScene::content() const {
           .references = pools_.references,
           .top_levels = pools_.top_levels,
           .pages = pools_.paging.pages_constant(),
-          .page_shift = pools_.paging.page_shift_constant(),
+          .page_shift = pools_.paging.page_shift,
           .lights = light_count_ > 0,
           .environment_texture = environment_texture_};
 }

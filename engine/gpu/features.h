@@ -20,7 +20,7 @@ struct SceneContent {
   std::uint32_t references = REFERENCES_NONE;  ///< how the data pool is read
   std::uint32_t top_levels = 0;                ///< of the top table
   std::uint32_t pages = 0;                     ///< Paging::pages_constant
-  std::uint32_t page_shift = 0;                ///< Paging::page_shift_constant
+  std::uint32_t page_shift = 0;                ///< Paging::page_shift
   bool lights = false;                         ///< there are lights
   bool environment_texture = false;            ///< the environment is not constant
 };

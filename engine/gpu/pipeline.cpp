@@ -8,32 +8,17 @@
 namespace splatray {
 namespace {
 
-constexpr std::uint32_t BINDING_COUNT = BIND_PATHS_QUEUED + 1;
+bool is_pool(std::uint32_t binding) { return binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE; }
 
 VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
-  switch (binding) {
-    case BIND_NODE_POOL:
-    case BIND_BEGIN_END:
-    case BIND_SLAB_POOL:
-    case BIND_TOP_TABLE:
-    case BIND_REFERENCE_POOL:
-    case BIND_DATA_POOL:
-    case BIND_COLOR_POOL:
-    case BIND_FIELD_POOL:
-      return access == PoolAccess::texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-                                         : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    case BIND_PATHS:
-      return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    case BIND_ENVIRONMENT:
-      return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    default:
-      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-  }
+  if (binding == BIND_PATHS || (is_pool(binding) && access == PoolAccess::texel))
+    return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+  if (binding == BIND_ENVIRONMENT) return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 std::uint32_t descriptor_count(std::uint32_t binding, const Paging& paging) {
-  const bool pool = binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE;
-  return pool ? paging.pages[binding - BIND_NODE_POOL] : 1;
+  return is_pool(binding) ? paging.pages[binding - BIND_NODE_POOL] : 1;
 }
 
 Handle<VkShaderModule, vkDestroyShaderModule> make_module(const Context& context,
@@ -103,13 +88,13 @@ BindingSet::BindingSet(const Context& context, const Paging& paging) : context_(
 }
 
 void BindingSet::create_layout() {
-  std::array<VkDescriptorSetLayoutBinding, BINDING_COUNT> bindings{};
-  for (std::uint32_t i = 0; i < BINDING_COUNT; ++i)
+  std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
+  for (std::uint32_t i = 0; i < BINDINGS; ++i)
     bindings[i] = {i, descriptor_type(i, paging_.access), descriptor_count(i, paging_),
                    VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  info.bindingCount = BINDING_COUNT;
+  info.bindingCount = BINDINGS;
   info.pBindings = bindings.data();
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   check(vkCreateDescriptorSetLayout(context_.device, &info, nullptr, &set_layout),
@@ -126,13 +111,13 @@ void BindingSet::create_layout() {
 }
 
 void BindingSet::create_set() {
-  std::array<VkDescriptorPoolSize, BINDING_COUNT> sizes{};
-  for (std::uint32_t i = 0; i < BINDING_COUNT; ++i)
+  std::array<VkDescriptorPoolSize, BINDINGS> sizes{};
+  for (std::uint32_t i = 0; i < BINDINGS; ++i)
     sizes[i] = {descriptor_type(i, paging_.access), descriptor_count(i, paging_)};
   VkDescriptorPoolCreateInfo pool_info{};
   pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   pool_info.maxSets = 1;
-  pool_info.poolSizeCount = BINDING_COUNT;
+  pool_info.poolSizeCount = BINDINGS;
   pool_info.pPoolSizes = sizes.data();
   VkDescriptorPool pool = VK_NULL_HANDLE;
   check(vkCreateDescriptorPool(context_.device, &pool_info, nullptr, &pool), "making a descriptor pool");

@@ -13,9 +13,6 @@
 namespace splatray {
 namespace {
 
-/// Beside the pools: the environment, and the paths of stages.
-constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 2;
-
 struct PoolKind {
   const char* name;
   VkFormat format;              ///< of its texel buffer
@@ -50,6 +47,8 @@ std::uint64_t most_elements(const PoolLimits& limits, PoolAccess access, std::ui
                   limits.allocation_bytes / element_bytes);
 }
 
+bool paged(const Paging& paging) { return paging.pages_constant() != 0; }
+
 /// Pools of these sizes read this way, or why they cannot be.
 std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolLimits& limits,
                                              PoolAccess access) {
@@ -57,7 +56,6 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolL
   const std::uint64_t page = std::bit_floor(most_elements(limits, access, sizeof(uvec4)));
   if (page == 0) return std::string("it has no such buffers");
   Paging paging{access};
-  paging.page_shift = static_cast<std::uint32_t>(std::countr_zero(page));
   std::uint64_t all = 0;
   for (std::size_t i = 0; i < POOLS; ++i) {
     const auto [name, format, element_bytes] = KINDS[i];
@@ -75,10 +73,9 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolL
   if (all > most)
     return "the pools take " + std::to_string(all) + (texel ? " texel" : " storage") +
            " buffers, a program has room for " + std::to_string(most);
+  if (paged(paging)) paging.page_shift = static_cast<std::uint32_t>(std::countr_zero(page));
   return paging;
 }
-
-bool paged(const Paging& paging) { return paging.pages_constant() != 0; }
 
 /// The way to read them that choose_paging tells, or why there is none.
 std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const PoolLimits& limits,
@@ -144,14 +141,10 @@ std::uint32_t Paging::pages_constant() const {
   return constant;
 }
 
-std::uint32_t Paging::page_shift_constant() const { return pages_constant() == 0 ? 0 : page_shift; }
-
 std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
                                 DataPool wanted) {
-  PoolBytes copies;
+  PoolBytes copies;  // no pool needs pages before the data pool does
   copies.data_pool = counts.references * sizeof(uvec4);
-  copies.color_pool = counts.colors ? counts.references * sizeof(std::uint32_t) : 0;
-  copies.field_pool = counts.fields ? counts.references * sizeof(std::uint32_t) : 0;
   const auto paging = best_paging(copies, limits, access);
   const auto* ways = std::get_if<Paging>(&paging);
   const bool fit = copies_fit(counts) && ways != nullptr && !paged(*ways);
@@ -199,8 +192,10 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   }
   const auto upload = [&](std::uint32_t binding, const auto& pool, bool list) {
     PagedBuffer& buffer = buffers[binding - BIND_NODE_POOL];
-    if (list) upload_listed(queue, buffer, pool, scene.reference_pool);
-    if (!list) buffer.upload(queue, std::as_bytes(std::span(pool)));
+    if (list)
+      upload_listed(queue, buffer, pool, scene.reference_pool);
+    else
+      buffer.upload(queue, std::as_bytes(std::span(pool)));
   };
   upload(BIND_NODE_POOL, scene.node_pool, false);
   upload(BIND_BEGIN_END, scene.begin_end, false);

@@ -48,9 +48,11 @@ struct PoolBytes {
 /// Of all pools and the top table, without environment and frame.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
 
+inline constexpr std::uint32_t BINDINGS = BIND_PATHS_QUEUED + 1;
 inline constexpr std::uint32_t POOLS = BIND_TOP_TABLE - BIND_NODE_POOL + 1;
-/// Storage buffers of a program beside the pools (shaders/layout.h).
-inline constexpr std::uint32_t OTHER_STORAGE_BUFFERS = 10;
+/// Of a program's bindings, beside the pools: the environment and the paths of stages, and storage buffers.
+inline constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 2;
+inline constexpr std::uint32_t OTHER_STORAGE_BUFFERS = BINDINGS - POOLS - OTHER_SAMPLED_IMAGES;
 
 /// What the device allows pools to be.
 struct PoolLimits {
@@ -66,11 +68,9 @@ struct PoolLimits {
 struct Paging {
   PoolAccess access = PoolAccess::storage;   ///< never automatic
   std::array<std::uint32_t, POOLS> pages{};  ///< of each pool, at least 1; in the order of their bindings
-  std::uint32_t page_shift = 0;  ///< a page of a pool that has several holds 2^page_shift elements
+  std::uint32_t page_shift = 0;              ///< SPEC_PAGE_SHIFT; 0 where no pool has several pages
 
-  /// As the specialization constants SPEC_PAGES and SPEC_PAGE_SHIFT.
-  [[nodiscard]] std::uint32_t pages_constant() const;
-  [[nodiscard]] std::uint32_t page_shift_constant() const;
+  [[nodiscard]] std::uint32_t pages_constant() const;  ///< SPEC_PAGES
 };
 
 /// How the data pool of such a scene is read, REFERENCES_*, where `access` tells how pools may be read.

@@ -35,7 +35,7 @@ TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
   EXPECT_EQ(paging.access, PoolAccess::texel);
   EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 1, 1, 1, 1}));
   EXPECT_EQ(paging.pages_constant(), 0U);
-  EXPECT_EQ(paging.page_shift_constant(), 0U) << "the same pipeline for all";
+  EXPECT_EQ(paging.page_shift, 0U) << "the same pipeline for all";
 }
 
 TEST(Paging, TakesOneStorageBufferRatherThanPages) {
@@ -51,10 +51,10 @@ TEST(Paging, PagesWhatOneBufferDoesNotHold) {
   EXPECT_EQ(texel.access, PoolAccess::texel);
   EXPECT_EQ(texel.pages, (Pages{2, 1, 1, 1, 4, 1, 1, 1}));
   EXPECT_EQ(texel.pages_constant(), 0x00030001U);
-  EXPECT_EQ(texel.page_shift_constant(), 9U);
+  EXPECT_EQ(texel.page_shift, 9U);
   const Paging storage = choose_paging(bytes, LIMITS, PoolAccess::storage);
   EXPECT_EQ(storage.pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1}));
-  EXPECT_EQ(storage.page_shift_constant(), 8U);
+  EXPECT_EQ(storage.page_shift, 8U);
 }
 
 TEST(Paging, CanBeForced) {
@@ -63,7 +63,7 @@ TEST(Paging, CanBeForced) {
 }
 
 TEST(Paging, RefusalNamesPoolSizeAndLimit) {
-  const std::string sentence = refusal({.node_pool = 4, .data_pool = 30 << 20}, PoolAccess::texel);
+  const std::string sentence = refusal({.node_pool = 4, .data_pool = 30 << 20}, PoolAccess::automatic);
   EXPECT_NE(sentence.find("data pool"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("30.0 MiB"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("8 of its largest texel buffers"), std::string::npos) << sentence;
