@@ -18,7 +18,7 @@ layout(constant_id = SPEC_COUNTERS) const uint COUNTERS = 0u;
 layout(constant_id = SPEC_AOV) const uint AOV = 0u;
 layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
 layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
-layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = REFERENCES_NONE;
+layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = 0u;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
 #ifdef PAGED
 layout(constant_id = SPEC_PAGES) const uint PAGES = 0u;
@@ -97,7 +97,7 @@ POOL(BIND_FIELD_POOL, FieldPool, field_pool, uint, field_word, READ_WORD)
 POOL(BIND_TOP_TABLE, TopTable, top_table, uint, top_entry, READ_WORD)
 
 /// Where the data pool has the splat that a place in the leaves' lists refers to.
-uint splat_at(uint place) { return REFERENCES == REFERENCES_NONE ? place : reference_word(place); }
+uint splat_at(uint place) { return REFERENCES == 1u ? reference_word(place) : place; }
 
 Material material_at(uint object) { return materials[object]; }
 

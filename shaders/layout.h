@@ -40,7 +40,7 @@
 ///                 many of the cell's sizes on each side: bits 1..0 -x, 3..2 +x, 5..4 -y, 7..6 +y, 9..8 -z, 11..10 +z; 29..12 zero
 ///
 /// Reference, 32 bits: index of a splat in the data pool, and of its colour and normal field. A device may hold copies of the
-/// splats, leaf by leaf, in place of references (REFERENCES_NONE).
+/// splats, leaf by leaf, in place of references (SPEC_REFERENCES).
 ///
 /// Top table, 32 bits for each cell of TOP_LEVELS below the root, x fastest, made from the node pool: descents begin here.
 /// The node word of the deepest node that holds the cell and lies no deeper than TOP_LEVELS; that of a leaf has in bits
@@ -267,7 +267,7 @@ SPLATRAY_CONST SPEC_COUNTERS = 10u;    ///< 1: counters
 SPLATRAY_CONST SPEC_AOV = 11u;         ///< 1: write AovPixel of the centre ray instead of colour
 SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
 SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
-SPLATRAY_CONST SPEC_REFERENCES = 14u;  ///< REFERENCES_*
+SPLATRAY_CONST SPEC_REFERENCES = 14u;  ///< 1: the data pool is read through references
 SPLATRAY_CONST SPEC_TOP_LEVELS = 15u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
 SPLATRAY_CONST SPEC_STAGE = 16u;       ///< STAGE_FIRST or STAGE_NEXT; in programs without stages STAGE_ALL
 SPLATRAY_CONST SPEC_PAGES = 17u;       ///< pages of a pool less one, 4 bits each, BIND_NODE_POOL lowest
@@ -292,11 +292,9 @@ SPLATRAY_CONST SIDE_NONE = 2u;        ///< neither: the failures of Goradia et a
 SPLATRAY_CONST FACES_BOTH = 0u;       ///< every object is two-sided
 SPLATRAY_CONST FACES_FRONT = 1u;      ///< every object is one-sided and none is a dielectric
 SPLATRAY_CONST FACES_MIXED = 2u;
-SPLATRAY_CONST REFERENCES_NONE = 0u;  ///< the data pool holds copies, leaf by leaf
-SPLATRAY_CONST REFERENCES_ONE = 1u;   ///< it is read through the reference pool
-SPLATRAY_CONST ORDER_Z = 0u;          ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
-SPLATRAY_CONST ORDER_LINEAR = 1u;     ///< pixels of a group in a row
-SPLATRAY_CONST GROUP_SIZE = 64u;      ///< threads in a group; ORDER_Z: 8 x 8 pixels
+SPLATRAY_CONST ORDER_Z = 0u;       ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
+SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
+SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
 
 #ifdef __cplusplus
 static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 &&

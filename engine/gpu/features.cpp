@@ -43,7 +43,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   constants[SPEC_COUNTERS] = settings.counters ? 1 : 0;
   constants[SPEC_LIGHTS] = content.lights ? 1 : 0;
   const bool faithful = settings.blend == BLEND_PAPER || settings.blend == BLEND_LEAF;
-  constants[SPEC_REFERENCES] = content.references;
+  constants[SPEC_REFERENCES] = content.references ? 1 : 0;
   constants[SPEC_TOP_LEVELS] = content.top_levels;
   constants[SPEC_PAGES] = content.pages;
   constants[SPEC_PAGE_SHIFT] = content.page_shift;

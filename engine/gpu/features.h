@@ -15,14 +15,14 @@ using SpecConstants = std::array<std::uint32_t, SPEC_COUNT>;
 /// What the features depend on.
 struct SceneContent {
   std::span<const Material> materials{};
-  bool colors = false;                         ///< there is a colour pool
-  bool fields = false;                         ///< there is a pool of normal fields
-  std::uint32_t references = REFERENCES_NONE;  ///< how the data pool is read
-  std::uint32_t top_levels = 0;                ///< of the top table
-  std::uint32_t pages = 0;                     ///< Paging::pages_constant
-  std::uint32_t page_shift = 0;                ///< Paging::page_shift
-  bool lights = false;                         ///< there are lights
-  bool environment_texture = false;            ///< the environment is not constant
+  bool colors = false;               ///< there is a colour pool
+  bool fields = false;               ///< there is a pool of normal fields
+  bool references = false;           ///< the data pool is read through the reference pool
+  std::uint32_t top_levels = 0;      ///< of the top table
+  std::uint32_t pages = 0;           ///< Paging::pages_constant
+  std::uint32_t page_shift = 0;      ///< Paging::page_shift
+  bool lights = false;               ///< there are lights
+  bool environment_texture = false;  ///< the environment is not constant
 };
 
 /// Constants of pictures (trace.comp.glsl), with SPEC_AOV = 0.

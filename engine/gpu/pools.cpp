@@ -141,15 +141,14 @@ std::uint32_t Paging::pages_constant() const {
   return constant;
 }
 
-std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
-                                DataPool wanted) {
+bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
+                       DataPool wanted) {
   PoolBytes copies;  // no pool needs pages before the data pool does
   copies.data_pool = counts.references * sizeof(uvec4);
   const auto paging = best_paging(copies, limits, access);
   const auto* ways = std::get_if<Paging>(&paging);
   const bool fit = copies_fit(counts) && ways != nullptr && !paged(*ways);
-  return wanted == DataPool::copies || (wanted == DataPool::automatic && fit) ? REFERENCES_NONE
-                                                                              : REFERENCES_ONE;
+  return wanted == DataPool::references || (wanted == DataPool::automatic && !fit);
 }
 
 Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted) {
@@ -166,15 +165,14 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   limits.texel_elements = std::min(limits.texel_elements, wish.page_elements);
   limits.storage_bytes = std::min(limits.storage_bytes / sizeof(uvec4), wish.page_elements) * sizeof(uvec4);
   references = choose_references(pool_counts(scene), limits, wish.access, wish.data);
-  const bool copies = references == REFERENCES_NONE;
-  const bool lists = copies && !scene.reference_pool.empty();
+  const bool lists = !references && !scene.reference_pool.empty();
   const auto bytes_listed = [&](const auto& pool) {
     return (lists && !pool.empty() ? scene.reference_pool.size() : pool.size()) * sizeof(pool.front());
   };
   bytes.node_pool = std::span(scene.node_pool).size_bytes();
   bytes.begin_end = std::span(scene.begin_end).size_bytes();
   bytes.slab_pool = std::span(scene.slab_pool).size_bytes();
-  bytes.reference_pool = copies ? 0 : std::span(scene.reference_pool).size_bytes();
+  bytes.reference_pool = references ? std::span(scene.reference_pool).size_bytes() : 0;
   bytes.data_pool = bytes_listed(scene.data_pool);
   bytes.color_pool = bytes_listed(scene.color_pool);
   bytes.field_pool = bytes_listed(scene.field_pool);
@@ -200,7 +198,7 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   upload(BIND_NODE_POOL, scene.node_pool, false);
   upload(BIND_BEGIN_END, scene.begin_end, false);
   upload(BIND_SLAB_POOL, scene.slab_pool, false);
-  if (!copies) upload(BIND_REFERENCE_POOL, scene.reference_pool, false);
+  if (references) upload(BIND_REFERENCE_POOL, scene.reference_pool, false);
   upload(BIND_DATA_POOL, scene.data_pool, lists);
   upload(BIND_COLOR_POOL, scene.color_pool, lists);
   upload(BIND_FIELD_POOL, scene.field_pool, lists);

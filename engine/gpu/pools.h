@@ -73,9 +73,9 @@ struct Paging {
   [[nodiscard]] std::uint32_t pages_constant() const;  ///< SPEC_PAGES
 };
 
-/// How the data pool of such a scene is read, REFERENCES_*, where `access` tells how pools may be read.
-[[nodiscard]] std::uint32_t choose_references(const PoolCounts& counts, const PoolLimits& limits,
-                                              PoolAccess access, DataPool wanted);
+/// Whether the data pool of such a scene is read through references, where `access` tells how pools may be read.
+[[nodiscard]] bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
+                                     DataPool wanted);
 
 /// How to read pools of these sizes: without pages, then with, in texel buffers, then storage buffers. Throws Error
 /// (out_of_memory) naming a pool, its size and the limit when none of the ways that `wanted` allows will do.
@@ -88,10 +88,10 @@ struct Pools {
   Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish);
 
   Paging paging;
-  PoolBytes bytes;                             ///< without environment and frame
-  std::uint32_t references = REFERENCES_NONE;  ///< REFERENCES_*, how the data pool is read
-  std::uint32_t top_levels = 0;                ///< of the top table
-  std::array<PagedBuffer, POOLS> buffers;      ///< in the order of their bindings, from BIND_NODE_POOL on
+  PoolBytes bytes;                         ///< without environment and frame
+  bool references = false;                 ///< the data pool is read through the reference pool
+  std::uint32_t top_levels = 0;            ///< of the top table
+  std::array<PagedBuffer, POOLS> buffers;  ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 
 }  // namespace splatray

@@ -81,8 +81,7 @@ void compare(const std::string& scene, const char* rays, Rival octree, Rival bvh
              std::size_t rounds) {
   for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST}) {
     Settings settings;
-    settings.stages = false;
-    settings.cull = false;  // the hierarchy has no leaves that could be projected
+    settings.stages = settings.cull = false;  // the hierarchy has no programs for them
     settings.blend = blend;
     settings.shadows = false;
     settings.samples = 1;

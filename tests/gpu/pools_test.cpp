@@ -90,30 +90,28 @@ TEST(Paging, NeedsBuffersOfItsKind) {
   EXPECT_EQ(choose_paging({.data_pool = 16}, none, PoolAccess::automatic).access, PoolAccess::storage);
 }
 
-/// What `automatic` makes of a scene of so many splats, with so many references, where LIMITS hold.
-std::uint32_t automatic_references(std::size_t splats, std::size_t references,
-                                   PoolAccess access = PoolAccess::automatic) {
+/// Whether `automatic` takes references for a scene of so many splats, with so many references, where LIMITS hold.
+bool automatic_references(std::size_t splats, std::size_t references,
+                          PoolAccess access = PoolAccess::automatic) {
   return choose_references({splats, references, 1, 1, false, false}, LIMITS, access, DataPool::automatic);
 }
 
 TEST(DataPool, HasCopiesWhereTheyFit) {
-  EXPECT_EQ(automatic_references(400, 1000), REFERENCES_NONE);
-  EXPECT_EQ(automatic_references(200, 1000), REFERENCES_ONE) << "80 bytes a splat";
+  EXPECT_FALSE(automatic_references(400, 1000));
+  EXPECT_TRUE(automatic_references(200, 1000)) << "80 bytes a splat";
 }
 
 TEST(DataPool, HasReferencesWhereOneBufferDoesNotHoldCopies) {
-  EXPECT_EQ(automatic_references(400, 500, PoolAccess::storage), REFERENCES_NONE);
-  EXPECT_EQ(automatic_references(400, 501, PoolAccess::storage), REFERENCES_ONE)
-      << "8016 bytes of storage buffer";
-  EXPECT_EQ(automatic_references(1000, 1001), REFERENCES_ONE) << "1001 texels";
+  EXPECT_FALSE(automatic_references(400, 500, PoolAccess::storage));
+  EXPECT_TRUE(automatic_references(400, 501, PoolAccess::storage)) << "8016 bytes of storage buffer";
+  EXPECT_TRUE(automatic_references(1000, 1001)) << "1001 texels";
 }
 
 TEST(DataPool, CanBeForced) {
   const PoolCounts counts{200, 1000, 1, 1, false, false};
-  EXPECT_EQ(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::copies), REFERENCES_NONE);
-  EXPECT_EQ(
-      choose_references({400, 500, 1, 1, false, false}, LIMITS, PoolAccess::automatic, DataPool::references),
-      REFERENCES_ONE);
+  EXPECT_FALSE(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::copies));
+  EXPECT_TRUE(
+      choose_references({400, 500, 1, 1, false, false}, LIMITS, PoolAccess::automatic, DataPool::references));
 }
 
 using PoolUpload = DeviceTest;
