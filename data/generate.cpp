@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "data/models.h"
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 
 namespace splatray {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 
 namespace splatray {
 namespace {

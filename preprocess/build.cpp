@@ -13,19 +13,19 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/host/copies.h"
-#include "engine/host/error.h"
-#include "preprocess/cloud.h"
-#include "preprocess/empty_space.h"
-#include "preprocess/insertion.h"
-#include "preprocess/leaf_slabs.h"
-#include "preprocess/morton.h"
-#include "preprocess/normals.h"
-#include "preprocess/octree.h"
-#include "preprocess/parallel.h"
-#include "preprocess/radius.h"
-#include "preprocess/root.h"
-#include "preprocess/select.h"
+#include "engine/base/error.h"
+#include "engine/scene/copies.h"
+#include "preprocess/base/morton.h"
+#include "preprocess/base/parallel.h"
+#include "preprocess/base/select.h"
+#include "preprocess/surface/cloud.h"
+#include "preprocess/surface/normals.h"
+#include "preprocess/surface/radius.h"
+#include "preprocess/tree/empty_space.h"
+#include "preprocess/tree/insertion.h"
+#include "preprocess/tree/leaf_slabs.h"
+#include "preprocess/tree/octree.h"
+#include "preprocess/tree/root.h"
 
 namespace splatray {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/host/scene.h"
+#include "engine/scene/scene.h"
 #include "preprocess/points.h"
 
 namespace splatray {

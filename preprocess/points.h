@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/host/scene.h"
+#include "engine/scene/scene.h"
 
 namespace splatray {
 

@@ -1,8 +1,8 @@
 /// splatray-view: a scene in a window.
 #include "app/view/view_options.h"
 #include "app/view/viewer.h"
-#include "engine/host/error.h"
-#include "engine/host/interrupt.h"
+#include "engine/base/error.h"
+#include "engine/base/interrupt.h"
 
 namespace {
 

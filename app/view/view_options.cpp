@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/view/keys.h"
-#include "preprocess/option_types.h"
+#include "app/cli/option_types.h"
+#include "app/view/model/keys.h"
 
 namespace splatray {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/options.h"
+#include "app/cli/options.h"
 
 namespace splatray {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/host/atomic_file.h"
+#include "engine/file/atomic_file.h"
 
 namespace splatray {
 namespace {

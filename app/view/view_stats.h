@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/view/progressive.h"
+#include "app/view/thread/progressive.h"
 
 namespace splatray {
 

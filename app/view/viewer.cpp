@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "app/camera_file.h"
-#include "app/command_line.h"
-#include "app/reproduce.h"
-#include "app/view/document_options.h"
-#include "app/view/drop.h"
-#include "app/view/navigation.h"
-#include "engine/host/error.h"
-#include "engine/host/interrupt.h"
+#include "app/cli/command_line.h"
+#include "app/cli/reproduce.h"
+#include "app/library/camera_file.h"
+#include "app/view/model/document_options.h"
+#include "app/view/model/navigation.h"
+#include "app/view/window/drop.h"
+#include "engine/base/error.h"
+#include "engine/base/interrupt.h"
 
 namespace splatray {
 namespace {

@@ -4,15 +4,15 @@
 #include <functional>
 #include <optional>
 
-#include "app/view/load_thread.h"
-#include "app/view/mouse.h"
-#include "app/view/panels.h"
-#include "app/view/presenter.h"
-#include "app/view/render_thread.h"
-#include "app/view/user_files.h"
+#include "app/view/model/user_files.h"
+#include "app/view/thread/load_thread.h"
+#include "app/view/thread/render_thread.h"
+#include "app/view/ui/panels.h"
 #include "app/view/view_options.h"
 #include "app/view/view_stats.h"
-#include "app/view/window.h"
+#include "app/view/window/mouse.h"
+#include "app/view/window/presenter.h"
+#include "app/view/window/window.h"
 
 namespace splatray {
 

@@ -6,15 +6,15 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/command_queue.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/pools.h"
-#include "engine/gpu/texture.h"
-#include "engine/host/environment.h"
-#include "engine/host/footprint.h"
-#include "engine/host/scene.h"
-#include "engine/host/view.h"
+#include "engine/image/footprint.h"
+#include "engine/image/view.h"
+#include "engine/scene/environment.h"
+#include "engine/scene/scene.h"
+#include "engine/vulkan/command_queue.h"
+#include "engine/vulkan/texture.h"
 
 namespace splatray {
 

@@ -6,7 +6,7 @@
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/tiles.h"
-#include "engine/host/footprint.h"
+#include "engine/image/footprint.h"
 #include "shaders/layout.h"
 
 namespace splatray {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/host/view.h"
+#include "engine/image/view.h"
 #include "shaders/layout.h"
 
 namespace splatray {

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <map>
 
-#include "engine/gpu/buffer.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pools.h"
 #include "engine/gpu/program.h"
-#include "engine/gpu/texture.h"
+#include "engine/vulkan/buffer.h"
+#include "engine/vulkan/texture.h"
 
 namespace splatray {
 

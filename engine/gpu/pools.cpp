@@ -8,7 +8,7 @@
 #include <string>
 #include <variant>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 
 namespace splatray {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/gpu/paged_buffer.h"
-#include "engine/host/copies.h"
+#include "engine/scene/copies.h"
+#include "engine/vulkan/paged_buffer.h"
 
 namespace splatray {
 
@@ -17,7 +17,7 @@ enum class PoolAccess {
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
-  automatic,   ///< copies where they fit (engine/host/copies.h) and need no pages, which take the gain
+  automatic,   ///< copies where they fit (engine/scene/copies.h) and need no pages, which take the gain
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
 };

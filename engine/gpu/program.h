@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/gpu/context.h"
 #include "engine/gpu/pools.h"
+#include "engine/vulkan/context.h"
 
 namespace splatray {
 

@@ -4,13 +4,13 @@
 #include <cassert>
 #include <chrono>
 
-#include "engine/gpu/buffer.h"
-#include "engine/gpu/command_queue.h"
+#include "engine/base/error.h"
 #include "engine/gpu/device_scene.h"
 #include "engine/gpu/dispatch.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/tiles.h"
-#include "engine/host/error.h"
+#include "engine/vulkan/buffer.h"
+#include "engine/vulkan/command_queue.h"
 
 namespace splatray {
 namespace {

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/context.h"
 #include "engine/gpu/pools.h"
 #include "engine/gpu/program.h"
-#include "engine/host/environment.h"
-#include "engine/host/image.h"
-#include "engine/host/scene.h"
-#include "engine/host/view.h"
+#include "engine/image/image.h"
+#include "engine/image/view.h"
+#include "engine/scene/environment.h"
+#include "engine/scene/scene.h"
+#include "engine/vulkan/context.h"
 
 namespace splatray {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/camera_file.h"
-#include "app/sequence.h"
-#include "engine/host/error.h"
+#include "app/cli/sequence.h"
+#include "app/library/camera_file.h"
+#include "engine/base/error.h"
 #include "tests/property/dice.h"
 
 namespace splatray {

@@ -1,5 +1,5 @@
 /// Options as text and back: every field, every bit.
-#include "app/command_line.h"
+#include "app/cli/command_line.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <type_traits>
 
-#include "app/materials.h"
-#include "engine/host/error.h"
-#include "engine/host/number_text.h"
+#include "app/library/materials.h"
+#include "engine/base/error.h"
+#include "engine/base/number_text.h"
 #include "tests/property/dice.h"
 
 namespace splatray {

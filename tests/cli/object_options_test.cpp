@@ -1,10 +1,10 @@
 /// Changes to single objects' materials.
-#include "app/object_options.h"
+#include "app/cli/object_options.h"
 
 #include <gtest/gtest.h>
 
-#include "app/materials.h"
-#include "engine/host/error.h"
+#include "app/library/materials.h"
+#include "engine/base/error.h"
 
 namespace splatray {
 namespace {

@@ -2,7 +2,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "app/image_file.h"
+#include "app/library/image_file.h"
 #include "tests/cli/child_process.h"
 
 namespace splatray {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "app/compare.h"
-#include "app/image_file.h"
-#include "engine/host/error.h"
+#include "app/library/compare.h"
+#include "app/library/image_file.h"
+#include "engine/base/error.h"
 
 namespace splatray {
 namespace {

@@ -1,4 +1,4 @@
-/// The bytes of a scene file (engine/host/scene_file.h), for tests that damage or forge them.
+/// The bytes of a scene file (engine/file/scene_file.h), for tests that damage or forge them.
 #pragma once
 #include <cstdint>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "engine/host/scene_check.h"
+#include "engine/scene/scene_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "engine/host/scene_file.h"
+#include "engine/file/scene_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 #include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
 

@@ -1,6 +1,6 @@
 /// A complete small scene: two objects, five references in two filled leaves, colours, normal fields, lights, camera, names.
 #pragma once
-#include "engine/host/scene.h"
+#include "engine/scene/scene.h"
 
 namespace splatray {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/host/scene_file.h"
+#include "engine/file/scene_file.h"
 #include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
 #include "tests/fuzz/memory_folder.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 
 namespace splatray::testing {
 

@@ -1,9 +1,9 @@
-#include "engine/gpu/buffer.h"
+#include "engine/vulkan/buffer.h"
 
 #include <numeric>
 
-#include "engine/gpu/command_queue.h"
 #include "engine/gpu/tracer.h"
+#include "engine/vulkan/command_queue.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "engine/gpu/context.h"
-#include "engine/host/error.h"
+#include "engine/base/error.h"
+#include "engine/vulkan/context.h"
 
 namespace splatray {
 namespace {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/error.h"
 #include "engine/gpu/tracer.h"
-#include "engine/host/error.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "engine/base/error.h"
 #include "engine/gpu/tracer.h"
-#include "engine/host/error.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {

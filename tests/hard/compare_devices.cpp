@@ -4,10 +4,10 @@
 #include <iostream>
 
 #include "data/shapes.h"
-#include "engine/host/error.h"
-#include "tests/hard/clouds.h"
-#include "tests/hard/device_scene.h"
-#include "tests/hard/lattice_soup.h"
+#include "engine/base/error.h"
+#include "tests/hard/support/clouds.h"
+#include "tests/hard/support/device_scene.h"
+#include "tests/hard/support/lattice_soup.h"
 #include "tests/trace/rays.h"
 
 namespace splatray::testing {

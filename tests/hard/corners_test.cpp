@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "tests/hard/chains.h"
-#include "tests/hard/clouds.h"
-#include "tests/hard/wedges.h"
+#include "tests/hard/support/chains.h"
+#include "tests/hard/support/clouds.h"
+#include "tests/hard/support/wedges.h"
 
 namespace splatray::testing {
 namespace {

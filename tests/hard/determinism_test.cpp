@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "data/shapes.h"
-#include "tests/hard/clouds.h"
-#include "tests/hard/device_scene.h"
+#include "tests/hard/support/clouds.h"
+#include "tests/hard/support/device_scene.h"
 #include "tests/trace/rays.h"
 
 namespace splatray::testing {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "data/shapes.h"
-#include "tests/hard/clouds.h"
-#include "tests/hard/device_scene.h"
-#include "tests/hard/expected_radiance.h"
+#include "tests/hard/support/clouds.h"
+#include "tests/hard/support/device_scene.h"
+#include "tests/hard/support/expected_radiance.h"
 
 namespace splatray::testing {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cstring>
 
-#include "engine/host/error.h"
-#include "tests/hard/case_table.h"
-#include "tests/hard/device_scene.h"
+#include "engine/base/error.h"
+#include "tests/hard/support/case_table.h"
+#include "tests/hard/support/device_scene.h"
 
 namespace splatray::testing {
 namespace {

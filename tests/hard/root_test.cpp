@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "data/shapes.h"
-#include "tests/hard/clouds.h"
-#include "tests/hard/device_scene.h"
-#include "tests/hard/lattice_soup.h"
+#include "tests/hard/support/clouds.h"
+#include "tests/hard/support/device_scene.h"
+#include "tests/hard/support/lattice_soup.h"
 
 namespace splatray::testing {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "data/shapes.h"
-#include "tests/hard/clouds.h"
-#include "tests/hard/device_scene.h"
+#include "tests/hard/support/clouds.h"
+#include "tests/hard/support/device_scene.h"
 #include "tests/trace/rays.h"
 
 namespace splatray::testing {

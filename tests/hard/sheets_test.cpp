@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "data/shapes.h"
-#include "tests/hard/chains.h"
-#include "tests/hard/clouds.h"
+#include "tests/hard/support/chains.h"
+#include "tests/hard/support/clouds.h"
 
 namespace splatray::testing {
 namespace {

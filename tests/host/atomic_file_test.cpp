@@ -1,10 +1,10 @@
-#include "engine/host/atomic_file.h"
+#include "engine/file/atomic_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 
 namespace splatray {
 namespace {

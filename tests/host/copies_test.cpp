@@ -1,5 +1,5 @@
 /// When a device's leaves have copies of their splats.
-#include "engine/host/copies.h"
+#include "engine/scene/copies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/host/environment.h"
+#include "engine/scene/environment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// The footprint: no ray that meets a cell is left out.
-#include "engine/host/footprint.h"
+#include "engine/image/footprint.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/host/view.h"
+#include "engine/image/view.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {

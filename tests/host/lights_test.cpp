@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "engine/host/view.h"
+#include "engine/image/view.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {

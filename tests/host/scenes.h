@@ -1,6 +1,6 @@
 /// Scenes without splats, for tests of views and lights.
 #pragma once
-#include "engine/host/scene.h"
+#include "engine/scene/scene.h"
 
 namespace splatray {
 

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "engine/host/scene.h"
+#include "engine/scene/scene.h"
 
 namespace splatray {
 namespace {

@@ -1,10 +1,10 @@
-#include "engine/host/view.h"
+#include "engine/image/view.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 #include "tests/host/pixel_ray.h"
 #include "tests/host/scenes.h"
 

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <thread>
 
-#include "engine/host/copies.h"
-#include "engine/host/error.h"
+#include "engine/base/error.h"
+#include "engine/scene/copies.h"
 #include "tests/preprocess/shapes.h"
 
 namespace splatray {

@@ -1,5 +1,5 @@
 /// The boxes of empty leaves hold no filled leaf, or rays would pass by its splats; and they are as wide as they may be.
-#include "preprocess/empty_space.h"
+#include "preprocess/tree/empty_space.h"
 
 #include <gtest/gtest.h>
 

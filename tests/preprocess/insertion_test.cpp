@@ -1,6 +1,6 @@
 /// Leaf lists against an exact disc-box test over all pairs of leaf and splat, and the order of the three
 /// policies.
-#include "preprocess/insertion.h"
+#include "preprocess/tree/insertion.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <span>
 
-#include "preprocess/morton.h"
+#include "preprocess/base/morton.h"
 
 namespace splatray {
 namespace {

@@ -1,5 +1,5 @@
 /// No leaf's slab or halves cut off anything that the leaf's discs have inside its cell.
-#include "preprocess/leaf_slabs.h"
+#include "preprocess/tree/leaf_slabs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// The neighbour search against brute force over all points, in order and ties too.
-#include "preprocess/neighbours.h"
+#include "preprocess/surface/neighbours.h"
 
 #include <gtest/gtest.h>
 

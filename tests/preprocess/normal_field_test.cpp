@@ -1,5 +1,5 @@
 /// Normal fields: exact where the surface is known, none where it is flat, little where normals are noise.
-#include "preprocess/normal_field.h"
+#include "preprocess/surface/normal_field.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "preprocess/radius.h"
+#include "preprocess/surface/radius.h"
 #include "tests/preprocess/shapes.h"
 
 namespace splatray {

@@ -1,5 +1,5 @@
 /// Estimated normals: exact on planes, close on curved surfaces, defined where points do not make a plane.
-#include "preprocess/normals.h"
+#include "preprocess/surface/normals.h"
 
 #include <gtest/gtest.h>
 

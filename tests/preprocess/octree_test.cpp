@@ -1,12 +1,12 @@
 /// The octree: full, minimal, capped in depth, with every centre in its own leaf.
-#include "preprocess/octree.h"
+#include "preprocess/tree/octree.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "preprocess/morton.h"
+#include "preprocess/base/morton.h"
 
 namespace splatray {
 namespace {

@@ -1,5 +1,5 @@
 /// Radius rules against values worked out by hand, and watertightness of what they give.
-#include "preprocess/radius.h"
+#include "preprocess/surface/radius.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "preprocess/voronoi.h"
+#include "preprocess/surface/voronoi.h"
 #include "tests/preprocess/shapes.h"
 
 namespace splatray {

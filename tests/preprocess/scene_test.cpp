@@ -1,6 +1,6 @@
 /// The 128-bit splat and the 32-bit colour: what is packed comes back within the steps shaders/layout.h
 /// states.
-#include "engine/host/scene.h"
+#include "engine/scene/scene.h"
 
 #include <gtest/gtest.h>
 

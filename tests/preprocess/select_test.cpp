@@ -1,5 +1,5 @@
 /// Selection by rank against sorting.
-#include "preprocess/select.h"
+#include "preprocess/base/select.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "preprocess/build.h"
-#include "preprocess/cloud.h"
+#include "preprocess/surface/cloud.h"
 
 namespace splatray::test {
 

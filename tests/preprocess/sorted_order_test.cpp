@@ -1,5 +1,5 @@
 /// The radix sort against std::stable_sort; numbers found in parallel against those found one by one.
-#include "preprocess/sorted_order.h"
+#include "preprocess/base/sorted_order.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "preprocess/parallel.h"
+#include "preprocess/base/parallel.h"
 
 namespace splatray {
 namespace {

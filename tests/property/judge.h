@@ -16,7 +16,7 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/host/view.h"
+#include "engine/image/view.h"
 #include "tests/property/dice.h"
 #include "tests/trace/brute_force.h"
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <iostream>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 #include "tests/property/round.h"
 
 namespace splatray::testing {

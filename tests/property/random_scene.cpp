@@ -7,7 +7,7 @@
 
 #include "data/shapes.h"
 #include "preprocess/build.h"
-#include "preprocess/root.h"
+#include "preprocess/tree/root.h"
 #include "tests/trace/scenes.h"
 
 namespace splatray::testing {

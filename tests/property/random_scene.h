@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "engine/host/view.h"
+#include "engine/image/view.h"
 #include "preprocess/points.h"
 #include "tests/property/dice.h"
 

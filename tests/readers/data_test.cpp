@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "preprocess/file_extension.h"
+#include "preprocess/base/file_extension.h"
 #include "tests/readers/temp_folder.h"
 
 namespace splatray {

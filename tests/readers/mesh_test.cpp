@@ -2,9 +2,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "preprocess/mesh_normals.h"
-#include "preprocess/sample_mesh.h"
-#include "preprocess/texture.h"
+#include "preprocess/mesh/mesh_normals.h"
+#include "preprocess/mesh/sample_mesh.h"
+#include "preprocess/mesh/texture.h"
 #include "tests/readers/temp_folder.h"
 
 namespace splatray {

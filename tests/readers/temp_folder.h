@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 #include "preprocess/points.h"
 
 namespace splatray {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/host/scene.h"
-#include "engine/host/view.h"
+#include "engine/image/view.h"
+#include "engine/scene/scene.h"
 
 namespace splatray::testing {
 

@@ -1,4 +1,4 @@
-/// The C++ side of shaders/language.glsl: what GLSL has built in, so that the shaders' text compiles as C++
+/// The C++ side of shaders/lang/language.glsl: what GLSL has built in, so that the shaders' text compiles as C++
 /// with GLM. Include inside a namespace of its own (tests/trace/twin.cpp does) after <cmath>, <cstdint> and
 /// glm.
 #define OUT(type) type&

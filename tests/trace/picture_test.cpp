@@ -5,8 +5,8 @@
 
 #include <iostream>
 
-#include "app/compare.h"
-#include "app/image_file.h"
+#include "app/library/compare.h"
+#include "app/library/image_file.h"
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
 #include "tests/trace/reference_path.h"

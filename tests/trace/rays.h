@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/host/scene.h"
+#include "engine/scene/scene.h"
 #include "tests/trace/brute_force.h"
 
 namespace splatray::testing {

@@ -2,9 +2,9 @@
 /// shaders. Shares with them the definitions only: pixel positions and the random numbers that choose a
 /// branch at glass.
 #pragma once
-#include "engine/host/environment.h"
-#include "engine/host/image.h"
-#include "engine/host/view.h"
+#include "engine/image/image.h"
+#include "engine/image/view.h"
+#include "engine/scene/environment.h"
 #include "tests/trace/brute_force.h"
 
 namespace splatray::testing {

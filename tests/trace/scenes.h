@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "data/oriented_points.h"
-#include "engine/host/scene.h"
+#include "engine/scene/scene.h"
 
 namespace splatray::testing {
 

@@ -38,7 +38,7 @@ Material material_at(uint object) { return bound->materials.at(object); }
 vec3 color_at(uint splat) { return unpack_color(bound->color_pool.at(splat)); }
 uint field_word(uint splat) { return bound->field_pool.at(splat); }
 
-#include "shaders/query.glsl"
+#include "shaders/stage/query.glsl"
 
 }  // namespace glsl
 

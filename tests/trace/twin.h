@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/host/scene.h"
-#include "engine/host/view.h"
+#include "engine/image/view.h"
+#include "engine/scene/scene.h"
 
 namespace splatray::testing {
 
@@ -17,7 +17,7 @@ using Features = std::array<std::uint32_t, SPEC_COUNT>;
 /// tracer picks).
 [[nodiscard]] Features twin_features(const Scene& scene, const Settings& settings);
 
-/// Answers ray queries as shaders/rays.comp.glsl does.
+/// Answers ray queries as shaders/stage/rays.comp.glsl does.
 [[nodiscard]] std::vector<RayHit> twin_intersect(const Scene& scene, std::span<const RayQuery> rays,
                                                  const Settings& settings);
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/view/panels.h"
+#include "app/view/ui/panels.h"
 #include "tests/view/documents.h"
 
 namespace splatray {

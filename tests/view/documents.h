@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/document.h"
+#include "app/view/model/document.h"
 
 namespace splatray {
 

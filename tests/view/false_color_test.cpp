@@ -1,4 +1,4 @@
-#include "app/view/false_color.h"
+#include "app/view/model/false_color.h"
 
 #include <gtest/gtest.h>
 

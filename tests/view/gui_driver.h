@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/view/panels.h"
+#include "app/view/ui/panels.h"
 
 namespace splatray {
 

@@ -1,4 +1,4 @@
-#include "app/view/inspect.h"
+#include "app/view/model/inspect.h"
 
 #include <gtest/gtest.h>
 

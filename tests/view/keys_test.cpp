@@ -1,4 +1,4 @@
-#include "app/view/keys.h"
+#include "app/view/model/keys.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #pragma once
 #include <memory>
 
-#include "app/view/document.h"
-#include "app/view/live_scene.h"
+#include "app/view/model/document.h"
+#include "app/view/thread/live_scene.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {

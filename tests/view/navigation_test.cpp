@@ -1,4 +1,4 @@
-#include "app/view/navigation.h"
+#include "app/view/model/navigation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "app/view/panels.h"
+#include "app/view/ui/panels.h"
 
 #include <gtest/gtest.h>
 
-#include "app/camera_file.h"
-#include "app/materials.h"
-#include "app/view/live_scene.h"
+#include "app/library/camera_file.h"
+#include "app/library/materials.h"
+#include "app/view/thread/live_scene.h"
 #include "tests/readers/temp_folder.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"

@@ -7,14 +7,14 @@
 #include <memory>
 #include <random>
 
-#include "app/command_line.h"
-#include "app/image_file.h"
-#include "app/scene_source.h"
-#include "app/view/display_table.h"
-#include "app/view/document_options.h"
-#include "app/view/drop.h"
-#include "app/view/mouse.h"
-#include "app/view/resolution.h"
+#include "app/cli/command_line.h"
+#include "app/library/image_file.h"
+#include "app/library/scene_source.h"
+#include "app/view/model/document_options.h"
+#include "app/view/model/resolution.h"
+#include "app/view/window/display_table.h"
+#include "app/view/window/drop.h"
+#include "app/view/window/mouse.h"
 #include "tests/view/live_documents.h"
 
 namespace splatray {

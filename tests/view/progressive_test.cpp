@@ -1,10 +1,10 @@
 // Pictures that grow, what a change of the document costs, and that the end is the headless picture.
-#include "app/view/progressive.h"
+#include "app/view/thread/progressive.h"
 
 #include <thread>
 
-#include "app/scene_source.h"
-#include "engine/host/error.h"
+#include "app/library/scene_source.h"
+#include "engine/base/error.h"
 #include "tests/view/live_documents.h"
 
 namespace splatray {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/image_file.h"
+#include "app/library/image_file.h"
 #include "tests/cli/child_process.h"
 #include "tests/view/desktop.h"
 #include "tests/view/foreign_load.h"

@@ -3,9 +3,9 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "app/image_file.h"
-#include "app/view/load_thread.h"
-#include "app/view/render_thread.h"
+#include "app/library/image_file.h"
+#include "app/view/thread/load_thread.h"
+#include "app/view/thread/render_thread.h"
 #include "tests/cli/child_process.h"
 #include "tests/view/live_documents.h"
 

@@ -1,4 +1,4 @@
-#include "app/view/user_files.h"
+#include "app/view/model/user_files.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "engine/host/error.h"
+#include "engine/base/error.h"
 #include "tests/readers/temp_folder.h"
 
 namespace splatray {

@@ -1,0 +1,49 @@
+#include "app/cli/build_options.h"
+
+#include <cstdlib>
+
+#include "app/cli/option_types.h"
+
+namespace splatray {
+
+void add_build_options(OptionList& list, BuildOptions& options, const std::string& samples_name) {
+  constexpr double MOST_WHOLE = 9007199254740992.0;  // 2^53: whole numbers are exact up to here
+  BuildParams& params = options.params;
+  list.add_option("--data-path", options.data_paths,
+                  "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FOLDER");
+  list.add_words([&options] {
+    Words words;
+    for (const std::filesystem::path& folder : options.data_paths)
+      words.push_back("--data-path=" + folder.string());
+    return words;
+  });
+  add_number(list, samples_name, params.samples, 0, MOST_WHOLE,
+             "points sampled on meshes by area; default 0 = their vertices where fine enough");
+  add_number(list, "--leaf-size", params.leaf_size, 0, 65536,
+             "octree cells of more splat centres are divided; default 0 = 16, or 24 or 8 where "
+             "that would take more than 64 bytes of GPU memory a splat");
+  add_choice<Insertion>(
+      list, "--insertion", params.insertion,
+      {{"overlap", Insertion::overlap}, {"probe", Insertion::probe}, {"centre", Insertion::centre}},
+      "leaves a splat goes into; default overlap");
+  add_number(list, "--probes", params.probes, 1, 65536,
+             "probe rays per leaf for --insertion probe; default 32");
+  add_choice<RadiusRule>(list, "--radius-rule", params.radius_rule,
+                         {{"coverage", RadiusRule::coverage}, {"knn", RadiusRule::knn}},
+                         "radii of points that have none; default coverage");
+  add_number(list, "--radius-scale", params.radius_scale, 1e-6, 1e6, "factor on every radius; default 1");
+  add_choice<bool>(list, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
+                   "how normals change across each disc, where the scene curves; default on");
+  add_number(list, "--threads", options.threads, 0, 4096, "threads of the preprocess; default 0 = all cores");
+}
+
+std::vector<std::filesystem::path> model_folders(const BuildOptions& options) {
+  std::vector<std::filesystem::path> folders = options.data_paths;
+  if (const char* folder = std::getenv("SPLATRAY_DATA_DIR")) folders.emplace_back(folder);
+  return folders;
+}
+
+}  // namespace splatray

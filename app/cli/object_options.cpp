@@ -1,0 +1,210 @@
+#include "app/cli/object_options.h"
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <functional>
+#include <limits>
+
+#include "app/cli/option_types.h"
+#include "app/library/materials.h"
+#include "engine/base/error.h"
+#include "engine/base/number_text.h"
+#include "preprocess/base/quoted_list.h"
+
+namespace splatray {
+namespace {
+
+[[noreturn]] void refuse(const std::string& found, const std::string& expected) {
+  throw Error(ExitCode::usage, "--object: found '" + found + "', expected " + expected);
+}
+
+/// A key: how its value is read into options, and written, empty where it is unset.
+struct Key {
+  std::string name;
+  std::function<void(const std::string& value, ObjectOptions&)> read;
+  std::function<std::string(const ObjectOptions&)> write;
+};
+
+Key preset_key() {
+  const auto read = [](const std::string& value, ObjectOptions& options) {
+    const std::vector<std::string> names = material_names();
+    if (std::find(names.begin(), names.end(), value) == names.end())
+      refuse("preset=" + value, "one of " + quoted_list(names));
+    options.preset = value;
+  };
+  return {"preset", read, [](const ObjectOptions& options) { return options.preset; }};
+}
+
+Key color_key(const std::string& name, std::optional<glm::vec3> ObjectOptions::*member) {
+  const auto read = [=](const std::string& value, ObjectOptions& options) {
+    const auto numbers = split_numbers(value, '/', 3);
+    const auto in_range = [](double x) { return x >= 0.0 && x <= 1.0; };
+    if (numbers.empty() || !std::all_of(numbers.begin(), numbers.end(), in_range))
+      refuse(name + "=" + value, "three numbers from 0 to 1 such as 0.8/0.5/0.2");
+    options.*member = glm::vec3(numbers[0], numbers[1], numbers[2]);
+  };
+  const auto write = [=](const ObjectOptions& options) {
+    return options.*member ? number_text(*(options.*member), '/') : "";
+  };
+  return {name, read, write};
+}
+
+Key number_key(const std::string& name, std::optional<float> ObjectOptions::*member, double least,
+               double most) {
+  const auto read = [=](const std::string& value, ObjectOptions& options) {
+    const auto numbers = split_numbers(value, '/', 1);
+    if (numbers.empty() || !(numbers[0] >= least && numbers[0] <= most))
+      refuse(name + "=" + value, "a number from " + number_text(least) + " to " + number_text(most));
+    options.*member = static_cast<float>(numbers[0]);
+  };
+  const auto write = [=](const ObjectOptions& options) {
+    return options.*member ? number_text(*(options.*member)) : "";
+  };
+  return {name, read, write};
+}
+
+Key switch_key(const std::string& name, std::optional<bool> ObjectOptions::*member) {
+  const auto read = [=](const std::string& value, ObjectOptions& options) {
+    if (value != "on" && value != "off") refuse(name + "=" + value, "on or off");
+    options.*member = value == "on";
+  };
+  const auto write = [=](const ObjectOptions& options) -> std::string {
+    if (!(options.*member)) return "";
+    return *(options.*member) ? "on" : "off";
+  };
+  return {name, read, write};
+}
+
+const std::vector<Key>& keys() {
+  constexpr double MOST = 1e6, LEAST_IOR = 1e-3;
+  static const std::vector<Key> KEYS = {preset_key(),
+                                        color_key("diffuse", &ObjectOptions::diffuse),
+                                        number_key("specular", &ObjectOptions::specular, 0.0, 1.0),
+                                        number_key("shininess", &ObjectOptions::shininess, 1.0, MOST),
+                                        number_key("mirror", &ObjectOptions::mirror, 0.0, 1.0),
+                                        number_key("ior", &ObjectOptions::ior, LEAST_IOR, MOST),
+                                        color_key("tint", &ObjectOptions::tint),
+                                        switch_key("glass", &ObjectOptions::glass),
+                                        switch_key("two-sided", &ObjectOptions::two_sided),
+                                        switch_key("hidden", &ObjectOptions::hidden)};
+  return KEYS;
+}
+
+void read_pair(const std::string& pair, ObjectOptions& options) {
+  const std::size_t equals = pair.find('=');
+  std::vector<std::string> names;
+  for (const Key& key : keys()) {
+    names.push_back(key.name);
+    if (equals != std::string::npos && pair.substr(0, equals) == key.name)
+      return key.read(pair.substr(equals + 1), options);
+  }
+  refuse(pair, "key=value with a key of " + quoted_list(names));
+}
+
+/// The index that a text is, if it is one.
+std::optional<std::size_t> whole_number(const std::string& text) {
+  std::size_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return stop == end && error == std::errc() ? std::optional(number) : std::nullopt;
+}
+
+std::size_t find_object(const std::string& object, const std::vector<std::string>& names) {
+  if (const auto index = whole_number(object)) {
+    if (*index < names.size()) return *index;
+    refuse(object, "an object's name or an index below " + std::to_string(names.size()));
+  }
+  const auto found = std::find(names.begin(), names.end(), object);
+  if (found == names.end()) refuse(object, "an object's index or name: " + quoted_list(names));
+  if (std::find(found + 1, names.end(), object) != names.end())
+    refuse(object, "an index, as several objects have this name");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// What find_object finds the object by: its name where that is plain text that no other has, else its index.
+std::string object_key(std::size_t object, const std::vector<std::string>& names) {
+  const std::string& name = names[object];
+  const bool plain =
+      std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; });
+  const bool usable = plain && !name.empty() && !whole_number(name);
+  return usable && std::count(names.begin(), names.end(), name) == 1 ? name : std::to_string(object);
+}
+
+void set_flag(Material& material, std::uint32_t flag, std::optional<bool> on) {
+  if (on) material.flags = *on ? material.flags | flag : material.flags & ~flag;
+}
+
+void apply(const ObjectOptions& options, Material& material) {
+  if (!options.preset.empty()) change_material(material, options.preset);
+  material.diffuse = options.diffuse.value_or(material.diffuse);
+  material.specular = options.specular.value_or(material.specular);
+  material.tint = options.tint.value_or(material.tint);
+  material.shininess = options.shininess.value_or(material.shininess);
+  material.mirror = options.mirror.value_or(material.mirror);
+  material.ior = options.ior.value_or(material.ior);
+  set_flag(material, MATERIAL_DIELECTRIC, options.glass);
+  set_flag(material, MATERIAL_TWO_SIDED, options.two_sided);
+  set_flag(material, MATERIAL_HIDDEN, options.hidden);
+}
+
+ObjectOptions difference(const Material& from, const Material& to) {
+  ObjectOptions options;
+  const auto set = [](auto& option, const auto& before, const auto& after) {
+    if (before != after) option = after;
+  };
+  const auto has = [](const Material& material, std::uint32_t flag) { return (material.flags & flag) != 0; };
+  set(options.diffuse, from.diffuse, to.diffuse);
+  set(options.specular, from.specular, to.specular);
+  set(options.tint, from.tint, to.tint);
+  set(options.shininess, from.shininess, to.shininess);
+  set(options.mirror, from.mirror, to.mirror);
+  set(options.ior, from.ior, to.ior);
+  set(options.glass, has(from, MATERIAL_DIELECTRIC), has(to, MATERIAL_DIELECTRIC));
+  set(options.two_sided, has(from, MATERIAL_TWO_SIDED), has(to, MATERIAL_TWO_SIDED));
+  set(options.hidden, has(from, MATERIAL_HIDDEN), has(to, MATERIAL_HIDDEN));
+  return options;
+}
+
+}  // namespace
+
+ObjectOptions read_object_options(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
+    refuse(text, "OBJECT:key=value,... such as dragon:preset=gold");
+  ObjectOptions options;
+  options.object = text.substr(0, colon);
+  std::istringstream pairs(text.substr(colon + 1));
+  for (std::string pair; std::getline(pairs, pair, ',');) read_pair(pair, options);
+  return options;
+}
+
+std::string object_text(const ObjectOptions& options) {
+  std::string text;
+  for (const Key& key : keys()) {
+    const std::string value = key.write(options);
+    if (!value.empty()) text += (text.empty() ? ":" : ",") + key.name + "=" + value;
+  }
+  return options.object + text;
+}
+
+void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
+                          std::vector<Material>& materials) {
+  for (const ObjectOptions& change : options) apply(change, materials[find_object(change.object, names)]);
+}
+
+std::vector<ObjectOptions> object_options_between(const std::vector<Material>& loaded,
+                                                  const std::vector<Material>& shown,
+                                                  const std::vector<std::string>& names) {
+  assert(loaded.size() == shown.size() && names.size() == shown.size());
+  std::vector<ObjectOptions> changes;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    ObjectOptions change = difference(loaded[i], shown[i]);
+    if (change == ObjectOptions{}) continue;
+    change.object = object_key(i, names);
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+}  // namespace splatray

@@ -1,0 +1,37 @@
+/// Changes to the materials of single objects: --object.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+/// What one --object changes; what is unset stays as it is. Ranges as Material's.
+struct ObjectOptions {
+  std::string object;  ///< index where it is a whole number, else name
+  std::string preset;  ///< a name of materials.h, replaces the whole material first; empty = none
+  std::optional<glm::vec3> diffuse, tint;
+  std::optional<float> specular, shininess, mirror, ior;
+  std::optional<bool> glass, two_sided, hidden;
+
+  bool operator==(const ObjectOptions&) const = default;
+};
+
+/// Reads OBJECT:key=value,... . The last ':' ends the object's name, so names may hold any character. Throws Error (usage)
+/// for unknown keys and values out of range.
+[[nodiscard]] ObjectOptions read_object_options(const std::string& text);
+/// The text that reads back to equal options.
+[[nodiscard]] std::string object_text(const ObjectOptions& options);
+
+/// Changes the materials of the objects named `names`, in the order given; each keeps its mask_bit. Throws Error (usage) for an object that does not exist or a name that several have.
+void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
+                          std::vector<Material>& materials);
+
+/// The options that make `loaded` look like `shown`, one for each object that differs; mask_bit is not looked at.
+[[nodiscard]] std::vector<ObjectOptions> object_options_between(const std::vector<Material>& loaded,
+                                                                const std::vector<Material>& shown,
+                                                                const std::vector<std::string>& names);
+
+}  // namespace splatray

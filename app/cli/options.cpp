@@ -1,0 +1,201 @@
+#include "app/cli/options.h"
+
+#include <algorithm>
+
+#include "app/cli/option_types.h"
+#include "app/cli/reproduce.h"
+#include "app/cli/sequence.h"
+#include "engine/base/error.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray {
+namespace {
+
+/// The channels by their names in --aov.
+struct AovName {
+  const char* name;
+  bool RenderOptions::*member;
+};
+constexpr AovName AOV_NAMES[] = {{"depth", &RenderOptions::aov_depth},
+                                 {"normal", &RenderOptions::aov_normal},
+                                 {"id", &RenderOptions::aov_id}};
+
+void read_aovs(const std::string& text, RenderOptions& options) {
+  for (const AovName& aov : AOV_NAMES) options.*aov.member = false;
+  std::istringstream names(text);
+  for (std::string name; std::getline(names, name, ',');) {
+    const auto found = std::find_if(std::begin(AOV_NAMES), std::end(AOV_NAMES),
+                                    [&](const AovName& aov) { return name == aov.name; });
+    if (found == std::end(AOV_NAMES)) refuse_option("--aov", text, "a list of depth, normal, id");
+    options.*found->member = true;
+  }
+  options.picture.settings.aov = !text.empty();
+}
+
+std::string aov_text(const RenderOptions& options) {
+  std::string text;
+  for (const AovName& aov : AOV_NAMES)
+    if (options.*aov.member) text += (text.empty() ? "" : ",") + std::string(aov.name);
+  return text;
+}
+
+void add_output_options(OptionList& list, RenderOptions& options) {
+  list.add_option("-o,--output", options.output,
+                  "the picture: .png (sRGB) or .exr (linear float); of a sequence with a run of # for the "
+                  "frame's digits such as out.####.png")
+      ->type_name("FILE");
+  list.add_words([&options] {
+    return options.output.empty() ? Words{} : Words{"-o", options.output.string()};
+  });
+  add_number(list, "--exposure", options.exposure_ev, -60.0, 60.0, "brightness of a PNG in stops; default 0");
+  list.add_value(
+          "--aov", [&options](const std::string& text) { read_aovs(text, options); },
+          [&options] { return aov_text(options); }, "more channels of an EXR picture: Z, N.X N.Y N.Z, id")
+      ->type_name("depth,normal,id");
+  add_path(list, "--stats-json", options.stats_json, "write times, counts, bytes and device here");
+  add_path(list, "--reference", options.reference, "picture to compare with; exit 1 when they differ");
+  add_number(list, "--reference-threshold", options.reference_threshold, 0.0, 1.0,
+             "allowed error of a pixel, 0..1; default 0.004");
+  add_number(list, "--reference-share", options.reference_share, 0.0, 1.0,
+             "allowed share of pixels beyond it; default 0.0002");
+  add_number(list, "--reference-limit", options.reference_limit, 0.0, 1.0,
+             "no pixel's error may exceed this; default 0.012");
+  add_switch(list, "--list-devices", options.list_devices, "list the Vulkan devices and end");
+  add_switch(list, "--quiet", options.quiet, "only errors on stderr");
+}
+
+FrameRange read_frames(const std::string& text) {
+  constexpr double MOST = 999999.0;
+  auto numbers = split_numbers(text, '-', 2);
+  if (numbers.empty()) numbers = split_numbers(text, '-', 1);
+  const bool good = !numbers.empty() && numbers.front() <= numbers.back() && numbers.back() <= MOST &&
+                    std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == std::floor(x); });
+  if (!good) refuse_option("--frames", text, "first-last such as 0-47, each up to 999999");
+  return {static_cast<std::uint32_t>(numbers.front()), static_cast<std::uint32_t>(numbers.back())};
+}
+
+void add_sequence_options(OptionList& list, RenderOptions& options) {
+  SequenceOptions& sequence = options.sequence;
+  list.add_value(
+          "--camera-path",
+          [&options](const std::string& file) {
+            options.sequence.camera_path = file;
+            options.picture.eye = options.picture.target = options.picture.camera_up = std::nullopt;
+            options.picture.fov_y_deg.reset();
+            options.picture.ortho_height = 0.0;
+          },
+          [&sequence] { return sequence.camera_path.string(); },
+          "one picture for each frame of this camera path (JSON: keys, each a camera with its frame)")
+      ->type_name("FILE");
+  add_number(
+      list, "--turntable", sequence.turntable, 0, 999999,
+      "this many pictures of a full turn about the scene's up axis through the target; default 0 = none");
+  const auto frames_text = [&sequence]() -> std::string {
+    if (!sequence.frames) return "";
+    return std::to_string(sequence.frames->first) + "-" + std::to_string(sequence.frames->last);
+  };
+  list.add_value(
+          "--frames", [&sequence](const std::string& text) { sequence.frames = read_frames(text); },
+          frames_text, "only these frames of a sequence; default all")
+      ->type_name("A-B");
+  add_switch(list, "--skip-existing", sequence.skip_existing, "leave out pictures whose file exists");
+}
+
+/// What no single option can check of a sequence.
+void check_sequence(const RenderOptions& options) {
+  const auto fail = [](const std::string& sentence) { throw Error(ExitCode::usage, sentence); };
+  const SequenceOptions& sequence = options.sequence;
+  if (sequence.frames && !sequence.many())
+    fail("found --frames alone, expected --camera-path or --turntable beside it");
+  if (sequence.turntable > 0 && !sequence.camera_path.empty())
+    fail("found --turntable and --camera-path, expected one of them");
+  if (!sequence.camera_path.empty() && (options.picture.eye || options.picture.fov_y_deg))
+    fail("found a camera beside --camera-path, expected only the path");
+  if (sequence.many() && !options.reference.empty())
+    fail("found --reference with a sequence of pictures, expected a single one");
+  if (sequence.many() && !options.output.empty()) (void)frame_file(options.output, 0);
+}
+
+/// What no single option can check.
+void check_together(const RenderOptions& options) {
+  const auto fail = [](const std::string& sentence) { throw Error(ExitCode::usage, sentence); };
+  const PictureOptions& picture = options.picture;
+  if (options.scene.inputs.empty())
+    fail("found no SCENE, expected a scene or model file (--help shows all options)");
+  const std::size_t scenes = static_cast<std::size_t>(
+      std::count_if(options.scene.inputs.begin(), options.scene.inputs.end(),
+                    [](const auto& path) { return lower_extension(path) == ".soct"; }));
+  if (scenes > 0 && options.scene.inputs.size() > 1)
+    fail("found a .soct beside other inputs, expected it alone");
+  const std::string extension = lower_extension(options.output);
+  if (!options.output.empty() && extension != ".png" && extension != ".exr")
+    fail("found output '" + options.output.string() + "', expected a name ending in .png or .exr");
+  if (picture.settings.aov && extension == ".png") fail("found --aov with a .png output, expected .exr");
+  if (picture.target && !picture.eye) fail("found --target without --eye, expected both");
+  if (picture.ortho_height > 0.0 && !picture.eye) fail("found --ortho without --eye, expected both");
+  if (picture.camera_up && !picture.eye) fail("found --camera-up without --eye, expected both");
+  check_sequence(options);
+}
+
+/// Reads the words on top of `options`. The program itself also has --help, --version, and --from, which goes into
+/// `from`; false when one of the first two was answered.
+bool parse_onto(const Words& words, RenderOptions& options, std::filesystem::path* from) {
+  OptionList list("Ray-traces a scene of splats into pictures.", "splatray-render");
+  add_render_options(list, options);
+  if (from != nullptr) {
+    list.set_version_flag("--version", SPLATRAY_VERSION);
+    add_path(
+        list, "--from", *from,
+        "make this picture again, from the options kept in it; options beside it replace those, -o defaults "
+        "to "
+        "its name with .again; relative paths in it are looked for here, then in its folder and those above");
+  } else {
+    list.set_help_flag();
+  }
+  if (!parse_options(list, words)) return false;
+  options.scene.params.seed = options.picture.settings.seed;
+  return true;
+}
+
+/// What --from stands for: the picture's options, for an output of the name given, if any.
+RenderOptions options_from(const std::filesystem::path& picture, const std::filesystem::path& output) {
+  RenderOptions options = read_picture_options(picture);
+  options.output = picture;
+  options.output.replace_extension(".again" + picture.extension().string());
+  if (lower_extension(output) == ".png") read_aovs("", options);
+  return options;
+}
+
+}  // namespace
+
+void add_render_options(OptionList& list, RenderOptions& options) {
+  add_scene_options(list, options.scene);
+  add_output_options(list, options);
+  add_sequence_options(list, options);
+  add_picture_options(list, options.picture);
+}
+
+RenderOptions parse_render_words(const Words& words) {
+  RenderOptions options;
+  (void)parse_onto(words, options, nullptr);
+  check_together(options);
+  return options;
+}
+
+std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
+  const Words words(argv + std::min(argc, 1), argv + argc);
+  RenderOptions options;
+  std::filesystem::path from;
+  if (!parse_onto(words, options, &from)) return {};
+  if (!from.empty()) {
+    options = options_from(from, options.output);
+    (void)parse_onto(words, options, &from);
+  }
+  if (options.list_devices) return options;
+  check_together(options);
+  if (options.output.empty())
+    throw Error(ExitCode::usage, "found no output, expected -o with a .png or .exr file");
+  return options;
+}
+
+}  // namespace splatray

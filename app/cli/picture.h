@@ -1,0 +1,48 @@
+/// The outgoing side of splatray-render: picture file, its metadata, comparison with a reference.
+#pragma once
+#include <chrono>
+#include <optional>
+
+#include "app/cli/options.h"
+#include "app/library/image_file.h"
+#include "engine/vulkan/context.h"
+
+namespace splatray {
+
+/// Wall time of consecutive stages.
+class Stopwatch {
+ public:
+  /// Milliseconds since construction or the last lap.
+  double lap_ms() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Throws Error (failed) when the pictures or the statistics have no place to go.
+void require_outputs_writable(const RenderOptions& options);
+
+/// The picture of --reference; nothing without the option. Throws Error: input_unreadable, or failed when its
+/// size is not
+/// --resolution's.
+[[nodiscard]] std::optional<DisplayImage> read_reference(const RenderOptions& options);
+
+/// The command line that makes this picture (still_options), camera, scene's diagonal, device, samples, seed and commit,
+/// for the picture's file.
+[[nodiscard]] Metadata picture_metadata(const RenderOptions& options, const Scene& scene, const View& view,
+                                        const Context& context);
+
+/// Writes the picture in the format of its name. Throws Error (failed).
+void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata,
+                  const std::filesystem::path& path);
+
+/// Compares the picture, as its file shows it, with the reference. When they differ, writes
+/// `<output>.diff.png` beside it and throws Error (failed); else prints the numbers on stderr unless quiet.
+void require_match(const RenderOptions& options, const Image& image, const DisplayImage& reference);
+
+}  // namespace splatray

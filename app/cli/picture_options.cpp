@@ -1,0 +1,225 @@
+#include <memory>
+#include <numbers>
+
+#include "app/cli/option_types.h"
+#include "app/cli/options.h"
+#include "app/library/camera_file.h"
+#include "app/library/materials.h"
+
+namespace splatray {
+namespace {
+
+void add_resolution(OptionList& list, PictureOptions& picture) {
+  const auto read = [&picture](const std::string& text) {
+    constexpr double MOST = 32768.0;
+    const auto numbers = split_numbers(text, 'x', 2);
+    const bool good = !numbers.empty() && numbers[0] >= 1.0 && numbers[0] <= MOST && numbers[1] >= 1.0 &&
+                      numbers[1] <= MOST && numbers[0] == std::floor(numbers[0]) &&
+                      numbers[1] == std::floor(numbers[1]);
+    if (!good) refuse_option("--resolution", text, "width x height such as 1920x1080, each 1 to 32768");
+    picture.width = static_cast<std::uint32_t>(numbers[0]);
+    picture.height = static_cast<std::uint32_t>(numbers[1]);
+  };
+  const auto write = [&picture] {
+    return std::to_string(picture.width) + "x" + std::to_string(picture.height);
+  };
+  list.add_value("--resolution", read, write, "size of the picture, pixels; default 1920x1080")
+      ->type_name("WxH");
+}
+
+void add_fov(OptionList& list, PictureOptions& picture) {
+  const auto read = [&picture](const std::string& text) {
+    const auto numbers = split_numbers(text, ',', 1);
+    if (numbers.empty() || !(numbers[0] > 0.0 && numbers[0] < 180.0))
+      refuse_option("--fov", text, "degrees between 0 and 180");
+    picture.fov_y_deg = numbers[0];
+  };
+  const auto write = [&picture] { return picture.fov_y_deg ? number_text(*picture.fov_y_deg) : ""; };
+  list.add_value("--fov", read, write, "vertical field of view; default 30")->type_name("DEG");
+}
+
+/// --up takes the place of an up direction that the camera has from a file or picture.
+void add_up(OptionList& list, PictureOptions& picture) {
+  const auto read = [&picture](const std::string& text) {
+    picture.up = read_vector("--up", text);
+    picture.camera_up.reset();
+  };
+  list.add_value(
+          "--up", read, [&picture] { return picture.up ? number_text(*picture.up) : ""; },
+          "up direction of the scene, its environment and the camera; default the scene's")
+      ->type_name("X,Y,Z");
+  add_vector(list, "--camera-up", picture.camera_up, "up direction of the camera alone; needs --eye");
+}
+
+/// Options are applied in the order of adding: those after --camera change parts of its camera.
+void add_camera_options(OptionList& list, PictureOptions& picture) {
+  add_resolution(list, picture);
+  list.add_option_function<std::string>(
+          "--camera", [&picture](const std::string& file) { set_camera(picture, read_camera(file)); },
+          "camera file (JSON: eye, target, up, fov_y_deg or ortho_height); options beside it replace parts")
+      ->type_name("FILE");
+  add_vector(list, "--eye", picture.eye,
+             "camera position; default: the scene's camera, else a view of the whole scene");
+  add_vector(list, "--target", picture.target, "point looked at; default the scene's centre; needs --eye");
+  add_up(list, picture);
+  add_fov(list, picture);
+  add_number(list, "--ortho", picture.ortho_height, 0.0, 1e30,
+             "orthographic picture of this height, world units; 0 = perspective; needs --eye");
+}
+
+/// A light of X,Y,Z[,R,G,B].
+LightOptions read_light(const std::string& name, const std::string& text, std::uint32_t kind) {
+  auto numbers = split_numbers(text, ',', 3);
+  const bool bare = !numbers.empty();
+  if (!bare) numbers = split_numbers(text, ',', 6);
+  LightOptions light;
+  light.kind = kind;
+  if (numbers.empty()) refuse_option(name, text, "three or six numbers such as 1,-2,0.5 or 1,-2,0.5,9,9,9");
+  light.position = {numbers[0], numbers[1], numbers[2]};
+  if (kind == LIGHT_DIRECTIONAL && light.position == glm::dvec3(0.0))
+    refuse_option(name, text, "a direction other than 0,0,0");
+  if (bare) return light;
+  light.power = glm::vec3(numbers[3], numbers[4], numbers[5]);
+  if (!(light.power->x >= 0.0F && light.power->y >= 0.0F && light.power->z >= 0.0F) ||
+      !std::isfinite(light.power->x + light.power->y + light.power->z))
+    refuse_option(name, text, "R,G,B of finite numbers >= 0");
+  return light;
+}
+
+Words light_words(const std::optional<std::vector<LightOptions>>& lights) {
+  if (!lights) return {};
+  if (lights->empty()) return {"--lights=none"};
+  Words words;
+  for (const LightOptions& light : *lights)
+    words.push_back((light.kind == LIGHT_POINT ? "--light=" : "--sun=") + number_text(light.position) +
+                    (light.power ? "," + number_text(*light.power) : ""));
+  return words;
+}
+
+/// The lights keep the order in which they are given, over both options; the first replaces those there were.
+void add_light_options(OptionList& list, PictureOptions& picture) {
+  const auto given = std::make_shared<std::vector<LightOptions>>();
+  const auto add = [&](const std::string& name, std::uint32_t kind, const std::string& help) {
+    const auto read = [&picture, given, name, kind](const std::string& text) {
+      given->push_back(read_light(name, text, kind));
+      picture.lights = *given;
+    };
+    list.add_option_function<std::string>(name, read, help)->trigger_on_parse()->type_name("X,Y,Z[,R,G,B]");
+  };
+  add("--light", LIGHT_POINT,
+      "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at the "
+      "scene's centre; repeatable");
+  add("--sun", LIGHT_DIRECTIONAL,
+      "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, default pi; "
+      "repeatable");
+  list.add_option_function<std::string>(
+          "--lights",
+          [&picture, given](const std::string& text) {
+            if (text != "none") refuse_option("--lights", text, "none");
+            picture.lights = *given;
+          },
+          "no light but the environment's, unless --light or --sun add some")
+      ->type_name("none");
+  list.add_words([&picture] { return light_words(picture.lights); });
+}
+
+void add_environment_options(OptionList& list, PictureOptions& picture) {
+  Settings& settings = picture.settings;
+  add_text(list, "--env", picture.environment,
+           "environment: an HDR or EXR file (latitude-longitude), white, black, studio or a radiance r,g,b; "
+           "default: the scene's, else studio with a key light over the viewer's left shoulder")
+      ->type_name("FILE|NAME");
+  add_number(list, "--env-strength", settings.environment_strength, 0.0, 1e6,
+             "factor on the environment; default 1");
+  add_number(list, "--env-turn", settings.environment_turn, -1e6, 1e6,
+             "turns of the environment about the up axis; default 0");
+}
+
+void add_object_options(OptionList& list, PictureOptions& picture) {
+  const auto read = [&picture](const std::string& text) {
+    picture.objects.push_back(read_object_options(text));
+  };
+  list.add_option_function<std::string>("--object", read,
+                                        "change the material of one object, given by its index or name; "
+                                        "keys: preset (a name of --material), "
+                                        "diffuse=r/g/b, specular, shininess, mirror, ior, tint=r/g/b, and "
+                                        "glass, two-sided, hidden = on or off; "
+                                        "repeatable, the last change holds")
+      ->trigger_on_parse()
+      ->type_name("OBJECT:KEY=VALUE,...");
+  list.add_words([&picture] {
+    Words words;
+    for (const ObjectOptions& object : picture.objects) words.push_back("--object=" + object_text(object));
+    return words;
+  });
+}
+
+void add_method_options(OptionList& list, PictureOptions& picture) {
+  Settings& settings = picture.settings;
+  add_number(list, "--samples", settings.samples, 1, 65536, "samples per pixel; default 16");
+  add_number(list, "--seed", settings.seed, 0, 4294967295.0, "seed of samples and sampled points; default 1");
+  add_number(list, "--max-bounces", settings.max_bounces, 0, 64, "most secondary rays in a path; default 8");
+  add_choice<bool>(list, "--shadows", settings.shadows, {{"on", true}, {"off", false}}, "default on");
+  add_choice<std::uint32_t>(
+      list, "--blend", settings.blend,
+      {{"window", BLEND_WINDOW}, {"paper", BLEND_PAPER}, {"nearest", BLEND_NEAREST}, {"leaf", BLEND_LEAF}},
+      "blending of the splats at a hit; leaf = the first leaf's only, which shows seams; default window");
+  add_choice<std::uint32_t>(list, "--kernel", settings.kernel,
+                            {{"rim", KERNEL_RIM}, {"gaussian", KERNEL_GAUSSIAN}},
+                            "weight of a splat over its disc; default rim (zero there)");
+  add_number(list, "--kappa", settings.kappa, 1e-6, 1e6, "blending depth in splat radii; default 1");
+  add_choice<std::uint32_t>(list, "--side", settings.side,
+                            {{"side", SIDE_SIDE}, {"delta", SIDE_DELTA}, {"none", SIDE_NONE}},
+                            "how secondary rays leave their surface; default side");
+  list.add_value(
+          "--delta",
+          [&picture](const std::string& text) {
+            picture.delta_world = read_number<double>("--delta", text, 0.0, 1e30);
+          },
+          [&picture] { return picture.delta_world ? number_text(*picture.delta_world) : ""; },
+          "minimum distance of --side delta, world units; default diagonal / 1000")
+      ->type_name("X");
+  add_choice<std::uint32_t>(list, "--order", settings.order, {{"z", ORDER_Z}, {"linear", ORDER_LINEAR}},
+                            "order of threads over pixels; default z");
+  add_switch(list, "--counters", settings.counters, "count rays, steps and tests (slower) for --stats-json");
+  add_text(list, "--device", picture.device, "device number or part of its name; default the best")
+      ->type_name("N|NAME");
+}
+
+}  // namespace
+
+void add_scene_options(OptionList& list, SceneOptions& scene) {
+  list.add_option("SCENE", scene.inputs,
+                  "a .soct scene, or what splatray-preprocess reads: .ply .obj .stl .vtp .gltf .glb")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  list.add_words([&scene] {
+    Words words;
+    for (const std::filesystem::path& input : scene.inputs)
+      words.push_back(input.string().starts_with('-') ? "./" + input.string() : input.string());
+    return words;
+  });
+  add_build_options(list, scene, "--points");
+  std::vector<Choice<std::string>> materials;
+  for (const std::string& name : material_names()) materials.push_back({name, name});
+  add_choice(list, "--material", scene.material, materials,
+             "material of a scene with one object; glass and ruby need a closed one");
+}
+
+void set_camera(PictureOptions& picture, const Camera& camera) {
+  picture.eye = camera.eye;
+  picture.target = camera.target;
+  picture.camera_up = camera.up;
+  picture.fov_y_deg.reset();
+  if (camera.ortho_height == 0.0) picture.fov_y_deg = camera.fov_y_deg;
+  picture.ortho_height = camera.ortho_height;
+}
+
+void add_picture_options(OptionList& list, PictureOptions& picture) {
+  add_camera_options(list, picture);
+  add_light_options(list, picture);
+  add_environment_options(list, picture);
+  add_object_options(list, picture);
+  add_method_options(list, picture);
+}
+
+}  // namespace splatray

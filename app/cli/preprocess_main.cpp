@@ -1,0 +1,88 @@
+/// splatray-preprocess: points or meshes in, a scene file out.
+#include <malloc.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "app/cli/build_options.h"
+#include "app/cli/option_types.h"
+#include "engine/base/error.h"
+#include "engine/base/interrupt.h"
+#include "engine/base/progress.h"
+#include "engine/file/atomic_file.h"
+#include "engine/file/scene_file.h"
+#include "preprocess/build.h"
+#include "preprocess/build_report.h"
+
+namespace {
+
+using namespace splatray;
+
+struct Options {
+  BuildOptions build;
+  std::filesystem::path output;
+  std::filesystem::path stats_json;  ///< empty = none
+};
+
+/// False when help was asked for and printed.
+bool parse(int argc, char** argv, Options& options) {
+  OptionList list("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
+                  "splatray-preprocess");
+  list.add_option("INPUT", options.build.inputs, "files with points, meshes or a glTF scene")
+      ->required()
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  list.add_option("-o,--output", options.output, "scene file to write (.soct)")->required();
+  add_build_options(list, options.build, "--samples");
+  add_number(list, "--seed", options.build.params.seed, 0, 4294967295.0,
+             "seed of samples and probe rays; default 1");
+  list.add_option("--stats-json", options.stats_json, "file to write counts and times to");
+  return parse_options(list, argc, argv);
+}
+
+/// A build takes and frees many large arrays: glibc's malloc keeps their memory instead of giving it back, as each page that the
+/// kernel hands out anew costs microseconds.
+void keep_freed_memory() {
+  constexpr int GROWTH_BYTES = 64 << 20;
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, -1);  // never
+  mallopt(M_TOP_PAD, GROWTH_BYTES);
+}
+
+Input read(const BuildOptions& options, BuildStats& stats) {
+  const auto start = std::chrono::steady_clock::now();
+  Input input =
+      read_input(options.inputs, {options.params.samples, options.params.seed, model_folders(options),
+                                  /*keep_meshes=*/false});
+  stats.read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  for (const std::string& note : input.notes)
+    std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
+  return input;
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  if (!parse(argc, argv, options)) return static_cast<int>(ExitCode::done);
+  require_writable(options.output);
+  if (!options.stats_json.empty()) require_writable(options.stats_json);
+  catch_interrupts();
+  keep_freed_memory();
+
+  BuildStats stats;
+  Input input = read(options.build, stats);
+  stop_if_interrupted();
+  ProgressLine progress(/*quiet=*/false);
+  const Scene scene = build_scene(std::move(input), options.build.params, options.build.threads, stats,
+                                  [&](const char* stage, double share) {
+                                    progress.show(stage, share);
+                                    return !interrupted();
+                                  });
+  progress.clear();
+  write_scene(scene, options.output);
+  if (!options.stats_json.empty()) write_text_file(build_stats_json(stats) + '\n', options.stats_json);
+  std::fputs(build_summary(stats, options.output).c_str(), stdout);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_main("splatray-preprocess", run, argc, argv); }

@@ -1,0 +1,83 @@
+/// splatray-render: a scene in, pictures out.
+#include <cstdio>
+#include <future>
+
+#include "app/cli/options.h"
+#include "app/cli/picture.h"
+#include "app/cli/render_sequence.h"
+#include "app/cli/stats_json.h"
+#include "app/library/image_file.h"
+#include "engine/base/error.h"
+#include "engine/base/interrupt.h"
+#include "engine/base/progress.h"
+
+namespace {
+
+using namespace splatray;
+
+int print_devices() {
+  const std::vector<DeviceInfo> devices = list_devices();
+  if (devices.empty())
+    throw Error(ExitCode::no_device, "found no Vulkan device, expected a driver such as mesa-vulkan-drivers");
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    std::printf("%zu: %s (%s), %s, Vulkan %s%s%s\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
+                devices[i].driver.c_str(), devices[i].api.c_str(),
+                devices[i].refused.empty() ? "" : "; unusable: ", devices[i].refused.c_str());
+  return static_cast<int>(ExitCode::done);
+}
+
+LoadedScene load(const RenderOptions& options, ProgressLine& progress) {
+  LoadedScene loaded = load_scene(options.scene, options.picture,
+                                  {[&](const char* stage, double share) {
+                                     progress.show(stage, share);
+                                     return !interrupted();
+                                   },
+                                   [&](const std::string& note) {
+                                     progress.clear();
+                                     if (!options.quiet)
+                                       std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
+                                   }});
+  progress.clear();
+  return loaded;
+}
+
+int render(int argc, char** argv) {
+  const std::optional<RenderOptions> parsed = parse_render_options(argc, argv);
+  if (!parsed) return static_cast<int>(ExitCode::done);
+  const RenderOptions& options = *parsed;
+  if (options.list_devices) return print_devices();
+
+  const Sequence sequence = plan_sequence(options);
+  if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
+  require_outputs_writable(options);
+  const std::optional<DisplayImage> reference = read_reference(options);
+  catch_interrupts();
+  StageTimes times;
+  Stopwatch watch;
+  Context context(options.picture.device);
+  if (!options.quiet)
+    std::fprintf(stderr, "splatray-render: device: %s\n", context.device_info().name.c_str());
+  times.device_ms = watch.lap_ms();
+
+  // After the driver is there, as one library is loaded at a time.
+  const std::future<void> codec = std::async(std::launch::async, load_image_codec);
+  ProgressLine progress(options.quiet);
+  const LoadedScene loaded = load(options, progress);
+  const Environment environment = choose_environment(loaded.environment_name);
+
+  watch.lap_ms();
+  Tracer tracer(context);
+  tracer.upload(loaded.scene);
+  tracer.set_environment(environment);
+  times.upload_ms = watch.lap_ms();
+  const SequenceRecord record = render_sequence(options, sequence, loaded, context, tracer, progress);
+
+  if (!options.stats_json.empty()) write_stats(options, loaded, context, tracer.pool_bytes(), times, record);
+  require_all_made(record);
+  if (reference) require_match(options, record.last, *reference);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return splatray::run_main("splatray-render", render, argc, argv); }

@@ -1,0 +1,70 @@
+#include "app/cli/render_sequence.h"
+
+#include <cstdio>
+
+#include "app/cli/picture.h"
+#include "engine/base/error.h"
+#include "engine/base/interrupt.h"
+
+namespace splatray {
+namespace {
+
+/// What all pictures of a run share.
+struct Run {
+  const RenderOptions& options;
+  const LoadedScene& loaded;
+  const Context& context;
+  Tracer& tracer;
+  ProgressLine& progress;
+};
+
+/// Traces and writes one picture; `stage` names it on the progress line.
+void make_picture(const Run& run, const Camera& camera, const SequenceFrame& frame, const std::string& stage,
+                  SequenceRecord& record) {
+  const View view{camera, run.options.picture.width, run.options.picture.height};
+  const std::vector<SceneLight> lights = choose_lights(run.loaded, run.options.picture, camera);
+  run.tracer.set_lights(lights);
+  record.last =
+      run.tracer.render(view, choose_settings(run.loaded.scene, run.options.picture), [&](double share) {
+        run.progress.show(stage, share);
+        return !interrupted();
+      });
+  run.progress.clear();
+  Stopwatch watch;
+  write_output(run.options, record.last, picture_metadata(run.options, run.loaded.scene, view, run.context),
+               frame.output);
+  record.made.push_back({frame, lights.size(), run.tracer.stats(), watch.lap_ms()});
+}
+
+}  // namespace
+
+SequenceRecord render_sequence(const RenderOptions& options, const Sequence& sequence,
+                               const LoadedScene& loaded, const Context& context, Tracer& tracer,
+                               ProgressLine& progress) {
+  const Run run{options, loaded, context, tracer, progress};
+  const Camera still = choose_camera(loaded.scene, options.picture);
+  SequenceRecord record;
+  for (const SequenceFrame& frame : sequence.frames) {
+    stop_if_interrupted();
+    const std::string stage = options.sequence.many() ? "frame " + std::to_string(frame.number) : "tracing";
+    try {
+      make_picture(run, frame_camera(sequence, frame.number, still, loaded.scene.up), frame, stage, record);
+    } catch (const Error& error) {
+      if (!options.sequence.many() || error.code() == ExitCode::interrupted) throw;
+      progress.clear();
+      std::fprintf(stderr, "splatray-render: error: frame %u: %s\n", frame.number, error.what());
+      record.failed.push_back(frame);
+    }
+  }
+  return record;
+}
+
+void require_all_made(const SequenceRecord& record) {
+  if (record.failed.empty()) return;
+  throw Error(ExitCode::failed, std::to_string(record.failed.size()) + " of " +
+                                    std::to_string(record.failed.size() + record.made.size()) +
+                                    " frames failed, the first is '" + record.failed.front().output.string() +
+                                    "'");
+}
+
+}  // namespace splatray

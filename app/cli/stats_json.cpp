@@ -1,0 +1,100 @@
+#include "app/cli/stats_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/library/commit.h"
+#include "engine/file/atomic_file.h"
+#include "preprocess/build_report.h"
+
+namespace splatray {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json scene_json(const Scene& scene, std::size_t lights) {
+  return {{"splats", scene.data_pool.size()},        {"references", scene.reference_pool.size()},
+          {"nodes", scene.node_pool.size()},         {"filled_leaves", scene.begin_end.size() - 1},
+          {"objects", scene.materials.size()},       {"lights", lights},
+          {"diagonal_world", scene.diagonal_world()}};
+}
+
+Json counters_json(const std::array<std::uint64_t, COUNTER_COUNT>& count) {
+  return {{"rays_primary", count[COUNT_PRIMARY]},
+          {"rays_shadow", count[COUNT_SHADOW]},
+          {"rays_reflected", count[COUNT_REFLECTED]},
+          {"rays_refracted", count[COUNT_REFRACTED]},
+          {"leaves", count[COUNT_LEAVES]},
+          {"node_steps", count[COUNT_NODE_STEPS]},
+          {"splat_tests", count[COUNT_TESTS]},
+          {"hits", count[COUNT_HITS]},
+          {"lost", count[COUNT_LOST]},
+          {"leaked", count[COUNT_LEAKED]},
+          {"non_finite", count[COUNT_NON_FINITE]},
+          {"bounce_limit", count[COUNT_BOUNCE_LIMIT]},
+          {"energy_lost", static_cast<double>(count[COUNT_ENERGY_LOST]) / 1024.0}};
+}
+
+Json bytes_json(const PoolBytes& bytes) {
+  return {{"node_pool", bytes.node_pool},         {"begin_end", bytes.begin_end},
+          {"slab_pool", bytes.slab_pool},         {"reference_pool", bytes.reference_pool},
+          {"data_pool", bytes.data_pool},         {"color_pool", bytes.color_pool},
+          {"field_pool", bytes.field_pool},       {"top_table", bytes.top_table},
+          {"environment", bytes.environment},     {"frame", bytes.frame},
+          {"texel_buffers", bytes.texel_buffers}, {"pages", bytes.pages}};
+}
+
+/// The pictures together, as if they were one.
+PictureRecord sum_of(const std::vector<PictureRecord>& pictures) {
+  PictureRecord sum;
+  for (const PictureRecord& picture : pictures) {
+    sum.lights = picture.lights;
+    sum.stats.trace_ms += picture.stats.trace_ms;
+    sum.stats.wall_ms += picture.stats.wall_ms;
+    sum.write_ms += picture.write_ms;
+    for (std::size_t i = 0; i < COUNTER_COUNT; ++i) sum.stats.counters[i] += picture.stats.counters[i];
+  }
+  return sum;
+}
+
+Json frames_json(const std::vector<PictureRecord>& pictures) {
+  Json frames = Json::array();
+  for (const PictureRecord& picture : pictures)
+    frames.push_back({{"frame", picture.frame.number},
+                      {"trace_ms", picture.stats.trace_ms},
+                      {"render_ms", picture.stats.wall_ms},
+                      {"write_ms", picture.write_ms}});
+  return frames;
+}
+
+}  // namespace
+
+void write_stats(const RenderOptions& options, const LoadedScene& loaded, const Context& context,
+                 const PoolBytes& bytes, const StageTimes& times, const SequenceRecord& record) {
+  const DeviceInfo& device = context.device_info();
+  const PictureRecord sum = sum_of(record.made);
+  const Settings& settings = options.picture.settings;
+  Json json = {
+      {"commit", COMMIT},
+      {"device",
+       {{"name", device.name}, {"type", device.type}, {"driver", device.driver}, {"api", device.api}}},
+      {"scene", scene_json(loaded.scene, sum.lights)},
+      {"picture",
+       {{"width", options.picture.width},
+        {"height", options.picture.height},
+        {"samples", settings.samples},
+        {"seed", settings.seed}}},
+      {"times_ms",
+       {{"device", times.device_ms},
+        {"load", loaded.load_ms},
+        {"upload", times.upload_ms},
+        {"trace", sum.stats.trace_ms},
+        {"render", sum.stats.wall_ms},
+        {"write", sum.write_ms}}},
+      {"bytes", bytes_json(bytes)}};
+  if (loaded.build) json["build"] = Json::parse(build_stats_json(*loaded.build));
+  if (settings.counters) json["counters"] = counters_json(sum.stats.counters);
+  if (options.sequence.many()) json["frames"] = frames_json(record.made);
+  write_text_file(json.dump(2) + '\n', options.stats_json);
+}
+
+}  // namespace splatray

@@ -1,0 +1,18 @@
+/// What a render did, as JSON for people and scripts.
+#pragma once
+#include "app/cli/render_sequence.h"
+
+namespace splatray {
+
+/// Times of the program's own stages, milliseconds.
+struct StageTimes {
+  double device_ms = 0.0, upload_ms = 0.0;
+};
+
+/// Writes the file that the options name: device, scene, picture, times per stage, bytes per pool, and rays by class,
+/// steps and tests when counted; of a sequence the sums, and the times of each frame. Throws Error (failed); leaves no
+/// partial file.
+void write_stats(const RenderOptions& options, const LoadedScene& loaded, const Context& context,
+                 const PoolBytes& bytes, const StageTimes& times, const SequenceRecord& record);
+
+}  // namespace splatray

@@ -1,0 +1,141 @@
+#include "app/library/camera_file.h"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/number_text.h"
+#include "engine/file/atomic_file.h"
+
+namespace splatray {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double MOST_FRAME = 999999.0;
+
+/// The file being read, for messages; `where` is the part of it, such as "key 3: ".
+struct Source {
+  std::filesystem::path path;
+  std::string where;
+
+  [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
+    throw Error(ExitCode::input_unreadable, "cannot read camera '" + path.string() + "': " + where +
+                                                "found " + found + ", expected " + expected);
+  }
+};
+
+/// A member's value as a short text, for messages.
+std::string found_member(const Json& object, const char* name) {
+  constexpr std::size_t MOST = 60;
+  if (!object.contains(name)) return std::string("no ") + name;
+  const std::string text = object[name].dump(-1, ' ', true);
+  return std::string(name) + " " + (text.size() > MOST ? text.substr(0, MOST) + "..." : text);
+}
+
+glm::dvec3 read_vector(const Json& object, const char* name, const Source& source) {
+  const Json& value = object.contains(name) ? object[name] : Json();
+  const bool three = value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() &&
+                     value[2].is_number();
+  if (!three) source.refuse(found_member(object, name), std::string(name) + " of three numbers");
+  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
+
+double read_number(const Json& object, const char* name, double most, const Source& source) {
+  const double value = object[name].is_number() ? object[name].get<double>() : 0.0;
+  if (!(value > 0.0 && value < most))
+    source.refuse(found_member(object, name), "a number > 0 and < " + number_text(most));
+  return value;
+}
+
+Camera read_camera(const Json& json, const Source& source) {
+  if (!json.is_object() || json.contains("keys"))
+    source.refuse(json.is_object() ? "a camera path" : "no camera",
+                  "an object with eye, target, up and fov_y_deg");
+  Camera camera;
+  camera.eye = read_vector(json, "eye", source);
+  camera.target = read_vector(json, "target", source);
+  camera.up = read_vector(json, "up", source);
+  if (json.contains("fov_y_deg") == json.contains("ortho_height"))
+    source.refuse(
+        json.contains("fov_y_deg") ? "fov_y_deg and ortho_height" : "no fov_y_deg and no ortho_height",
+        "one of fov_y_deg and ortho_height");
+  if (json.contains("fov_y_deg"))
+    camera.fov_y_deg = read_number(json, "fov_y_deg", 180.0, source);
+  else
+    camera.ortho_height = read_number(json, "ortho_height", 1e30, source);
+  return camera;
+}
+
+CameraKey read_key(const Json& json, const CameraPath& before, const Source& source) {
+  CameraKey key{read_camera(json, source), before.empty() ? 0 : before.back().frame + KEY_FRAMES};
+  if (json.contains("frame")) {
+    const double frame = json["frame"].is_number() ? json["frame"].get<double>() : -1.0;
+    const double least = before.empty() ? 0.0 : before.back().frame + 1.0;
+    if (!(frame >= least && frame <= MOST_FRAME) || frame != std::floor(frame))
+      source.refuse(found_member(json, "frame"),
+                    "a whole number from " + number_text(least) + " to " + number_text(MOST_FRAME));
+    key.frame = static_cast<std::uint32_t>(frame);
+  }
+  if (!before.empty() && (key.camera.ortho_height > 0.0) != (before.back().camera.ortho_height > 0.0))
+    source.refuse("perspective and orthographic keys", "all of one kind");
+  return key;
+}
+
+Json read_json(const Source& source) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(source.path, error))
+    source.refuse(std::filesystem::exists(source.path, error) ? "a folder or device" : "no such file",
+                  "a JSON file");
+  std::ifstream file(source.path, std::ios::binary);
+  try {
+    return Json::parse(file);
+  } catch (const Json::parse_error& damage) {
+    source.refuse("no JSON after byte " + std::to_string(damage.byte), "a JSON file");
+  } catch (const Json::out_of_range&) {
+    source.refuse("a number beyond float64", "finite numbers");
+  }
+}
+
+Json to_json(const Camera& camera) {
+  const auto array = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
+  Json json = {{"eye", array(camera.eye)}, {"target", array(camera.target)}, {"up", array(camera.up)}};
+  if (camera.ortho_height > 0.0)
+    json["ortho_height"] = camera.ortho_height;
+  else
+    json["fov_y_deg"] = camera.fov_y_deg;
+  return json;
+}
+
+}  // namespace
+
+Camera read_camera(const std::filesystem::path& path) {
+  const Source source{path, ""};
+  return read_camera(read_json(source), source);
+}
+
+CameraPath read_camera_path(const std::filesystem::path& path) {
+  const Json json = read_json({path, ""});
+  if (!json.is_object() || !json.contains("keys") || !json["keys"].is_array() || json["keys"].empty())
+    Source{path, ""}.refuse("no keys", "a camera path: an object with keys, one camera or more");
+  CameraPath keys;
+  for (const Json& key : json["keys"])
+    keys.push_back(read_key(key, keys, {path, "key " + std::to_string(keys.size()) + ": "}));
+  return keys;
+}
+
+void write_camera(const Camera& camera, const std::filesystem::path& path) {
+  write_text_file(to_json(camera).dump(2) + '\n', path);
+}
+
+void write_camera_path(const CameraPath& keys, const std::filesystem::path& path) {
+  Json json = {{"keys", Json::array()}};
+  for (const CameraKey& key : keys) {
+    json["keys"].push_back(to_json(key.camera));
+    json["keys"].back()["frame"] = key.frame;
+  }
+  write_text_file(json.dump(2) + '\n', path);
+}
+
+}  // namespace splatray

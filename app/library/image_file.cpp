@@ -1,0 +1,160 @@
+#include "app/library/image_file.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "app/library/image_codec.h"
+#include "engine/base/error.h"
+#include "engine/file/atomic_file.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::uint64_t MOST_PIXELS = 1ULL << 30;
+
+/// Pixels of a file as float rgb, grey repeated. `encoded`: stored with 8 or 16 bits, so already
+/// display-encoded.
+struct Picture {
+  std::uint32_t width = 0, height = 0;
+  std::vector<vec3> rgb;
+  bool encoded = false;
+};
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string found, const char* expected) {
+  while (!found.empty() && std::isspace(static_cast<unsigned char>(found.back())) != 0) found.pop_back();
+  std::replace(found.begin(), found.end(), '\n', ' ');
+  throw Error(ExitCode::input_unreadable,
+              "cannot read picture '" + path.string() + "': found " + found + ", expected " + expected);
+}
+
+constexpr const char* EXPECTED = "an image such as HDR, EXR or PNG";
+
+/// The library image_codec.h describes, which lies beside the program.
+const ImageCodec& codec() {
+  static const ImageCodec& loaded = []() -> const ImageCodec& {
+    const auto path = std::filesystem::read_symlink("/proc/self/exe").replace_filename(IMAGE_CODEC);
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* symbol = library == nullptr ? nullptr : dlsym(library, "splatray_image_codec");
+    if (symbol == nullptr)
+      throw Error(ExitCode::failed, std::string("cannot load what reads and writes pictures: ") + dlerror());
+    return *reinterpret_cast<decltype(&splatray_image_codec)>(symbol)();
+  }();
+  return loaded;
+}
+
+PictureHeader read_header(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) refuse(path, "no such file", EXPECTED);
+  if (!std::filesystem::is_regular_file(path, error)) refuse(path, "a folder or device", EXPECTED);
+  PictureHeader header;
+  if (!codec().read_header(path.string(), header)) refuse(path, "no picture OpenImageIO can open", EXPECTED);
+  return header;
+}
+
+Picture read_picture(const std::filesystem::path& path) {
+  const PictureHeader header = read_header(path);
+  const bool positive = header.width >= 1 && header.height >= 1 && !header.channels.empty();
+  const std::uint64_t pixels = positive ? std::uint64_t(header.width) * std::uint64_t(header.height) : 0;
+  if (pixels == 0 || header.depth > 1 || pixels > MOST_PIXELS)
+    refuse(path, std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels",
+           "a flat picture of up to 2^30");
+  const auto channels = std::min<std::size_t>(header.channels.size(), 3);
+  std::vector<float> values(pixels * channels);
+  std::string damage;
+  if (!codec().read_pixels(path.string(), static_cast<int>(channels), values.data(), damage))
+    refuse(path, "damage (" + damage + ")", "a whole image");
+  Picture picture{static_cast<std::uint32_t>(header.width),
+                  static_cast<std::uint32_t>(header.height),
+                  {},
+                  header.integers};
+  picture.rgb.reserve(pixels);
+  for (const float* value = values.data(); value != values.data() + values.size(); value += channels)
+    picture.rgb.push_back(channels == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]));
+  return picture;
+}
+
+constexpr const char* PREFIX = "splatray.";  ///< of the names of our metadata
+
+/// Writes pixels under a temporary name; all formats and failures the same way.
+void write_picture(PictureHeader header, const Metadata& metadata, const void* values, const char* format,
+                   const std::filesystem::path& path) {
+  for (const auto& [name, value] : metadata) header.attributes.emplace_back(PREFIX + name, value);
+  AtomicFile file(path);
+  std::string reason;
+  if (!codec().write(file.temporary().string(), format, header, values, reason)) {
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
+  }
+  file.commit();
+}
+
+}  // namespace
+
+void load_image_codec() { static_cast<void>(codec()); }
+
+void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(3 * image.rgb.size());
+  for (const vec3& pixel : image.rgb)
+    for (int channel = 0; channel < 3; ++channel)
+      bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * pixel[channel])));
+  PictureHeader header{
+      static_cast<int>(image.width), static_cast<int>(image.height), 1, {"R", "G", "B"}, true,
+      {{"oiio:ColorSpace", "sRGB"}}};
+  write_picture(std::move(header), metadata, bytes.data(), "png", path);
+}
+
+void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
+               const std::filesystem::path& path) {
+  std::vector<std::string> names = {"R", "G", "B", "A"};
+  if (aovs.depth) names.emplace_back("Z");
+  if (aovs.normal) names.insert(names.end(), {"N.X", "N.Y", "N.Z"});
+  if (aovs.id) names.emplace_back("id");
+  std::vector<float> values;
+  values.reserve(image.rgba.size() * names.size());
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    for (int channel = 0; channel < 4; ++channel) values.push_back(image.rgba[i][channel]);
+    if (aovs.depth) values.push_back(image.aov[i].z);
+    if (aovs.normal)
+      values.insert(values.end(), {image.aov[i].normal.x, image.aov[i].normal.y, image.aov[i].normal.z});
+    if (aovs.id)
+      values.push_back(image.aov[i].object == NO_OBJECT ? -1.0F : static_cast<float>(image.aov[i].object));
+  }
+  // An empty DateTime: else it is the time of writing, and the same picture would make another file.
+  PictureHeader header{static_cast<int>(image.width),
+                       static_cast<int>(image.height),
+                       1,
+                       std::move(names),
+                       false,
+                       {{"oiio:ColorSpace", "Linear"}, {"compression", "zip"}, {"DateTime", ""}}};
+  write_picture(std::move(header), metadata, values.data(), "openexr", path);
+}
+
+Metadata read_metadata(const std::filesystem::path& path) {
+  Metadata metadata;
+  for (const auto& [name, value] : read_header(path).attributes)
+    if (name.starts_with(PREFIX)) metadata.emplace_back(name.substr(std::strlen(PREFIX)), value);
+  return metadata;
+}
+
+DisplayImage read_display_image(const std::filesystem::path& path, double exposure_ev) {
+  Picture picture = read_picture(path);
+  if (!picture.encoded)
+    for (vec3& pixel : picture.rgb) pixel = display_value(pixel, exposure_ev);
+  return {picture.width, picture.height, std::move(picture.rgb)};
+}
+
+Environment read_environment(const std::filesystem::path& path) {
+  Picture picture = read_picture(path);
+  for (vec3& pixel : picture.rgb)
+    for (int channel = 0; channel < 3; ++channel) {
+      const float value = picture.encoded ? decode_srgb(pixel[channel]) : pixel[channel];
+      pixel[channel] = std::isfinite(value) && value > 0.0F ? value : 0.0F;
+    }
+  return {picture.width, picture.height, std::move(picture.rgb), vec3(0.0F)};
+}
+
+}  // namespace splatray

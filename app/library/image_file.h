@@ -1,0 +1,45 @@
+/// Pictures in files (OpenImageIO): PNG and EXR out, pictures and environment maps in.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/library/display_image.h"
+#include "engine/image/image.h"
+#include "engine/scene/environment.h"
+
+namespace splatray {
+
+/// Which auxiliary channels an EXR gets beside R G B A: Z; N.X N.Y N.Z; id.
+struct AovChannels {
+  bool depth = false, normal = false, id = false;
+};
+/// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, their names after "splatray.".
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); leaves no partial file.
+void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path);
+
+/// Writes linear float EXR. Throws Error (failed); leaves no partial file.
+void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
+               const std::filesystem::path& path);
+
+/// Reads what write_png or write_exr kept; empty for pictures of others. Throws Error (input_unreadable) with path,
+/// found and expected.
+[[nodiscard]] Metadata read_metadata(const std::filesystem::path& path);
+
+/// Reads a picture to compare with: files of 8 or 16 bit as they are, float files (EXR, HDR) through
+/// display_value. Throws Error (input_unreadable) with path, found and expected.
+[[nodiscard]] DisplayImage read_display_image(const std::filesystem::path& path, double exposure_ev);
+
+/// Reads a latitude-longitude environment, any format OpenImageIO reads; 8 and 16 bit files are taken as
+/// sRGB. Values that are negative or not finite become 0. Throws Error (input_unreadable) with path, found
+/// and expected.
+[[nodiscard]] Environment read_environment(const std::filesystem::path& path);
+
+/// Loads OpenImageIO (0.2 s), as the first of the functions above would; any thread. Throws Error (failed) where that
+/// fails.
+void load_image_codec();
+
+}  // namespace splatray

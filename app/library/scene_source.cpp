@@ -1,0 +1,131 @@
+#include "app/library/scene_source.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "app/library/image_file.h"
+#include "app/library/materials.h"
+#include "engine/base/error.h"
+#include "engine/file/scene_file.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray {
+namespace {
+
+glm::dvec3 bounds_center(const Scene& scene) {
+  return 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+}
+
+void tell(const LoadListener& listener, const char* stage, double share) {
+  if (!listener.progress(stage, share)) throw Error(ExitCode::interrupted, "loading was interrupted");
+}
+
+Scene preprocess(const SceneOptions& options, const LoadListener& listener, BuildStats& stats) {
+  Input input =
+      read_input(options.inputs, {options.params.samples, options.params.seed, model_folders(options),
+                                  /*keep_meshes=*/false});
+  for (const std::string& note : input.notes) listener.note(note);
+  tell(listener, "reading", 1.0);
+  return build_scene(std::move(input), options.params, options.threads, stats, listener.progress);
+}
+
+void apply_material(Scene& scene, const std::string& name) {
+  if (scene.materials.size() != 1)
+    throw Error(ExitCode::usage, "found --material with a scene of " +
+                                     std::to_string(scene.materials.size()) +
+                                     " objects, expected one object");
+  scene.materials[0] = named_material(name);
+}
+
+/// The light, as bright as it asks for or else with irradiance pi at the scene's centre.
+SceneLight scene_light(const Scene& scene, const LightOptions& light) {
+  const glm::dvec3 to_light = light.position - bounds_center(scene);
+  const double squared_distance = light.kind == LIGHT_POINT ? glm::dot(to_light, to_light) : 1.0;
+  const glm::vec3 irradiance_pi(static_cast<float>(std::numbers::pi * squared_distance));
+  return {light.kind, light.position, light.power.value_or(irradiance_pi)};
+}
+
+/// Up for a picture that names none: the scene's, or across it where the camera looks straight up or down.
+glm::dvec3 up_across(const Scene& scene, const glm::dvec3& view_dir) {
+  const glm::dmat3 axes = upright_axes(scene.up);
+  return glm::length(glm::cross(axes[1], view_dir)) > 1e-6 * glm::length(view_dir) ? axes[1] : -axes[2];
+}
+
+}  // namespace
+
+LoadedScene load_scene(const SceneOptions& options, const PictureOptions& picture,
+                       const LoadListener& listener) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  LoadedScene loaded;
+  tell(listener, "reading", 0.0);
+  if (lower_extension(options.inputs.front()) == ".soct") {
+    loaded.scene = read_scene(options.inputs.front());
+  } else {
+    loaded.scene = preprocess(options, listener, loaded.build.emplace());
+  }
+  loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  if (!options.material.empty()) apply_material(loaded.scene, options.material);
+  apply_object_options(picture.objects, loaded.scene.object_names, loaded.scene.materials);
+  if (picture.up) loaded.scene.up = *picture.up;
+  loaded.environment_name = picture.environment.empty() ? loaded.scene.environment_path : picture.environment;
+  return loaded;
+}
+
+Camera choose_camera(const Scene& scene, const PictureOptions& picture) {
+  const double aspect = static_cast<double>(picture.width) / picture.height;
+  if (picture.eye) {
+    const glm::dvec3 target = picture.target.value_or(bounds_center(scene));
+    const auto up = picture.camera_up ? picture.camera_up : picture.up;
+    return {*picture.eye, target, up.value_or(up_across(scene, target - *picture.eye)),
+            picture.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG), picture.ortho_height};
+  }
+  if (!scene.camera || picture.up)
+    return framing_camera(scene, aspect, picture.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG));
+  Camera camera = *scene.camera;
+  camera.fov_y_deg = picture.fov_y_deg.value_or(camera.fov_y_deg);
+  return camera;
+}
+
+std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
+                                      const Camera& camera) {
+  if (picture.lights) {
+    std::vector<SceneLight> lights;
+    for (const LightOptions& light : *picture.lights) lights.push_back(scene_light(loaded.scene, light));
+    return lights;
+  }
+  if (!loaded.scene.lights.empty()) return exposed_lights(loaded.scene);
+  if (!loaded.environment_name.empty()) return {};
+  return default_lights(loaded.scene, camera);
+}
+
+std::optional<Environment> built_in_environment(const std::string& name) {
+  if (name.empty() || name == "studio") return studio_environment();
+  if (name == "white") return Environment{0, 0, {}, vec3(1.0F)};
+  if (name == "black") return Environment{0, 0, {}, vec3(0.0F)};
+  vec3 radiance;
+  int length = 0;
+  const int read = std::sscanf(name.c_str(), "%f,%f,%f%n", &radiance.x, &radiance.y, &radiance.z, &length);
+  if (read == 3 && static_cast<std::size_t>(length) == name.size()) {
+    if (glm::all(glm::greaterThanEqual(radiance, vec3(0.0F))) &&
+        std::isfinite(radiance.x + radiance.y + radiance.z))
+      return Environment{0, 0, {}, radiance};
+    throw Error(ExitCode::usage, "--env: found '" + name + "', expected a radiance of finite numbers >= 0");
+  }
+  return {};
+}
+
+Environment choose_environment(const std::string& name) {
+  auto environment = built_in_environment(name);
+  return environment ? *std::move(environment) : read_environment(name);
+}
+
+Settings choose_settings(const Scene& scene, const PictureOptions& picture) {
+  Settings settings = picture.settings;
+  settings.delta_world = picture.delta_world.value_or(1e-3 * scene.diagonal_world());
+  return settings;
+}
+
+}  // namespace splatray

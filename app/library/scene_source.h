@@ -1,0 +1,47 @@
+/// From options to the scene that is shown.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "app/cli/options.h"
+#include "engine/scene/environment.h"
+#include "preprocess/build.h"
+
+namespace splatray {
+
+/// A scene and how it came to be.
+struct LoadedScene {
+  Scene scene;
+  std::string environment_name;     ///< --env, else what the scene names; empty = none
+  double load_ms = 0.0;             ///< reading and preprocess
+  std::optional<BuildStats> build;  ///< unless read from a .soct
+};
+
+/// Who hears of loading, on its thread.
+struct LoadListener {
+  BuildProgress progress;  ///< returns false to stop: load_scene then throws Error (interrupted)
+  std::function<void(const std::string&)> note;  ///< a sentence about something odd in the files
+};
+
+/// Reads or preprocesses the scene; applies --material, --object and --up. Throws Error.
+[[nodiscard]] LoadedScene load_scene(const SceneOptions& scene, const PictureOptions& picture,
+                                     const LoadListener& listener);
+
+/// The camera the options ask for: --eye, else the scene's own, else a view of the whole scene.
+[[nodiscard]] Camera choose_camera(const Scene& scene, const PictureOptions& picture);
+
+/// The lights: --light and --sun, else the scene's, else (when no environment is named) the key light.
+[[nodiscard]] std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
+                                                    const Camera& camera);
+
+/// The environment of a name that needs no file: white, black, studio or r,g,b, empty = studio; nothing for other names.
+/// Throws Error (usage) for a radiance that is negative or not finite.
+[[nodiscard]] std::optional<Environment> built_in_environment(const std::string& name);
+/// The environment `name` of --env: a file, white, black, studio, r,g,b; empty = studio. Throws Error
+/// (input_unreadable).
+[[nodiscard]] Environment choose_environment(const std::string& name);
+
+/// The settings, with defaults that depend on the scene filled in.
+[[nodiscard]] Settings choose_settings(const Scene& scene, const PictureOptions& picture);
+
+}  // namespace splatray

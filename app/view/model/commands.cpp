@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/view/model/navigation.h"
+#include "app/view/ui/panel_parts.h"
+
+namespace splatray {
+namespace {
+
+/// Closes the topmost thing that is open; returns whether there was one.
+bool close_topmost(PanelState& state) {
+  if (!state.error.empty()) {
+    state.error.clear();
+    return true;
+  }
+  for (bool* open : {&state.show_open, &state.show_save, &state.show_record, &state.show_help}) {
+    if (!*open) continue;
+    *open = false;
+    return true;
+  }
+  return false;
+}
+
+void next_up_axis(Document& document) {
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(document.up[i]) > std::abs(document.up[axis])) axis = i;
+  glm::dvec3 up(0.0);
+  up[(axis + 1) % 3] = 1.0;
+  set_up_axis(document, up);
+}
+
+void change_mode(Document& document, int step) {
+  document.mode =
+      static_cast<ViewMode>((static_cast<int>(document.mode) + step + VIEW_MODE_COUNT) % VIEW_MODE_COUNT);
+}
+
+std::string numbered(const char* before, int digit, const char* after) {
+  return before + std::to_string(digit) + after;
+}
+
+void bookmark(const Command& command, Document& document, PanelState& state) {
+  if (command.digit < 1 || command.digit > BOOKMARK_COUNT) return;
+  std::optional<Camera>& kept = state.bookmarks[static_cast<std::size_t>(command.digit - 1)];
+  if (command.action == Action::bookmark_set) {
+    kept = document.camera;
+    state.notice = numbered("Bookmark ", command.digit, " is this camera.");
+  } else if (kept) {
+    document.camera = *kept;
+  } else {
+    state.notice = numbered("Bookmark ", command.digit, " is not set: Shift and its number set it.");
+  }
+}
+
+/// What moves the camera; returns whether the action is one of them.
+bool apply_to_camera(Action action, double aspect, Document& document, const PanelState& state) {
+  switch (action) {
+    case Action::frame_all:
+      frame_all(document, aspect);
+      return true;
+    case Action::home:
+      document.camera = state.home;
+      return true;
+    case Action::view_front:
+      set_axis_view(document, AxisView::front);
+      return true;
+    case Action::view_back:
+      set_axis_view(document, AxisView::back);
+      return true;
+    case Action::view_right:
+      set_axis_view(document, AxisView::right);
+      return true;
+    case Action::view_left:
+      set_axis_view(document, AxisView::left);
+      return true;
+    case Action::view_top:
+      set_axis_view(document, AxisView::top);
+      return true;
+    case Action::view_bottom:
+      set_axis_view(document, AxisView::bottom);
+      return true;
+    case Action::orthographic:
+      toggle_orthographic(document);
+      return true;
+    case Action::up_axis:
+      next_up_axis(document);
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+bool apply(const Command& command, double aspect, Document& document, PanelState& state) {
+  if (command.action == Action::escape) return close_topmost(state);
+  if (command.action == Action::quit) return false;
+  if (dialog_is_open(state)) return true;
+  if (apply_to_camera(command.action, aspect, document, state)) return true;
+  switch (command.action) {
+    case Action::help:
+      state.show_help = !state.show_help;
+      return true;
+    case Action::panels:
+      state.show_panels = !state.show_panels;
+      return true;
+    case Action::open:
+      state.show_open = true;
+      return true;
+    case Action::save:
+      state.show_save = true;
+      return true;
+    case Action::record:
+      state.show_record = true;
+      return true;
+    case Action::mode_next:
+      change_mode(document, 1);
+      return true;
+    case Action::mode_previous:
+      change_mode(document, -1);
+      return true;
+    case Action::bookmark_go:
+    case Action::bookmark_set:
+      bookmark(command, document, state);
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace splatray

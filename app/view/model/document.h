@@ -1,0 +1,41 @@
+/// What a person looks at and changes in the viewer: one value, from which a picture, a command line and a saved file are
+/// made. The window's thread owns it; other threads get copies.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/cli/options.h"
+#include "engine/image/view.h"
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+/// What a pixel shows.
+enum class ViewMode {
+  shaded,
+  normal,  ///< world normal, each axis -1..1 as 0..1
+  depth,   ///< distance from the eye
+  object,  ///< a colour per object
+  splat,   ///< a colour per splat
+  facing,  ///< back faces red
+  tests,   ///< heat map of splat tests
+  steps    ///< heat map of node words read
+};
+
+struct Document {
+  SceneOptions source;                     ///< the files, and how points are made of them
+  std::vector<std::string> object_names;   ///< one per object
+  std::vector<Material> loaded_materials;  ///< as the scene has them
+  std::vector<Material> materials;         ///< as shown; hidden objects have MATERIAL_HIDDEN
+  std::vector<SceneLight> lights;
+  std::string environment;  ///< as --env has it
+  Camera camera;
+  Settings settings;  ///< samples: where a still picture stops
+  double exposure_ev = 0.0;
+  ViewMode mode = ViewMode::shaded;
+  glm::dvec3 up{0.0, 1.0, 0.0};      ///< the scene's up axis: of orbits, framing and the environment
+  glm::dvec3 bounds_min_world{0.0};  ///< of the scene's splat centres
+  glm::dvec3 bounds_max_world{0.0};
+};
+
+}  // namespace splatray

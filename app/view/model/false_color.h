@@ -1,0 +1,35 @@
+/// Auxiliary values as colours, and the scale that explains them.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/view/model/document.h"
+
+namespace splatray {
+
+/// "shaded", "normal", ...; for menus.
+[[nodiscard]] const char* view_mode_name(ViewMode mode);
+inline constexpr int VIEW_MODE_COUNT = 8;
+
+/// Values at the ends of a colour scale.
+struct ColorRange {
+  double low = 0.0;   ///< colour 0 of heat_color
+  double high = 1.0;  ///< colour 1; > low
+};
+
+/// Range of what ViewMode depth, tests or steps shows: of the hits' distances (world units), or 0 to the count
+/// that one pixel in 200 exceeds.
+/// [0, 1] without hits and for the other modes.
+[[nodiscard]] ColorRange color_range(std::span<const AovPixel> pixels, ViewMode mode);
+
+/// Display-encoded (sRGB) rgb, 0..1, of a share 0..1: dark blue over green to yellow, each step equally visible.
+/// Clamped outside.
+[[nodiscard]] glm::vec3 heat_color(float share);
+
+/// Display-encoded (sRGB) 8-bit rgba of each pixel, r first; alpha 255. Misses are dark grey. `mode` is not shaded.
+[[nodiscard]] std::vector<std::uint8_t> false_color(std::span<const AovPixel> pixels, ViewMode mode,
+                                                    const ColorRange& range);
+
+}  // namespace splatray

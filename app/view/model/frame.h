@@ -1,0 +1,46 @@
+/// What the render thread hands to the window.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/model/false_color.h"
+#include "engine/gpu/pools.h"
+#include "engine/gpu/tracer.h"
+#include "engine/image/image.h"
+#include "engine/image/view.h"
+
+namespace splatray {
+
+/// One state of the picture, complete or still growing.
+struct Frame {
+  Image image;  ///< rgba of ViewMode::shaded, else aov; its size is the traced one
+  View view;    ///< of the image
+  ViewMode mode = ViewMode::shaded;
+  std::vector<std::uint8_t> display;  ///< what a screen shows: sRGB 8 bit rgba, r first
+  std::uint32_t samples = 0;          ///< in every pixel
+  ColorRange range;                   ///< of the colours of `mode`
+  bool moving = false;                ///< coarse: what is shown changes
+  double scale = 1.0;                 ///< traced pixels / window pixels, along an edge; below 1 while moving
+  double ms = 0.0;                    ///< wall time of the last whole pass over the picture
+  RenderStats stats;                  ///< of all of the picture so far
+  PoolBytes pool_bytes;
+  std::uint32_t pools_uploaded = 0;  ///< since start
+  std::string device;
+};
+
+/// The splat under the cursor, and where the ray through it meets the blended surface.
+struct Inspected {
+  std::uint32_t object = 0;
+  std::string object_name;
+  glm::dvec3 center_world{0.0};  ///< float64
+  glm::dvec3 normal{0.0};        ///< unit
+  double radius_world = 0.0;
+  std::uint32_t leaf_depth = 0;  ///< of the leaf that holds the centre; root = 0
+  std::uint32_t leaf_references = 0;
+  glm::dvec3 hit_world{0.0};    ///< blended
+  double distance_world = 0.0;  ///< from the eye to hit_world
+};
+
+}  // namespace splatray

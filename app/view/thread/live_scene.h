@@ -1,0 +1,45 @@
+/// The scene on the device, kept like the document: what changed is uploaded, the pools never.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "app/view/model/document.h"
+#include "engine/gpu/tracer.h"
+
+namespace splatray {
+
+/// A scene that threads share.
+using SharedScene = std::shared_ptr<const Scene>;
+
+/// On the render thread. The context must outlive it.
+class LiveScene {
+ public:
+  explicit LiveScene(const Context& context) : tracer_(context) {}
+
+  /// Uploads another scene. Throws Error.
+  void open(SharedScene scene);
+  /// Makes materials, lights, environment and up direction the document's, which is of the scene opened. Hidden objects
+  /// stay hidden in `mode` facing, all others are two-sided there. Throws Error (input_unreadable) for an environment
+  /// that cannot be read, once: the one before stays.
+  void match(const Document& document, ViewMode mode);
+
+  [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] Tracer& tracer() { return tracer_; }
+
+ private:
+  void match_materials(const std::vector<Material>& materials);
+  void match_environment(const std::string& name);
+
+  Tracer tracer_;
+  SharedScene scene_;
+  std::vector<Material> materials_;  ///< as uploaded, and so on
+  std::optional<std::vector<SceneLight>> lights_;
+  std::optional<std::string> environment_;
+  glm::dvec3 up_{0.0};
+};
+
+/// Whether the words are the same.
+[[nodiscard]] bool same_materials(const std::vector<Material>& a, const std::vector<Material>& b);
+
+}  // namespace splatray

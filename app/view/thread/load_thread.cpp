@@ -1,0 +1,110 @@
+#include "app/view/thread/load_thread.h"
+
+#include <new>
+#include <utility>
+
+#include "app/library/scene_source.h"
+#include "app/view/model/document_options.h"
+#include "engine/base/error.h"
+
+namespace splatray {
+namespace {
+
+std::string stage_text(const char* stage, const SceneOptions& scene) {
+  return std::string(stage) + " " + scene.inputs.front().filename().string();
+}
+
+}  // namespace
+
+LoadThread::LoadThread(std::function<void()> wake) : wake_(std::move(wake)), thread_([this] { run(); }) {}
+
+LoadThread::~LoadThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = cancelled_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void LoadThread::load(const SceneOptions& scene, const PictureOptions& picture) {
+  const std::lock_guard lock(mutex_);
+  wish_ = {scene, picture};
+  news_.progress = {stage_text("reading", scene), 0.0};
+  cancelled_ = true;  // what is being loaded
+  changed_.notify_one();
+}
+
+void LoadThread::cancel() {
+  const std::lock_guard lock(mutex_);
+  cancelled_ = true;
+  if (std::exchange(wish_, {})) news_.progress.reset();
+}
+
+LoadNews LoadThread::take_news() {
+  const std::lock_guard lock(mutex_);
+  LoadNews news = std::exchange(news_, {});
+  news_.progress = news.progress;
+  return news;
+}
+
+void LoadThread::run() {
+  while (true) {
+    Wish wish;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return ending_ || wish_; });
+      if (ending_) return;
+      wish = std::move(*std::exchange(wish_, {}));
+      cancelled_ = false;
+    }
+    std::string error;
+    try {
+      load_now(wish);
+    } catch (const Error& failure) {
+      if (failure.code() != ExitCode::interrupted) error = failure.what();
+    } catch (const std::bad_alloc&) {
+      error = "out of memory while loading " + wish.scene.inputs.front().string();
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    deliver([&](LoadNews& news) {
+      if (!wish_) news.progress.reset();
+      if (!error.empty()) news.error = error;
+    });
+  }
+}
+
+void LoadThread::load_now(const Wish& wish) {
+  const LoadListener listener{
+      [&](const char* stage, double share) {
+        deliver([&](LoadNews& news) {
+          if (!cancelled_) news.progress = {stage_text(stage, wish.scene), share};
+        });
+        return !is_cancelled();
+      },
+      [&](const std::string& note) { deliver([&](LoadNews& news) { news.notice = note; }); }};
+  PictureOptions picture = wish.picture;
+  picture.objects.clear();  // the document keeps the materials without them
+  LoadedScene loaded = load_scene(wish.scene, picture, listener);
+  OpenedScene opened{nullptr, first_document(loaded, wish.scene, wish.picture)};
+  opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));
+  if (is_cancelled()) return;
+  deliver([&](LoadNews& news) { news.opened = std::move(opened); });
+}
+
+/// `change` runs with the mutex held.
+void LoadThread::deliver(const std::function<void(LoadNews&)>& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change(news_);
+  }
+  wake_();
+}
+
+bool LoadThread::is_cancelled() {
+  const std::lock_guard lock(mutex_);
+  return cancelled_;
+}
+
+}  // namespace splatray

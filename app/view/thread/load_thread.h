@@ -1,0 +1,72 @@
+/// The thread that reads and preprocesses scenes.
+#pragma once
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/cli/options.h"
+#include "app/view/model/document.h"
+#include "app/view/thread/live_scene.h"
+
+namespace splatray {
+
+/// How far loading has come.
+struct LoadProgress {
+  std::string stage;   ///< "octree dragon.ply"
+  double share = 0.0;  ///< of the stage, 0..1
+};
+
+/// A scene, and the document that first shows it.
+struct OpenedScene {
+  SharedScene scene;
+  Document document;
+};
+
+/// What has come from the load thread since it was last asked.
+struct LoadNews {
+  std::optional<OpenedScene> opened;
+  std::optional<LoadProgress> progress;  ///< of what is being loaded, as it is now
+  std::string notice;                    ///< a sentence
+  std::string error;                     ///< a sentence
+};
+
+/// All members are for one thread, the window's, and return at once; but the destructor waits for the file that is being
+/// read.
+class LoadThread {
+ public:
+  /// `wake` is called on its thread after each delivery.
+  explicit LoadThread(std::function<void()> wake);
+  ~LoadThread();
+  LoadThread(const LoadThread&) = delete;
+  LoadThread& operator=(const LoadThread&) = delete;
+
+  /// Starts to load; ends what is being loaded. The picture's size gives the aspect of the first view.
+  void load(const SceneOptions& scene, const PictureOptions& picture);
+  void cancel();
+  /// What is new; `progress` as it is now.
+  [[nodiscard]] LoadNews take_news();
+
+ private:
+  struct Wish {
+    SceneOptions scene;
+    PictureOptions picture;
+  };
+
+  void run();
+  void load_now(const Wish& wish);
+  void deliver(const std::function<void(LoadNews&)>& change);
+  [[nodiscard]] bool is_cancelled();
+
+  std::function<void()> wake_;
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable changed_;
+  std::optional<Wish> wish_;
+  LoadNews news_;
+  bool ending_ = false, cancelled_ = false;
+  std::thread thread_;
+};
+
+}  // namespace splatray

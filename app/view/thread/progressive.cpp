@@ -1,0 +1,155 @@
+#include "app/view/thread/progressive.h"
+
+#include "engine/base/error.h"
+
+namespace splatray {
+namespace {
+
+constexpr double MOVING_MS = 1000.0 / 30.0;  ///< of a coarse picture
+constexpr double BAND_MS = 30.0;             ///< of work before changes are looked for
+constexpr std::chrono::milliseconds SETTLING{150};
+constexpr std::chrono::milliseconds BETWEEN_PICTURES{
+    33};  ///< of trace_samples, so that reading back costs little
+
+double milliseconds_since(Progressive::Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Progressive::Clock::now() - start).count();
+}
+
+/// Whether a picture of one is a picture of the other, but for the exposure.
+bool same_picture(const Document& a, const Document& b) {
+  return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights &&
+         a.up == b.up && a.environment == b.environment && same_materials(a.materials, b.materials);
+}
+
+}  // namespace
+
+void Progressive::show(const Document& document, glm::uvec2 window_px) {
+  const bool same = window_px == window_px_ && same_picture(document, document_);
+  if (document.exposure_ev != document_.exposure_ev) recolour_ = last_ != nullptr;
+  document_ = document;
+  window_px_ = window_px;
+  if (!same) restart();
+}
+
+void Progressive::restart() { stage_ = Stage::coarse; }
+
+std::optional<Progressive::Clock::time_point> Progressive::next_work() const {
+  if (recolour_) return Clock::time_point{};
+  if (stage_ == Stage::finished || !live_.is_open()) return {};
+  return stage_ == Stage::settling ? settled_ : Clock::time_point{};
+}
+
+SharedFrame Progressive::work(const std::function<bool()>& stop) {
+  if (recolour_) return coloured(*last_);
+  const Stage stage = stage_;
+  stage_ = Stage::finished;  // should an Error fly
+  live_.match(document_, document_.mode);
+  if (stage == Stage::coarse) {
+    SharedFrame frame = trace_coarse();
+    settled_ = Clock::now() + SETTLING;
+    stage_ = Stage::settling;
+    return frame;
+  }
+  if (stage == Stage::settling && document_.mode == ViewMode::shaded) {
+    live_.tracer().begin({document_.camera, window_px_.x, window_px_.y}, settings());
+    pass_start_ = Clock::now();
+  }
+  stage_ = Stage::fine;
+  return trace_fine(stop);
+}
+
+SharedFrame Progressive::trace_coarse() {
+  const double scale = resolution_.scale(window_px_, MOVING_MS);
+  Frame frame = new_frame(scaled_size(window_px_, scale), scale);
+  frame.moving = true;
+  Settings coarse = settings();
+  coarse.samples = 1;
+  const Clock::time_point start = Clock::now();
+  if (document_.mode == ViewMode::shaded)
+    frame.image = live_.tracer().render(frame.view, coarse);
+  else
+    trace_aovs(frame, coarse, {});
+  frame.ms = milliseconds_since(start);
+  frame.stats = live_.tracer().stats();
+  resolution_.learn(double(frame.view.width) * frame.view.height, frame.ms);
+  return coloured(std::move(frame));
+}
+
+SharedFrame Progressive::trace_fine(const std::function<bool()>& stop) {
+  if (document_.mode == ViewMode::shaded) return trace_samples();
+  Frame frame = new_frame(window_px_, 1.0);
+  const Clock::time_point start = Clock::now();
+  try {
+    trace_aovs(frame, settings(), stop);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::interrupted) throw;
+    return {};
+  }
+  frame.ms = milliseconds_since(start);
+  frame.stats = live_.tracer().stats();
+  stage_ = Stage::finished;
+  return coloured(std::move(frame));
+}
+
+/// Adds to the picture begun; it is handed over when all of its pixels have the same number of samples.
+SharedFrame Progressive::trace_samples() {
+  Tracer& tracer = live_.tracer();
+  const std::uint32_t before = tracer.samples();
+  const bool finished = tracer.advance(BAND_MS);
+  if (finished) stage_ = Stage::finished;
+  if (tracer.samples() == before) return {};
+  const double ms = milliseconds_since(pass_start_);
+  pass_start_ = Clock::now();
+  if (!finished && pass_start_ - published_ < BETWEEN_PICTURES) return {};
+  published_ = pass_start_;
+  Frame frame = new_frame(window_px_, 1.0);
+  frame.image = tracer.picture();
+  frame.samples = tracer.samples();
+  frame.ms = ms;
+  frame.stats = tracer.stats();
+  SharedFrame shown = coloured(std::move(frame));
+  pass_start_ = Clock::now();
+  return shown;
+}
+
+void Progressive::trace_aovs(Frame& frame, const Settings& settings, const std::function<bool()>& stop) {
+  Tracer::Progress progress;
+  if (stop) progress = [&stop](double) { return !stop(); };
+  frame.image.width = frame.view.width;
+  frame.image.height = frame.view.height;
+  frame.image.aov = live_.tracer().trace_aov(frame.view, settings, progress);
+}
+
+Settings Progressive::settings() const {
+  Settings settings = document_.settings;
+  settings.aov = false;
+  settings.counters = document_.mode == ViewMode::tests || document_.mode == ViewMode::steps;
+  return settings;
+}
+
+Frame Progressive::new_frame(glm::uvec2 size_px, double scale) const {
+  Frame frame;
+  frame.view = {document_.camera, size_px.x, size_px.y};
+  frame.samples = 1;
+  frame.scale = scale;
+  frame.mode = document_.mode;
+  frame.device = device_;
+  return frame;
+}
+
+SharedFrame Progressive::coloured(Frame frame) {
+  recolour_ = false;
+  frame.pool_bytes = live_.tracer().pool_bytes();
+  frame.pools_uploaded = live_.tracer().pools_uploaded();
+  if (frame.mode == ViewMode::shaded) {
+    if (!table_ || table_->exposure_ev() != document_.exposure_ev) table_.emplace(document_.exposure_ev);
+    frame.display = table_->rgba(frame.image.rgba);
+  } else {
+    frame.range = color_range(frame.image.aov, frame.mode);
+    frame.display = false_color(frame.image.aov, frame.mode, frame.range);
+  }
+  last_ = std::make_shared<const Frame>(std::move(frame));
+  return last_;
+}
+
+}  // namespace splatray

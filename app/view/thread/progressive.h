@@ -1,0 +1,62 @@
+/// The picture of a document: coarse while it changes, then ever finer.
+#pragma once
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "app/view/model/document.h"
+#include "app/view/model/frame.h"
+#include "app/view/model/resolution.h"
+#include "app/view/thread/live_scene.h"
+#include "app/view/window/display_table.h"
+
+namespace splatray {
+
+/// A frame that threads share.
+using SharedFrame = std::shared_ptr<const Frame>;
+
+/// On the render thread. The live scene must outlive it.
+class Progressive {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit Progressive(LiveScene& live, std::string device) : live_(live), device_(std::move(device)) {}
+
+  /// Shows this from now on, in a window of so many pixels. A document equal to the last changes nothing; another starts
+  /// the picture anew, with a coarse one until nothing has changed for a while. Only another exposure recolours it.
+  void show(const Document& document, glm::uvec2 window_px);
+  /// Traces anew what is shown: the live scene is another, or was used for something else.
+  void restart();
+  /// When work() has something to do: nothing = the picture is finished.
+  [[nodiscard]] std::optional<Clock::time_point> next_work() const;
+  /// Some tens of milliseconds of work; returns a picture when a new one is whole, else null. `stop` = something newer waits.
+  /// Throws Error, as LiveScene::match and Tracer do, and then rests until the next change.
+  [[nodiscard]] SharedFrame work(const std::function<bool()>& stop);
+
+ private:
+  enum class Stage { coarse, settling, fine, finished };
+
+  [[nodiscard]] SharedFrame trace_coarse();
+  [[nodiscard]] SharedFrame trace_fine(const std::function<bool()>& stop);
+  [[nodiscard]] SharedFrame trace_samples();
+  void trace_aovs(Frame& frame, const Settings& settings, const std::function<bool()>& stop);
+  [[nodiscard]] Settings settings() const;
+  [[nodiscard]] Frame new_frame(glm::uvec2 size_px, double scale) const;
+  [[nodiscard]] SharedFrame coloured(Frame frame);
+
+  LiveScene& live_;
+  std::string device_;
+  Document document_;
+  glm::uvec2 window_px_{0};
+  Stage stage_ = Stage::finished;
+  Clock::time_point settled_{};     ///< when settling ends
+  Clock::time_point pass_start_{};  ///< of the pass over the picture under way
+  Clock::time_point published_{};   ///< last time that trace_samples gave a picture
+  MovingResolution resolution_;
+  std::optional<DisplayTable> table_;
+  SharedFrame last_;
+  bool recolour_ = false;  ///< last_ has another exposure
+};
+
+}  // namespace splatray

@@ -1,0 +1,156 @@
+#include "app/view/thread/render_thread.h"
+
+#include <new>
+#include <utility>
+
+#include "app/view/model/inspect.h"
+#include "engine/base/error.h"
+
+namespace splatray {
+
+RenderThread::RenderThread(const std::string& wanted, std::function<void()> wake)
+    : context_(wanted), wake_(std::move(wake)), thread_([this] { run(); }) {}
+
+RenderThread::~RenderThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void RenderThread::show(const Document& document, glm::uvec2 window_px) {
+  const std::lock_guard lock(mutex_);
+  wishes_.document = document;
+  wishes_.window_px = window_px;
+  changed_.notify_one();
+}
+
+void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 window_px) {
+  const std::lock_guard lock(mutex_);
+  wishes_.scene = std::move(scene);
+  wishes_.document = document;
+  wishes_.window_px = window_px;
+  changed_.notify_one();
+}
+
+void RenderThread::pick(const PickRequest& request) {
+  const std::lock_guard lock(mutex_);
+  wishes_.pick = request;
+  changed_.notify_one();
+}
+
+void RenderThread::save(SaveJob job) {
+  const std::lock_guard lock(mutex_);
+  wishes_.save = std::move(job);
+  cancelled_ = false;
+  changed_.notify_one();
+}
+
+void RenderThread::cancel_save() {
+  const std::lock_guard lock(mutex_);
+  cancelled_ = true;
+}
+
+RenderNews RenderThread::take_news() {
+  const std::lock_guard lock(mutex_);
+  RenderNews news = std::exchange(news_, {});
+  news_.saving = news.saving;
+  return news;
+}
+
+void RenderThread::run() {
+  while (const std::optional<Wishes> wishes = wait_for_wishes()) {
+    attempt([&] { fulfil(*wishes); });
+    const auto when = progressive_.next_work();
+    if (!when || *when > Progressive::Clock::now()) continue;
+    attempt([this] {
+      if (SharedFrame frame = progressive_.work([this] { return something_waits(); }))
+        deliver([&](RenderNews& news) { news.frame = std::move(frame); });
+    });
+  }
+}
+
+/// Sleeps until there is something to do; returns what has been asked for, or nothing at the end.
+std::optional<RenderThread::Wishes> RenderThread::wait_for_wishes() {
+  std::unique_lock lock(mutex_);
+  const auto awaited = [this] { return ending_ || wishes_.any(); };
+  if (const auto when = progressive_.next_work())
+    changed_.wait_until(lock, *when, awaited);
+  else
+    changed_.wait(lock, awaited);
+  if (ending_) return {};
+  return std::exchange(wishes_, {});
+}
+
+void RenderThread::fulfil(const Wishes& wishes) {
+  if (wishes.scene) live_.open(wishes.scene);
+  if (wishes.document) {
+    shown_ = *wishes.document;
+    progressive_.show(shown_, wishes.window_px);
+  }
+  if (wishes.scene) progressive_.restart();
+  if (!live_.is_open()) return;
+  if (wishes.pick) answer(*wishes.pick);
+  if (wishes.save) save_now(*wishes.save);
+}
+
+void RenderThread::answer(const PickRequest& request) {
+  const View view{shown_.camera, request.size_px.x, request.size_px.y};
+  live_.match(shown_, shown_.mode);
+  const RayQuery query = cursor_query(live_.scene(), view, request.position_px);
+  const RayHit hit = live_.tracer().intersect({&query, 1}, shown_.settings).front();
+  Pick pick{inspect(live_.scene(), shown_.camera, query, hit), request.as_pivot};
+  deliver([&](RenderNews& news) { news.pick = std::move(pick); });
+}
+
+void RenderThread::save_now(const SaveJob& job) {
+  std::string notice;
+  attempt([&] {
+    notice = save_pictures(job, live_, context_, [this](const Work& work) {
+      deliver([&](RenderNews& news) { news.saving = work; });
+      const std::lock_guard lock(mutex_);
+      return !cancelled_ && !ending_;
+    });
+  });
+  deliver([&](RenderNews& news) {
+    news.saving.reset();
+    if (!notice.empty()) news.notice = notice;
+  });
+  progressive_.restart();
+}
+
+/// What goes wrong in a step becomes a sentence for the window.
+void RenderThread::attempt(const std::function<void()>& step) {
+  const auto tell = [this](const std::string& sentence) {
+    deliver([&](RenderNews& news) { news.error = sentence; });
+  };
+  try {
+    step();
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::interrupted)
+      deliver([](RenderNews& news) { news.notice = "cancelled"; });
+    else
+      tell(error.what());
+  } catch (const std::bad_alloc&) {
+    tell("out of memory");
+  } catch (const std::exception& error) {
+    tell(error.what());
+  }
+}
+
+void RenderThread::deliver(const std::function<void(RenderNews&)>& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change(news_);
+  }
+  wake_();
+}
+
+bool RenderThread::something_waits() {
+  const std::lock_guard lock(mutex_);
+  return ending_ || wishes_.any();
+}
+
+}  // namespace splatray

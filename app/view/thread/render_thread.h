@@ -1,0 +1,96 @@
+/// The thread that traces: it takes the newest document and hands over pictures, answers and sentences.
+#pragma once
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/view/thread/live_scene.h"
+#include "app/view/thread/progressive.h"
+#include "app/view/thread/save.h"
+#include "engine/vulkan/context.h"
+
+namespace splatray {
+
+/// Where in a picture of `size_px` pixels a person points, and what for.
+struct PickRequest {
+  glm::dvec2 position_px{0.0};
+  glm::uvec2 size_px{0};
+  bool as_pivot = false;  ///< else to inspect
+};
+
+/// What it hit; nothing on a miss.
+struct Pick {
+  std::optional<Inspected> inspected;
+  bool as_pivot = false;
+};
+
+/// What has come from the render thread since it was last asked.
+struct RenderNews {
+  SharedFrame frame;
+  std::optional<Pick> pick;
+  std::optional<Work> saving;  ///< nothing: no picture is being saved
+  std::string notice;          ///< a sentence
+  std::string error;           ///< a sentence
+};
+
+/// All members are for one thread, the window's, and return at once.
+class RenderThread {
+ public:
+  /// Opens the Vulkan device `wanted` (as Context does; throws Error) and starts. `wake` is called on its thread after
+  /// each delivery.
+  RenderThread(const std::string& wanted, std::function<void()> wake);
+  ~RenderThread();
+  RenderThread(const RenderThread&) = delete;
+  RenderThread& operator=(const RenderThread&) = delete;
+
+  /// From now on shows this document of the scene opened; the newest counts.
+  void show(const Document& document, glm::uvec2 window_px);
+  /// As show, of another scene.
+  void open(SharedScene scene, const Document& document, glm::uvec2 window_px);
+  /// The newest counts.
+  void pick(const PickRequest& request);
+  void save(SaveJob job);
+  void cancel_save();
+
+  /// What is new; `saving` as it is now.
+  [[nodiscard]] RenderNews take_news();
+  [[nodiscard]] std::uint32_t validation_messages() const { return context_.validation_messages(); }
+
+ private:
+  /// What the window asked for and the thread has not yet taken.
+  struct Wishes {
+    SharedScene scene;
+    std::optional<Document> document;
+    glm::uvec2 window_px{0};
+    std::optional<PickRequest> pick;
+    std::optional<SaveJob> save;
+    [[nodiscard]] bool any() const { return scene || document || pick || save; }
+  };
+
+  void run();
+  [[nodiscard]] std::optional<Wishes> wait_for_wishes();
+  void fulfil(const Wishes& wishes);
+  void answer(const PickRequest& request);
+  void save_now(const SaveJob& job);
+  void attempt(const std::function<void()>& step);
+  void deliver(const std::function<void(RenderNews&)>& change);
+  [[nodiscard]] bool something_waits();
+
+  Context context_;
+  LiveScene live_{context_};
+  Progressive progressive_{live_, context_.device_info().name};
+  Document shown_;  ///< by the thread
+  std::function<void()> wake_;
+
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable changed_;
+  Wishes wishes_;
+  RenderNews news_;
+  bool ending_ = false, cancelled_ = false;
+  std::thread thread_;
+};
+
+}  // namespace splatray

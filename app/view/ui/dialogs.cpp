@@ -1,0 +1,207 @@
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "app/library/camera_file.h"
+#include "app/view/ui/panel_parts.h"
+#include "engine/base/error.h"
+
+namespace splatray {
+namespace {
+
+constexpr float WIDTH_EM = 26.0F, FIELD_EM = 17.0F;
+constexpr std::uint32_t LEAST = 1, MOST_EDGE = 32768, MOST_SAMPLES = 65536, MOST_FRAMES = 1000000;
+
+/// A dialog in the middle of the window for as long as it is open; its fields go between construction and destruction when
+/// it is true.
+class Dialog {
+ public:
+  Dialog(const char* title, bool& open) : open_(open) {
+    const float em = ImGui::GetFontSize();
+    const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
+    if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+    ImGui::SetNextWindowPos(center, ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowSize({WIDTH_EM * em, 0.0F});
+    constexpr ImGuiWindowFlags FLAGS = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
+    shown_ = ImGui::BeginPopupModal(title, &open_, FLAGS);
+    if (shown_) ImGui::PushItemWidth(FIELD_EM * em);
+  }
+  ~Dialog() {
+    if (!shown_) return;
+    if (!open_) ImGui::CloseCurrentPopup();
+    ImGui::PopItemWidth();
+    ImGui::EndPopup();
+  }
+  Dialog(const Dialog&) = delete;
+  Dialog& operator=(const Dialog&) = delete;
+
+  explicit operator bool() const { return shown_; }
+
+  /// The last row: returns whether the work is to be done; `refusal`: why it cannot be.
+  [[nodiscard]] bool done_or_cancelled(const char* verb, const std::string& refusal) {
+    if (!refusal.empty()) ImGui::TextWrapped("%s", refusal.c_str());
+    ImGui::Spacing();
+    ImGui::BeginDisabled(!refusal.empty());
+    const bool done = ImGui::Button(verb);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (ImGui::Button("cancel") || done) open_ = false;
+    return done;
+  }
+
+ private:
+  bool& open_;
+  bool shown_ = false;
+};
+
+void edge_input(const char* label, std::uint32_t& value, std::uint32_t most) {
+  ImGui::InputScalar(label, ImGuiDataType_U32, &value);
+  value = std::clamp(value, LEAST, most);
+}
+
+void size_inputs(std::uint32_t& width, std::uint32_t& height) {
+  struct Size {
+    const char* name;
+    std::uint32_t width, height;
+  };
+  static constexpr std::array SIZES = {Size{"HD", 1280, 720}, Size{"full HD", 1920, 1080},
+                                       Size{"4K", 3840, 2160}, Size{"square", 1024, 1024}};
+  edge_input("width", width, MOST_EDGE);
+  edge_input("height", height, MOST_EDGE);
+  for (const Size& size : SIZES) {
+    if (ImGui::SmallButton(size.name)) {
+      width = size.width;
+      height = size.height;
+    }
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
+bool ends_in(const std::string& path, const char* extension) {
+  return std::filesystem::path(path).extension() == extension;
+}
+
+bool is_picture(const std::string& path) { return ends_in(path, ".png") || ends_in(path, ".exr"); }
+
+std::string refusal_of(const SaveRequest& save) {
+  if (is_picture(save.path) || ends_in(save.path, ".json")) return "";
+  return "The file's name must end in .png or .exr, or in .json for the camera alone.";
+}
+
+std::string refusal_of(const RecordRequest& record) {
+  if (record.path.find('#') == std::string::npos) return "The files' name needs #### where the number goes.";
+  if (!record.turntable && record.camera_path.empty()) return "A camera path is needed.";
+  return is_picture(record.path) ? "" : "The files' name must end in .png or .exr.";
+}
+
+/// Writes a camera file at once, small as it is.
+void write_file(PanelState& state, const std::string& path, const std::function<void()>& write) {
+  try {
+    write();
+    state.notice = "Written: " + path;
+  } catch (const Error& error) {
+    state.error = error.what();
+  }
+}
+
+bool is_ortho(const Camera& camera) { return camera.ortho_height > 0.0; }
+
+/// The bookmarks, in their order, as keys of a camera path.
+void write_bookmarks(PanelState& state) {
+  CameraPath path;
+  bool mixed = false;
+  for (const std::optional<Camera>& bookmark : state.bookmarks) {
+    if (!bookmark) continue;
+    path.push_back({*bookmark, static_cast<std::uint32_t>(path.size()) * KEY_FRAMES});
+    mixed |= is_ortho(*bookmark) != is_ortho(path.front().camera);
+  }
+  if (path.empty())
+    state.error = "no bookmark is set, expected some: Shift and a number remember a camera";
+  else if (mixed)
+    state.error = "the bookmarks are both perspective and orthographic, expected one kind in a camera path";
+  else
+    write_file(state, state.record.camera_path, [&] { write_camera_path(path, state.record.camera_path); });
+}
+
+void path_inputs(PanelState& state) {
+  ImGui::InputTextWithHint("path file", "cameras.json", &state.record.camera_path);
+  ImGui::BeginDisabled(!ends_in(state.record.camera_path, ".json"));
+  if (ImGui::SmallButton("write the bookmarks there")) write_bookmarks(state);
+  ImGui::EndDisabled();
+}
+
+}  // namespace
+
+bool dialog_is_open(const PanelState& state) {
+  return state.show_open || state.show_save || state.show_record || !state.error.empty();
+}
+
+void open_dialog(PanelState& state, Requests& requests) {
+  if (!state.show_open) return;
+  Dialog dialog("Open", state.show_open);
+  if (!dialog) return;
+  const bool entered = ImGui::InputTextWithHint("file", "scene or points", &state.open_path,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  recent_list(state, requests);
+  const std::string refusal = state.open_path.empty() ? "Name a file, or drop one on the window." : "";
+  if (dialog.done_or_cancelled("open", refusal) || (entered && refusal.empty()))
+    requests.open = state.open_path;
+  if (requests.open) state.show_open = false;
+}
+
+void save_dialog(const Document& document, PanelState& state, Requests& requests) {
+  if (!state.show_save) return;
+  Dialog dialog("Save the picture", state.show_save);
+  if (!dialog) return;
+  SaveRequest& save = state.save;
+  ImGui::InputText("file", &save.path);
+  size_inputs(save.width, save.height);
+  edge_input("samples", save.samples, MOST_SAMPLES);
+  ImGui::BeginDisabled(!ends_in(save.path, ".exr"));
+  ImGui::Checkbox("depth", &save.aov_depth);
+  ImGui::SameLine();
+  ImGui::Checkbox("normal", &save.aov_normal);
+  ImGui::SameLine();
+  ImGui::Checkbox("object", &save.aov_id);
+  ImGui::EndDisabled();
+  if (!dialog.done_or_cancelled("save", refusal_of(save))) return;
+  if (is_picture(save.path))
+    requests.save = save;
+  else
+    write_file(state, save.path, [&] { write_camera(document.camera, save.path); });
+}
+
+void record_dialog(PanelState& state, Requests& requests) {
+  if (!state.show_record) return;
+  Dialog dialog("Record", state.show_record);
+  if (!dialog) return;
+  RecordRequest& record = state.record;
+  if (ImGui::RadioButton("turntable about the pivot", record.turntable)) record.turntable = true;
+  if (ImGui::RadioButton("camera path", !record.turntable)) record.turntable = false;
+  if (!record.turntable) path_inputs(state);
+  ImGui::InputText("files", &record.path);
+  edge_input("frames", record.frames, MOST_FRAMES);
+  size_inputs(record.width, record.height);
+  edge_input("samples", record.samples, MOST_SAMPLES);
+  ImGui::Checkbox("skip files that exist", &record.skip_existing);
+  if (dialog.done_or_cancelled("record", refusal_of(record))) requests.record = record;
+}
+
+void error_dialog(PanelState& state) {
+  if (state.error.empty()) return;
+  bool open = true;
+  {
+    Dialog dialog("That did not work", open);
+    if (!dialog) return;
+    ImGui::TextWrapped("%s", state.error.c_str());
+    ImGui::Spacing();
+    if (ImGui::Button("close")) open = false;
+  }
+  if (!open) state.error.clear();
+}
+
+}  // namespace splatray

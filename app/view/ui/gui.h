@@ -1,0 +1,42 @@
+/// Dear ImGui in the viewer's window: its GLFW and Vulkan back ends.
+#pragma once
+#include "app/view/window/window.h"
+#include "engine/vulkan/command_queue.h"
+#include "engine/vulkan/context.h"
+
+struct ImDrawData;
+
+namespace splatray {
+
+/// One at a time, on the window's thread. Window, context, queue and pass must outlive it.
+class Gui {
+ public:
+  /// Draws in `pass`.
+  Gui(Window& window, const Context& context, CommandQueue& queue, VkRenderPass pass);
+  ~Gui();
+  Gui(const Gui&) = delete;
+  Gui& operator=(const Gui&) = delete;
+
+  /// Starts a frame of controls, of another size when the display's scale has changed.
+  void begin();
+  /// Ends it: what record() draws next.
+  void end();
+  void record(VkCommandBuffer commands);
+
+  [[nodiscard]] float scale() const { return scale_; }
+  /// Whether the mouse is over, or the keyboard writes into, a control.
+  [[nodiscard]] bool wants_mouse() const;
+  [[nodiscard]] bool wants_keyboard() const;
+
+ private:
+  void start_renderer();
+
+  Window& window_;
+  const Context& context_;
+  CommandQueue& queue_;
+  VkRenderPass pass_;
+  Handle<VkDescriptorPool, vkDestroyDescriptorPool> descriptors_;
+  float scale_ = 1.0F;
+};
+
+}  // namespace splatray

@@ -1,0 +1,105 @@
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "app/view/model/navigation.h"
+#include "app/view/ui/panel_parts.h"
+
+namespace splatray {
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::size_t MOST_LIGHTS = 64;
+constexpr double POINT_DISTANCE_RADII = 2.0;  ///< of a new point light from the scene's centre
+constexpr float MOST_STRENGTH = 1e30F;
+
+/// Over the viewer's shoulder, the direction of new lights.
+glm::dvec3 shoulder(const Document& document) {
+  const glm::dvec3 back = document.camera.eye - document.camera.target;
+  const double distance = glm::length(back);
+  const glm::dvec3 up = glm::normalize(document.up);
+  return distance > 0.0 ? glm::normalize(back / distance + up) : up;
+}
+
+/// A light that gives the scene's centre an irradiance of pi: white matte surfaces facing it look white.
+SceneLight new_light(const Document& document, std::uint32_t kind) {
+  SceneLight light;
+  light.kind = kind;
+  light.power = glm::vec3(std::numbers::pi_v<float>);
+  light.position = shoulder(document);
+  if (kind == LIGHT_POINT) {
+    const double distance = POINT_DISTANCE_RADII * scene_radius_world(document);
+    light.position =
+        0.5 * (document.bounds_min_world + document.bounds_max_world) + distance * light.position;
+    light.power *= static_cast<float>(distance * distance);
+  }
+  return light;
+}
+
+void add_button(const char* label, std::uint32_t kind, Document& document, PanelState& state) {
+  if (!ImGui::Button(label) || document.lights.size() >= MOST_LIGHTS) return;
+  document.lights.push_back(new_light(document, kind));
+  state.light = static_cast<std::uint32_t>(document.lights.size() - 1);
+}
+
+void light_list(const Document& document, PanelState& state) {
+  for (std::size_t i = 0; i < document.lights.size(); ++i) {
+    const bool point = document.lights[i].kind == LIGHT_POINT;
+    const std::string name = (point ? "point light " : "sun ") + std::to_string(i + 1);
+    if (ImGui::Selectable(name.c_str(), state.light == i)) state.light = static_cast<std::uint32_t>(i);
+  }
+}
+
+void point_controls(const Document& document, SceneLight& light) {
+  const float speed = static_cast<float>(scene_radius_world(document) / 200.0);
+  ImGui::DragScalarN("position", ImGuiDataType_Double, &light.position.x, 3, speed, nullptr, nullptr, "%.5g");
+}
+
+void sun_controls(const Document& document, SceneLight& light) {
+  const glm::dmat3 axes = upright_axes(document.up);
+  const glm::dvec3 local = glm::transpose(axes) * glm::normalize(light.position);
+  float azimuth = static_cast<float>(std::atan2(local.x, local.z));
+  float elevation = static_cast<float>(std::asin(std::clamp(local.y, -1.0, 1.0)));
+  bool changed = ImGui::SliderAngle("azimuth", &azimuth, -180.0F, 180.0F, "%.0f\u00B0");
+  changed |= ImGui::SliderAngle("elevation", &elevation, -89.0F, 89.0F, "%.0f\u00B0");
+  if (!changed) return;
+  const double level = std::cos(double(elevation));
+  light.position = axes * glm::dvec3(level * std::sin(double(azimuth)), std::sin(double(elevation)),
+                                     level * std::cos(double(azimuth)));
+}
+
+void power_controls(SceneLight& light) {
+  float strength = std::max({light.power.x, light.power.y, light.power.z});
+  glm::vec3 color = strength > 0.0F ? light.power / strength : glm::vec3(1.0F);
+  bool changed = color_edit("colour", color);
+  const float speed = std::max(0.01F * strength, 1e-3F);
+  changed |= ImGui::DragFloat("strength", &strength, speed, 0.0F, MOST_STRENGTH, "%.4g",
+                              ImGuiSliderFlags_AlwaysClamp);
+  tip(light.kind == LIGHT_POINT ? "intensity: irradiance times distance squared"
+                                : "irradiance facing the sun");
+  if (changed) light.power = strength * color;
+}
+
+}  // namespace
+
+void light_panel(Document& document, PanelState& state) {
+  add_button("add sun", LIGHT_DIRECTIONAL, document, state);
+  ImGui::SameLine();
+  add_button("add point light", LIGHT_POINT, document, state);
+  light_list(document, state);
+  if (document.lights.empty()) return;
+  state.light = std::min(state.light, static_cast<std::uint32_t>(document.lights.size() - 1));
+  SceneLight& light = document.lights[state.light];
+  ImGui::PushID(static_cast<int>(state.light));
+  light.kind == LIGHT_POINT ? point_controls(document, light) : sun_controls(document, light);
+  power_controls(light);
+  if (ImGui::Button("remove")) document.lights.erase(document.lights.begin() + state.light);
+  ImGui::PopID();
+}
+
+}  // namespace splatray

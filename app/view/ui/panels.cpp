@@ -1,0 +1,90 @@
+#include "app/view/ui/panels.h"
+
+#include <imgui.h>
+
+#include "app/view/ui/panel_parts.h"
+
+namespace splatray {
+namespace {
+
+constexpr float LABEL_EM = 6.5F;  ///< room to the right of a control for its name
+
+void mode_combo(Document& document) {
+  if (!ImGui::BeginCombo("view", view_mode_name(document.mode))) return;
+  for (int i = 0; i < VIEW_MODE_COUNT; ++i) {
+    const ViewMode mode = static_cast<ViewMode>(i);
+    if (ImGui::Selectable(view_mode_name(mode), mode == document.mode)) document.mode = mode;
+  }
+  ImGui::EndCombo();
+}
+
+void toolbar(Requests& requests) {
+  command_button("open", Action::open, requests);
+  ImGui::SameLine();
+  command_button("save", Action::save, requests);
+  ImGui::SameLine();
+  command_button("record", Action::record, requests);
+  ImGui::SameLine();
+  command_button("copy", Action::copy_command, requests);
+  ImGui::SameLine();
+  command_button("keys", Action::help, requests);
+}
+
+bool section(const char* title, bool open_first) {
+  return ImGui::CollapsingHeader(title, open_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+void column(Document& document, PanelState& state, const PanelView& view, Requests& requests) {
+  toolbar(requests);
+  if (document.materials.empty()) return;
+  mode_combo(document);
+  if (section("Objects", true)) object_panel(document, state);
+  if (section("Material", true)) material_panel(document, state);
+  if (section("Lights", false)) light_panel(document, state);
+  if (section("Environment", false)) environment_panel(document);
+  if (section("Camera", false)) camera_panel(document, state, requests);
+  if (section("Quality", false)) quality_panel(document);
+  if (section("Splat under the cursor", true)) inspector_panel(view);
+  if (section("Statistics", true)) statistics_panel(view);
+}
+
+void column_window(Document& document, PanelState& state, const PanelView& view, float width_px,
+                   Requests& requests) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x - width_px, 0.0F});
+  ImGui::SetNextWindowSize({width_px, display.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+  constexpr ImGuiWindowFlags FLAGS = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+  if (ImGui::Begin("##column", nullptr, FLAGS)) {
+    ImGui::PushItemWidth(-LABEL_EM * ImGui::GetFontSize());
+    column(document, state, view, requests);
+    ImGui::PopItemWidth();
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace
+
+Requests draw_panels(Document& document, PanelState& state, const PanelView& view) {
+  Requests requests;
+  const float window_px = ImGui::GetIO().DisplaySize.x;
+  const float column_px = panel_column_px(state, window_px), picture_px = window_px - column_px;
+  if (column_px > 0.0F) column_window(document, state, view, column_px, requests);
+  if (document.materials.empty() && view.work == nullptr) welcome(state, picture_px, requests);
+  legend(view, picture_px);
+  status_line(document, state, view, picture_px);
+  work_bar(view, picture_px, requests);
+  help_overlay(state);
+  if (state.error.empty()) {
+    open_dialog(state, requests);
+    save_dialog(document, state, requests);
+    record_dialog(state, requests);
+  }
+  error_dialog(state);
+  return requests;
+}
+
+}  // namespace splatray

@@ -1,0 +1,90 @@
+/// The panels over the picture: what a person sees and changes. Dear ImGui between NewFrame and Render; no window.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/model/document.h"
+#include "app/view/model/frame.h"
+#include "app/view/model/keys.h"
+
+namespace splatray {
+
+/// A picture to be saved.
+struct SaveRequest {
+  std::string path = "splatray.png";  ///< .png or .exr
+  std::uint32_t width = 1920, height = 1080;
+  std::uint32_t samples = 16;
+  bool aov_depth = false, aov_normal = false, aov_id = false;  ///< .exr only
+};
+
+/// Pictures to be recorded.
+struct RecordRequest {
+  std::string path = "frame.####.png";  ///< #### = number of the frame
+  bool turntable = true;                ///< a turn about the pivot; else `camera_path`
+  std::string camera_path;              ///< file
+  std::uint32_t frames = 120;
+  std::uint32_t width = 1920, height = 1080;
+  std::uint32_t samples = 16;
+  bool skip_existing = false;
+};
+
+/// What a person asked for in the panels, beyond changes of the document.
+struct Requests {
+  std::vector<Command> commands;              ///< buttons that do what a key does
+  std::optional<std::filesystem::path> open;  ///< a scene
+  std::optional<SaveRequest> save;
+  std::optional<RecordRequest> record;
+  bool cancel = false;  ///< stop the work that PanelView::work shows
+};
+
+/// Long work under way.
+struct Work {
+  std::string stage;   ///< "reading dragon.ply"
+  double share = 0.0;  ///< 0..1
+};
+
+/// What the panels show beside the document.
+struct PanelView {
+  const Frame* frame = nullptr;          ///< newest; null before the first
+  const Inspected* inspected = nullptr;  ///< null: nothing inspected
+  double frames_per_second = 0.0;        ///< pictures handed to the window
+  const Work* work = nullptr;            ///< loading, saving or recording; null when idle
+};
+
+inline constexpr int BOOKMARK_COUNT = 9;
+
+/// What the panels remember, and what is open.
+struct PanelState {
+  double ui_scale = 1.0;  ///< of fonts and sizes; 1 at 96 dots per inch
+  bool show_panels = true, show_help = false, show_save = false, show_record = false, show_open = false;
+  std::uint32_t object = 0;   ///< selected in the material panel
+  std::uint32_t light = 0;    ///< selected in the light panel; what Action::drag_light drags
+  std::string object_filter;  ///< part of the names listed
+  Camera home;                ///< as loaded
+  std::array<std::optional<Camera>, BOOKMARK_COUNT> bookmarks;
+  std::vector<std::filesystem::path> recent_files;  ///< newest first
+  std::string open_path;                            ///< of the open dialog
+  SaveRequest save;
+  RecordRequest record;
+  std::string error;   ///< a sentence in a pop-up until closed; empty = none
+  std::string notice;  ///< a sentence in the status line; empty = none
+};
+
+/// Font and colours for `ui_scale`; replaces the font atlas (its texture must be uploaded anew).
+void set_style(double ui_scale);
+
+/// Width of the column of panels on the right, window pixels; 0 when hidden. The picture is to the left of it.
+[[nodiscard]] float panel_column_px(const PanelState& state, float window_width_px);
+
+/// All panels, dialogs, help and legends for this frame.
+[[nodiscard]] Requests draw_panels(Document& document, PanelState& state, const PanelView& view);
+
+/// Does what needs neither window nor threads: camera, view mode, bookmarks, which panels are open. `aspect` of the
+/// picture. Returns false when the command is the caller's: quit, copy_command, paste_command, pivot, inspect, drags,
+/// and escape when nothing was open to be closed.
+[[nodiscard]] bool apply(const Command& command, double aspect, Document& document, PanelState& state);
+
+}  // namespace splatray

@@ -1,0 +1,343 @@
+#include "engine/file/scene_file.h"
+
+#include <cassert>
+#include <cstring>
+#include <fstream>
+#include <span>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "engine/base/error.h"
+#include "engine/file/atomic_file.h"
+#include "engine/scene/scene_check.h"
+
+namespace splatray {
+namespace {
+
+constexpr char MAGIC[] = {'S', 'O', 'C', 'T'};
+constexpr char END_MARKER[] = {'S', 'O', 'C', 'T', '.', 'E', 'N', 'D'};
+constexpr std::uint32_t ENDIANNESS = 0x01020304;
+constexpr std::uint64_t ALIGNMENT = 16;
+constexpr std::uint32_t HAS_COLORS = 1;
+constexpr std::uint32_t HAS_FIELDS = 2;
+constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, and would overflow sizes
+
+enum SectionId : std::uint32_t {
+  NODES,
+  LEAVES,
+  SLABS,
+  REFERENCES,
+  SPLATS,
+  COLORS,
+  FIELDS,
+  MATERIALS,
+  LIGHTS,
+  CAMERA,
+  STRINGS,
+  SECTION_COUNT
+};
+
+struct SectionEntry {
+  std::uint32_t id, element_size;
+  std::uint64_t offset, size, checksum;
+};
+
+struct Header {
+  char magic[4];
+  std::uint32_t version, endianness, header_size;
+  std::uint64_t file_size, checksum;
+  std::uint64_t splats, references, nodes, leaves;
+  std::uint32_t objects, lights, attributes, has_camera;
+  std::uint64_t string_bytes;
+  RootTransform root;
+  std::uint32_t leaf_size, insertion, probes, radius_rule;
+  double radius_scale;
+  std::uint64_t samples, seed;
+  glm::dvec3 up, bounds_min, bounds_max;
+  double surface_area;
+  std::uint32_t section_count, section_entry_size;
+  SectionEntry sections[SECTION_COUNT];
+};
+
+struct LightRecord {
+  std::uint32_t kind, zero_0;
+  glm::dvec3 position;
+  glm::vec3 power;
+  std::uint32_t zero_1;
+};
+
+static_assert(sizeof(Header) == 600 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88);
+
+std::uint64_t align(std::uint64_t offset) { return (offset + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
+
+/// The section table (but for checksums) and the file's size follow from the header's counts.
+void lay_out(Header& header) {
+  const auto if_has = [&](std::uint32_t attribute) {
+    return (header.attributes & attribute) != 0 ? header.splats : 0;
+  };
+  const std::uint64_t counts[SECTION_COUNT] = {header.nodes,       header.leaves + 1,  header.leaves,
+                                               header.references,  header.splats,      if_has(HAS_COLORS),
+                                               if_has(HAS_FIELDS), header.objects,     header.lights,
+                                               header.has_camera,  header.string_bytes};
+  constexpr std::uint32_t ELEMENT_SIZES[SECTION_COUNT] = {
+      4, 4, 4, 4, sizeof(uvec4), 4, 4, sizeof(Material), sizeof(LightRecord), sizeof(Camera), 1};
+  std::uint64_t end = sizeof(Header);
+  for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
+    SectionEntry& entry = header.sections[i];
+    entry = {i + 1, ELEMENT_SIZES[i], align(end), counts[i] * ELEMENT_SIZES[i], entry.checksum};
+    end = entry.offset + entry.size;
+  }
+  header.file_size = align(end) + sizeof(END_MARKER);
+}
+
+std::uint64_t header_checksum(Header header) {
+  header.checksum = 0;
+  return XXH3_64bits(&header, sizeof header);
+}
+
+std::vector<LightRecord> light_records(const std::vector<SceneLight>& lights) {
+  std::vector<LightRecord> records;
+  for (const SceneLight& light : lights) records.push_back({light.kind, 0, light.position, light.power, 0});
+  return records;
+}
+
+std::string joined_strings(const Scene& scene) {
+  std::string strings;
+  for (const std::string& name : scene.object_names) (strings += name.c_str()) += '\0';
+  return (strings += scene.environment_path.c_str()) += '\0';
+}
+
+/// The header of a scene, all but sections, file size and checksums.
+Header describe(const Scene& scene, std::size_t string_bytes) {
+  const BuildParams& build = scene.build;
+  Header header{};
+  std::memcpy(header.magic, MAGIC, sizeof MAGIC);
+  header.version = SCENE_FILE_VERSION;
+  header.endianness = ENDIANNESS;
+  header.header_size = sizeof(Header);
+  header.splats = scene.data_pool.size();
+  header.references = scene.reference_pool.size();
+  header.nodes = scene.node_pool.size();
+  header.leaves = scene.begin_end.size() - 1;
+  header.objects = static_cast<std::uint32_t>(scene.materials.size());
+  header.lights = static_cast<std::uint32_t>(scene.lights.size());
+  header.attributes =
+      (scene.color_pool.empty() ? 0 : HAS_COLORS) | (scene.field_pool.empty() ? 0 : HAS_FIELDS);
+  header.has_camera = scene.camera ? 1 : 0;
+  header.string_bytes = string_bytes;
+  header.root = scene.root;
+  header.leaf_size = build.leaf_size;
+  header.insertion = static_cast<std::uint32_t>(build.insertion);
+  header.probes = build.probes;
+  header.radius_rule = static_cast<std::uint32_t>(build.radius_rule);
+  header.radius_scale = build.radius_scale;
+  header.samples = build.samples;
+  header.seed = build.seed;
+  header.up = scene.up;
+  header.bounds_min = scene.bounds_min_world;
+  header.bounds_max = scene.bounds_max_world;
+  header.surface_area = scene.surface_area_world;
+  header.section_count = SECTION_COUNT;
+  header.section_entry_size = sizeof(SectionEntry);
+  return header;
+}
+
+/// A scene from its header alone; the sections are still to be read.
+Scene described_scene(const Header& header) {
+  Scene scene;
+  scene.root = header.root;
+  scene.build = {header.leaf_size,    Insertion{header.insertion},
+                 header.probes,       RadiusRule{header.radius_rule},
+                 header.radius_scale, header.samples,
+                 header.seed,         (header.attributes & HAS_FIELDS) != 0};
+  scene.up = header.up;
+  scene.bounds_min_world = header.bounds_min;
+  scene.bounds_max_world = header.bounds_max;
+  scene.surface_area_world = header.surface_area;
+  return scene;
+}
+
+/// A scene file being read front to back, every byte checked.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& path) : path_(path) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) refuse("no such file", "a scene file");
+    if (!std::filesystem::is_regular_file(path, error)) refuse("a folder or device", "a scene file");
+    file_.open(path, std::ios::binary);
+    if (!file_) refuse("a file that cannot be opened", "a readable one");
+    size_ = std::filesystem::file_size(path);
+    read_header();
+  }
+
+  [[nodiscard]] const Header& header() const { return header_; }
+
+  template <typename T>
+  std::vector<T> section(SectionId id) {
+    const SectionEntry& entry = header_.sections[id];
+    skip_gap(entry.offset);
+    std::vector<T> elements(entry.size / sizeof(T));
+    read(elements.data(), entry.size);
+    if (XXH3_64bits(elements.data(), entry.size) != entry.checksum)
+      refuse("section " + std::to_string(entry.id) + " with another checksum",
+             "the one in the header (file damaged)");
+    return elements;
+  }
+
+  void end() {
+    char marker[sizeof END_MARKER];
+    skip_gap(size_ - sizeof marker);
+    read(marker, sizeof marker);
+    if (std::memcmp(marker, END_MARKER, sizeof marker) != 0) refuse("another end", "the end marker SOCT.END");
+  }
+
+  [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
+    throw Error(ExitCode::input_unreadable,
+                "cannot read scene '" + path_.string() + "': found " + found + ", expected " + expected);
+  }
+
+ private:
+  void read(void* target, std::uint64_t bytes) {
+    if (!file_.read(static_cast<char*>(target), static_cast<std::streamsize>(bytes)))
+      refuse("its end or a read error at byte " + std::to_string(position_),
+             std::to_string(bytes) + " more bytes");
+    position_ += bytes;
+  }
+
+  void skip_gap(std::uint64_t offset) {
+    char gap[ALIGNMENT];
+    const std::uint64_t bytes = offset - position_;
+    read(gap, bytes);
+    for (const char byte : std::span(gap, bytes))
+      if (byte != 0) refuse("a filled gap before byte " + std::to_string(offset), "zeros (file damaged)");
+  }
+
+  void read_header() {
+    if (size_ < sizeof MAGIC) refuse(std::to_string(size_) + " bytes", "a scene file starting with SOCT");
+    file_.read(reinterpret_cast<char*>(&header_),
+               sizeof header_);  // fewer bytes than a header are told below
+    if (std::memcmp(header_.magic, MAGIC, sizeof MAGIC) != 0)
+      refuse("another file type", "the letters SOCT at its start");
+    if (size_ < sizeof header_) refuse(std::to_string(size_) + " bytes", "a header of 600 (file truncated)");
+    position_ = sizeof header_;
+    if (header_.endianness != ENDIANNESS) refuse("a foreign byte order", "little-endian");
+    if (header_.version != SCENE_FILE_VERSION)
+      refuse("version " + std::to_string(header_.version), "version " + std::to_string(SCENE_FILE_VERSION));
+    if (header_.file_size != size_)
+      refuse(std::to_string(size_) + " bytes",
+             std::to_string(header_.file_size) +
+                 (size_ < header_.file_size ? " (file truncated)" : " (extra bytes)"));
+    if (header_checksum(header_) != header_.checksum)
+      refuse("another header checksum", "the stored one (file damaged)");
+    check_table();
+  }
+
+  void check_table() const {
+    Header expected = header_;
+    for (const std::uint64_t count :
+         {header_.nodes, header_.leaves, header_.references, header_.splats, header_.string_bytes})
+      if (count > MOST_ELEMENTS) refuse("a count of " + std::to_string(count), "one that fits the file");
+    if (header_.has_camera > 1) refuse("a flag above 1", "0 or 1");
+    if (header_.attributes > (HAS_COLORS | HAS_FIELDS))
+      refuse("attributes " + std::to_string(header_.attributes), "0 to 3");
+    lay_out(expected);
+    expected.header_size = sizeof(Header);
+    expected.section_count = SECTION_COUNT;
+    expected.section_entry_size = sizeof(SectionEntry);
+    if (std::memcmp(&expected, &header_, sizeof expected) != 0)
+      refuse("a section table that contradicts the counts", "the one that follows from them");
+  }
+
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::uint64_t size_ = 0;
+  std::uint64_t position_ = 0;
+  Header header_{};
+};
+
+void read_lights(Reader& reader, Scene& scene) {
+  for (const LightRecord& record : reader.section<LightRecord>(LIGHTS))
+    scene.lights.push_back({record.kind, record.position, record.power});
+}
+
+void read_strings(Reader& reader, Scene& scene) {
+  const std::vector<char> bytes = reader.section<char>(STRINGS);
+  if (bytes.empty() || bytes.back() != '\0') reader.refuse("names without an end", "a zero byte after each");
+  std::vector<std::string> strings;
+  for (const char* p = bytes.data(); p != bytes.data() + bytes.size(); p += strings.back().size() + 1)
+    strings.emplace_back(p);
+  if (strings.size() != reader.header().objects + 1ULL)
+    reader.refuse(std::to_string(strings.size()) + " names", "one per object and the environment's");
+  scene.environment_path = strings.back();
+  strings.pop_back();
+  scene.object_names = std::move(strings);
+}
+
+void write_bytes(std::ofstream& file, const Header& header, const void* const (&contents)[SECTION_COUNT]) {
+  constexpr char ZEROS[ALIGNMENT] = {};
+  const auto write = [&file](const void* bytes, std::uint64_t size) {
+    file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  };
+  std::uint64_t position = sizeof header;
+  write(&header, sizeof header);
+  for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
+    const SectionEntry& entry = header.sections[i];
+    write(ZEROS, entry.offset - position);
+    write(contents[i], entry.size);
+    position = entry.offset + entry.size;
+  }
+  write(ZEROS, header.file_size - sizeof END_MARKER - position);
+  write(END_MARKER, sizeof END_MARKER);
+}
+
+}  // namespace
+
+void write_scene(const Scene& scene, const std::filesystem::path& path) {
+  assert(!find_scene_defect(scene));
+  const std::vector<LightRecord> lights = light_records(scene.lights);
+  const std::string strings = joined_strings(scene);
+  const void* const contents[SECTION_COUNT] = {
+      scene.node_pool.data(),  scene.begin_end.data(),
+      scene.slab_pool.data(),  scene.reference_pool.data(),
+      scene.data_pool.data(),  scene.color_pool.data(),
+      scene.field_pool.data(), scene.materials.data(),
+      lights.data(),           scene.camera ? &*scene.camera : nullptr,
+      strings.data()};
+  Header header = describe(scene, strings.size());
+  lay_out(header);
+  for (std::uint32_t i = 0; i < SECTION_COUNT; ++i)
+    header.sections[i].checksum = XXH3_64bits(contents[i], header.sections[i].size);
+  header.checksum = header_checksum(header);
+
+  AtomicFile output(path);
+  std::ofstream file(output.temporary(), std::ios::binary);
+  write_bytes(file, header, contents);
+  file.close();
+  if (!file)
+    throw Error(ExitCode::failed, "cannot write '" + path.string() +
+                                      "': the disk is full or failed, expected room for " +
+                                      std::to_string(header.file_size) + " bytes");
+  output.commit();
+}
+
+Scene read_scene(const std::filesystem::path& path) {
+  Reader reader(path);
+  Scene scene = described_scene(reader.header());
+  scene.node_pool = reader.section<std::uint32_t>(NODES);
+  scene.begin_end = reader.section<std::uint32_t>(LEAVES);
+  scene.slab_pool = reader.section<std::uint32_t>(SLABS);
+  scene.reference_pool = reader.section<std::uint32_t>(REFERENCES);
+  scene.data_pool = reader.section<uvec4>(SPLATS);
+  scene.color_pool = reader.section<std::uint32_t>(COLORS);
+  scene.field_pool = reader.section<std::uint32_t>(FIELDS);
+  scene.materials = reader.section<Material>(MATERIALS);
+  read_lights(reader, scene);
+  if (const auto cameras = reader.section<Camera>(CAMERA); !cameras.empty()) scene.camera = cameras.front();
+  read_strings(reader, scene);
+  reader.end();
+  if (const auto defect = find_scene_defect(scene)) reader.refuse(defect->found, defect->expected);
+  return scene;
+}
+
+}  // namespace splatray

@@ -1,0 +1,70 @@
+/// The scene file `.soct`: header, table of sections, sections, end marker. Little-endian. The array sections are the
+/// GPU buffer images (shaders/layout.h).
+///
+/// Header, 248 bytes:
+///   offset | type      | field
+///        0 | char[4]   | magic "SOCT"
+///        4 | uint32    | version, SCENE_FILE_VERSION
+///        8 | uint32    | endianness mark 0x01020304
+///       12 | uint32    | bytes of header and section table together, 600
+///       16 | uint64    | bytes of the file
+///       24 | uint64    | XXH3-64 of header and section table, taken with this field zero
+///       32 | uint64    | splats = entries of the data pool
+///       40 | uint64    | references = entries of the reference pool
+///       48 | uint64    | node words
+///       56 | uint64    | filled leaves = entries of Begin-End - 1
+///       64 | uint32    | objects = materials
+///       68 | uint32    | lights
+///       72 | uint32    | attributes: 1 there is a colour pool, 2 there are normal fields, 3 both, 0 neither
+///       76 | uint32    | 1: there is a camera, 0: none
+///       80 | uint64    | bytes of strings
+///       88 | float64[3]| root's lowest corner, world
+///      112 | float64   | world length of a lattice unit
+///      120 | uint32    | leaf size k
+///      124 | uint32    | insertion policy (enum Insertion)
+///      128 | uint32    | probes per leaf
+///      132 | uint32    | radius rule (enum RadiusRule)
+///      136 | float64   | radius scale
+///      144 | uint64    | samples taken on meshes
+///      152 | uint64    | seed
+///      160 | float64[3]| up direction, world
+///      184 | float64[3]| bounding box of the centres, minimum, world
+///      208 | float64[3]| ... maximum
+///      232 | float64   | surface area of the source meshes, world units^2, 0 = unknown
+///      240 | uint32    | sections, 11
+///      244 | uint32    | bytes of a section entry, 32
+///
+/// Section entry, 32 bytes: uint32 id, uint32 bytes of an element, uint64 offset in the file, uint64 bytes, uint64 XXH3-64.
+///   id | element                       | bytes | section
+///    1 | uint32                        |     4 | node pool
+///    2 | uint32                        |     4 | Begin-End
+///    3 | uint32                        |     4 | slabs, one per filled leaf
+///    4 | uint32                        |     4 | reference pool
+///    5 | uvec4                         |    16 | data pool
+///    6 | uint32                        |     4 | colour pool, beside the data pool
+///    7 | uint32                        |     4 | normal fields, beside the data pool
+///    8 | Material                      |    48 | materials
+///    9 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world
+///   10 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
+///   11 | char                          |     1 | object names, then the environment's path, each ended by a zero byte
+/// Sections lie in this order, each at the next multiple of 16 bytes, gaps zero; the 8 bytes "SOCT.END" follow at the next
+/// multiple of 16 and end the file.
+#pragma once
+#include <filesystem>
+
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 7;
+
+/// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot; leaves nothing behind.
+void write_scene(const Scene& scene, const std::filesystem::path& path);
+
+/// Reads and checks a whole scene file. Refuses, as Error (input_unreadable) with path, found and expected: wrong magic,
+/// newer version, foreign endianness, truncation at any byte, extra bytes, checksum mismatch, and whatever
+/// find_scene_defect (scene_check.h) finds: an address or reference outside its pool, a Begin-End that does not ascend, a splat that is
+/// not finite or names an object that does not exist, a non-finite transform.
+[[nodiscard]] Scene read_scene(const std::filesystem::path& path);
+
+}  // namespace splatray

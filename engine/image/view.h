@@ -1,0 +1,88 @@
+/// A picture is a value: View (camera, size) + Settings (method) -> Image. Viewer, headless program, tests
+/// and benchmarks all use it.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+struct View {
+  Camera camera;
+  std::uint32_t width = 1920;   ///< pixels, >= 1
+  std::uint32_t height = 1080;  ///< pixels, >= 1
+};
+
+/// The image plane in root space, float64: position of (px, py) = corner + px * dx + py * dy, relative to the
+/// eye, for a plane at unit distance (perspective) or through the eye (orthographic). dx and dy, per pixel, are perpendicular.
+struct ImagePlane {
+  glm::dvec3 eye, forward, corner, dx, dy;
+};
+/// That of a view that make_frame_params accepts.
+[[nodiscard]] ImagePlane image_plane(const RootTransform& root, const View& view);
+
+/// The method of a picture. Enumerators are the BLEND_*, KERNEL_*, SIDE_*, ORDER_* numbers of
+/// shaders/layout.h.
+struct Settings {
+  std::uint32_t samples = 16;  ///< per pixel, >= 1; one sample goes through the pixel's centre
+  std::uint32_t seed = 1;
+  std::uint32_t max_bounces = 8;  ///< secondary rays in a path, 0..64
+  bool shadows = true;
+  std::uint32_t blend = BLEND_WINDOW;
+  std::uint32_t kernel = KERNEL_RIM;
+  float kappa = 1.0F;  ///< window depth / radius of the first splat, > 0
+  std::uint32_t side = SIDE_SIDE;
+  double delta_world = 0.0;  ///< SIDE_DELTA: minimum distance, world units
+  std::uint32_t order = ORDER_Z;
+  bool cull =
+      true;  ///< on processors: do not trace outside the footprint (footprint.h); pictures are the same
+  bool stages =
+      true;  ///< on processors: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same
+  bool counters = false;  ///< compile the counters in
+  bool aov = false;       ///< also trace the centre rays' normal, depth, object
+  float environment_strength = 1.0F;
+  float environment_turn =
+      0.0F;  ///< turns (1 = a full one) about the up axis, counter-clockwise seen from above
+
+  bool operator==(const Settings&) const = default;
+};
+
+/// Vertical field of view of pictures that name none, degrees: a portrait lens.
+inline constexpr double DEFAULT_FOV_Y_DEG = 30.0;
+
+/// Axes of a scene's default framing and environment for the up direction `up` (any length > 0): columns
+/// right, up, front; right-handed, unit. Right is the world's +x made perpendicular to up (+y where up is
+/// along x), so that the front, from where the default camera looks, is +z for y-up and -y for z-up scenes.
+[[nodiscard]] glm::dmat3 upright_axes(const glm::dvec3& up);
+
+/// A camera that shows the whole scene from its front, a little from above and to the side, for the given
+/// aspect ratio. The scene's own camera when it has one.
+[[nodiscard]] Camera default_camera(const Scene& scene, double aspect);
+/// As default_camera, but ignores the scene's own camera. `fov_y_deg` in (0, 180).
+[[nodiscard]] Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg = DEFAULT_FOV_Y_DEG);
+/// As framing_camera, with the picture's axes given: columns right, up and back (towards the camera), orthonormal.
+[[nodiscard]] Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg,
+                                    const glm::dmat3& axes);
+
+/// The light a scene without lights is shown in: a key light over the viewer's left shoulder.
+[[nodiscard]] std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera);
+/// The scene's own lights, ready to show. Lights in physical units (candela, lux up to 1e5) would drown the
+/// picture, and dim ones would leave it black: where the brightest channel of their summed irradiance at the
+/// centre of the scene's bounding box lies outside [pi / 10, 10 pi], all are scaled by one factor that makes
+/// it pi.
+[[nodiscard]] std::vector<SceneLight> exposed_lights(const Scene& scene);
+
+/// Everything a frame needs of View, Settings and Scene, in root space, computed in float64. Tile and sample
+/// range cover the whole picture; `environment` and `irradiance` are left zero (the tracer fills them from
+/// its Environment). Throws Error (usage) for a camera that sees nothing: eye == target, up parallel to the
+/// view, non-finite values, fov outside (0, 180), zero sizes.
+[[nodiscard]] FrameParams make_frame_params(const Scene& scene, const View& view, const Settings& settings);
+
+/// FrameParams::media of these materials.
+void set_media(FrameParams& frame, std::span<const Material> materials);
+
+/// Lights in root space, as the engine uploads them.
+[[nodiscard]] std::vector<Light> lights_in_root(const Scene& scene, const std::vector<SceneLight>& lights);
+
+}  // namespace splatray

@@ -1,0 +1,28 @@
+/// Whether a device has room for copies of a scene's splats.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+/// How much a scene's pools hold.
+struct PoolCounts {
+  std::size_t splats = 0;
+  std::size_t references = 0;
+  std::size_t node_words = 0;
+  std::size_t filled_leaves = 0;
+  bool colors = false;
+  bool fields = false;
+};
+[[nodiscard]] PoolCounts pool_counts(const Scene& scene);
+
+/// Most bytes on a device for each splat, if leaves are to have copies of their splats.
+inline constexpr std::uint64_t MOST_SPLAT_BYTES = 64;
+
+/// Whether all pools and the top table stay within MOST_SPLAT_BYTES with a copy of a splat, its colour and its normal field for
+/// each reference. Through references instead a test is two fetches, and a splat takes about 40 bytes.
+[[nodiscard]] bool copies_fit(const PoolCounts& counts);
+
+}  // namespace splatray

@@ -1,0 +1,123 @@
+#include "engine/vulkan/command_queue.h"
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace splatray {
+namespace {
+
+constexpr VkDeviceSize STAGING_BYTES = VkDeviceSize{64} << 20U;
+
+std::uint32_t timestamp_bits(const Context& context) {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(context.physical_device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(context.physical_device, &count, families.data());
+  return families[context.queue_family].timestampValidBits;
+}
+
+}  // namespace
+
+void record_barrier(VkCommandBuffer commands) {
+  VkMemoryBarrier barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                       VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
+                       nullptr, 0, nullptr);
+}
+
+void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
+  VkImageMemoryBarrier barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+  barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+  barrier.oldLayout = from;
+  barrier.newLayout = to;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image;
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
+                       nullptr, 0, nullptr, 1, &barrier);
+}
+
+CommandQueue::CommandQueue(const Context& context) : context_(context) {
+  VkFenceCreateInfo fence_info{};
+  fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+  VkFence fence = VK_NULL_HANDLE;
+  check(vkCreateFence(context.device, &fence_info, nullptr, &fence), "making a fence");
+  fence_ = {context.device, fence};
+
+  if (const std::uint32_t bits = timestamp_bits(context); bits > 0) {
+    timestamp_mask_ = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+    VkQueryPoolCreateInfo query_info{};
+    query_info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    query_info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    query_info.queryCount = 2;
+    VkQueryPool queries = VK_NULL_HANDLE;
+    check(vkCreateQueryPool(context.device, &query_info, nullptr, &queries), "making a query pool");
+    timestamps_ = {context.device, queries};
+  }
+
+  VkCommandBufferAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  info.commandPool = context.command_pool;
+  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  info.commandBufferCount = 1;
+  check(vkAllocateCommandBuffers(context.device, &info, &commands_), "making a command buffer");
+}
+
+CommandQueue::~CommandQueue() { vkFreeCommandBuffers(context_.device, context_.command_pool, 1, &commands_); }
+
+double CommandQueue::run(const std::function<void(VkCommandBuffer)>& record) {
+  VkCommandBufferBeginInfo begin{};
+  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  check(vkBeginCommandBuffer(commands_, &begin), "recording commands");
+  const VkQueryPool queries = timestamps_.get();
+  if (queries != VK_NULL_HANDLE) {
+    vkCmdResetQueryPool(commands_, queries, 0, 2);
+    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, queries, 0);
+  }
+  record(commands_);
+  record_barrier(commands_);
+  if (queries != VK_NULL_HANDLE)
+    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries, 1);
+  check(vkEndCommandBuffer(commands_), "recording commands");
+
+  const auto start = std::chrono::steady_clock::now();
+  submit_and_wait();
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+  return queries != VK_NULL_HANDLE ? timestamps_ms() : wall.count();
+}
+
+void CommandQueue::submit_and_wait() {
+  VkSubmitInfo submit{};
+  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &commands_;
+  VkFence fence = fence_.get();
+  check(vkQueueSubmit(context_.queue, 1, &submit, fence), "submitting work to the device");
+  check(vkWaitForFences(context_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the device");
+  check(vkResetFences(context_.device, 1, &fence), "resetting a fence");
+}
+
+double CommandQueue::timestamps_ms() const {
+  std::uint64_t ticks[2] = {};
+  check(vkGetQueryPoolResults(context_.device, timestamps_.get(), 0, 2, sizeof(ticks), ticks,
+                              sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "reading timestamps");
+  const auto passed = static_cast<double>((ticks[1] - ticks[0]) & timestamp_mask_);
+  return passed * static_cast<double>(context_.properties.limits.timestampPeriod) * 1e-6;
+}
+
+const Buffer& CommandQueue::staging(VkDeviceSize bytes) {
+  const VkDeviceSize wanted = std::min(bytes, STAGING_BYTES);
+  if (staging_.size() < wanted) staging_ = Buffer(context_, wanted, 0, VK_FORMAT_UNDEFINED, Residence::host);
+  return staging_;
+}
+
+}  // namespace splatray

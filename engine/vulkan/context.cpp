@@ -1,0 +1,214 @@
+#include "engine/vulkan/context.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+#include "engine/base/error.h"
+
+namespace splatray {
+namespace {
+
+constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
+
+/// Counts a validation message in *user_data, a std::uint32_t, and prints it.
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user_data) {
+  ++*static_cast<std::uint32_t*>(user_data);
+  std::cerr << "Vulkan validation: " << data->pMessage << '\n';
+  return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::uint32_t* count) {
+  VkDebugUtilsMessengerCreateInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType =
+      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.pfnUserCallback = on_message;
+  info.pUserData = count;
+  return info;
+}
+
+bool validation_layer_present() {
+  std::uint32_t count = 0;
+  check(vkEnumerateInstanceLayerProperties(&count, nullptr), "listing the Vulkan layers");
+  std::vector<VkLayerProperties> layers(count);
+  check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "listing the Vulkan layers");
+  return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+    return std::strcmp(layer.layerName, VALIDATION_LAYER) == 0;
+  });
+}
+
+bool validation_in_environment() {
+  const char* value = std::getenv("SPLATRAY_VALIDATION");
+  return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+/// VK_NULL_HANDLE where no driver is installed. `messenger` set: with the validation layer.
+VkInstance make_instance(const VkDebugUtilsMessengerCreateInfoEXT* messenger,
+                         std::vector<const char*> extensions = {}) {
+  VkApplicationInfo application{};
+  application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+  application.pApplicationName = "splatray";
+  application.apiVersion = VK_API_VERSION_1_2;
+  VkInstanceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+  info.pApplicationInfo = &application;
+  if (messenger != nullptr) {
+    info.pNext = messenger;
+    info.enabledLayerCount = 1;
+    info.ppEnabledLayerNames = &VALIDATION_LAYER;
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  }
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  VkInstance instance = VK_NULL_HANDLE;
+  const VkResult result = vkCreateInstance(&info, nullptr, &instance);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return VK_NULL_HANDLE;
+  check(result, "starting Vulkan");
+  return instance;
+}
+
+}  // namespace
+
+void check(VkResult result, const char* what) {
+  if (result == VK_SUCCESS) return;
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+    throw Error(ExitCode::out_of_memory, std::string(what) + " failed: the device is out of memory");
+  if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+    throw Error(ExitCode::out_of_memory, std::string(what) + " failed: the driver is out of host memory");
+  const std::string reason =
+      result == VK_ERROR_DEVICE_LOST ? "the device was lost" : "VkResult " + std::to_string(result);
+  throw Error(ExitCode::failed, std::string(what) + " failed: " + reason);
+}
+
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
+  std::uint32_t count = 0;
+  const VkResult result = vkEnumeratePhysicalDevices(instance, &count, nullptr);
+  if (result == VK_ERROR_INITIALIZATION_FAILED) return {};  // drivers without their hardware
+  check(result, "listing the Vulkan devices");
+  std::vector<VkPhysicalDevice> devices(count);
+  check(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "listing the Vulkan devices");
+  return devices;
+}
+
+std::vector<DeviceInfo> list_devices() {
+  VkInstance instance = make_instance(nullptr);
+  if (instance == VK_NULL_HANDLE) return {};
+  std::vector<DeviceInfo> infos;
+  for (VkPhysicalDevice device : physical_devices(instance)) infos.push_back(describe_device(device));
+  vkDestroyInstance(instance, nullptr);
+  return infos;
+}
+
+Context::Context(const std::string& wanted, bool validation, const WindowNeeds& needs) {
+  try {
+    create_instance(validation || validation_in_environment(), needs);
+    choose_device(wanted, needs);
+    create_device(needs);
+  } catch (...) {
+    destroy();
+    throw;
+  }
+}
+
+Context::~Context() { destroy(); }
+
+void Context::create_instance(bool validation, const WindowNeeds& needs) {
+  if (validation && !validation_layer_present())
+    throw Error(ExitCode::failed, std::string("validation was asked for, but the layer ") + VALIDATION_LAYER +
+                                      " is not installed (Debian's package vulkan-validationlayers)");
+  const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(&validation_messages_);
+  instance = make_instance(validation ? &messenger : nullptr, needs.instance_extensions);
+  if (validation && instance != VK_NULL_HANDLE) create_messenger();
+}
+
+void Context::create_messenger() {
+  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+  const VkDebugUtilsMessengerCreateInfoEXT info = messenger_info(&validation_messages_);
+  check(create(instance, &info, nullptr, &messenger_), "listening to the validation layer");
+}
+
+void Context::choose_device(const std::string& wanted, const WindowNeeds& needs) {
+  std::vector<VkPhysicalDevice> devices;
+  if (instance != VK_NULL_HANDLE) devices = physical_devices(instance);
+  std::vector<DeviceInfo> infos;
+  for (VkPhysicalDevice candidate : devices) {
+    infos.push_back(describe_device(candidate));
+    if (infos.back().refused.empty() && needs.refusal)
+      infos.back().refused = needs.refusal(instance, candidate);
+  }
+  const std::size_t chosen = splatray::choose_device(infos, wanted);
+  physical_device = devices[chosen];
+  info_ = infos[chosen];
+}
+
+Arithmetic Context::arithmetic(Arithmetic wanted) const {
+  assert(wanted != Arithmetic::float64 || float64);
+  if (wanted != Arithmetic::automatic) return wanted;
+  return is_processor() && float64 ? Arithmetic::float64 : Arithmetic::double_float;
+}
+
+void Context::create_device(const WindowNeeds& needs) {
+  VkPhysicalDeviceSubgroupProperties subgroup{};
+  subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  VkPhysicalDeviceMaintenance3Properties limits{};
+  limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  limits.pNext = &subgroup;
+  VkPhysicalDeviceProperties2 chain{};
+  chain.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  chain.pNext = &limits;
+  vkGetPhysicalDeviceProperties2(physical_device, &chain);
+  properties = chain.properties;
+  max_allocation_bytes = limits.maxMemoryAllocationSize;
+  ballot = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+           (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
+  vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
+
+  VkPhysicalDeviceFeatures supported{}, features{};
+  vkGetPhysicalDeviceFeatures(physical_device, &supported);
+  features.shaderFloat64 = supported.shaderFloat64;
+  float64 = supported.shaderFloat64 == VK_TRUE;
+
+  queue_family = compute_queue_family(physical_device);
+  const float priority = 1.0F;
+  VkDeviceQueueCreateInfo queue_info{};
+  queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue_info.queueFamilyIndex = queue_family;
+  queue_info.queueCount = 1;
+  queue_info.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue_info;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(needs.device_extensions.size());
+  info.ppEnabledExtensionNames = needs.device_extensions.data();
+  info.pEnabledFeatures = &features;
+  check(vkCreateDevice(physical_device, &info, nullptr, &device), "opening the Vulkan device");
+  vkGetDeviceQueue(device, queue_family, 0, &queue);
+
+  VkCommandPoolCreateInfo pool_info{};
+  pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  pool_info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+  pool_info.queueFamilyIndex = queue_family;
+  check(vkCreateCommandPool(device, &pool_info, nullptr, &command_pool), "making a command pool");
+}
+
+void Context::destroy() {
+  if (command_pool != VK_NULL_HANDLE) vkDestroyCommandPool(device, command_pool, nullptr);
+  if (device != VK_NULL_HANDLE) vkDestroyDevice(device, nullptr);
+  if (messenger_ != VK_NULL_HANDLE) {
+    const auto end = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
+    end(instance, messenger_, nullptr);
+  }
+  if (instance != VK_NULL_HANDLE) vkDestroyInstance(instance, nullptr);
+}
+
+}  // namespace splatray

@@ -1,0 +1,194 @@
+#include "preprocess/mesh/mesh_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "preprocess/mesh/mesh_normals.h"
+#include "preprocess/mesh/mesh_orientation.h"
+#include "preprocess/mesh/sample_mesh.h"
+
+namespace splatray {
+namespace {
+
+/// A mesh, where its points go, and how many are sampled on it.
+struct Part {
+  InputObject* object = nullptr;
+  Mesh* mesh = nullptr;
+  double area = 0.0;
+  bool sampled = false;  ///< by area; otherwise at the vertices
+  std::uint64_t samples = 0;
+};
+
+void drop_non_finite_triangles(Mesh& mesh, const std::string& name, std::vector<std::string>& notes) {
+  const auto finite = [&](glm::uint vertex) {
+    const glm::dvec3& p = mesh.vertices.position[vertex];
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  };
+  const std::size_t dropped = std::erase_if(mesh.triangles, [&](const glm::uvec3& triangle) {
+    return !finite(triangle.x) || !finite(triangle.y) || !finite(triangle.z);
+  });
+  if (dropped > 0) {
+    notes.push_back(name + ": dropped " + std::to_string(dropped) +
+                    " triangles with vertices that are not finite");
+  }
+}
+
+/// Turns a closed mesh of a dielectric outwards; whether the mesh is closed and its normals are known to
+/// point outwards.
+bool orient_mesh(Mesh& mesh, const std::vector<glm::uint>& weld, const InputObject& object,
+                 std::vector<std::string>& notes) {
+  const bool dielectric = (object.material.flags & MATERIAL_DIELECTRIC) != 0;
+  MeshOrientation found = measure_orientation(mesh, weld);
+  if (dielectric && found.is_closed() && found.signed_volume < 0.0) {
+    flip_mesh(mesh);
+    found.signed_volume = -found.signed_volume;
+    notes.push_back(object.name + ": wound inwards, turned outwards because it is a dielectric");
+  }
+  if (dielectric && found.is_closed() && found.agreeing_share < 0.5) {
+    std::for_each(mesh.vertices.normal.begin(), mesh.vertices.normal.end(), [](glm::vec3& n) { n = -n; });
+    found.agreeing_share = 1.0 - found.agreeing_share;
+    notes.push_back(object.name +
+                    ": given normals pointed inwards, turned outwards because it is a dielectric");
+  }
+  return found.is_closed() && found.signed_volume > 0.0 && found.agreeing_share >= 0.5;
+}
+
+/// Splits `total` over these parts by area, so that the sum is exact.
+void share_samples(const std::vector<Part*>& parts, std::uint64_t total) {
+  double area = 0.0;
+  for (const Part* part : parts) {
+    area += part->area;
+  }
+  double passed = 0.0;
+  std::uint64_t given = 0;
+  for (Part* part : parts) {
+    passed += part->area;
+    const auto until =
+        static_cast<std::uint64_t>(std::llround(static_cast<double>(total) * std::min(passed / area, 1.0)));
+    part->samples = until - std::min(given, until);
+    given = std::max(given, until);
+  }
+}
+
+template <class Condition>
+std::vector<Part*> sampled_parts(std::vector<Part>& parts, const Condition& condition) {
+  std::vector<Part*> chosen;
+  for (Part& part : parts) {
+    if (part.sampled && condition(part)) {
+      chosen.push_back(&part);
+    }
+  }
+  return chosen;
+}
+
+/// Appends; an attribute that only one side has is filled: white, no normal, no radius.
+void append_points(Points& to, Points&& more) {
+  if (to.size() == 0) {
+    to = std::move(more);
+    return;
+  }
+  const std::size_t before = to.size();
+  const std::size_t after = before + more.size();
+  to.position.insert(to.position.end(), more.position.begin(), more.position.end());
+  const auto append = [&](auto& mine, auto& theirs, auto fill) {
+    if (mine.empty() && theirs.empty()) {
+      return;
+    }
+    mine.resize(before, fill);
+    mine.insert(mine.end(), theirs.begin(), theirs.end());
+    mine.resize(after, fill);
+  };
+  append(to.normal, more.normal, glm::vec3(0.0F));
+  append(to.color, more.color, glm::vec3(1.0F));
+  append(to.radius, more.radius, 0.0F);
+}
+
+std::vector<Part> list_parts(Input& input, const ReadOptions& options) {
+  std::vector<Part> parts;
+  for (InputObject& object : input.objects) {
+    for (Mesh& mesh : object.meshes) {
+      drop_non_finite_triangles(mesh, object.name, input.notes);
+      Part part{&object, &mesh};
+      part.area = surface_area(mesh);
+      part.sampled = part.area > 0.0 && std::isfinite(part.area) &&
+                     (options.samples > 0 || object.samples > 0 || is_coarse(mesh));
+      parts.push_back(part);
+    }
+  }
+  return parts;
+}
+
+/// Meshes without triangles are point sets.
+void move_out_points(InputObject& object) {
+  for (Mesh& mesh : object.meshes) {
+    if (mesh.triangles.empty()) {
+      append_points(object.points, std::move(mesh.vertices));
+    }
+  }
+  std::erase_if(object.meshes, [](const Mesh& mesh) { return mesh.triangles.empty(); });
+}
+
+/// Coarse meshes share AUTOMATIC_SAMPLES; none gets fewer points than it has vertices, nor too few for it to
+/// be seen.
+void sample_coarse_parts(const std::vector<Part*>& coarse, std::vector<std::string>& notes) {
+  constexpr std::uint64_t FEWEST = 500;
+  if (coarse.empty()) {
+    return;
+  }
+  share_samples(coarse, AUTOMATIC_SAMPLES);
+  for (Part* part : coarse) {
+    part->samples = std::max({part->samples, FEWEST, std::uint64_t{part->mesh->vertices.size()}});
+  }
+  notes.push_back(std::to_string(coarse.size()) +
+                  " meshes are too coarse for splats at their vertices and were sampled by area, about " +
+                  std::to_string(AUTOMATIC_SAMPLES) + " points in all; a number of samples can be asked for");
+}
+
+/// How many points each part gets: options.samples over all, else what the scene asks for object by object.
+void choose_samples(std::vector<Part>& parts, Input& input, const ReadOptions& options) {
+  if (options.samples > 0) {
+    share_samples(sampled_parts(parts, [](const Part&) { return true; }), options.samples);
+    return;
+  }
+  sample_coarse_parts(sampled_parts(parts, [](const Part& part) { return part.object->samples == 0; }),
+                      input.notes);
+  for (const InputObject& object : input.objects) {
+    if (object.samples > 0) {
+      share_samples(sampled_parts(parts, [&](const Part& part) { return part.object == &object; }),
+                    object.samples);
+    }
+  }
+}
+
+void points_from_part(const Part& part, std::uint64_t seed, std::vector<std::string>& notes) {
+  InputObject& object = *part.object;
+  const std::vector<glm::uint> weld = weld_positions(part.mesh->vertices.position);
+  object.oriented = orient_mesh(*part.mesh, weld, object, notes) && object.oriented;
+  object.surface_area += part.area;
+  append_points(object.points, part.sampled ? sample_surface(*part.mesh, weld, part.samples, seed)
+                                            : vertex_points(*part.mesh, weld));
+}
+
+}  // namespace
+
+void points_from_meshes(Input& input, const ReadOptions& options) {
+  for (InputObject& object : input.objects) {
+    move_out_points(object);
+    object.oriented = object.points.size() == 0;
+  }
+  std::vector<Part> parts = list_parts(input, options);
+  choose_samples(parts, input, options);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    points_from_part(parts[i], options.seed + i, input.notes);
+    if (!options.keep_meshes) {
+      *parts[i].mesh = Mesh{};
+    }
+  }
+  for (InputObject& object : input.objects) {
+    if (!options.keep_meshes) {
+      object.meshes.clear();
+    }
+  }
+}
+
+}  // namespace splatray

@@ -1,0 +1,223 @@
+#include "preprocess/mesh/sample_mesh.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "preprocess/base/morton.h"
+#include "preprocess/mesh/mesh_normals.h"
+#include "preprocess/mesh/texture.h"
+
+namespace splatray {
+namespace {
+
+std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
+  const std::vector<glm::dvec3>& positions = mesh.vertices.position;
+  return {positions[triangle.x], positions[triangle.y], positions[triangle.z]};
+}
+
+double triangle_area(const std::array<glm::dvec3, 3>& corners) {
+  return 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
+double longest_edge(const std::array<glm::dvec3, 3>& corners) {
+  return std::max(glm::distance(corners[0], corners[1]),
+                  std::max(glm::distance(corners[1], corners[2]), glm::distance(corners[2], corners[0])));
+}
+
+struct Bounds {
+  glm::dvec3 low{INFINITY};
+  glm::dvec3 high{-INFINITY};
+};
+
+Bounds bounds_of_triangles(const Mesh& mesh) {
+  Bounds bounds;
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    for (const glm::dvec3& corner : corners_of(mesh, triangle)) {
+      bounds.low = glm::min(bounds.low, corner);
+      bounds.high = glm::max(bounds.high, corner);
+    }
+  }
+  return bounds;
+}
+
+/// Triangle indices along a Morton curve through their centroids.
+std::vector<std::uint32_t> morton_order(const Mesh& mesh) {
+  const Bounds bounds = bounds_of_triangles(mesh);
+  const glm::dvec3 extent = bounds.high - bounds.low;
+  const double largest = std::max(extent.x, std::max(extent.y, extent.z));
+  const double scale = largest > 0.0 ? 2097151.0 / largest : 0.0;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(mesh.triangles.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::array<glm::dvec3, 3> corners = corners_of(mesh, mesh.triangles[i]);
+    const glm::dvec3 centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
+    keys[i] = {morton_key(glm::uvec3((centroid - bounds.low) * scale)), static_cast<std::uint32_t>(i)};
+  }
+  tbb::parallel_sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(keys.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
+  return order;
+}
+
+/// Appends points given by triangle and barycentric weights.
+class SampleWriter {
+ public:
+  SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count)
+      : mesh_(mesh), normals_(corner_normals(mesh, weld)) {
+    points_.position.reserve(count);
+    points_.normal.reserve(count);
+    points_.color.reserve(mesh.vertices.color.empty() && !mesh.texture ? 0 : count);
+  }
+
+  void add(std::size_t triangle_index, const glm::dvec3& weights) {
+    const glm::uvec3& triangle = mesh_.triangles[triangle_index];
+    const glm::vec3 w(weights);
+    const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
+    points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
+    points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
+    if (mesh_.vertices.color.empty() && !mesh_.texture) {
+      return;
+    }
+    glm::vec3 color{1.0F};
+    if (const auto& colors = mesh_.vertices.color; !colors.empty()) {
+      color = w.x * colors[triangle.x] + w.y * colors[triangle.y] + w.z * colors[triangle.z];
+    }
+    if (mesh_.texture) {
+      const auto& uv = mesh_.texcoord;
+      color *= mesh_.texture->color(w.x * uv[triangle.x] + w.y * uv[triangle.y] + w.z * uv[triangle.z]);
+    }
+    points_.color.push_back(color);
+  }
+
+  Points finish() { return std::move(points_); }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<glm::vec3> normals_;
+  Points points_;
+};
+
+/// Index of the corner opposite the longest edge: the lattice's rows are then short.
+int apex_of(const std::array<glm::dvec3, 3>& corners) {
+  int apex = 0;
+  double longest = -1.0;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = [&](int corner) { return corners[static_cast<std::size_t>(corner % 3)]; };
+    const double length = glm::distance(at(i + 1), at(i + 2));
+    if (length > longest) {
+      longest = length;
+      apex = i;
+    }
+  }
+  return apex;
+}
+
+}  // namespace
+
+double surface_area(const Mesh& mesh) {
+  double area = 0.0;
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    area += triangle_area(corners_of(mesh, triangle));
+  }
+  return area;
+}
+
+bool is_coarse(const Mesh& mesh) {
+  const Bounds bounds = bounds_of_triangles(mesh);
+  const double limit = 0.01 * glm::length(bounds.high - bounds.low);
+  double area = 0.0;
+  double coarse_area = 0.0;
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const std::array<glm::dvec3, 3> corners = corners_of(mesh, triangle);
+    const double own = triangle_area(corners);
+    area += own;
+    coarse_area += longest_edge(corners) > limit ? own : 0.0;
+  }
+  return coarse_area > 0.1 * area;
+}
+
+Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld) {
+  constexpr float COS_SAME = 0.9994F;
+  constexpr glm::uint NONE = 0xFFFFFFFFU;
+  const std::vector<glm::vec3> normals = vertex_normals(mesh, weld);
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    used[triangle.x] = used[triangle.y] = used[triangle.z] = true;
+  }
+  std::vector<glm::uint> first_kept(mesh.vertices.size(), NONE);  // by weld representative: head of a chain
+  std::vector<glm::uint> next_kept(mesh.vertices.size(), NONE);
+  Points points;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    glm::uint other = first_kept[weld[i]];
+    while (other != NONE && glm::dot(normals[other], normals[i]) < COS_SAME) {
+      other = next_kept[other];
+    }
+    if (!used[i] || other != NONE) {
+      continue;
+    }
+    next_kept[i] = std::exchange(first_kept[weld[i]], static_cast<glm::uint>(i));
+    points.position.push_back(mesh.vertices.position[i]);
+    points.normal.push_back(normals[i]);
+    if (!mesh.vertices.color.empty() || mesh.texture) {
+      const glm::vec3 own = mesh.vertices.color.empty() ? glm::vec3(1.0F) : mesh.vertices.color[i];
+      points.color.push_back(mesh.texture ? own * mesh.texture->color(mesh.texcoord[i]) : own);
+    }
+    if (!mesh.vertices.radius.empty()) {
+      points.radius.push_back(mesh.vertices.radius[i]);
+    }
+  }
+  return points;
+}
+
+Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
+                      std::uint64_t seed) {
+  constexpr double GOLDEN_RATIO_PART = 0.6180339887498949;
+  if (count == 0) {
+    return {};
+  }
+  std::mt19937_64 random(seed);
+  const double share_offset = 0.1 + 0.8 * static_cast<double>(random() >> 11U) * 0x1p-53;
+  double side = static_cast<double>(random() >> 11U) * 0x1p-53;
+  const double step = surface_area(mesh) / static_cast<double>(count);
+  assert(step > 0.0 && std::isfinite(step));
+  SampleWriter writer(mesh, weld, count);
+  std::uint64_t written = 0;
+  double passed = 0.0;
+  std::size_t last_proper = 0;
+  for (const std::uint32_t index : morton_order(mesh)) {
+    const std::array<glm::dvec3, 3> corners = corners_of(mesh, mesh.triangles[index]);
+    const double area = triangle_area(corners);
+    if (!(area > 0.0)) {
+      continue;
+    }
+    last_proper = index;
+    const int apex = apex_of(corners);
+    while (written < count) {
+      const double at = (static_cast<double>(written) + share_offset) * step;
+      if (at >= passed + area) {
+        break;
+      }
+      const double height = std::sqrt(std::max(at - passed, 0.0) / area);
+      side -= side >= 1.0 ? 1.0 : 0.0;
+      glm::dvec3 weights;
+      weights[apex] = 1.0 - height;
+      weights[(apex + 1) % 3] = height * (1.0 - side);
+      weights[(apex + 2) % 3] = height * side;
+      writer.add(index, weights);
+      side += GOLDEN_RATIO_PART;
+      ++written;
+    }
+    passed += area;
+  }
+  for (; written < count; ++written) {  // rounding of the summed area may leave the last share over
+    writer.add(last_proper, glm::dvec3(1.0 / 3.0));
+  }
+  return writer.finish();
+}
+
+}  // namespace splatray

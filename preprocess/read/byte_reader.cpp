@@ -1,0 +1,96 @@
+#include "preprocess/read/byte_reader.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/base/error.h"
+#include "preprocess/base/one_line.h"
+
+namespace splatray {
+
+void throw_unreadable(const std::filesystem::path& path, const std::string& what) {
+  throw Error(ExitCode::input_unreadable, one_line(path.string() + ": " + what));
+}
+
+ByteReader::ByteReader(const std::filesystem::path& path) : path_(path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    throw_unreadable(path, "no such file");
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw_unreadable(path, "found a directory, expected a file");
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    throw_unreadable(path, "not a regular file");
+  }
+  size_ = std::filesystem::file_size(path, error);
+  if (error || size_ == 0) {
+    throw_unreadable(path, error ? error.message() : "the file is empty");
+  }
+  file_.reset(std::fopen(path.c_str(), "rb"));
+  if (!file_) {
+    throw_unreadable(path, "cannot be opened for reading");
+  }
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  buffer_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(size_, BLOCK_BYTES)));
+}
+
+bool ByteReader::fill(std::size_t count) {
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  if (count > buffer_.size()) {
+    buffer_.resize(std::max(count, 2 * buffer_.size()));
+  }
+  while (end_ < count) {
+    const std::size_t got = std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
+    if (got == 0) {
+      return false;
+    }
+    end_ += got;
+  }
+  return true;
+}
+
+bool ByteReader::skip(std::uint64_t count) {
+  while (count > 0) {
+    const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(count, BLOCK_BYTES));
+    if (take(step) == nullptr) {
+      return false;
+    }
+    count -= step;
+  }
+  return true;
+}
+
+bool ByteReader::line(std::string_view& text, std::size_t max_bytes) {
+  std::size_t searched = 0;
+  const void* found = nullptr;
+  while (found == nullptr) {
+    found = std::memchr(buffer_.data() + begin_ + searched, '\n', end_ - begin_ - searched);
+    searched = end_ - begin_;
+    if (found == nullptr && (searched >= max_bytes || !fill(searched + 1))) {
+      break;
+    }
+  }
+  const std::size_t length =
+      found == nullptr
+          ? std::min(searched, max_bytes)
+          : static_cast<std::size_t>(static_cast<const unsigned char*>(found) - (buffer_.data() + begin_));
+  const std::size_t consumed = length + (found == nullptr ? 0 : 1);
+  if (consumed == 0) {
+    return false;
+  }
+  text = {reinterpret_cast<const char*>(buffer_.data() + begin_), length};
+  begin_ += consumed;
+  offset_ += consumed;
+  if (!text.empty() && text.back() == '\r') {
+    text.remove_suffix(1);
+  }
+  return true;
+}
+
+}  // namespace splatray

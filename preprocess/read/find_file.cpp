@@ -1,0 +1,29 @@
+#include "preprocess/read/find_file.h"
+
+#include "preprocess/read/byte_reader.h"
+
+namespace splatray {
+
+std::filesystem::path find_scene_file(const FileWish& wish,
+                                      const std::vector<std::filesystem::path>& data_paths) {
+  const std::filesystem::path name(wish.name);
+  std::vector<std::filesystem::path> candidates{wish.scene.parent_path() / name};
+  for (const std::filesystem::path& folder : data_paths) {
+    candidates.push_back(folder / name);
+    if (name.has_parent_path()) {
+      candidates.push_back(folder / name.filename());
+    }
+  }
+  std::string looked;
+  for (const std::filesystem::path& candidate : candidates) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(candidate, error)) {
+      return candidate;
+    }
+    looked += (looked.empty() ? "" : ", ") + candidate.string();
+  }
+  throw_unreadable(wish.scene, wish.what + ": '" + wish.name + "' was not found, looked for " + looked +
+                                   (wish.hint.empty() ? "" : "; " + wish.hint));
+}
+
+}  // namespace splatray

@@ -1,0 +1,239 @@
+#include "preprocess/read/gltf/gltf_material.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "preprocess/read/gltf/gltf_accessor.h"
+
+namespace splatray {
+namespace {
+
+struct Surface {
+  glm::vec3 base{1.0F};
+  float metallic = 1.0F;
+  float roughness = 1.0F;
+};
+
+float unit_clamp(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
+
+float phong_exponent(float roughness) {
+  const float alpha = std::max(roughness * roughness, 1e-3F);
+  return std::clamp((2.0F / (alpha * alpha) - 2.0F) / 4.0F, 1.0F, 1000.0F);
+}
+
+glm::vec3 color_factor(const tinygltf::Material& source) {
+  const std::vector<double>& factor = source.pbrMetallicRoughness.baseColorFactor;
+  if (factor.size() < 3) {
+    return glm::vec3(1.0F);
+  }
+  return {unit_clamp(factor[0]), unit_clamp(factor[1]), unit_clamp(factor[2])};
+}
+
+/// Transmittance of one crossing (KHR_materials_volume, Beer-Lambert over half the thickness).
+glm::vec3 attenuation(const tinygltf::Material& source) {
+  const tinygltf::Value* volume = find_extension(source.extensions, "KHR_materials_volume");
+  if (volume == nullptr) {
+    return glm::vec3(1.0F);
+  }
+  const double thickness = number_in(*volume, "thicknessFactor").value_or(0.0);
+  const double distance = number_in(*volume, "attenuationDistance").value_or(INFINITY);
+  const std::vector<double> color = numbers_in(*volume, "attenuationColor", {1.0, 1.0, 1.0});
+  const double power = distance > 0.0 ? std::clamp(thickness / (2.0 * distance), 0.0, 16.0) : 0.0;
+  return {std::pow(unit_clamp(color[0]), power), std::pow(unit_clamp(color[1]), power),
+          std::pow(unit_clamp(color[2]), power)};
+}
+
+void make_dielectric(Material& material, const tinygltf::Material& source, const Surface& surface) {
+  constexpr double GLASS = 1.5;
+  const tinygltf::Value* ior = find_extension(source.extensions, "KHR_materials_ior");
+  const bool thin = ior == nullptr && find_extension(source.extensions, "KHR_materials_volume") == nullptr;
+  const double found = ior == nullptr ? GLASS : number_in(*ior, "ior").value_or(GLASS);
+  material.flags |= MATERIAL_DIELECTRIC;
+  material.ior = thin ? 1.0F : static_cast<float>(found > 0.0 ? found : GLASS);
+  material.tint = surface.base * attenuation(source);
+}
+
+void make_opaque(Material& material, const Surface& surface, bool colored) {
+  const glm::vec3 base = colored ? glm::vec3(1.0F) : surface.base;
+  const float smooth = 1.0F - surface.roughness;
+  if (surface.metallic > 0.5F && surface.roughness < 0.35F && !colored) {
+    material.mirror = 1.0F;
+    material.tint = surface.base;
+  } else if (surface.metallic > 0.5F) {
+    material.diffuse = 0.6F * base;
+    material.specular = 0.3F + 0.6F * smooth * smooth;
+  } else {
+    material.diffuse = base;
+    material.specular = 0.04F + 0.26F * smooth * smooth;
+  }
+}
+
+void apply_extras(Material& material, const tinygltf::Value& extras) {
+  if (const auto mirror = number_in(extras, "mirror")) {
+    material.mirror = unit_clamp(*mirror);
+  }
+  if (const auto specular = number_in(extras, "specular")) {
+    material.specular = unit_clamp(*specular);
+  }
+  if (const auto shininess = number_in(extras, "shininess")) {
+    material.shininess = static_cast<float>(std::max(*shininess, 1.0));
+  }
+}
+
+TextureWrap wrap_of(int gltf_wrap) {
+  switch (gltf_wrap) {
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+      return TextureWrap::clamp;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+      return TextureWrap::mirror;
+    default:
+      return TextureWrap::repeat;
+  }
+}
+
+/// KHR_texture_transform: translation * rotation * scale; the rotation is counter-clockwise as seen with v
+/// downwards, as its text and the sample viewer have it (the formula printed in it turns the other way).
+glm::mat3 uv_transform_of(const tinygltf::TextureInfo& info) {
+  const tinygltf::Value* transform = find_extension(info.extensions, "KHR_texture_transform");
+  if (transform == nullptr) {
+    return glm::mat3(1.0F);
+  }
+  const std::vector<double> offset = numbers_in(*transform, "offset", {0.0, 0.0});
+  const std::vector<double> scale = numbers_in(*transform, "scale", {1.0, 1.0});
+  const double angle = number_in(*transform, "rotation").value_or(0.0);
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return glm::mat3(glm::dmat3(c * scale[0], -s * scale[0], 0.0, s * scale[1], c * scale[1], 0.0, offset[0],
+                              offset[1], 1.0));
+}
+
+}  // namespace
+
+const tinygltf::Material& GltfMaterials::source(int index) const {
+  return file_.model.materials[file_.checked(index, file_.model.materials.size(), "material")];
+}
+
+void GltfMaterials::note_once(int index, const std::string& what) {
+  const std::string name = source(index).name;
+  const std::string note =
+      file_.path.string() + ": material " + (name.empty() ? std::to_string(index) : name) + ": " + what;
+  if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) {
+    notes_.push_back(note);
+  }
+}
+
+Material GltfMaterials::material(int index, bool colored) {
+  Material material = default_material();
+  if (index < 0) {
+    material.diffuse = colored ? glm::vec3(1.0F) : material.diffuse;
+    return material;
+  }
+  const tinygltf::Material& from = source(index);
+  material.flags = from.doubleSided ? MATERIAL_TWO_SIDED : 0U;
+  material.diffuse = glm::vec3(0.0F);
+  Surface surface{color_factor(from), unit_clamp(from.pbrMetallicRoughness.metallicFactor),
+                  unit_clamp(from.pbrMetallicRoughness.roughnessFactor)};
+  if (from.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0) {
+    if (const auto picture = image(from.pbrMetallicRoughness.metallicRoughnessTexture.index)) {
+      const glm::vec4 mean = picture->mean();
+      surface.metallic *= mean.z;
+      surface.roughness *= mean.y;
+    }
+  }
+  const tinygltf::Value* transmission = find_extension(from.extensions, "KHR_materials_transmission");
+  material.shininess = phong_exponent(surface.roughness);
+  if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.5) {
+    make_dielectric(material, from, surface);
+  } else {
+    make_opaque(material, surface, colored);
+  }
+  apply_extras(material, from.extras);
+  if (from.alphaMode != "OPAQUE") {
+    note_once(index, "alphaMode " + from.alphaMode.substr(0, 20) + " is not supported, shown opaque");
+  }
+  if (std::any_of(from.emissiveFactor.begin(), from.emissiveFactor.end(), [](double e) { return e > 0.0; })) {
+    note_once(index, "emission is not shown");
+  }
+  return material;
+}
+
+glm::vec3 GltfMaterials::base_color(int index) const {
+  return index < 0 ? glm::vec3(1.0F) : color_factor(source(index));
+}
+
+int GltfMaterials::base_texcoord(int index) const {
+  const tinygltf::TextureInfo& info = source(index).pbrMetallicRoughness.baseColorTexture;
+  const tinygltf::Value* transform = find_extension(info.extensions, "KHR_texture_transform");
+  const auto replaced = transform == nullptr ? std::nullopt : number_in(*transform, "texCoord");
+  return replaced ? static_cast<int>(std::clamp(*replaced, 0.0, 1000.0)) : info.texCoord;
+}
+
+std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
+  if (index < 0 || source(index).pbrMetallicRoughness.baseColorTexture.index < 0) {
+    return nullptr;
+  }
+  if (const auto known = textures_.find(index); known != textures_.end()) {
+    return known->second;
+  }
+  const tinygltf::TextureInfo& info = source(index).pbrMetallicRoughness.baseColorTexture;
+  auto texture = std::make_shared<Texture>();
+  texture->image = image(info.index);
+  texture->uv_transform = uv_transform_of(info);
+  texture->factor = base_color(index);
+  const int sampler = file_.model.textures[static_cast<std::size_t>(info.index)].sampler;
+  if (sampler >= 0) {
+    const tinygltf::Sampler& found =
+        file_.model.samplers[file_.checked(sampler, file_.model.samplers.size(), "sampler")];
+    texture->wrap_s = wrap_of(found.wrapS);
+    texture->wrap_t = wrap_of(found.wrapT);
+  }
+  if (!texture->image) {
+    note_once(index, "the base colour texture cannot be decoded, its factor is shown");
+    texture = nullptr;
+  }
+  textures_[index] = texture;
+  return texture;
+}
+
+std::shared_ptr<const TextureImage> GltfMaterials::image(int texture) {
+  const tinygltf::Texture& found =
+      file_.model.textures[file_.checked(texture, file_.model.textures.size(), "texture")];
+  if (found.source < 0) {
+    return nullptr;
+  }
+  const std::size_t index = file_.checked(found.source, file_.model.images.size(), "image");
+  if (images_.count(index) == 0) {
+    images_[index] = decode(index);
+  }
+  return images_[index];
+}
+
+std::shared_ptr<const TextureImage> GltfMaterials::decode(std::size_t index) {
+  const tinygltf::Image& stored = file_.model.images[index];
+  std::span<const unsigned char> bytes(stored.image);
+  if (stored.bufferView >= 0) {
+    bytes = buffer_view_bytes(file_, stored.bufferView);
+  }
+  tinygltf::Image decoded;
+  std::string error;
+  std::string warning;
+  if (bytes.empty() || bytes.size() > 0x7FFFFFFFU ||
+      !tinygltf::LoadImageData(&decoded, static_cast<int>(index), &error, &warning, 0, 0, bytes.data(),
+                               static_cast<int>(bytes.size()), nullptr) ||
+      decoded.width <= 0 || decoded.height <= 0 || decoded.component != 4) {
+    return nullptr;
+  }
+  auto picture = std::make_shared<TextureImage>();
+  picture->width = static_cast<std::uint32_t>(decoded.width);
+  picture->height = static_cast<std::uint32_t>(decoded.height);
+  picture->texels.resize(std::size_t{picture->width} * picture->height);
+  const std::size_t channel_bytes = decoded.bits == 16 ? 2 : 1;
+  for (std::size_t i = 0; i < picture->texels.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) {  // of 16-bit values the upper byte
+      picture->texels[i][static_cast<int>(c)] = decoded.image[(4 * i + c + 1) * channel_bytes - 1];
+    }
+  }
+  return picture;
+}
+
+}  // namespace splatray

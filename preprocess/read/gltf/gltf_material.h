@@ -1,0 +1,57 @@
+/// glTF materials -> our materials and textures.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "preprocess/mesh/texture.h"
+#include "preprocess/points.h"
+#include "preprocess/read/gltf/gltf_file.h"
+
+namespace splatray {
+
+/// Materials and pictures of one file; pictures are decoded when first asked for.
+///
+/// pbrMetallicRoughness becomes diffuse + Phong specular, mirror or dielectric, whichever is nearest:
+/// - transmissionFactor > 0.5: dielectric; ior of KHR_materials_ior (1.5), or 1 when neither that nor
+///   KHR_materials_volume is there (a thin pane, which does not bend light); tint = base colour, times the
+///   attenuation colour of KHR_materials_volume to the power of thickness / (2 attenuation distance) (the
+///   ray crosses the surface twice).
+/// - metallic > 0.5, roughness < 0.35, one colour: mirror = 1, tint = base colour.
+/// - other metals: diffuse = 0.6 base colour, specular 0.3 to 0.9.
+/// - all else: diffuse = base colour, specular 0.04 (rough) to 0.3 (smooth).
+/// Phong exponent: (2 / alpha^2 - 2) / 4 with alpha = roughness^2, 1 to 1000 (Blinn-Phong's for a Beckmann
+/// slope, Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces"; Phong's lobe is
+/// about 4 times as wide). Metallic and roughness textures count by their mean. doubleSided: two-sided.
+/// extras.mirror (0..1), extras.specular (0..1) and extras.shininess (>= 1) set those fields.
+class GltfMaterials {
+ public:
+  GltfMaterials(const GltfFile& file, std::vector<std::string>& notes) : file_(file), notes_(notes) {}
+
+  /// The material with this index, default_material() for -1. `colored`: points bring the base colour
+  /// themselves, so `diffuse` leaves it out. Throws Error (input_unreadable) for an index out of range.
+  [[nodiscard]] Material material(int index, bool colored);
+
+  /// Linear base colour factor; white for -1.
+  [[nodiscard]] glm::vec3 base_color(int index) const;
+
+  /// The base colour texture times its factor, nullptr when there is none or it cannot be decoded (noted).
+  [[nodiscard]] std::shared_ptr<const Texture> base_texture(int index);
+
+  /// Which TEXCOORD_n the base colour texture uses.
+  [[nodiscard]] int base_texcoord(int index) const;
+
+ private:
+  [[nodiscard]] const tinygltf::Material& source(int index) const;
+  [[nodiscard]] std::shared_ptr<const TextureImage> image(int texture);
+  [[nodiscard]] std::shared_ptr<const TextureImage> decode(std::size_t image);
+  void note_once(int index, const std::string& what);
+
+  const GltfFile& file_;
+  std::vector<std::string>& notes_;
+  std::map<std::size_t, std::shared_ptr<const TextureImage>> images_;
+  std::map<int, std::shared_ptr<const Texture>> textures_;
+};
+
+}  // namespace splatray

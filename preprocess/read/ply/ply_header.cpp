@@ -1,0 +1,176 @@
+#include "preprocess/read/ply/ply_header.h"
+
+#include <charconv>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace splatray {
+namespace {
+
+constexpr std::size_t MAX_HEADER_LINE_BYTES = 65536;
+constexpr std::uint64_t MAX_HEADER_BYTES = std::uint64_t{1} << 20U;
+
+std::optional<PlyType> type_of(const std::string& name) {
+  static const std::pair<const char*, PlyType> NAMES[] = {
+      {"char", PlyType::int8},       {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},     {"short", PlyType::int16},     {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+      {"int32", PlyType::int32},     {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+      {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
+      {"float64", PlyType::float64},
+  };
+  for (const auto& [known, type] : NAMES) {
+    if (name == known) {
+      return type;
+    }
+  }
+  return std::nullopt;
+}
+
+class HeaderParser {
+ public:
+  explicit HeaderParser(ByteReader& in) : in_(in) {}
+
+  PlyHeader parse() {
+    if (next_line() != "ply") {
+      throw_unreadable(in_.path(), "the first line is not 'ply', expected a PLY file");
+    }
+    bool format_seen = false;
+    for (;;) {
+      std::istringstream words(next_line());
+      std::string key;
+      words >> key;
+      if (key == "end_header") {
+        break;
+      }
+      if (key == "format") {
+        parse_format(words);
+        format_seen = true;
+      } else if (key == "element") {
+        parse_element(words);
+      } else if (key == "property") {
+        parse_property(words);
+      } else if (!key.empty() && key != "comment" && key != "obj_info") {
+        fail("found '" + key.substr(0, 40) + "', expected format, element, property, comment or end_header");
+      }
+    }
+    if (!format_seen) {
+      fail("the header ends without a 'format' line");
+    }
+    return std::move(header_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw_unreadable(in_.path(), "line " + std::to_string(header_.line_count) + ": " + what);
+  }
+
+  std::string next_line() {
+    std::string_view text;
+    if (in_.offset() > MAX_HEADER_BYTES || !in_.line(text, MAX_HEADER_LINE_BYTES)) {
+      fail("the header has no 'end_header' line");
+    }
+    ++header_.line_count;
+    return std::string(text);
+  }
+
+  void parse_format(std::istringstream& words) {
+    std::string format;
+    std::string version;
+    words >> format >> version;
+    if (format == "ascii") {
+      header_.format = PlyFormat::ascii;
+    } else if (format == "binary_little_endian") {
+      header_.format = PlyFormat::binary_little_endian;
+    } else if (format == "binary_big_endian") {
+      header_.format = PlyFormat::binary_big_endian;
+    } else {
+      fail("found format '" + format.substr(0, 40) +
+           "', expected ascii, binary_little_endian or binary_big_endian");
+    }
+    if (version != "1.0") {
+      fail("found PLY version '" + version.substr(0, 40) + "', expected 1.0");
+    }
+  }
+
+  void parse_element(std::istringstream& words) {
+    PlyElement element;
+    std::string count;
+    words >> element.name >> count;
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (element.name.empty() || count.empty() || error != std::errc{} || end != count.data() + count.size()) {
+      fail("found the count '" + count.substr(0, 40) + "' of element '" + element.name.substr(0, 40) +
+           "', expected a whole number");
+    }
+    header_.elements.push_back(std::move(element));
+  }
+
+  PlyType parse_type(std::istringstream& words) {
+    std::string name;
+    words >> name;
+    const std::optional<PlyType> type = type_of(name);
+    if (!type) {
+      fail("found property type '" + name.substr(0, 40) + "', expected char to double or int8 to float64");
+    }
+    return *type;
+  }
+
+  void parse_property(std::istringstream& words) {
+    if (header_.elements.empty()) {
+      fail("a property stands before the first element");
+    }
+    PlyProperty property;
+    const std::istringstream::pos_type start = words.tellg();
+    std::string kind;
+    words >> kind;
+    property.is_list = kind == "list";
+    if (property.is_list) {
+      property.count_type = parse_type(words);
+      if (property.count_type == PlyType::float32 || property.count_type == PlyType::float64) {
+        fail("a list's length is a float, expected an integer type");
+      }
+    } else {
+      words.clear();
+      words.seekg(start);
+    }
+    property.type = parse_type(words);
+    words >> property.name;
+    if (property.name.empty()) {
+      fail("a property has no name");
+    }
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  ByteReader& in_;
+  PlyHeader header_;
+};
+
+}  // namespace
+
+std::size_t ply_type_bytes(PlyType type) {
+  static constexpr std::size_t BYTES[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return BYTES[static_cast<std::size_t>(type)];
+}
+
+std::uint64_t PlyElement::min_row_bytes(PlyFormat format) const {
+  std::uint64_t bytes = 0;
+  for (const PlyProperty& property : properties) {
+    const PlyType type = property.is_list ? property.count_type : property.type;
+    bytes += format == PlyFormat::ascii ? 2 : ply_type_bytes(type);
+  }
+  return bytes;
+}
+
+int PlyElement::find(const std::string& property) const {
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    if (properties[i].name == property) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+PlyHeader read_ply_header(ByteReader& in) { return HeaderParser(in).parse(); }
+
+}  // namespace splatray

@@ -1,0 +1,45 @@
+/// The header of a PLY file (Turk 1994, "The PLY Polygon File Format").
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "preprocess/read/byte_reader.h"
+
+namespace splatray {
+
+enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// Bytes of a value in a binary file.
+[[nodiscard]] std::size_t ply_type_bytes(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32;  ///< of the value, or of a list's entries
+  bool is_list = false;
+  PlyType count_type = PlyType::uint8;  ///< of a list's length
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;  ///< as declared: not to be trusted before min_row_bytes is checked
+  std::vector<PlyProperty> properties;
+
+  /// The least bytes a row takes in a file of this format.
+  [[nodiscard]] std::uint64_t min_row_bytes(PlyFormat format) const;
+  /// Index of a property, -1 when there is none.
+  [[nodiscard]] int find(const std::string& property) const;
+};
+
+struct PlyHeader {
+  PlyFormat format = PlyFormat::ascii;
+  std::vector<PlyElement> elements;  ///< in file order
+  std::uint64_t line_count = 0;      ///< lines of the header, end_header included
+};
+
+/// Reads the header; `in` then stands on the first byte of the body. Throws Error (input_unreadable) with the
+/// line.
+[[nodiscard]] PlyHeader read_ply_header(ByteReader& in);
+
+}  // namespace splatray

@@ -1,0 +1,251 @@
+#include "preprocess/read/ply/ply_vertices.h"
+
+#include <algorithm>
+#include <array>
+
+#include "preprocess/base/color.h"
+#include "preprocess/base/quoted_list.h"
+
+namespace splatray {
+namespace {
+
+using Triple = std::array<int, 3>;  ///< property indices, -1 = absent
+constexpr Triple ABSENT{-1, -1, -1};
+
+/// Which property feeds which attribute.
+struct Columns {
+  Triple position = ABSENT;
+  Triple normal = ABSENT;
+  Triple color = ABSENT;
+  Triple sh_color = ABSENT;  ///< f_dc_0..2, used where there is no plain colour
+  int radius = -1;
+
+  [[nodiscard]] bool uses(int property) const {
+    const auto in = [&](const Triple& triple) {
+      return std::find(triple.begin(), triple.end(), property) != triple.end();
+    };
+    return in(position) || in(normal) || in(color) || in(sh_color) || property == radius;
+  }
+};
+
+/// All three by name as plain scalars, or ABSENT.
+Triple find_triple(const PlyElement& element, const char* a, const char* b, const char* c) {
+  const Triple found{element.find(a), element.find(b), element.find(c)};
+  for (const int index : found) {
+    if (index < 0 || element.properties[static_cast<std::size_t>(index)].is_list) {
+      return ABSENT;
+    }
+  }
+  return found;
+}
+
+Columns find_columns(const PlyBody& in, const PlyElement& element) {
+  if (element.find("packed_position") >= 0) {
+    in.fail(
+        "found packed Gaussians (property 'packed_position'), expected x, y, z: export an uncompressed PLY");
+  }
+  Columns columns;
+  columns.position = find_triple(element, "x", "y", "z");
+  if (columns.position == ABSENT) {
+    in.fail("element 'vertex' has no properties x, y, z");
+  }
+  columns.normal = find_triple(element, "nx", "ny", "nz");
+  columns.color = find_triple(element, "red", "green", "blue");
+  if (columns.color == ABSENT) {
+    columns.color = find_triple(element, "diffuse_red", "diffuse_green", "diffuse_blue");
+  }
+  if (columns.color == ABSENT) {
+    columns.color = find_triple(element, "r", "g", "b");
+  }
+  if (columns.color == ABSENT) {
+    columns.sh_color = find_triple(element, "f_dc_0", "f_dc_1", "f_dc_2");
+  }
+  const int radius = element.find("radius");
+  if (radius >= 0 && !element.properties[static_cast<std::size_t>(radius)].is_list) {
+    columns.radius = radius;
+  }
+  return columns;
+}
+
+/// Rows of scalars in memory: where each property stands and how it is stored.
+struct RowLayout {
+  std::vector<std::size_t> offset;
+  std::vector<PlyType> type;
+  std::size_t stride = 0;
+  bool swap = false;
+};
+
+/// Binary rows without lists are used as they stand in the file; all others are gathered as float64.
+RowLayout make_layout(const PlyBody& in, const PlyElement& element, bool in_place) {
+  RowLayout layout;
+  layout.swap = in_place && in.swaps();
+  for (const PlyProperty& property : element.properties) {
+    layout.offset.push_back(layout.stride);
+    layout.type.push_back(in_place ? property.type : PlyType::float64);
+    layout.stride += ply_type_bytes(layout.type.back());
+  }
+  return layout;
+}
+
+/// Copies one property of `count` rows to out[0], out[out_stride], ...
+template <class Out>
+void copy_column(const unsigned char* rows, std::size_t count, const RowLayout& layout, int property,
+                 Out* out, std::size_t out_stride) {
+  const auto index = static_cast<std::size_t>(property);
+  const unsigned char* value = rows + layout.offset[index];
+  with_ply_type(layout.type[index], [&](auto kind) {
+    for (std::size_t i = 0; i < count; ++i) {
+      out[i * out_stride] =
+          static_cast<Out>(load_ply_value<decltype(kind)>(value + i * layout.stride, layout.swap));
+    }
+  });
+}
+
+template <class Vector>
+void copy_triple(const unsigned char* rows, std::size_t count, const RowLayout& layout, const Triple& triple,
+                 std::vector<Vector>& out) {
+  if (triple == ABSENT) {
+    return;
+  }
+  const std::size_t begin = out.size();
+  out.resize(begin + count);
+  for (int axis = 0; axis < 3; ++axis) {
+    copy_column(rows, count, layout, triple[static_cast<std::size_t>(axis)], &out[begin][axis], 3);
+  }
+}
+
+void append_rows(const unsigned char* rows, std::size_t count, const RowLayout& layout,
+                 const Columns& columns, Points& points) {
+  copy_triple(rows, count, layout, columns.position, points.position);
+  copy_triple(rows, count, layout, columns.normal, points.normal);
+  copy_triple(rows, count, layout, columns.color, points.color);
+  copy_triple(rows, count, layout, columns.sh_color, points.color);
+  if (columns.radius >= 0) {
+    const std::size_t begin = points.radius.size();
+    points.radius.resize(begin + count);
+    copy_column(rows, count, layout, columns.radius, &points.radius[begin], 1);
+  }
+}
+
+void reserve(Points& points, const PlyElement& element, const Columns& columns) {
+  points.position.reserve(element.count);
+  points.normal.reserve(columns.normal == ABSENT ? 0 : element.count);
+  points.color.reserve(columns.color == ABSENT && columns.sh_color == ABSENT ? 0 : element.count);
+  points.radius.reserve(columns.radius < 0 ? 0 : element.count);
+}
+
+void gather_row(PlyBody& in, const PlyElement& element, double* row) {
+  in.begin_row();
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    if (element.properties[i].is_list) {
+      in.skip(element.properties[i]);
+      row[i] = 0.0;
+    } else {
+      row[i] = in.number(element.properties[i].type);
+    }
+  }
+  in.end_row();
+}
+
+Points read_rows(PlyBody& in, const PlyElement& element, const Columns& columns) {
+  const bool has_lists = std::any_of(element.properties.begin(), element.properties.end(),
+                                     [](const PlyProperty& property) { return property.is_list; });
+  const bool in_place = !in.is_ascii() && !has_lists;
+  const RowLayout layout = make_layout(in, element, in_place);
+  const std::size_t block_rows = std::max<std::size_t>(1, ByteReader::BLOCK_BYTES / layout.stride);
+  std::vector<double> gathered;
+  Points points;
+  reserve(points, element, columns);
+  for (std::uint64_t done = 0; done < element.count;) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block_rows, element.count - done));
+    const unsigned char* rows = nullptr;
+    if (in_place) {
+      rows = in.bytes().take(count * layout.stride);
+      if (rows == nullptr) {
+        in.fail("the file ends before vertex " + std::to_string(done + count) + " of " +
+                std::to_string(element.count));
+      }
+    } else {
+      gathered.resize(count * element.properties.size());
+      for (std::size_t i = 0; i < count; ++i) {
+        gather_row(in, element, gathered.data() + i * element.properties.size());
+      }
+      rows = reinterpret_cast<const unsigned char*>(gathered.data());
+    }
+    append_rows(rows, count, layout, columns, points);
+    done += count;
+  }
+  return points;
+}
+
+/// The value that stands for full intensity: by type, unless the values themselves say otherwise.
+float color_scale(const Points& points, PlyType type, const PlyBody& in, std::vector<std::string>& notes) {
+  float most = 0.0F;
+  for (const glm::vec3& color : points.color) {
+    most = std::max({most, color.x, color.y, color.z});
+  }
+  const auto note = [&](const char* what) { notes.push_back(in.path().string() + ": " + what); };
+  switch (type) {
+    case PlyType::int16:
+    case PlyType::uint16:
+      if (most > 0.0F && most <= 255.0F) {
+        note("16-bit colours never exceed 255, taken as 8-bit");
+        return 255.0F;
+      }
+      return 65535.0F;
+    case PlyType::float32:
+    case PlyType::float64:
+      if (most > 1.001F) {
+        note("float colours exceed 1, taken as 0 to 255");
+        return 255.0F;
+      }
+      return 1.0F;
+    default:
+      return 255.0F;
+  }
+}
+
+/// Raw file values to linear rgb; NaN becomes 0.
+void linearise(std::vector<glm::vec3>& colors, float scale, float offset) {
+  std::vector<float> table;
+  if (offset == 0.0F && scale >= 255.0F) {
+    table.resize(static_cast<std::size_t>(scale) + 1);
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      table[i] = srgb_to_linear(static_cast<float>(i) / scale);
+    }
+  }
+  for (glm::vec3& color : colors) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const float unit = std::max(0.0F, std::min(offset + color[channel] / scale, 1.0F));
+      color[channel] =
+          table.empty() ? srgb_to_linear(unit) : table[static_cast<std::size_t>(unit * scale + 0.5F)];
+    }
+  }
+}
+
+}  // namespace
+
+Points read_ply_vertices(PlyBody& in, const PlyElement& element, std::vector<std::string>& notes) {
+  const Columns columns = find_columns(in, element);
+  Points points = read_rows(in, element, columns);
+  std::vector<std::string> skipped;
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    if (!columns.uses(static_cast<int>(i))) {
+      skipped.push_back(element.properties[i].name);
+    }
+  }
+  if (!skipped.empty()) {
+    notes.push_back(in.path().string() + ": skipped vertex properties " + quoted_list(skipped));
+  }
+  if (columns.color != ABSENT) {
+    const PlyType type = element.properties[static_cast<std::size_t>(columns.color[0])].type;
+    linearise(points.color, color_scale(points, type, in, notes), 0.0F);
+  } else if (columns.sh_color != ABSENT) {
+    constexpr float SH_BAND_0 = 0.28209479F;
+    linearise(points.color, 1.0F / SH_BAND_0, 0.5F);
+    notes.push_back(in.path().string() + ": Gaussian splats, only centres and base colours are used");
+  }
+  return points;
+}
+
+}  // namespace splatray

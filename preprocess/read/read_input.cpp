@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/base/error.h"
+#include "preprocess/base/file_extension.h"
+#include "preprocess/base/one_line.h"
+#include "preprocess/mesh/mesh_points.h"
+#include "preprocess/points.h"
+#include "preprocess/read/gltf/read_gltf.h"
+#include "preprocess/read/read_mesh.h"
+
+namespace splatray {
+namespace {
+
+Input read_geometry(const std::filesystem::path& path) {
+  Input input;
+  InputObject object;
+  object.name = path.stem().string();
+  object.material = default_material();
+  object.meshes.push_back(read_mesh(path, input.notes));
+  if (!object.meshes.front().vertices.color.empty()) {
+    object.material.diffuse = glm::vec3(0.9F);  // white stays below the display's white
+  }
+  input.objects.push_back(std::move(object));
+  return input;
+}
+
+template <class T>
+void move_append(std::vector<T>& to, std::vector<T>& from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+void merge(Input& to, Input&& more) {
+  move_append(to.objects, more.objects);
+  move_append(to.lights, more.lights);
+  move_append(to.notes, more.notes);
+  to.camera = to.camera ? to.camera : more.camera;
+  to.up = to.up ? to.up : more.up;
+  to.environment_path = to.environment_path.empty() ? more.environment_path : to.environment_path;
+}
+
+/// build_scene numbers the dielectrics modulo 32.
+void note_many_dielectrics(Input& input) {
+  const auto count = std::count_if(input.objects.begin(), input.objects.end(), [](const InputObject& object) {
+    return (object.material.flags & MATERIAL_DIELECTRIC) != 0;
+  });
+  if (count > std::ptrdiff_t{MASK_BITS}) {
+    input.notes.push_back("found " + std::to_string(count) +
+                          " dielectric objects; those whose numbers agree modulo 32 must not overlap");
+  }
+}
+
+/// Puts the camera's target beside the middle of what there is, so that turning about it makes sense.
+void aim_camera(Input& input) {
+  if (!input.camera) return;
+  glm::dvec3 sum{0.0};
+  double count = 0.0;
+  for (const InputObject& object : input.objects) {
+    for (const glm::dvec3& position : object.points.position) {
+      const bool finite = glm::dot(position, position) < INFINITY;
+      sum += finite ? position : glm::dvec3(0.0);
+      count += finite ? 1.0 : 0.0;
+    }
+  }
+  if (count > 0.0) {
+    const glm::dvec3 ahead = input.camera->target - input.camera->eye;
+    const double distance = glm::dot(sum / count - input.camera->eye, ahead);
+    input.camera->target = input.camera->eye + ahead * (distance > 0.0 ? distance : 1.0);
+  }
+}
+
+void drop_empty_objects(Input& input) {
+  std::erase_if(input.objects, [&](const InputObject& object) {
+    if (object.points.size() == 0) {
+      input.notes.push_back(object.name + ": left out, it got no points");
+    }
+    return object.points.size() == 0;
+  });
+}
+
+std::string join(const std::vector<std::filesystem::path>& paths) {
+  std::string text;
+  for (const std::filesystem::path& path : paths) {
+    text += (text.empty() ? "" : ", ") + path.string();
+  }
+  return text;
+}
+
+}  // namespace
+
+Material default_material() {
+  Material material{};
+  material.diffuse = {0.64F, 0.61F, 0.57F};
+  material.specular = 0.05F;
+  material.tint = glm::vec3(1.0F);
+  material.shininess = 40.0F;
+  material.ior = 1.5F;
+  material.flags = MATERIAL_TWO_SIDED;
+  return material;
+}
+
+Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options) {
+  if (paths.empty()) {
+    throw Error(ExitCode::usage, "no input file was named");
+  }
+  Input input;
+  for (const std::filesystem::path& path : paths) {
+    const std::string extension = lower_extension(path);
+    const bool is_scene = extension == ".gltf" || extension == ".glb";
+    merge(input, is_scene ? read_gltf(path, options) : read_geometry(path));
+  }
+  points_from_meshes(input, options);
+  drop_empty_objects(input);
+  if (input.objects.empty()) {
+    throw Error(ExitCode::input_unreadable, join(paths) + ": found no points and no triangles");
+  }
+  note_many_dielectrics(input);
+  aim_camera(input);
+  for (std::string& note : input.notes) note = one_line(note);
+  return input;
+}
+
+}  // namespace splatray

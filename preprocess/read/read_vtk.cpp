@@ -1,0 +1,226 @@
+#include "preprocess/read/read_vtk.h"
+
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSTLReader.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "preprocess/base/color.h"
+#include "preprocess/base/file_extension.h"
+#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/obj_check.h"
+
+namespace splatray {
+namespace {
+
+/// Takes what VTK would print while it lives; the first error is kept.
+class SilentWindow : public vtkOutputWindow {
+ public:
+  static SilentWindow* New();
+  void DisplayText(const char*) override {}
+  void DisplayErrorText(const char* text) override {
+    if (first_error.empty()) {
+      first_error = text;
+    }
+  }
+  void DisplayWarningText(const char*) override {}
+  void DisplayGenericWarningText(const char*) override {}
+  void DisplayDebugText(const char*) override {}
+
+  std::string first_error;
+
+ protected:
+  SilentWindow() = default;
+};
+vtkStandardNewMacro(SilentWindow);
+
+/// Puts the window in VTK's place for messages and stops its log.
+class WindowScope {
+ public:
+  explicit WindowScope(vtkOutputWindow* window)
+      : previous_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
+    vtkOutputWindow::SetInstance(window);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~WindowScope() {
+    vtkOutputWindow::SetInstance(previous_);
+    vtkLogger::SetStderrVerbosity(verbosity_);
+  }
+  WindowScope(const WindowScope&) = delete;
+  WindowScope& operator=(const WindowScope&) = delete;
+
+ private:
+  vtkSmartPointer<vtkOutputWindow> previous_;
+  vtkLogger::Verbosity verbosity_;
+};
+
+/// VTK's "ERROR: In file, line n\nvtkClass (0x..): sentence\n\n" -> "sentence".
+std::string sentence_of(const std::string& text) {
+  const std::size_t address = text.find("): ");
+  std::string sentence = address == std::string::npos ? text : text.substr(address + 3);
+  sentence.erase(std::find(sentence.begin(), sentence.end(), '\n'), sentence.end());
+  while (!sentence.empty() && (sentence.back() == '.' || sentence.back() == ' ')) {
+    sentence.pop_back();
+  }
+  return sentence;
+}
+
+template <class Reader>
+vtkSmartPointer<vtkPolyData> run_reader(Reader* reader, const std::filesystem::path& path) {
+  const vtkNew<SilentWindow> window;
+  const WindowScope scope(window);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (!window->first_error.empty()) {
+    throw_unreadable(path, "VTK cannot read it: " + sentence_of(window->first_error));
+  }
+  vtkSmartPointer<vtkPolyData> data = reader->GetOutput();
+  if (data == nullptr) {
+    throw_unreadable(path, "VTK found no surface in it");
+  }
+  return data;
+}
+
+/// VTK believes the triangle count of a binary STL; a count beyond the file's end must not get that far.
+void check_stl(const std::filesystem::path& path) {
+  constexpr std::size_t HEADER_BYTES = 84;
+  constexpr std::uint64_t TRIANGLE_BYTES = 50;
+  ByteReader in(path);
+  const std::uint64_t size = in.remaining();
+  const unsigned char* bytes = in.take(std::min<std::uint64_t>(size, HEADER_BYTES));
+  const std::string start(reinterpret_cast<const char*>(bytes), std::min<std::uint64_t>(size, HEADER_BYTES));
+  std::uint64_t count = 0;
+  for (std::size_t i = HEADER_BYTES; i > 80 && start.size() == HEADER_BYTES; --i) {
+    count = count * 256 + bytes[i - 1];
+  }
+  const bool says_solid = start.rfind("solid", 0) == 0;
+  if (says_solid && size != HEADER_BYTES + TRIANGLE_BYTES * count) {
+    return;
+  }
+  if (start.size() < HEADER_BYTES || size < HEADER_BYTES + TRIANGLE_BYTES * count) {
+    throw_unreadable(path, "found " + std::to_string(size) + " bytes, expected " +
+                               std::to_string(HEADER_BYTES + TRIANGLE_BYTES * count) + " for the " +
+                               std::to_string(count) + " triangles of a binary STL");
+  }
+}
+
+void copy_points(vtkPolyData* data, Points& points) {
+  const vtkIdType count = data->GetNumberOfPoints();
+  points.position.resize(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i) {
+    data->GetPoint(i, &points.position[static_cast<std::size_t>(i)].x);
+  }
+  vtkPointData* attributes = data->GetPointData();
+  if (vtkDataArray* normals = attributes->GetNormals();
+      normals != nullptr && normals->GetNumberOfComponents() == 3 && normals->GetNumberOfTuples() == count) {
+    for (vtkIdType i = 0; i < count; ++i) {
+      const double* n = normals->GetTuple3(i);
+      points.normal.emplace_back(n[0], n[1], n[2]);
+    }
+  }
+  auto* colors = vtkUnsignedCharArray::SafeDownCast(attributes->GetScalars());
+  if (colors != nullptr && colors->GetNumberOfComponents() >= 3 && colors->GetNumberOfTuples() == count) {
+    for (vtkIdType i = 0; i < count; ++i) {
+      const auto linear = [&](int channel) {
+        return srgb_to_linear(static_cast<float>(colors->GetTypedComponent(i, channel)) / 255.0F);
+      };
+      points.color.emplace_back(linear(0), linear(1), linear(2));
+    }
+  }
+  vtkDataArray* radii = attributes->GetArray("radius");
+  if (radii != nullptr && radii->GetNumberOfComponents() == 1 && radii->GetNumberOfTuples() == count) {
+    for (vtkIdType i = 0; i < count; ++i) {
+      points.radius.push_back(static_cast<float>(radii->GetTuple1(i)));
+    }
+  }
+}
+
+void copy_cells(vtkCellArray* cells, bool strips, const std::filesystem::path& path, Mesh& mesh) {
+  const auto vertex_count = static_cast<vtkIdType>(mesh.vertices.size());
+  if (!cells->IsValid()) {
+    throw_unreadable(path, "the offsets of its faces do not fit their connectivity");
+  }
+  vtkIdType length = 0;
+  const vtkIdType* ids = nullptr;
+  cells->InitTraversal();
+  while (cells->GetNextCell(length, ids) != 0) {
+    for (vtkIdType i = 0; i < length; ++i) {
+      if (ids[i] < 0 || ids[i] >= vertex_count) {
+        throw_unreadable(path, "a face uses vertex " + std::to_string(ids[i]) + ", expected less than " +
+                                   std::to_string(vertex_count));
+      }
+    }
+    for (vtkIdType i = 2; i < length; ++i) {
+      const auto odd = strips && i % 2 == 1;
+      const glm::uvec3 triangle(strips ? ids[i - 2] : ids[0], ids[i - 1], ids[i]);
+      mesh.triangles.push_back(odd ? glm::uvec3(triangle.y, triangle.x, triangle.z) : triangle);
+    }
+  }
+}
+
+/// float32 positions far from the origin lose detail: say so when the loss exceeds 1e-5 of the size.
+void note_precision(const Points& points, const std::filesystem::path& path,
+                    std::vector<std::string>& notes) {
+  glm::dvec3 low(INFINITY);
+  glm::dvec3 high(-INFINITY);
+  for (const glm::dvec3& p : points.position) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const double largest = std::max(glm::length(low), glm::length(high));
+  if (largest * std::ldexp(1.0, -24) > 1e-5 * glm::length(high - low)) {
+    notes.push_back(path.string() + ": coordinates are read as float32, which blurs them this far from the " +
+                    "origin; save a PLY with double x, y, z to keep them");
+  }
+}
+
+Mesh mesh_of(vtkPolyData* data, const std::filesystem::path& path) {
+  Mesh mesh;
+  if (data->GetNumberOfPoints() > 0xFFFFFFFFLL) {
+    throw_unreadable(path, "found more than 4294967295 points");
+  }
+  copy_points(data, mesh.vertices);
+  copy_cells(data->GetPolys(), false, path, mesh);
+  copy_cells(data->GetStrips(), true, path, mesh);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh read_vtk(const std::filesystem::path& path, std::vector<std::string>& notes) {
+  const std::string extension = lower_extension(path);
+  static_cast<void>(ByteReader(path));
+  Mesh mesh;
+  if (extension == ".obj") {
+    const ObjCheck check = check_obj(path);
+    const vtkNew<vtkOBJReader> reader;
+    mesh = mesh_of(run_reader(reader.Get(), path), path);
+    if (check.has_vertex_colors) {
+      notes.push_back(path.string() + ": vertex colours of OBJ files are not read; save a PLY to keep them");
+    }
+    note_precision(mesh.vertices, path, notes);
+  } else if (extension == ".stl") {
+    check_stl(path);
+    const vtkNew<vtkSTLReader> reader;
+    reader->MergingOn();
+    mesh = mesh_of(run_reader(reader.Get(), path), path);
+    note_precision(mesh.vertices, path, notes);
+  } else {
+    const vtkNew<vtkXMLPolyDataReader> reader;
+    mesh = mesh_of(run_reader(reader.Get(), path), path);
+  }
+  return mesh;
+}
+
+}  // namespace splatray

@@ -1,0 +1,135 @@
+#include "preprocess/surface/cloud.h"
+
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "preprocess/base/morton.h"
+#include "preprocess/base/parallel.h"
+#include "preprocess/base/sorted_order.h"
+
+namespace splatray {
+namespace {
+
+constexpr double LARGEST_COORDINATE = 1e100;  // squares and sums of such stay finite in float64
+
+bool is_usable(const glm::dvec3& position) {
+  const auto in_range = [](double value) { return std::abs(value) <= LARGEST_COORDINATE; };  // false on NaN
+  return in_range(position.x) && in_range(position.y) && in_range(position.z);
+}
+
+/// Unit vector, or zero when the vector has no direction.
+glm::vec3 unit_or_zero(const glm::vec3& vector) {
+  const glm::dvec3 exact(vector);
+  const double length = glm::length(exact);
+  return std::isfinite(length) && length > 0.0 ? glm::vec3(exact / length) : glm::vec3(0.0F);
+}
+
+std::vector<std::uint32_t> usable_points(const Points& points) {
+  return numbers_where(points.size(), [&](std::size_t i) { return is_usable(points.position[i]); });
+}
+
+/// The points named by `usable`; frees the source arrays one by one.
+Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
+  const auto take = [&](auto& values) {
+    auto taken = usable.size() == values.size() ? std::move(values) : gather(values, usable);
+    values = {};
+    return taken;
+  };
+  Cloud cloud;
+  cloud.position = take(points.position);
+  cloud.normal = take(points.normal);
+  cloud.normal.resize(usable.size(), glm::vec3(0.0F));
+  const std::vector<glm::vec3> color = take(points.color);
+  cloud.color.resize(color.size());
+  cloud.radius = take(points.radius);
+  cloud.radius.resize(usable.size(), 0.0F);
+  tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
+    cloud.normal[i] = unit_or_zero(cloud.normal[i]);
+    if (!color.empty()) cloud.color[i] = pack_color(color[i]);
+    if (!(std::isfinite(cloud.radius[i]) && cloud.radius[i] > 0.0F)) cloud.radius[i] = 0.0F;
+  });
+  return cloud;
+}
+
+void normalise_coordinates(Cloud& cloud) {
+  const Bounds bounds = bounds_of(cloud.position);
+  cloud.center_world = 0.5 * (bounds.low + bounds.high);
+  const glm::dvec3 half = 0.5 * (bounds.high - bounds.low);
+  const double longest = std::max({half.x, half.y, half.z});
+  cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
+  cloud.coord.resize(cloud.size());
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    const glm::dvec3 unit = (cloud.position[i] - cloud.center_world) / cloud.half_extent_world;
+    const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
+    cloud.coord[i] = glm::vec3(steps) * COORD_STEP;
+    if (cloud.radius[i] > 0.0F) {
+      const double radius = cloud.radius[i] / cloud.half_extent_world;
+      cloud.radius[i] = static_cast<float>(std::clamp(radius, 0x1p-100, 0x1p100));
+    }
+  });
+}
+
+auto sort_key(const glm::vec3& v) { return std::make_tuple(v.x, v.y, v.z); }
+
+bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
+  const auto key = [&cloud](std::uint32_t i) {
+    const glm::dvec3& p = cloud.position[i];
+    const std::uint32_t color = cloud.color.empty() ? 0U : cloud.color[i];
+    return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), p.x, p.y, p.z, color,
+                      cloud.radius[i]);
+  };
+  return key(a) < key(b);
+}
+
+/// Points' indices, ascending by Morton key of the coordinates, then by every attribute.
+std::vector<std::uint32_t> canonical_order(const Cloud& cloud) {
+  const auto key = [&cloud](std::size_t i) {
+    return morton_key(glm::min(glm::uvec3((cloud.coord[i] + 1.0F) * 0x1p20F), glm::uvec3(0x1FFFFF)));
+  };
+  return sorted_order(cloud.size(), key,
+                      [&cloud](std::uint32_t a, std::uint32_t b) { return point_less(cloud, a, b); });
+}
+
+void count_given(const Cloud& cloud, bool has_radii, BuildStats& stats) {
+  const auto unknown_normals = std::count(cloud.normal.begin(), cloud.normal.end(), glm::vec3(0.0F));
+  const auto unknown_radii = std::count(cloud.radius.begin(), cloud.radius.end(), 0.0F);
+  stats.normals_given += cloud.size() - static_cast<std::size_t>(unknown_normals);
+  stats.radii_given += cloud.size() - static_cast<std::size_t>(unknown_radii);
+  if (has_radii) stats.radii_repaired += static_cast<std::size_t>(unknown_radii);
+}
+
+}  // namespace
+
+Bounds bounds_of(const std::vector<glm::dvec3>& points) {
+  using Range = tbb::blocked_range<std::size_t>;
+  const auto add = [&](const Range& range, Bounds bounds) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) bounds.add({points[i], points[i]});
+    return bounds;
+  };
+  const auto join = [](Bounds a, const Bounds& b) { return a.add(b), a; };
+  return tbb::parallel_reduce(Range(0, points.size()), Bounds{}, add, join);
+}
+
+Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
+  const std::vector<std::uint32_t> usable = usable_points(points);
+  const bool has_radii = !points.radius.empty();
+  stats.points_read += points.size();
+  stats.dropped_non_finite += points.size() - usable.size();
+  Cloud cloud = take_points(std::move(points), usable);
+  cloud.oriented = oriented;
+  if (cloud.size() == 0) return cloud;
+  normalise_coordinates(cloud);
+  const std::vector<std::uint32_t> order = canonical_order(cloud);
+  cloud.position = gather(cloud.position, order);
+  cloud.coord = gather(cloud.coord, order);
+  cloud.normal = gather(cloud.normal, order);
+  cloud.color = gather(cloud.color, order);
+  cloud.radius = gather(cloud.radius, order);
+  count_given(cloud, has_radii, stats);
+  return cloud;
+}
+
+}  // namespace splatray

@@ -1,0 +1,90 @@
+/// Nearest neighbours among the points of a cloud.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "preprocess/base/parallel.h"
+#include "preprocess/surface/cloud.h"
+
+namespace splatray {
+
+/// A neighbour's squared distance (cloud coordinates) and index in the cloud. Ordered by distance, then
+/// index.
+class Neighbour {
+ public:
+  Neighbour() = default;
+  Neighbour(float distance_squared, std::uint32_t index);
+  [[nodiscard]] float distance_squared() const;
+  [[nodiscard]] std::uint32_t index() const { return static_cast<std::uint32_t>(key_); }
+  friend auto operator<=>(const Neighbour&, const Neighbour&) = default;
+
+ private:
+  std::uint64_t key_ = 0;  // float bits of a number >= 0, then the index: orders like the pair
+};
+
+/// Which points of a cloud can be neighbours. Copies of a point would crowd out its true neighbours.
+enum class Sites {
+  positions,          ///< one point of each position
+  oriented_positions  ///< of each position up to 8 points of different normals
+};
+
+/// Bounding-box hierarchy over the sites in the order of a k-d tree: blocks of 8 consecutive sites, groups of 8
+/// consecutive blocks and so on. Nothing is stored but the boxes. Answers are exact, also in ties, and
+/// independent of threads.
+class NeighbourSearch {
+ public:
+  /// The cloud must be in canonical order.
+  NeighbourSearch(const Cloud& cloud, Sites sites);
+
+  /// The nearest sites at a distance > 0 from `query` (cloud coordinates), ascending; fills `nearest` from
+  /// its start and returns how many there are: nearest.size(), fewer when there are fewer sites. Safe to call
+  /// from many threads.
+  std::size_t find(const glm::vec3& query, std::span<Neighbour> nearest) const;
+
+  /// The same, faster where few more sites than asked for are at a squared distance of at most `guess`.
+  std::size_t find(const glm::vec3& query, std::span<Neighbour> nearest, float guess) const;
+
+  /// What is done with a point of the cloud and its nearest sites.
+  using Visit = std::function<void(std::uint32_t point, std::span<const Neighbour> nearest)>;
+
+  /// Calls visit for every point of the cloud with what find() gives for `count` <= 32 sites, from many threads and in any
+  /// order. Faster than find(), as the sites of a block look through the same blocks around them.
+  void find_all(std::size_t count, const Stage& stage, const Visit& visit) const;
+
+ private:
+  static constexpr std::uint32_t WIDTH = 8;
+  struct Block {
+    float x[WIDTH], y[WIDTH], z[WIDTH];  // unused places are at infinity
+    std::uint32_t index[WIDTH];
+
+    void measure(const glm::vec3& query, float* distance) const;  ///< WIDTH squared distances
+  };
+  struct Boxes {
+    float low[3][WIDTH],
+        high[3][WIDTH];  // of 8 consecutive nodes of the level below; unused ones are at infinity
+  };
+  struct Site {
+    glm::vec3 coord;
+    std::uint32_t index;
+  };
+  struct Nearest;
+  class Ball;
+
+  std::vector<Site> choose_sites(const Cloud& cloud, Sites sites);
+  static void arrange(std::span<Site> sites, std::size_t capacity);
+  void add_blocks(std::span<const Site> sites);
+  void add_levels();
+  void visit(std::size_t level, std::uint32_t node, const glm::vec3& query, Nearest& nearest) const;
+  void visit_block(const Block& block, const glm::vec3& query, Nearest& nearest) const;
+  float find_block(std::uint32_t block, float reach_squared, std::size_t count, const Visit& visit) const;
+
+  const Cloud& cloud_;
+  std::vector<std::uint32_t> copies_;  // points that are no sites
+  std::vector<Block> blocks_;
+  std::vector<std::vector<Boxes>> levels_;  // levels_[0]: boxes of blocks; the last has one entry
+};
+
+}  // namespace splatray

@@ -1,0 +1,186 @@
+#include "preprocess/surface/radius.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "preprocess/base/select.h"
+#include "preprocess/base/vector_clones.h"
+#include "preprocess/surface/neighbours.h"
+#include "preprocess/surface/normal_field.h"
+#include "preprocess/surface/voronoi.h"
+
+namespace splatray {
+namespace {
+
+constexpr double KNN_FACTOR = 0.65;  // x distance to the RING-th neighbour: closed for even samples
+constexpr std::size_t RING = 6;      // neighbours around a point of an even sampling
+constexpr std::size_t FEW = 12;      // neighbours that settle most Voronoi cells
+constexpr std::size_t CLOSE = 8;     // neighbours whose discs meet a point's own
+constexpr std::size_t MANY = 32;     // neighbours asked for when FEW do not
+constexpr float MANY_OVER_FEW = 1.3F * MANY / FEW;  // of their squared distances on a surface, with some room
+constexpr double COVERAGE_MARGIN = 1.02;            // discs of a curved surface lie in different planes
+// More where discs lie at different heights, in standard deviations of the heights.
+constexpr double ROUGHNESS_REACH = 1.0;
+constexpr double SIMILAR = 0.5;      // cosine of normals of one sheet
+constexpr double LATERAL = 0.5;      // tangential share of the distance of a neighbour on the same sheet
+constexpr double LEAST_SLANT = 0.5;  // sine of the angle between planes that meet in a crease
+constexpr double PARALLEL = 0.9;     // cosine of normals of layers of one noisy sheet
+constexpr double NOISE_REACH = 4.0;  // of a noisy sheet's disc, in standard deviations of its heights
+constexpr double NOISE_LIMIT = 2.0;  // the same at most, in units of the disc that covers
+constexpr float STRAY = 4.0F;        // largest radius in units of the surroundings' median
+
+double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
+  std::array<Neighbour, RING> nearest;
+  const std::size_t count = search.find(cloud.coord[point], nearest);
+  return count == 0 ? 0.0 : KNN_FACTOR * std::sqrt(nearest[count - 1].distance_squared());
+}
+
+/// What surrounds a point on its tangent plane. Neighbours of the point's own sheet are turned into the plane with their
+/// distance kept, so that curvature does not shrink the cell. Those on the far side of a sharp edge give the line where
+/// their plane meets this one.
+class Surroundings {
+ public:
+  explicit Surroundings(const Neighbourhood& around) : around_(around) {
+    const glm::dvec3& normal = around.normal;
+    const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(normal, side));
+    const glm::dvec3 v = glm::cross(normal, u);
+    around.normals.dot(normal, around.count, alignment_);
+    around.offset.dot(u, around.count, across_u_);
+    around.offset.dot(v, around.count, across_v_);
+    for (std::size_t j = 0; j < around.count; ++j) {
+      distance_[j] = std::sqrt(static_cast<float>(around.distance_squared[j]));
+      lateral_[j] = std::sqrt(across_u_[j] * across_u_[j] + across_v_[j] * across_v_[j]);
+      stretch_[j] = distance_[j] / lateral_[j];
+    }
+    for (std::size_t j = 0; j < around.count; ++j) {
+      if ((around.oriented ? alignment_[j] : std::abs(alignment_[j])) < SIMILAR) {
+        add_crease(j, u, v);
+      } else if (!(lateral_[j] < LATERAL * distance_[j])) {
+        neighbours_[neighbour_count_++] = {glm::dvec2(across_u_[j], across_v_[j]) * stretch_[j],
+                                           distance_[j]};
+      }
+    }
+  }
+
+  [[nodiscard]] std::span<const TangentNeighbour> neighbours() const {
+    return std::span(neighbours_).first(neighbour_count_);
+  }
+  [[nodiscard]] std::span<const TangentCrease> creases() const {
+    return std::span(creases_).first(crease_count_);
+  }
+
+  /// Standard deviation of the heights over the point's plane of the `most` nearest points that lie parallel.
+  [[nodiscard]] double noise(std::size_t most) const {
+    double count = 1.0, sum = 0.0, sum_squared = 0.0;
+    for (std::size_t j = 0; j < std::min(most, around_.count); ++j) {
+      if (alignment_[j] < PARALLEL) continue;
+      const double height = glm::dot(around_.normal, offset(j));
+      count += 1.0, sum += height, sum_squared += height * height;
+    }
+    return std::sqrt(std::max(sum_squared / count - sum * sum / (count * count), 0.0));
+  }
+
+ private:
+  [[nodiscard]] glm::dvec3 offset(std::size_t j) const {
+    return {around_.offset.x[j], around_.offset.y[j], around_.offset.z[j]};
+  }
+
+  void add_crease(std::size_t j, const glm::dvec3& u, const glm::dvec3& v) {
+    const glm::dvec3 normal(around_.normals.x[j], around_.normals.y[j], around_.normals.z[j]);
+    const glm::dvec2 across(glm::dot(normal, u), glm::dot(normal, v));
+    const double slant = glm::length(across);
+    const double height = glm::dot(normal, offset(j));
+    const double to_crease = std::abs(height) / slant;
+    if (slant < LEAST_SLANT || to_crease > distance_[j] || height == 0.0) return;
+    creases_[crease_count_++] = {across / std::copysign(slant, height), to_crease};
+  }
+
+  const Neighbourhood& around_;
+  Around alignment_, across_u_, across_v_, distance_, lateral_, stretch_;
+  std::array<TangentNeighbour, MANY> neighbours_;
+  std::array<TangentCrease, MANY> creases_;
+  std::size_t neighbour_count_ = 0;
+  std::size_t crease_count_ = 0;
+};
+
+/// The radius that covers the point's cell, 0 where there is none; nothing when `wanted` neighbours do not settle it.
+SPLATRAY_VECTOR_CLONES std::optional<double> covering_radius(const Neighbourhood& around,
+                                                             std::size_t wanted) {
+  const std::size_t found = around.count;
+  if (found == 0) return 0.0;
+  const Surroundings surroundings(around);
+  const VoronoiReach reach = voronoi_reach(surroundings.neighbours(), surroundings.creases());
+  const double seen = std::sqrt(static_cast<float>(around.distance_squared[found - 1]));
+  const bool settled = found < wanted || wanted == MANY ||
+                       (surroundings.neighbours().size() >= RING && reach.decisive_distance <= seen);
+  if (!settled || !(reach.radius > 0.0)) return {};
+  const double covering = COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * surroundings.noise(CLOSE);
+  return std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW)), NOISE_LIMIT * reach.radius);
+}
+
+/// `around`: the FEW nearest places, or all where there are fewer.
+double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point,
+                       const Neighbourhood& around) {
+  if (const auto radius = covering_radius(around, FEW)) return *radius;
+  std::array<Neighbour, MANY> more;
+  const float guess = MANY_OVER_FEW * static_cast<float>(around.distance_squared[around.count - 1]);
+  const std::size_t found = search.find(cloud.coord[point], more, guess);
+  const Neighbourhood wider(cloud, point, std::span(more).first(found));
+  if (const auto radius = covering_radius(wider, MANY)) return *radius;
+  return knn_radius(cloud, search, point);
+}
+
+float median(std::span<float> values) {
+  select_nth(values, values.size() / 2, std::identity());
+  return values[values.size() / 2];
+}
+
+/// Keeps stray points from covering the scene with discs as wide as their distance to it.
+void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector<std::uint32_t>& computed) {
+  std::vector<float> radii = gather(cloud.radius, computed);
+  const float limit = STRAY * median(radii);
+  const std::vector<float> before = cloud.radius;
+  tbb::parallel_for(std::size_t{0}, computed.size(), [&](std::size_t n) {
+    float& radius = cloud.radius[computed[n]];
+    if (!(radius > limit)) return;
+    std::array<Neighbour, FEW> nearest;
+    std::array<float, FEW> around;
+    const std::size_t found = search.find(cloud.coord[computed[n]], nearest);
+    for (std::size_t j = 0; j < found; ++j) around[j] = before[nearest[j].index()];
+    radius = std::min(radius, STRAY * median(std::span(around).first(found)));
+  });
+}
+
+}  // namespace
+
+void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const Stage& stage) {
+  const auto unknown = numbers_where(cloud.size(), [&](std::size_t i) { return cloud.radius[i] == 0.0F; });
+  if (fields) cloud.field.resize(cloud.size());
+  if (!unknown.empty() || fields) {
+    const bool knn = rule == RadiusRule::knn;
+    std::optional<NeighbourSearch> sheets, places;
+    if (fields || !knn) sheets.emplace(cloud, Sites::oriented_positions);
+    if (knn && !unknown.empty()) places.emplace(cloud, Sites::positions);
+    const auto fill = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
+      const Neighbourhood around(cloud, i, nearest);
+      if (fields) cloud.field[i] = fit_normal_field(around);
+      if (cloud.radius[i] != 0.0F) return;
+      cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i)
+                                               : coverage_radius(cloud, *sheets, i, around));
+    };
+    if (sheets) {
+      sheets->find_all(FEW, stage, fill);
+    } else {
+      parallel_each(stage, cloud.size(), [&](std::size_t i) { fill(static_cast<std::uint32_t>(i), {}); });
+    }
+    if (!unknown.empty()) bound_strays(cloud, knn ? *places : *sheets, unknown);
+  }
+  tbb::parallel_for(std::size_t{0}, cloud.size(),
+                    [&](std::size_t i) { cloud.radius[i] = static_cast<float>(cloud.radius[i] * scale); });
+}
+
+}  // namespace splatray

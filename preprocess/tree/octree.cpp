@@ -1,0 +1,116 @@
+#include "preprocess/tree/octree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "engine/base/error.h"
+#include "preprocess/base/parallel.h"
+#include "preprocess/base/sorted_order.h"
+
+namespace splatray {
+namespace {
+
+bool splat_less(const SplatList& splats, std::uint32_t a, std::uint32_t b) {
+  const auto key = [&splats](std::uint32_t i) {
+    const uvec4& w = splats.words[i];
+    return std::tuple(w.x, w.y, w.z, w.w, splats.color.empty() ? 0U : splats.color[i],
+                      splats.field.empty() ? 0U : splats.field[i]);
+  };
+  return key(a) < key(b);
+}
+
+/// Makes splats those of the order.
+void take(SplatList& splats, const std::vector<std::uint32_t>& order) {
+  splats.key = gather(splats.key, order);
+  splats.words = gather(splats.words, order);
+  splats.color = gather(splats.color, order);
+  splats.field = gather(splats.field, order);
+}
+
+/// Keeps the first `copies` of equal words, which are next to each other. Returns how many splats it dropped.
+std::uint64_t drop_surplus(SplatList& splats, std::uint32_t copies) {
+  const auto is_surplus = [&](std::size_t i) {
+    return i >= copies && splats.words[i] == splats.words[i - copies];
+  };
+  const std::uint64_t before = splats.size();
+  const auto kept = numbers_where(before, [&](std::size_t i) { return !is_surplus(i); });
+  if (kept.size() < before) take(splats, kept);
+  return before - kept.size();
+}
+
+/// Root mean square of the radii of splats [begin, end), lattice units.
+double mean_radius(const SplatList& splats, std::uint32_t begin, std::uint32_t end) {
+  double sum_squared = 0.0;
+  for (std::uint32_t i = begin; i < end; ++i) sum_squared += unpack_radius_squared(splats.words[i]);
+  return std::sqrt(sum_squared / (end - begin));
+}
+
+class Builder {
+ public:
+  Builder(const SplatList& splats, std::uint32_t leaf_size) : splats_(splats), leaf_size_(leaf_size) {}
+
+  Octree build() {
+    tree_.node_pool.push_back(0);
+    fill({0, 0, 0, 0, static_cast<std::uint32_t>(splats_.size())});
+    return std::move(tree_);
+  }
+
+ private:
+  /// Writes the word of a node, given as the leaf it would be, and everything below it.
+  void fill(const Leaf& node) {
+    if (!is_divided(node)) {
+      const std::uint32_t tag = node.begin < node.end ? NODE_FILLED : NODE_EMPTY;
+      tree_.node_pool[node.node] = tag << NODE_TAG_SHIFT | static_cast<std::uint32_t>(tree_.leaves.size());
+      tree_.leaves.push_back(node);
+      return;
+    }
+    const std::size_t first_child = tree_.node_pool.size();
+    if (first_child + 8 > NODE_ADDRESS_MASK) {
+      throw Error(ExitCode::failed,
+                  "the octree needs more than 2^30 nodes; use fewer points or a larger leaf size");
+    }
+    tree_.node_pool[node.node] = NODE_INNER << NODE_TAG_SHIFT | static_cast<std::uint32_t>(first_child);
+    tree_.node_pool.resize(first_child + 8);
+    const std::uint64_t child_keys = 1ULL << 3 * (LATTICE_BITS - node.level - 1);
+    Leaf child{node.key, static_cast<std::uint32_t>(first_child), node.level + 1, node.begin, node.begin};
+    for (int i = 0; i < 8; ++i) {
+      const auto from = splats_.key.begin() + child.begin;
+      child.end = i == 7 ? node.end
+                         : static_cast<std::uint32_t>(std::lower_bound(from, splats_.key.begin() + node.end,
+                                                                       child.key + child_keys) -
+                                                      splats_.key.begin());
+      fill(child);
+      child.key += child_keys;
+      child.begin = child.end;
+      ++child.node;
+    }
+  }
+
+  [[nodiscard]] bool is_divided(const Leaf& node) const {
+    const std::uint32_t centers = node.end - node.begin;
+    if (centers <= leaf_size_ || node.level == MAX_DEPTH) return false;
+    if (centers > CROWDED_MOST * leaf_size_) return true;
+    return mean_radius(splats_, node.begin, node.end) <= WIDEST_SPLATS * (0.5 * node.cell_size());
+  }
+
+  const SplatList& splats_;
+  std::uint32_t leaf_size_;
+  Octree tree_;
+};
+
+}  // namespace
+
+std::uint64_t order_splats(SplatList& splats, std::uint32_t copies) {
+  take(splats, sorted_order(
+                   splats.size(), [&](std::size_t i) { return splats.key[i]; },
+                   [&](std::uint32_t a, std::uint32_t b) { return splat_less(splats, a, b); }));
+  return drop_surplus(splats, copies);
+}
+
+Octree build_octree(const SplatList& splats, std::uint32_t leaf_size) {
+  return Builder(splats, leaf_size).build();
+}
+
+}  // namespace splatray

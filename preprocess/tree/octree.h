@@ -1,0 +1,50 @@
+/// The full octree over splat centres (Goradia et al. 2010, sec. III).
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+/// Different splats with their centres' Morton keys. Ascending by key, then words, then colour, then normal field.
+struct SplatList {
+  std::vector<std::uint64_t> key;
+  std::vector<uvec4> words;
+  std::vector<std::uint32_t> color;  ///< pack_color, or empty: no colours
+  std::vector<std::uint32_t> field;  ///< pack_field, or empty: all discs are flat
+
+  [[nodiscard]] std::size_t size() const { return words.size(); }
+};
+
+/// Orders splats given in any order and keeps at most `copies` of equal words. Returns how many it dropped.
+std::uint64_t order_splats(SplatList& splats, std::uint32_t copies);
+
+/// A leaf and the splats whose centres it holds.
+struct Leaf {
+  std::uint64_t key;    ///< Morton key of its lowest lattice point
+  std::uint32_t node;   ///< index of its word in the node pool
+  std::uint32_t level;  ///< its cell is 2^(LATTICE_BITS - level) lattice units wide
+  std::uint32_t begin;  ///< first splat with its centre in the cell
+  std::uint32_t end;    ///< one past the last
+
+  [[nodiscard]] std::uint32_t cell_size() const { return 1U << (LATTICE_BITS - level); }
+};
+
+/// Nodes as in layout.h, depth first, but the address of a leaf's word is its index in `leaves`, for filled
+/// and empty ones.
+struct Octree {
+  std::vector<std::uint32_t> node_pool;
+  std::vector<Leaf> leaves;  ///< in Z-order, empty ones too
+};
+
+/// A node of at most so many times `leaf_size` centres stays a leaf where the root mean square of their splats' radii is more than
+/// WIDEST_SPLATS of the width its children would have: these would list mostly the same splats, each with copies of its own.
+inline constexpr double CROWDED_MOST = 1.75;
+inline constexpr double WIDEST_SPLATS = 0.36;
+
+/// Divides every node above MAX_DEPTH that holds more than `leaf_size` centres, but for those crowded ones.
+[[nodiscard]] Octree build_octree(const SplatList& splats, std::uint32_t leaf_size);
+
+}  // namespace splatray

@@ -1,0 +1,26 @@
+// Pixel -> primary ray. Pixel centres are at +0.5, the top row first; FrameParams holds the ray as a plane of
+// points and of directions, computed in float64 (engine/image/view.h), so that far eyes lose nothing. Needs
+// `frame`.
+#ifndef SPLATRAY_CAMERA_GLSL
+#define SPLATRAY_CAMERA_GLSL
+#include "primitive/disc.glsl"
+
+/// The ray through pixel position (x, y), direction of unit length; `eye_distance` is the distance from the
+/// eye to its t = 0.
+Ray primary_ray(float x, float y, OUT(float) eye_distance) {
+  Ray ray;
+  vec3 dir = frame.dir_00 + frame.dir_dx * x + frame.dir_dy * y;
+  float length_dir = length(dir);
+  eye_distance = frame.depth_offset + frame.depth_per_dir * length_dir;
+  ray.origin = frame.origin_00 + frame.origin_dx * x + frame.origin_dy * y;
+  ray.origin_low = vec3(0.0f);
+  ray.dir = dir * (1.0f / length_dir);
+  ray.t_min = frame.t_min;
+  ray.t_max = INFINITY_F;
+  ray.inside = 0u;
+  ray.from_normal = vec3(0.0f);
+  ray.from_object = NO_OBJECT;
+  return ray;
+}
+
+#endif

@@ -1,0 +1,168 @@
+// A splat's 128 bits, and a ray's hit on its disc: first a float32 test that never loses a hit, then the
+// exact decision.
+#ifndef SPLATRAY_SPLAT_GLSL
+#define SPLATRAY_SPLAT_GLSL
+#include "lang/double_float.glsl"
+#include "layout.h"
+
+/// Bound of the float32 error of n.(c - o) / |n| in lattice units, for origins at most a root's edge outside the root.
+const float PLANE_ERROR = 4.0f;
+
+/// Cosine of a ray that leaves a sheet level, counted as upwards: normals that the ray grazes are made square to it, and
+/// rounding shall not decide.
+const float LEVEL = -0.000244140625f;
+
+/// A ray in root space. Its exact origin is origin + origin_low (a double-float per axis).
+struct Ray {
+  vec3 origin;
+  vec3 origin_low;
+  vec3 dir;
+  float t_min;        ///< hits need t > t_min
+  float t_max;        ///< and t < t_max
+  uint inside;        ///< mask of the dielectrics the ray is inside of
+  vec3 from_normal;   ///< secondary rays: blended normal of the sheet left, on the side its splats' normals point to
+  uint from_object;   ///< secondary rays: object left; NO_OBJECT for primary rays
+};
+
+/// Centre, lattice units; exact.
+vec3 splat_center(uvec4 words) {
+  uint y = ((words.x & 0x7FFu) << 10u) | (words.y >> 22u);
+  return vec3(float(words.x >> 11u), float(y), float(words.y & 0x1FFFFFu));
+}
+
+/// Normal, |x| + |y| + |z| = OCT_SCALE; integers, exact.
+vec3 splat_normal(uvec4 words) {
+  float x = float(words.z & 0xFFFFu) - float(OCT_SCALE);
+  float y = float(words.z >> 16u) - float(OCT_SCALE);
+  float z = float(OCT_SCALE) - abs(x) - abs(y);
+  float fold = max(-z, 0.0f);
+  return vec3(x >= 0.0f ? x - fold : x + fold, y >= 0.0f ? y - fold : y + fold, z);
+}
+
+/// Squared radius, lattice units^2.
+float splat_radius_squared(uvec4 words) { return uintBitsToFloat(((words.w & 0xFFFF0000u) >> 2u) | 0x40000000u); }
+
+uint splat_object(uvec4 words) { return words.w & OBJECT_MASK; }
+
+/// Total order of different splats that a ray meets at the same t: any fixed order of the words will do.
+bool words_less(uvec4 a, uvec4 b) {
+  if (a.w != b.w) return a.w < b.w;
+  if (a.z != b.z) return a.z < b.z;
+  if (a.x != b.x) return a.x < b.x;
+  return a.y < b.y;
+}
+
+/// False only if the ray surely has no hit on the disc with t in [t_in, t_out): the plane's and the rim's
+/// distance are widened by their float32 error, which grows as 1 / |n.d|. NaN (a ray in the disc's plane)
+/// counts as maybe.
+bool splat_maybe_hit(uvec4 words, vec3 origin, vec3 dir, float t_in, float t_out) {
+  vec3 to_center = splat_center(words) - origin;
+  vec3 normal = splat_normal(words);
+  float inverse = 1.0f / dot(normal, dir);
+  float t = dot(normal, to_center) * inverse;
+  float slack = (PLANE_ERROR * float(OCT_SCALE)) * abs(inverse);
+  vec3 from_center = dir * t - to_center;
+  float outside = dot(from_center, from_center) - splat_radius_squared(words) * 1.03125f;
+  return !(outside > 33.0f * slack * slack) && !(t + slack < t_in) && !(t - slack >= t_out);
+}
+
+/// A ray's meeting with a disc's plane, in double-float. FLOAT64: computed in float64, where the device is fast at it.
+struct PlaneHit {
+  vec2 t;             ///< ray parameter
+  vec2 rho_squared;   ///< squared distance from the centre, lattice units^2
+  vec3 from_center;   ///< rounded to float32 from more
+  float facing;       ///< n.d: negative = front face
+};
+
+#ifdef FLOAT64
+vec2 two_floats(double x) {
+  float high = float(x);
+  return vec2(high, float(x - double(high)));
+}
+
+/// As below, by float64 of the device: to about 2^-50.
+PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
+  precise dvec3 to_center = (dvec3(splat_center(words)) - dvec3(origin)) - dvec3(origin_low);
+  dvec3 n = dvec3(splat_normal(words));
+  precise double denominator = dot(n, dvec3(dir));
+  precise double t = dot(n, to_center) / denominator;
+  precise dvec3 from_center = dvec3(dir) * t - to_center;
+  precise double rho_squared = dot(from_center, from_center);
+  return PlaneHit(two_floats(t), two_floats(rho_squared), vec3(from_center), float(denominator));
+}
+#else
+/// t = n.(c - o) / (n.d) and |o + t d - c|^2 to about 2^-44 of the distances involved.
+PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
+  vec3 center = splat_center(words);
+  vec3 n = splat_normal(words);
+  vec2 x = two_sum(center.x, -origin.x);
+  vec2 y = two_sum(center.y, -origin.y);
+  vec2 z = two_sum(center.z, -origin.z);
+  x = quick_two_sum(x.x, x.y - origin_low.x);
+  y = quick_two_sum(y.x, y.y - origin_low.y);
+  z = quick_two_sum(z.x, z.y - origin_low.z);
+  vec2 numerator = df_add(df_add(df_scale(x, n.x), df_scale(y, n.y)), df_scale(z, n.z));
+  vec2 denominator =
+      df_add(df_add(two_product(n.x, dir.x), two_product(n.y, dir.y)), two_product(n.z, dir.z));
+  PlaneHit hit;
+  hit.t = df_divide(numerator, denominator);
+  vec2 from_x = df_add(df_scale(hit.t, dir.x), -x);
+  vec2 from_y = df_add(df_scale(hit.t, dir.y), -y);
+  vec2 from_z = df_add(df_scale(hit.t, dir.z), -z);
+  hit.rho_squared = df_add(df_add(df_square(from_x), df_square(from_y)), df_square(from_z));
+  hit.from_center = vec3(from_x.x, from_y.x, from_z.x);
+  hit.facing = denominator.x;
+  return hit;
+}
+#endif
+
+/// One entry of a normal field, per radius.
+float field_slope(uint bits) {
+  float q = (float(bits & 0x3FFu) - 512.0f) * (1.0f / float(FIELD_SCALE));
+  return 0.5f * q * abs(q);
+}
+
+/// What a disc's normal field makes of a meeting with the disc's plane.
+struct FieldPoint {
+  vec3 normal;     ///< longer than 1; may point away from the ray
+  float height;    ///< of the curved surface over the disc's plane, along the disc's normal, lattice units
+};
+
+/// The field's normal, and the height of the surface it belongs to, at an offset on the disc (layout.h). `normal` is the
+/// disc's unit normal.
+FieldPoint field_point(uint word, vec3 normal, vec3 from_center, float inverse_radius) {
+  float side = normal.z >= 0.0f ? 1.0f : -1.0f;
+  float a = -1.0f / (side + normal.z);
+  vec3 u = vec3(1.0f + side * normal.x * normal.x * a, side * normal.x * normal.y * a, -side * normal.x);
+  vec3 v = vec3(normal.x * normal.y * a, side + normal.y * normal.y * a, -normal.y);
+  vec2 offset = vec2(dot(from_center, u), dot(from_center, v));
+  float uv = field_slope(word >> 10u);
+  vec2 lean = vec2(field_slope(word) * offset.x + uv * offset.y, uv * offset.x + field_slope(word >> 20u) * offset.y);
+  lean *= inverse_radius;
+  FieldPoint point;
+  point.normal = normal + u * lean.x + v * lean.y;
+  point.height = -0.5f * (lean.x * offset.x + lean.y * offset.y);
+  return point;
+}
+
+/// Own-sheet exclusion (design, section 4): whether the disc belongs to the sheet that a secondary ray has
+/// just left, i.e. same object, like normal, and either the ray's origin within the disc's thin slab and near
+/// its rim, or the ray coming from behind it nearby: from below another layer of a noisy sheet. On a
+/// two-sided object the slab takes normals either way round.
+bool splat_of_sheet_left(uvec4 words, Ray ray, bool two_sided) {
+  vec3 to_center = splat_center(words) - ray.origin;
+  vec3 normal = splat_normal(words);
+  float radius_squared = splat_radius_squared(words);
+  float normal_squared = dot(normal, normal);
+  float distance_squared = dot(to_center, to_center);
+  float height = dot(normal, to_center);
+  float like = dot(normal, ray.from_normal);
+  bool in_slab = 4.0f * height * height < normal_squared * radius_squared && distance_squared < 1.5625f * radius_squared;
+  bool leaves_upwards = dot(ray.from_normal, ray.dir) > LEVEL;
+  bool from_behind = like > 0.0f && (dot(normal, ray.dir) > 0.0f) == leaves_upwards &&
+                     distance_squared < 16.0f * radius_squared;
+  bool similar = 4.0f * like * like > normal_squared && (two_sided || like > 0.0f);
+  return splat_object(words) == ray.from_object && similar && (in_slab || from_behind);
+}
+
+#endif

@@ -1,0 +1,16 @@
+/// Measures a case on a device.
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "engine/vulkan/context.h"
+#include "tests/bench/cases/cases.h"
+#include "tests/bench/measure/record.h"
+
+namespace splatray::testing {
+
+/// One record (record.h) for each of the case's runs, in order, from what prepare_case left in `folder`. Throws Error.
+[[nodiscard]] std::vector<Json> measure_case(const Context& context, const Case& one,
+                                             const std::filesystem::path& folder);
+
+}  // namespace splatray::testing

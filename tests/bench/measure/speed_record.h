@@ -1,0 +1,23 @@
+/// What records of frames on a device have in common (record.h).
+#pragma once
+#include <vector>
+
+#include "engine/gpu/tracer.h"
+#include "engine/vulkan/context.h"
+#include "tests/bench/measure/record.h"
+
+namespace splatray::testing {
+
+/// Sets `device`, and settings.threads of a software device.
+void add_device(Json& record, const Context& context);
+
+/// Adds frame_ms_median, frame_ms_min, frames and rays_per_s: `rays` over the median.
+void add_times(Json& speed, const std::vector<double>& times_ms, double rays);
+
+/// Adds tests_per_ray, steps_per_ray and leaves_per_ray, of all classes, as counted.
+void add_work(Json& speed, const RenderStats& counted);
+
+/// What a scene of so many splats takes on the device, all pools, bytes a splat.
+[[nodiscard]] double bytes_per_splat(const Tracer& tracer, std::size_t splats);
+
+}  // namespace splatray::testing

@@ -1,0 +1,64 @@
+#include "tests/bench/peers/embree_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+
+namespace splatray::testing {
+
+EmbreeScene::EmbreeScene()
+    : device_(rtcNewDevice(nullptr), rtcReleaseDevice), scene_(nullptr, rtcReleaseScene) {
+  if (!device_) throw Error(ExitCode::failed, "Embree has no device on this machine");
+  rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, this);
+  scene_.reset(rtcNewScene(device_.get()));
+}
+
+bool EmbreeScene::count_bytes(void* self, ssize_t bytes, bool /*after*/) {
+  static_cast<EmbreeScene*>(self)->bytes_ += bytes;
+  return true;
+}
+
+void EmbreeScene::build(RTCGeometry geometry) {
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene_.get());
+  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
+    throw Error(ExitCode::out_of_memory, "Embree could not build its data structure, expected memory enough");
+}
+
+RTCRayHit embree_ray(const RayQuery& query) {
+  RTCRayHit ray{};
+  ray.ray.org_x = query.origin.x;
+  ray.ray.org_y = query.origin.y;
+  ray.ray.org_z = query.origin.z;
+  ray.ray.dir_x = query.dir.x;
+  ray.ray.dir_y = query.dir.y;
+  ray.ray.dir_z = query.dir.z;
+  ray.ray.tnear = std::max(query.t_min, 0.0F);
+  ray.ray.tfar = INFINITY;
+  ray.ray.mask = ~0U;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  return ray;
+}
+
+EmbreeBundle::EmbreeBundle(std::span<const RayQuery> rays) : query() {
+  for (unsigned lane = 0; lane < 8; ++lane) {
+    valid[lane] = lane < rays.size() ? -1 : 0;
+    const RayQuery& ray = rays[std::min<std::size_t>(lane, rays.size() - 1)];
+    query.ray.org_x[lane] = ray.origin.x;
+    query.ray.org_y[lane] = ray.origin.y;
+    query.ray.org_z[lane] = ray.origin.z;
+    query.ray.dir_x[lane] = ray.dir.x;
+    query.ray.dir_y[lane] = ray.dir.y;
+    query.ray.dir_z[lane] = ray.dir.z;
+    query.ray.tnear[lane] = std::max(ray.t_min, 0.0F);
+    query.ray.tfar[lane] = INFINITY;
+    query.ray.mask[lane] = ~0U;
+    query.ray.id[lane] = lane;
+    query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+}  // namespace splatray::testing

@@ -1,0 +1,154 @@
+#include "tests/bench/peers/peer_embree_clusters.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace splatray::testing {
+namespace {
+
+/// What Embree hands to the intersection function: its own context, and the ray's gathering.
+struct Traversal {
+  RTCIntersectContext context;
+  vec3 dir;
+  Gathering gathered;
+};
+
+/// Numbers of a disc that are tested.
+constexpr std::size_t NUMBERS = 7;
+
+/// How a ray meets the discs of a group.
+struct Meetings {
+  std::array<float, EmbreeClusters::GROUP_MOST> t;
+  std::array<std::int32_t, EmbreeClusters::GROUP_MOST> met;  ///< 1 where the ray meets the disc, else 0
+};
+
+/// Where a ray meets the planes of a group's discs (EmbreeClusters::groups_), and whether on the disc within [tnear, tfar].
+/// One clone for each width of vectors, chosen when the program starts, as Embree does. GCC makes scalar code of it where any
+/// two of the lists might overlap.
+[[gnu::target_clones("avx512f", "avx2", "default")]] void meet(const float* __restrict group,
+                                                               std::size_t count, const RTCRay ray,
+                                                               Meetings& __restrict meetings) {
+  const float* __restrict center_x = group;
+  const float* __restrict center_y = group + count;
+  const float* __restrict center_z = group + 2 * count;
+  const float* __restrict normal_x = group + 3 * count;
+  const float* __restrict normal_y = group + 4 * count;
+  const float* __restrict normal_z = group + 5 * count;
+  const float* __restrict radius_squared = group + 6 * count;
+  float* __restrict t_of = meetings.t.data();
+  std::int32_t* __restrict met = meetings.met.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = center_x[i] - ray.org_x;
+    const float y = center_y[i] - ray.org_y;
+    const float z = center_z[i] - ray.org_z;
+    const float along = normal_x[i] * x + normal_y[i] * y + normal_z[i] * z;
+    const float cosine = normal_x[i] * ray.dir_x + normal_y[i] * ray.dir_y + normal_z[i] * ray.dir_z;
+    const float t = along / cosine;
+    const float from_x = ray.dir_x * t - x;
+    const float from_y = ray.dir_y * t - y;
+    const float from_z = ray.dir_z * t - z;
+    const float rho_squared = from_x * from_x + from_y * from_y + from_z * from_z;
+    t_of[i] = t;
+    met[i] =
+        static_cast<std::int32_t>((rho_squared <= radius_squared[i]) & (t > ray.tnear) & (t <= ray.tfar));
+  }
+}
+
+/// The discs as EmbreeClusters::groups_; the last group is filled up with discs that no ray meets.
+std::vector<float> in_groups(const std::vector<Disc>& discs, std::size_t group) {
+  const std::size_t places = (discs.size() + group - 1) / group * group;
+  std::vector<float> groups(places * NUMBERS, -1.0F);
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const auto& [center, radius, normal, object] = discs[i];
+    float* place = &groups[i / group * group * NUMBERS + i % group];
+    for (const float number : {center.x, center.y, center.z, normal.x, normal.y, normal.z, radius * radius}) {
+      *place = number;
+      place += group;
+    }
+  }
+  return groups;
+}
+
+}  // namespace
+
+EmbreeClusters::EmbreeClusters(const Discs& discs, const Settings& settings, std::size_t group)
+    : discs_(discs), settings_(settings), group_(group), groups_(in_groups(discs.list, group)) {
+  assert(group >= 1 && group <= GROUP_MOST);
+  RTCGeometry geometry = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>((discs.size() + group - 1) / group));
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryBoundsFunction(geometry, bounds_of, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect);
+  rtcSetGeometryOccludedFunction(geometry, occlude);
+  embree_.build(geometry);
+}
+
+void EmbreeClusters::bounds_of(const RTCBoundsFunctionArguments* args) {
+  const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
+  const std::size_t begin = args->primID * self.group_;
+  vec3 lower(INFINITY), upper(-INFINITY);
+  for (std::size_t i = begin; i < std::min(begin + self.group_, self.discs_.size()); ++i) {
+    const Disc& disc = self.discs_.list[i];
+    const vec3 reach = disc.radius * glm::sqrt(glm::max(vec3(1.0F) - disc.normal * disc.normal, vec3(0.0F)));
+    lower = glm::min(lower, disc.center - reach);
+    upper = glm::max(upper, disc.center + reach);
+  }
+  *args->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
+}
+
+template <class Visit>
+void EmbreeClusters::visit_meetings(unsigned primitive, const RTCRay& ray, const Visit& visit) const {
+  Meetings meetings;
+  meet(&groups_[primitive * group_ * NUMBERS], group_, ray, meetings);
+  const vec3 dir(ray.dir_x, ray.dir_y, ray.dir_z);
+  for (std::size_t i = 0; i < group_; ++i) {
+    const std::size_t disc = primitive * group_ + i;
+    if (meetings.met[i] != 0 && discs_.faces(disc, dir)) visit(disc, meetings.t[i]);
+  }
+}
+
+void EmbreeClusters::intersect(const RTCIntersectFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (args->valid[0] == 0) return;
+  const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
+  auto& traversal = *reinterpret_cast<Traversal*>(args->context);
+  auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;  // what an RTCRayHitN of one ray is
+  self.visit_meetings(args->primID, ray, [&](std::size_t disc, float t) {
+    traversal.gathered.add(disc, t, traversal.dir, self.discs_, self.settings_);
+  });
+  ray.tfar = traversal.gathered.end();
+}
+
+void EmbreeClusters::occlude(const RTCOccludedFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (args->valid[0] == 0) return;
+  const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
+  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+  self.visit_meetings(args->primID, ray, [&](std::size_t, float) { ray.tfar = -INFINITY; });
+}
+
+void EmbreeClusters::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Traversal traversal{{}, rays[i].dir, {}};
+    rtcInitIntersectContext(&traversal.context);
+    RTCRayHit query = embree_ray(rays[i]);
+    rtcIntersect1(embree_.scene(), &traversal.context, &query);
+    hits[i] = traversal.gathered.blended(rays[i], discs_, settings_);
+  }
+}
+
+void EmbreeClusters::occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = embree_ray(rays[i]).ray;
+    rtcOccluded1(embree_.scene(), &context, &ray);
+    blocked[i] = ray.tfar < 0.0F ? 1 : 0;
+  }
+}
+
+std::uint64_t EmbreeClusters::bytes() const {
+  return embree_.bytes() + sizeof(float) * groups_.size() + discs_.bytes();
+}
+
+}  // namespace splatray::testing

@@ -1,0 +1,28 @@
+/// Embree's oriented discs.
+#pragma once
+#include "tests/bench/peers/embree_scene.h"
+#include "tests/bench/peers/peer.h"
+#include "tests/bench/peers/peer_discs.h"
+
+namespace splatray::testing {
+
+/// RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT, one traversal for eight rays. BLEND_NEAREST takes Embree's answer as it is, with
+/// back faces rejected by a filter where an object is one-sided (Embree does not cull them). BLEND_WINDOW gathers all
+/// hits in a filter that ends the ray at the window's end.
+class EmbreeDiscs : public Peer {
+ public:
+  /// `discs` must outlive the peer.
+  EmbreeDiscs(const Discs& discs, const Settings& settings);
+  void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const override;
+  void occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const override;
+  void expect_coherent(bool coherent) override { coherent_ = coherent; }
+  [[nodiscard]] std::uint64_t bytes() const override { return embree_.bytes() + discs_.bytes(); }
+
+ private:
+  const Discs& discs_;
+  Settings settings_;
+  bool coherent_ = true;
+  EmbreeScene embree_;
+};
+
+}  // namespace splatray::testing

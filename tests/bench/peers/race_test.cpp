@@ -1,0 +1,69 @@
+// A race must tell when its runners do not answer alike, or its times compare different things.
+#include <gtest/gtest.h>
+
+#include "data/models.h"
+#include "engine/base/error.h"
+#include "tests/bench/cases/scale_cases.h"
+#include "tests/bench/peers/peer_embree_discs.h"
+#include "tests/bench/peers/peer_racer.h"
+#include "tests/bench/peers/race.h"
+#include "tests/bench/peers/splatray_racer.h"
+#include "tests/trace/scenes.h"
+
+namespace splatray::testing {
+namespace {
+
+/// The quick sphere with fewer splats, in memory.
+struct SmallRace {
+  SmallRace()
+      : scene(scene_of({{sphere({.count = 3000, .even = true}, 1.0), test_material(MATERIAL_TWO_SIDED)}})) {
+    one = scale_spheres(true).front();
+    one.width = one.height = 64;
+    one.rays = 1024;
+    scene.lights = {{LIGHT_DIRECTIONAL, glm::normalize(glm::dvec3(1.0, 1.0, 1.0)), glm::vec3(1.0F)}};
+    prepared.camera = {{0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 30.0, 0.0};
+    prepared.diagonal_world = scene.diagonal_world();
+    prepared.variants[file_name(one.runs.front().variant)].radius_median_world = 0.04;
+    discs = discs_of(scene);
+  }
+
+  std::vector<Json> run() {
+    const Context context;
+    Tracer tracer(context);
+    tracer.upload(scene);
+    const Course course(one, prepared, scene);
+    SplatrayRacer own(context, tracer, course, BLEND_WINDOW);
+    PeerRacer other(std::make_unique<EmbreeDiscs>(discs, Settings{}), "embree window", {}, 0, 0.0, course);
+    return race(one, course, {&own, &other}, true);
+  }
+
+  Scene scene;
+  Case one;
+  PreparedCase prepared;
+  Discs discs;
+};
+
+TEST(Race, RunnersOfTheSameSplatsAgreeInEveryClass) {
+  std::vector<std::string> runs;
+  for (const Json& record : SmallRace().run()) {
+    runs.push_back(record["method"].get<std::string>() + " " + record["rays"].get<std::string>());
+    EXPECT_GT(record["speed"]["rays"], 1000.0) << runs.back();
+    EXPECT_EQ(record["speed"]["frames"], RACE_ROUNDS);
+    const Json& error = record["error"];
+    EXPECT_EQ(error.value("wrong_bounces_ppm", 0.0), 0.0) << runs.back();
+    EXPECT_LE(error.value("false_shadows_ppm", 0.0), 1000.0) << runs.back();
+    EXPECT_LE(error.value("unlike_ppm", 0.0), MOST_UNLIKE_PPM) << runs.back();
+  }
+  EXPECT_EQ(runs, (std::vector<std::string>{"window primary", "window random", "window shadow",
+                                            "window mirror", "embree window primary", "embree window random",
+                                            "embree window shadow", "embree window mirror"}));
+}
+
+TEST(Race, OtherSplatsAreNoticed) {
+  SmallRace small;
+  for (std::size_t i = 0; i < small.discs.size(); i += 20) small.discs.list[i].radius *= 0.5F;
+  EXPECT_THROW(static_cast<void>(small.run()), Error);
+}
+
+}  // namespace
+}  // namespace splatray::testing
