@@ -47,7 +47,7 @@ TEST_F(FramesTest, PixelsThatSeeNothingTakeOneMorePipelineOnce) {
   for (const double x : {3.0, 4.0}) {
     look_from(x);
     EXPECT_NE(center(), first);
-    EXPECT_EQ(tracer.pipelines_built(), built + (context.is_processor() ? 1 : 0));
+    EXPECT_EQ(tracer.pipelines_built(), built + (context.is_cpu() ? 1 : 0));
   }
 }
 

@@ -20,7 +20,7 @@ int body(int argc, char** argv) {
   app.add_option("--seed", seed, "of the first round; default 1");
   CLI11_PARSE(app, argc, argv);
   const Context context;
-  Tracer tracers[] = {Tracer(context), Tracer(context, {}, Arithmetic::double_float)};
+  Tracer tracers[] = {Tracer(context), Tracer(context, {.kernels = Kernels::gpu})};
   RoundCounts counts;
   const auto start = std::chrono::steady_clock::now();
   do {

@@ -2,12 +2,12 @@
 // Lefebvre et al. 2005), with integer cells, so that no ray can be stuck or skip a cell. The leaves'
 // intervals [t_in, t_out) tile the ray. Needs top_entry(index), node_word(index), begin_end_at(index),
 // slab_word(index), splat_at(place), splat_words(splat).
-// Loops here and in trace.glsl test at their end, and their bodies ask once more whether there is work: llvmpipe masks lanes and
-// never jumps, so a loop that tests first runs its body once more for nobody; and SwiftShader was seen to lose candidates in
-// loops that some lanes skip by an `if` around them.
-#ifndef SPLATRAY_TRAVERSE_GLSL
-#define SPLATRAY_TRAVERSE_GLSL
-#include "trace/answer.glsl"
+// Loops that trace test their condition at the end, and their bodies test again whether this lane has work. llvmpipe masks lanes
+// off instead of branching, so a loop that tests first executes its body once more with all lanes masked off (frames take 1 / 0.65
+// times as long), and SwiftShader was seen to lose candidates in loops that some lanes skip by an `if` around them.
+#ifndef SPLATRAY_WALK_GLSL
+#define SPLATRAY_WALK_GLSL
+#include "trace/hit.glsl"
 #include "scene/slab.glsl"
 
 const float ROOT_SIZE = 2097152.0f;      ///< 2^LATTICE_BITS
@@ -171,11 +171,11 @@ Walk walk_start(Ray ray, float t_start, bool inside) {
 void walk_advance(INOUT(Walk) walk, Ray ray, float t_end, INOUT(Tally) tally) {
   walk.t_in = walk.t_out;
   walk.inside = (walk.cell.x | walk.cell.y | walk.cell.z) < CELL_LIMIT && walk.t_in <= t_end && walk.leaves < MAX_LEAVES;
-  if (COUNTERS == 1u) tally.lost += walk.leaves == MAX_LEAVES ? 1u : 0u;
+  if (COUNTERS) tally.lost += walk.leaves == MAX_LEAVES ? 1u : 0u;
   uint steps = walk_descend(walk, ray);
   walk.leaves += 1u;
-  if (COUNTERS == 1u) tally.node_steps += steps;
-  if (COUNTERS == 1u) tally.leaves += 1u;
+  if (COUNTERS) tally.node_steps += steps;
+  if (COUNTERS) tally.leaves += 1u;
 }
 
 /// The current leaf's splats that the ray may meet.
@@ -192,8 +192,8 @@ void walk_list(INOUT(Walk) walk, Ray ray) {
 }
 
 /// TEST: the ray's next candidates: bit i of the answer is splat chunk + i. Goes from leaf to leaf until
-/// there are some or the walk ends; with `stay`, no further than the end of this leaf. Two splats a turn: to keep lanes' masks
-/// costs llvmpipe a third of a test.
+/// there are some or the walk ends; with `stay`, no further than the end of this leaf. Two splats per iteration: updating lane
+/// masks costs a third of a test on llvmpipe.
 uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint) chunk, INOUT(Tally) tally) {
   uint candidates = 0u;
   bool searching = walk.inside;
@@ -221,7 +221,7 @@ uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint
         walk.next = last + 1u;
       }
     } while (walk.next < chunk_end);
-    if (COUNTERS == 1u) tally.tests += chunk_end - chunk;
+    if (COUNTERS) tally.tests += chunk_end - chunk;
     searching = walk.inside && candidates == 0u && !(stay && walk.next >= walk.end);
   } while (searching);
   return candidates;

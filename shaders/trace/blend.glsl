@@ -1,27 +1,15 @@
-// What a ray hits (design, section 4): the first accepted splat and the blend of its cluster, or whether
-// anything is hit at all. The result depends on the splats alone, not on the tree: intervals tile the ray,
-// each hit is decided exactly and counts in one leaf, and sums are integers. Needs, beside traverse.glsl:
-// splat_at(place), splat_words(splat), color_at(splat), field_word(splat), material_at(object), and the constants BLEND, KERNEL,
-// SIDE, FACES, COLORS, FIELDS, COUNTERS.
-#ifndef SPLATRAY_TRACE_GLSL
-#define SPLATRAY_TRACE_GLSL
-#include "trace/traverse.glsl"
+// The first splat that a ray hits, and the blend of its cluster: the splats of the same object with like normals in a window of
+// depth behind it. Sums are integers, so the blend does not depend on the order in which splats are found. Needs, beside
+// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS.
+#ifndef SPLATRAY_BLEND_GLSL
+#define SPLATRAY_BLEND_GLSL
+#include "trace/accept.glsl"
 
 const float WEIGHT_UNIT = 4194304.0f;       ///< 2^22: sums are integers in this unit
 const float WEIGHT_LEAST = 0.00390625f;     ///< 2^-8: a lone hit at the rim still has a normal of 14 bits
 const uint MEMBERS_MOST = 500u;             ///< further members do not count, so that the sums stay in 31 bits
 const float WINDOW_SLACK = 1.0f;            ///< lattice units; float32's step of t: no leaf with a member is left out
 const float MIN_COSINE = 0.1f;              ///< the window grows as 1 / |n.d| up to this
-
-/// The splat that decides the cluster, while the ray looks for it.
-struct First {
-  vec2 measure;   ///< least t, or least squared distance from the centre / r^2 (BLEND_PAPER, BLEND_LEAF)
-  vec2 t;         ///< in double-float: float32 would be off by 2^-4 lattice units on the far side of the root
-  vec3 from_center;
-  bool front;
-  uvec4 words;
-  uint splat;     ///< its index in the data pool
-};
 
 /// Integer sums over a cluster.
 struct Cluster {
@@ -32,67 +20,14 @@ struct Cluster {
   uint members;
 };
 
-/// The side a ray expects (Goradia et al. 2010, sec. IV-C2, made per object): fronts outside, backs inside.
-bool side_expected(uint object, float facing, uint inside) {
-  if (FACES == FACES_BOTH) return true;
-  if (FACES == FACES_FRONT) return SIDE != SIDE_SIDE || facing < 0.0f;
-  Material material = material_at(object);
-  bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((inside >> material.mask_bit) & 1u) != 0u;
-  bool as_expected = is_inside ? facing > 0.0f : facing < 0.0f;
-  return (material.flags & MATERIAL_HIDDEN) == 0u &&
-         (SIDE != SIDE_SIDE || (material.flags & MATERIAL_TWO_SIDED) != 0u || as_expected);
-}
-
-bool is_two_sided(uint object) {
-  if (FACES == FACES_BOTH) return true;
-  if (FACES == FACES_FRONT) return false;
-  return (material_at(object).flags & MATERIAL_TWO_SIDED) != 0u;
-}
-
-/// Everything but the geometry that a hit needs in order to count.
-bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
-  uint object = splat_object(words);
-  bool own = false;
-  if (SIDE == SIDE_SIDE) own = ray.from_object != NO_OBJECT && splat_of_sheet_left(words, ray, is_two_sided(object));
-  return !own && side_expected(object, hit.facing, ray.inside);
-}
-
-/// Whether a meeting with a disc's plane is a hit on the disc that counts in the leaf's interval.
-bool hit_accepted(uvec4 words, PlaneHit hit, Ray ray, Walk walk) {
-  bool on_disc =
-      !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
-  bool in_range = hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
-  return on_disc && in_range && hit_allowed(words, hit, ray);
-}
-
-/// The candidates that are hits. `first` is updated while `finding`.
-uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool finding, INOUT(First) first) {
-  uint accepted = 0u;
-  do {
-    if (candidates != 0u) {
-      uint bit = uint(findLSB(candidates));
-      candidates &= candidates - 1u;
-      uint splat = splat_at(chunk + bit);
-      uvec4 words = splat_words(splat);
-      PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
-      bool accept = hit_accepted(words, hit, ray, walk);
-      accepted |= (accept ? 1u : 0u) << bit;
-      vec2 measure = hit.t;
-      if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF)
-        measure = vec2(hit.rho_squared.x / splat_radius_squared(words), 0.0f);
-      bool before = df_less(measure, first.measure) ||
-                    (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
-      if (accept && finding && before) {
-        first.measure = measure;
-        first.t = hit.t;
-        first.from_center = hit.from_center;
-        first.front = hit.facing < 0.0f;
-        first.words = words;
-        first.splat = splat;
-      }
-    }
-  } while (candidates != 0u);
-  return accepted;
+Cluster empty_cluster() {
+  Cluster cluster;
+  cluster.weight = 0;
+  cluster.normal = ivec3(0);
+  cluster.depth = 0;
+  cluster.color = ivec3(0);
+  cluster.members = 0u;
+  return cluster;
 }
 
 /// Unit normal turned against the ray.
@@ -137,7 +72,7 @@ Facet facet_at(uvec4 words, uint splat, vec3 from_center, float inverse_radius, 
   Facet facet;
   facet.normal = cosine > 0.0f ? -normal : normal;
   facet.behind = 0.0f;
-  if (FIELDS == 1u) {
+  if (FIELDS) {
     FieldPoint point = field_point(field_word(splat), normal, from_center, inverse_radius);
     vec3 turned = cosine > 0.0f ? -point.normal : point.normal;
     turned -= dir * max(dot(turned, dir), 0.0f);
@@ -178,7 +113,7 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
       cluster.normal += ivec3(floor(normal + vec3(0.5f)));
       cluster.depth += int(floor(weight * share + 0.5f));
-      if (COLORS == 1u) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
+      if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
       cluster.members += member ? 1u : 0u;
     }
   } while ((candidates.x | candidates.y) != 0u);
@@ -201,9 +136,9 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
     t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
     normal = vec3(cluster.normal);
     normal *= inversesqrt(dot(normal, normal));
-    if (COLORS == 1u) hit.color = vec3(cluster.color) * inverse;
+    if (COLORS) hit.color = vec3(cluster.color) * inverse;
   } else if (hit.found) {
-    if (COLORS == 1u) hit.color = color_at(first.splat);
+    if (COLORS) hit.color = color_at(first.splat);
     float inverse_radius = inversesqrt(splat_radius_squared(first.words));
     Facet facet = facet_at(first.words, first.splat, first.from_center, inverse_radius, ray.dir);
     normal = facet.normal;
@@ -214,27 +149,6 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
   hit.t = hit.found ? df_add(t, vec2(shift, 0.0f)).x : INFINITY_F;
   hit.t_first = hit.found ? df_add(first.t, vec2(shift, 0.0f)).x : INFINITY_F;
   return hit;
-}
-
-First no_first() {
-  First first;
-  first.measure = vec2(INFINITY_F, INFINITY_F);
-  first.t = vec2(INFINITY_F, 0.0f);
-  first.from_center = vec3(0.0f);
-  first.front = true;
-  first.words = uvec4(0u, 0u, 0u, 0u);
-  first.splat = 0u;
-  return first;
-}
-
-Cluster empty_cluster() {
-  Cluster cluster;
-  cluster.weight = 0;
-  cluster.normal = ivec3(0);
-  cluster.depth = 0;
-  cluster.color = ivec3(0);
-  cluster.members = 0u;
-  return cluster;
 }
 
 /// What the ray sees first. The ray may start anywhere. The leaf with the first hit is looked through to its end before
@@ -273,40 +187,6 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
     } while (hits.x != 0u);
   }
   return finish_hit(ray, first, cluster, depth, shift);
-}
-
-/// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics
-/// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root; one that ends before it
-/// starts is not traced.
-vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
-  First first = no_first();
-  Walk walk = walk_start(ray, 0.0f, ray.t_max >= 0.0f);
-  vec3 light = vec3(1.0f);
-  uint passed = 0u;
-  do {
-    uint chunk = 0u;
-    uint candidates = walk_candidates(walk, ray, ray.t_max, false, chunk, tally);
-    uint accepted = accept_candidates(chunk, candidates, ray, walk, false, first);
-    bool opaque = accepted != 0u;
-    if (GLASS == 1u) {
-      opaque = false;
-      do {
-        if (accepted != 0u) {
-          uint bit = uint(findLSB(accepted));
-          accepted &= accepted - 1u;
-          Material material = material_at(splat_object(splat_words(splat_at(chunk + bit))));
-          bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0u;
-          uint object_bit = 1u << material.mask_bit;
-          light = glass && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
-          passed |= glass ? object_bit : 0u;
-          opaque = opaque || !glass;
-        }
-      } while (accepted != 0u);
-    }
-    light = opaque ? vec3(0.0f) : light;
-    walk.inside = walk.inside && !opaque;
-  } while (walk.inside);
-  return light;
 }
 
 #endif

@@ -1,9 +1,9 @@
-// What tracing a ray gives.
-#ifndef SPLATRAY_ANSWER_GLSL
-#define SPLATRAY_ANSWER_GLSL
+// What tracing a ray gives, and the work it took.
+#ifndef SPLATRAY_HIT_GLSL
+#define SPLATRAY_HIT_GLSL
 #include "lang/language.glsl"
 
-/// The answer to a ray. Distances are from the ray's own origin, in units of |dir|.
+/// What a ray hits. Distances are from the ray's own origin, in units of |dir|.
 struct Hit {
   bool found;
   float t;          ///< blended
