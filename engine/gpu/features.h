@@ -28,7 +28,7 @@ struct MaterialContent {
 
 /// What the features depend on.
 struct SceneContent {
-  MaterialContent materials;
+  MaterialContent materials{};
   bool colors = false;               ///< there is a colour pool
   bool fields = false;               ///< there is a pool of normal fields
   bool references = false;           ///< the data pool is read through the reference pool

@@ -34,9 +34,10 @@ struct RenderStats {
 };
 
 struct TracerOptions {
-  std::filesystem::path pipeline_folder;  ///< where compiled pipelines are kept between runs; empty = nowhere
-  PoolWish pools;                         ///< for tests and benchmarks
-  Kernels kernels = Kernels::automatic;   ///< for tests and benchmarks
+  std::filesystem::path
+      pipeline_folder{};                 ///< where compiled pipelines are kept between runs; empty = nowhere
+  PoolWish pools{};                      ///< for tests and benchmarks
+  Kernels kernels = Kernels::automatic;  ///< for tests and benchmarks
 };
 
 /// Calls that make no sense, such as images of no scene, throw Error (failed) with a sentence that says so.

@@ -41,7 +41,7 @@ bool loops_were_cut() {
   do {
     iterations += 1u;
   } while (iterations < frame.loop_probe);
-  return iterations < frame.loop_probe;
+  return iterations == 1u;  // not compared with the probe again, which compilers take for false behind the loop
 }
 
 /// Keeps a pixel's mean. A coverage that is not finite, and stays so, tells the host that it is wrong.
