@@ -6,6 +6,7 @@ import itertools
 import json
 import math
 import pathlib
+import statistics
 
 import scale_plot
 from report import machine_lines, picture
@@ -37,8 +38,10 @@ NOTES = """
   the same rounds. splatray's are those of the dispatches and include shading, Embree's are wall times of tracing alone on
   all threads. Shadow rays stop at any hit in both. Beside Embree splatray traces every pixel's ray; elsewhere it leaves
   out the pixels that no leaf projects to.
+- Models: splatray's ratio is of every pixel's ray, as Embree traces; with culling it leaves out the pixels that no leaf
+  projects to. "wall" is the whole call, with shading and read-back.
 - Embree's shadow and mirrored rays start 0.1 median radii off the surface; splatray's know the sheet that they leave.
-  Embree's rays are traced in bundles of eight, told to be incoherent in the random class.
+  Embree's rays are traced in bundles of eight (of models: see the table), told to be incoherent in the random class.
 - Errors are measured in the same run: of primary rays against the exact sphere's picture, of random rays against the
   exact sphere, of mirrored rays by further paths of 16 bounces (a bounce is wrong that misses or ends more than 2 median
   radii off), of shadow rays by those that are blocked, as truly none is. "Unlike" are answers that differ from splatray's
@@ -185,6 +188,44 @@ def coverage_parts(records):
     return ["## Frames by coverage\n", table(head, rows)]
 
 
+def median(values):
+    return statistics.median(values) if values else math.nan
+
+
+def settings_text(record):
+    words = {"width": "rtcIntersect{}", "leaf_size": "{} discs", "quality": "{} quality"}
+    said = [words[key].format(value) for key, value in record["settings"].items() if key in words]
+    return ", ".join(said + [{True: "culled", False: "every pixel"}[value] for key, value in record["settings"].items() if key == "cull"])
+
+
+def best_of(records, method):
+    """A method's record of least median time."""
+    return min((r for r in records if r["method"] == method), key=lambda r: median(r["ms"]))
+
+
+def models_parts(records):
+    """Each model: splatray, and Embree's best settings; then every setting's median and range."""
+    parts = ["## Models, side by side\n"]
+    for model in dict.fromkeys(record["case"] for record in records):
+        runs = [record for record in records if record["case"] == model]
+        own = {r["method"]: r for r in runs if r["settings"].get("cull") is False}
+        parts.append(f"### {model}, {splats_text(runs[0]['splats'])} splats, {100 * runs[0]['coverage']:.0f} % of the pixels hit\n")
+        rows = []
+        for run in runs:
+            peer = run["method"].startswith("embree")
+            against = own[run["method"].split()[-1]]
+            best = "best" if peer and run is best_of(runs, run["method"]) else ""
+            ratios = [mine / its for mine, its in zip(against["ms"], run["ms"])]
+            wall = [mine / its for mine, its in zip(against["wall_ms"], run["wall_ms"])]
+            spread = f"{number(median(run['ms']))} ({number(min(run['ms']))} to {number(max(run['ms']))})"
+            shares = [f"×{number(median(values), 2)}" if peer else "–" for values in (ratios, wall)]
+            rows.append((run["method"], settings_text(run), spread, number(median(run["wall_ms"])), *shares, best,
+                         number(run["unlike_ppm"])))
+        head = ["method", "settings", "ms (all runs)", "wall, ms", "splatray / it", "wall times", "", "unlike splatray, ppm"]
+        parts.append(table(head, rows))
+    return parts
+
+
 STAGES = {
     "load_program": "load program",
     "device": "device",
@@ -267,6 +308,8 @@ def main():
     parts = ["# Scale\n", "\n".join(dict.fromkeys(machines)) + "\n", f"```sh\n{options.commands}\n```\n"]
     parts += ["## Targets\n", targets_table(targets(coverage, startup))]
     parts += rays_parts(rays, options.folder) if rays else []
+    path = options.folder / "scale_models.json"
+    parts += models_parts(json.loads(path.read_text())) if path.exists() else []
     parts += features_parts(features) if features else []
     parts += coverage_parts(coverage) if coverage else []
     parts += startup_parts(startup) if startup else []
