@@ -100,9 +100,12 @@ def path_targets(records):
 
 
 def exact_targets(counts):
-    """`counts`: what splatray-bench-exact counted. A kind with fewer rays than asked for is not reached."""
+    """`counts`: what splatray-bench-exact counted, of which those of the last commit and device are told. A kind with fewer rays
+    than asked for is not reached."""
     kinds = {}
     for record in counts:
+        if any(record[key] != counts[-1][key] for key in ("commit", "device")):
+            continue
         rays, different = kinds.get(record["kind"], (0, 0))
         kinds[record["kind"]] = rays + record["rays"], different + record["hit_or_miss"] + record["first_splat"]
     for kind, (rays, different) in kinds.items():
