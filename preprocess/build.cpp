@@ -1,6 +1,5 @@
 #include "preprocess/build.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
+#include "preprocess/base/thread_limit.h"
 #include "preprocess/surface/cloud.h"
 #include "preprocess/surface/normals.h"
 #include "preprocess/surface/radius.h"
@@ -307,10 +307,7 @@ void count_result(const Scene& scene, BuildStats& stats) {
 Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
                   const BuildProgress& progress) {
   const Stopwatch watch(stats.total_ms);
-  std::unique_ptr<tbb::global_control> limit;
-  if (threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
-  }
+  const ThreadLimit limit(threads);
   check_counts(input);
   Scene scene = describe_scene(input, params);
   std::vector<Cloud> clouds = make_clouds(input, stats);

@@ -1,10 +1,10 @@
 /// Input -> Scene: repair, normals, radii, octree, insertion. The whole preprocess but for reading and
 /// writing files.
 #pragma once
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/scene/scene.h"
 #include "preprocess/points.h"
 
@@ -34,9 +34,7 @@ struct BuildStats {
          empty_ms = 0.0, total_ms = 0.0;
 };
 
-/// A stage's name and the share done, 0..1; returns false to stop (build_scene then throws Error
-/// interrupted).
-using BuildProgress = std::function<bool(const char* stage, double share)>;
+using BuildProgress = Progress;
 
 /// Builds the scene. A point without a neighbour at another place gets a radius of 1/100 of the diagonal of
 /// all centres, 1 world unit where that is zero. An object none of whose normals is given becomes two-sided
