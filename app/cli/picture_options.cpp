@@ -5,6 +5,7 @@
 #include "app/cli/options.h"
 #include "app/library/camera_file.h"
 #include "app/library/materials.h"
+#include "preprocess/read/formats.h"
 
 namespace splatray {
 namespace {
@@ -190,7 +191,7 @@ void add_method_options(OptionList& list, PictureOptions& picture) {
 
 void add_scene_options(OptionList& list, SceneOptions& scene) {
   list.add_option("SCENE", scene.inputs,
-                  "a .soct scene, or what splatray-preprocess reads: .ply .obj .stl .vtp .gltf .glb")
+                  "a .soct scene, or what splatray-preprocess reads: " + format_extensions())
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   list.add_words([&scene] {
     Words words;
