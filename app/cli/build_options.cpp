@@ -9,11 +9,9 @@ namespace splatray {
 void add_build_options(OptionList& list, BuildOptions& options, const std::string& samples_name) {
   constexpr double MOST_WHOLE = 9007199254740992.0;  // 2^53: whole numbers are exact up to here
   BuildParams& params = options.params;
-  list.add_option("--data-path", options.data_paths,
-                  "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("FOLDER");
+  list.add_paths("--data-path", options.data_paths,
+                 "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR",
+                 "FOLDER");
   list.add_words([&options] {
     Words words;
     for (const std::filesystem::path& folder : options.data_paths)

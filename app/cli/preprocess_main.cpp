@@ -29,15 +29,16 @@ struct Options {
 bool parse(int argc, char** argv, Options& options) {
   OptionList list("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
                   "splatray-preprocess");
-  list.add_option("INPUT", options.build.inputs, "files with points, meshes or a scene: " + format_extensions())
-      ->required()
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  list.add_option("-o,--output", options.output, "scene file to write (.soct)")->required();
+  list.add_paths("INPUT", options.build.inputs, "files with points, meshes or a scene: " + format_extensions(),
+                 "FILE");
+  list.require("INPUT");
+  add_path(list, "-o,--output", options.output, "scene file to write (.soct)");
+  list.require("--output");
   add_build_options(list, options.build, "--samples");
   add_number(list, "--seed", options.build.params.seed, 0, 4294967295.0,
              "seed of samples and probe rays; default 1");
-  list.add_option("--stats-json", options.stats_json, "file to write counts and times to");
-  return parse_options(list, argc, argv);
+  add_path(list, "--stats-json", options.stats_json, "file to write counts and times to");
+  return list.parse(argc, argv);
 }
 
 /// A build takes and frees many large arrays: glibc's malloc keeps their memory instead of giving it back, as each page that the
