@@ -4,7 +4,7 @@
 
 #include "engine/base/error.h"
 #include "preprocess/base/file_extension.h"
-#include "preprocess/base/one_line.h"
+#include "engine/base/one_line.h"
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/points.h"
 #include "preprocess/read/gltf/read_gltf.h"
