@@ -98,7 +98,7 @@ void add_sequence_options(OptionList& list, RenderOptions& options) {
           "--frames", [&sequence](const std::string& text) { sequence.frames = read_frames(text); },
           frames_text, "only these frames of a sequence; default all")
       ->type_name("A-B");
-  add_switch(list, "--skip-existing", sequence.skip_existing, "leave out pictures whose file exists");
+  add_switch(list, "--skip-existing", sequence.skip_existing, "leave out pictures whose file exists and is whole");
 }
 
 /// What no single option can check of a sequence.

@@ -56,7 +56,8 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::write(const void* bytes, std::uint64_t size) {
   const auto* next = static_cast<const char*>(bytes);
   while (size > 0) {
-    const ssize_t step = ::write(descriptor_, next, size);  // at most 2 GiB, fewer at a signal or the disk's end
+    const ssize_t step =
+        ::write(descriptor_, next, size);  // at most 2 GiB, fewer at a signal or the disk's end
     if (step < 0 && errno == EINTR) continue;
     if (step <= 0) refuse(target_, error_text() + " after " + std::to_string(written_) + " bytes");
     next += step;

@@ -44,7 +44,7 @@ TEST_F(CliOutputs, WithoutTheLibraryBesideIt) {
       [&] {
         return run_program({alone, grid, "--quiet", "-o", file("a.png"), "--resolution=8x8"});
       },
-      1, "libsplatray_image_codec.so");
+      1, "libsplatray_image_codec");
 }
 
 TEST_F(CliOutputs, PictureAndStatistics) {
