@@ -116,9 +116,10 @@ TEST_F(CliOutputs, FullDiskLeavesTheOlderFile) {
 
 TEST_F(CliOutputs, FullDiskAndStatistics) {
   write("stats.json", "older");
-  const ChildResult result = run_program({RENDER, "--quiet", grid, "--resolution=8x8", "--samples=1", "-o",
-                                          file("a.exr"), "--stats-json", file("stats.json")},
-                                         {}, {}, SIGINT, {.most_bytes = 1800});
+  const ChildResult result =
+      run_program({RENDER, "--quiet", grid, "--resolution=8x8", "--samples=1", "--turntable=40", "-o",
+                   file("a##.png"), "--stats-json", file("stats.json")},
+                  {}, {}, SIGINT, {.most_bytes = 2048});
   EXPECT_EQ(result.code, 1);
   EXPECT_NE(result.err.find("stats.json': "), std::string::npos) << result.err;
   EXPECT_EQ(std::filesystem::file_size(file("stats.json")), 5U);
