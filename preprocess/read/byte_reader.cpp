@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "engine/base/error.h"
-#include "preprocess/base/one_line.h"
+#include "engine/base/one_line.h"
 
 namespace splatray {
 

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "engine/base/error.h"
-#include "preprocess/base/one_line.h"
+#include "engine/base/one_line.h"
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/points.h"
