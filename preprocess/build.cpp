@@ -15,6 +15,7 @@
 
 #include "engine/base/error.h"
 #include "engine/scene/copies.h"
+#include "engine/scene/scene_check.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
@@ -65,7 +66,7 @@ void check_counts(const Input& input) {
   }
 }
 
-/// Everything of the scene that is not splats.
+/// Everything of the scene that is not splats. Throws Error where the input asks for what scene files do not hold.
 Scene describe_scene(Input& input, const BuildParams& params) {
   Scene scene;
   scene.build = params;
@@ -81,6 +82,9 @@ Scene describe_scene(Input& input, const BuildParams& params) {
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
   }
   if (!area_known) scene.surface_area_world = 0.0;
+  if (const auto defect = find_look_defect(scene))
+    throw Error(ExitCode::input_unreadable,
+                "the input has " + defect->found + ", expected " + defect->expected);
   return scene;
 }
 

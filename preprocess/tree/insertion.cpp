@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "preprocess/tree/disc.h"
+#include "engine/scene/disc.h"
 
 namespace splatray {
 namespace {

@@ -92,6 +92,28 @@ TEST(Build, LeafSizeSuitsTheDevice) {
   EXPECT_FALSE(copies_fit(pool_counts(large)));
 }
 
+TEST(Build, RefusesLooksThatSceneFilesDoNotHold) {
+  const auto refusal = [](auto change) -> std::string {
+    Input input = test::input_of(test::even_sphere(100));
+    change(input);
+    BuildStats stats;
+    try {
+      (void)build_scene(std::move(input), {}, 0, stats);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal([](Input&) {}), "");
+  EXPECT_EQ(refusal([](Input& i) { i.objects[0].material.mirror = 1e30F; }),
+            "the input has material 0 with a mirror out of range, expected 0 to 1");
+  EXPECT_EQ(refusal([](Input& i) {
+              i.lights = {{LIGHT_POINT, glm::dvec3(0.0), vec3(-1.0F)}};
+            }),
+            "the input has light 0 with a power out of range, expected finite numbers, 0 or more");
+}
+
 TEST(Build, PoolsAreConsistent) {
   BuildStats stats;
   const Scene scene = build(colored_noise(), {}, 0, &stats);
