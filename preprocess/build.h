@@ -40,7 +40,7 @@ using BuildProgress = Progress;
 /// all centres, 1 world unit where that is zero. An object none of whose normals is given becomes two-sided
 /// unless it is a dielectric. Dielectrics get their mask bits in order; from the 33rd on they share them. The
 /// scene depends neither on the order of an object's points nor on threads: `threads` 0 = all cores; Throws
-/// Error (input_unreadable) when no point is left or there are more than 65536 objects, (interrupted) when
+/// Error (input_unreadable) when no point is left, there are more than 65536 objects, or a material or light is out of range, (interrupted) when
 /// `progress` says so, (failed) when 32-bit addresses do not suffice.
 [[nodiscard]] Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
                                 const BuildProgress& progress = {});

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cstring>
 #include <fstream>
+#include <future>
 #include <span>
 
 #define XXH_INLINE_ALL
@@ -316,6 +317,9 @@ Scene read_scene(const std::filesystem::path& path) {
   Reader reader(path);
   Scene scene = described_scene(reader.header());
   scene.node_pool = reader.section<std::uint32_t>(NODES);
+  // Beside the reading of all else, which takes longer.
+  auto tree_defect = std::async(std::launch::async, find_tree_defect,
+                                std::span<const std::uint32_t>(scene.node_pool), reader.header().leaves);
   scene.begin_end = reader.section<std::uint32_t>(LEAVES);
   scene.slab_pool = reader.section<std::uint32_t>(SLABS);
   scene.reference_pool = reader.section<std::uint32_t>(REFERENCES);
@@ -327,7 +331,8 @@ Scene read_scene(const std::filesystem::path& path) {
   if (const auto cameras = reader.section<Camera>(CAMERA); !cameras.empty()) scene.camera = cameras.front();
   read_strings(reader, scene);
   reader.end();
-  if (const auto defect = find_scene_defect(scene)) reader.refuse(defect->found, defect->expected);
+  if (const auto defect = tree_defect.get()) reader.refuse(defect->found, defect->expected);
+  if (const auto defect = find_content_defect(scene)) reader.refuse(defect->found, defect->expected);
   return scene;
 }
 

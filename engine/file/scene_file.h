@@ -65,9 +65,7 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
 
 /// Reads and checks a whole scene file. Refuses, as Error (input_unreadable) with path, found and expected: wrong magic,
 /// newer version, foreign endianness, truncation at any byte, extra bytes, checksum mismatch, and whatever
-/// find_scene_defect (scene_check.h) finds: an address or reference outside its pool, a Begin-End that does not ascend, a splat that is
-/// not finite or names an object that does not exist, a non-finite transform.
-/// Error (interrupted) when `progress`, told of the stage "reading", says so.
+/// find_scene_defect (scene_check.h) finds. Error (interrupted) when `progress`, told of the stage "reading", says so.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace splatray

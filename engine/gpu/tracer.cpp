@@ -247,6 +247,11 @@ void Tracer::upload(const Scene& scene) {
   ++impl_->pools_uploaded;
 }
 
+void Tracer::upload_and_free(Scene& scene) {
+  impl_->scene.upload_and_free(scene);
+  ++impl_->pools_uploaded;
+}
+
 void Tracer::set_materials(std::span<const Material> materials) {
   assert(materials.size() == impl_->scene.materials());
   impl_->scene.set_materials(materials);
