@@ -1,8 +1,8 @@
 /// splatray-generate MODEL -o FOLDER: writes the point clouds of a built-in scene or shape, one PLY file per
 /// object.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "app/cli/option_types.h"
 #include "data/models.h"
 #include "engine/base/error.h"
 
@@ -23,18 +23,18 @@ std::string model_names() {
   return names;
 }
 
-void add_options(CLI::App& app, Options& options) {
-  app.add_option("MODEL", options.model, "one of " + model_names())->required();
-  app.add_option("-o,--output", options.folder, "folder to write to, made when missing")->required();
-  app.add_option("--points", options.sampling.count, "points in all, about")
-      ->capture_default_str()
-      ->check(CLI::Range(1U, 1U << 30));
-  app.add_option("--seed", options.sampling.seed, "random sequence, or shift of the even lattice")
-      ->capture_default_str();
-  app.add_flag("--random", options.random, "independent random points (white noise) in place of even ones");
-  app.add_option("--angle", options.model_options.angle_deg, "wedge: opening angle, degrees")
-      ->capture_default_str()
-      ->check(CLI::Range(1.0, 179.0));
+void add_options(OptionList& list, Options& options) {
+  add_text(list, "MODEL", options.model, "one of " + model_names());
+  list.require("MODEL");
+  add_path(list, "-o,--output", options.folder, "folder to write to, made when missing");
+  list.require("--output");
+  add_number(list, "--points", options.sampling.count, 1, 1U << 30U, "points in all, about; default 1000000");
+  add_number(list, "--seed", options.sampling.seed, 0, 4294967295.0,
+             "random sequence, or shift of the even lattice; default 1");
+  list.add_switch("--random", options.random,
+                  "independent random points (white noise) in place of even ones");
+  add_number(list, "--angle", options.model_options.angle_deg, 1.0, 179.0,
+             "wedge: opening angle, degrees; default 60");
 }
 
 void generate(const Options& options) {
@@ -58,14 +58,10 @@ void generate(const Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("Writes the point clouds of a built-in scene or shape, one PLY file per object.");
-  add_options(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    throw Error(ExitCode::usage, std::string(error.what()) + " (--help lists the options)");
-  }
+  OptionList list("Writes the point clouds of a built-in scene or shape, one PLY file per object.",
+                  "splatray-generate");
+  add_options(list, options);
+  if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   generate(options);
   return static_cast<int>(ExitCode::done);
 }

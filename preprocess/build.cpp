@@ -1,10 +1,8 @@
 #include "preprocess/build.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -14,15 +12,17 @@
 #include <utility>
 
 #include "engine/base/error.h"
-#include "engine/scene/copies.h"
+#include "engine/scene/scene_check.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
+#include "preprocess/base/thread_limit.h"
 #include "preprocess/surface/cloud.h"
 #include "preprocess/surface/normals.h"
 #include "preprocess/surface/radius.h"
 #include "preprocess/tree/empty_space.h"
 #include "preprocess/tree/insertion.h"
+#include "preprocess/tree/leaf_size.h"
 #include "preprocess/tree/leaf_slabs.h"
 #include "preprocess/tree/octree.h"
 #include "preprocess/tree/root.h"
@@ -32,10 +32,6 @@ namespace {
 
 constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
 constexpr std::uint32_t MOST_EQUAL = 8;  // splats with the same words that are kept: more only add weight
-
-/// Leaf sizes to try where none is given, until a device can have copies of the leaves' splats. Larger leaves list a splat less
-/// often. Should all list too much, it has references, of which small leaves may have many and rays then follow few.
-constexpr std::array<std::uint32_t, 3> LEAF_SIZES = {16, 24, 8};
 
 /// Adds the time since its construction to a number of milliseconds when it ends.
 class Stopwatch {
@@ -65,7 +61,7 @@ void check_counts(const Input& input) {
   }
 }
 
-/// Everything of the scene that is not splats.
+/// Everything of the scene that is not splats. Throws Error where the input asks for what scene files do not hold.
 Scene describe_scene(Input& input, const BuildParams& params) {
   Scene scene;
   scene.build = params;
@@ -81,6 +77,9 @@ Scene describe_scene(Input& input, const BuildParams& params) {
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
   }
   if (!area_known) scene.surface_area_world = 0.0;
+  if (const auto defect = find_look_defect(scene))
+    throw Error(ExitCode::input_unreadable,
+                "the input has " + defect->found + ", expected " + defect->expected);
   return scene;
 }
 
@@ -243,28 +242,6 @@ ListedOctree build_lists(const SplatList& splats, const BuildParams& params, con
   return built;
 }
 
-PoolCounts pool_counts(const ListedOctree& built, const SplatList& splats) {
-  const std::vector<std::uint32_t>& begin = built.lists.begin;
-  PoolCounts counts{splats.size(),         built.lists.splat.size(), built.tree.node_pool.size(), 0,
-                    !splats.color.empty(), !splats.field.empty()};
-  for (std::size_t i = 0; i + 1 < begin.size(); ++i) counts.filled_leaves += begin[i] < begin[i + 1] ? 1 : 0;
-  return counts;
-}
-
-/// With leaves of the size that is asked for, or of automatic size, which `params` is then told.
-ListedOctree build_lists_of_size(const SplatList& splats, BuildParams& params, const BuildProgress& progress,
-                                 BuildStats& stats) {
-  if (params.leaf_size > 0) return build_lists(splats, params, progress, stats);
-  ListedOctree built;
-  for (const std::uint32_t leaf_size : LEAF_SIZES) {
-    built = {};  // there may not be room for two
-    params.leaf_size = leaf_size;
-    built = build_lists(splats, params, progress, stats);
-    if (copies_fit(pool_counts(built, splats))) break;
-  }
-  return built;
-}
-
 /// Writes the scene's pools: leaf words get their Begin-End index.
 void fill_pools(ListedOctree built, SplatList splats, Scene& scene, BuildStats& stats) {
   auto& [tree, lists] = built;
@@ -307,10 +284,7 @@ void count_result(const Scene& scene, BuildStats& stats) {
 Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
                   const BuildProgress& progress) {
   const Stopwatch watch(stats.total_ms);
-  std::unique_ptr<tbb::global_control> limit;
-  if (threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
-  }
+  const ThreadLimit limit(threads);
   check_counts(input);
   Scene scene = describe_scene(input, params);
   std::vector<Cloud> clouds = make_clouds(input, stats);
@@ -326,7 +300,11 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
     stats.dropped_duplicates =
         order_splats(splats, params.leaf_size > 0 ? std::min(params.leaf_size, MOST_EQUAL) : MOST_EQUAL);
   }
-  ListedOctree built = build_lists_of_size(splats, scene.build, progress, stats);
+  if (scene.build.leaf_size == 0) {
+    const Stopwatch octree_watch(stats.octree_ms);
+    scene.build.leaf_size = choose_leaf_size(splats, scene.build.insertion);
+  }
+  ListedOctree built = build_lists(splats, scene.build, progress, stats);
   fill_pools(std::move(built), std::move(splats), scene, stats);
   {
     const Stopwatch slab_watch(stats.slabs_ms);

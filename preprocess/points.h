@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
@@ -36,7 +37,7 @@ struct Mesh {
 struct InputObject {
   std::string name;
   Points points;
-  Material material{};
+  Material material{vec3(0.0F), 0.0F, vec3(0.0F), 1.0F, 0.0F, 1.0F, 0, 0};  ///< black
   bool oriented =
       false;  ///< normals are known to point outwards (closed mesh); else they may be turned either way
   double surface_area = 0.0;  ///< of the source mesh, world units^2; 0 = unknown
@@ -62,11 +63,14 @@ struct ReadOptions {
   std::vector<std::filesystem::path>
       data_paths;  ///< folders searched for models a scene names, after the scene's own folder
   bool keep_meshes = false;
+  bool turn_outwards = false;  ///< closed meshes of all objects, not only of dielectrics, are turned outwards
+  unsigned threads = 0;        ///< 0 = all cores
+  Progress progress{};         ///< of the stages "reading" and "sampling"; may be empty
 };
 
-/// Reads one or more files into one Input (several files: one object each; glTF: its own objects). By
-/// extension: .ply .obj .stl .vtp .gltf .glb. Throws Error (input_unreadable), one sentence with path, found
-/// and expected.
+/// Reads one or more files into one Input (several files: one object each; glTF: its own objects), by their
+/// extensions (read/formats.h). Throws Error (input_unreadable), one sentence with path, found and expected, or
+/// (interrupted) when `options.progress` says so.
 [[nodiscard]] Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options);
 
 /// The material of an object whose file says nothing: light grey, a soft highlight, two-sided.

@@ -9,11 +9,9 @@ namespace splatray {
 void add_build_options(OptionList& list, BuildOptions& options, const std::string& samples_name) {
   constexpr double MOST_WHOLE = 9007199254740992.0;  // 2^53: whole numbers are exact up to here
   BuildParams& params = options.params;
-  list.add_option("--data-path", options.data_paths,
-                  "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("FOLDER");
+  list.add_paths("--data-path", options.data_paths,
+                 "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR",
+                 "FOLDER");
   list.add_words([&options] {
     Words words;
     for (const std::filesystem::path& folder : options.data_paths)
@@ -37,13 +35,23 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_number(list, "--radius-scale", params.radius_scale, 1e-6, 1e6, "factor on every radius; default 1");
   add_choice<bool>(list, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
                    "how normals change across each disc, where the scene curves; default on");
-  add_number(list, "--threads", options.threads, 0, 4096, "threads of the preprocess; default 0 = all cores");
+  add_number(list, "--threads", options.threads, 0, 4096, "threads of reading and preprocess; default 0 = all cores");
 }
 
 std::vector<std::filesystem::path> model_folders(const BuildOptions& options) {
   std::vector<std::filesystem::path> folders = options.data_paths;
   if (const char* folder = std::getenv("SPLATRAY_DATA_DIR")) folders.emplace_back(folder);
   return folders;
+}
+
+ReadOptions read_options(const BuildOptions& options, const Progress& progress) {
+  ReadOptions reading;
+  reading.samples = options.params.samples;
+  reading.seed = options.params.seed;
+  reading.data_paths = model_folders(options);
+  reading.threads = options.threads;
+  reading.progress = progress;
+  return reading;
 }
 
 }  // namespace splatray

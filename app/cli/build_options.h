@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "preprocess/points.h"
 
 namespace splatray {
 
@@ -26,5 +27,8 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
 
 /// Folders for models a scene names: the data paths, then the variable SPLATRAY_DATA_DIR where it is set.
 [[nodiscard]] std::vector<std::filesystem::path> model_folders(const BuildOptions& options);
+
+/// What reading needs to know of the options.
+[[nodiscard]] ReadOptions read_options(const BuildOptions& options, const Progress& progress);
 
 }  // namespace splatray

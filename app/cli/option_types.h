@@ -15,6 +15,7 @@
 
 namespace splatray {
 
+/// Throws Error (usage): the option, what was found, what was expected.
 [[noreturn]] void refuse_option(const std::string& option, const std::string& value,
                                 const std::string& expected);
 
@@ -29,15 +30,12 @@ void add_vector(OptionList& list, const std::string& name, std::optional<glm::dv
                 const std::string& help);
 
 /// Any text that is not empty.
-CLI::Option* add_text(OptionList& list, const std::string& name, std::string& target,
-                      const std::string& help);
+void add_text(OptionList& list, const std::string& name, std::string& target, const std::string& help,
+              const std::string& value_name = "TEXT");
 
 /// A file or folder.
 void add_path(OptionList& list, const std::string& name, std::filesystem::path& target,
               const std::string& help);
-
-/// A word that stands for true.
-void add_switch(OptionList& list, const std::string& name, bool& target, const std::string& help);
 
 /// The number that `text` given to option `name` is, whole for a Number that is, in [least, most]; else refuses it.
 template <typename Number>
@@ -69,7 +67,7 @@ void add_number(OptionList& list, const std::string& name, Number& target, doubl
     else
       return std::to_string(target);
   };
-  list.add_value(name, read, write, help)->type_name(std::is_floating_point_v<Number> ? "X" : "N");
+  list.add_value(name, read, write, help, std::is_floating_point_v<Number> ? "X" : "N");
 }
 
 /// A name and what it stands for.
@@ -95,12 +93,7 @@ void add_choice(OptionList& list, const std::string& name, Value& target,
       if (target == choice.value) return choice.name;
     return "";
   };
-  list.add_value(name, read, write, help)->type_name(names);
+  list.add_value(name, read, write, help, names);
 }
-
-/// Parses the command line, without the program's name in the second form. False when help or the version was asked for and printed. Throws Error (usage),
-/// one sentence.
-[[nodiscard]] bool parse_options(CLI::App& app, int argc, char** argv);
-[[nodiscard]] bool parse_options(CLI::App& app, const Words& words);
 
 }  // namespace splatray

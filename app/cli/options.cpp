@@ -40,18 +40,19 @@ std::string aov_text(const RenderOptions& options) {
 }
 
 void add_output_options(OptionList& list, RenderOptions& options) {
-  list.add_option("-o,--output", options.output,
-                  "the picture: .png (sRGB) or .exr (linear float); of a sequence with a run of # for the "
-                  "frame's digits such as out.####.png")
-      ->type_name("FILE");
+  list.add_value(
+      "-o,--output", [&options](const std::string& text) { options.output = text; }, {},
+      "the picture: .png (sRGB) or .exr (linear float); of a sequence with a run of # for the "
+      "frame's digits such as out.####.png",
+      "FILE");
   list.add_words([&options] {
     return options.output.empty() ? Words{} : Words{"-o", options.output.string()};
   });
   add_number(list, "--exposure", options.exposure_ev, -60.0, 60.0, "brightness of a PNG in stops; default 0");
   list.add_value(
-          "--aov", [&options](const std::string& text) { read_aovs(text, options); },
-          [&options] { return aov_text(options); }, "more channels of an EXR picture: Z, N.X N.Y N.Z, id")
-      ->type_name("depth,normal,id");
+      "--aov", [&options](const std::string& text) { read_aovs(text, options); },
+      [&options] { return aov_text(options); }, "more channels of an EXR picture: Z, N.X N.Y N.Z, id",
+      "depth,normal,id");
   add_path(list, "--stats-json", options.stats_json, "write times, counts, bytes and device here");
   add_path(list, "--reference", options.reference, "picture to compare with; exit 1 when they differ");
   add_number(list, "--reference-threshold", options.reference_threshold, 0.0, 1.0,
@@ -60,8 +61,8 @@ void add_output_options(OptionList& list, RenderOptions& options) {
              "allowed share of pixels beyond it; default 0.0002");
   add_number(list, "--reference-limit", options.reference_limit, 0.0, 1.0,
              "no pixel's error may exceed this; default 0.012");
-  add_switch(list, "--list-devices", options.list_devices, "list the Vulkan devices and end");
-  add_switch(list, "--quiet", options.quiet, "only errors on stderr");
+  list.add_switch("--list-devices", options.list_devices, "list the Vulkan devices and end");
+  list.add_switch("--quiet", options.quiet, "only errors on stderr");
 }
 
 FrameRange read_frames(const std::string& text) {
@@ -77,16 +78,15 @@ FrameRange read_frames(const std::string& text) {
 void add_sequence_options(OptionList& list, RenderOptions& options) {
   SequenceOptions& sequence = options.sequence;
   list.add_value(
-          "--camera-path",
-          [&options](const std::string& file) {
-            options.sequence.camera_path = file;
-            options.picture.eye = options.picture.target = options.picture.camera_up = std::nullopt;
-            options.picture.fov_y_deg.reset();
-            options.picture.ortho_height = 0.0;
-          },
-          [&sequence] { return sequence.camera_path.string(); },
-          "one picture for each frame of this camera path (JSON: keys, each a camera with its frame)")
-      ->type_name("FILE");
+      "--camera-path",
+      [&options](const std::string& file) {
+        options.sequence.camera_path = file;
+        options.picture.eye = options.picture.target = options.picture.camera_up = std::nullopt;
+        options.picture.fov_y_deg.reset();
+        options.picture.ortho_height = 0.0;
+      },
+      [&sequence] { return sequence.camera_path.string(); },
+      "one picture for each frame of this camera path (JSON: keys, each a camera with its frame)", "FILE");
   add_number(
       list, "--turntable", sequence.turntable, 0, 999999,
       "this many pictures of a full turn about the scene's up axis through the target; default 0 = none");
@@ -95,10 +95,9 @@ void add_sequence_options(OptionList& list, RenderOptions& options) {
     return std::to_string(sequence.frames->first) + "-" + std::to_string(sequence.frames->last);
   };
   list.add_value(
-          "--frames", [&sequence](const std::string& text) { sequence.frames = read_frames(text); },
-          frames_text, "only these frames of a sequence; default all")
-      ->type_name("A-B");
-  add_switch(list, "--skip-existing", sequence.skip_existing, "leave out pictures whose file exists");
+      "--frames", [&sequence](const std::string& text) { sequence.frames = read_frames(text); }, frames_text,
+      "only these frames of a sequence; default all", "A-B");
+  list.add_switch("--skip-existing", sequence.skip_existing, "leave out pictures whose file exists and is whole");
 }
 
 /// What no single option can check of a sequence.
@@ -143,16 +142,17 @@ bool parse_onto(const Words& words, RenderOptions& options, std::filesystem::pat
   OptionList list("Ray-traces a scene of splats into pictures.", "splatray-render");
   add_render_options(list, options);
   if (from != nullptr) {
-    list.set_version_flag("--version", SPLATRAY_VERSION);
+    list.add_answer(
+        "--version", [] { return SPLATRAY_VERSION; }, "print the version");
     add_path(
         list, "--from", *from,
         "make this picture again, from the options kept in it; options beside it replace those, -o defaults "
         "to "
         "its name with .again; relative paths in it are looked for here, then in its folder and those above");
   } else {
-    list.set_help_flag();
+    list.remove_help();
   }
-  if (!parse_options(list, words)) return false;
+  if (!list.parse(words)) return false;
   options.scene.params.seed = options.picture.settings.seed;
   return true;
 }

@@ -5,6 +5,7 @@
 #include "app/cli/options.h"
 #include "app/library/camera_file.h"
 #include "app/library/materials.h"
+#include "preprocess/read/formats.h"
 
 namespace splatray {
 namespace {
@@ -23,8 +24,7 @@ void add_resolution(OptionList& list, PictureOptions& picture) {
   const auto write = [&picture] {
     return std::to_string(picture.width) + "x" + std::to_string(picture.height);
   };
-  list.add_value("--resolution", read, write, "size of the picture, pixels; default 1920x1080")
-      ->type_name("WxH");
+  list.add_value("--resolution", read, write, "size of the picture, pixels; default 1920x1080", "WxH");
 }
 
 void add_fov(OptionList& list, PictureOptions& picture) {
@@ -35,7 +35,7 @@ void add_fov(OptionList& list, PictureOptions& picture) {
     picture.fov_y_deg = numbers[0];
   };
   const auto write = [&picture] { return picture.fov_y_deg ? number_text(*picture.fov_y_deg) : ""; };
-  list.add_value("--fov", read, write, "vertical field of view; default 30")->type_name("DEG");
+  list.add_value("--fov", read, write, "vertical field of view; default 30", "DEG");
 }
 
 /// --up takes the place of an up direction that the camera has from a file or picture.
@@ -45,19 +45,18 @@ void add_up(OptionList& list, PictureOptions& picture) {
     picture.camera_up.reset();
   };
   list.add_value(
-          "--up", read, [&picture] { return picture.up ? number_text(*picture.up) : ""; },
-          "up direction of the scene, its environment and the camera; default the scene's")
-      ->type_name("X,Y,Z");
+      "--up", read, [&picture] { return picture.up ? number_text(*picture.up) : ""; },
+      "up direction of the scene, its environment and the camera; default the scene's", "X,Y,Z");
   add_vector(list, "--camera-up", picture.camera_up, "up direction of the camera alone; needs --eye");
 }
 
 /// Options are applied in the order of adding: those after --camera change parts of its camera.
 void add_camera_options(OptionList& list, PictureOptions& picture) {
   add_resolution(list, picture);
-  list.add_option_function<std::string>(
-          "--camera", [&picture](const std::string& file) { set_camera(picture, read_camera(file)); },
-          "camera file (JSON: eye, target, up, fov_y_deg or ortho_height); options beside it replace parts")
-      ->type_name("FILE");
+  list.add_value(
+      "--camera", [&picture](const std::string& file) { set_camera(picture, read_camera(file)); }, {},
+      "camera file (JSON: eye, target, up, fov_y_deg or ortho_height); options beside it replace parts",
+      "FILE");
   add_vector(list, "--eye", picture.eye,
              "camera position; default: the scene's camera, else a view of the whole scene");
   add_vector(list, "--target", picture.target, "point looked at; default the scene's centre; needs --eye");
@@ -104,7 +103,7 @@ void add_light_options(OptionList& list, PictureOptions& picture) {
       given->push_back(read_light(name, text, kind));
       picture.lights = *given;
     };
-    list.add_option_function<std::string>(name, read, help)->trigger_on_parse()->type_name("X,Y,Z[,R,G,B]");
+    list.add_repeated(name, read, help, "X,Y,Z[,R,G,B]");
   };
   add("--light", LIGHT_POINT,
       "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at the "
@@ -112,14 +111,13 @@ void add_light_options(OptionList& list, PictureOptions& picture) {
   add("--sun", LIGHT_DIRECTIONAL,
       "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, default pi; "
       "repeatable");
-  list.add_option_function<std::string>(
-          "--lights",
-          [&picture, given](const std::string& text) {
-            if (text != "none") refuse_option("--lights", text, "none");
-            picture.lights = *given;
-          },
-          "no light but the environment's, unless --light or --sun add some")
-      ->type_name("none");
+  list.add_value(
+      "--lights",
+      [&picture, given](const std::string& text) {
+        if (text != "none") refuse_option("--lights", text, "none");
+        picture.lights = *given;
+      },
+      {}, "no light but the environment's, unless --light or --sun add some", "none");
   list.add_words([&picture] { return light_words(picture.lights); });
 }
 
@@ -127,8 +125,8 @@ void add_environment_options(OptionList& list, PictureOptions& picture) {
   Settings& settings = picture.settings;
   add_text(list, "--env", picture.environment,
            "environment: an HDR or EXR file (latitude-longitude), white, black, studio or a radiance r,g,b; "
-           "default: the scene's, else studio with a key light over the viewer's left shoulder")
-      ->type_name("FILE|NAME");
+           "default: the scene's, else studio with a key light over the viewer's left shoulder",
+           "FILE|NAME");
   add_number(list, "--env-strength", settings.environment_strength, 0.0, 1e6,
              "factor on the environment; default 1");
   add_number(list, "--env-turn", settings.environment_turn, -1e6, 1e6,
@@ -139,14 +137,11 @@ void add_object_options(OptionList& list, PictureOptions& picture) {
   const auto read = [&picture](const std::string& text) {
     picture.objects.push_back(read_object_options(text));
   };
-  list.add_option_function<std::string>("--object", read,
-                                        "change the material of one object, given by its index or name; "
-                                        "keys: preset (a name of --material), "
-                                        "diffuse=r/g/b, specular, shininess, mirror, ior, tint=r/g/b, and "
-                                        "glass, two-sided, hidden = on or off; "
-                                        "repeatable, the last change holds")
-      ->trigger_on_parse()
-      ->type_name("OBJECT:KEY=VALUE,...");
+  list.add_repeated("--object", read,
+                    "change the material of one object, given by its index or name; keys: preset (a name of "
+                    "--material), diffuse=r/g/b, specular, shininess, mirror, ior, tint=r/g/b, and glass, "
+                    "two-sided, hidden = on or off; repeatable, the last change holds",
+                    "OBJECT:KEY=VALUE,...");
   list.add_words([&picture] {
     Words words;
     for (const ObjectOptions& object : picture.objects) words.push_back("--object=" + object_text(object));
@@ -172,26 +167,23 @@ void add_method_options(OptionList& list, PictureOptions& picture) {
                             {{"side", SIDE_SIDE}, {"delta", SIDE_DELTA}, {"none", SIDE_NONE}},
                             "how secondary rays leave their surface; default side");
   list.add_value(
-          "--delta",
-          [&picture](const std::string& text) {
-            picture.delta_world = read_number<double>("--delta", text, 0.0, 1e30);
-          },
-          [&picture] { return picture.delta_world ? number_text(*picture.delta_world) : ""; },
-          "minimum distance of --side delta, world units; default diagonal / 1000")
-      ->type_name("X");
+      "--delta",
+      [&picture](const std::string& text) {
+        picture.delta_world = read_number<double>("--delta", text, 0.0, 1e30);
+      },
+      [&picture] { return picture.delta_world ? number_text(*picture.delta_world) : ""; },
+      "minimum distance of --side delta, world units; default diagonal / 1000", "X");
   add_choice<std::uint32_t>(list, "--order", settings.order, {{"z", ORDER_Z}, {"linear", ORDER_LINEAR}},
                             "order of threads over pixels; default z");
-  add_switch(list, "--counters", settings.counters, "count rays, steps and tests (slower) for --stats-json");
-  add_text(list, "--device", picture.device, "device number or part of its name; default the best")
-      ->type_name("N|NAME");
+  list.add_switch("--counters", settings.counters, "count rays, steps and tests (slower) for --stats-json");
+  add_text(list, "--device", picture.device, "device number or part of its name; default the best", "N|NAME");
 }
 
 }  // namespace
 
 void add_scene_options(OptionList& list, SceneOptions& scene) {
-  list.add_option("SCENE", scene.inputs,
-                  "a .soct scene, or what splatray-preprocess reads: .ply .obj .stl .vtp .gltf .glb")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  list.add_paths("SCENE", scene.inputs,
+                 "a .soct scene, or what splatray-preprocess reads: " + format_extensions(), "FILE");
   list.add_words([&scene] {
     Words words;
     for (const std::filesystem::path& input : scene.inputs)

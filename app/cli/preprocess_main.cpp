@@ -13,6 +13,7 @@
 #include "engine/file/scene_file.h"
 #include "preprocess/build.h"
 #include "preprocess/build_report.h"
+#include "preprocess/read/formats.h"
 
 namespace {
 
@@ -28,15 +29,16 @@ struct Options {
 bool parse(int argc, char** argv, Options& options) {
   OptionList list("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
                   "splatray-preprocess");
-  list.add_option("INPUT", options.build.inputs, "files with points, meshes or a glTF scene")
-      ->required()
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  list.add_option("-o,--output", options.output, "scene file to write (.soct)")->required();
+  list.add_paths("INPUT", options.build.inputs, "files with points, meshes or a scene: " + format_extensions(),
+                 "FILE");
+  list.require("INPUT");
+  add_path(list, "-o,--output", options.output, "scene file to write (.soct)");
+  list.require("--output");
   add_build_options(list, options.build, "--samples");
   add_number(list, "--seed", options.build.params.seed, 0, 4294967295.0,
              "seed of samples and probe rays; default 1");
-  list.add_option("--stats-json", options.stats_json, "file to write counts and times to");
-  return parse_options(list, argc, argv);
+  add_path(list, "--stats-json", options.stats_json, "file to write counts and times to");
+  return list.parse(argc, argv);
 }
 
 /// A build takes and frees many large arrays: glibc's malloc keeps their memory instead of giving it back, as each page that the
@@ -48,14 +50,10 @@ void keep_freed_memory() {
   mallopt(M_TOP_PAD, GROWTH_BYTES);
 }
 
-Input read(const BuildOptions& options, BuildStats& stats) {
+Input read(const BuildOptions& options, BuildStats& stats, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  Input input =
-      read_input(options.inputs, {options.params.samples, options.params.seed, model_folders(options),
-                                  /*keep_meshes=*/false});
+  Input input = read_input(options.inputs, read_options(options, progress));
   stats.read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  for (const std::string& note : input.notes)
-    std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
   return input;
 }
 
@@ -67,17 +65,20 @@ int run(int argc, char** argv) {
   catch_interrupts();
   keep_freed_memory();
 
+  ProgressLine line(/*quiet=*/false);
+  const Progress progress = [&](const char* stage, double share) {
+    line.show(stage, share);
+    return !interrupted();
+  };
   BuildStats stats;
-  Input input = read(options.build, stats);
-  stop_if_interrupted();
-  ProgressLine progress(/*quiet=*/false);
-  const Scene scene = build_scene(std::move(input), options.build.params, options.build.threads, stats,
-                                  [&](const char* stage, double share) {
-                                    progress.show(stage, share);
-                                    return !interrupted();
-                                  });
-  progress.clear();
-  write_scene(scene, options.output);
+  Input input = read(options.build, stats, progress);
+  line.clear();
+  for (const std::string& note : input.notes)
+    std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
+  const Scene scene =
+      build_scene(std::move(input), options.build.params, options.build.threads, stats, progress);
+  write_scene(scene, options.output, progress);
+  line.clear();
   if (!options.stats_json.empty()) write_text_file(build_stats_json(stats) + '\n', options.stats_json);
   std::fputs(build_summary(stats, options.output).c_str(), stdout);
   return static_cast<int>(ExitCode::done);

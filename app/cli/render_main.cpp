@@ -62,17 +62,21 @@ int render(int argc, char** argv) {
   // After the driver is there, as one library is loaded at a time.
   const std::future<void> codec = std::async(std::launch::async, load_image_codec);
   ProgressLine progress(options.quiet);
-  const LoadedScene loaded = load(options, progress);
+  LoadedScene loaded = load(options, progress);
   const Environment environment = choose_environment(loaded.environment_name);
 
   watch.lap_ms();
   Tracer tracer(context);
-  tracer.upload(loaded.scene);
+  // What is asked of the pools, before they go.
+  const Camera still = choose_camera(loaded.scene, options.picture);
+  const PoolCounts counts = pool_counts(loaded.scene);
+  tracer.upload_and_free(loaded.scene);
   tracer.set_environment(environment);
   times.upload_ms = watch.lap_ms();
-  const SequenceRecord record = render_sequence(options, sequence, loaded, context, tracer, progress);
+  const SequenceRecord record = render_sequence(options, sequence, loaded, still, context, tracer, progress);
 
-  if (!options.stats_json.empty()) write_stats(options, loaded, context, tracer.pool_bytes(), times, record);
+  if (!options.stats_json.empty())
+    write_stats(options, loaded, counts, context, tracer.pool_bytes(), times, record);
   require_all_made(record);
   if (reference) require_match(options, record.last, *reference);
   return static_cast<int>(ExitCode::done);

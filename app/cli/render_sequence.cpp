@@ -39,10 +39,9 @@ void make_picture(const Run& run, const Camera& camera, const SequenceFrame& fra
 }  // namespace
 
 SequenceRecord render_sequence(const RenderOptions& options, const Sequence& sequence,
-                               const LoadedScene& loaded, const Context& context, Tracer& tracer,
-                               ProgressLine& progress) {
+                               const LoadedScene& loaded, const Camera& still, const Context& context,
+                               Tracer& tracer, ProgressLine& progress) {
   const Run run{options, loaded, context, tracer, progress};
-  const Camera still = choose_camera(loaded.scene, options.picture);
   SequenceRecord record;
   for (const SequenceFrame& frame : sequence.frames) {
     stop_if_interrupted();

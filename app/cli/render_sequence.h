@@ -23,12 +23,12 @@ struct SequenceRecord {
   Image last;  ///< the picture made last
 };
 
-/// Makes the pictures with an uploaded tracer. Each is the still of its camera, default lights included. One of several
+/// Makes the pictures with an uploaded tracer; the scene's pools are not looked at. `still`: the camera without a sequence. Each is the still of its camera, default lights included. One of several
 /// that cannot be made is told on stderr, and the others go on; of a single one throws the Error. Always throws Error
 /// (interrupted) after a signal.
 [[nodiscard]] SequenceRecord render_sequence(const RenderOptions& options, const Sequence& sequence,
-                                             const LoadedScene& loaded, const Context& context,
-                                             Tracer& tracer, ProgressLine& progress);
+                                             const LoadedScene& loaded, const Camera& still,
+                                             const Context& context, Tracer& tracer, ProgressLine& progress);
 
 /// Throws Error (failed) when a picture failed.
 void require_all_made(const SequenceRecord& record);

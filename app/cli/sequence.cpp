@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/library/camera_file.h"
+#include "app/library/image_file.h"
 #include "engine/base/error.h"
 
 namespace splatray {
@@ -54,10 +55,7 @@ Sequence plan_sequence(const RenderOptions& options) {
     sequence.frames.push_back({0, options.output});
   }
   if (options.sequence.skip_existing)
-    std::erase_if(sequence.frames, [](const SequenceFrame& frame) {
-      std::error_code error;
-      return std::filesystem::is_regular_file(frame.output, error);
-    });
+    std::erase_if(sequence.frames, [](const SequenceFrame& frame) { return is_whole_picture(frame.output); });
   return sequence;
 }
 

@@ -25,8 +25,8 @@ struct Sequence {
 /// unless the file's name has exactly one run.
 [[nodiscard]] std::filesystem::path frame_file(const std::filesystem::path& pattern, std::uint32_t number);
 
-/// Reads the camera path. With --skip-existing, without the frames whose file exists; files are whole or absent, so
-/// those are complete. Throws Error: input_unreadable, or usage for frames beyond the sequence.
+/// Reads the camera path. With --skip-existing, without the frames whose file is a whole picture; a broken one, of a crash or
+/// of another program, is made again. Throws Error: input_unreadable, or usage for frames beyond the sequence.
 [[nodiscard]] Sequence plan_sequence(const RenderOptions& options);
 
 /// The camera of a frame. `still`: the camera without a sequence; `up`: the scene's up direction.

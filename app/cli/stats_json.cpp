@@ -11,10 +11,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json scene_json(const Scene& scene, std::size_t lights) {
-  return {{"splats", scene.data_pool.size()},        {"references", scene.reference_pool.size()},
-          {"nodes", scene.node_pool.size()},         {"filled_leaves", scene.begin_end.size() - 1},
-          {"objects", scene.materials.size()},       {"lights", lights},
+Json scene_json(const Scene& scene, const PoolCounts& counts, std::size_t lights) {
+  return {{"splats", counts.splats},
+          {"references", counts.references},
+          {"nodes", counts.node_words},
+          {"filled_leaves", counts.filled_leaves},
+          {"objects", scene.materials.size()},
+          {"lights", lights},
           {"diagonal_world", scene.diagonal_world()}};
 }
 
@@ -68,8 +71,9 @@ Json frames_json(const std::vector<PictureRecord>& pictures) {
 
 }  // namespace
 
-void write_stats(const RenderOptions& options, const LoadedScene& loaded, const Context& context,
-                 const PoolBytes& bytes, const StageTimes& times, const SequenceRecord& record) {
+void write_stats(const RenderOptions& options, const LoadedScene& loaded, const PoolCounts& counts,
+                 const Context& context, const PoolBytes& bytes, const StageTimes& times,
+                 const SequenceRecord& record) {
   const DeviceInfo& device = context.device_info();
   const PictureRecord sum = sum_of(record.made);
   const Settings& settings = options.picture.settings;
@@ -77,7 +81,7 @@ void write_stats(const RenderOptions& options, const LoadedScene& loaded, const 
       {"commit", COMMIT},
       {"device",
        {{"name", device.name}, {"type", device.type}, {"driver", device.driver}, {"api", device.api}}},
-      {"scene", scene_json(loaded.scene, sum.lights)},
+      {"scene", scene_json(loaded.scene, counts, sum.lights)},
       {"picture",
        {{"width", options.picture.width},
         {"height", options.picture.height},

@@ -12,7 +12,8 @@ struct StageTimes {
 /// Writes the file that the options name: device, scene, picture, times per stage, bytes per pool, and rays by class,
 /// steps and tests when counted; of a sequence the sums, and the times of each frame. Throws Error (failed); leaves no
 /// partial file.
-void write_stats(const RenderOptions& options, const LoadedScene& loaded, const Context& context,
-                 const PoolBytes& bytes, const StageTimes& times, const SequenceRecord& record);
+void write_stats(const RenderOptions& options, const LoadedScene& loaded, const PoolCounts& counts,
+                 const Context& context, const PoolBytes& bytes, const StageTimes& times,
+                 const SequenceRecord& record);
 
 }  // namespace splatray

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 #include "engine/base/number_text.h"
 #include "engine/file/atomic_file.h"
 
@@ -89,8 +90,11 @@ Json read_json(const Source& source) {
     source.refuse(std::filesystem::exists(source.path, error) ? "a folder or device" : "no such file",
                   "a JSON file");
   std::ifstream file(source.path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (json_is_too_deep(text))
+    source.refuse("JSON that nests more than " + std::to_string(MOST_JSON_DEPTH) + " deep", "a JSON file");
   try {
-    return Json::parse(file);
+    return Json::parse(text);
   } catch (const Json::parse_error& damage) {
     source.refuse("no JSON after byte " + std::to_string(damage.byte), "a JSON file");
   } catch (const Json::out_of_range&) {

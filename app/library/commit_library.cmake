@@ -6,4 +6,4 @@ add_custom_target(splatray_commit_text
 
 add_library(splatray_commit STATIC ${CMAKE_CURRENT_BINARY_DIR}/commit.cpp)
 add_dependencies(splatray_commit splatray_commit_text)
-target_link_libraries(splatray_commit PUBLIC splatray_options)
+target_link_libraries(splatray_commit PUBLIC splatray_headers)

@@ -1,7 +1,10 @@
 /// What OpenImageIO does for image_file.cpp, as a library of its own that is loaded with the first picture: OpenImageIO and
 /// the 200 libraries it needs take 0.2 s to load, for which programs do not wait that need no picture file, or not yet.
+/// Strings and vectors cross its border as between any two C++ libraries of one compiler; its file's name has the project's
+/// version, so that no other version is loaded.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,17 +17,25 @@ struct PictureHeader {
   std::vector<std::string> channels;  ///< their names
   bool integers = false;              ///< 8 or 16 bits a channel, else floats
   std::vector<std::pair<std::string, std::string>> attributes;
+  /// No file of this one's size and format has more, however well it is compressed; for reading only.
+  std::uint64_t most_pixels = ~0ULL;
 };
 
-/// The library's functions. They return whether all went well; `error` is OpenImageIO's word where not.
+/// Takes the values of further pixels, in the order of rows from the top.
+using PixelSink = std::function<void(const float* values, std::size_t pixels)>;
+
+/// The library's functions. They return whether all went well; `error` receives OpenImageIO's message on failure.
 struct ImageCodec {
   /// Whether it is a picture file.
   bool (*read_header)(const std::string& path, PictureHeader& header);
-  /// The first `channels` channels of each pixel, 8 and 16 bits as 0..1.
-  bool (*read_pixels)(const std::string& path, int channels, float* values, std::string& error);
-  /// `format` is the name OpenImageIO has for it; `values` are bytes where header.integers, else floats.
-  bool (*write)(const std::string& path, const char* format, const PictureHeader& header, const void* values,
-                std::string& error);
+  /// The first `channels` channels of the rows from `first_row` on, 8 and 16 bits as 0..1. Some rows at a time, so that memory
+  /// grows with what the file holds and not with what its header says.
+  bool (*read_pixels)(const std::string& path, int first_row, int channels, const PixelSink& sink,
+                      std::string& error);
+  /// The bytes of a picture's file. `format` is the name OpenImageIO has for it; `values` are bytes where header.integers,
+  /// else floats.
+  bool (*encode)(const char* format, const PictureHeader& header, const void* values,
+                 std::vector<unsigned char>& bytes, std::string& error);
 };
 
 }  // namespace splatray

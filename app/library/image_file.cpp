@@ -1,10 +1,12 @@
 #include "app/library/image_file.h"
 
 #include <dlfcn.h>
+#include <sys/auxv.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include "app/library/image_codec.h"
 #include "engine/base/error.h"
@@ -23,23 +25,38 @@ struct Picture {
   bool encoded = false;
 };
 
-[[noreturn]] void refuse(const std::filesystem::path& path, std::string found, const char* expected) {
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string found, const std::string& expected) {
   while (!found.empty() && std::isspace(static_cast<unsigned char>(found.back())) != 0) found.pop_back();
-  std::replace(found.begin(), found.end(), '\n', ' ');
   throw Error(ExitCode::input_unreadable,
               "cannot read picture '" + path.string() + "': found " + found + ", expected " + expected);
 }
 
 constexpr const char* EXPECTED = "an image such as HDR, EXR or PNG";
 
-/// The library image_codec.h describes, which lies beside the program.
+/// The folder of the program, library or module of another language that holds this code.
+std::filesystem::path own_folder() {
+  Dl_info own{}, program{};
+  const auto within_program = getauxval(AT_PHDR);
+  // The loader knows a program only by the name it was started with.
+  const bool in_program =
+      dladdr(reinterpret_cast<void*>(&own_folder), &own) == 0 ||
+      (dladdr(reinterpret_cast<void*>(within_program), &program) != 0 && own.dli_fbase == program.dli_fbase);
+  if (in_program) return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  return std::filesystem::absolute(own.dli_fname).parent_path();
+}
+
+/// The library image_codec.h describes: beside this code, where it is installed to from there, or where the system looks.
 const ImageCodec& codec() {
   static const ImageCodec& loaded = []() -> const ImageCodec& {
-    const auto path = std::filesystem::read_symlink("/proc/self/exe").replace_filename(IMAGE_CODEC);
-    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    const std::filesystem::path folder = own_folder();
+    void* library = nullptr;
+    for (const auto& place : {folder / IMAGE_CODEC, folder / IMAGE_CODEC_FOLDER / IMAGE_CODEC,
+                              std::filesystem::path(IMAGE_CODEC)})
+      if (library == nullptr) library = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* symbol = library == nullptr ? nullptr : dlsym(library, "splatray_image_codec");
     if (symbol == nullptr)
-      throw Error(ExitCode::failed, std::string("cannot load what reads and writes pictures: ") + dlerror());
+      throw Error(ExitCode::failed, std::string("cannot load what reads and writes pictures: ") + dlerror() +
+                                        ", expected it in '" + folder.string() + "' or installed");
     return *reinterpret_cast<decltype(&splatray_image_codec)>(symbol)();
   }();
   return loaded;
@@ -58,36 +75,48 @@ Picture read_picture(const std::filesystem::path& path) {
   const PictureHeader header = read_header(path);
   const bool positive = header.width >= 1 && header.height >= 1 && !header.channels.empty();
   const std::uint64_t pixels = positive ? std::uint64_t(header.width) * std::uint64_t(header.height) : 0;
+  const auto size_text = [&] {
+    return std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels";
+  };
   if (pixels == 0 || header.depth > 1 || pixels > MOST_PIXELS)
-    refuse(path, std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels",
-           "a flat picture of up to 2^30");
-  const auto channels = std::min<std::size_t>(header.channels.size(), 3);
-  std::vector<float> values(pixels * channels);
-  std::string damage;
-  if (!codec().read_pixels(path.string(), static_cast<int>(channels), values.data(), damage))
-    refuse(path, "damage (" + damage + ")", "a whole image");
+    refuse(path, size_text(), "a flat picture of up to 2^30");
+  if (pixels > header.most_pixels)
+    refuse(path, size_text(), "at most " + std::to_string(header.most_pixels) + " in a file of its size");
   Picture picture{static_cast<std::uint32_t>(header.width),
                   static_cast<std::uint32_t>(header.height),
                   {},
                   header.integers};
-  picture.rgb.reserve(pixels);
-  for (const float* value = values.data(); value != values.data() + values.size(); value += channels)
-    picture.rgb.push_back(channels == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]));
+  const std::size_t channels = std::min<std::size_t>(header.channels.size(), 3);
+  const PixelSink append = [&](const float* value, std::size_t count) {
+    for (const float* end = value + count * channels; value != end; value += channels)
+      picture.rgb.push_back(channels == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]));
+  };
+  std::string damage;
+  if (!codec().read_pixels(path.string(), 0, static_cast<int>(channels), append, damage))
+    refuse(path, "damage (" + damage + ")", "a whole image");
   return picture;
+}
+
+/// Whether the file has these bytes at so many from its start or, where negative, from its end.
+bool has_bytes(std::ifstream& file, std::streamoff at, const std::string& bytes) {
+  std::string found(bytes.size(), '\0');
+  file.clear();
+  file.seekg(at, at < 0 ? std::ios::end : std::ios::beg);
+  return file.read(found.data(), static_cast<std::streamsize>(found.size())) && found == bytes;
 }
 
 constexpr const char* PREFIX = "splatray.";  ///< of the names of our metadata
 
-/// Writes pixels under a temporary name; all formats and failures the same way.
+/// Encodes in memory, as OpenImageIO does not report every failed write to a file.
 void write_picture(PictureHeader header, const Metadata& metadata, const void* values, const char* format,
                    const std::filesystem::path& path) {
   for (const auto& [name, value] : metadata) header.attributes.emplace_back(PREFIX + name, value);
   AtomicFile file(path);
+  std::vector<unsigned char> bytes;
   std::string reason;
-  if (!codec().write(file.temporary().string(), format, header, values, reason)) {
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
+  if (!codec().encode(format, header, values, bytes, reason))
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
-  }
+  file.write(bytes.data(), bytes.size());
   file.commit();
 }
 
@@ -131,6 +160,19 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
                        false,
                        {{"oiio:ColorSpace", "Linear"}, {"compression", "zip"}, {"DateTime", ""}}};
   write_picture(std::move(header), metadata, values.data(), "openexr", path);
+}
+
+bool is_whole_picture(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  const std::string png_end{"\0\0\0\0IEND\xAE\x42\x60\x82", 12};
+  std::ifstream file(path, std::ios::binary);
+  if (has_bytes(file, 0, "\x89PNG")) return has_bytes(file, -12, png_end);
+  PictureHeader header;
+  std::string damage;
+  const PixelSink nowhere = [](const float*, std::size_t) {};
+  return codec().read_header(path.string(), header) && header.height >= 1 &&
+         codec().read_pixels(path.string(), header.height - 1, 1, nowhere, damage);
 }
 
 Metadata read_metadata(const std::filesystem::path& path) {

@@ -18,12 +18,16 @@ struct AovChannels {
 /// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, their names after "splatray.".
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-/// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); leaves no partial file.
+/// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); then an older file of that name is as it was.
 void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path);
 
-/// Writes linear float EXR. Throws Error (failed); leaves no partial file.
+/// Writes linear float EXR. Throws Error (failed) as write_png does.
 void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
                const std::filesystem::path& path);
+
+/// Whether a file is a PNG with its end or another picture whose last row can be read: whether write_png or write_exr came to
+/// their end. Throws Error (failed) when OpenImageIO cannot be loaded, which it is but for PNG.
+[[nodiscard]] bool is_whole_picture(const std::filesystem::path& path);
 
 /// Reads what write_png or write_exr kept; empty for pictures of others. Throws Error (input_unreadable) with path,
 /// found and expected.

@@ -23,11 +23,11 @@ void tell(const LoadListener& listener, const char* stage, double share) {
 }
 
 Scene preprocess(const SceneOptions& options, const LoadListener& listener, BuildStats& stats) {
-  Input input =
-      read_input(options.inputs, {options.params.samples, options.params.seed, model_folders(options),
-                                  /*keep_meshes=*/false});
+  ReadOptions reading = read_options(options, listener.progress);
+  reading.turn_outwards =
+      !options.material.empty() && (named_material(options.material).flags & MATERIAL_DIELECTRIC) != 0;
+  Input input = read_input(options.inputs, reading);
   for (const std::string& note : input.notes) listener.note(note);
-  tell(listener, "reading", 1.0);
   return build_scene(std::move(input), options.params, options.threads, stats, listener.progress);
 }
 
@@ -62,7 +62,7 @@ LoadedScene load_scene(const SceneOptions& options, const PictureOptions& pictur
   LoadedScene loaded;
   tell(listener, "reading", 0.0);
   if (lower_extension(options.inputs.front()) == ".soct") {
-    loaded.scene = read_scene(options.inputs.front());
+    loaded.scene = read_scene(options.inputs.front(), listener.progress);
   } else {
     loaded.scene = preprocess(options, listener, loaded.build.emplace());
   }

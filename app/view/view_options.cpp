@@ -1,7 +1,5 @@
 #include "app/view/view_options.h"
 
-#include <algorithm>
-
 #include "app/cli/option_types.h"
 #include "app/view/model/keys.h"
 
@@ -11,15 +9,15 @@ std::optional<ViewOptions> parse_view_options(int argc, char** argv) {
   ViewOptions options;
   options.picture.width = options.picture.height = 0;
   OptionList list("Shows a scene of splats in a window.", "splatray-view");
-  list.set_version_flag("--version", SPLATRAY_VERSION);
-  list.add_flag_callback(
-      "--keys", [] { throw CLI::CallForVersion(keys_markdown(), 0); }, "print the table of keys as Markdown");
-  list.footer("\n" + keys_text());
+  list.add_answer(
+      "--version", [] { return SPLATRAY_VERSION; }, "print the version");
+  list.add_answer("--keys", keys_markdown, "print the table of keys as Markdown");
+  list.set_footer("\n" + keys_text());
   add_scene_options(list, options.scene);
   add_number(list, "--exposure", options.exposure_ev, -60.0, 60.0, "brightness in stops; default 0");
   add_path(list, "--stats-json", options.stats_json, "at the end, write times, rates and counts here");
   add_picture_options(list, options.picture);
-  if (!parse_options(list, Words(argv + std::min(argc, 1), argv + argc))) return {};
+  if (!list.parse(argc, argv)) return {};
   options.scene.params.seed = options.picture.settings.seed;
   return options;
 }

@@ -1,16 +1,23 @@
 #include "engine/base/error.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 
+#include "engine/base/one_line.h"
+
 namespace splatray {
 
+Error::Error(ExitCode code, const std::string& sentence)
+    : std::runtime_error(one_line(sentence)), code_(code) {}
+
 int run_main(const char* program, int (*body)(int, char**), int argc, char** argv) {
-  const auto fail = [program](ExitCode code, const char* sentence) {
-    std::fprintf(stderr, "%s: error: %s\n", program, sentence);
+  const auto fail = [program](ExitCode code, const std::string& sentence) {
+    std::fprintf(stderr, "%s: error: %s\n", program, sentence.c_str());
     return static_cast<int>(code);
   };
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return body(argc, argv);
   } catch (const Error& error) {
@@ -18,7 +25,7 @@ int run_main(const char* program, int (*body)(int, char**), int argc, char** arg
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::out_of_memory, "out of memory");
   } catch (const std::exception& error) {
-    return fail(ExitCode::failed, error.what());
+    return fail(ExitCode::failed, one_line(error.what()));
   }
 }
 

@@ -14,13 +14,14 @@ enum class ExitCode : int {
   input_unreadable = 3,  ///< a file is missing, unreadable or not what it should be
   no_device = 4,         ///< no usable Vulkan device (viewer: no display)
   out_of_memory = 5,     ///< host or device memory
-  interrupted = 130,     ///< SIGINT or SIGTERM
+  interrupted = 130,     ///< SIGINT, SIGTERM or SIGHUP
 };
 
-/// A failure to be told to the user; what() is one sentence without a trailing period or newline.
+/// A failure to report to the user; what() is one sentence without a trailing period. Control characters in it, as file
+/// names may have them, become '?': a report is always one line.
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+  Error(ExitCode code, const std::string& sentence);
   [[nodiscard]] ExitCode code() const { return code_; }
 
  private:
@@ -28,7 +29,8 @@ class Error : public std::runtime_error {
 };
 
 /// Runs a program's body; prints an Error, bad_alloc or other exception as one sentence on stderr
-/// ("splatray-render: error: ...") and returns the exit code to return from main.
+/// ("splatray-render: error: ...") and returns the exit code to return from main. Ignores SIGXFSZ, so that a write beyond
+/// the limit of a file's size fails as one on a full disk does.
 int run_main(const char* program, int (*body)(int, char**), int argc, char** argv);
 
 }  // namespace splatray

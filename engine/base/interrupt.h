@@ -1,10 +1,10 @@
-/// SIGINT and SIGTERM as a question that long work asks between its steps, so that it can end cleanly.
+/// SIGINT, SIGTERM and SIGHUP as a question that long work asks between its steps, so that it can end cleanly.
 #pragma once
 
 namespace splatray {
 
-/// From now on the first SIGINT or SIGTERM only sets a flag; a second one of the same kind ends the program
-/// at once.
+/// From now on the first SIGINT, SIGTERM or SIGHUP only sets a flag; a second one of the same kind ends the program at once.
+/// A SIGHUP that is ignored, as nohup has it, stays ignored.
 void catch_interrupts();
 /// Whether a signal has come.
 [[nodiscard]] bool interrupted();

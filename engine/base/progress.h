@@ -1,8 +1,13 @@
-/// One line on a terminal that tells how far long work has come.
+/// How far long work has come: who is told, and one line on a terminal.
 #pragma once
+#include <functional>
 #include <string>
 
 namespace splatray {
+
+/// Hears a stage's name and the share of it done, 0..1, at intervals far below half a second; returns false to stop the
+/// work, which then throws Error (interrupted).
+using Progress = std::function<bool(const char* stage, double share)>;
 
 /// Writes to stderr, only when that is a terminal; the line is cleared on destruction.
 class ProgressLine {

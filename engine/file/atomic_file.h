@@ -1,6 +1,7 @@
 /// Output files that are whole or absent: written under a temporary name beside the target, renamed when
 /// done.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -9,28 +10,31 @@ namespace splatray {
 /// One output file in the making. Goes away without a trace unless committed.
 class AtomicFile {
  public:
-  /// Creates the empty temporary file in the target's folder. Throws Error (failed) when the folder does not
-  /// exist or cannot be written, or when the target exists and is not a regular file.
+  /// Creates the empty temporary file in the target's folder, under a name that no other writer has. Throws Error (failed)
+  /// when the folder does not exist or cannot be written, or when the target exists and is not a regular file.
   explicit AtomicFile(const std::filesystem::path& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Where to write. The file exists and is empty.
-  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
-  /// Gives the file its name, replacing an older one. Throws Error (failed).
+  /// Appends. Throws Error (failed) when not all bytes could be written.
+  void write(const void* bytes, std::uint64_t size);
+  /// Waits until all is on the disk, then gives the file its name, replacing an older one. Throws Error (failed); an older
+  /// file is then as it was.
   void commit();
 
  private:
   std::filesystem::path target_;
   std::filesystem::path temporary_;  ///< empty once committed
+  int descriptor_ = -1;
+  std::uint64_t written_ = 0;  ///< bytes
 };
 
 /// Throws as AtomicFile's constructor does; for finding out before long work that its result has no place to
 /// go.
 void require_writable(const std::filesystem::path& target);
 
-/// Writes a whole text file, or throws Error (failed) and leaves none.
+/// Writes a whole file, or throws Error (failed) and leaves none.
 void write_text_file(const std::string& text, const std::filesystem::path& target);
 
 }  // namespace splatray

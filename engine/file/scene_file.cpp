@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cstring>
 #include <fstream>
+#include <future>
 #include <span>
 
 #define XXH_INLINE_ALL
@@ -274,21 +275,18 @@ void read_strings(Reader& reader, Scene& scene) {
   scene.object_names = std::move(strings);
 }
 
-void write_bytes(std::ofstream& file, const Header& header, const void* const (&contents)[SECTION_COUNT]) {
+void write_bytes(AtomicFile& file, const Header& header, const void* const (&contents)[SECTION_COUNT]) {
   constexpr char ZEROS[ALIGNMENT] = {};
-  const auto write = [&file](const void* bytes, std::uint64_t size) {
-    file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-  };
   std::uint64_t position = sizeof header;
-  write(&header, sizeof header);
+  file.write(&header, sizeof header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
     const SectionEntry& entry = header.sections[i];
-    write(ZEROS, entry.offset - position);
-    write(contents[i], entry.size);
+    file.write(ZEROS, entry.offset - position);
+    file.write(contents[i], entry.size);
     position = entry.offset + entry.size;
   }
-  write(ZEROS, header.file_size - sizeof END_MARKER - position);
-  write(END_MARKER, sizeof END_MARKER);
+  file.write(ZEROS, header.file_size - sizeof END_MARKER - position);
+  file.write(END_MARKER, sizeof END_MARKER);
 }
 
 }  // namespace
@@ -310,21 +308,18 @@ void write_scene(const Scene& scene, const std::filesystem::path& path) {
     header.sections[i].checksum = XXH3_64bits(contents[i], header.sections[i].size);
   header.checksum = header_checksum(header);
 
-  AtomicFile output(path);
-  std::ofstream file(output.temporary(), std::ios::binary);
+  AtomicFile file(path);
   write_bytes(file, header, contents);
-  file.close();
-  if (!file)
-    throw Error(ExitCode::failed, "cannot write '" + path.string() +
-                                      "': the disk is full or failed, expected room for " +
-                                      std::to_string(header.file_size) + " bytes");
-  output.commit();
+  file.commit();
 }
 
 Scene read_scene(const std::filesystem::path& path) {
   Reader reader(path);
   Scene scene = described_scene(reader.header());
   scene.node_pool = reader.section<std::uint32_t>(NODES);
+  // Beside the reading of all else, which takes longer.
+  auto tree_defect = std::async(std::launch::async, find_tree_defect,
+                                std::span<const std::uint32_t>(scene.node_pool), reader.header().leaves);
   scene.begin_end = reader.section<std::uint32_t>(LEAVES);
   scene.slab_pool = reader.section<std::uint32_t>(SLABS);
   scene.reference_pool = reader.section<std::uint32_t>(REFERENCES);
@@ -336,7 +331,8 @@ Scene read_scene(const std::filesystem::path& path) {
   if (const auto cameras = reader.section<Camera>(CAMERA); !cameras.empty()) scene.camera = cameras.front();
   read_strings(reader, scene);
   reader.end();
-  if (const auto defect = find_scene_defect(scene)) reader.refuse(defect->found, defect->expected);
+  if (const auto defect = tree_defect.get()) reader.refuse(defect->found, defect->expected);
+  if (const auto defect = find_content_defect(scene)) reader.refuse(defect->found, defect->expected);
   return scene;
 }
 

@@ -52,19 +52,20 @@
 #pragma once
 #include <filesystem>
 
+#include "engine/base/progress.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
 
 inline constexpr std::uint32_t SCENE_FILE_VERSION = 7;
 
-/// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot; leaves nothing behind.
-void write_scene(const Scene& scene, const std::filesystem::path& path);
+/// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot, (interrupted) when
+/// `progress`, told of the stage "writing", says so; leaves nothing behind.
+void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
 /// Reads and checks a whole scene file. Refuses, as Error (input_unreadable) with path, found and expected: wrong magic,
 /// newer version, foreign endianness, truncation at any byte, extra bytes, checksum mismatch, and whatever
-/// find_scene_defect (scene_check.h) finds: an address or reference outside its pool, a Begin-End that does not ascend, a splat that is
-/// not finite or names an object that does not exist, a non-finite transform.
-[[nodiscard]] Scene read_scene(const std::filesystem::path& path);
+/// find_scene_defect (scene_check.h) finds. Error (interrupted) when `progress`, told of the stage "reading", says so.
+[[nodiscard]] Scene read_scene(const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace splatray

@@ -9,12 +9,12 @@ namespace splatray {
 DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish, bool culls)
     : context_(context), queue_(queue), wish_(wish), culls_(culls), environment_(context, queue, {}) {}
 
-void DeviceScene::upload(const Scene& scene) {
+void DeviceScene::upload(const Scene& scene, Scene* spent) {
   bindings_.reset();
   pools_ = {};  // the device may not have room for two scenes
-  pools_ = Pools(context_, queue_, scene, wish_);
-  bindings_.emplace(context_, pools_.paging);
   cells_ = filled_cells(scene);
+  pools_ = Pools(context_, queue_, scene, wish_, spent);
+  bindings_.emplace(context_, pools_.paging);
   outline_ = {};
   outline_.root = scene.root;
   outline_.up = scene.up;

@@ -25,7 +25,8 @@ class DeviceScene {
   DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish, bool culls);
 
   /// As the tracer's functions of these names.
-  void upload(const Scene& scene);
+  void upload(const Scene& scene) { upload(scene, nullptr); }
+  void upload_and_free(Scene& scene) { upload(scene, &scene); }
   void set_materials(std::span<const Material> materials);
   void set_lights(std::span<const SceneLight> lights);
   void set_environment(const Environment& environment);
@@ -47,6 +48,9 @@ class DeviceScene {
   [[nodiscard]] Footprint footprint(const View& view, const Settings& settings) const;
 
  private:
+  /// `spent`: as Pools has it.
+  void upload(const Scene& scene, Scene* spent);
+
   const Context& context_;
   CommandQueue& queue_;
   const PoolWish wish_;

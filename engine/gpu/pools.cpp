@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdio>
 #include <numeric>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "engine/base/error.h"
@@ -158,9 +160,11 @@ Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAcces
   return std::get<Paging>(best);
 }
 
-Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish) {
+Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish,
+             Scene* spent) {
+  assert(spent == nullptr || spent == &scene);
   top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
-  const std::vector<std::uint32_t> top = top_table(scene, top_levels);
+  std::vector<std::uint32_t> top = top_table(scene, top_levels);
   PoolLimits limits = pool_limits(context);
   limits.texel_elements = std::min(limits.texel_elements, wish.page_elements);
   limits.storage_bytes = std::min(limits.storage_bytes / sizeof(uvec4), wish.page_elements) * sizeof(uvec4);
@@ -195,14 +199,20 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
     else
       buffer.upload(queue, std::as_bytes(std::span(pool)));
   };
-  upload(BIND_NODE_POOL, scene.node_pool, false);
-  upload(BIND_BEGIN_END, scene.begin_end, false);
-  upload(BIND_SLAB_POOL, scene.slab_pool, false);
-  if (references) upload(BIND_REFERENCE_POOL, scene.reference_pool, false);
-  upload(BIND_DATA_POOL, scene.data_pool, lists);
-  upload(BIND_COLOR_POOL, scene.color_pool, lists);
-  upload(BIND_FIELD_POOL, scene.field_pool, lists);
+  const auto upload_pool = [&](std::uint32_t binding, auto pool, bool list) {
+    upload(binding, scene.*pool, list);
+    if (spent != nullptr) std::exchange(spent->*pool, {});
+  };
   upload(BIND_TOP_TABLE, top, false);
+  std::exchange(top, {});
+  upload_pool(BIND_NODE_POOL, &Scene::node_pool, false);
+  upload_pool(BIND_BEGIN_END, &Scene::begin_end, false);
+  upload_pool(BIND_SLAB_POOL, &Scene::slab_pool, false);
+  if (references) upload_pool(BIND_REFERENCE_POOL, &Scene::reference_pool, false);
+  upload_pool(BIND_DATA_POOL, &Scene::data_pool, lists);
+  upload_pool(BIND_COLOR_POOL, &Scene::color_pool, lists);
+  upload_pool(BIND_FIELD_POOL, &Scene::field_pool, lists);
+  if (spent != nullptr) std::exchange(spent->reference_pool, {});  // lists were made from it
 }
 
 }  // namespace splatray

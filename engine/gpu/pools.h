@@ -84,8 +84,10 @@ struct Paging {
 /// The uploaded pools; move-only.
 struct Pools {
   Pools() = default;
-  /// Uploads and waits; throws as choose_paging does.
-  Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish);
+  /// Uploads and waits; throws as choose_paging does. `spent` is null or the scene itself, whose pools are then freed, each as
+  /// soon as it is on the device; after an Error some of them may be gone.
+  Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish,
+        Scene* spent = nullptr);
 
   Paging paging;
   PoolBytes bytes;                         ///< without environment and frame

@@ -76,6 +76,11 @@ void Tracer::upload(const Scene& scene) {
   ++impl_->uploads;
 }
 
+void Tracer::upload_and_free(Scene& scene) {
+  impl_->runner.scene.upload_and_free(scene);
+  ++impl_->uploads;
+}
+
 void Tracer::set_materials(std::span<const Material> materials) {
   impl_->runner.require_scene("set_materials()");
   impl_->runner.scene.set_materials(materials);

@@ -52,6 +52,9 @@ class Tracer {
   /// Uploads the pools, materials and lights. Throws Error (out_of_memory) with the sizes when a pool does
   /// not fit the device.
   void upload(const Scene& scene);
+  /// As upload, but frees the scene's pools, each as soon as it is on the device, also where that then throws: a host needs
+  /// the memory of a large scene once, not twice. All else of the scene stays.
+  void upload_and_free(Scene& scene);
   /// Replaces all materials (as many as the scene has objects), or the lights (at most LIGHTS_MOST), or the environment; no pool is
   /// touched. Before the first set_environment all is black.
   void set_materials(std::span<const Material> materials);

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/scene/empty_box.h"
+
 namespace splatray {
 namespace {
 
@@ -39,10 +41,9 @@ Defect check_header(const Scene& scene) {
 
 Defect check_sizes(const Scene& scene) {
   const std::size_t references = scene.reference_pool.size(), splats = scene.data_pool.size();
-  if (scene.node_pool.empty() || scene.begin_end.empty())
-    return SceneDefect{"no octree", "at least a root node and one Begin-End entry"};
-  if (scene.node_pool.size() > NODE_ADDRESS_MASK || references > UINT32_MAX)
-    return SceneDefect{"a pool too large for its addresses", "at most 2^30 nodes and 2^32 references"};
+  if (scene.begin_end.empty()) return SceneDefect{"no Begin-End", "at least one entry"};
+  if (references > UINT32_MAX)
+    return SceneDefect{std::to_string(references) + " references", "at most 2^32 - 1"};
   if (splats > references)
     return SceneDefect{std::to_string(splats) + " splats in " + std::to_string(references) + " references",
                        "at least one reference per splat"};
@@ -79,39 +80,20 @@ Defect check_lists(const Scene& scene) {
   return {};
 }
 
-/// Walks the tree from the root; a word reached twice makes the count of words reached exceed the pool's
-/// size.
-Defect check_nodes(const Scene& scene) {
-  struct Block {
-    std::uint32_t first, count, depth;
-  };
-  const auto& pool = scene.node_pool;
-  const std::size_t leaves = scene.begin_end.size() - 1;
-  std::vector<Block> open{{0, 1, 0}};
-  std::size_t reached = 1;
-  while (!open.empty()) {
-    const Block block = open.back();
-    open.pop_back();
-    for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
-      const std::uint32_t tag = pool[i] >> NODE_TAG_SHIFT, address = pool[i] & NODE_ADDRESS_MASK;
-      if (tag == NODE_INNER) {
-        if (address == 0 || address + 8ULL > pool.size())
-          return SceneDefect{at("node", i) + " with children at " + std::to_string(address),
-                             "an address inside the pool of " + std::to_string(pool.size())};
-        if (block.depth == MAX_DEPTH)
-          return SceneDefect{at("inner node", i) + " below the deepest level", "a leaf"};
-        reached += 8;
-        if (reached > pool.size())
-          return SceneDefect{at("node", i) + " with children that have another parent", "a tree"};
-        open.push_back({address, 8, block.depth + 1});
-      } else if (tag == NODE_FILLED ? address >= leaves : tag != NODE_EMPTY || address > EMPTY_STEPS_MASK) {
-        return SceneDefect{at("leaf", i) + " with word " + std::to_string(pool[i]),
-                           "a filled leaf below " + std::to_string(leaves) + " or an empty one"};
-      }
-    }
+/// Each filled leaf's slab has an axis that slabs may have, and its halves hold the whole list.
+Defect check_slabs(const Scene& scene) {
+  constexpr std::uint32_t AXIS_V_SHIFT = 5, AXIS_V_MASK = 63;
+  for (std::size_t i = 0; i < scene.slab_pool.size(); ++i) {
+    const std::uint32_t word = scene.slab_pool[i];
+    if ((word >> AXIS_V_SHIFT & AXIS_V_MASK) > 2 * SLAB_AXIS_SCALE)
+      return SceneDefect{at("slab", i) + " with an invalid axis", "octahedral coordinates up to 62"};
+    const Slab slab = unpack_slab(word, scene.begin_end[i + 1] - scene.begin_end[i]);
+    if (slab.lower_end < slab.upper_begin)
+      return SceneDefect{at("slab", i) + " whose halves leave out " +
+                             std::to_string(slab.upper_begin - slab.lower_end) + " of the leaf's splats",
+                         "halves that hold all"};
   }
-  if (reached == pool.size()) return {};
-  return SceneDefect{std::to_string(pool.size() - reached) + " node words outside the tree", "none"};
+  return {};
 }
 
 Defect check_splats(const Scene& scene) {
@@ -136,35 +118,148 @@ Defect check_splats(const Scene& scene) {
   return {};
 }
 
-Defect check_looks(const Scene& scene) {
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const Material& m = scene.materials[i];
-    constexpr std::uint32_t KNOWN_FLAGS = MATERIAL_DIELECTRIC | MATERIAL_TWO_SIDED | MATERIAL_HIDDEN;
-    if (!finite(m.diffuse) || !finite(m.tint) || !finite(m.specular, m.shininess, m.mirror, m.ior) ||
-        (m.flags & ~KNOWN_FLAGS) != 0 || m.mask_bit > 31 ||
-        ((m.flags & MATERIAL_DIELECTRIC) != 0 && !(m.ior > 0.0F)))
-      return SceneDefect{at("material", i) + " with a value out of range", "finite values and known flags"};
-  }
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const SceneLight& light = scene.lights[i];
-    const bool aimed = light.kind == LIGHT_POINT || glm::dot(light.position, light.position) > 0.0;
-    if (light.kind > LIGHT_POINT || !finite(light.position) || !finite(light.power) || !aimed)
-      return SceneDefect{at("light", i) + " with a value out of range",
-                         "a finite point or directional light"};
-  }
+Defect check_camera(const Scene& scene) {
   const Camera camera = scene.camera.value_or(Camera{});
   if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up) ||
       !finite(camera.fov_y_deg, camera.ortho_height))
     return SceneDefect{"a camera that is not finite", "finite numbers"};
+  if (camera.ortho_height < 0.0)
+    return SceneDefect{"a camera with a negative orthographic height", "0 or more"};
+  if (camera.ortho_height == 0.0 && !(camera.fov_y_deg > 0.0 && camera.fov_y_deg < 180.0))
+    return SceneDefect{"a camera with a field of view of " + std::to_string(camera.fov_y_deg) + " degrees",
+                       "more than 0 and less than 180"};
   return {};
+}
+
+/// Whether all channels are in [0, 1].
+bool is_share(const glm::vec3& color) {
+  return glm::all(glm::greaterThanEqual(color, glm::vec3(0.0F))) &&
+         glm::all(glm::lessThanEqual(color, glm::vec3(1.0F)));
+}
+bool is_share(float value) { return value >= 0.0F && value <= 1.0F; }
+
+/// Ranges: layout.h.
+Defect check_material(const Material& material) {
+  constexpr std::uint32_t KNOWN_FLAGS = MATERIAL_DIELECTRIC | MATERIAL_TWO_SIDED | MATERIAL_HIDDEN;
+  if (!is_share(material.diffuse)) return SceneDefect{"a diffuse reflectance", "0 to 1"};
+  if (!is_share(material.tint)) return SceneDefect{"a tint", "0 to 1"};
+  if (!is_share(material.specular)) return SceneDefect{"a specular reflectance", "0 to 1"};
+  if (!is_share(material.mirror)) return SceneDefect{"a mirror", "0 to 1"};
+  if (!finite(material.shininess) || material.shininess < 1.0F)
+    return SceneDefect{"a shininess", "1 or more"};
+  if (!finite(material.ior) || !(material.ior > 0.0F))
+    return SceneDefect{"an index of refraction", "more than 0"};
+  if ((material.flags & ~KNOWN_FLAGS) != 0) return SceneDefect{"flags", "known ones"};
+  if (material.mask_bit >= MASK_BITS) return SceneDefect{"a mask bit", "0 to 31"};
+  return {};
+}
+
+Defect check_light(const SceneLight& light) {
+  if (light.kind > LIGHT_POINT) return SceneDefect{"a kind", "a directional or point light"};
+  const bool aimed = light.kind == LIGHT_POINT || glm::dot(light.position, light.position) > 0.0;
+  if (!finite(light.position) || !aimed) return SceneDefect{"a position or direction", "finite numbers"};
+  if (!finite(light.power) || glm::any(glm::lessThan(light.power, glm::vec3(0.0F))))
+    return SceneDefect{"a power", "finite numbers, 0 or more"};
+  return {};
+}
+
+/// Walks the tree from the root. More words reached than there are: one has two parents.
+class NodeCheck {
+ public:
+  NodeCheck(std::span<const std::uint32_t> nodes, std::size_t filled_leaves)
+      : nodes_(nodes), named_(filled_leaves) {}
+
+  Defect find() {
+    open_ = {{0, 1, 0}};
+    while (!open_.empty()) {
+      const Block block = open_.back();
+      open_.pop_back();
+      for (std::uint32_t i = block.first; i < block.first + block.count; ++i)
+        if (const Defect defect = check_word(i, block.depth)) return defect;
+    }
+    if (reached_ != nodes_.size())
+      return SceneDefect{std::to_string(nodes_.size() - reached_) + " node words outside the tree", "none"};
+    const auto unnamed = std::count(named_.begin(), named_.end(), false);
+    if (unnamed == 0) return {};
+    return SceneDefect{std::to_string(unnamed) + " filled leaves that are not in the tree", "none"};
+  }
+
+ private:
+  struct Block {
+    std::uint32_t first, count, depth;
+  };
+
+  Defect check_word(std::uint32_t node, std::uint32_t depth) {
+    const std::uint32_t word = nodes_[node], tag = word >> NODE_TAG_SHIFT, address = word & NODE_ADDRESS_MASK;
+    if (tag == NODE_INNER) return open_children(node, address, depth);
+    if (tag == NODE_FILLED ? address >= named_.size() : tag != NODE_EMPTY || address > EMPTY_STEPS_MASK)
+      return SceneDefect{at("leaf", node) + " with word " + std::to_string(word),
+                         "a filled leaf below " + std::to_string(named_.size()) + " or an empty one"};
+    if (tag == NODE_EMPTY) return {};
+    if (named_[address])
+      return SceneDefect{at("node", node) + " that shares filled leaf " + std::to_string(address),
+                         "a filled leaf of its own"};
+    named_[address] = true;
+    return {};
+  }
+
+  Defect open_children(std::uint32_t node, std::uint32_t address, std::uint32_t depth) {
+    if (address == 0 || address + 8ULL > nodes_.size())
+      return SceneDefect{at("node", node) + " with children at " + std::to_string(address),
+                         "an address inside the pool of " + std::to_string(nodes_.size())};
+    if (depth == MAX_DEPTH) return SceneDefect{at("inner node", node) + " below the deepest level", "a leaf"};
+    reached_ += 8;
+    if (reached_ > nodes_.size())
+      return SceneDefect{at("node", node) + " with children that have another parent", "a tree"};
+    open_.push_back({address, 8, depth + 1});
+    return {};
+  }
+
+  std::span<const std::uint32_t> nodes_;
+  std::vector<bool> named_;  ///< for each filled leaf, whether a node word names it
+  std::vector<Block> open_;  ///< words still to be looked at
+  std::size_t reached_ = 1;
+};
+
+Defect check_nodes(std::span<const std::uint32_t> nodes, std::size_t filled_leaves) {
+  if (nodes.empty()) return SceneDefect{"no octree", "at least a root node"};
+  if (nodes.size() > NODE_ADDRESS_MASK)
+    return SceneDefect{std::to_string(nodes.size()) + " node words", "at most 2^30"};
+  return NodeCheck(nodes, filled_leaves).find();
 }
 
 }  // namespace
 
-std::optional<SceneDefect> find_scene_defect(const Scene& scene) {
-  for (const auto check : {check_header, check_sizes, check_lists, check_nodes, check_splats, check_looks})
+std::optional<SceneDefect> find_tree_defect(std::span<const std::uint32_t> nodes, std::size_t filled_leaves) {
+  if (const Defect defect = check_nodes(nodes, filled_leaves)) return defect;
+  if (const auto leaf = find_overreaching_leaf(nodes))
+    return SceneDefect{at("empty leaf", *leaf) + " whose box reaches over a filled leaf or out of the root",
+                       "a box of empty space"};
+  return {};
+}
+
+std::optional<SceneDefect> find_content_defect(const Scene& scene) {
+  for (const auto check :
+       {check_header, check_sizes, check_lists, check_slabs, check_splats, find_look_defect, check_camera})
     if (const Defect defect = check(scene)) return defect;
   return {};
+}
+
+std::optional<SceneDefect> find_look_defect(const Scene& scene) {
+  const auto in = [](const char* kind, std::size_t index, const SceneDefect& defect) {
+    return SceneDefect{at(kind, index) + " with " + defect.found + " out of range", defect.expected};
+  };
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (const Defect defect = check_material(scene.materials[i])) return in("material", i, *defect);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (const Defect defect = check_light(scene.lights[i])) return in("light", i, *defect);
+  return {};
+}
+
+std::optional<SceneDefect> find_scene_defect(const Scene& scene) {
+  if (const Defect defect = check_sizes(scene)) return defect;
+  if (const Defect defect = find_tree_defect(scene.node_pool, scene.slab_pool.size())) return defect;
+  return find_content_defect(scene);
 }
 
 }  // namespace splatray

@@ -1,6 +1,7 @@
 /// What a scene must satisfy before the engine may walk it.
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 
 #include "engine/scene/scene.h"
@@ -13,10 +14,23 @@ struct SceneDefect {
   std::string expected;
 };
 
-/// The first defect of a scene, or nothing. Checked: root transform, up, bounds and build parameters finite and in range;
-/// the octree is a tree of at most MAX_DEPTH levels that uses every node word once and stays inside its pools; Begin-End
-/// ascends from 0 to the data pool's size; every splat has a valid normal, a finite radius no larger than the root and an
-/// existing object; the pools' sizes agree; materials, lights and camera are finite. Linear in the scene's size.
+/// The first defect of a scene, or nothing: those of find_tree_defect, then those of find_content_defect. What the discs have
+/// in their leaves' cells is not looked at (find_slab_defect, slab_check.h), nor whether a leaf lists all discs that reach it,
+/// which depends on how the scene was built. Linear in the scene's size.
 [[nodiscard]] std::optional<SceneDefect> find_scene_defect(const Scene& scene);
+
+/// Of the octree: every node word is used once and stays inside the pool, the tree has at most MAX_DEPTH levels, each of the
+/// filled leaves is named by one node, and the box of an empty leaf lies in the root and holds no filled leaf.
+[[nodiscard]] std::optional<SceneDefect> find_tree_defect(std::span<const std::uint32_t> nodes,
+                                                          std::size_t filled_leaves);
+
+/// Of all else: root transform, up, bounds and build parameters are finite and in range; the pools' sizes agree; Begin-End
+/// ascends from 0 to the reference pool's size; references are of existing splats; slabs have an axis, and halves that leave
+/// out no splat; every splat has a valid normal, a finite radius no larger than the root and an existing object; materials,
+/// lights and camera are finite and in range.
+[[nodiscard]] std::optional<SceneDefect> find_content_defect(const Scene& scene);
+
+/// Of materials and lights alone.
+[[nodiscard]] std::optional<SceneDefect> find_look_defect(const Scene& scene);
 
 }  // namespace splatray

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "engine/base/error.h"
-#include "preprocess/base/one_line.h"
+#include "engine/base/one_line.h"
 
 namespace splatray {
 
@@ -12,7 +12,8 @@ void throw_unreadable(const std::filesystem::path& path, const std::string& what
   throw Error(ExitCode::input_unreadable, one_line(path.string() + ": " + what));
 }
 
-ByteReader::ByteReader(const std::filesystem::path& path) : path_(path) {
+ByteReader::ByteReader(const std::filesystem::path& path, const ReadListener* listener)
+    : path_(path), listener_(listener) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
@@ -37,6 +38,9 @@ ByteReader::ByteReader(const std::filesystem::path& path) : path_(path) {
 }
 
 bool ByteReader::fill(std::size_t count) {
+  if (listener_ != nullptr) {
+    listener_->report(static_cast<double>(offset_) / static_cast<double>(size_));
+  }
   if (begin_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "preprocess/read/read_listener.h"
+
 namespace splatray {
 
 /// Throws Error (input_unreadable): "<path>: <what>".
@@ -18,8 +20,9 @@ class ByteReader {
   /// Most bytes one take() may ask for.
   static constexpr std::size_t BLOCK_BYTES = std::size_t{1} << 20U;
 
-  /// Opens a regular file that is not empty; throws Error (input_unreadable) otherwise.
-  explicit ByteReader(const std::filesystem::path& path);
+  /// Opens a regular file that is not empty; throws Error (input_unreadable) otherwise. `listener` hears of each block; it
+  /// must live as long as this. All functions that read may so throw Error (interrupted).
+  explicit ByteReader(const std::filesystem::path& path, const ReadListener* listener = nullptr);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Bytes consumed so far.
@@ -52,6 +55,7 @@ class ByteReader {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::filesystem::path path_;
+  const ReadListener* listener_;
   std::unique_ptr<std::FILE, Close> file_;
   std::vector<unsigned char> buffer_;
   std::size_t begin_ = 0;

@@ -1,12 +1,29 @@
 #include "preprocess/read/find_file.h"
 
+#include <cstddef>
+
 #include "preprocess/read/byte_reader.h"
 
 namespace splatray {
 
+bool stays_inside(const std::filesystem::path& path) {
+  std::ptrdiff_t depth = 0;
+  for (const std::filesystem::path& step : path) {
+    depth += step == ".." ? -1 : step == "." || step.empty() ? 0 : 1;
+    if (depth < 0) {
+      return false;
+    }
+  }
+  return path.is_relative();
+}
+
 std::filesystem::path find_scene_file(const FileWish& wish,
                                       const std::vector<std::filesystem::path>& data_paths) {
   const std::filesystem::path name(wish.name);
+  if (!stays_inside(name)) {
+    throw_unreadable(wish.scene, wish.what + ": found '" + wish.name +
+                                     "', expected a file in the scene's folder or in a data path, or below");
+  }
   std::vector<std::filesystem::path> candidates{wish.scene.parent_path() / name};
   for (const std::filesystem::path& folder : data_paths) {
     candidates.push_back(folder / name);

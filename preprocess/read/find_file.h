@@ -14,9 +14,12 @@ struct FileWish {
   std::filesystem::path scene;  ///< the scene's own file
 };
 
-/// The first that exists of: the name as it is when absolute; relative to the scene's folder; in each data
-/// path by relative path, then by file name alone. Throws Error (input_unreadable) that says what was
-/// missing, where it was looked for and the hint.
+/// Whether a relative path names something in the folder it starts from, or below: it never leaves that by `..`.
+[[nodiscard]] bool stays_inside(const std::filesystem::path& path);
+
+/// The first that exists of: the name in the scene's folder; in each data path by relative path, then by file name alone.
+/// Throws Error (input_unreadable) for a name that is absolute or leaves its folder, and for what is missing: says where it
+/// was looked for and the hint.
 [[nodiscard]] std::filesystem::path find_scene_file(const FileWish& wish,
                                                     const std::vector<std::filesystem::path>& data_paths);
 

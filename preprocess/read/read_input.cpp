@@ -3,22 +3,22 @@
 #include <iterator>
 
 #include "engine/base/error.h"
-#include "preprocess/base/file_extension.h"
-#include "preprocess/base/one_line.h"
+#include "engine/base/one_line.h"
+#include "preprocess/base/thread_limit.h"
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/points.h"
-#include "preprocess/read/gltf/read_gltf.h"
+#include "preprocess/read/formats.h"
 #include "preprocess/read/read_mesh.h"
 
 namespace splatray {
 namespace {
 
-Input read_geometry(const std::filesystem::path& path) {
+Input read_geometry(const std::filesystem::path& path, const ReadListener& listener) {
   Input input;
   InputObject object;
   object.name = path.stem().string();
   object.material = default_material();
-  object.meshes.push_back(read_mesh(path, input.notes));
+  object.meshes.push_back(read_mesh(path, listener));
   if (!object.meshes.front().vertices.color.empty()) {
     object.material.diffuse = glm::vec3(0.9F);  // white stays below the display's white
   }
@@ -104,11 +104,19 @@ Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOpti
   if (paths.empty()) {
     throw Error(ExitCode::usage, "no input file was named");
   }
+  const ThreadLimit limit(options.threads);
   Input input;
-  for (const std::filesystem::path& path : paths) {
-    const std::string extension = lower_extension(path);
-    const bool is_scene = extension == ".gltf" || extension == ".glb";
-    merge(input, is_scene ? read_gltf(path, options) : read_geometry(path));
+  const double files = static_cast<double>(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const double done = static_cast<double>(i);
+    std::vector<std::string> notes;
+    const ReadListener listener{notes, options.progress, done / files, (done + 1.0) / files};
+    const Format* format = find_format(paths[i]);
+    const bool is_scene = format != nullptr && format->read_scene != nullptr;
+    Input more =
+        is_scene ? format->read_scene(paths[i], options, listener) : read_geometry(paths[i], listener);
+    more.notes = std::move(notes);
+    merge(input, std::move(more));
   }
   points_from_meshes(input, options);
   drop_empty_objects(input);

@@ -2,25 +2,21 @@
 
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/byte_reader.h"
-#include "preprocess/read/ply/read_ply.h"
-#include "preprocess/read/read_vtk.h"
+#include "preprocess/read/formats.h"
 
 namespace splatray {
 
-Mesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& notes) {
+Mesh read_mesh(const std::filesystem::path& path, const ReadListener& listener) {
   const ByteReader present(path);
-  const std::string extension = lower_extension(path);
-  if (extension == ".ply") {
-    return read_ply(path, notes);
+  const Format* format = find_format(path);
+  if (format == nullptr) {
+    throw_unreadable(
+        path, "found the extension '" + lower_extension(path) + "', expected one of " + format_extensions());
   }
-  if (extension == ".obj" || extension == ".stl" || extension == ".vtp") {
-    return read_vtk(path, notes);
+  if (format->read_mesh == nullptr) {
+    throw_unreadable(path, "found a scene, expected a geometry file: " + format_extensions(true));
   }
-  if (extension == ".gltf" || extension == ".glb") {
-    throw_unreadable(path, "found a glTF scene, expected a geometry file: .ply .obj .stl .vtp");
-  }
-  throw_unreadable(path,
-                   "found the extension '" + extension + "', expected one of .ply .obj .stl .vtp .gltf .glb");
+  return format->read_mesh(path, listener);
 }
 
 }  // namespace splatray

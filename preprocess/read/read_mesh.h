@@ -1,15 +1,14 @@
 /// One geometry file of any supported kind.
 #pragma once
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "preprocess/points.h"
+#include "preprocess/read/read_listener.h"
 
 namespace splatray {
 
-/// Reads .ply .obj .stl or .vtp (any case); a mesh without triangles is a point set.
+/// Reads a file of a format that is one object (formats.h); a mesh without triangles is a point set.
 /// Throws Error (input_unreadable); an unknown extension is told with those supported.
-[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& notes);
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadListener& listener);
 
 }  // namespace splatray

@@ -1,54 +1,17 @@
 #include "preprocess/tree/empty_space.h"
 
 #include <array>
-#include <bit>
 #include <cassert>
 #include <utility>
 #include <vector>
+
+#include "engine/scene/empty_box.h"
 
 namespace splatray {
 namespace {
 
 /// Subtrees of cells of this size are looked at in parallel.
 constexpr std::uint32_t TASK_SIZE = 1U << (LATTICE_BITS - 4);
-
-/// An inner node on the way to a leaf.
-struct Ancestor {
-  std::uint32_t word;
-  OctreeCell cell;
-
-  [[nodiscard]] bool holds(const OctreeBox& box) const {
-    const glm::ivec3 low(cell.low);
-    return glm::all(glm::greaterThanEqual(box.low, low)) &&
-           glm::all(glm::lessThanEqual(box.high, low + static_cast<int>(cell.size)));
-  }
-};
-
-/// Children, a bit each, whose cells overlap a box that overlaps their parent's.
-std::uint32_t children_in(const OctreeCell& cell, const OctreeBox& box) {
-  const glm::ivec3 middle = glm::ivec3(cell.low) + static_cast<int>(cell.size / 2);
-  const std::uint32_t x = (box.low.x < middle.x ? 0x55U : 0U) | (box.high.x > middle.x ? 0xAAU : 0U);
-  const std::uint32_t y = (box.low.y < middle.y ? 0x33U : 0U) | (box.high.y > middle.y ? 0xCCU : 0U);
-  const std::uint32_t z = (box.low.z < middle.z ? 0x0FU : 0U) | (box.high.z > middle.z ? 0xF0U : 0U);
-  return x & y & z;
-}
-
-/// Whether no filled leaf below an inner node overlaps the box.
-bool is_empty(const std::vector<std::uint32_t>& nodes, const Ancestor& node, const OctreeBox& box) {
-  const std::uint32_t first = node.word & NODE_ADDRESS_MASK;
-  std::uint32_t inner = 0;
-  for (std::uint32_t left = children_in(node.cell, box); left != 0; left &= left - 1) {
-    const auto child = static_cast<std::uint32_t>(std::countr_zero(left));
-    const std::uint32_t tag = nodes[first + child] >> NODE_TAG_SHIFT;
-    if (tag == NODE_FILLED) return false;
-    if (tag == NODE_INNER) inner |= 1U << child;
-  }
-  for (; inner != 0; inner &= inner - 1) {
-    const auto child = static_cast<std::uint32_t>(std::countr_zero(inner));
-    if (!is_empty(nodes, {nodes[first + child], child_cell(node.cell, child)}, box)) return false;
-  }
-  return true;
-}
 
 /// What the box would gain by one step of `step` on a side: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z.
 OctreeBox layer_of(const OctreeBox& box, int side, int step) {
@@ -66,7 +29,7 @@ OctreeBox layer_of(const OctreeBox& box, int side, int step) {
 
 /// The address bits of an empty leaf with this cell. `path` leads from the root to its parent.
 std::uint32_t grown_word(const std::vector<std::uint32_t>& nodes, const OctreeCell& cell,
-                         const std::vector<Ancestor>& path) {
+                         const std::vector<InnerNode>& path) {
   assert(!path.empty());  // the root is never empty
   const auto step = static_cast<int>(cell.size);
   OctreeBox box{glm::ivec3(cell.low), glm::ivec3(cell.low) + step};
@@ -92,7 +55,7 @@ std::uint32_t grown_word(const std::vector<std::uint32_t>& nodes, const OctreeCe
 struct Subtree {
   std::uint32_t node;
   OctreeCell cell;
-  std::vector<Ancestor> path;
+  std::vector<InnerNode> path;
 };
 
 /// Cuts the tree into parts that lie in cells of at most TASK_SIZE, or are leaves.
@@ -102,7 +65,7 @@ void cut(const std::vector<std::uint32_t>& nodes, const Subtree& tree, std::vect
     parts.push_back(tree);
     return;
   }
-  std::vector<Ancestor> path = tree.path;
+  std::vector<InnerNode> path = tree.path;
   path.push_back({word, tree.cell});
   for (std::uint32_t child = 0; child < 8; ++child)
     cut(nodes, {(word & NODE_ADDRESS_MASK) + child, child_cell(tree.cell, child), path}, parts);
@@ -110,7 +73,7 @@ void cut(const std::vector<std::uint32_t>& nodes, const Subtree& tree, std::vect
 
 /// Writes into `grown` the words of a node's empty leaves.
 void grow_below(const std::vector<std::uint32_t>& nodes, std::uint32_t node, const OctreeCell& cell,
-                std::vector<Ancestor>& path, std::vector<std::uint32_t>& grown) {
+                std::vector<InnerNode>& path, std::vector<std::uint32_t>& grown) {
   const std::uint32_t word = nodes[node];
   if (word >> NODE_TAG_SHIFT == NODE_EMPTY) grown[node] |= grown_word(nodes, cell, path);
   if (word >> NODE_TAG_SHIFT != NODE_INNER) return;

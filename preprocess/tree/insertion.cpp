@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "preprocess/tree/disc.h"
+#include "engine/scene/disc.h"
 
 namespace splatray {
 namespace {
@@ -115,6 +115,14 @@ class ReferenceCount {
 };
 
 }  // namespace
+
+std::vector<std::uint32_t> leaves_met(const Octree& tree, const SplatList& splats, std::size_t begin,
+                                      std::size_t end) {
+  std::vector<std::uint32_t> leaves;
+  LeafWalk walk(tree, leaves);
+  for (std::size_t i = begin; i < end; ++i) walk.walk(Disc(unpack_splat(splats.words[i])));
+  return leaves;
+}
 
 LeafLists insert_centres(const Octree& tree, const SplatList& splats) {
   LeafLists lists;

@@ -23,6 +23,10 @@ struct LeafLists {
 /// others. Throws Error (failed) above 2^32 - 1 references.
 [[nodiscard]] LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Stage& stage);
 
+/// The leaves that splats [begin, end) are listed in by policy `overlap`, splat by splat, as indices into the tree's leaves.
+[[nodiscard]] std::vector<std::uint32_t> leaves_met(const Octree& tree, const SplatList& splats,
+                                                    std::size_t begin, std::size_t end);
+
 /// Policy `probe` (Goradia et al. 2010, sec. III-C), given the lists of `overlap`: `probes` segments from a
 /// random point on a face of each leaf's cell to a random point on another face; where a segment hits no
 /// splat whose centre the leaf holds, the others it hits stay in the list. Leaves that hold no centre are

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/scene/halved_cell.h"
 #include "preprocess/base/vector_clones.h"
-#include "preprocess/tree/disc.h"
 
 namespace splatray {
 namespace {
@@ -30,25 +30,6 @@ struct SplatBlock {
 struct BlockReach {
   double low[LANES], high[LANES];                   ///< along the slab's axis, from the cell's centre
   double beyond_lower[LANES], beyond_upper[LANES];  ///< above 0 where they do not come near the half
-};
-
-/// A cell's halves and the axis of its slab.
-struct HalvedCell {
-  HalvedCell(const OctreeCell& cell, const glm::dvec3& slab_axis)
-      : axis(slab_axis),
-        half_size(0.5 * cell.size),
-        low(cell.low),
-        high(low + 2.0 * half_size),
-        lower_high(high),
-        upper_low(low) {
-    const int across = halved_axis(axis);
-    lower_high[across] = upper_low[across] = low[across] + half_size;
-  }
-  glm::dvec3 axis;
-  double half_size;
-  glm::dvec3 low, high;
-  glm::dvec3 lower_high;  ///< upper corner of the lower half
-  glm::dvec3 upper_low;
 };
 
 SPLATRAY_VECTOR_CLONES void unpack_blocks(std::span<const std::uint32_t> list,
@@ -72,43 +53,6 @@ SPLATRAY_VECTOR_CLONES void unpack_blocks(std::span<const std::uint32_t> list,
   }
 }
 
-/// From where to where something reaches along the slab's axis, from the cell's centre.
-struct Reach {
-  double low, high;
-};
-
-/// What bounds where the plane n.p = distance reaches in the cube |x|, |y|, |z| <= half_size along the axis a: for any factor,
-/// a = factor n + rest, and a.p differs from factor times the distance by what the cube reaches along the rest. Where the
-/// bound is tightest one component of the rest is 0 (the dual of the linear program, which has a kink there).
-[[gnu::always_inline]] inline Reach plane_in_cube(double factor, const Disc& disc, const glm::dvec3& axis,
-                                                  double distance, double half_size) {
-  const double rest = std::abs(axis.x - factor * disc.x.normal) + std::abs(axis.y - factor * disc.y.normal) +
-                      std::abs(axis.z - factor * disc.z.normal);
-  return {factor * distance - half_size * rest, factor * distance + half_size * rest};
-}
-
-/// Between what the part of a disc in the inflated cell lies: the disc's own ends, or those of its plane in the cell.
-[[gnu::always_inline]] inline Reach reach_in_cell(const Disc& disc, const HalvedCell& cell) {
-  const glm::dvec3& axis = cell.axis;
-  const double x = disc.x.center - cell.low.x - cell.half_size;
-  const double y = disc.y.center - cell.low.y - cell.half_size;
-  const double z = disc.z.center - cell.low.z - cell.half_size;
-  const double distance = disc.x.normal * x + disc.y.normal * y + disc.z.normal * z;
-  const double half_size = cell.half_size + LIST_INFLATION;
-  // Not a number where the axis and the normal have no such component; std::max and min then keep the other.
-  const Reach at_x = plane_in_cube(axis.x / disc.x.normal, disc, axis, distance, half_size);
-  const Reach at_y = plane_in_cube(axis.y / disc.y.normal, disc, axis, distance, half_size);
-  const Reach at_z = plane_in_cube(axis.z / disc.z.normal, disc, axis, distance, half_size);
-  const double along_normal = axis.x * disc.x.normal + axis.y * disc.y.normal + axis.z * disc.z.normal;
-  const double middle = axis.x * x + axis.y * y + axis.z * z;
-  const double across =
-      disc.radius * std::sqrt(std::max(glm::dot(axis, axis) - along_normal * along_normal, 0.0));
-  const double low = std::max(std::max(std::max(middle - across, at_x.low), at_y.low), at_z.low);
-  const double high = std::min(std::min(std::min(middle + across, at_x.high), at_y.high), at_z.high);
-  // Swapped by rounding in a flat leaf, or for a disc that only touches the inflated cell.
-  return {std::min(low, high), std::max(low, high)};
-}
-
 SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks, const HalvedCell& cell,
                                            std::vector<BlockReach>& reaches) {
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -117,9 +61,10 @@ SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks
     for (std::size_t i = 0; i < LANES; ++i) {
       const Disc disc({block.x[i], block.y[i], block.z[i]},
                       {block.normal_x[i], block.normal_y[i], block.normal_z[i]}, block.radius_squared[i]);
-      const Reach along = reach_in_cell(disc, cell);
-      reach.low[i] = along.low;
-      reach.high[i] = along.high;
+      const Reach along = reach_in_cell(disc, cell, LIST_INFLATION);
+      // Swapped by rounding in a flat leaf, or for a disc that only touches the inflated cell.
+      reach.low[i] = std::min(along.low, along.high);
+      reach.high[i] = std::max(along.low, along.high);
       reach.beyond_lower[i] = beyond(disc, cell.low, cell.lower_high);
       reach.beyond_upper[i] = beyond(disc, cell.upper_low, cell.high);
     }

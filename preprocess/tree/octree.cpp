@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include "engine/base/error.h"
+#include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/sorted_order.h"
 
@@ -53,14 +55,28 @@ class Builder {
 
   Octree build() {
     tree_.node_pool.push_back(0);
-    fill({0, 0, 0, 0, static_cast<std::uint32_t>(splats_.size())});
+    fill({0, 0, 0, 0, static_cast<std::uint32_t>(splats_.size())}, nullptr);
+    return std::move(tree_);
+  }
+
+  Octree build_in(const std::vector<OctreeBox>& boxes) {
+    tree_.node_pool.push_back(0);
+    fill({0, 0, 0, 0, static_cast<std::uint32_t>(splats_.size())}, &boxes);
     return std::move(tree_);
   }
 
  private:
-  /// Writes the word of a node, given as the leaf it would be, and everything below it.
-  void fill(const Leaf& node) {
-    if (!is_divided(node)) {
+  using Boxes = std::vector<OctreeBox>;
+
+  /// Writes the word of a node, given as the leaf it would be, and everything below it; `boxes`, where there are any, are those
+  /// that overlap its parent.
+  void fill(const Leaf& node, const Boxes* boxes) {
+    Boxes inside;
+    if (boxes != nullptr) {
+      inside = boxes_in(node, *boxes);
+      boxes = &inside;
+    }
+    if ((boxes != nullptr && boxes->empty()) || !is_divided(node)) {
       const std::uint32_t tag = node.begin < node.end ? NODE_FILLED : NODE_EMPTY;
       tree_.node_pool[node.node] = tag << NODE_TAG_SHIFT | static_cast<std::uint32_t>(tree_.leaves.size());
       tree_.leaves.push_back(node);
@@ -81,11 +97,21 @@ class Builder {
                          : static_cast<std::uint32_t>(std::lower_bound(from, splats_.key.begin() + node.end,
                                                                        child.key + child_keys) -
                                                       splats_.key.begin());
-      fill(child);
+      fill(child, boxes);
       child.key += child_keys;
       child.begin = child.end;
       ++child.node;
     }
+  }
+
+  static Boxes boxes_in(const Leaf& node, const Boxes& boxes) {
+    const glm::ivec3 low(morton_point(node.key));
+    const glm::ivec3 high = low + static_cast<int>(node.cell_size());
+    Boxes inside;
+    std::copy_if(boxes.begin(), boxes.end(), std::back_inserter(inside), [&](const OctreeBox& box) {
+      return glm::all(glm::lessThan(box.low, high)) && glm::all(glm::greaterThan(box.high, low));
+    });
+    return inside;
   }
 
   [[nodiscard]] bool is_divided(const Leaf& node) const {
@@ -111,6 +137,11 @@ std::uint64_t order_splats(SplatList& splats, std::uint32_t copies) {
 
 Octree build_octree(const SplatList& splats, std::uint32_t leaf_size) {
   return Builder(splats, leaf_size).build();
+}
+
+Octree build_octree_in(const SplatList& splats, std::uint32_t leaf_size,
+                       const std::vector<OctreeBox>& boxes) {
+  return Builder(splats, leaf_size).build_in(boxes);
 }
 
 }  // namespace splatray

@@ -47,4 +47,8 @@ inline constexpr double WIDEST_SPLATS = 0.36;
 /// Divides every node above MAX_DEPTH that holds more than `leaf_size` centres, but for those crowded ones.
 [[nodiscard]] Octree build_octree(const SplatList& splats, std::uint32_t leaf_size);
 
+/// The same but that nodes which overlap none of the boxes are not divided: the part of that octree in the boxes.
+[[nodiscard]] Octree build_octree_in(const SplatList& splats, std::uint32_t leaf_size,
+                                     const std::vector<OctreeBox>& boxes);
+
 }  // namespace splatray

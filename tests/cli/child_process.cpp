@@ -1,7 +1,10 @@
 #include "tests/cli/child_process.h"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,7 +25,7 @@ std::string read_text(const std::string& path) {
 
 /// The child's side of a fork.
 [[noreturn]] void become(const std::vector<std::string>& command, const std::vector<std::string>& environment,
-                         const std::string& out, const std::string& err) {
+                         const Limits& limits, const std::string& out, const std::string& err) {
   const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err_file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(out_file, STDOUT_FILENO);
@@ -31,6 +34,9 @@ std::string read_text(const std::string& path) {
     const std::size_t equals = variable.find('=');
     setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
   }
+  const rlimit size{limits.most_bytes, limits.most_bytes};
+  if (limits.most_bytes > 0) setrlimit(RLIMIT_FSIZE, &size);
+  if (limits.bound_by_permissions) prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
   std::vector<char*> arguments;
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
@@ -45,27 +51,27 @@ bool has_ended(pid_t child) {
          info.si_pid == child;
 }
 
-/// Whether a process has a handler for SIGINT, as the kernel tells it (proc(5), SigCgt).
-bool catches_interrupt(pid_t process) {
+/// Whether a process has a handler for a signal, as the kernel reports it (proc(5), SigCgt).
+bool catches(pid_t process, int signal) {
   std::istringstream status(read_text("/proc/" + std::to_string(process) + "/status"));
   for (std::string line; std::getline(status, line);)
     if (line.starts_with("SigCgt:"))
-      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1U) != 0;
+      return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0;
   return false;
 }
 
 }  // namespace
 
 ChildResult run_program(const std::vector<std::string>& command, const std::vector<std::string>& environment,
-                        const std::function<bool()>& interrupt_when) {
+                        const std::function<bool()>& interrupt_when, int signal, const Limits& limits) {
   const std::string stem = testing::TempDir() + "child_" + std::to_string(getpid());
   const std::string out = stem + ".out", err = stem + ".err";
   const pid_t child = fork();
-  if (child == 0) become(command, environment, out, err);
+  if (child == 0) become(command, environment, limits, out, err);
   if (interrupt_when) {
-    while (!has_ended(child) && !(catches_interrupt(child) && interrupt_when()))
+    while (!has_ended(child) && !(catches(child, signal) && interrupt_when()))
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    kill(child, SIGINT);
+    kill(child, signal);
   }
   int status = 0;
   waitpid(child, &status, 0);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -15,11 +17,19 @@ struct ChildResult {
   std::string out, err;
 };
 
-/// Runs a program to its end. `environment`: further variables, NAME=VALUE. `interrupt_when`: the program gets SIGINT once
+/// Under what a program runs. Each file it writes may have `most_bytes`, where not 0: a write beyond fails, as on a full disk.
+/// Root has no leave to write where others may not with `bound_by_permissions`.
+struct Limits {
+  std::uint64_t most_bytes = 0;
+  bool bound_by_permissions = false;
+};
+
+/// Runs a program to its end. `environment`: further variables, NAME=VALUE. `interrupt_when`: the program gets `signal` once
 /// it catches that and this says so.
 [[nodiscard]] ChildResult run_program(const std::vector<std::string>& command,
                                       const std::vector<std::string>& environment = {},
-                                      const std::function<bool()>& interrupt_when = {});
+                                      const std::function<bool()>& interrupt_when = {}, int signal = SIGINT,
+                                      const Limits& limits = {});
 
 /// A test with a folder of its own, gone afterwards.
 class CliTest : public testing::Test {

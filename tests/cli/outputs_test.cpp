@@ -44,7 +44,7 @@ TEST_F(CliOutputs, WithoutTheLibraryBesideIt) {
       [&] {
         return run_program({alone, grid, "--quiet", "-o", file("a.png"), "--resolution=8x8"});
       },
-      1, "libsplatray_image_codec.so");
+      1, "libsplatray_image_codec");
 }
 
 TEST_F(CliOutputs, PictureAndStatistics) {
@@ -82,16 +82,65 @@ TEST_F(CliOutputs, SameSeedSameBytes) {
   EXPECT_EQ(bytes_of("7"), bytes_of("7"));
 }
 
-TEST_F(CliOutputs, InterruptLeavesNothing) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto renders = [&] { return std::chrono::steady_clock::now() - start > std::chrono::seconds(2); };
+TEST_F(CliOutputs, SignalsLeaveNothing) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto renders = [&] { return std::chrono::steady_clock::now() - start > std::chrono::seconds(1); };
+    expect_refused(
+        [&] {
+          return run_program(
+              {RENDER, "--quiet", grid, "--resolution=2048x2048", "--samples=4096", "-o", file("out.png")},
+              {}, renders, signal);
+        },
+        130, "interrupted");
+  }
+}
+
+TEST_F(CliOutputs, FullDiskLeavesTheOlderFile) {
+  const auto refuse = [&](const std::string& output, std::vector<std::string> command) {
+    write(output, "older");
+    expect_refused([&] { return run_program(command, {}, {}, SIGINT, {.most_bytes = 2048}); }, 1,
+                   "cannot write '" + file(output));
+    EXPECT_EQ(std::filesystem::file_size(file(output)), 5U) << output;
+    std::filesystem::remove(file(output));
+  };
+  const std::vector<std::string> picture = {RENDER, "--quiet", grid, "--resolution=128x128", "--samples=1"};
+  const auto with = [](std::vector<std::string> command, const std::vector<std::string>& more) {
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  };
+  refuse("a.png", with(picture, {"-o", file("a.png")}));
+  refuse("a.exr", with(picture, {"-o", file("a.exr")}));
+  refuse("a.soct", {PREPROCESS, grid, "-o", file("a.soct")});
+}
+
+TEST_F(CliOutputs, FullDiskAndStatistics) {
+  write("stats.json", "older");
+  const ChildResult result =
+      run_program({RENDER, "--quiet", grid, "--resolution=8x8", "--samples=1", "--turntable=40", "-o",
+                   file("a##.png"), "--stats-json", file("stats.json")},
+                  {}, {}, SIGINT, {.most_bytes = 2048});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("stats.json': "), std::string::npos) << result.err;
+  EXPECT_EQ(std::filesystem::file_size(file("stats.json")), 5U);
+}
+
+TEST_F(CliOutputs, ReadOnlyFolder) {
+  std::filesystem::create_directory(file("locked"));
+  std::filesystem::permissions(file("locked"), std::filesystem::perms{0555});
   expect_refused(
       [&] {
-        return run_program(
-            {RENDER, "--quiet", grid, "--resolution=2048x2048", "--samples=4096", "-o", file("out.png")}, {},
-            renders);
+        return run_program({RENDER, grid, "-o", file("locked/a.png")}, {}, {}, SIGINT,
+                           {.bound_by_permissions = true});
       },
-      130, "interrupted");
+      1, "Permission denied");
+}
+
+TEST_F(CliOutputs, ErrorsOfOddFileNamesAreOneLine) {
+  for (const char* name : {"no\nsuch.soct", "no\nsuch.ply"})
+    expect_refused([&] { return render({file(name)}); }, 3, "no?such");
+  expect_refused([&] { return render({grid, "--env", file("no\nsuch.hdr")}); }, 3, "no?such");
+  expect_refused([&] { return render({grid, "--camera", file("no\nsuch.json")}); }, 3, "no?such");
 }
 
 }  // namespace

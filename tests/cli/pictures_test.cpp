@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "app/library/compare.h"
@@ -70,6 +71,34 @@ TEST(ImageFile, KeepsMetadata) {
   EXPECT_EQ(sorted(read_metadata(temporary("meta.png"))), metadata);
   write_exr(gradient(), {}, metadata, temporary("meta.exr"));
   EXPECT_EQ(sorted(read_metadata(temporary("meta.exr"))), metadata);
+}
+
+/// A header that says `width` x `height` before next to no pixels.
+std::string forged_hdr(int width, int height) {
+  return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
+         std::to_string(width) + "\n\2\2";
+}
+
+TEST(ImageFile, HeadersThatAskForMoreThanTheFileHoldsAreRefused) {
+  const std::string path = temporary("forged.hdr");
+  std::ofstream(path, std::ios::binary) << forged_hdr(6000, 6000);
+  try {
+    (void)read_environment(path);
+    FAIL() << "read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+    EXPECT_NE(std::string(error.what()).find("forged.hdr': found 6000 x 6000 pixels"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(ImageFile, PicturesOfOneColourAreReadHoweverSmallTheirFile) {
+  const DisplayImage black{2048, 2048, std::vector<vec3>(2048 * 2048)};
+  write_png(black, {}, temporary("black.png"));
+  EXPECT_EQ(read_display_image(temporary("black.png"), 0.0).width, 2048U);
+  const Image dark{2048, 2048, std::vector<vec4>(2048 * 2048), {}};
+  write_exr(dark, {}, {}, temporary("dark.exr"));
+  EXPECT_EQ(read_display_image(temporary("dark.exr"), 0.0).width, 2048U);
 }
 
 TEST(ImageFile, UnwritableIsAnError) {

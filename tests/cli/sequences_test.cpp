@@ -61,16 +61,35 @@ TEST_F(CliSequences, CameraPathMoves) {
   EXPECT_EQ(bytes("still.png"), bytes("a0.png"));
 }
 
-TEST_F(CliSequences, ExistingFramesAreSkipped) {
-  const std::string existing = write("t1.png", "not ours to touch");
-  const auto time = std::filesystem::last_write_time(existing);
-  ASSERT_EQ(render_to("t#.png", {grid, "--turntable=2", "--skip-existing"}).code, 0);
-  EXPECT_EQ(bytes("t1.png"), "not ours to touch");
-  EXPECT_EQ(std::filesystem::last_write_time(existing), time);
-  EXPECT_TRUE(std::filesystem::exists(file("t0.png")));
+TEST_F(CliSequences, WholeFramesAreSkippedAndBrokenOnesMadeAgain) {
+  for (const std::string extension : {".png", ".exr"}) {
+    const std::string pattern = "t#" + extension, first = "t0" + extension, second = "t1" + extension;
+    const std::vector<std::string> arguments = {grid, "--turntable=2", "--skip-existing"};
+    ASSERT_EQ(render_to(pattern, arguments).code, 0);
+    const std::string whole = bytes(first);
+    const auto time = std::filesystem::last_write_time(file(first));
+    for (const std::size_t size : {std::size_t{0}, whole.size() / 2, whole.size() - 1}) {
+      const std::string broken = bytes(second).substr(0, std::min(size, bytes(second).size() - 1));
+      write(second, broken);
+      ASSERT_EQ(render_to(pattern, arguments).code, 0);
+      EXPECT_EQ(read_display_image(file(second), 0.0).width, 16U) << second << " of " << size << " bytes";
+      EXPECT_EQ(std::filesystem::last_write_time(file(first)), time);
+    }
+  }
   std::filesystem::remove(grid);
   EXPECT_EQ(render_to("t#.png", {grid, "--turntable=2", "--skip-existing"}).code, 0)
       << "nothing is left to do";
+}
+
+TEST_F(CliSequences, FullDiskLeavesNoFrame) {
+  const std::vector<std::string> command = {RENDER,           "--quiet",       grid, "--resolution=128x128",
+                                            "--samples=1",    "--turntable=2", "-o", file("t#.png"),
+                                            "--skip-existing"};
+  const ChildResult result = run_program(command, {}, {}, SIGINT, {.most_bytes = 2048});
+  EXPECT_EQ(result.code, 1) << result.err;
+  EXPECT_EQ(names(), std::vector<std::string>{"grid.ply"});
+  EXPECT_EQ(run_program(command).code, 0);
+  EXPECT_EQ(read_display_image(file("t1.png"), 0.0).width, 128U);
 }
 
 TEST_F(CliSequences, OneFailedFrameFailsAlone) {

@@ -48,12 +48,66 @@ TEST(SceneCheck, FindsBadNodes) {
   EXPECT_EQ(found_after([](Scene& s) { s.node_pool.clear(); }), "no octree");
 }
 
+TEST(SceneCheck, FindsLeavesWithoutANodeOfTheirOwn) {
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = filled(0); }), "node 2 that shares filled leaf 0");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = filled(0); }), "node 8 that shares filled leaf 0");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = NODE_EMPTY << NODE_TAG_SHIFT; }),
+            "1 filled leaves that are not in the tree");
+}
+
+/// Steps of an empty leaf's box: on side 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z.
+constexpr std::uint32_t empty(std::uint32_t side, std::uint32_t steps) {
+  return NODE_EMPTY << NODE_TAG_SHIFT | steps << 2 * side;
+}
+
+/// In the tiny scene children 0 (node 1) and 7 (node 8) are filled.
+TEST(SceneCheck, FindsEmptySpaceOverFilledLeaves) {
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = empty(3, 1); }), "") << "child 1 over child 3";
+  const auto over = [](std::size_t node) {
+    return "empty leaf " + std::to_string(node) + " whose box reaches over a filled leaf or out of the root";
+  };
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = empty(0, 1); }), over(2)) << "child 1 over child 0";
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[7] = empty(1, 1); }), over(7)) << "child 6 over child 7";
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[4] = empty(5, 1); }), over(4)) << "child 3 over child 7";
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = empty(1, 1); }), over(2))
+      << "child 1 out of the root";
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = empty(3, 2); }), over(2))
+      << "child 1 out of the root";
+}
+
+TEST(SceneCheck, FindsEmptySpaceOverDeeperFilledLeaves) {
+  const auto deepen = [](Scene& s, std::uint32_t filled_child, std::uint32_t word) {
+    s.node_pool[8] = inner(9);
+    s.node_pool.resize(17, NODE_EMPTY << NODE_TAG_SHIFT);
+    s.node_pool[9 + filled_child] = filled(1);
+    s.node_pool[7] = word;
+  };
+  EXPECT_NE(found_after([&](Scene& s) { deepen(s, 6, empty(1, 1)); }), "");
+  EXPECT_NE(found_after([&](Scene& s) { deepen(s, 0, empty(1, 1)); }), "");
+  const auto below = [&](std::uint32_t child, std::uint32_t word) {
+    return found_after([&](Scene& s) { deepen(s, 7, empty(0, 0)), s.node_pool[9 + child] = word; });
+  };
+  EXPECT_EQ(below(6, empty(0, 1)), "") << "into the neighbour of its parent";
+  EXPECT_NE(below(6, empty(1, 1)), "") << "over its filled sibling";
+  EXPECT_EQ(below(0, empty(0, 2)), "");
+  EXPECT_NE(below(0, empty(0, 3)), "") << "out of the root";
+}
+
+TEST(SceneCheck, FindsBadSlabs) {
+  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool[1] |= 63U << 5U; }), "slab 1 with an invalid axis");
+  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool[1] = (SLAB_FULL & 0xFFFFFFU) | 1U << 24U | 2U << 28U; }),
+            "");
+  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool[1] = (SLAB_FULL & 0xFFFFFFU) | 2U << 28U; }),
+            "slab 1 whose halves leave out 1 of the leaf's splats");
+}
+
 TEST(SceneCheck, FindsTooDeepTrees) {
   const auto deepen = [](Scene& scene, std::uint32_t levels) {
     for (std::uint32_t level = 1; level < levels; ++level) {
       const auto end = static_cast<std::uint32_t>(scene.node_pool.size());
       scene.node_pool.back() = inner(end);
-      scene.node_pool.resize(end + 8, NODE_EMPTY << NODE_TAG_SHIFT);
+      scene.node_pool.resize(end + 7, NODE_EMPTY << NODE_TAG_SHIFT);
+      scene.node_pool.push_back(filled(1));
     }
   };
   EXPECT_EQ(found_after([&](Scene& s) { deepen(s, MAX_DEPTH); }), "");
@@ -89,15 +143,42 @@ TEST(SceneCheck, FindsBadSizesAndLooks) {
               s.data_pool.resize(6, s.data_pool[0]), s.color_pool.clear(), s.field_pool.clear();
             }),
             "6 splats in 5 references");
-  EXPECT_NE(found_after([](Scene& s) { s.materials[1].diffuse.x = NAN; }), "");
-  EXPECT_NE(found_after([](Scene& s) { s.materials[0].ior = 0.0F; }), "");
-  EXPECT_NE(found_after([](Scene& s) { s.materials[0].mask_bit = 32; }), "");
-  EXPECT_NE(found_after([](Scene& s) { s.lights[0].kind = 2; }), "");
-  EXPECT_NE(found_after([](Scene& s) {
-              s.lights[0] = {LIGHT_DIRECTIONAL, glm::dvec3(0.0), vec3(1.0F)};
-            }),
-            "");
   EXPECT_NE(found_after([](Scene& s) { s.camera->fov_y_deg = NAN; }), "");
+  EXPECT_NE(found_after([](Scene& s) { s.camera->fov_y_deg = 180.0; }), "");
+  EXPECT_NE(found_after([](Scene& s) { s.camera->ortho_height = -1.0; }), "");
+}
+
+TEST(SceneCheck, FindsMaterialsOutOfRange) {
+  const auto found = [](auto member, auto value) {
+    return found_after([=](Scene& s) { s.materials[1].*member = value; });
+  };
+  for (const float wrong : {-1e30F, -0.01F, 1.01F, 1e30F, INFINITY, NAN}) {
+    EXPECT_EQ(found(&Material::mirror, wrong), "material 1 with a mirror out of range");
+    EXPECT_EQ(found(&Material::specular, wrong), "material 1 with a specular reflectance out of range");
+    EXPECT_EQ(found(&Material::tint, vec3(0.5F, wrong, 0.5F)), "material 1 with a tint out of range");
+    EXPECT_EQ(found(&Material::diffuse, vec3(0.5F, 0.5F, wrong)),
+              "material 1 with a diffuse reflectance out of range");
+  }
+  for (const float wrong : {-1e30F, 0.99F, INFINITY, NAN})
+    EXPECT_EQ(found(&Material::shininess, wrong), "material 1 with a shininess out of range");
+  for (const float wrong : {-1.0F, 0.0F, INFINITY, NAN})
+    EXPECT_EQ(found(&Material::ior, wrong), "material 1 with an index of refraction out of range");
+  EXPECT_EQ(found(&Material::mask_bit, 32U), "material 1 with a mask bit out of range");
+  EXPECT_EQ(found(&Material::flags, 8U), "material 1 with flags out of range");
+  for (const float right : {0.0F, 1.0F}) EXPECT_EQ(found(&Material::mirror, right), "");
+}
+
+TEST(SceneCheck, FindsLightsOutOfRange) {
+  const auto found = [](const SceneLight& light) {
+    return found_after([&](Scene& s) { s.lights[0] = light; });
+  };
+  EXPECT_EQ(found({LIGHT_POINT, glm::dvec3(0.0), vec3(0.0F)}), "");
+  EXPECT_NE(found({2, glm::dvec3(1.0), vec3(1.0F)}), "");
+  EXPECT_NE(found({LIGHT_DIRECTIONAL, glm::dvec3(0.0), vec3(1.0F)}), "");
+  EXPECT_NE(found({LIGHT_POINT, glm::dvec3(NAN), vec3(1.0F)}), "");
+  for (const float wrong : {-1.0F, INFINITY, NAN})
+    EXPECT_EQ(found({LIGHT_POINT, glm::dvec3(1.0), vec3(1.0F, wrong, 1.0F)}),
+              "light 0 with a power out of range");
 }
 
 }  // namespace

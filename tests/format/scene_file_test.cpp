@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <fstream>
 
 #include "engine/base/error.h"
@@ -174,6 +175,15 @@ TEST_F(SceneFile, RefusesForgedContent) {
   says(5, 12, 0xFFFF0000, "splat 0 with a radius");
   says(5, 28, 0x20000002, "splat 1 of object 2");
   says(9, 0, 7, "light 0");
+  says(1, 8, 0x40000000, "node 2 that shares filled leaf 0");
+  says(1, 8, 0x80000001, "empty leaf 2 whose box reaches over a filled leaf");
+  says(1, 32, 0x80000000, "1 filled leaves that are not in the tree");
+  says(3, 4, 0x20F803E0, "slab 1 whose halves leave out 1");
+  says(8, 28, std::bit_cast<std::uint32_t>(-1e30F),
+       "material 0 with a shininess out of range, expected 1 or more");
+  says(8, 32, std::bit_cast<std::uint32_t>(1e30F), "material 0 with a mirror out of range, expected 0 to 1");
+  says(8, 44, 32, "material 0 with a mask bit");
+  says(9, 32, std::bit_cast<std::uint32_t>(-1.0F), "light 0 with a power");
   says(11, 0, 0, "names, expected one per object");
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/file/scene_file.h"
+#include "engine/scene/slab_check.h"
 #include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
 #include "tests/fuzz/memory_folder.h"
@@ -117,6 +118,7 @@ void check_scene(const Scene& scene) {
     require(std::abs(glm::length(splat.normal) - 1.0) < 1e-6, "normals are unit vectors");
     require(splat.object < scene.materials.size(), "splats are of existing objects");
   }
+  (void)find_slab_defect(scene);
   send_rays(scene);
 }
 

@@ -197,6 +197,25 @@ TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
   EXPECT_EQ(tracer.pools_uploaded(), 0U);
 }
 
+TEST_F(PoolUpload, UploadAndFreeLeavesTheSceneWithoutItsPools) {
+  for (const DataPool data : {DataPool::copies, DataPool::references}) {
+    Tracer tracer(context, {.data = data});
+    Scene scene = disc_scene(3);
+    tracer.upload(scene);
+    const auto picture = tracer.render(disc_view(50, 40), plain_settings()).rgba;
+    EXPECT_EQ(scene.data_pool.size(), 3U) << "upload leaves it as it is";
+    tracer.upload_and_free(scene);
+    EXPECT_TRUE(picture == tracer.render(disc_view(50, 40), plain_settings()).rgba);
+    const std::size_t left = scene.node_pool.capacity() + scene.begin_end.capacity() +
+                             scene.slab_pool.capacity() + scene.reference_pool.capacity() +
+                             scene.data_pool.capacity() + scene.color_pool.capacity() +
+                             scene.field_pool.capacity();
+    EXPECT_EQ(left, 0U);
+    EXPECT_EQ(scene.materials.size(), 3U);
+    EXPECT_EQ(scene.bounds_max_world, disc_scene(3).bounds_max_world);
+  }
+}
+
 /// The device's own limit; the root's children, each with all discs, are behind it.
 TEST_F(PoolUpload, PoolBeyondTheLargestStorageBufferIsPaged) {
   const std::uint64_t limit = context.properties.limits.maxStorageBufferRange;

@@ -1,6 +1,7 @@
 #include "engine/file/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -24,13 +25,19 @@ class AtomicFileTest : public testing::Test {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
   }
 
+  [[nodiscard]] std::string text_of(const std::string& name) const {
+    std::ifstream file(folder / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
   fs::path folder;
 };
 
 TEST_F(AtomicFileTest, UncommittedLeavesNothing) {
   {
-    const AtomicFile file(folder / "a");
-    EXPECT_TRUE(fs::exists(file.temporary()));
+    AtomicFile file(folder / "a");
+    file.write("new", 3);
+    EXPECT_EQ(files(), 1);
     EXPECT_FALSE(fs::exists(folder / "a"));
   }
   EXPECT_EQ(files(), 0);
@@ -39,12 +46,35 @@ TEST_F(AtomicFileTest, UncommittedLeavesNothing) {
 TEST_F(AtomicFileTest, CommittedReplacesOlder) {
   std::ofstream(folder / "a") << "old";
   AtomicFile file(folder / "a");
-  std::ofstream(file.temporary()) << "new";
+  file.write("new", 3);
+  EXPECT_EQ(text_of("a"), "old");
   file.commit();
-  std::string text;
-  std::ifstream(folder / "a") >> text;
-  EXPECT_EQ(text, "new");
+  EXPECT_EQ(text_of("a"), "new");
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFileTest, TwoWritersOfOneFileAtOnce) {
+  AtomicFile first(folder / "a"), second(folder / "a");
+  first.write("first", 5);
+  second.write("another", 7);
+  first.commit();
+  EXPECT_EQ(text_of("a"), "first");
+  second.commit();
+  EXPECT_EQ(text_of("a"), "another");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFileTest, NamesAsLongAsTheFolderTakes) {
+  const std::string name(255, 'n');
+  write_text_file("text", folder / name);
+  EXPECT_EQ(text_of(name), "text");
+}
+
+TEST_F(AtomicFileTest, FollowsNoLinkOfTheTemporaryFilesName) {
+  std::ofstream(folder / "victim") << "victim";
+  fs::create_symlink("victim", folder / ("a." + std::to_string(getpid()) + ".tmp"));
+  write_text_file("text", folder / "a");
+  EXPECT_EQ(text_of("victim"), "victim");
 }
 
 TEST_F(AtomicFileTest, WritesThroughLinks) {

@@ -19,8 +19,8 @@ TEST(RunMain, PassesTheBodysCode) {
 }
 
 TEST(RunMain, TellsAnErrorInOneLine) {
-  const auto body = [](int, char**) -> int { throw Error(ExitCode::input_unreadable, "no file"); };
-  EXPECT_EQ(run_and_expect(body, "program: error: no file\n"), 3);
+  const auto body = [](int, char**) -> int { throw Error(ExitCode::input_unreadable, "no '\x1B\nfile'"); };
+  EXPECT_EQ(run_and_expect(body, "program: error: no '??file'\n"), 3);
 }
 
 TEST(RunMain, TellsExhaustedMemory) {
@@ -29,8 +29,8 @@ TEST(RunMain, TellsExhaustedMemory) {
 }
 
 TEST(RunMain, FailsOnOtherExceptions) {
-  const auto body = [](int, char**) -> int { throw std::runtime_error("odd"); };
-  EXPECT_EQ(run_and_expect(body, "program: error: odd\n"), 1);
+  const auto body = [](int, char**) -> int { throw std::runtime_error("odd\n"); };
+  EXPECT_EQ(run_and_expect(body, "program: error: odd?\n"), 1);
 }
 
 }  // namespace

@@ -3,13 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
 #include <algorithm>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <thread>
 
 #include "engine/base/error.h"
+#include "engine/file/scene_file.h"
 #include "engine/scene/copies.h"
 #include "tests/preprocess/shapes.h"
 
@@ -26,16 +32,18 @@ Scene build(InputObject object, const BuildParams& params = {}, unsigned threads
   return scene;
 }
 
-void expect_same(const Scene& a, const Scene& b) {
-  EXPECT_EQ(a.root.origin_world, b.root.origin_world);
-  EXPECT_EQ(a.root.unit_world, b.root.unit_world);
-  EXPECT_EQ(a.node_pool, b.node_pool);
-  EXPECT_EQ(a.begin_end, b.begin_end);
-  EXPECT_EQ(a.slab_pool, b.slab_pool);
-  EXPECT_EQ(a.reference_pool, b.reference_pool);
-  EXPECT_EQ(a.data_pool, b.data_pool);
-  EXPECT_EQ(a.color_pool, b.color_pool);
+/// The bytes of the scene's file.
+std::string file_of(const Scene& scene) {
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / ("build_test_" + std::to_string(getpid()) + ".soct");
+  write_scene(scene, path);
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  std::filesystem::remove(path);
+  return bytes;
 }
+
+void expect_same(const Scene& a, const Scene& b) { EXPECT_TRUE(file_of(a) == file_of(b)); }
 
 InputObject colored_noise() {
   InputObject object = test::random_sphere(5000, 3);
@@ -52,6 +60,7 @@ TEST(Build, SceneDoesNotDependOnOrderOrThreads) {
     params.insertion = insertion;
     const InputObject object = colored_noise();
     const Scene scene = build(object, params, 1);
+    EXPECT_EQ(scene.field_pool.size(), scene.data_pool.size());
     expect_same(scene, build(object, params, 2));
     expect_same(scene, build(test::shuffled(object, 1), params, 2));
   }
@@ -90,6 +99,28 @@ TEST(Build, LeafSizeSuitsTheDevice) {
   const Scene large = build(object, params);
   EXPECT_EQ(large.build.leaf_size, 16U);
   EXPECT_FALSE(copies_fit(pool_counts(large)));
+}
+
+TEST(Build, RefusesLooksThatSceneFilesDoNotHold) {
+  const auto refusal = [](auto change) -> std::string {
+    Input input = test::input_of(test::even_sphere(100));
+    change(input);
+    BuildStats stats;
+    try {
+      (void)build_scene(std::move(input), {}, 0, stats);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal([](Input&) {}), "");
+  EXPECT_EQ(refusal([](Input& i) { i.objects[0].material.mirror = 1e30F; }),
+            "the input has material 0 with a mirror out of range, expected 0 to 1");
+  EXPECT_EQ(refusal([](Input& i) {
+              i.lights = {{LIGHT_POINT, glm::dvec3(0.0), vec3(-1.0F)}};
+            }),
+            "the input has light 0 with a power out of range, expected finite numbers, 0 or more");
 }
 
 TEST(Build, PoolsAreConsistent) {

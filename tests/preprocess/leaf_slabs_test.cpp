@@ -1,4 +1,5 @@
 /// No leaf's slab or halves cut off anything that the leaf's discs have inside its cell.
+#include "engine/scene/slab_check.h"
 #include "preprocess/tree/leaf_slabs.h"
 
 #include <gtest/gtest.h>
@@ -81,6 +82,12 @@ Tried tried_points(const Scene& scene) {
   return tried;
 }
 
+/// What find_slab_defect finds; empty where it finds nothing.
+std::string found_in_slabs(const Scene& scene) {
+  const auto defect = find_slab_defect(scene);
+  return defect ? defect->found : "";
+}
+
 TEST(LeafSlabs, HoldWhatDiscsHaveInTheCell) {
   for (const Insertion insertion : {Insertion::overlap, Insertion::probe, Insertion::centre}) {
     for (const std::uint32_t leaf_size : {1U, 4U, 10U, 40U, 2000U}) {
@@ -88,6 +95,7 @@ TEST(LeafSlabs, HoldWhatDiscsHaveInTheCell) {
         const Scene scene = scene_of(soup(ball, leaf_size), leaf_size, insertion);
         const Tried tried = tried_points(scene);
         EXPECT_GT(tried.inside, scene.data_pool.size());
+        EXPECT_EQ(found_in_slabs(scene), "");
         EXPECT_EQ(tried.cut_off, 0U) << "leaf size " << leaf_size << ", policy " << int(insertion);
         EXPECT_EQ(tried.unlisted, 0U) << "leaf size " << leaf_size << ", policy " << int(insertion);
       }
@@ -103,6 +111,7 @@ TEST(LeafSlabs, AThinnerSlabIsNoticed) {
     word = pack_slab(slab, 1);
   }
   EXPECT_GT(tried_points(scene).cut_off, 1000U);
+  EXPECT_NE(found_in_slabs(scene).find("slab leaves out"), std::string::npos);
 }
 
 TEST(LeafSlabs, AShorterHalfIsNoticed) {
@@ -113,6 +122,8 @@ TEST(LeafSlabs, AShorterHalfIsNoticed) {
   for (std::uint32_t& word : upper.slab_pool) word |= 0xF0000000U;
   EXPECT_GT(tried_points(lower).unlisted, 1000U);
   EXPECT_GT(tried_points(upper).unlisted, 1000U);
+  EXPECT_NE(found_in_slabs(lower).find("lower half leaves out"), std::string::npos);
+  EXPECT_NE(found_in_slabs(upper).find("upper half leaves out"), std::string::npos);
 }
 
 TEST(LeafSlabs, HalvesShortenListsOnASmoothSurface) {

@@ -2,23 +2,25 @@
 // compiled as C++, and brute force must agree on every ray (judge.h says what that means), and the GPU must answer the same
 // bits for two leaf sizes; rounds of odd seeds decide hits in double-float, the others as the device does by default. Round n has seed S + n; a round that fails prints its seed, its scene and its rays, and
 // `property_test --seconds 0 --seed` with that seed runs it alone.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
 
+#include "app/cli/option_types.h"
 #include "engine/base/error.h"
 #include "tests/property/round.h"
 
 namespace splatray::testing {
 namespace {
 
+constexpr double MOST_SEED = 9007199254740992.0;  // 2^53: whole numbers are exact up to here
+
 int body(int argc, char** argv) {
   double seconds = 30.0;
   std::uint64_t seed = 1;
-  CLI::App app("Random scenes and rays: GPU, C++ twin and brute force must agree");
-  app.add_option("--seconds", seconds, "how long, at least one round; default 30");
-  app.add_option("--seed", seed, "of the first round; default 1");
-  CLI11_PARSE(app, argc, argv);
+  OptionList list("Random scenes and rays: GPU, C++ twin and brute force must agree.", "property_test");
+  add_number(list, "--seconds", seconds, 0.0, 1e9, "how long, at least one round; default 30");
+  add_number(list, "--seed", seed, 0, MOST_SEED, "of the first round; default 1");
+  if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   const Context context;
   Tracer tracers[] = {Tracer(context), Tracer(context, {.kernels = Kernels::gpu})};
   RoundCounts counts;

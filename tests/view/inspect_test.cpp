@@ -19,7 +19,6 @@ Scene plane_scene(Insertion insertion = Insertion::overlap) {
   Input input;
   InputObject& object = input.objects.emplace_back();
   object.name = "plane";
-  object.material.ior = 1.0F;
   for (int y = -20; y <= 20; ++y)
     for (int x = -20; x <= 20; ++x) {
       object.points.position.push_back(CENTER + SPACING * glm::dvec3(x, y, 0));

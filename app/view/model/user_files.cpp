@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 #include "engine/file/atomic_file.h"
 
 namespace splatray {
@@ -83,7 +84,9 @@ std::filesystem::path user_state_path() {
 UserState read_user_state(const std::filesystem::path& path) {
   UserState state;
   std::ifstream file(path);
-  const json all = json::parse(file, nullptr, false);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (json_is_too_deep(text)) return state;
+  const json all = json::parse(text, nullptr, false);
   if (!all.is_object()) return state;
   const auto window_edge = [&](const char* name, int& edge) {
     if_sound([&] {

@@ -8,6 +8,7 @@
 #include "app/library/camera_file.h"
 #include "app/view/ui/panel_parts.h"
 #include "engine/base/error.h"
+#include "preprocess/read/formats.h"
 
 namespace splatray {
 namespace {
@@ -144,7 +145,8 @@ void open_dialog(PanelState& state, Requests& requests) {
   if (!state.show_open) return;
   Dialog dialog("Open", state.show_open);
   if (!dialog) return;
-  const bool entered = ImGui::InputTextWithHint("file", "scene or points", &state.open_path,
+  const std::string hint = ".soct " + format_extensions();
+  const bool entered = ImGui::InputTextWithHint("file", hint.c_str(), &state.open_path,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   recent_list(state, requests);
   const std::string refusal = state.open_path.empty() ? "Name a file, or drop one on the window." : "";

@@ -1,13 +1,13 @@
 #include "app/view/window/drop.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <sstream>
 #include <string_view>
 
 #include "app/library/image_file.h"
 #include "preprocess/base/file_extension.h"
+#include "preprocess/read/formats.h"
 
 namespace splatray {
 namespace {
@@ -38,10 +38,8 @@ bool is_splatray_picture(const std::filesystem::path& file) {
 }  // namespace
 
 DropKind drop_kind(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 7> SCENES = {".soct", ".ply",  ".obj", ".stl",
-                                                      ".vtp",  ".gltf", ".glb"};
   const std::string extension = lower_extension(file);
-  if (std::find(SCENES.begin(), SCENES.end(), extension) != SCENES.end()) return DropKind::scene;
+  if (extension == ".soct" || find_format(file) != nullptr) return DropKind::scene;
   if (extension == ".json") return DropKind::camera;
   if (extension == ".png") return DropKind::picture;
   if (extension == ".exr") return is_splatray_picture(file) ? DropKind::picture : DropKind::environment;

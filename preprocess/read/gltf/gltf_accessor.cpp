@@ -68,7 +68,7 @@ void place(const GltfFile& file, Elements& elements, int view_index, std::size_t
 }
 
 Elements open_accessor(const GltfFile& file, int index, const std::string& what) {
-  constexpr std::size_t MOST_WITHOUT_DATA = std::size_t{1} << 24U;
+  constexpr std::size_t MOST_WITHOUT_DATA = std::size_t{1} << 20U;
   const tinygltf::Accessor& accessor =
       file.model.accessors[file.checked(index, file.model.accessors.size(), "accessor")];
   Elements elements;

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <new>
+#include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/byte_reader.h"
+#include "preprocess/read/find_file.h"
 
 namespace splatray {
 namespace {
@@ -41,15 +45,48 @@ bool keep_image_bytes(tinygltf::Image* image, const int, std::string*, std::stri
   return true;
 }
 
-/// tinygltf's file reader, for files only: from a folder or a device it would ask for all memory, or wait.
-bool read_regular_file(std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
-                       void*) {
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) {
-    *error = "not a regular file";
+/// Where the files lie that a scene's uris name, as tinygltf's file functions are told.
+struct SceneFolder {
+  std::string path;  ///< absolute
+  const ReadListener& listener;
+  std::string escape;  ///< a uri that leaves the folder; empty = none
+};
+
+std::vector<unsigned char> read_whole_file(const std::filesystem::path& path, const ReadListener& listener) {
+  ByteReader in(path, &listener);
+  std::vector<unsigned char> bytes;
+  bytes.reserve(in.remaining());
+  while (in.remaining() > 0) {
+    const auto count =
+        static_cast<std::size_t>(std::min<std::uint64_t>(in.remaining(), ByteReader::BLOCK_BYTES));
+    const unsigned char* block = in.take(count);
+    if (block == nullptr) throw_unreadable(path, "it could not be read to its end");
+    bytes.insert(bytes.end(), block, block + count);
+  }
+  return bytes;
+}
+
+/// tinygltf asks for the folder's path and a uri, then for the uri in the current folder, which is no place for it.
+bool is_in_folder(const std::string& file, void* user_data) {
+  auto& folder = *static_cast<SceneFolder*>(user_data);
+  if (!file.starts_with(folder.path)) return false;
+  const std::filesystem::path uri(file.substr(std::min(file.size(), folder.path.size() + 1)));
+  if (!stays_inside(uri)) {
+    folder.escape = uri.string();
     return false;
   }
-  return tinygltf::ReadWholeFile(bytes, error, path, nullptr);
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(file, unknown);
+}
+
+bool read_in_folder(std::vector<unsigned char>* bytes, std::string*, const std::string& file,
+                    void* user_data) {
+  *bytes = read_whole_file(file, static_cast<SceneFolder*>(user_data)->listener);
+  return true;
+}
+
+bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+  return false;
 }
 
 std::uint32_t little_endian_word(const unsigned char* bytes) {
@@ -93,19 +130,46 @@ std::string first_line(const std::string& text) {
   return line.empty() ? "no reason given" : line;
 }
 
-void parse(GltfFile& file, bool binary) {
+/// The JSON of a file: all of it, or a GLB's first chunk.
+std::string_view json_of(const std::vector<unsigned char>& bytes, bool binary) {
+  constexpr std::size_t CHUNK_BEGIN = 20;
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!binary) return all;
+  if (all.size() < CHUNK_BEGIN) return {};
+  return all.substr(CHUNK_BEGIN, little_endian_word(bytes.data() + CHUNK_BEGIN - 8));
+}
+
+void parse(GltfFile& file, bool binary, const ReadListener& listener) {
+  const std::vector<unsigned char> bytes = read_whole_file(file.path, listener);
+  if (bytes.size() > 0xFFFFFFFFU) {
+    file.fail("found " + std::to_string(bytes.size()) + " bytes, expected less than 4 GiB");
+  }
+  if (json_is_too_deep(json_of(bytes, binary))) {
+    file.fail("its JSON nests more than " + std::to_string(MOST_JSON_DEPTH) + " deep");
+  }
+  SceneFolder folder{std::filesystem::absolute(file.path).parent_path().string(), listener, ""};
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(keep_image_bytes, nullptr);
-  parser.SetFsCallbacks(
-      {tinygltf::FileExists, tinygltf::ExpandFilePath, read_regular_file, tinygltf::WriteWholeFile, nullptr});
+  parser.SetFsCallbacks({is_in_folder, [](const std::string& path, void*) { return path; }, read_in_folder,
+                         write_nothing, &folder});
   std::string error;
   std::string warning;
   bool good = false;
+  const auto size = static_cast<unsigned>(bytes.size());
   try {
-    good = binary ? parser.LoadBinaryFromFile(&file.model, &error, &warning, file.path.string())
-                  : parser.LoadASCIIFromFile(&file.model, &error, &warning, file.path.string());
+    good = binary
+               ? parser.LoadBinaryFromMemory(&file.model, &error, &warning, bytes.data(), size, folder.path)
+               : parser.LoadASCIIFromString(&file.model, &error, &warning,
+                                            reinterpret_cast<const char*>(bytes.data()), size, folder.path);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& exception) {
     error = exception.what();
+  }
+  if (!folder.escape.empty()) {
+    file.fail("found the uri '" + folder.escape + "', expected a file in the scene's folder or below");
   }
   if (!good) {
     file.fail("not a readable glTF 2.0: " + first_line(error));
@@ -154,11 +218,11 @@ std::size_t GltfFile::checked(int index, std::size_t count, const char* what) co
   return static_cast<std::size_t>(index);
 }
 
-GltfFile load_gltf(const std::filesystem::path& path, std::vector<std::string>& notes) {
+GltfFile load_gltf(const std::filesystem::path& path, const ReadListener& listener) {
   GltfFile file{path, {}};
-  parse(file, check_container(path));
-  check_extensions(file, notes);
-  note_ignored(file, notes);
+  parse(file, check_container(path), listener);
+  check_extensions(file, listener.notes);
+  note_ignored(file, listener.notes);
   return file;
 }
 

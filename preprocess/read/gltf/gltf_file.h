@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "preprocess/read/read_listener.h"
+
 namespace splatray {
 
 /// The parsed file. Its numbers are still the author's: indices into arrays are checked where they are used.
@@ -20,10 +22,12 @@ struct GltfFile {
   [[nodiscard]] std::size_t checked(int index, std::size_t count, const char* what) const;
 };
 
-/// Loads .gltf or .glb with its buffers. Unknown required extensions and compressed geometry are errors;
-/// extensions that are used and ignored, animations and skins are named in `notes`. Throws Error
-/// (input_unreadable).
-[[nodiscard]] GltfFile load_gltf(const std::filesystem::path& path, std::vector<std::string>& notes);
+/// Loads .gltf or .glb with its buffers. A `uri` names a file in the scene's folder or below it, `extras.points` and
+/// `extras.environment` one there or in a data path (find_scene_file): names that are absolute or leave their folder by
+/// `..` are refused, so that a scene from elsewhere reads nothing but what lies beside it. Unknown required extensions,
+/// compressed geometry and JSON that nests deeper than MOST_JSON_DEPTH are errors; extensions that are used and ignored,
+/// animations and skins are noted. Throws Error (input_unreadable).
+[[nodiscard]] GltfFile load_gltf(const std::filesystem::path& path, const ReadListener& listener);
 
 /// The number `key` of an object value (an extension or extras), if it is there.
 [[nodiscard]] std::optional<double> number_in(const tinygltf::Value& object, const std::string& key);

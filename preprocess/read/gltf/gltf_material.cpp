@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "preprocess/read/gltf/gltf_accessor.h"
+#include "preprocess/read/gltf/image_size.h"
 
 namespace splatray {
 namespace {
@@ -107,7 +108,20 @@ glm::mat3 uv_transform_of(const tinygltf::TextureInfo& info) {
                               offset[1], 1.0));
 }
 
+/// Bytes of all buffers and of images that are files of their own.
+std::uint64_t stored_bytes(const tinygltf::Model& model) {
+  std::uint64_t bytes = 0;
+  for (const tinygltf::Buffer& buffer : model.buffers) bytes += buffer.data.size();
+  for (const tinygltf::Image& image : model.images) bytes += image.image.size();
+  return bytes;
+}
+
 }  // namespace
+
+GltfMaterials::GltfMaterials(const GltfFile& file, std::vector<std::string>& notes)
+    : file_(file),
+      notes_(notes),
+      pixels_left_(MOST_FREE_PIXELS + MOST_PIXELS_PER_BYTE * stored_bytes(file.model)) {}
 
 const tinygltf::Material& GltfMaterials::source(int index) const {
   return file_.model.materials[file_.checked(index, file_.model.materials.size(), "material")];
@@ -214,10 +228,19 @@ std::shared_ptr<const TextureImage> GltfMaterials::decode(std::size_t index) {
   if (stored.bufferView >= 0) {
     bytes = buffer_view_bytes(file_, stored.bufferView);
   }
+  const std::optional<std::uint64_t> pixels = image_pixels(bytes);
+  if (!pixels) {
+    return nullptr;
+  }
+  if (*pixels > pixels_left_) {
+    file_.fail("image " + std::to_string(index) + ": found " + std::to_string(*pixels) + " pixels in " +
+               std::to_string(bytes.size()) + " bytes, expected at most " + std::to_string(pixels_left_));
+  }
+  pixels_left_ -= *pixels;
   tinygltf::Image decoded;
   std::string error;
   std::string warning;
-  if (bytes.empty() || bytes.size() > 0x7FFFFFFFU ||
+  if (bytes.size() > 0x7FFFFFFFU ||
       !tinygltf::LoadImageData(&decoded, static_cast<int>(index), &error, &warning, 0, 0, bytes.data(),
                                static_cast<int>(bytes.size()), nullptr) ||
       decoded.width <= 0 || decoded.height <= 0 || decoded.component != 4) {

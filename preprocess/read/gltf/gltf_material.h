@@ -11,7 +11,9 @@
 
 namespace splatray {
 
-/// Materials and pictures of one file; pictures are decoded when first asked for.
+/// Materials and pictures of one file; pictures (PNG, JPEG) are decoded when first asked for. All of a file's pictures
+/// together may have MOST_FREE_PIXELS, and MOST_PIXELS_PER_BYTE for each byte of its buffers and images beyond that: more
+/// is refused before it is decoded.
 ///
 /// pbrMetallicRoughness becomes diffuse + Phong specular, mirror or dielectric, whichever is nearest:
 /// - transmissionFactor > 0.5: dielectric; ior of KHR_materials_ior (1.5), or 1 when neither that nor
@@ -27,7 +29,11 @@ namespace splatray {
 /// extras.mirror (0..1), extras.specular (0..1) and extras.shininess (>= 1) set those fields.
 class GltfMaterials {
  public:
-  GltfMaterials(const GltfFile& file, std::vector<std::string>& notes) : file_(file), notes_(notes) {}
+  static constexpr std::uint64_t MOST_FREE_PIXELS = std::uint64_t{1} << 24U;  ///< one of 4096 x 4096
+  static constexpr std::uint64_t MOST_PIXELS_PER_BYTE =
+      256;  ///< a JPEG of one colour has 340, a photograph 2 to 20
+
+  GltfMaterials(const GltfFile& file, std::vector<std::string>& notes);
 
   /// The material with this index, default_material() for -1. `colored`: points bring the base colour
   /// themselves, so `diffuse` leaves it out. Throws Error (input_unreadable) for an index out of range.
@@ -52,6 +58,7 @@ class GltfMaterials {
   std::vector<std::string>& notes_;
   std::map<std::size_t, std::shared_ptr<const TextureImage>> images_;
   std::map<int, std::shared_ptr<const Texture>> textures_;
+  std::uint64_t pixels_left_;
 };
 
 }  // namespace splatray

@@ -17,8 +17,11 @@ namespace {
 /// Walks the scene's nodes and collects what they carry.
 class SceneReader {
  public:
-  SceneReader(const std::filesystem::path& path, const ReadOptions& options)
-      : options_(options), file_(load_gltf(path, input_.notes)), materials_(file_, input_.notes) {}
+  SceneReader(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener)
+      : options_(options),
+        listener_(listener),
+        file_(load_gltf(path, listener.part(0.0, FILE_SHARE))),
+        materials_(file_, listener.notes) {}
 
   Input read() {
     input_.up = glm::dvec3(0.0, 1.0, 0.0);
@@ -30,8 +33,10 @@ class SceneReader {
       while (!stack.empty()) {
         const Visit visit = stack.back();
         stack.pop_back();
+        const ReadListener part = node_part();
+        part.report(0.0);
         const tinygltf::Node& node = file_.model.nodes[visit.node];
-        read_node(node, visit.to_world);
+        read_node(node, visit.to_world, part);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
           push(stack, *child, visit.to_world);
         }
@@ -42,6 +47,15 @@ class SceneReader {
   }
 
  private:
+  static constexpr double FILE_SHARE = 0.2;  ///< of the work that the file itself is; its nodes are the rest
+
+  /// The next node's share of reading.
+  ReadListener node_part() {
+    const double step = (1.0 - FILE_SHARE) / static_cast<double>(file_.model.nodes.size());
+    const double from = FILE_SHARE + step * static_cast<double>(nodes_done_++);
+    return listener_.part(from, from + step);
+  }
+
   struct Visit {
     std::size_t node;
     glm::dmat4 to_world;
@@ -96,8 +110,8 @@ class SceneReader {
     }
   }
 
-  void read_node(const tinygltf::Node& node, const glm::dmat4& to_world) {
-    if (const auto light = read_light(file_, node, to_world, input_.notes)) {
+  void read_node(const tinygltf::Node& node, const glm::dmat4& to_world, const ReadListener& part) {
+    if (const auto light = read_light(file_, node, to_world, listener_.notes)) {
       input_.lights.push_back(*light);
     }
     if (const auto camera = read_camera(file_, node, to_world)) {
@@ -107,9 +121,9 @@ class SceneReader {
       }
     }
     if (!text_in(node.extras, "points").empty()) {
-      read_points_file(node, to_world);
+      read_points_file(node, to_world, part);
     } else if (node.mesh >= 0) {
-      read_mesh_node(node, to_world);
+      read_mesh_node(node, to_world, part);
     }
   }
 
@@ -125,10 +139,11 @@ class SceneReader {
     return mesh.empty() ? "object " + std::to_string(input_.objects.size()) : mesh;
   }
 
-  void read_mesh_node(const tinygltf::Node& node, const glm::dmat4& to_world) {
+  void read_mesh_node(const tinygltf::Node& node, const glm::dmat4& to_world, const ReadListener& part) {
     std::map<int, std::vector<Mesh>> by_material;
     for (const tinygltf::Primitive& primitive : mesh_of(node).primitives) {
-      if (auto mesh = read_primitive(file_, primitive, materials_, input_.notes)) {
+      part.report(0.0);
+      if (auto mesh = read_primitive(file_, primitive, materials_, listener_.notes)) {
         transform_mesh(*mesh, to_world);
         by_material[primitive.material].push_back(std::move(*mesh));
       }
@@ -163,11 +178,11 @@ class SceneReader {
     return colored;
   }
 
-  void read_points_file(const tinygltf::Node& node, const glm::dmat4& to_world) {
+  void read_points_file(const tinygltf::Node& node, const glm::dmat4& to_world, const ReadListener& part) {
     const std::string source = text_in(node.extras, "source");
     const FileWish wish{text_in(node.extras, "points"), "points of node '" + name_of(node) + "'",
                         source.empty() ? scene_hint_ : source, file_.path};
-    Mesh mesh = read_mesh(find_scene_file(wish, options_.data_paths), input_.notes);
+    Mesh mesh = read_mesh(find_scene_file(wish, options_.data_paths), part);
     transform_mesh(mesh, to_world);
     int material = -1;
     if (const auto chosen = number_in(node.extras, "material")) {
@@ -189,24 +204,26 @@ class SceneReader {
 
   void note_cameras() {
     if (camera_count_ > 1) {
-      input_.notes.push_back(file_.path.string() + ": the first of " + std::to_string(camera_count_) +
-                             " cameras is used");
+      listener_.notes.push_back(file_.path.string() + ": the first of " + std::to_string(camera_count_) +
+                                " cameras is used");
     }
   }
 
   const ReadOptions& options_;
+  const ReadListener& listener_;
   Input input_;
   GltfFile file_;
   GltfMaterials materials_;
   std::vector<bool> visited_;
   std::string scene_hint_;
   std::size_t camera_count_ = 0;
+  std::size_t nodes_done_ = 0;
 };
 
 }  // namespace
 
-Input read_gltf(const std::filesystem::path& path, const ReadOptions& options) {
-  return SceneReader(path, options).read();
+Input read_gltf(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener) {
+  return SceneReader(path, options, listener).read();
 }
 
 }  // namespace splatray

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "preprocess/points.h"
+#include "preprocess/read/read_listener.h"
 
 namespace splatray {
 
@@ -12,6 +13,7 @@ namespace splatray {
 /// transform, with the material `extras.material`, else that of the node's mesh, else default_material().
 /// `extras.environment` of the scene names the environment. Files are looked for by find_scene_file; the hint
 /// is `extras.source` of the node or `extras.hint` of the scene. Throws Error (input_unreadable).
-[[nodiscard]] Input read_gltf(const std::filesystem::path& path, const ReadOptions& options);
+[[nodiscard]] Input read_gltf(const std::filesystem::path& path, const ReadOptions& options,
+                              const ReadListener& listener);
 
 }  // namespace splatray

@@ -145,21 +145,21 @@ void append_faces(PlyBody& in, const PlyElement& element, std::uint64_t vertex_c
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& path, std::vector<std::string>& notes) {
-  ByteReader bytes(path);
+Mesh read_ply(const std::filesystem::path& path, const ReadListener& listener) {
+  ByteReader bytes(path, &listener);
   const PlyHeader header = read_ply_header(bytes);
   const PlyElement& vertices = vertex_element(header, path);
   PlyBody in(bytes, header);
   Mesh mesh;
   std::vector<std::string> skipped;
   for (const PlyElement& element : header.elements) {
-    if (element.properties.empty()) {
+    if (element.properties.empty() && &element != &vertices) {
       continue;
     }
     check_count(in, element, header.format);
     const int list = find_index_list(element);
     if (&element == &vertices) {
-      mesh.vertices = read_ply_vertices(in, element, notes);
+      mesh.vertices = read_ply_vertices(in, element, listener.notes);
     } else if (list >= 0 && (element.name == "face" || element.name == "tristrips")) {
       append_faces(in, element, vertices.count, list, mesh, skipped);
     } else {
@@ -168,7 +168,7 @@ Mesh read_ply(const std::filesystem::path& path, std::vector<std::string>& notes
     }
   }
   if (!skipped.empty()) {
-    notes.push_back(path.string() + ": skipped elements " + quoted_list(skipped));
+    listener.note(path, "skipped elements " + quoted_list(skipped));
   }
   return mesh;
 }

@@ -1,18 +1,17 @@
 /// PLY: points or triangles, ASCII and binary of both endians.
 #pragma once
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "preprocess/points.h"
+#include "preprocess/read/read_listener.h"
 
 namespace splatray {
 
 /// Reads a PLY file in blocks. Vertex properties: x y z (any type; float64 kept), nx ny nz, red green blue
 /// (also r g b and diffuse_red ...; 8 or 16 bit or float, sRGB), radius; f_dc_0..2 of Gaussian splats (Kerbl
 /// et al. 2023) become colours. Faces (vertex_indices or vertex_index, also `tristrips`) are triangulated as
-/// fans. Everything else is skipped and named in `notes`. Throws Error (input_unreadable) with the line or
+/// fans. Everything else is skipped and named in a note. Throws Error (input_unreadable) with the line or
 /// byte offset.
-[[nodiscard]] Mesh read_ply(const std::filesystem::path& path, std::vector<std::string>& notes);
+[[nodiscard]] Mesh read_ply(const std::filesystem::path& path, const ReadListener& listener);
 
 }  // namespace splatray

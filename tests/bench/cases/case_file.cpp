@@ -71,14 +71,10 @@ PreparedCase read_case(const std::filesystem::path& folder) {
 
 void write_environment(const Environment& environment, const std::filesystem::path& path) {
   AtomicFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
   const std::uint32_t size[2]{environment.width, environment.height};
-  stream.write(reinterpret_cast<const char*>(size), sizeof(size));
-  stream.write(reinterpret_cast<const char*>(&environment.constant), sizeof(glm::vec3));
-  stream.write(reinterpret_cast<const char*>(environment.texels.data()),
-               static_cast<std::streamsize>(environment.texels.size() * sizeof(glm::vec3)));
-  stream.close();
-  if (!stream) throw Error(ExitCode::failed, path.string() + ": the environment could not be written");
+  file.write(size, sizeof(size));
+  file.write(&environment.constant, sizeof(glm::vec3));
+  file.write(environment.texels.data(), environment.texels.size() * sizeof(glm::vec3));
   file.commit();
 }
 

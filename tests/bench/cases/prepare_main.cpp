@@ -1,5 +1,4 @@
 /// splatray-bench-prepare -o FOLDER [--scale] [--keep] [--quick]: scene files, cameras and truths for splatray-bench.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 
@@ -38,18 +37,19 @@ std::string prepare(const Case& one, const Folders& folders, bool keep) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app(
+  OptionList list(
       "Makes scene files, cameras and truths for splatray-bench. Real models come from SPLATRAY_DATA_DIR.",
       "splatray-bench-prepare");
   Folders folders{SPLATRAY_REPOSITORY, data_folder().value_or(""), {}};
   bool quick = false, scale = false, keep = false;
   std::string only;
-  app.add_option("-o,--output", folders.output, "folder to write to, made when missing")->required();
-  app.add_flag("--quick", quick, "only the cases that take less than a minute to make and measure");
-  app.add_flag("--scale", scale, "the cases of splatray-bench-scale");
-  app.add_flag("--keep", keep, "leave what was made before as it is");
-  app.add_option("--case", only, "only this case");
-  if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
+  add_path(list, "-o,--output", folders.output, "folder to write to, made when missing");
+  list.require("--output");
+  list.add_switch("--quick", quick, "only the cases that take less than a minute to make and measure");
+  list.add_switch("--scale", scale, "the cases of splatray-bench-scale");
+  list.add_switch("--keep", keep, "leave what was made before as it is");
+  add_text(list, "--case", only, "only this case");
+  if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   for (const Case& one : scale ? cases_of_scale(quick) : cases(quick)) {
     if (!only.empty() && one.name != only) continue;
     std::printf("%s: %s\n", one.name.c_str(), prepare(one, folders, keep).c_str());

@@ -1,7 +1,5 @@
 /// splatray-bench-peers FOLDER -o PEERS.json [--quick] [--case NAME]: measures other ray tracers on what
 /// splatray-bench-prepare made; one JSON array of records (record.h).
-#include <CLI/CLI.hpp>
-
 #include "app/cli/option_types.h"
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
@@ -13,20 +11,22 @@ namespace splatray::testing {
 namespace {
 
 int run(int argc, char** argv) {
-  CLI::App app("Measures Embree on the cases that splatray-bench-prepare made in FOLDER.",
-               "splatray-bench-peers");
+  OptionList list("Measures Embree on the cases that splatray-bench-prepare made in FOLDER.",
+                  "splatray-bench-peers");
   std::filesystem::path folder, output;
   std::string only;
   bool quick = false;
-  app.add_option("folder", folder, "what splatray-bench-prepare wrote")->required();
-  app.add_option("-o,--output", output, "JSON file to write: one record for each run")->required();
-  app.add_flag("--quick", quick, "only the cases of splatray-bench-prepare --quick, and fewer peers");
-  app.add_option("--case", only, "only this case");
-  if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
+  add_path(list, "FOLDER", folder, "what splatray-bench-prepare wrote");
+  list.require("FOLDER");
+  add_path(list, "-o,--output", output, "JSON file to write: one record for each run");
+  list.require("--output");
+  list.add_switch("--quick", quick, "only the cases of splatray-bench-prepare --quick, and fewer peers");
+  add_text(list, "--case", only, "only this case");
+  if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(output);
-  std::vector<Case> list = named(cases(quick), only);
-  std::erase_if(list, [](const Case& one) { return !has_peers(one); });
-  measure_cases(list, folder, output, [&](const Case& one, const std::filesystem::path& prepared) {
+  std::vector<Case> chosen = named(cases(quick), only);
+  std::erase_if(chosen, [](const Case& one) { return !has_peers(one); });
+  measure_cases(chosen, folder, output, [&](const Case& one, const std::filesystem::path& prepared) {
     return measure_peers(one, prepared, data_folder().value_or(""), quick);
   });
   return static_cast<int>(ExitCode::done);

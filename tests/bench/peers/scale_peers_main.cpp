@@ -1,6 +1,5 @@
 /// splatray-bench-scale-peers FOLDER -o RAYS.json [--quick] [--device D] [--case NAME]: splatray and Embree on the spheres
 /// that splatray-bench-prepare --scale made, one frame each in turn; one JSON array of records (race.h).
-#include <CLI/CLI.hpp>
 #include <chrono>
 
 #include "app/cli/option_types.h"
@@ -55,18 +54,21 @@ std::vector<Json> measure(const Context& context, const Case& one, const std::fi
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Races splatray and Embree on the spheres that splatray-bench-prepare --scale made in FOLDER.",
-               "splatray-bench-scale-peers");
+  OptionList list(
+      "Races splatray and Embree on the spheres that splatray-bench-prepare --scale made in FOLDER.",
+      "splatray-bench-scale-peers");
   std::filesystem::path folder, output;
   std::string device, only;
   bool quick = false;
-  app.add_option("folder", folder, "what splatray-bench-prepare wrote")->required();
-  app.add_option("-o,--output", output, "JSON file to write: one record for each run")->required();
-  app.add_flag("--quick", quick, "only what splatray-bench-prepare --scale --quick made");
-  app.add_option("--device", device,
-                 "number or part of a name, as splatray-render --list-devices shows them");
-  app.add_option("--case", only, "only this case");
-  if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
+  add_path(list, "FOLDER", folder, "what splatray-bench-prepare wrote");
+  list.require("FOLDER");
+  add_path(list, "-o,--output", output, "JSON file to write: one record for each run");
+  list.require("--output");
+  list.add_switch("--quick", quick, "only what splatray-bench-prepare --scale --quick made");
+  add_text(list, "--device", device,
+           "number or part of a name, as splatray-render --list-devices shows them");
+  add_text(list, "--case", only, "only this case");
+  if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(output);
   const Context context(device);
   measure_cases(named(scale_spheres(quick), only), folder, output,

@@ -55,18 +55,14 @@ void mark_edges(Truth& truth, double jump_world) {
 }
 
 void write_truth(const Truth& truth, const std::filesystem::path& path) {
-  AtomicFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
   const Header header{MAGIC, truth.width, truth.height, truth.jump_world};
-  stream.write(reinterpret_cast<const char*>(&header), sizeof(header));
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
   for (const TruePixel& pixel : truth.pixels) {
     const glm::dvec3& n = pixel.normal_world;
     const FilePixel out{{pixel.depth_world, n.x, n.y, n.z}, static_cast<char>(pixel.edge ? 1 : 0)};
-    stream.write(reinterpret_cast<const char*>(&out), PIXEL_BYTES);
+    bytes.append(reinterpret_cast<const char*>(&out), PIXEL_BYTES);
   }
-  stream.close();
-  if (!stream) throw Error(ExitCode::failed, path.string() + ": the truth could not be written");
-  file.commit();
+  write_text_file(bytes, path);
 }
 
 Truth read_truth(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height) {

@@ -1,6 +1,8 @@
-#include "preprocess/read/read_vtk.h"
+#include "preprocess/read/vtk/read_vtk.h"
 
+#include <vtkAlgorithm.h>
 #include <vtkCellArray.h>
+#include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
@@ -15,11 +17,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <new>
 
 #include "preprocess/base/color.h"
-#include "preprocess/base/file_extension.h"
 #include "preprocess/read/byte_reader.h"
-#include "preprocess/read/obj_check.h"
+#include "preprocess/read/vtk/obj_check.h"
+#include "preprocess/read/vtk/vtp_check.h"
 
 namespace splatray {
 namespace {
@@ -76,12 +80,43 @@ std::string sentence_of(const std::string& text) {
   return sentence;
 }
 
+/// Hears of a VTK reader's progress; VTK has no place for exceptions, so one that comes waits until the reader is done.
+class ProgressWatch : public vtkCommand {
+ public:
+  static ProgressWatch* New() { return new ProgressWatch; }
+  void Execute(vtkObject* caller, unsigned long, void*) override {
+    auto* reader = vtkAlgorithm::SafeDownCast(caller);
+    try {
+      if (stopped == nullptr) listener->report(reader->GetProgress());
+    } catch (...) {
+      stopped = std::current_exception();
+      reader->AbortExecuteOn();
+    }
+  }
+
+  const ReadListener* listener = nullptr;
+  std::exception_ptr stopped;
+};
+
 template <class Reader>
-vtkSmartPointer<vtkPolyData> run_reader(Reader* reader, const std::filesystem::path& path) {
+vtkSmartPointer<vtkPolyData> run_reader(Reader* reader, const std::filesystem::path& path,
+                                        const ReadListener& listener) {
   const vtkNew<SilentWindow> window;
   const WindowScope scope(window);
+  const vtkNew<ProgressWatch> watch;
+  watch->listener = &listener;
+  reader->AddObserver(vtkCommand::ProgressEvent, watch.Get());
   reader->SetFileName(path.c_str());
-  reader->Update();
+  try {
+    reader->Update();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    throw_unreadable(path, std::string("VTK cannot read it: ") + failure.what());
+  }
+  if (watch->stopped) {
+    std::rethrow_exception(watch->stopped);
+  }
   if (!window->first_error.empty()) {
     throw_unreadable(path, "VTK cannot read it: " + sentence_of(window->first_error));
   }
@@ -170,8 +205,7 @@ void copy_cells(vtkCellArray* cells, bool strips, const std::filesystem::path& p
 }
 
 /// float32 positions far from the origin lose detail: say so when the loss exceeds 1e-5 of the size.
-void note_precision(const Points& points, const std::filesystem::path& path,
-                    std::vector<std::string>& notes) {
+void note_precision(const Points& points, const std::filesystem::path& path, const ReadListener& listener) {
   glm::dvec3 low(INFINITY);
   glm::dvec3 high(-INFINITY);
   for (const glm::dvec3& p : points.position) {
@@ -180,8 +214,10 @@ void note_precision(const Points& points, const std::filesystem::path& path,
   }
   const double largest = std::max(glm::length(low), glm::length(high));
   if (largest * std::ldexp(1.0, -24) > 1e-5 * glm::length(high - low)) {
-    notes.push_back(path.string() + ": coordinates are read as float32, which blurs them this far from the " +
-                    "origin; save a PLY with double x, y, z to keep them");
+    listener.note(
+        path,
+        "coordinates are read as float32, which blurs them this far from the origin; save a PLY with "
+        "double x, y, z to keep them");
   }
 }
 
@@ -198,29 +234,30 @@ Mesh mesh_of(vtkPolyData* data, const std::filesystem::path& path) {
 
 }  // namespace
 
-Mesh read_vtk(const std::filesystem::path& path, std::vector<std::string>& notes) {
-  const std::string extension = lower_extension(path);
-  static_cast<void>(ByteReader(path));
-  Mesh mesh;
-  if (extension == ".obj") {
-    const ObjCheck check = check_obj(path);
-    const vtkNew<vtkOBJReader> reader;
-    mesh = mesh_of(run_reader(reader.Get(), path), path);
-    if (check.has_vertex_colors) {
-      notes.push_back(path.string() + ": vertex colours of OBJ files are not read; save a PLY to keep them");
-    }
-    note_precision(mesh.vertices, path, notes);
-  } else if (extension == ".stl") {
-    check_stl(path);
-    const vtkNew<vtkSTLReader> reader;
-    reader->MergingOn();
-    mesh = mesh_of(run_reader(reader.Get(), path), path);
-    note_precision(mesh.vertices, path, notes);
-  } else {
-    const vtkNew<vtkXMLPolyDataReader> reader;
-    mesh = mesh_of(run_reader(reader.Get(), path), path);
+Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener) {
+  const ObjCheck check = check_obj(path, listener.part(0.0, 0.3));
+  const vtkNew<vtkOBJReader> reader;
+  Mesh mesh = mesh_of(run_reader(reader.Get(), path, listener.part(0.3, 1.0)), path);
+  if (check.has_vertex_colors) {
+    listener.note(path, "vertex colours of OBJ files are not read; save a PLY to keep them");
   }
+  note_precision(mesh.vertices, path, listener);
   return mesh;
+}
+
+Mesh read_stl(const std::filesystem::path& path, const ReadListener& listener) {
+  check_stl(path);
+  const vtkNew<vtkSTLReader> reader;
+  reader->MergingOn();
+  Mesh mesh = mesh_of(run_reader(reader.Get(), path, listener), path);
+  note_precision(mesh.vertices, path, listener);
+  return mesh;
+}
+
+Mesh read_vtp(const std::filesystem::path& path, const ReadListener& listener) {
+  check_vtp(path, listener.part(0.0, 0.2));
+  const vtkNew<vtkXMLPolyDataReader> reader;
+  return mesh_of(run_reader(reader.Get(), path, listener.part(0.2, 1.0)), path);
 }
 
 }  // namespace splatray

@@ -2,6 +2,8 @@
 #pragma once
 #include <filesystem>
 
+#include "preprocess/read/read_listener.h"
+
 namespace splatray {
 
 /// What VTK's reader leaves out of an OBJ file.
@@ -12,6 +14,6 @@ struct ObjCheck {
 /// VTK's OBJ reader trusts every index; this pass makes sure of them. Checks that each `v` line has three
 /// numbers and that all indices of `f`, `l` and `p` lines name vertices, texture coordinates and normals the
 /// file has. Throws Error (input_unreadable) with the line.
-[[nodiscard]] ObjCheck check_obj(const std::filesystem::path& path);
+[[nodiscard]] ObjCheck check_obj(const std::filesystem::path& path, const ReadListener& listener);
 
 }  // namespace splatray

@@ -1,4 +1,4 @@
-#include "preprocess/read/obj_check.h"
+#include "preprocess/read/vtk/obj_check.h"
 
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ bool is_number(std::string_view word) {
 
 class ObjScan {
  public:
-  explicit ObjScan(const std::filesystem::path& path) : in_(path) {}
+  ObjScan(const std::filesystem::path& path, const ReadListener& listener) : in_(path, &listener) {}
 
   ObjCheck scan() {
     std::string_view line;
@@ -142,6 +142,8 @@ class ObjScan {
 
 }  // namespace
 
-ObjCheck check_obj(const std::filesystem::path& path) { return ObjScan(path).scan(); }
+ObjCheck check_obj(const std::filesystem::path& path, const ReadListener& listener) {
+  return ObjScan(path, listener).scan();
+}
 
 }  // namespace splatray

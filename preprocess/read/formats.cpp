@@ -1,0 +1,49 @@
+#include "preprocess/read/formats.h"
+
+#include "preprocess/base/file_extension.h"
+#include "preprocess/read/gltf/read_gltf.h"
+#include "preprocess/read/ply/read_ply.h"
+#include "preprocess/read/vtk/read_vtk.h"
+
+namespace splatray {
+namespace {
+
+constexpr Format FORMATS[] = {
+    {".ply",
+     "ASCII and binary of both endians; float and double positions, normals, colours, radius; triangles",
+     read_ply, nullptr},
+    {".obj", "points or triangles", read_obj, nullptr},
+    {".stl", "triangles, ASCII and binary", read_stl, nullptr},
+    {".vtp", "points or triangles; normals, colours, radius", read_vtp, nullptr},
+    {".gltf .glb",
+     "node transforms, triangles, `POINTS`, `pbrMetallicRoughness`, transmission, ior, punctual lights, "
+     "cameras",
+     nullptr, read_gltf},
+};
+
+}  // namespace
+
+std::span<const Format> formats() { return FORMATS; }
+
+const Format* find_format(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  for (const Format& format : FORMATS) {
+    const std::string padded = " " + std::string(format.extensions) + " ";
+    if (!extension.empty() && padded.find(" " + extension + " ") != std::string::npos) {
+      return &format;
+    }
+  }
+  return nullptr;
+}
+
+std::string format_extensions(bool meshes_only) {
+  std::string all;
+  for (const Format& format : FORMATS) {
+    if (!meshes_only || format.read_mesh != nullptr) {
+      (all += all.empty() ? "" : " ") += format.extensions;
+    }
+  }
+  return all;
+}
+
+}  // namespace splatray
