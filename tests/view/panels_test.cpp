@@ -5,7 +5,7 @@
 #include "app/library/camera_file.h"
 #include "app/library/materials.h"
 #include "app/view/thread/live_scene.h"
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"
 

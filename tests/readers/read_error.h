@@ -1,40 +1,15 @@
-/// A folder for a test's own files.
+/// What reading a file ends in.
 #pragma once
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "engine/base/error.h"
 #include "preprocess/points.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
-
-/// Made empty, removed at the end.
-class TempFolder {
- public:
-  TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "splatray-readers-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TempFolder() { std::filesystem::remove_all(path_); }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  /// Writes a file into the folder.
-  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    const std::filesystem::path file = path_ / name;
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << bytes;
-    return file;
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The sentence of the Error that reading ends in; it must have code input_unreadable and name the file.
 inline std::string read_error(const std::filesystem::path& path, const ReadOptions& options = {}) {
