@@ -139,7 +139,7 @@ void Viewer::show(OpenedScene opened) {
   opened.document.mode = document_.mode;
   document_ = std::move(opened.document);
   has_scene_ = true;
-  file_ = document_.source.inputs.front();
+  file_ = document_.loaded->source.inputs.front();
   remember_file(user_, file_);
   panels_.recent_files = user_.recent_files;
   panels_.home = document_.camera;

@@ -14,10 +14,11 @@ namespace {
 
 Document document_of(std::size_t objects) {
   Document document = box_document({1.0, 2.0, 3.0}, 2.0);
+  LoadedPart loaded;
   for (std::size_t i = 0; i < objects; ++i)
-    document.object_names.push_back(i == 1 ? "" : "part " + std::to_string(i));
-  document.materials.assign(objects, named_material("matte"));
-  document.loaded_materials = document.materials;
+    loaded.object_names.push_back(i == 1 ? "" : "part " + std::to_string(i));
+  document.materials = loaded.materials = std::vector<Material>(objects, named_material("matte"));
+  document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
   if (objects > 0) document.lights.resize(2);
   return document;
 }
@@ -114,7 +115,7 @@ TEST(PanelsTest, APresetReplacesTheMaterialButKeepsItHidden) {
   EXPECT_TRUE(hidden(gui.document, 1));
   EXPECT_EQ(gui.document.materials[0].tint, named_material("matte").tint);
   gui.click("##column", {1, "as loaded"});
-  EXPECT_TRUE(same_materials({gui.document.materials[1]}, {gui.document.loaded_materials[1]}));
+  EXPECT_TRUE(same_materials({gui.document.materials[1]}, {gui.document.loaded->materials[1]}));
 }
 
 TEST(PanelsTest, GlassObjectsKeepTheirBit) {

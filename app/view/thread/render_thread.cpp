@@ -21,16 +21,14 @@ RenderThread::~RenderThread() {
 }
 
 void RenderThread::show(const Document& document, glm::uvec2 window_px) {
-  const std::lock_guard lock(mutex_);
-  wishes_.document = document;
-  wishes_.window_px = window_px;
-  changed_.notify_one();
+  open(nullptr, document, window_px);
 }
 
 void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 window_px) {
+  std::optional<Document> copy(document);  // made, and the one before freed, without the mutex
   const std::lock_guard lock(mutex_);
-  wishes_.scene = std::move(scene);
-  wishes_.document = document;
+  if (scene) wishes_.scene = std::move(scene);
+  std::swap(wishes_.document, copy);
   wishes_.window_px = window_px;
   changed_.notify_one();
 }
