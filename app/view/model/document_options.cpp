@@ -27,7 +27,8 @@ Document first_document(const LoadedScene& loaded, const SceneOptions& options,
                         const PictureOptions& picture) {
   const Scene& scene = loaded.scene;
   Document document;
-  document.loaded = std::make_shared<const LoadedPart>(LoadedPart{options, scene.object_names, scene.materials});
+  document.loaded =
+      std::make_shared<const LoadedPart>(LoadedPart{options, scene.object_names, scene.materials});
   document.materials = scene.materials;
   apply_object_options(picture.objects, scene.object_names, document.materials);
   document.camera = choose_camera(scene, picture);
