@@ -77,28 +77,36 @@ void wrap_spawn(task& spawned, task_group_context& context, slot_id slot) {
   real_spawn(*new Spawned(spawned), context, slot);
 }
 
-// A task's release of the wait_context, an atomic operation in TBB's headers, comes before the end of waiting for it.
+// Each task's release of the wait_context, an atomic operation in TBB's headers, comes before the end of waiting for it:
+// reserve(0) is another operation on the same number.
 
 void wrap_execute_and_wait(task& first, task_group_context& context, wait_context& awaited,
                            task_group_context& awaited_context) {
   real_execute_and_wait(first, context, awaited, awaited_context);
-  __tsan_acquire(&awaited);
+  awaited.reserve(0);
 }
 
 void wrap_wait(wait_context& awaited, task_group_context& context) {
   real_wait(awaited, context);
-  __tsan_acquire(&awaited);
+  awaited.reserve(0);
 }
 
 // The memory of tasks comes from the heap, whose reuse ThreadSanitizer sees, not from TBB's pools.
 
-void* wrap_allocate(small_object_pool*&, std::size_t bytes) { return operator new(bytes, TASK_ALIGNMENT); }
-void* wrap_allocate(small_object_pool*&, std::size_t bytes, const execution_data&) {
+void* wrap_allocate(small_object_pool*& pool, std::size_t bytes) {
+  static char no_pool = 0;  // TBB's headers ask only that there is one
+  pool = reinterpret_cast<small_object_pool*>(&no_pool);
   return operator new(bytes, TASK_ALIGNMENT);
 }
+
+void* wrap_allocate(small_object_pool*& pool, std::size_t bytes, const execution_data&) {
+  return wrap_allocate(pool, bytes);
+}
+
 void wrap_deallocate(small_object_pool&, void* memory, std::size_t) {
   operator delete(memory, TASK_ALIGNMENT);
 }
-void wrap_deallocate(small_object_pool&, void* memory, std::size_t, const execution_data&) {
-  operator delete(memory, TASK_ALIGNMENT);
+
+void wrap_deallocate(small_object_pool& pool, void* memory, std::size_t bytes, const execution_data&) {
+  wrap_deallocate(pool, memory, bytes);
 }

@@ -179,7 +179,9 @@ TEST_F(LoadThreadTest, TheNewestCountsAndCancelEndsIt) {
   const std::string grid = write("grid.ply", grid_ply(true)), other = write("other.ply", grid_ply(true, 5.0));
   for (int i = 0; i < 10; ++i) load(grid);
   load(other);
-  await([](const LoadNews& news) { return news.opened && news.opened->document.loaded->object_names[0] == "other"; });
+  await([](const LoadNews& news) {
+    return news.opened && news.opened->document.loaded->object_names[0] == "other";
+  });
   load(grid);
   thread.cancel();
   await([](const LoadNews& news) {
