@@ -21,14 +21,14 @@ constexpr std::align_val_t TASK_ALIGNMENT{alignof(task)};
 /// In the place of a task that was spawned: what the spawning thread wrote before comes before its execution.
 class Spawned final : public task {
  public:
-  explicit Spawned(task& real) : real_(real) { __tsan_release(&real); }
+  explicit Spawned(task& real) : real_(real) { __tsan_release(this); }
 
   task* execute(execution_data& data) override {
-    __tsan_acquire(&real_);
+    __tsan_acquire(this);
     return ended(real_.execute(data));  // when it throws, TBB cancels this task next
   }
   task* cancel(execution_data& data) override {
-    __tsan_acquire(&real_);
+    __tsan_acquire(this);
     return ended(real_.cancel(data));
   }
 
