@@ -61,12 +61,12 @@ void Viewer::run() {
   while (!closing_ && !window_.should_close() && !interrupted()) {
     if (window_.wait(frames_left > 0 ? 0.0 : patience())) frames_left = FRAMES_TO_SETTLE;
     if (frames_left == 0 && !presenter_.gui().wants_keyboard()) continue;
+    frames_left = std::max(frames_left - 1, 0);
     take_news();
     presenter_.gui().begin();
     handle_inputs();
     draw_controls();
     presenter_.gui().end();
-    frames_left = presenter_.gui().has_inputs() ? FRAMES_TO_SETTLE : std::max(frames_left - 1, 0);
     submit();
     if (is_worth_drawing()) presenter_.draw(picture_px().x);
     if (stats_.has_news()) write_stats();

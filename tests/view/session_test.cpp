@@ -98,8 +98,9 @@ class ViewSession : public CliTest {
   /// Opens the dialog that saves, takes what it proposes and waits for the file.
   void save() {
     desktop.xdotool({"key", "s"});
-    desktop.xdotool({"key", "Return"});
+    desktop.xdotool({"keydown", "Return"});  // held: Dear ImGui sees keys as they are when a frame begins
     await("splatray.png", [this] { return fs::exists(file("splatray.png")); });
+    desktop.xdotool({"keyup", "Return"});
   }
 
   /// Ends the viewer and returns its statistics.

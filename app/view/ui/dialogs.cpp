@@ -45,7 +45,7 @@ class Dialog {
     if (!refusal.empty()) ImGui::TextWrapped("%s", refusal.c_str());
     ImGui::Spacing();
     ImGui::BeginDisabled(!refusal.empty());
-    const bool entered = ImGui::IsKeyPressed(ImGuiKey_Enter, false) && refusal.empty();
+    const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) && refusal.empty();
     const bool done = ImGui::Button(verb) || entered;
     ImGui::EndDisabled();
     ImGui::SameLine();

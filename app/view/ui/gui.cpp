@@ -3,7 +3,6 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_vulkan.h>
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include "app/view/ui/panels.h"
 
@@ -83,8 +82,6 @@ void Gui::record(VkCommandBuffer commands) {
 }
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
-
-bool Gui::has_inputs() const { return !ImGui::GetCurrentContext()->InputEventsQueue.empty(); }
 
 bool Gui::wants_keyboard() const { return ImGui::GetIO().WantTextInput; }
 

@@ -27,8 +27,6 @@ class Gui {
   /// Whether the mouse is over, or the keyboard writes into, a control.
   [[nodiscard]] bool wants_mouse() const;
   [[nodiscard]] bool wants_keyboard() const;
-  /// Whether inputs wait for further frames: of keys that came together, each frame takes some.
-  [[nodiscard]] bool has_inputs() const;
 
  private:
   void start_renderer();
