@@ -36,12 +36,21 @@ class ViewSession : public CliTest {
     second = write("second.ply", grid_ply(true, 100.0));
   }
 
+  /// Lavapipe stays loaded to the end: its 112 bytes for a window's surface are reachable only from its own variables, and
+  /// the leak checker would take them for a leak once the loader has unloaded it.
+  std::vector<std::string> viewer_environment() {
+    std::vector<std::string> variables = {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")};
+    const char* const drivers = std::getenv("VK_LOADER_DRIVERS_SELECT");
+    if (drivers != nullptr && std::string(drivers).find("lvp") != std::string::npos)
+      variables.emplace_back("LD_PRELOAD=libvulkan_lvp.so");
+    return variables;
+  }
+
   /// Starts the viewer with a window of 960 x 600; `more`: further environment variables.
   void start(std::vector<std::string> words, const std::vector<std::string>& more = {}) {
     words.insert(words.begin(),
                  {VIEW, "--resolution=960x600", "--samples=2", "--stats-json", file("stats.json")});
-    std::vector<std::string> environment = {"DISPLAY=" + desktop.display(),
-                                            "XDG_STATE_HOME=" + file("state")};
+    std::vector<std::string> environment = viewer_environment();
     environment.insert(environment.end(), more.begin(), more.end());
     viewer.emplace(words, environment, folder.string(), file("log"));
   }
@@ -223,9 +232,8 @@ TEST_F(ViewSession, StateThatCannotBeKeptIsNotedAndNothingIsLost) {
 }
 
 TEST_F(ViewSession, InterruptEndsIt) {
-  const ChildResult result =
-      run_program({VIEW, first}, {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")},
-                  [&] { return desktop.wait_for_window("first.ply") != 0; });
+  const ChildResult result = run_program({VIEW, first}, viewer_environment(),
+                                         [&] { return desktop.wait_for_window("first.ply") != 0; });
   EXPECT_EQ(result.code, 130) << result.err;
 }
 
