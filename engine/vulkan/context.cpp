@@ -14,16 +14,18 @@ namespace {
 
 constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
 
-/// Counts a validation message in *user_data, a std::uint32_t, and prints it.
+using MessageCount = std::atomic<std::uint32_t>;
+
+/// Counts a validation message in *user_data, a MessageCount, and prints it.
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user_data) {
-  ++*static_cast<std::uint32_t*>(user_data);
+  ++*static_cast<MessageCount*>(user_data);
   std::cerr << "Vulkan validation: " << data->pMessage << '\n';
   return VK_FALSE;
 }
 
-VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::uint32_t* count) {
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(MessageCount* count) {
   VkDebugUtilsMessengerCreateInfoEXT info{};
   info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
   info.messageSeverity =

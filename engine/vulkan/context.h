@@ -2,6 +2,7 @@
 #pragma once
 #include <vulkan/vulkan.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -40,6 +41,7 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   [[nodiscard]] const DeviceInfo& device_info() const { return info_; }
+  /// So far; from any thread.
   [[nodiscard]] std::uint32_t validation_messages() const { return validation_messages_; }
   /// Whether the device is a software driver on the CPU.
   [[nodiscard]] bool is_cpu() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
@@ -64,7 +66,7 @@ class Context {
   void destroy();
 
   DeviceInfo info_;
-  std::uint32_t validation_messages_ = 0;
+  std::atomic<std::uint32_t> validation_messages_{0};  ///< counted on whatever thread calls Vulkan
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
