@@ -251,6 +251,9 @@ std::optional<SceneDefect> find_look_defect(const Scene& scene) {
   };
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     if (const Defect defect = check_material(scene.materials[i])) return in("material", i, *defect);
+  if (scene.lights.size() > LIGHTS_MOST)
+    return SceneDefect{std::to_string(scene.lights.size()) + " lights",
+                       "at most " + std::to_string(LIGHTS_MOST)};
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (const Defect defect = check_light(scene.lights[i])) return in("light", i, *defect);
   return {};

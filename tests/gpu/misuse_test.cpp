@@ -7,7 +7,7 @@
 #include "engine/vulkan/command_queue.h"
 #include "engine/vulkan/pipeline_store.h"
 #include "tests/gpu/small_scene.h"
-#include "tests/readers/temp_folder.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {

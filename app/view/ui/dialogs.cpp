@@ -145,8 +145,8 @@ void open_dialog(PanelState& state, Requests& requests) {
   Dialog dialog("Open", state.show_open);
   if (!dialog) return;
   const std::string hint = ".soct " + format_extensions();
-  const bool entered = ImGui::InputTextWithHint("file", hint.c_str(), &state.open_path,
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered =
+      ImGui::InputTextWithHint("file", hint.c_str(), &state.open_path, ImGuiInputTextFlags_EnterReturnsTrue);
   recent_list(state, requests);
   const std::string refusal = state.open_path.empty() ? "Name a file, or drop one on the window." : "";
   if (dialog.done_or_cancelled("open", refusal) || (entered && refusal.empty()))

@@ -2,7 +2,6 @@
 /// answers that differ from brute force in float64, and adds them to the counts of the same commit, device and scenes that the
 /// file holds, piece by piece, so that a run may be ended and taken up at any time. JSON: a list of {scene, splats, kind, commit,
 /// date, device: {name, driver}, pieces} and the numbers of ExactCount.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -38,7 +37,8 @@ class Counts {
     std::ifstream stream(file_);
     records_ = Json::parse(stream, nullptr, false);
     if (!records_.is_array())
-      throw Error(ExitCode::input_unreadable, file_.string() + ": found no list of counts, expected one as JSON");
+      throw Error(ExitCode::input_unreadable,
+                  file_.string() + ": found no list of counts, expected one as JSON");
   }
 
   void add(const std::string& scene, std::uint64_t splats, const std::string& kind, const ExactCount& count) {
@@ -142,19 +142,21 @@ void count_piece(const Loaded& loaded, std::size_t rays, Counts& counts) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app(
+  OptionList list(
       "Counts answers that differ from brute force in float64. Real models come from SPLATRAY_DATA_DIR.",
       "splatray-bench-exact");
   Options options;
-  app.add_option("-o,--output", options.output, "JSON file of counts, added to when it is there")->required();
-  app.add_option("--rays", options.rays, "of each kind, over all scenes; of the adversarial kinds a tenth");
-  app.add_option("--minutes", options.minutes, "ends with the piece in which they have passed");
-  app.add_option("--points", options.points, "of each scene");
-  app.add_option("--piece", options.piece, "rays of a kind between two looks at the clock");
-  app.add_option("--scene", options.only, "only this scene");
-  app.add_option("--device", options.device,
-                 "number or part of a name, as splatray-render --list-devices shows them");
-  if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
+  add_path(list, "-o,--output", options.output, "JSON file of counts, added to when it is there");
+  list.require("--output");
+  add_number(list, "--rays", options.rays, 1, 1e12,
+             "of each kind, over all scenes; of the adversarial kinds a tenth");
+  add_number(list, "--minutes", options.minutes, 0, 1e6, "ends with the piece in which they have passed");
+  add_number(list, "--points", options.points, 1, 1e9, "of each scene");
+  add_number(list, "--piece", options.piece, 1, 1e9, "rays of a kind between two looks at the clock");
+  add_text(list, "--scene", options.only, "only this scene");
+  add_text(list, "--device", options.device,
+           "number or part of a name, as splatray-render --list-devices shows them");
+  if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(options.output);
   const auto begin = std::chrono::steady_clock::now();
   const Context context(options.device);

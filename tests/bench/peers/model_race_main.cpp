@@ -3,7 +3,6 @@
 /// commit, date, device, ms: [of each round], wall_ms: [likewise], unlike_ppm}. splatray's ms are those of its dispatches, its
 /// wall_ms of the whole call with shading and read-back; Embree's are both the wall time of tracing. splatray runs with culling
 /// of pixels that no leaf projects to ("cull") and without; Embree has none.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -147,18 +146,19 @@ void race(const std::string& name, const Context& context, const Scene& scene, s
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Races splatray and Embree, each in all its settings, on scenes.", "splatray-bench-models");
+  OptionList list("Races splatray and Embree, each in all its settings, on scenes.", "splatray-bench-models");
   std::vector<std::filesystem::path> scenes;
   std::filesystem::path output;
   std::string device;
   std::size_t rounds = 9;
-  app.add_option("scenes", scenes, "scene files (.soct)")->required();
-  app.add_option("-o,--output", output, "JSON file to write")->required();
-  app.add_option("--rounds", rounds, "timed frames of each, after one that is not; default 9")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--device", device,
-                 "number or part of a name, as splatray-render --list-devices shows them");
-  if (!parse_options(app, argc, argv)) return static_cast<int>(ExitCode::done);
+  list.add_paths("SCENE", scenes, "scene files (.soct)", "FILE...");
+  list.require("SCENE");
+  add_path(list, "-o,--output", output, "JSON file to write");
+  list.require("--output");
+  add_number(list, "--rounds", rounds, 1, 1e6, "timed frames of each, after one that is not; default 9");
+  add_text(list, "--device", device,
+           "number or part of a name, as splatray-render --list-devices shows them");
+  if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(output);
   const Context context(device);
   Json records = Json::array();
