@@ -37,10 +37,6 @@ void report(const Tracer::Progress& progress, double share) {
   if (progress && !progress(share)) throw Error(ExitCode::interrupted, "rendering was interrupted");
 }
 
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 void refuse_cut_loops() {
   throw Error(
       ExitCode::failed,

@@ -2,6 +2,7 @@
 #pragma once
 #include <chrono>
 
+#include "engine/base/stopwatch.h"
 #include "engine/gpu/runner.h"
 #include "engine/gpu/tracer.h"
 
@@ -39,7 +40,5 @@ void report(const Tracer::Progress& progress, double share);
 
 /// Throws Error (failed): the driver cuts a single ray's loops.
 [[noreturn]] void refuse_cut_loops();
-
-[[nodiscard]] double milliseconds_since(std::chrono::steady_clock::time_point start);
 
 }  // namespace splatray

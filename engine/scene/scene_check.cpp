@@ -33,7 +33,7 @@ Defect check_header(const Scene& scene) {
   if (!finite(scene.surface_area_world) || scene.surface_area_world < 0.0)
     return SceneDefect{"a surface area that is negative or not finite", "0 or more"};
   const BuildParams& build = scene.build;
-  if (build.leaf_size == 0 || build.insertion > Insertion::centre || build.radius_rule > RadiusRule::given ||
+  if (build.leaf_size == 0 || build.insertion > Insertion::centre || build.radius_rule > RadiusRule::knn ||
       !finite(build.radius_scale) || !(build.radius_scale > 0.0))
     return SceneDefect{"build parameters out of range", "those of splatray-preprocess"};
   return {};

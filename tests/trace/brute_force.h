@@ -1,5 +1,5 @@
-/// The truth of what a ray hits: every splat tested, in float64, with formulas of its own (design, section
-/// 4). Knows nothing of octrees, leaves or the shaders.
+/// The truth of what a ray hits: every splat tested, in float64, with formulas of its own (ARCHITECTURE.md,
+/// "What a hit is"). Knows nothing of octrees, leaves or the shaders.
 #pragma once
 #include <cstdint>
 #include <vector>
