@@ -35,7 +35,8 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_number(list, "--radius-scale", params.radius_scale, 1e-6, 1e6, "factor on every radius; default 1");
   add_choice<bool>(list, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
                    "how normals change across each disc, where the scene curves; default on");
-  add_number(list, "--threads", options.threads, 0, 4096, "threads of reading and preprocess; default 0 = all cores");
+  add_number(list, "--threads", options.threads, 0, 4096,
+             "threads of reading and preprocess; default 0 = all cores");
 }
 
 std::vector<std::filesystem::path> model_folders(const BuildOptions& options) {

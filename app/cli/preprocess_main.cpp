@@ -29,8 +29,8 @@ struct Options {
 bool parse(int argc, char** argv, Options& options) {
   OptionList list("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
                   "splatray-preprocess");
-  list.add_paths("INPUT", options.build.inputs, "files with points, meshes or a scene: " + format_extensions(),
-                 "FILE");
+  list.add_paths("INPUT", options.build.inputs,
+                 "files with points, meshes or a scene: " + format_extensions(), "FILE");
   list.require("INPUT");
   add_path(list, "-o,--output", options.output, "scene file to write (.soct)");
   list.require("--output");
