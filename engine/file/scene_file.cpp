@@ -1,5 +1,6 @@
 #include "engine/file/scene_file.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <fstream>
@@ -20,6 +21,7 @@ constexpr char MAGIC[] = {'S', 'O', 'C', 'T'};
 constexpr char END_MARKER[] = {'S', 'O', 'C', 'T', '.', 'E', 'N', 'D'};
 constexpr std::uint32_t ENDIANNESS = 0x01020304;
 constexpr std::uint64_t ALIGNMENT = 16;
+constexpr std::uint64_t PIECE_BYTES = 1ULL << 24;  ///< read or written between two looks at whether to go on
 constexpr std::uint32_t HAS_COLORS = 1;
 constexpr std::uint32_t HAS_FIELDS = 2;
 constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, and would overflow sizes
@@ -159,10 +161,15 @@ Scene described_scene(const Header& header) {
   return scene;
 }
 
+void report(const Progress& progress, const char* stage, std::uint64_t done, std::uint64_t all) {
+  if (progress && !progress(stage, static_cast<double>(done) / static_cast<double>(all)))
+    throw Error(ExitCode::interrupted, std::string(stage) + " the scene file was interrupted");
+}
+
 /// A scene file being read front to back, every byte checked.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path) {
+  Reader(const std::filesystem::path& path, const Progress& progress) : path_(path), progress_(progress) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) refuse("no such file", "a scene file");
     if (!std::filesystem::is_regular_file(path, error)) refuse("a folder or device", "a scene file");
@@ -200,10 +207,15 @@ class Reader {
 
  private:
   void read(void* target, std::uint64_t bytes) {
-    if (!file_.read(static_cast<char*>(target), static_cast<std::streamsize>(bytes)))
-      refuse("its end or a read error at byte " + std::to_string(position_),
-             std::to_string(bytes) + " more bytes");
-    position_ += bytes;
+    for (std::uint64_t done = 0; done < bytes;) {
+      const std::uint64_t piece = std::min(bytes - done, PIECE_BYTES);
+      if (!file_.read(static_cast<char*>(target) + done, static_cast<std::streamsize>(piece)))
+        refuse("its end or a read error at byte " + std::to_string(position_),
+               std::to_string(bytes - done) + " more bytes");
+      done += piece;
+      position_ += piece;
+      report(progress_, "reading", position_, size_);
+    }
   }
 
   void skip_gap(std::uint64_t offset) {
@@ -251,6 +263,7 @@ class Reader {
   }
 
   std::filesystem::path path_;
+  const Progress& progress_;
   std::ifstream file_;
   std::uint64_t size_ = 0;
   std::uint64_t position_ = 0;
@@ -275,14 +288,18 @@ void read_strings(Reader& reader, Scene& scene) {
   scene.object_names = std::move(strings);
 }
 
-void write_bytes(AtomicFile& file, const Header& header, const void* const (&contents)[SECTION_COUNT]) {
+void write_bytes(AtomicFile& file, const Header& header, const void* const (&contents)[SECTION_COUNT],
+                 const Progress& progress) {
   constexpr char ZEROS[ALIGNMENT] = {};
   std::uint64_t position = sizeof header;
   file.write(&header, sizeof header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
     const SectionEntry& entry = header.sections[i];
     file.write(ZEROS, entry.offset - position);
-    file.write(contents[i], entry.size);
+    for (std::uint64_t done = 0; done < entry.size; done += PIECE_BYTES) {
+      report(progress, "writing", entry.offset + done, header.file_size);
+      file.write(static_cast<const char*>(contents[i]) + done, std::min(entry.size - done, PIECE_BYTES));
+    }
     position = entry.offset + entry.size;
   }
   file.write(ZEROS, header.file_size - sizeof END_MARKER - position);
@@ -291,7 +308,7 @@ void write_bytes(AtomicFile& file, const Header& header, const void* const (&con
 
 }  // namespace
 
-void write_scene(const Scene& scene, const std::filesystem::path& path) {
+void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
   assert(!find_scene_defect(scene));
   const std::vector<LightRecord> lights = light_records(scene.lights);
   const std::string strings = joined_strings(scene);
@@ -309,12 +326,12 @@ void write_scene(const Scene& scene, const std::filesystem::path& path) {
   header.checksum = header_checksum(header);
 
   AtomicFile file(path);
-  write_bytes(file, header, contents);
+  write_bytes(file, header, contents, progress);
   file.commit();
 }
 
-Scene read_scene(const std::filesystem::path& path) {
-  Reader reader(path);
+Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
+  Reader reader(path, progress);
   Scene scene = described_scene(reader.header());
   scene.node_pool = reader.section<std::uint32_t>(NODES);
   // Beside the reading of all else, which takes longer.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "preprocess/base/parallel.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/sample_mesh.h"
@@ -33,11 +34,11 @@ void drop_non_finite_triangles(Mesh& mesh, const std::string& name, std::vector<
   }
 }
 
-/// Turns a closed mesh of a dielectric outwards; whether the mesh is closed and its normals are known to
+/// Turns a closed mesh of a dielectric outwards, or with `turn` of any object; whether the mesh is closed and its normals are known to
 /// point outwards.
-bool orient_mesh(Mesh& mesh, const std::vector<glm::uint>& weld, const InputObject& object,
+bool orient_mesh(Mesh& mesh, const std::vector<glm::uint>& weld, const InputObject& object, bool turn,
                  std::vector<std::string>& notes) {
-  const bool dielectric = (object.material.flags & MATERIAL_DIELECTRIC) != 0;
+  const bool dielectric = turn || (object.material.flags & MATERIAL_DIELECTRIC) != 0;
   MeshOrientation found = measure_orientation(mesh, weld);
   if (dielectric && found.is_closed() && found.signed_volume < 0.0) {
     flip_mesh(mesh);
@@ -160,10 +161,11 @@ void choose_samples(std::vector<Part>& parts, Input& input, const ReadOptions& o
   }
 }
 
-void points_from_part(const Part& part, std::uint64_t seed, std::vector<std::string>& notes) {
+void points_from_part(const Part& part, const ReadOptions& options, std::uint64_t seed,
+                      std::vector<std::string>& notes) {
   InputObject& object = *part.object;
   const std::vector<glm::uint> weld = weld_positions(part.mesh->vertices.position);
-  object.oriented = orient_mesh(*part.mesh, weld, object, notes) && object.oriented;
+  object.oriented = orient_mesh(*part.mesh, weld, object, options.turn_outwards, notes) && object.oriented;
   object.surface_area += part.area;
   append_points(object.points, part.sampled ? sample_surface(*part.mesh, weld, part.samples, seed)
                                             : vertex_points(*part.mesh, weld));
@@ -176,10 +178,13 @@ void points_from_meshes(Input& input, const ReadOptions& options) {
     move_out_points(object);
     object.oriented = object.points.size() == 0;
   }
+  const Stage stage{"sampling", options.progress};
+  stage.report(0.0);
   std::vector<Part> parts = list_parts(input, options);
   choose_samples(parts, input, options);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    points_from_part(parts[i], options.seed + i, input.notes);
+    stage.report(static_cast<double>(i) / static_cast<double>(parts.size()));
+    points_from_part(parts[i], options, options.seed + i, input.notes);
     if (!options.keep_meshes) {
       *parts[i].mesh = Mesh{};
     }

@@ -1,0 +1,54 @@
+/// The table of formats is what the readers do and what README says.
+#include "preprocess/read/formats.h"
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+
+#include "tests/readers/temp_folder.h"
+
+namespace splatray {
+namespace {
+
+std::vector<std::string> split(std::string_view text) {
+  std::istringstream words{std::string(text)};
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+TEST(Formats, ReadmesTableHasEveryRow) {
+  std::ifstream file(README);
+  const std::string readme{std::istreambuf_iterator<char>(file), {}};
+  for (const Format& format : formats()) {
+    std::string row = "|";
+    for (const std::string& extension : split(format.extensions)) row += " `" + extension + "`";
+    row += " | " + std::string(format.contents) + " |\n";
+    EXPECT_NE(readme.find(row), std::string::npos) << "expected in README.md: " << row;
+  }
+}
+
+TEST(Formats, EveryExtensionHasOneReaderThatRefusesWhatIsNoSuchFile) {
+  const TempFolder folder;
+  for (const Format& format : formats()) {
+    EXPECT_NE(format.read_mesh == nullptr, format.read_scene == nullptr) << format.extensions;
+    for (const std::string& extension : split(format.extensions)) {
+      EXPECT_EQ(find_format("A" + extension), &format);
+      static_cast<void>(read_error(folder.path() / ("missing" + extension)));
+      static_cast<void>(read_error(folder.write("empty" + extension, "")));
+      static_cast<void>(read_error(folder.write("noise" + extension, "no such file at all\n")));
+      std::string upper = extension;
+      std::transform(upper.begin(), upper.end(), upper.begin(),
+                     [](char c) { return static_cast<char>(std::toupper(c)); });
+      EXPECT_EQ(find_format("a" + upper), &format);
+    }
+  }
+}
+
+TEST(Formats, RefusalsListTheTable) {
+  const TempFolder folder;
+  EXPECT_NE(read_error(folder.write("a.xyz", "1 2 3")).find(format_extensions()), std::string::npos);
+  EXPECT_EQ(find_format("a"), nullptr);
+  EXPECT_EQ(find_format("a.pl"), nullptr);
+}
+
+}  // namespace
+}  // namespace splatray
