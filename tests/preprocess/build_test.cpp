@@ -35,6 +35,7 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.reference_pool, b.reference_pool);
   EXPECT_EQ(a.data_pool, b.data_pool);
   EXPECT_EQ(a.color_pool, b.color_pool);
+  EXPECT_EQ(a.field_pool, b.field_pool);
 }
 
 InputObject colored_noise() {
