@@ -2,7 +2,7 @@
 #pragma once
 #include "engine/gpu/tracer.h"
 #include "engine/vulkan/context.h"
-#include "tests/bench/peers/racer.h"
+#include "tests/bench/measure/racer.h"
 
 namespace splatray::testing {
 

@@ -1,4 +1,4 @@
-#include "tests/bench/peers/race.h"
+#include "tests/bench/measure/race.h"
 
 #include <algorithm>
 #include <cmath>

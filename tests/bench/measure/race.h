@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "tests/bench/peers/racer.h"
+#include "tests/bench/measure/racer.h"
 
 namespace splatray::testing {
 

@@ -1,4 +1,4 @@
-#include "tests/bench/peers/splatray_racer.h"
+#include "tests/bench/measure/splatray_racer.h"
 
 #include "tests/bench/cases/scale_cases.h"
 #include "tests/bench/measure/speed_record.h"
