@@ -84,6 +84,15 @@ TEST(CameraFile, RefusesWithASentence) {
   EXPECT_THROW((void)read_camera(::testing::TempDir()), Error);
 }
 
+TEST(CameraFile, RefusesDeepNesting) {
+  const auto deep = [](std::size_t depth) {
+    return R"({"eye": )" + std::string(depth, '[') + std::string(depth, ']') + "}";
+  };
+  EXPECT_NE(refusal(deep(200000), read_camera).find("nests more than 64 deep"), std::string::npos);
+  EXPECT_NE(refusal(deep(200000), read_camera_path).find("nests more than 64 deep"), std::string::npos);
+  EXPECT_NE(refusal(deep(63), read_camera).find("eye [[["), std::string::npos);
+}
+
 TEST(CameraFile, RefusesBadPaths) {
   const std::string key = R"({"eye": [0, 0, 1], "target": [0, 0, 0], "up": [0, 1, 0], "fov_y_deg": 30)";
   const auto path = [&](const std::string& first, const std::string& second) {

@@ -156,5 +156,19 @@ TEST_F(CliOutputs, ErrorsOfOddFileNamesAreOneLine) {
   expect_refused([&] { return render({grid, "--camera", file("no\nsuch.json")}); }, 3, "no?such");
 }
 
+TEST_F(CliOutputs, InterruptWhileReadingLeavesNothing) {
+  constexpr int POINTS = 1000000;
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(POINTS) +
+                    "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  for (int i = 0; i < POINTS; ++i)
+    ply += std::to_string(i % 1000) + ".25 " + std::to_string(i / 1000) + ".5 0\n";
+  const std::string large = write("large.ply", ply);
+  expect_refused(
+      [&] {
+        return run_program({PREPROCESS, large, "-o", file("out.soct")}, {}, [] { return true; });
+      },
+      130, "reading was interrupted");
+}
+
 }  // namespace
 }  // namespace splatray

@@ -50,12 +50,17 @@ void read_and_check(const std::filesystem::path& path) {
   read_or_refuse([&] { check_input(read_input({path}, options)); });
 }
 
+void read_as(const char* name, FuzzBytes bytes) {
+  static const MemoryFolder folder;
+  read_and_check(folder.write(name, bytes));
+}
+
 }  // namespace
 
-void fuzz_ply(FuzzBytes bytes) {
-  static const MemoryFolder folder;
-  read_and_check(folder.write("fuzzed.ply", bytes));
-}
+void fuzz_ply(FuzzBytes bytes) { read_as("fuzzed.ply", bytes); }
+void fuzz_obj(FuzzBytes bytes) { read_as("fuzzed.obj", bytes); }
+void fuzz_stl(FuzzBytes bytes) { read_as("fuzzed.stl", bytes); }
+void fuzz_vtp(FuzzBytes bytes) { read_as("fuzzed.vtp", bytes); }
 
 void fuzz_gltf(FuzzBytes bytes) {
   constexpr std::string_view POINTS =

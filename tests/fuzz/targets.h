@@ -1,9 +1,9 @@
-/// What the fuzzers run: one function per kind of file, which reads the bytes as such a file. An Error is how readers
-/// refuse a file; anything else (another exception, a broken promise, a sanitizer's report) is a finding and ends the
-/// program.
+/// What the fuzzers run: the one table of targets. A target reads bytes as one kind of file. An Error is how readers refuse
+/// a file; anything else (another exception, a broken promise, a sanitizer's report) is a finding and ends the program.
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace splatray::testing {
 
@@ -12,9 +12,39 @@ using FuzzBytes = std::span<const std::uint8_t>;
 /// read_scene on the bytes as they are, then on the same with the file's form and checksums put right, so that the
 /// checks behind those are reached. What is read must unpack to finite splats and let rays walk it.
 void fuzz_scene_file(FuzzBytes bytes);
-/// read_input on a .ply; the points and triangles must be as preprocess/points.h says.
+/// read_input on a file with this extension; the points and triangles must be as preprocess/points.h says.
 void fuzz_ply(FuzzBytes bytes);
-/// read_input on a .gltf, or .glb where the bytes begin like one, with a file points.ply beside it; else like fuzz_ply.
+void fuzz_obj(FuzzBytes bytes);
+void fuzz_stl(FuzzBytes bytes);
+void fuzz_vtp(FuzzBytes bytes);
+/// The same; .glb where the bytes begin like one, with a file points.ply beside it.
 void fuzz_gltf(FuzzBytes bytes);
+/// read_camera and read_camera_path; numbers must be finite, frames ascend.
+void fuzz_camera(FuzzBytes bytes);
+/// read_user_state: anything is read, nothing refused.
+void fuzz_user_state(FuzzBytes bytes);
+/// parse_command_line, which --from gives what a picture's metadata say.
+void fuzz_command_line(FuzzBytes bytes);
+/// read_environment and read_metadata on a .exr, .hdr or .png, by how the bytes begin.
+void fuzz_image(FuzzBytes bytes);
+
+struct FuzzTarget {
+  std::string_view
+      name;  ///< of its folder in corpus/, its dictionary NAME.dict, and the argument of tests/fuzz/run
+  void (*run)(FuzzBytes);
+};
+
+inline constexpr FuzzTarget FUZZ_TARGETS[] = {
+    {"scene_file", fuzz_scene_file},
+    {"ply", fuzz_ply},
+    {"obj", fuzz_obj},
+    {"stl", fuzz_stl},
+    {"vtp", fuzz_vtp},
+    {"gltf", fuzz_gltf},
+    {"camera", fuzz_camera},
+    {"user_state", fuzz_user_state},
+    {"command_line", fuzz_command_line},
+    {"image", fuzz_image},
+};
 
 }  // namespace splatray::testing

@@ -53,7 +53,7 @@ std::string grid_vtp(int count) {
 
 TEST(ReadProgress, AscendsAndEveryReaderStopsWhenAsked) {
   const TempFolder folder;
-  const std::string ply = grid_ply(400);
+  const std::string ply = grid_ply(700);
   const std::vector<std::filesystem::path> files = {
       folder.write("a.ply", ply), folder.write("a.obj", grid_obj(200)),
       folder.write("a.stl", grid_stl(60000)), folder.write("a.vtp", grid_vtp(200000)),

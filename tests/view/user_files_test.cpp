@@ -83,6 +83,9 @@ TEST(UserFilesTest, WrongMembersHaveTheirDefaultsAndSoundOnesStay) {
   const TempFolder folder;
   const std::filesystem::path path = folder.path() / "view.json";
   EXPECT_EQ(read_user_state(path).window_width, 1280);  // missing
+  folder.write("view.json", R"({"window_width": 640, "bookmarks": )" + std::string(200000, '[') +
+                                std::string(200000, ']') + "}");
+  EXPECT_EQ(read_user_state(path).window_width, 1280);
   for (const char* text : {"[]", "7", "null", "{}", "\"\"", "{\"window_width\": \"wide\"}"}) {
     folder.write("view.json", text);
     EXPECT_EQ(read_user_state(path).window_width, 1280) << text;

@@ -1,0 +1,37 @@
+/// Scenes as options ask for them.
+#include "app/library/scene_source.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace splatray {
+namespace {
+
+/// The share of splats of a closed mesh about (1/4, 1/4, 1/4) whose normals point away from there.
+double outward_share(const std::string& material) {
+  const std::string path = ::testing::TempDir() + "inwards.obj";
+  std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+  SceneOptions options;
+  options.inputs = {path};
+  options.material = material;
+  options.params.samples = 400;
+  const LoadListener listener{[](const char*, double) { return true; }, [](const std::string&) {}};
+  const Scene scene = load_scene(options, {}, listener).scene;
+  double outward = 0.0;
+  for (const uvec4& words : scene.data_pool) {
+    const Splat splat = unpack_splat(words);
+    const glm::dvec3 center = scene.root.origin_world + splat.center * scene.root.unit_world;
+    outward += glm::dot(center - 0.25, splat.normal) > 0.0 ? 1.0 : 0.0;
+  }
+  return outward / static_cast<double>(scene.data_pool.size());
+}
+
+TEST(LoadScene, GlassOfAMeshWoundInwardsIsTurnedOutwards) {
+  EXPECT_EQ(outward_share("glass"), 1.0);
+  EXPECT_EQ(outward_share("gold"), 0.0);  // all else stays as it was made
+  EXPECT_EQ(outward_share(""), 0.0);
+}
+
+}  // namespace
+}  // namespace splatray
