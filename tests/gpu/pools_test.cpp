@@ -199,7 +199,7 @@ TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
 
 TEST_F(PoolUpload, UploadAndFreeLeavesTheSceneWithoutItsPools) {
   for (const DataPool data : {DataPool::copies, DataPool::references}) {
-    Tracer tracer(context, {.data = data});
+    Tracer tracer(context, {.pools = {.data = data}});
     Scene scene = disc_scene(3);
     tracer.upload(scene);
     const auto picture = tracer.render(disc_view(50, 40), plain_settings()).rgba;
