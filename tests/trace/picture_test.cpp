@@ -84,7 +84,7 @@ TEST_P(ScenePicture, MatchesBruteForce) {
   if (!scene_case.needs_data) write_model(name, SPLATS, points.path());
   const std::filesystem::path file = std::filesystem::path(SPLATRAY_SCENES) / (name + ".gltf");
   const Pictures pictures =
-      pictures_of(scene_of_file(file, SPLATS, 10, scene_case.needs_data ? *data_folder() : points));
+      pictures_of(scene_of_file(file, SPLATS, 10, scene_case.needs_data ? *data_folder() : points.path()));
   EXPECT_TRUE(compare_pictures(pictures.gpu, pictures.reference, scene_case.tolerance, name).passed)
       << scene_case.why;
 }
