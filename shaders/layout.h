@@ -159,7 +159,7 @@ struct FrameParams {
   uint path_count;         ///< STAGE_NEXT: paths that go on
   uint path_bounce;        ///< and how many secondary rays each has behind it
   uint light_begin;        ///< from 1 on `environment` and `irradiance` are zero: another dispatch added them
-  uint loop_probe;         ///< 2: see loops_were_cut
+  uint loop_probe;         ///< LOOP_PROBE
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
   vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
@@ -282,6 +282,9 @@ SPLATRAY_CONST STAGE_ALL = 0u;    ///< whole paths
 SPLATRAY_CONST STAGE_FIRST = 1u;  ///< primary rays; paths that go on are queued
 SPLATRAY_CONST STAGE_NEXT = 2u;   ///< one ray of each path queued before
 SPLATRAY_CONST STAGE_AOV = 3u;    ///< no paths: AovPixel of the ray through each pixel's centre
+
+/// Iterations of a loop that tells whether a driver cuts loops short (stage/paths.glsl).
+SPLATRAY_CONST LOOP_PROBE = 8u;
 
 /// Most lights of a scene.
 SPLATRAY_CONST LIGHTS_MOST = 4096u;

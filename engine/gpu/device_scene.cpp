@@ -83,7 +83,7 @@ FrameParams DeviceScene::picture_params(const View& view, const Settings& settin
   FrameParams frame = make_frame_params(outline_, view, settings);
   if (!material_content_.mirrors && !material_content_.glass) frame.max_bounces = 0;
   frame.light_end = light_count_;
-  frame.loop_probe = 2;
+  frame.loop_probe = LOOP_PROBE;
   set_media(frame, materials_);
   frame.environment =
       settings.environment_strength * (environment_texture_ ? glm::vec3(1.0F) : environment_constant_);

@@ -35,13 +35,14 @@ void add_counters(Path path, Tally tally) {
 }
 
 /// Whether the driver has stopped this thread's loops: Mesa's llvmpipe silently ends all loops of a thread after 65 535 iterations
-/// in all (LP_MAX_TGSI_LOOP_ITERATIONS). This one, which must run twice, then runs once.
+/// in all (LP_MAX_TGSI_LOOP_ITERATIONS). This one, which must run frame.loop_probe times, then runs once, or twice where the
+/// compiler has moved its test. Not compared with the probe again, which compilers take for reached behind the loop.
 bool loops_were_cut() {
   uint iterations = 0u;
   do {
     iterations += 1u;
   } while (iterations < frame.loop_probe);
-  return iterations == 1u;  // not compared with the probe again, which compilers take for false behind the loop
+  return iterations < LOOP_PROBE / 2u;
 }
 
 /// Keeps a pixel's mean. A coverage that is not finite, and stays so, tells the host that it is wrong.
