@@ -27,7 +27,6 @@ TEST_P(FuzzReplay, Corpus) {
     ++files;
   }
   EXPECT_GT(files, 0U);
-  EXPECT_LE(files, 60U) << "keep what adds coverage: tests/fuzz/run --merge";
 }
 
 INSTANTIATE_TEST_SUITE_P(, FuzzReplay, ::testing::ValuesIn(FUZZ_TARGETS),
