@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
 #include "engine/scene/scene_check.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
@@ -32,21 +33,6 @@ namespace {
 
 constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
 constexpr std::uint32_t MOST_EQUAL = 8;  // splats with the same words that are kept: more only add weight
-
-/// Adds the time since its construction to a number of milliseconds when it ends.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total_ms) : total_ms_(total_ms) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() {
-    total_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  double& total_ms_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void check_counts(const Input& input) {
   if (input.objects.size() > OBJECT_MASK + 1) {
@@ -116,7 +102,7 @@ void number_objects(const std::vector<Cloud>& clouds, std::vector<Material>& mat
 
 void estimate_all_normals(std::vector<Cloud>& clouds, Scene& scene, const BuildProgress& progress,
                           BuildStats& stats) {
-  const Stopwatch watch(stats.normals_ms);
+  const AddedTime watch(stats.normals_ms);
   for (std::size_t object = 0; object < clouds.size(); ++object) {
     Cloud& cloud = clouds[object];
     const std::uint64_t estimated = estimate_normals(cloud, glm::normalize(scene.up), {"normals", progress});
@@ -136,7 +122,7 @@ void find_bounds(const std::vector<Cloud>& clouds, Scene& scene) {
 
 void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildProgress& progress,
                     BuildStats& stats) {
-  const Stopwatch watch(stats.radii_ms);
+  const AddedTime watch(stats.radii_ms);
   const double diagonal = scene.diagonal_world();
   const double isolated_world = (diagonal > 0.0 ? ISOLATED_SHARE * diagonal : 1.0) * scene.build.radius_scale;
   for (Cloud& cloud : clouds) {
@@ -217,7 +203,7 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, cons
 
 LeafLists insert(const Octree& tree, const SplatList& splats, const BuildParams& params,
                  const BuildProgress& progress, BuildStats& stats) {
-  const Stopwatch watch(stats.insertion_ms);
+  const AddedTime watch(stats.insertion_ms);
   if (params.insertion == Insertion::centre) return insert_centres(tree, splats);
   LeafLists lists = insert_overlaps(tree, splats, {"insertion", progress});
   stats.growth_overlap = static_cast<double>(lists.splat.size()) / static_cast<double>(splats.size()) - 1.0;
@@ -235,7 +221,7 @@ ListedOctree build_lists(const SplatList& splats, const BuildParams& params, con
                          BuildStats& stats) {
   ListedOctree built;
   {
-    const Stopwatch watch(stats.octree_ms);
+    const AddedTime watch(stats.octree_ms);
     built.tree = build_octree(splats, params.leaf_size);
   }
   built.lists = insert(built.tree, splats, params, progress, stats);
@@ -283,7 +269,7 @@ void count_result(const Scene& scene, BuildStats& stats) {
 
 Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
                   const BuildProgress& progress) {
-  const Stopwatch watch(stats.total_ms);
+  const AddedTime watch(stats.total_ms);
   const ThreadLimit limit(threads);
   check_counts(input);
   Scene scene = describe_scene(input, params);
@@ -294,24 +280,24 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   find_all_radii(clouds, scene, progress, stats);
   SplatList splats;
   {
-    const Stopwatch octree_watch(stats.octree_ms);
+    const AddedTime octree_watch(stats.octree_ms);
     scene.root = fit_root(clouds);
     splats = pack_clouds(std::move(clouds), scene.root, {"packing", progress});
     stats.dropped_duplicates =
         order_splats(splats, params.leaf_size > 0 ? std::min(params.leaf_size, MOST_EQUAL) : MOST_EQUAL);
   }
   if (scene.build.leaf_size == 0) {
-    const Stopwatch octree_watch(stats.octree_ms);
+    const AddedTime octree_watch(stats.octree_ms);
     scene.build.leaf_size = choose_leaf_size(splats, scene.build.insertion);
   }
   ListedOctree built = build_lists(splats, scene.build, progress, stats);
   fill_pools(std::move(built), std::move(splats), scene, stats);
   {
-    const Stopwatch slab_watch(stats.slabs_ms);
+    const AddedTime slab_watch(stats.slabs_ms);
     add_slabs(scene, {"slabs", progress});
   }
   {
-    const Stopwatch empty_watch(stats.empty_ms);
+    const AddedTime empty_watch(stats.empty_ms);
     grow_empty_leaves(scene, {"empty space", progress});
   }
   count_result(scene, stats);

@@ -147,7 +147,7 @@ struct FrameParams {
   uint sample_total;  ///< samples of the whole picture
   uint seed;
   uint max_bounces;  ///< secondary rays in a path, >= 0
-  uint light_count;
+  uint light_end;       ///< lights of this dispatch: [light_begin, light_end)
   float kappa;          ///< window depth in units of the first splat's radius
   float delta;          ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units
   vec3 environment;     ///< radiance factor of the texture, or the constant radiance
@@ -158,8 +158,8 @@ struct FrameParams {
   uint group_count;        ///< and how many
   uint path_count;         ///< STAGE_NEXT: paths that go on
   uint path_bounce;        ///< and how many secondary rays each has behind it
-  uint unused_0;
-  uint unused_1;
+  uint light_begin;        ///< from 1 on `environment` and `irradiance` are zero: another dispatch added them
+  uint loop_probe;         ///< 2: see loops_were_cut
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
   vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
@@ -222,7 +222,7 @@ SPLATRAY_CONST COUNT_LEAVES = 4u;         ///< leaves visited
 SPLATRAY_CONST COUNT_NODE_STEPS = 5u;     ///< node words read
 SPLATRAY_CONST COUNT_TESTS = 6u;          ///< splat tests
 SPLATRAY_CONST COUNT_HITS = 7u;           ///< rays that hit
-SPLATRAY_CONST COUNT_LOST = 8u;           ///< rays stopped by the iteration cap
+SPLATRAY_CONST COUNT_LOST = 8u;           ///< rays stopped after MAX_LEAVES leaves
 SPLATRAY_CONST COUNT_LEAKED = 9u;         ///< rays that left the scene while inside a dielectric
 SPLATRAY_CONST COUNT_NON_FINITE = 10u;    ///< samples with a non-finite colour
 SPLATRAY_CONST COUNT_BOUNCE_LIMIT = 11u;  ///< paths cut by the bounce limit
@@ -252,35 +252,41 @@ SPLATRAY_CONST BIND_GROUPS = 17u;  ///< group list: 32 bits a group of pixels, c
 SPLATRAY_CONST BIND_PATHS = 18u;   ///< of this stage
 SPLATRAY_CONST BIND_PATHS_QUEUED = 19u;  ///< of the next
 
-/// Specialization constants: the features of a pipeline. What is off costs nothing.
-SPLATRAY_CONST SPEC_BLEND = 0u;        ///< BLEND_*
-SPLATRAY_CONST SPEC_KERNEL = 1u;       ///< KERNEL_*
-SPLATRAY_CONST SPEC_SIDE = 2u;         ///< SIDE_*
-SPLATRAY_CONST SPEC_FACES = 3u;        ///< FACES_*
-SPLATRAY_CONST SPEC_MIRRORS = 4u;      ///< 1: some material mirrors
-SPLATRAY_CONST SPEC_GLASS = 5u;        ///< 1: some material is a dielectric
-SPLATRAY_CONST SPEC_COLORS = 6u;       ///< 1: there is a colour pool
-SPLATRAY_CONST SPEC_SHADOWS = 7u;      ///< 1: shadow rays
-SPLATRAY_CONST SPEC_ENVIRONMENT = 8u;  ///< 1: environment texture, 0: constant
-SPLATRAY_CONST SPEC_ORDER = 9u;        ///< ORDER_*
-SPLATRAY_CONST SPEC_COUNTERS = 10u;    ///< 1: counters
-SPLATRAY_CONST SPEC_AOV = 11u;         ///< 1: write AovPixel of the centre ray instead of colour
-SPLATRAY_CONST SPEC_LIGHTS = 12u;      ///< 1: there are lights
-SPLATRAY_CONST SPEC_FIELDS = 13u;      ///< 1: there is a pool of normal fields
-SPLATRAY_CONST SPEC_REFERENCES = 14u;  ///< 1: the data pool is read through references
-SPLATRAY_CONST SPEC_TOP_LEVELS = 15u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
-SPLATRAY_CONST SPEC_STAGE = 16u;       ///< STAGE_FIRST or STAGE_NEXT; in programs without stages STAGE_ALL
-SPLATRAY_CONST SPEC_PAGES = 17u;       ///< pages of a pool less one, 4 bits each, BIND_NODE_POOL lowest
-SPLATRAY_CONST SPEC_PAGE_SHIFT = 18u;  ///< a page of a pool that has several holds 2^PAGE_SHIFT elements
-SPLATRAY_CONST SPEC_COUNT = 19u;
+/// Specialization constants of a pipeline. What is off costs nothing.
+SPLATRAY_CONST SPEC_FEATURES = 0u;    ///< sum of FEATURE_*
+SPLATRAY_CONST SPEC_BLEND = 1u;       ///< BLEND_*
+SPLATRAY_CONST SPEC_KERNEL = 2u;      ///< KERNEL_*
+SPLATRAY_CONST SPEC_SIDE = 3u;        ///< SIDE_*
+SPLATRAY_CONST SPEC_FACES = 4u;       ///< FACES_*
+SPLATRAY_CONST SPEC_ORDER = 5u;       ///< ORDER_*
+SPLATRAY_CONST SPEC_STAGE = 6u;       ///< STAGE_*
+SPLATRAY_CONST SPEC_TOP_LEVELS = 7u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
+SPLATRAY_CONST SPEC_PAGES = 8u;       ///< buffers of a pool less one, 4 bits each, BIND_NODE_POOL lowest
+SPLATRAY_CONST SPEC_PAGE_SHIFT = 9u;  ///< a buffer of a pool that has several holds 2^PAGE_SHIFT elements
+SPLATRAY_CONST SPEC_COUNT = 10u;
+
+/// What a scene and the settings need, one bit each.
+SPLATRAY_CONST FEATURE_MIRRORS = 1u;        ///< some material mirrors
+SPLATRAY_CONST FEATURE_GLASS = 2u;          ///< some material is a dielectric
+SPLATRAY_CONST FEATURE_COLORS = 4u;         ///< there is a colour pool
+SPLATRAY_CONST FEATURE_FIELDS = 8u;         ///< there is a pool of normal fields
+SPLATRAY_CONST FEATURE_REFERENCES = 16u;    ///< the data pool is read through references
+SPLATRAY_CONST FEATURE_LIGHTS = 32u;        ///< there are lights, and a material that scatters their light
+SPLATRAY_CONST FEATURE_SHADOWS = 64u;       ///< shadow rays
+SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, else constant
+SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
 
 SPLATRAY_CONST PAGES_MOST = 8u;  ///< of a pool: buffers one behind the other, where one cannot be as large
 
 SPLATRAY_CONST STAGE_ALL = 0u;    ///< whole paths
 SPLATRAY_CONST STAGE_FIRST = 1u;  ///< primary rays; paths that go on are queued
 SPLATRAY_CONST STAGE_NEXT = 2u;   ///< one ray of each path queued before
+SPLATRAY_CONST STAGE_AOV = 3u;    ///< no paths: AovPixel of the ray through each pixel's centre
 
-SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< design section 4
+/// Most lights of a scene.
+SPLATRAY_CONST LIGHTS_MOST = 4096u;
+
+SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< all splats behind the first within a window (trace/blend.glsl)
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1
 SPLATRAY_CONST BLEND_NEAREST = 2u;  ///< first splat only
 SPLATRAY_CONST BLEND_LEAF = 3u;  ///< first leaf only: the wrong blending of Goradia et al. 2010, Fig. 7 (a)

@@ -97,7 +97,8 @@ void add_sequence_options(OptionList& list, RenderOptions& options) {
   list.add_value(
       "--frames", [&sequence](const std::string& text) { sequence.frames = read_frames(text); }, frames_text,
       "only these frames of a sequence; default all", "A-B");
-  list.add_switch("--skip-existing", sequence.skip_existing, "leave out pictures whose file exists and is whole");
+  list.add_switch("--skip-existing", sequence.skip_existing,
+                  "leave out pictures whose file exists and is whole");
 }
 
 /// What no single option can check of a sequence.

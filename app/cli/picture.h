@@ -1,28 +1,13 @@
 /// The outgoing side of splatray-render: picture file, its metadata, comparison with a reference.
 #pragma once
-#include <chrono>
 #include <optional>
 
 #include "app/cli/options.h"
 #include "app/library/image_file.h"
+#include "engine/base/stopwatch.h"
 #include "engine/vulkan/context.h"
 
 namespace splatray {
-
-/// Wall time of consecutive stages.
-class Stopwatch {
- public:
-  /// Milliseconds since construction or the last lap.
-  double lap_ms() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// Throws Error (failed) when the pictures or the statistics have no place to go.
 void require_outputs_writable(const RenderOptions& options);

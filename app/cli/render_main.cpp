@@ -7,6 +7,7 @@
 #include "app/cli/render_sequence.h"
 #include "app/cli/stats_json.h"
 #include "app/library/image_file.h"
+#include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
@@ -66,7 +67,7 @@ int render(int argc, char** argv) {
   const Environment environment = choose_environment(loaded.environment_name);
 
   watch.lap_ms();
-  Tracer tracer(context);
+  Tracer tracer(context, {.pipeline_folder = user_cache_folder()});
   // What is asked of the pools, before they go.
   const Camera still = choose_camera(loaded.scene, options.picture);
   const PoolCounts counts = pool_counts(loaded.scene);

@@ -22,7 +22,4 @@ struct DisplayImage {
 /// Rounds each channel to the 8 bits a PNG stores.
 void quantise(DisplayImage& image);
 
-/// Inverse of sRGB's transfer function.
-[[nodiscard]] float decode_srgb(float encoded);
-
 }  // namespace splatray

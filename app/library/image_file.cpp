@@ -10,6 +10,7 @@
 
 #include "app/library/image_codec.h"
 #include "engine/base/error.h"
+#include "engine/base/srgb.h"
 #include "engine/file/atomic_file.h"
 
 namespace splatray {
@@ -193,7 +194,7 @@ Environment read_environment(const std::filesystem::path& path) {
   Picture picture = read_picture(path);
   for (vec3& pixel : picture.rgb)
     for (int channel = 0; channel < 3; ++channel) {
-      const float value = picture.encoded ? decode_srgb(pixel[channel]) : pixel[channel];
+      const float value = picture.encoded ? srgb_to_linear(pixel[channel]) : pixel[channel];
       pixel[channel] = std::isfinite(value) && value > 0.0F ? value : 0.0F;
     }
   return {picture.width, picture.height, std::move(picture.rgb), vec3(0.0F)};

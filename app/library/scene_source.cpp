@@ -92,6 +92,10 @@ Camera choose_camera(const Scene& scene, const PictureOptions& picture) {
 std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
                                       const Camera& camera) {
   if (picture.lights) {
+    if (picture.lights->size() > LIGHTS_MOST)
+      throw Error(ExitCode::usage, "found " + std::to_string(picture.lights->size()) +
+                                       " lights in --light and --sun, expected at most " +
+                                       std::to_string(LIGHTS_MOST));
     std::vector<SceneLight> lights;
     for (const LightOptions& light : *picture.lights) lights.push_back(scene_light(loaded.scene, light));
     return lights;

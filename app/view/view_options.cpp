@@ -15,7 +15,8 @@ std::optional<ViewOptions> parse_view_options(int argc, char** argv) {
   list.set_footer("\n" + keys_text());
   add_scene_options(list, options.scene);
   add_number(list, "--exposure", options.exposure_ev, -60.0, 60.0, "brightness in stops; default 0");
-  add_path(list, "--stats-json", options.stats_json, "at the end, write times, rates and counts here");
+  add_path(list, "--stats-json", options.stats_json,
+           "write times, rates, counts and errors here, whenever the picture rests and at the end");
   add_picture_options(list, options.picture);
   if (!list.parse(argc, argv)) return {};
   options.scene.params.seed = options.picture.settings.seed;

@@ -26,8 +26,15 @@ void ViewStats::shown(const SharedFrame& frame, Clock::time_point now) {
   }
   last_ = now;
   frame_ = frame;
+  has_news_ |= !frame->moving;
   std::erase_if(recent_, [now](Clock::time_point time) { return now - time > std::chrono::seconds(1); });
   recent_.push_back(now);
+}
+
+void ViewStats::told(const std::string& error) {
+  if (!errors_.empty() && errors_.back() == error) return;
+  errors_.push_back(error);
+  has_news_ = true;
 }
 
 double ViewStats::per_second(Clock::time_point now) const {
@@ -36,7 +43,8 @@ double ViewStats::per_second(Clock::time_point now) const {
   }));
 }
 
-void ViewStats::write(const std::filesystem::path& path, std::uint32_t validation_messages) const {
+void ViewStats::write(const std::filesystem::path& path, std::uint32_t validation_messages) {
+  has_news_ = false;
   const double moving = static_cast<double>(moving_pictures_);
   nlohmann::ordered_json json;
   json["device"] = frame_ ? frame_->device : "";
@@ -45,10 +53,12 @@ void ViewStats::write(const std::filesystem::path& path, std::uint32_t validatio
   json["moving"] = {{"pictures", moving_pictures_},
                     {"per_second", moving_ms_ > 0.0 ? 1000.0 * moving / moving_ms_ : 0.0},
                     {"mean_scale", moving_pictures_ > 0 ? scale_sum_ / moving : 0.0}};
+  json["size"] = {frame_ ? frame_->view.width : 0, frame_ ? frame_->view.height : 0};
   json["samples"] = frame_ ? frame_->samples : 0;
   json["pools_uploaded"] = frame_ ? frame_->pools_uploaded : 0;
+  json["errors"] = errors_;
   json["validation_messages"] = validation_messages;
-  write_text_file(json.dump(2) + "\n", path);
+  write_text_file(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", path);
 }
 
 }  // namespace splatray

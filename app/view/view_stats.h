@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/view/thread/progressive.h"
@@ -18,11 +19,15 @@ class ViewStats {
   explicit ViewStats(Clock::time_point now) : start_(now) {}
 
   void shown(const SharedFrame& frame, Clock::time_point now);
+  /// `error`: the sentence that the window shows as its error, in every frame.
+  void told(const std::string& error);
+  /// Whether an error, or a picture that is not of something moving, came since the last write().
+  [[nodiscard]] bool has_news() const { return has_news_; }
   /// Pictures of the last second that were handed to the window.
   [[nodiscard]] double per_second(Clock::time_point now) const;
-  /// Writes JSON: device, time to the first picture, pictures and their rate while something moved, pools uploaded,
-  /// validation messages. Throws Error (failed); leaves no partial file.
-  void write(const std::filesystem::path& path, std::uint32_t validation_messages) const;
+  /// Writes JSON: device, time to the first picture, pictures and their rate while something moved, size and samples of
+  /// the last picture, pools uploaded, errors shown, validation messages. Throws Error (failed); leaves no partial file.
+  void write(const std::filesystem::path& path, std::uint32_t validation_messages);
 
  private:
   Clock::time_point start_;
@@ -33,6 +38,8 @@ class ViewStats {
   std::vector<Clock::time_point> recent_;  ///< of the last second
   Clock::time_point last_{};
   SharedFrame frame_;
+  std::vector<std::string> errors_;
+  bool has_news_ = false;
 };
 
 }  // namespace splatray

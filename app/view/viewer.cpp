@@ -1,10 +1,12 @@
 #include "app/view/viewer.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "app/cli/command_line.h"
 #include "app/cli/reproduce.h"
 #include "app/library/camera_file.h"
+#include "app/view/model/attempt.h"
 #include "app/view/model/document_options.h"
 #include "app/view/model/navigation.h"
 #include "app/view/window/drop.h"
@@ -67,8 +69,14 @@ void Viewer::run() {
     presenter_.gui().end();
     submit();
     if (is_worth_drawing()) presenter_.draw(picture_px().x);
+    if (stats_.has_news()) write_stats();
   }
-  remember();
+  if (const std::optional<Failure> failure = attempt("keeping the viewer's state", [this] { remember(); }))
+    std::fprintf(stderr, "splatray-view: note: %s\n", failure->sentence.c_str());
+  write_stats();
+}
+
+void Viewer::write_stats() {
   if (!options_.stats_json.empty())
     stats_.write(options_.stats_json, presenter_.validation_messages() + renderer_.validation_messages());
 }
@@ -88,7 +96,8 @@ double Viewer::patience() const { return presenter_.gui().wants_keyboard() ? CAR
 void Viewer::take_news() {
   take_load_news();
   take_render_news();
-  for (const std::filesystem::path& file : window_.take_dropped()) attempt([&] { take_dropped(file); });
+  for (const std::filesystem::path& file : window_.take_dropped())
+    attempt_to("opening " + file.string(), [&] { take_dropped(file); });
 }
 
 void Viewer::take_load_news() {
@@ -97,7 +106,7 @@ void Viewer::take_load_news() {
   if (news.progress) work_ = {news.progress->stage, news.progress->share};
   if (!news.notice.empty()) panels_.notice = news.notice;
   if (!news.error.empty()) panels_.error = news.error;
-  if (news.opened) show(std::move(*news.opened));
+  if (news.opened) attempt_to("showing the scene", [&] { show(std::move(*news.opened)); });
 }
 
 void Viewer::take_render_news() {
@@ -139,7 +148,7 @@ void Viewer::show(OpenedScene opened) {
   opened.document.mode = document_.mode;
   document_ = std::move(opened.document);
   has_scene_ = true;
-  file_ = document_.source.inputs.front();
+  file_ = document_.loaded->source.inputs.front();
   remember_file(user_, file_);
   panels_.recent_files = user_.recent_files;
   panels_.home = document_.camera;
@@ -154,12 +163,15 @@ void Viewer::show(OpenedScene opened) {
 }
 
 /// What goes wrong becomes a sentence in the window.
-void Viewer::attempt(const std::function<void()>& step) {
-  try {
-    step();
-  } catch (const Error& error) {
-    panels_.error = error.what();
-  }
+void Viewer::attempt_to(const std::string& doing, const std::function<void()>& step) {
+  if (const std::optional<Failure> failure = attempt(doing, step)) panels_.error = failure->sentence;
+}
+
+/// Throws Error when there is no scene that a dropped file could change.
+void Viewer::require_scene(const std::filesystem::path& file, const char* found) const {
+  if (!has_scene_)
+    throw Error(ExitCode::failed,
+                "found '" + file.filename().string() + "', " + found + ", expected a scene first");
 }
 
 void Viewer::take_dropped(const std::filesystem::path& file) {
@@ -169,9 +181,11 @@ void Viewer::take_dropped(const std::filesystem::path& file) {
     case DropKind::picture:
       return open(read_picture_options(file));
     case DropKind::environment:
+      require_scene(file, "an environment");
       document_.environment = file.string();
       return;
     case DropKind::camera:
+      require_scene(file, "a camera");
       document_.camera = read_camera(file);
       return;
     case DropKind::unknown:
@@ -244,7 +258,7 @@ void Viewer::handle(const Command& command) {
     case Action::copy_command:
       return copy();
     case Action::paste_command:
-      return attempt([this] { paste(); });
+      return attempt_to("pasting", [this] { paste(); });
     default:
       return;
   }
@@ -257,7 +271,9 @@ void Viewer::draw_controls() {
   view.inspected = inspected_ ? &*inspected_ : nullptr;
   view.frames_per_second = stats_.per_second(Clock::now());
   view.work = work_ ? &*work_ : nullptr;
-  handle(draw_panels(document_, panels_, view));
+  const Requests requests = draw_panels(document_, panels_, view);
+  if (!panels_.error.empty()) stats_.told(panels_.error);
+  attempt_to("doing what was asked for", [&] { handle(requests); });
 }
 
 void Viewer::handle(const Requests& requests) {

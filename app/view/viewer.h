@@ -22,17 +22,19 @@ class Viewer {
   /// Opens the window. `start`: of the program. Throws Error (no_device).
   Viewer(const ViewOptions& options, ViewStats::Clock::time_point start);
 
-  /// Until the window is closed or a signal comes.
+  /// Until the window is closed or a signal comes. State that cannot be kept is noted on stderr. Throws Error (failed) when
+  /// the window cannot be drawn or the statistics not be written.
   void run();
 
  private:
   void take_news();
   void take_load_news();
   void take_render_news();
-  void attempt(const std::function<void()>& step);
+  void attempt_to(const std::string& doing, const std::function<void()>& step);
   void open(const std::filesystem::path& file);
   void open(const RenderOptions& options);
   void show(OpenedScene opened);
+  void require_scene(const std::filesystem::path& file, const char* found) const;
   void take_dropped(const std::filesystem::path& file);
   void handle_inputs();
   void handle(const Gesture& gesture);
@@ -46,6 +48,7 @@ class Viewer {
   void submit();
   [[nodiscard]] bool is_worth_drawing();
   void remember();
+  void write_stats();
   [[nodiscard]] glm::uvec2 picture_px() const;
   [[nodiscard]] double aspect() const;
   [[nodiscard]] double patience() const;

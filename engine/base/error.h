@@ -6,7 +6,7 @@
 
 namespace splatray {
 
-/// Exit codes of all programs (design, section 6).
+/// Exit codes of all programs.
 enum class ExitCode : int {
   done = 0,
   failed = 1,            ///< the work or a comparison failed

@@ -1,5 +1,7 @@
 #include "engine/base/number_text.h"
 
+#include <cstdio>
+
 #include <charconv>
 #include <cstdlib>
 
@@ -31,5 +33,13 @@ std::string number_text(float value) {
 
 std::string number_text(const glm::dvec3& v, char separator) { return joined(v, separator); }
 std::string number_text(const glm::vec3& v, char separator) { return joined(v, separator); }
+
+std::string bytes_text(std::uint64_t bytes) {
+  const double mib = static_cast<double>(bytes) / (1024.0 * 1024.0);
+  char text[40];
+  std::snprintf(text, sizeof(text), mib < 1024.0 ? "%.1f MiB" : "%.2f GiB",
+                mib < 1024.0 ? mib : mib / 1024.0);
+  return text;
+}
 
 }  // namespace splatray

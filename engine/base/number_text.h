@@ -1,5 +1,6 @@
 /// Numbers as text that reads back to the same bits, whatever the locale.
 #pragma once
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 
@@ -12,5 +13,8 @@ namespace splatray {
 /// The components with `separator` between them.
 [[nodiscard]] std::string number_text(const glm::dvec3& v, char separator = ',');
 [[nodiscard]] std::string number_text(const glm::vec3& v, char separator = ',');
+
+/// Bytes for people: "1.5 MiB", "2.25 GiB".
+[[nodiscard]] std::string bytes_text(std::uint64_t bytes);
 
 }  // namespace splatray

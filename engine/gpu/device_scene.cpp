@@ -1,9 +1,13 @@
 #include "engine/gpu/device_scene.h"
 
+#include <string>
+
+#include "engine/base/error.h"
+
 namespace splatray {
 
-DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish)
-    : context_(context), queue_(queue), wish_(wish), environment_(context, queue, {}) {}
+DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish, bool culls)
+    : context_(context), queue_(queue), wish_(wish), culls_(culls), environment_(context, queue, {}) {}
 
 void DeviceScene::upload(const Scene& scene, Scene* spent) {
   bindings_.reset();
@@ -16,17 +20,26 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   outline_.up = scene.up;
   outline_.bounds_min_world = scene.bounds_min_world;
   outline_.bounds_max_world = scene.bounds_max_world;
+  materials_ = scene.materials;
   set_materials(scene.materials);
   set_lights(scene.lights);
 }
 
 void DeviceScene::set_materials(std::span<const Material> materials) {
+  if (materials.size() != materials_.size())
+    throw Error(ExitCode::failed, "found " + std::to_string(materials.size()) +
+                                      " materials, expected the scene's " +
+                                      std::to_string(materials_.size()));
   materials_.assign(materials.begin(), materials.end());
+  material_content_ = material_content(materials);
   reserve_storage(context_, material_buffer_, materials.size_bytes());
   material_buffer_.upload(queue_, std::as_bytes(materials));
 }
 
 void DeviceScene::set_lights(std::span<const SceneLight> lights) {
+  if (lights.size() > LIGHTS_MOST)
+    throw Error(ExitCode::failed, "found " + std::to_string(lights.size()) + " lights, expected at most " +
+                                      std::to_string(LIGHTS_MOST));
   const std::vector<Light> in_root = lights_in_root(outline_, {lights.begin(), lights.end()});
   light_count_ = static_cast<std::uint32_t>(in_root.size());
   reserve_storage(context_, light_buffer_, std::span(in_root).size_bytes());
@@ -55,7 +68,7 @@ PoolBytes DeviceScene::bytes() const {
 }
 
 SceneContent DeviceScene::content() const {
-  return {.materials = materials_,
+  return {.materials = material_content_,
           .colors = pools_.bytes.color_pool > 0,
           .fields = pools_.bytes.field_pool > 0,
           .references = pools_.references,
@@ -68,9 +81,9 @@ SceneContent DeviceScene::content() const {
 
 FrameParams DeviceScene::picture_params(const View& view, const Settings& settings) const {
   FrameParams frame = make_frame_params(outline_, view, settings);
-  const SpecConstants constants = picture_features(content(), settings);
-  if (constants[SPEC_MIRRORS] == 0 && constants[SPEC_GLASS] == 0) frame.max_bounces = 0;
-  frame.light_count = light_count_;
+  if (!material_content_.mirrors && !material_content_.glass) frame.max_bounces = 0;
+  frame.light_end = light_count_;
+  frame.loop_probe = 2;
   set_media(frame, materials_);
   frame.environment =
       settings.environment_strength * (environment_texture_ ? glm::vec3(1.0F) : environment_constant_);
@@ -89,7 +102,7 @@ FrameParams DeviceScene::query_params(const Settings& settings) const {
 }
 
 Footprint DeviceScene::footprint(const View& view, const Settings& settings) const {
-  if (!settings.cull || !context_.is_processor()) return {view.width, view.height};
+  if (!settings.cull || !culls_) return {view.width, view.height};
   return {cells_, outline_.root, view};
 }
 

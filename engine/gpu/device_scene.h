@@ -21,7 +21,8 @@ namespace splatray {
 class DeviceScene {
  public:
   /// Nothing yet, black all around. The context and the queue must outlive it.
-  DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish);
+  /// `culls`: footprint() leaves out pixels that no leaf projects to.
+  DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish, bool culls);
 
   /// As the tracer's functions of these names.
   void upload(const Scene& scene) { upload(scene, nullptr); }
@@ -37,15 +38,13 @@ class DeviceScene {
   [[nodiscard]] BindingSet& bindings() { return *bindings_; }
   void bind();
 
-  [[nodiscard]] PoolAccess access() const { return pools_.paging.access; }  ///< texel or storage
   [[nodiscard]] PoolBytes bytes() const;
-  [[nodiscard]] std::size_t materials() const { return materials_.size(); }
   /// What the features of a pipeline depend on.
   [[nodiscard]] SceneContent content() const;
   /// Parameters of a picture, and of ray queries.
   [[nodiscard]] FrameParams picture_params(const View& view, const Settings& settings) const;
   [[nodiscard]] FrameParams query_params(const Settings& settings) const;
-  /// The pixels whose rays must be traced: all but on a processor.
+  /// The pixels whose rays must be traced.
   [[nodiscard]] Footprint footprint(const View& view, const Settings& settings) const;
 
  private:
@@ -55,12 +54,14 @@ class DeviceScene {
   const Context& context_;
   CommandQueue& queue_;
   const PoolWish wish_;
+  const bool culls_;
   std::optional<BindingSet> bindings_;  ///< of the pools
 
   Scene outline_;  ///< the scene without its arrays: transform, bounds, up
   Pools pools_;
   std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
   std::vector<Material> materials_;
+  MaterialContent material_content_;
   Buffer material_buffer_, light_buffer_;
   std::uint32_t light_count_ = 0;
   EnvironmentTexture environment_;

@@ -27,6 +27,13 @@ void TileDispatch::set_samples(std::uint32_t begin, std::uint32_t end) {
   }
 }
 
+void TileDispatch::set_lights(std::uint32_t begin, std::uint32_t end) {
+  for (Dispatch* part : {&seen, &empty}) {
+    part->frame.light_begin = begin;
+    part->frame.light_end = end;
+  }
+}
+
 TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& footprint) {
   const bool linear = dispatch.constants[SPEC_ORDER] == ORDER_LINEAR;
   const std::uint32_t width = linear ? GROUP_SIZE : 8, height = linear ? 1 : 8;

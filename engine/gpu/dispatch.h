@@ -30,6 +30,8 @@ struct TileDispatch {
 
   /// Has them trace samples [begin, end) of each pixel.
   void set_samples(std::uint32_t begin, std::uint32_t end);
+  /// Has them add the light of lights [begin, end) alone.
+  void set_lights(std::uint32_t begin, std::uint32_t end);
 };
 
 /// Groups of `group` threads that hold `threads`.

@@ -1,4 +1,4 @@
-/// Which features a pipeline needs, from the content of the scene and the settings (design, section 5).
+/// Which features a pipeline needs, from the content of the scene and the settings: what a scene does not use costs nothing.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,9 +12,23 @@ namespace splatray {
 /// Values of the specialization constants; index = SPEC_*.
 using SpecConstants = std::array<std::uint32_t, SPEC_COUNT>;
 
+/// Whether constants have a feature, FEATURE_*.
+[[nodiscard]] inline bool has(const SpecConstants& constants, std::uint32_t feature) {
+  return (constants[SPEC_FEATURES] & feature) != 0;
+}
+
+/// What the features depend on in a scene's materials.
+struct MaterialContent {
+  std::uint32_t faces = FACES_MIXED;  ///< FACES_*: the cheapest that is right for all
+  bool mirrors = false;               ///< some mirror
+  bool glass = false;                 ///< some are dielectrics
+  bool scatters = false;              ///< some send light of lights back, diffusely or as a highlight
+};
+[[nodiscard]] MaterialContent material_content(std::span<const Material> materials);
+
 /// What the features depend on.
 struct SceneContent {
-  std::span<const Material> materials{};
+  MaterialContent materials{};
   bool colors = false;               ///< there is a colour pool
   bool fields = false;               ///< there is a pool of normal fields
   bool references = false;           ///< the data pool is read through the reference pool
@@ -25,11 +39,11 @@ struct SceneContent {
   bool environment_texture = false;  ///< the environment is not constant
 };
 
-/// Constants of pictures (trace.comp.glsl), with SPEC_AOV = 0.
+/// Constants of images (trace.comp.glsl), STAGE_ALL.
 [[nodiscard]] SpecConstants picture_features(const SceneContent& content, const Settings& settings);
-/// Those of them that matter where no primary ray hits anything, and the pages, which descriptor sets depend on.
+/// Those of them that matter where no primary ray hits anything.
 [[nodiscard]] SpecConstants empty_features(const SpecConstants& constants);
-/// Constants of ray queries (rays.comp.glsl): those of pictures without what only shading needs.
+/// Constants of ray queries (rays.comp.glsl): those of images without what only shading needs.
 [[nodiscard]] SpecConstants query_features(const SceneContent& content, const Settings& settings);
 
 }  // namespace splatray

@@ -3,8 +3,6 @@
 #include <cassert>
 #include <span>
 
-#include "shaders/spirv.h"
-
 namespace splatray {
 namespace {
 
@@ -34,7 +32,7 @@ Handle<VkShaderModule, vkDestroyShaderModule> make_module(const Context& context
 
 Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, const PipelineKey& key,
                                                     std::span<const std::uint32_t> code,
-                                                    VkPipelineLayout layout) {
+                                                    VkPipelineLayout layout, VkPipelineCache cache) {
   std::array<VkSpecializationMapEntry, SPEC_COUNT> entries{};
   for (std::uint32_t i = 0; i < SPEC_COUNT; ++i)
     entries[i] = {i, i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)};
@@ -50,36 +48,11 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
   info.stage.pSpecializationInfo = &specialization;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateComputePipelines(context.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-        "building a pipeline");
+  check(vkCreateComputePipelines(context.device, cache, 1, &info, nullptr, &pipeline), "building a pipeline");
   return {context.device, pipeline};
 }
 
 }  // namespace
-
-std::span<const std::uint32_t> engine_code(Program program, PoolAccess access, bool paged,
-                                           Arithmetic arithmetic) {
-  const ProgramVariants trace{TRACE_STORAGE, TRACE_TEXEL, TRACE_STORAGE_FLOAT64, TRACE_TEXEL_FLOAT64};
-  const ProgramVariants trace_paged{TRACE_PAGED_STORAGE, TRACE_PAGED_TEXEL, TRACE_PAGED_STORAGE_FLOAT64,
-                                    TRACE_PAGED_TEXEL_FLOAT64};
-  const ProgramVariants staged{STAGED_STORAGE, STAGED_TEXEL, STAGED_STORAGE_FLOAT64, STAGED_TEXEL_FLOAT64};
-  const ProgramVariants staged_paged{STAGED_PAGED_STORAGE, STAGED_PAGED_TEXEL, STAGED_PAGED_STORAGE_FLOAT64,
-                                     STAGED_PAGED_TEXEL_FLOAT64};
-  const ProgramVariants rays{RAYS_STORAGE, RAYS_TEXEL, RAYS_STORAGE_FLOAT64, RAYS_TEXEL_FLOAT64};
-  const ProgramVariants rays_paged{RAYS_PAGED_STORAGE, RAYS_PAGED_TEXEL, RAYS_PAGED_STORAGE_FLOAT64,
-                                   RAYS_PAGED_TEXEL_FLOAT64};
-  const ProgramVariants empty{EMPTY, EMPTY, EMPTY_FLOAT64, EMPTY_FLOAT64};
-  switch (program) {
-    case Program::trace:
-      return (paged ? trace_paged : trace).get(access, arithmetic);
-    case Program::staged:
-      return (paged ? staged_paged : staged).get(access, arithmetic);
-    case Program::empty:
-      return empty.get(access, arithmetic);
-    default:
-      return (paged ? rays_paged : rays).get(access, arithmetic);
-  }
-}
 
 BindingSet::BindingSet(const Context& context, const Paging& paging) : context_(context), paging_(paging) {
   assert(paging.access != PoolAccess::automatic);
@@ -169,8 +142,8 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const auto code = code_(key.program, key.access, key.constants[SPEC_PAGES] != 0, key.arithmetic);
-    found = pipelines_.emplace(key, make_pipeline(context_, key, code, layout)).first;
+    const auto code = program_code(key.program, kernels_, key.constants[SPEC_PAGES] != 0);
+    found = pipelines_.emplace(key, make_pipeline(context_, key, code, layout, store_.get())).first;
   }
   return found->second.get();
 }

@@ -2,12 +2,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 
 #include "engine/gpu/features.h"
 #include "engine/gpu/pools.h"
 #include "engine/gpu/program.h"
 #include "engine/vulkan/buffer.h"
+#include "engine/vulkan/pipeline_store.h"
 #include "engine/vulkan/texture.h"
 
 namespace splatray {
@@ -43,8 +45,6 @@ class BindingSet {
 /// What a pipeline is made of, and so its name in the cache.
 struct PipelineKey {
   Program program = Program::trace;
-  PoolAccess access = PoolAccess::storage;           ///< texel or storage
-  Arithmetic arithmetic = Arithmetic::double_float;  ///< double_float or float64
   SpecConstants constants{};
 
   auto operator<=>(const PipelineKey&) const = default;
@@ -53,7 +53,9 @@ struct PipelineKey {
 /// Builds each pipeline once. The context must outlive it.
 class PipelineCache {
  public:
-  PipelineCache(const Context& context, ProgramCode code) : context_(context), code_(code) {}
+  /// `folder`: where pipelines are kept between runs (pipeline_store.h); empty = nowhere.
+  PipelineCache(const Context& context, Kernels kernels, const std::filesystem::path& folder)
+      : context_(context), kernels_(kernels), store_(context, folder) {}
 
   /// The pipeline of the key, with that layout; built when it is the first such.
   [[nodiscard]] VkPipeline get(const PipelineKey& key, VkPipelineLayout layout);
@@ -62,7 +64,8 @@ class PipelineCache {
 
  private:
   const Context& context_;
-  ProgramCode code_;
+  const Kernels kernels_;
+  PipelineStore store_;
   std::map<PipelineKey, Handle<VkPipeline, vkDestroyPipeline>> pipelines_;
 };
 

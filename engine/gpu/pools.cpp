@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <cstdio>
 #include <numeric>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 #include <variant>
 
 #include "engine/base/error.h"
+#include "engine/base/number_text.h"
 
 namespace splatray {
 namespace {
@@ -36,12 +36,6 @@ std::array<std::uint64_t, POOLS> sizes(const PoolBytes& bytes) {
           bytes.data_pool, bytes.color_pool, bytes.field_pool, bytes.top_table};
 }
 
-std::string mib_text(std::uint64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
-  return text;
-}
-
 /// Most elements of that size in one buffer.
 std::uint64_t most_elements(const PoolLimits& limits, PoolAccess access, std::uint64_t element_bytes) {
   const bool texel = access == PoolAccess::texel;
@@ -65,9 +59,9 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolL
     const bool fits = elements <= most_elements(limits, access, element_bytes);
     const std::uint64_t pages = fits ? 1 : (elements + page - 1) / page;
     if (pages > PAGES_MOST)
-      return std::string("the ") + name + " has " + mib_text(sizes(bytes)[i]) + ", more than " +
+      return std::string("the ") + name + " has " + bytes_text(sizes(bytes)[i]) + ", more than " +
              std::to_string(PAGES_MOST) + " of its largest " + (texel ? "texel" : "storage") +
-             " buffers with " + mib_text(page * element_bytes) + " each";
+             " buffers with " + bytes_text(page * element_bytes) + " each";
     paging.pages[i] = static_cast<std::uint32_t>(pages);
     all += pages;
   }

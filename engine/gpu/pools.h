@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/scene/copies.h"
+#include "engine/vulkan/bindings.h"
 #include "engine/vulkan/paged_buffer.h"
 
 namespace splatray {
@@ -47,12 +48,6 @@ struct PoolBytes {
 
 /// Of all pools and the top table, without environment and frame.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
-
-inline constexpr std::uint32_t BINDINGS = BIND_PATHS_QUEUED + 1;
-inline constexpr std::uint32_t POOLS = BIND_TOP_TABLE - BIND_NODE_POOL + 1;
-/// Of a program's bindings, beside the pools: the environment and the paths of stages, and storage buffers.
-inline constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 2;
-inline constexpr std::uint32_t OTHER_STORAGE_BUFFERS = BINDINGS - POOLS - OTHER_SAMPLED_IMAGES;
 
 /// What the device allows pools to be.
 struct PoolLimits {

@@ -2,13 +2,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "engine/gpu/device_profile.h"
 #include "engine/gpu/pools.h"
-#include "engine/gpu/program.h"
 #include "engine/image/image.h"
 #include "engine/image/view.h"
 #include "engine/scene/environment.h"
@@ -32,12 +33,18 @@ struct RenderStats {
   }
 };
 
+struct TracerOptions {
+  std::filesystem::path
+      pipeline_folder{};                 ///< where compiled pipelines are kept between runs; empty = nowhere
+  PoolWish pools{};                      ///< for tests and benchmarks
+  Kernels kernels = Kernels::automatic;  ///< for tests and benchmarks
+};
+
+/// Calls that make no sense, such as images of no scene, throw Error (failed) with a sentence that says so.
 class Tracer {
  public:
-  /// The context must outlive the tracer. Other arithmetic and code are for tests and benchmarks, as wishes are; code reads
-  /// the pools as it likes.
-  explicit Tracer(const Context& context, const PoolWish& wish = {},
-                  Arithmetic arithmetic = Arithmetic::automatic, ProgramCode code = engine_code);
+  /// The context must outlive the tracer.
+  explicit Tracer(const Context& context, const TracerOptions& options = {});
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
@@ -48,8 +55,8 @@ class Tracer {
   /// As upload, but frees the scene's pools, each as soon as it is on the device, also where that then throws: a host needs
   /// the memory of a large scene once, not twice. All else of the scene stays.
   void upload_and_free(Scene& scene);
-  /// Replaces all materials (same count), or the lights, or the environment; no pool is touched. Before the
-  /// first set_environment all is black.
+  /// Replaces all materials (as many as the scene has objects), or the lights (at most LIGHTS_MOST), or the environment; no pool is
+  /// touched. Before the first set_environment all is black.
   void set_materials(std::span<const Material> materials);
   void set_lights(std::span<const SceneLight> lights);
   void set_environment(const Environment& environment);
@@ -62,11 +69,12 @@ class Tracer {
   /// The picture of the uploaded scene.
   [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {});
   /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit
-  /// what render() gives, whatever happened between. Settings::aov is not looked at. Throws Error (out_of_memory) for
-  /// more pixels than the device lets a buffer hold.
+  /// what render() gives, whatever other calls than upload() and set_...() happened between. Settings::aov is not looked at.
+  /// Throws Error (out_of_memory) for more pixels than the device lets a buffer hold.
   void begin(const View& view, const Settings& settings);
   /// Adds one sample to some rows of the picture begun, aiming at `wanted_ms` of work; returns whether all of
-  /// Settings::samples are in every pixel. What set_materials() and its like change belongs before begin().
+  /// Settings::samples are in every pixel. What set_materials() and its like change belongs before begin(); after upload()
+  /// begin() must come first.
   bool advance(double wanted_ms);
   [[nodiscard]] std::uint32_t samples() const;  ///< in every pixel of the picture begun
   /// The picture begun: each pixel the mean of its samples so far, black without one.

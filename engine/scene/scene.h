@@ -43,7 +43,7 @@ struct SceneLight {
 };
 
 enum class Insertion : std::uint32_t { overlap = 0, probe = 1, centre = 2 };
-enum class RadiusRule : std::uint32_t { coverage = 0, knn = 1, given = 2 };
+enum class RadiusRule : std::uint32_t { coverage = 0, knn = 1 };
 
 /// How the octree was built; kept in the file so that a build can be repeated.
 struct BuildParams {

@@ -33,7 +33,7 @@ Defect check_header(const Scene& scene) {
   if (!finite(scene.surface_area_world) || scene.surface_area_world < 0.0)
     return SceneDefect{"a surface area that is negative or not finite", "0 or more"};
   const BuildParams& build = scene.build;
-  if (build.leaf_size == 0 || build.insertion > Insertion::centre || build.radius_rule > RadiusRule::given ||
+  if (build.leaf_size == 0 || build.insertion > Insertion::centre || build.radius_rule > RadiusRule::knn ||
       !finite(build.radius_scale) || !(build.radius_scale > 0.0))
     return SceneDefect{"build parameters out of range", "those of splatray-preprocess"};
   return {};
@@ -251,6 +251,9 @@ std::optional<SceneDefect> find_look_defect(const Scene& scene) {
   };
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     if (const Defect defect = check_material(scene.materials[i])) return in("material", i, *defect);
+  if (scene.lights.size() > LIGHTS_MOST)
+    return SceneDefect{std::to_string(scene.lights.size()) + " lights",
+                       "at most " + std::to_string(LIGHTS_MOST)};
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (const Defect defect = check_light(scene.lights[i])) return in("light", i, *defect);
   return {};

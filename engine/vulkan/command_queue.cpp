@@ -82,7 +82,13 @@ double CommandQueue::run(const std::function<void(VkCommandBuffer)>& record) {
     vkCmdResetQueryPool(commands_, queries, 0, 2);
     vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, queries, 0);
   }
-  record(commands_);
+  try {
+    record(commands_);
+  } catch (...) {
+    vkResetCommandBuffer(commands_,
+                         0);  // else it stays in the recording state, in which the next run may not begin
+    throw;
+  }
   record_barrier(commands_);
   if (queries != VK_NULL_HANDLE)
     vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries, 1);

@@ -1,10 +1,11 @@
 #include "engine/vulkan/context.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <memory>
+#include <type_traits>
 
 #include "engine/base/error.h"
 
@@ -13,16 +14,18 @@ namespace {
 
 constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
 
-/// Counts a validation message in *user_data, a std::uint32_t, and prints it.
+using MessageCount = std::atomic<std::uint32_t>;
+
+/// Counts a validation message in *user_data, a MessageCount, and prints it.
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user_data) {
-  ++*static_cast<std::uint32_t*>(user_data);
+  ++*static_cast<MessageCount*>(user_data);
   std::cerr << "Vulkan validation: " << data->pMessage << '\n';
   return VK_FALSE;
 }
 
-VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::uint32_t* count) {
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(MessageCount* count) {
   VkDebugUtilsMessengerCreateInfoEXT info{};
   info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
   info.messageSeverity =
@@ -34,11 +37,25 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::uint32_t* count) {
   return info;
 }
 
+/// All that `list(count, items)`, a vkEnumerate... function, lists. What it lists may change between two calls.
+template <typename Item, typename List>
+std::vector<Item> enumerate(const List& list, const char* what) {
+  std::vector<Item> items;
+  VkResult result = VK_INCOMPLETE;
+  while (result == VK_INCOMPLETE) {
+    std::uint32_t count = 0;
+    check(list(&count, nullptr), what);
+    items.resize(count);
+    result = list(&count, items.data());
+    items.resize(count);
+  }
+  check(result, what);
+  return items;
+}
+
 bool validation_layer_present() {
-  std::uint32_t count = 0;
-  check(vkEnumerateInstanceLayerProperties(&count, nullptr), "listing the Vulkan layers");
-  std::vector<VkLayerProperties> layers(count);
-  check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "listing the Vulkan layers");
+  const auto layers =
+      enumerate<VkLayerProperties>(vkEnumerateInstanceLayerProperties, "listing the Vulkan layers");
   return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
     return std::strcmp(layer.layerName, VALIDATION_LAYER) == 0;
   });
@@ -88,21 +105,22 @@ void check(VkResult result, const char* what) {
 }
 
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
-  std::uint32_t count = 0;
-  const VkResult result = vkEnumeratePhysicalDevices(instance, &count, nullptr);
-  if (result == VK_ERROR_INITIALIZATION_FAILED) return {};  // drivers without their hardware
-  check(result, "listing the Vulkan devices");
-  std::vector<VkPhysicalDevice> devices(count);
-  check(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "listing the Vulkan devices");
-  return devices;
+  const auto list = [instance](std::uint32_t* count, VkPhysicalDevice* devices) {
+    const VkResult result = vkEnumeratePhysicalDevices(instance, count, devices);
+    if (result != VK_ERROR_INITIALIZATION_FAILED) return result;
+    *count = 0;  // drivers without their hardware
+    return VK_SUCCESS;
+  };
+  return enumerate<VkPhysicalDevice>(list, "listing the Vulkan devices");
 }
 
 std::vector<DeviceInfo> list_devices() {
-  VkInstance instance = make_instance(nullptr);
-  if (instance == VK_NULL_HANDLE) return {};
+  const auto destroy = [](VkInstance instance) { vkDestroyInstance(instance, nullptr); };
+  const std::unique_ptr<std::remove_pointer_t<VkInstance>, decltype(destroy)> instance(make_instance(nullptr),
+                                                                                       destroy);
   std::vector<DeviceInfo> infos;
-  for (VkPhysicalDevice device : physical_devices(instance)) infos.push_back(describe_device(device));
-  vkDestroyInstance(instance, nullptr);
+  if (instance)
+    for (VkPhysicalDevice device : physical_devices(instance.get())) infos.push_back(describe_device(device));
   return infos;
 }
 
@@ -147,12 +165,6 @@ void Context::choose_device(const std::string& wanted, const WindowNeeds& needs)
   const std::size_t chosen = splatray::choose_device(infos, wanted);
   physical_device = devices[chosen];
   info_ = infos[chosen];
-}
-
-Arithmetic Context::arithmetic(Arithmetic wanted) const {
-  assert(wanted != Arithmetic::float64 || float64);
-  if (wanted != Arithmetic::automatic) return wanted;
-  return is_processor() && float64 ? Arithmetic::float64 : Arithmetic::double_float;
 }
 
 void Context::create_device(const WindowNeeds& needs) {

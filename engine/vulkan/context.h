@@ -2,6 +2,7 @@
 #pragma once
 #include <vulkan/vulkan.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,13 +28,6 @@ struct WindowNeeds {
   std::function<std::string(VkInstance, VkPhysicalDevice)> refusal;
 };
 
-/// What decides hits (splat.glsl). Both agree with brute force.
-enum class Arithmetic {
-  automatic,  ///< float64 on processors that have it; double_float on GPUs, many of which are slow at float64
-  double_float,  ///< pairs of float32
-  float64,
-};
-
 class Context {
  public:
   /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
@@ -47,11 +41,10 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   [[nodiscard]] const DeviceInfo& device_info() const { return info_; }
+  /// So far; from any thread.
   [[nodiscard]] std::uint32_t validation_messages() const { return validation_messages_; }
-  /// Whether the device is a processor, which runs both sides of a branch where one would do.
-  [[nodiscard]] bool is_processor() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
-  /// What automatic means on this device; `wanted` itself if it is not that. Asserts that the device has it.
-  [[nodiscard]] Arithmetic arithmetic(Arithmetic wanted) const;
+  /// Whether the device is a software driver on the CPU.
+  [[nodiscard]] bool is_cpu() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
 
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
@@ -73,7 +66,7 @@ class Context {
   void destroy();
 
   DeviceInfo info_;
-  std::uint32_t validation_messages_ = 0;
+  std::atomic<std::uint32_t> validation_messages_{0};  ///< counted on whatever thread calls Vulkan
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "engine/base/error.h"
-#include "engine/gpu/pools.h"
+#include "engine/vulkan/bindings.h"
 #include "engine/vulkan/context.h"
 #include "shaders/layout.h"
 

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -47,14 +48,25 @@ template <typename KeyOf, typename Less>
   // A surface passes through about n^2 of n^3 cells; a few bits more keep most of its points apart.
   const int bits = 3 * std::bit_width(count) / 2 + 6;
   const RoughlySorted rough = sort_roughly({store.get(), count}, {spare.get(), count}, bits);
-  using Range = tbb::blocked_range<std::size_t>;
-  tbb::parallel_for(Range(0, count, 4096), [&](const Range& range) {
-    const auto next_run = [&](std::size_t i) {
-      while (i < count && !rough.starts_run(i)) ++i;
-      return i;
-    };
-    for (std::size_t begin = next_run(range.begin()); begin < range.end();) {
-      const std::size_t end = next_run(begin + 1);
+  // All runs are found before one is sorted, so that no task reads what another moves.
+  constexpr std::size_t CHUNK = 4096;
+  std::vector<std::size_t> first(count / CHUNK + 2,
+                                 count);  // of the runs that start in each chunk or after it
+  const auto each_chunk = [&](const auto& body) {
+    tbb::parallel_for(std::size_t{0}, first.size() - 1, body);
+  };
+  each_chunk([&](std::size_t chunk) {
+    const std::size_t end = std::min((chunk + 1) * CHUNK, count);
+    std::size_t i = chunk * CHUNK;
+    while (i < end && !rough.starts_run(i)) ++i;
+    if (i < end) first[chunk] = i;
+  });
+  for (std::size_t chunk = first.size() - 1; chunk-- > 0;)
+    first[chunk] = std::min(first[chunk], first[chunk + 1]);
+  each_chunk([&](std::size_t chunk) {
+    for (std::size_t begin = first[chunk]; begin < first[chunk + 1];) {
+      std::size_t end = begin + 1;
+      while (end < first[chunk + 1] && !rough.starts_run(end)) ++end;
       const std::span<KeyedIndex> run = rough.entries.subspan(begin, end - begin);
       begin = end;
       if (run.size() == 1) continue;

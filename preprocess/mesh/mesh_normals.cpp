@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <utility>
+#include "preprocess/base/unit_or_zero.h"
 
 namespace splatray {
 namespace {
@@ -24,12 +25,6 @@ std::uint64_t hash_position(const glm::dvec3& position) {
 bool is_usable(const glm::vec3& normal) {
   const float squared = glm::dot(normal, normal);
   return squared > 0.0F && std::isfinite(squared);
-}
-
-/// The vector's direction, or zero.
-glm::dvec3 unit_or_zero(const glm::dvec3& vector) {
-  const double length = glm::length(vector);
-  return length > 0.0 && std::isfinite(length) ? vector / length : glm::dvec3(0.0);
 }
 
 glm::dvec3 face_normal(const Mesh& mesh, const glm::uvec3& triangle) {

@@ -1,4 +1,5 @@
 #include "preprocess/mesh/sample_mesh.h"
+#include "preprocess/base/bounds.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -30,17 +31,11 @@ double longest_edge(const std::array<glm::dvec3, 3>& corners) {
                   std::max(glm::distance(corners[1], corners[2]), glm::distance(corners[2], corners[0])));
 }
 
-struct Bounds {
-  glm::dvec3 low{INFINITY};
-  glm::dvec3 high{-INFINITY};
-};
-
 Bounds bounds_of_triangles(const Mesh& mesh) {
   Bounds bounds;
   for (const glm::uvec3& triangle : mesh.triangles) {
     for (const glm::dvec3& corner : corners_of(mesh, triangle)) {
-      bounds.low = glm::min(bounds.low, corner);
-      bounds.high = glm::max(bounds.high, corner);
+      bounds.add(corner);
     }
   }
   return bounds;

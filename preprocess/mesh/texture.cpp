@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "preprocess/base/color.h"
+#include "engine/base/srgb.h"
 
 namespace splatray {
 namespace {

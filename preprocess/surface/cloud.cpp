@@ -9,6 +9,7 @@
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/sorted_order.h"
+#include "preprocess/base/unit_or_zero.h"
 
 namespace splatray {
 namespace {
@@ -18,13 +19,6 @@ constexpr double LARGEST_COORDINATE = 1e100;  // squares and sums of such stay f
 bool is_usable(const glm::dvec3& position) {
   const auto in_range = [](double value) { return std::abs(value) <= LARGEST_COORDINATE; };  // false on NaN
   return in_range(position.x) && in_range(position.y) && in_range(position.z);
-}
-
-/// Unit vector, or zero when the vector has no direction.
-glm::vec3 unit_or_zero(const glm::vec3& vector) {
-  const glm::dvec3 exact(vector);
-  const double length = glm::length(exact);
-  return std::isfinite(length) && length > 0.0 ? glm::vec3(exact / length) : glm::vec3(0.0F);
 }
 
 std::vector<std::uint32_t> usable_points(const Points& points) {
@@ -47,7 +41,7 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   cloud.radius = take(points.radius);
   cloud.radius.resize(usable.size(), 0.0F);
   tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
-    cloud.normal[i] = unit_or_zero(cloud.normal[i]);
+    cloud.normal[i] = glm::vec3(unit_or_zero(glm::dvec3(cloud.normal[i])));
     if (!color.empty()) cloud.color[i] = pack_color(color[i]);
     if (!(std::isfinite(cloud.radius[i]) && cloud.radius[i] > 0.0F)) cloud.radius[i] = 0.0F;
   });

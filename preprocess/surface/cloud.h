@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "preprocess/base/bounds.h"
 #include "preprocess/build.h"
 #include "preprocess/points.h"
 
@@ -30,16 +31,6 @@ struct Cloud {
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
-/// The smallest box around points; empty, from infinity to minus infinity, where there are none.
-struct Bounds {
-  glm::dvec3 low{INFINITY};
-  glm::dvec3 high{-INFINITY};
-
-  void add(const Bounds& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-  }
-};
 [[nodiscard]] Bounds bounds_of(const std::vector<glm::dvec3>& points);
 
 /// Takes an object's points: drops positions that are not finite (or beyond 1e100), normalises normals in

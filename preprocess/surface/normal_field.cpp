@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "preprocess/base/vector_clones.h"
+#include "preprocess/surface/sheet.h"
 
 namespace splatray {
 namespace {
 
-constexpr double SIMILAR = 0.5;  // cosine of normals of one sheet
-constexpr double LATERAL = 0.5;  // tangential share of the distance of a neighbour on the same sheet
-constexpr double RIDGE = 1e-3;   // keeps the fit defined where neighbours lie in a line
+constexpr double RIDGE = 1e-3;  // keeps the fit defined where neighbours lie in a line
 
 /// Sums of the fit of a symmetric matrix [[x, y], [y, z]] that maps tangential offsets to leans: of the normal equations
 /// for (u, v, 0) and (0, u, v), whose matrix is [[uu, uv, 0], [uv, uu + vv, uv], [0, uv, vv]].
@@ -82,7 +81,8 @@ SPLATRAY_VECTOR_CLONES glm::vec3 fit_normal_field(const Neighbourhood& around) {
   for (std::size_t j = 0; j < around.count; ++j) {
     const double along = around.oriented ? leans.along[j] : std::abs(leans.along[j]);
     const glm::dvec2 offset(leans.offset_u[j], leans.offset_v[j]);
-    if (along < SIMILAR || glm::dot(offset, offset) < LATERAL * LATERAL * around.distance_squared[j])
+    if (along < SHEET_COSINE ||
+        glm::dot(offset, offset) < SHEET_LATERAL * SHEET_LATERAL * around.distance_squared[j])
       continue;
     fit.add(offset, {leans.lean_u[j], leans.lean_v[j]}, leans.weight[j]);
   }

@@ -10,6 +10,7 @@
 #include "preprocess/base/vector_clones.h"
 #include "preprocess/surface/neighbours.h"
 #include "preprocess/surface/normal_field.h"
+#include "preprocess/surface/sheet.h"
 #include "preprocess/surface/voronoi.h"
 
 namespace splatray {
@@ -24,8 +25,6 @@ constexpr float MANY_OVER_FEW = 1.3F * MANY / FEW;  // of their squared distance
 constexpr double COVERAGE_MARGIN = 1.02;            // discs of a curved surface lie in different planes
 // More where discs lie at different heights, in standard deviations of the heights.
 constexpr double ROUGHNESS_REACH = 1.0;
-constexpr double SIMILAR = 0.5;      // cosine of normals of one sheet
-constexpr double LATERAL = 0.5;      // tangential share of the distance of a neighbour on the same sheet
 constexpr double LEAST_SLANT = 0.5;  // sine of the angle between planes that meet in a crease
 constexpr double PARALLEL = 0.9;     // cosine of normals of layers of one noisy sheet
 constexpr double NOISE_REACH = 4.0;  // of a noisy sheet's disc, in standard deviations of its heights
@@ -57,9 +56,9 @@ class Surroundings {
       stretch_[j] = distance_[j] / lateral_[j];
     }
     for (std::size_t j = 0; j < around.count; ++j) {
-      if ((around.oriented ? alignment_[j] : std::abs(alignment_[j])) < SIMILAR) {
+      if ((around.oriented ? alignment_[j] : std::abs(alignment_[j])) < SHEET_COSINE) {
         add_crease(j, u, v);
-      } else if (!(lateral_[j] < LATERAL * distance_[j])) {
+      } else if (!(lateral_[j] < SHEET_LATERAL * distance_[j])) {
         neighbours_[neighbour_count_++] = {glm::dvec2(across_u_[j], across_v_[j]) * stretch_[j],
                                            distance_[j]};
       }

@@ -1,12 +1,12 @@
 // One light path through a pixel: trace, shade, follow the mirror or glass, until it ends. At glass one of
 // the two branches is followed, chosen by Fresnel's share with a stratified random number, so both are
-// accounted for over a pixel's samples. Needs shade.glsl, random.glsl, camera.glsl and the constants MIRRORS,
-// GLASS, STAGE.
+// accounted for over a pixel's samples. Needs the constants MIRRORS, GLASS, LIGHTS, STAGE.
 #ifndef SPLATRAY_PATH_GLSL
 #define SPLATRAY_PATH_GLSL
-#include "light/camera.glsl"
 #include "lang/random.glsl"
-#include "light/shade.glsl"
+#include "light/environment.glsl"
+#include "light/lights.glsl"
+#include "trace/blend.glsl"
 
 const float THROUGHPUT_LEAST = 0.001953125f;  ///< 2^-9: a path that carries less ends
 
@@ -43,33 +43,16 @@ Path path_start(Ray ray) {
   return path;
 }
 
-/// The ray that goes on from a hit on a dielectric: reflected when `choice` is below Fresnel's share, else
-/// refracted.
-Ray dielectric_ray(Hit hit, Ray ray, Material material, float choice, OUT(bool) reflected) {
-  uint object_bit = 1u << material.mask_bit;
-  uint others = ray.inside & ~object_bit;
-  // Light runs in the dielectric with the highest bit of the mask.
-  float ior_without = others != 0u ? medium_at(uint(findMSB(others))) : 1.0f;
-  float ior_with = others > object_bit ? ior_without : material.ior;
-  float eta = hit.front ? ior_without / ior_with : ior_with / ior_without;
-  float cosine = clamp(-dot(ray.dir, hit.normal), 0.0f, 1.0f);
-  float cosine_behind = 0.0f;
-  float share = fresnel(eta, cosine, cosine_behind);
-  reflected = choice < share;
-  vec3 mirrored = ray.dir + hit.normal * (2.0f * cosine);
-  vec3 refracted = ray.dir * eta + hit.normal * (eta * cosine - cosine_behind);
-  vec3 dir = reflected ? mirrored : refracted;
-  uint inside = reflected ? ray.inside : ray.inside ^ object_bit;
-  return ray_from_hit(hit, dir * inversesqrt(dot(dir, dir)), inside);
-}
-
-/// Light sent back from the surface itself, without what it mirrors or refracts.
-vec3 local_light(Hit hit, Ray ray, Material material, INOUT(uint) shadow_rays, INOUT(Tally) tally) {
+/// Light sent back from the surface itself, without what it mirrors or refracts. `counts`: a full mirror has no use for it.
+vec3 local_light(Hit hit, Ray ray, Material material, bool counts, INOUT(uint) shadow_rays, INOUT(Tally) tally) {
   bool dielectric = (material.flags & MATERIAL_DIELECTRIC) != 0u;
   vec3 diffuse = material.diffuse * hit.color;
-  if (GLASS == 1u) diffuse = dielectric ? vec3(0.0f) : diffuse;
+  if (GLASS) diffuse = dielectric ? vec3(0.0f) : diffuse;
   vec3 light = diffuse * environment_diffuse(hit.normal);
-  if (LIGHTS == 1u) light += shade_lights(hit, ray.dir, diffuse, material, ray.inside, shadow_rays, tally);
+  if (LIGHTS) {
+    bool scatters = counts && max(max(diffuse.x, diffuse.y), max(diffuse.z, material.specular)) > 0.0f;
+    light += shade_lights(hit, ray.dir, diffuse, material, ray.inside, scatters, shadow_rays, tally);
+  }
   return light;
 }
 
@@ -79,16 +62,16 @@ void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) t
     Hit hit = trace_nearest(path.ray, frame.kappa, tally);
     if (hit.found) {
       Material material = material_at(hit.object);
-      bool dielectric = GLASS == 1u && (material.flags & MATERIAL_DIELECTRIC) != 0u;
-      float mirror = MIRRORS == 1u && !dielectric ? material.mirror : 0.0f;
+      bool dielectric = GLASS && (material.flags & MATERIAL_DIELECTRIC) != 0u;
+      float mirror = MIRRORS && !dielectric ? material.mirror : 0.0f;
       path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
-      vec3 local = local_light(hit, path.ray, material, path.shadow, tally);
+      vec3 local = local_light(hit, path.ray, material, mirror < 1.0f, path.shadow, tally);
       path.radiance += path.throughput * local * (1.0f - mirror);
       path.alive = dielectric || mirror > 0.0f;
-      if (MIRRORS == 1u || GLASS == 1u) {
+      if (MIRRORS || GLASS) {
         bool reflected = true;
         Ray next = ray_from_hit(hit, reflect(path.ray.dir, hit.normal), path.ray.inside);
-        if (GLASS == 1u && dielectric) {
+        if (GLASS && dielectric) {
           float choice = path_random(pixel, sample_index, path.bounce, frame.seed);
           next = dielectric_ray(hit, path.ray, material, choice, reflected);
         }

@@ -1,7 +1,7 @@
 // A splat's 128 bits, and a ray's hit on its disc: first a float32 test that never loses a hit, then the
 // exact decision.
-#ifndef SPLATRAY_SPLAT_GLSL
-#define SPLATRAY_SPLAT_GLSL
+#ifndef SPLATRAY_DISC_GLSL
+#define SPLATRAY_DISC_GLSL
 #include "lang/double_float.glsl"
 #include "layout.h"
 
@@ -66,7 +66,7 @@ bool splat_maybe_hit(uvec4 words, vec3 origin, vec3 dir, float t_in, float t_out
   return !(outside > 33.0f * slack * slack) && !(t + slack < t_in) && !(t - slack >= t_out);
 }
 
-/// A ray's meeting with a disc's plane, in double-float. FLOAT64: computed in float64, where the device is fast at it.
+/// A ray's meeting with a disc's plane, in double-float. CPU: computed in float64, at which CPU devices are fast.
 struct PlaneHit {
   vec2 t;             ///< ray parameter
   vec2 rho_squared;   ///< squared distance from the centre, lattice units^2
@@ -74,7 +74,7 @@ struct PlaneHit {
   float facing;       ///< n.d: negative = front face
 };
 
-#ifdef FLOAT64
+#ifdef CPU
 vec2 two_floats(double x) {
   float high = float(x);
   return vec2(high, float(x - double(high)));
@@ -145,7 +145,7 @@ FieldPoint field_point(uint word, vec3 normal, vec3 from_center, float inverse_r
   return point;
 }
 
-/// Own-sheet exclusion (design, section 4): whether the disc belongs to the sheet that a secondary ray has
+/// Own-sheet exclusion: whether the disc belongs to the sheet that a secondary ray has
 /// just left, i.e. same object, like normal, and either the ray's origin within the disc's thin slab and near
 /// its rim, or the ray coming from behind it nearby: from below another layer of a noisy sheet. On a
 /// two-sided object the slab takes normals either way round.

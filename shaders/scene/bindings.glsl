@@ -1,58 +1,59 @@
-// The GPU's side of what the other .glsl files need: features (specialization constants), pools, tables,
-// environment. POOL_TEXEL: the pools are texel buffers, else storage buffers. PAGED: some pool has several pages.
+// The GPU's side of what the other .glsl files need: specialization constants, pools, tables. CPU: for CPU devices, see
+// variants.cmake. PAGED: some pool is in several buffers.
 #ifndef SPLATRAY_BINDINGS_GLSL
 #define SPLATRAY_BINDINGS_GLSL
 #include "layout.h"
 
+layout(constant_id = SPEC_FEATURES) const uint FEATURES = 0u;
 layout(constant_id = SPEC_BLEND) const uint BLEND = BLEND_WINDOW;
 layout(constant_id = SPEC_KERNEL) const uint KERNEL = KERNEL_RIM;
 layout(constant_id = SPEC_SIDE) const uint SIDE = SIDE_SIDE;
 layout(constant_id = SPEC_FACES) const uint FACES = FACES_MIXED;
-layout(constant_id = SPEC_MIRRORS) const uint MIRRORS = 0u;
-layout(constant_id = SPEC_GLASS) const uint GLASS = 0u;
-layout(constant_id = SPEC_COLORS) const uint COLORS = 0u;
-layout(constant_id = SPEC_SHADOWS) const uint SHADOWS = 0u;
-layout(constant_id = SPEC_ENVIRONMENT) const uint ENVIRONMENT = 0u;
 layout(constant_id = SPEC_ORDER) const uint ORDER = ORDER_Z;
-layout(constant_id = SPEC_COUNTERS) const uint COUNTERS = 0u;
-layout(constant_id = SPEC_AOV) const uint AOV = 0u;
-layout(constant_id = SPEC_LIGHTS) const uint LIGHTS = 0u;
-layout(constant_id = SPEC_FIELDS) const uint FIELDS = 0u;
-layout(constant_id = SPEC_REFERENCES) const uint REFERENCES = 0u;
+layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_ALL;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
 #ifdef PAGED
 layout(constant_id = SPEC_PAGES) const uint PAGES = 0u;
 layout(constant_id = SPEC_PAGE_SHIFT) const uint PAGE_SHIFT = 0u;
 #endif
 
-#ifdef STAGED
-layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_FIRST;
-#else
-const uint STAGE = STAGE_ALL;
-#endif
+const bool MIRRORS = (FEATURES & FEATURE_MIRRORS) != 0u;
+const bool GLASS = (FEATURES & FEATURE_GLASS) != 0u;
+const bool COLORS = (FEATURES & FEATURE_COLORS) != 0u;
+const bool FIELDS = (FEATURES & FEATURE_FIELDS) != 0u;
+const bool REFERENCES = (FEATURES & FEATURE_REFERENCES) != 0u;
+const bool LIGHTS = (FEATURES & FEATURE_LIGHTS) != 0u;
+const bool SHADOWS = (FEATURES & FEATURE_SHADOWS) != 0u;
+const bool ENVIRONMENT = (FEATURES & FEATURE_ENVIRONMENT) != 0u;
+const bool COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 
 layout(local_size_x = GROUP_SIZE) in;
 
 // No uniform block: Mesa's lavapipe compiles a shader anew, 0.3 s and more, for other values of uniforms that a branch
 // depends on, so for each camera.
+#ifdef CPU
 layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame_block; };
+FrameParams frame;
+
+/// main() begins with it. llvmpipe reads storage buffers lane by lane, except in uniform control flow, so before any branch or loop.
+void read_frame() { frame = frame_block; }
+
+/// Index of refraction in the dielectric that has this bit of a ray's mask. Not of the copy: llvmpipe would look through all of an
+/// array there.
+float medium_at(uint bit) { return frame_block.media[bit >> 2u][bit & 3u]; }
+#else
+layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame; };
+void read_frame() {}  // a copy would take 116 registers
+float medium_at(uint bit) { return frame.media[bit >> 2u][bit & 3u]; }
+#endif
+
 layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterTable { uint counters[COUNTER_COUNT]; };
-
-// main() begins with read_frame(). llvmpipe reads storage buffers lane by lane but where all lanes are sure to be there, so before
-// any branch or loop; elsewhere 116 registers would be too many.
-#ifdef FLOAT64
-FrameParams frame;
-void read_frame() { frame = frame_block; }
-#else
-#define frame frame_block
-void read_frame() {}
-#endif
 
 #ifdef PAGED
 #define PAGES_OF(slot) (((PAGES >> (4u * (slot - BIND_NODE_POOL))) & 15u) + 1u)
 #define ARRAY(slot) [PAGES_OF(slot)]
-// By constants: not all devices let an array of texel buffers be indexed by anything else.
+// By constants: not all devices let an array of buffers be indexed by anything else.
 #define READ_PAGE(number, slot, READ, pool) \
   if (PAGES_OF(slot) > number && index >> PAGE_SHIFT == number) \
     return READ(pool[number], index & ((1u << PAGE_SHIFT) - 1u));
@@ -74,7 +75,7 @@ void read_frame() {}
 #define POOL_READER(slot, Value, reader, READ, pool) \
   Value reader(uint index) { return READ(pool, index); }
 #endif
-#ifdef POOL_TEXEL
+#ifdef CPU
 #define READ_TEXEL(page, at) texelFetch(page, int(at))
 #define READ_WORD(page, at) texelFetch(page, int(at)).x
 #define POOL(slot, Block, pool, Value, reader, READ) \
@@ -97,13 +98,9 @@ POOL(BIND_FIELD_POOL, FieldPool, field_pool, uint, field_word, READ_WORD)
 POOL(BIND_TOP_TABLE, TopTable, top_table, uint, top_entry, READ_WORD)
 
 /// Where the data pool has the splat that a place in the leaves' lists refers to.
-uint splat_at(uint place) { return REFERENCES == 1u ? reference_word(place) : place; }
+uint splat_at(uint place) { return REFERENCES ? reference_word(place) : place; }
 
 Material material_at(uint object) { return materials[object]; }
-
-/// Index of refraction in the dielectric that has this bit of a ray's mask. Not of the copy of the parameters: llvmpipe would
-/// look through all of an array there.
-float medium_at(uint bit) { return frame_block.media[bit >> 2u][bit & 3u]; }
 
 /// Linear colour of a splat; square-root encoded in the pool.
 vec3 color_at(uint index) {

@@ -1,7 +1,7 @@
-// RayQuery -> RayHit (layout.h). Needs what trace.glsl needs.
+// RayQuery -> RayHit (layout.h). Needs what blend.glsl needs.
 #ifndef SPLATRAY_QUERY_GLSL
 #define SPLATRAY_QUERY_GLSL
-#include "trace/trace.glsl"
+#include "trace/blend.glsl"
 
 Ray query_ray(RayQuery query, float delta) {
   Ray ray;
@@ -33,7 +33,7 @@ RayHit answer_query(RayQuery query, float kappa, float delta, INOUT(Tally) tally
   answer.t_first = hit.t_first;
   answer.object = hit.object;
   answer.members = hit.members;
-  answer.color = COLORS == 1u && hit.found ? encode_color(hit.color) : 0u;
+  answer.color = COLORS && hit.found ? encode_color(hit.color) : 0u;
   return answer;
 }
 

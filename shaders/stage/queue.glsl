@@ -1,5 +1,5 @@
-// Paths between two stages: packed together, so that lanes have one whose neighbours' have ended. Needs path.glsl and
-// counters[].
+// Paths between two stages: packed together, so that lanes have one whose neighbours' have ended. Needs
+// path.glsl and counters[].
 #ifndef SPLATRAY_QUEUE_GLSL
 #define SPLATRAY_QUEUE_GLSL
 #extension GL_KHR_shader_subgroup_ballot : require

@@ -15,7 +15,7 @@ void main() {
   Tally tally = Tally(0u, 0u, 0u, 0u);
   RayHit hit = answer_query(rays[index], frame.kappa, frame.delta, tally);
   hits[index] = hit;
-  if (COUNTERS == 1u) {
+  if (COUNTERS) {
     count(COUNT_PRIMARY, 1u);
     count(COUNT_LEAVES, tally.leaves);
     count(COUNT_NODE_STEPS, tally.node_steps);

@@ -8,13 +8,18 @@
 #include "app/library/camera_file.h"
 #include "engine/base/error.h"
 #include "tests/property/dice.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {
 
 using testing::Dice;
 
-std::string temporary(const char* name) { return ::testing::TempDir() + name; }
+/// A file in a folder of this program's own.
+std::string temporary(const char* name) {
+  static const TempFolder folder;
+  return folder.path() / name;
+}
 
 Camera random_camera(Dice& dice, bool ortho) {
   Camera camera{dice.in_cube() * 1e7, dice.in_cube(), dice.direction(), Camera{}.fov_y_deg, 0.0};

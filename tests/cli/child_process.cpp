@@ -64,30 +64,21 @@ bool catches(pid_t process, int signal) {
 
 ChildResult run_program(const std::vector<std::string>& command, const std::vector<std::string>& environment,
                         const std::function<bool()>& interrupt_when, int signal, const Limits& limits) {
-  const std::string stem = testing::TempDir() + "child_" + std::to_string(getpid());
-  const std::string out = stem + ".out", err = stem + ".err";
+  const TempFolder own;
+  const std::string out = own.path() / "out", err = own.path() / "err";
   const pid_t child = fork();
   if (child == 0) become(command, environment, limits, out, err);
   if (interrupt_when) {
-    while (!has_ended(child) && !(catches(child, signal) && interrupt_when()))
+    // A program that never catches the signal gets it all the same, and ends by it.
+    const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!has_ended(child) && !(catches(child, signal) && interrupt_when()) &&
+           std::chrono::steady_clock::now() < latest)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     kill(child, signal);
   }
   int status = 0;
   waitpid(child, &status, 0);
-  ChildResult result{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(out),
-                     read_text(err)};
-  std::filesystem::remove(out);
-  std::filesystem::remove(err);
-  return result;
-}
-
-void CliTest::SetUp() {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  folder = std::filesystem::path(testing::TempDir()) /
-           ("cli_" + std::string(info->test_suite_name()) + "_" + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(out), read_text(err)};
 }
 
 std::string CliTest::write(const std::string& name, const std::string& content) const {

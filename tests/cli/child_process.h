@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/temp_folder.h"
+
 namespace splatray {
 
 struct ChildResult {
@@ -34,9 +36,6 @@ struct Limits {
 /// A test with a folder of its own, gone afterwards.
 class CliTest : public testing::Test {
  protected:
-  void SetUp() override;
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
   /// Path of a file in the folder.
   [[nodiscard]] std::string file(const std::string& name) const { return (folder / name).string(); }
   /// Writes a file into the folder; returns its path.
@@ -61,7 +60,8 @@ class CliTest : public testing::Test {
     EXPECT_EQ(names(), before);
   }
 
-  std::filesystem::path folder;
+  const TempFolder own;
+  const std::filesystem::path& folder = own.path();
 };
 
 /// ASCII PLY of points; each line of `vertices` holds x y z and, when `normals`, nx ny nz.

@@ -1,4 +1,5 @@
 /// Bad and odd input files: each ends in one sentence and exit code 3, or in a picture.
+#include "app/library/image_file.h"
 #include "tests/cli/child_process.h"
 
 namespace splatray {
@@ -14,11 +15,15 @@ class CliInputs : public CliTest {
       expect_refused([&] { return preprocess({path}); }, 3, name);
   }
 
+  /// A picture that shows the points: seen against a black environment, in the light of a sun alone, some pixels are lit.
   void expect_picture(const std::string& path) const {
-    const ChildResult result = render({path});
+    const ChildResult result = render({path, "--env=black", "--sun=1,2,3"});
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.err, "");
-    EXPECT_TRUE(std::filesystem::exists(file("out.png")));
+    const DisplayImage image = read_display_image(file("out.png"), 0.0);
+    EXPECT_GT(
+        std::count_if(image.rgb.begin(), image.rgb.end(), [](const auto& pixel) { return pixel.x > 0.1F; }),
+        0);
   }
 };
 

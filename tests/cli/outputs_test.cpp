@@ -47,6 +47,19 @@ TEST_F(CliOutputs, WithoutTheLibraryBesideIt) {
       1, "libsplatray_image_codec");
 }
 
+TEST_F(CliOutputs, WithTheLibraryInstalled) {
+  const std::filesystem::path program = folder / "usr/bin/splatray-render";
+  const std::filesystem::path library =
+      folder / "usr" / INSTALLED_LIBRARIES / std::filesystem::path(IMAGE_CODEC).filename();
+  std::filesystem::create_directories(program.parent_path());
+  std::filesystem::create_directories(library.parent_path());
+  std::filesystem::copy_file(RENDER, program);
+  std::filesystem::copy_file(IMAGE_CODEC, library);
+  const ChildResult result = run_program(
+      {program.string(), grid, "--quiet", "-o", file("a.png"), "--resolution=8x8", "--samples=1"});
+  EXPECT_EQ(result.code, 0) << result.err;
+}
+
 TEST_F(CliOutputs, PictureAndStatistics) {
   const ChildResult result = render({grid, "--stats-json", file("stats.json"), "--counters"});
   EXPECT_EQ(result.code, 0) << result.err;

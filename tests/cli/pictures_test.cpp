@@ -9,11 +9,16 @@
 #include "app/library/compare.h"
 #include "app/library/image_file.h"
 #include "engine/base/error.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {
 
-std::string temporary(const char* name) { return testing::TempDir() + name; }
+/// A file in a folder of this program's own.
+std::string temporary(const char* name) {
+  static const TempFolder folder;
+  return folder.path() / name;
+}
 
 Image gradient() {
   Image image{4, 3, {}, {}};

@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {
@@ -28,15 +29,10 @@ Bytes read_hex(const char* path) {
 class SceneFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder = fs::path(testing::TempDir()) /
-             ("format_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
     path = folder / "tiny.soct";
     write_scene(tiny_scene(), path);
     bytes = load();
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   [[nodiscard]] Bytes load() const {
     std::ifstream file(path, std::ios::binary);
@@ -61,7 +57,9 @@ class SceneFile : public testing::Test {
     return "";
   }
 
-  fs::path folder, path;
+  const TempFolder own;
+  const fs::path& folder = own.path();
+  fs::path path;
   Bytes bytes;
 };
 

@@ -13,9 +13,7 @@ Material with_flags(std::uint32_t flags) {
   return material;
 }
 
-std::uint32_t faces_of(const std::vector<Material>& materials) {
-  return picture_features({.materials = materials}, {})[SPEC_FACES];
-}
+std::uint32_t faces_of(const std::vector<Material>& materials) { return material_content(materials).faces; }
 
 TEST(Features, FacesFollowTheMaterials) {
   const Material one_sided = with_flags(0), two_sided = with_flags(MATERIAL_TWO_SIDED),
@@ -30,19 +28,36 @@ TEST(Features, FacesFollowTheMaterials) {
 
 TEST(Features, OnlyWhatTheSceneHasIsOn) {
   std::vector<Material> materials = {with_flags(0)};
-  const SpecConstants plain = picture_features({.materials = materials}, {});
-  for (const std::uint32_t constant : {SPEC_MIRRORS, SPEC_GLASS, SPEC_COLORS, SPEC_SHADOWS, SPEC_ENVIRONMENT,
-                                       SPEC_LIGHTS, SPEC_COUNTERS, SPEC_AOV, SPEC_FIELDS})
-    EXPECT_EQ(plain[constant], 0U) << constant;
+  materials[0].diffuse = glm::vec3(0.5F);
+  const SceneContent nothing{.materials = material_content(materials)};
+  EXPECT_EQ(picture_features(nothing, {})[SPEC_FEATURES], 0U);
 
   materials.push_back(with_flags(MATERIAL_DIELECTRIC));
   materials[0].mirror = 0.5F;
-  const SpecConstants full = picture_features(
-      {.materials = materials, .colors = true, .fields = true, .lights = true, .environment_texture = true},
-      {});
-  for (const std::uint32_t constant :
-       {SPEC_MIRRORS, SPEC_GLASS, SPEC_COLORS, SPEC_SHADOWS, SPEC_ENVIRONMENT, SPEC_LIGHTS, SPEC_FIELDS})
-    EXPECT_EQ(full[constant], 1U) << constant;
+  const SceneContent everything{.materials = material_content(materials),
+                                .colors = true,
+                                .fields = true,
+                                .references = true,
+                                .lights = true,
+                                .environment_texture = true};
+  EXPECT_EQ(picture_features(everything, {})[SPEC_FEATURES],
+            FEATURE_MIRRORS | FEATURE_GLASS | FEATURE_COLORS | FEATURE_FIELDS | FEATURE_REFERENCES |
+                FEATURE_LIGHTS | FEATURE_SHADOWS | FEATURE_ENVIRONMENT);
+}
+
+TEST(Features, LightsThatNoMaterialScattersAreOff) {
+  Material gold = with_flags(MATERIAL_TWO_SIDED), glass = with_flags(MATERIAL_DIELECTRIC);
+  gold.mirror = 1.0F;
+  gold.diffuse = glass.diffuse = glm::vec3(0.5F);
+  const auto lit = [](const std::vector<Material>& materials) {
+    const SceneContent content{.materials = material_content(materials), .lights = true};
+    return (picture_features(content, {})[SPEC_FEATURES] & FEATURE_LIGHTS) != 0;
+  };
+  EXPECT_FALSE(lit({gold, glass}));
+  glass.specular = 0.05F;
+  EXPECT_TRUE(lit({gold, glass}));
+  gold.mirror = 0.9F;
+  EXPECT_TRUE(lit({gold}));
 }
 
 TEST(Features, SettingsChooseTheMethod) {
@@ -53,20 +68,24 @@ TEST(Features, SettingsChooseTheMethod) {
   settings.order = ORDER_LINEAR;
   settings.counters = true;
   settings.shadows = false;
-  const SpecConstants constants = picture_features({.lights = true}, settings);
+  const SpecConstants constants =
+      picture_features({.materials = {.scatters = true}, .lights = true}, settings);
   EXPECT_EQ(constants[SPEC_BLEND], BLEND_PAPER);
   EXPECT_EQ(constants[SPEC_KERNEL], KERNEL_GAUSSIAN);
   EXPECT_EQ(constants[SPEC_SIDE], SIDE_DELTA);
   EXPECT_EQ(constants[SPEC_ORDER], ORDER_LINEAR);
-  EXPECT_EQ(constants[SPEC_COUNTERS], 1U);
-  EXPECT_EQ(constants[SPEC_SHADOWS], 0U);
+  EXPECT_EQ(constants[SPEC_FEATURES], FEATURE_COUNTERS | FEATURE_LIGHTS);
 }
 
 TEST(Features, QueriesDoNotDependOnShading) {
   Settings other;
   other.shadows = false;
   other.order = ORDER_LINEAR;
-  EXPECT_EQ(query_features({.lights = true, .environment_texture = true}, {}), query_features({}, other));
+  EXPECT_EQ(
+      query_features(
+          {.materials = {.mirrors = true, .scatters = true}, .lights = true, .environment_texture = true},
+          {}),
+      query_features({}, other));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST_F(FramesTest, PixelsThatSeeNothingTakeOneMorePipelineOnce) {
   for (const double x : {3.0, 4.0}) {
     look_from(x);
     EXPECT_NE(center(), first);
-    EXPECT_EQ(tracer.pipelines_built(), built + (context.is_processor() ? 1 : 0));
+    EXPECT_EQ(tracer.pipelines_built(), built + (context.is_cpu() ? 1 : 0));
   }
 }
 
@@ -123,6 +123,8 @@ TEST_F(FramesTest, GrownPictureIsTheRenderedOne) {
   while (!tracer.advance(1e-3)) {
     ++dispatches;
     if (dispatches == 20) (void)tracer.intersect(std::vector<RayQuery>(3), settings);
+    if (dispatches == 25) (void)tracer.render(disc_view(80, 80), plain_settings());
+    if (dispatches == 30) (void)tracer.trace_aov(disc_view(20, 20), settings);
   }
   EXPECT_EQ(dispatches, 7U * ((43 + 7) / 8)) << "a wish of no time takes the fewest rows, 8, each time";
   EXPECT_EQ(tracer.samples(), 7U);

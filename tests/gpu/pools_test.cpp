@@ -116,15 +116,22 @@ TEST(DataPool, CanBeForced) {
 
 using PoolUpload = DeviceTest;
 
-TEST_F(PoolUpload, BothAccessesGiveTheSamePicture) {
+/// The kernels that the device can run.
+std::vector<Kernels> all_kernels(const Context& context) {
+  if (device_profile(context).kernels == Kernels::gpu) return {Kernels::gpu};
+  return {Kernels::cpu, Kernels::gpu};
+}
+
+TEST_F(PoolUpload, AllKernelsGiveTheSamePicture) {
   const Scene scene = disc_scene(3);
-  Tracer texel(context, {.access = PoolAccess::texel}), storage(context, {.access = PoolAccess::storage});
-  texel.upload(scene);
-  storage.upload(scene);
-  EXPECT_TRUE(texel.pool_bytes().texel_buffers);
-  EXPECT_FALSE(storage.pool_bytes().texel_buffers);
-  EXPECT_TRUE(texel.render(disc_view(50, 40), plain_settings()).rgba ==
-              storage.render(disc_view(50, 40), plain_settings()).rgba);
+  std::vector<std::vector<vec4>> pictures;
+  for (const Kernels kernels : all_kernels(context)) {
+    Tracer tracer(context, {.kernels = kernels});
+    tracer.upload(scene);
+    EXPECT_EQ(tracer.pool_bytes().texel_buffers, kernels == Kernels::cpu);
+    pictures.push_back(tracer.render(disc_view(50, 40), plain_settings()).rgba);
+  }
+  for (const auto& picture : pictures) EXPECT_TRUE(picture == pictures.front());
 }
 
 TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
@@ -132,21 +139,24 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
   scene.reference_pool = {2, 0, 1};
   scene.color_pool = {pack_color({1.0F, 0.0F, 0.0F}), pack_color({0.0F, 1.0F, 0.0F}),
                       pack_color({0.0F, 0.0F, 1.0F})};
-  const auto picture = [&](const PoolWish& wish, std::uint32_t pages) {
-    Tracer tracer(context, wish);
+  const auto picture = [&](const TracerOptions& options, std::uint32_t pages) {
+    Tracer tracer(context, options);
     tracer.upload(scene);
-    EXPECT_EQ(tracer.pool_bytes().reference_pool, wish.data == DataPool::copies ? 0U : 12U);
+    EXPECT_EQ(tracer.pool_bytes().reference_pool, options.pools.data == DataPool::copies ? 0U : 12U);
     EXPECT_EQ(tracer.pool_bytes().data_pool, 48U);
     EXPECT_EQ(tracer.pool_bytes().color_pool, 12U);
     EXPECT_EQ(tracer.pool_bytes().pages, pages);
     return tracer.render(disc_view(50, 40), plain_settings()).rgba;
   };
-  for (const PoolAccess access : {PoolAccess::texel, PoolAccess::storage}) {
-    const auto copies = picture({access, DataPool::copies}, 1);
-    EXPECT_TRUE(copies == picture({access, DataPool::references}, 1));
-    EXPECT_TRUE(copies == picture({access, DataPool::copies, 1}, 3)) << "a page for each splat";
-    EXPECT_TRUE(copies == picture({access, DataPool::references, 1}, 3));
-    EXPECT_TRUE(copies == picture({access, DataPool::references, 2}, 2));
+  for (const Kernels kernels : all_kernels(context)) {
+    const auto with = [kernels](DataPool data, std::uint64_t page_elements = UINT64_MAX) {
+      return TracerOptions{.pools = {.data = data, .page_elements = page_elements}, .kernels = kernels};
+    };
+    const auto copies = picture(with(DataPool::copies), 1);
+    EXPECT_TRUE(copies == picture(with(DataPool::references), 1));
+    EXPECT_TRUE(copies == picture(with(DataPool::copies, 1), 3)) << "a page for each splat";
+    EXPECT_TRUE(copies == picture(with(DataPool::references, 1), 3));
+    EXPECT_TRUE(copies == picture(with(DataPool::references, 2), 2));
   }
 }
 
@@ -175,21 +185,21 @@ TEST_F(PoolUpload, ReportsBytesOfTheFrame) {
   Settings settings = plain_settings();
   settings.max_bounces = 2;
   static_cast<void>(tracer.render(disc_view(50, 40), settings));
-  const bool stages = context.is_processor() && context.ballot;
+  const bool stages = device_profile(context).stages;
   EXPECT_EQ(tracer.pool_bytes().frame > picture, stages) << "queues, where a scene is traced in stages";
 }
 
 TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
   Scene scene = disc_scene();
   scene.node_pool.resize(2 * PAGES_MOST);
-  Tracer tracer(context, {.access = PoolAccess::texel, .page_elements = 1});
+  Tracer tracer(context, {.pools = {.page_elements = 1}});
   EXPECT_THROW(tracer.upload(scene), Error);
   EXPECT_EQ(tracer.pools_uploaded(), 0U);
 }
 
 TEST_F(PoolUpload, UploadAndFreeLeavesTheSceneWithoutItsPools) {
   for (const DataPool data : {DataPool::copies, DataPool::references}) {
-    Tracer tracer(context, {.data = data});
+    Tracer tracer(context, {.pools = {.data = data}});
     Scene scene = disc_scene(3);
     tracer.upload(scene);
     const auto picture = tracer.render(disc_view(50, 40), plain_settings()).rgba;
@@ -217,7 +227,7 @@ TEST_F(PoolUpload, PoolBeyondTheLargestStorageBufferIsPaged) {
   scene.node_pool.resize(children);
   scene.node_pool[0] = NODE_INNER << NODE_TAG_SHIFT | children;
   scene.node_pool.insert(scene.node_pool.end(), 8, leaf);
-  Tracer tracer(context, {.access = PoolAccess::storage});
+  Tracer tracer(context, {.kernels = Kernels::gpu});
   tracer.upload(scene);
   EXPECT_GT(tracer.pool_bytes().pages, 1U);
   const auto paged = tracer.render(disc_view(50, 40), plain_settings()).rgba;

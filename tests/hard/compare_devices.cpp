@@ -8,6 +8,7 @@
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 #include "tests/hard/support/lattice_soup.h"
+#include "tests/temp_folder.h"
 #include "tests/trace/rays.h"
 
 namespace splatray::testing {
@@ -24,18 +25,17 @@ struct NamedScene {
 /// The scenes of data/scenes that can be made here.
 std::vector<NamedScene> all_scenes() {
   const std::filesystem::path folder(SPLATRAY_SCENES);
-  const std::filesystem::path points = std::filesystem::temp_directory_path() / "splatray_compare_devices";
+  const TempFolder points;
   std::vector<NamedScene> scenes;
   for (const std::string name : {"demo", "room"}) {
-    write_model(name, SPLATS, points);
-    scenes.push_back({name, scene_of_file(folder / (name + ".gltf"), SPLATS, 10, points)});
+    write_model(name, SPLATS, points.path());
+    scenes.push_back({name, scene_of_file(folder / (name + ".gltf"), SPLATS, 10, points.path())});
   }
   if (const auto data = data_folder())
     for (const std::string name :
          {"table1_dragon", "table1_david", "reflective_buddha", "refractive_dragon", "teapot"})
       scenes.push_back({name, scene_of_file(folder / (name + ".gltf"), SPLATS, 10, *data)});
   scenes.push_back({"splats on cell planes", lattice_soup()});
-  std::filesystem::remove_all(points);
   return scenes;
 }
 

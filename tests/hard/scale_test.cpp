@@ -25,7 +25,8 @@ struct Placement {
   const char* name;
   double scale;
   dvec3 offset;
-  bool exact = true;  ///< float64 holds points and root transform well below a lattice unit
+  bool exact = true;        ///< float64 holds points and root transform well below a lattice unit
+  std::uint64_t known = 0;  ///< rays whose hits are known to differ, where not exact
 };
 
 std::ostream& operator<<(std::ostream& out, const Placement& placement) { return out << placement.name; }
@@ -45,7 +46,7 @@ TEST_P(Placed, HitsAreTheSameInRootSpace) {
   row.count = rays.size();
   row.exceptions = different_bits(DeviceScene(at_origin).intersect(rays), hits);
   row.remark = std::to_string(different_bits(at_origin.data_pool, placed.data_pool)) + " splats differ";
-  GetParam().exact ? conclude(row) : note(row);
+  GetParam().exact ? conclude(row) : note(row, GetParam().known);
 }
 
 /// A picture's camera is given in world space: it must see the same, too.
@@ -77,9 +78,9 @@ TEST_P(Placed, PicturesAreTheSame) {
 INSTANTIATE_TEST_SUITE_P(
     Scale, Placed,
     ::testing::Values(Placement{"Micrometres", 1e-6, dvec3(0.0)}, Placement{"Megametres", 1e6, dvec3(0.0)},
-                      Placement{"Utm", 1.0, dvec3(412345.0, 5654321.0, 312.0), false},
-                      Placement{"Offset1e7", 1.0, dvec3(1e7, -1e7, 1e6), false},
-                      Placement{"MillimetresAt1e6", 0x1p-10, dvec3(1e6, 1e6, 0.0), false}),
+                      Placement{"Utm", 1.0, dvec3(412345.0, 5654321.0, 312.0), false, 0},
+                      Placement{"Offset1e7", 1.0, dvec3(1e7, -1e7, 1e6), false, 447},
+                      Placement{"MillimetresAt1e6", 0x1p-10, dvec3(1e6, 1e6, 0.0), false, 39238}),
     [](const auto& placement) { return std::string(placement.param.name); });
 
 TEST(Scale, AMovedPointIsNoticed) {

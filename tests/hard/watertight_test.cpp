@@ -100,20 +100,20 @@ CaseRow count_holes(const Scene& scene, const ClosedShape& shape, std::size_t ra
   return row;
 }
 
-/// `most_per_million`: rays that may get through, where the rule of radii is known to leave holes.
+/// `known`: rays that are known to get through, where the rule of radii leaves holes.
 void expect_watertight(const ClosedShape& shape, double overlap_most, const std::string& compared,
-                       double most_per_million = 0.0) {
+                       std::uint64_t known = 0) {
   const Scene scene = scene_of({{shape.points, test_material(MATERIAL_TWO_SIDED)}});
   EXPECT_LE(overlap_of(scene, shape.area), overlap_most);
-  conclude(count_holes(scene, shape, hard_rays(),
-                       compared + ": rays that get 2 % of the radius below the exact surface"),
-           most_per_million);
+  conclude_missed(count_holes(scene, shape, hard_rays(),
+                              compared + ": rays that get 2 % of the radius below the exact surface"),
+                  known);
 }
 
 TEST(Watertight, SphereEven) { expect_watertight(ball(true), 2.2, "20 000 even splats"); }
 TEST(Watertight, SphereRandom) { expect_watertight(ball(false), 5.0, "20 000 random splats"); }
-TEST(Watertight, TorusEven) { expect_watertight(ring(true), 2.2, "20 000 even splats", 10.0); }
-TEST(Watertight, TorusRandom) { expect_watertight(ring(false), 5.0, "20 000 random splats", 10.0); }
+TEST(Watertight, TorusEven) { expect_watertight(ring(true), 2.2, "20 000 even splats", known_of(3, 26)); }
+TEST(Watertight, TorusRandom) { expect_watertight(ring(false), 5.0, "20 000 random splats", known_of(1, 8)); }
 
 TEST(Watertight, AMissingSplatIsNoticed) {
   ClosedShape shape = ball(true);

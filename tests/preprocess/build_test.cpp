@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
 #include <algorithm>
 
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "engine/file/scene_file.h"
 #include "engine/scene/copies.h"
 #include "tests/preprocess/shapes.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {
@@ -34,13 +34,11 @@ Scene build(InputObject object, const BuildParams& params = {}, unsigned threads
 
 /// The bytes of the scene's file.
 std::string file_of(const Scene& scene) {
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / ("build_test_" + std::to_string(getpid()) + ".soct");
+  const TempFolder folder;
+  const std::filesystem::path path = folder.path() / "scene.soct";
   write_scene(scene, path);
   std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  std::filesystem::remove(path);
-  return bytes;
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void expect_same(const Scene& a, const Scene& b) { EXPECT_TRUE(file_of(a) == file_of(b)); }

@@ -32,7 +32,6 @@ Scene scene_of(InputObject object, std::uint32_t leaf_size, Insertion insertion)
   BuildParams params;
   params.leaf_size = leaf_size;
   params.insertion = insertion;
-  params.radius_rule = RadiusRule::given;
   BuildStats stats;
   return build_scene(test::input_of(std::move(object)), params, 0, stats);
 }

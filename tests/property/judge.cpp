@@ -44,16 +44,17 @@ double depth_allowed(const RayQuery& ray, const TrueHit& truth, double radius) {
 
 }  // namespace
 
-bool Judge::is_right(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth,
-                     const RayHit& answer) const {
+Verdict Judge::compare(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth,
+                       const RayHit& answer) const {
   const Agreement agreement = agreement_of(brute, {truth}, {answer});
-  if (agreement.exceptions() > 0) return false;
-  if (!truth.found || truth.members > MEMBERS_COMPARED) return true;
+  if (agreement.exceptions() > 0) return Verdict::wrong;
+  if (!truth.found || truth.members > MEMBERS_COMPARED) return Verdict::right;
   const double radius = std::sqrt(brute.splats()[truth.first].radius_squared);
   const bool same_members = settings_.blend == BLEND_NEAREST || agreement.members == 0;
   const bool same_cluster = same_members && agreement.normal == 0 && same_color(truth, answer) &&
                             agreement.depth_most * radius <= depth_allowed(ray, truth, radius);
-  return same_cluster || is_edge_on(brute, ray);
+  if (same_cluster) return Verdict::right;
+  return is_edge_on(brute, ray) ? Verdict::edge_on : Verdict::wrong;
 }
 
 bool Judge::is_right_in_float32(const BruteForce& exact, const RayQuery& ray, const TrueHit& truth,
@@ -116,7 +117,8 @@ BruteForce Judge::moved_in_favour(const RayQuery& ray, const RayHit& answer, boo
 }
 
 Verdict Judge::judge(const RayQuery& ray, const TrueHit& truth, const RayHit& answer) const {
-  if (is_right(brute_, ray, truth, answer)) return Verdict::right;
+  const Verdict verdict = compare(brute_, ray, truth, answer);
+  if (verdict != Verdict::wrong) return verdict;
   return is_tie(ray, answer) ? Verdict::tie : Verdict::wrong;
 }
 

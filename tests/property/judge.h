@@ -22,7 +22,8 @@
 
 namespace splatray::testing {
 
-enum class Verdict { right, tie, wrong };
+/// edge_on: the first splat is right, its cluster is not, and that is excused as above.
+enum class Verdict { right, edge_on, tie, wrong };
 
 class Judge {
  public:
@@ -32,8 +33,13 @@ class Judge {
   [[nodiscard]] Verdict judge(const RayQuery& ray, const TrueHit& truth, const RayHit& answer) const;
 
  private:
+  /// right, edge_on or wrong.
+  [[nodiscard]] Verdict compare(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth,
+                                const RayHit& answer) const;
   [[nodiscard]] bool is_right(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth,
-                              const RayHit& answer) const;
+                              const RayHit& answer) const {
+    return compare(brute, ray, truth, answer) != Verdict::wrong;
+  }
   [[nodiscard]] bool is_tie(const RayQuery& ray, const RayHit& answer) const;
   /// The splats moved at random; `favour`: so that the answer's first splat is met earlier and all from there on later, as it takes
   /// luck to put one of many before all others at random.

@@ -114,6 +114,7 @@ class Round {
     for (std::size_t i = 0; i < asked.rays.size() && told_ < EXCEPTIONS_TOLD; ++i) {
       const Verdict verdict = judge.judge(asked.rays[i], asked.truth[i], answers.hits[i]);
       counts_.ties += verdict == Verdict::tie ? 1 : 0;
+      counts_.edge_on += verdict == Verdict::edge_on ? 1 : 0;
       if (verdict != Verdict::wrong) continue;
       count_exception("wrong answer");
       tell(out_, asked.rays[i], asked.truth[i], brute);

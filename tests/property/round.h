@@ -12,7 +12,8 @@ struct RoundCounts {
   std::uint64_t rays =
       0;  ///< primary and secondary; each is asked of the GPU with two leaf sizes and of the twin
   std::uint64_t hits = 0;
-  std::uint64_t ties = 0;        ///< answers that are right but for rounding (judge.h)
+  std::uint64_t ties = 0;     ///< answers that are right but for rounding (judge.h)
+  std::uint64_t edge_on = 0;  ///< other clusters, where the ray lies nearly in the plane of a disc (judge.h)
   std::uint64_t exceptions = 0;  ///< wrong answers, and answers that differ between the leaf sizes
 };
 

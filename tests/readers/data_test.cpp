@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "preprocess/base/file_extension.h"
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
 
 namespace splatray {
 namespace {

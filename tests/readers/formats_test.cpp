@@ -5,7 +5,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
 
 namespace splatray {
 namespace {

@@ -1,7 +1,8 @@
 /// Files made to harm: each is refused in one sentence with its name, before memory or stack run out.
 #include <sys/resource.h>
 
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {

@@ -1,5 +1,5 @@
 /// PLY in every flavour, and what is wrong with files.
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
 
 #include <algorithm>
 #include <cmath>

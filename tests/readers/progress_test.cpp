@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {

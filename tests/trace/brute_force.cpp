@@ -82,12 +82,12 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
   return !(in_slab || from_behind);
 }
 
-std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, const Settings& settings) const {
+void BruteForce::find_near(const RayQuery& query, std::vector<std::uint32_t>& near) const {
   const dvec3 origin(query.origin);
   const dvec3 dir(query.dir);
   const double inverse_dir_squared = 1.0 / glm::dot(dir, dir);
-  std::vector<Meeting> found;
   std::array<double, BLOCK> beyond{};
+  near.clear();
   for (std::size_t begin = 0; begin < splats_.size(); begin += BLOCK) {
     const std::size_t size = std::min(BLOCK, splats_.size() - begin);
     for (std::size_t i = 0; i < size; ++i) {
@@ -98,17 +98,26 @@ std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, con
       beyond[i] = x * x + y * y + z * z - along * along * inverse_dir_squared -
                   (radius_squared_[begin + i] * 1.001 + 1.0);
     }
-    for (std::size_t i = 0; i < size; ++i) {
-      if (beyond[i] > 0.0) continue;
-      const Splat& splat = splats_[begin + i];
-      const double cosine = glm::dot(splat.normal, dir);
-      const double t = glm::dot(splat.normal, splat.center - origin) / cosine;
-      const dvec3 from_center = origin + t * dir - splat.center;
-      const double rho_squared = glm::dot(from_center, from_center);
-      if (!(rho_squared <= splat.radius_squared) || !(t > double(query.t_min)) || !std::isfinite(t)) continue;
-      const Meeting meeting{t, rho_squared / splat.radius_squared, cosine, begin + i};
-      if (counts(meeting, query, settings)) found.push_back(meeting);
-    }
+    for (std::size_t i = 0; i < size; ++i)
+      if (!(beyond[i] > 0.0)) near.push_back(static_cast<std::uint32_t>(begin + i));
+  }
+}
+
+std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, const Settings& settings) const {
+  const dvec3 origin(query.origin);
+  const dvec3 dir(query.dir);
+  thread_local std::vector<std::uint32_t> near;
+  find_near(query, near);
+  std::vector<Meeting> found;
+  for (const std::uint32_t index : near) {
+    const Splat& splat = splats_[index];
+    const double cosine = glm::dot(splat.normal, dir);
+    const double t = glm::dot(splat.normal, splat.center - origin) / cosine;
+    const dvec3 from_center = origin + t * dir - splat.center;
+    const double rho_squared = glm::dot(from_center, from_center);
+    if (!(rho_squared <= splat.radius_squared) || !(t > double(query.t_min)) || !std::isfinite(t)) continue;
+    const Meeting meeting{t, rho_squared / splat.radius_squared, cosine, index};
+    if (counts(meeting, query, settings)) found.push_back(meeting);
   }
   return found;
 }

@@ -1,5 +1,5 @@
-/// The truth of what a ray hits: every splat tested, in float64, with formulas of its own (design, section
-/// 4). Knows nothing of octrees, leaves or the shaders.
+/// The truth of what a ray hits: every splat tested, in float64, with formulas of its own (ARCHITECTURE.md,
+/// "What a hit is"). Knows nothing of octrees, leaves or the shaders.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -26,6 +26,9 @@ class BruteForce {
  public:
   /// Takes the scene's splats once each and its materials.
   explicit BruteForce(const Scene& scene);
+  virtual ~BruteForce() = default;
+  BruteForce(const BruteForce&) = default;
+  BruteForce& operator=(const BruteForce&) = default;
 
   /// Settings used: blend (BLEND_WINDOW or BLEND_NEAREST), kernel, kappa, side (SIDE_SIDE or SIDE_NONE).
   [[nodiscard]] TrueHit nearest(const RayQuery& query, const Settings& settings) const;
@@ -35,10 +38,17 @@ class BruteForce {
 
   [[nodiscard]] const std::vector<uvec4>& words() const { return words_; }
   [[nodiscard]] const std::vector<Splat>& splats() const { return splats_; }
+  /// Replaces all materials (same count).
+  void set_materials(const std::vector<Material>& materials) { materials_ = materials; }
   /// Moves one splat's centre, to prove that a comparison can fail.
   void move_splat(std::size_t index, glm::dvec3 by_root);
   /// Turns one splat's unit normal towards normal + by.
   void turn_splat(std::size_t index, glm::dvec3 by);
+
+ protected:
+  /// Sets `near` to the splats, by index and once each, whose balls of a disc's radius the ray's line may meet: all that it does
+  /// and perhaps others.
+  virtual void find_near(const RayQuery& query, std::vector<std::uint32_t>& near) const;
 
  private:
   /// A disc the ray meets.

@@ -56,7 +56,7 @@ TEST_F(Culling, ChangesNoPicture) {
   expect_same({near, 203, 131}, {.samples = 1});
   camera.ortho_height = 7.0;
   expect_same({camera, 203, 131}, {.samples = 1});
-  if (context.is_processor()) {
+  if (context.is_cpu()) {
     EXPECT_LT(culled_leaves, leaves);
   }
 }

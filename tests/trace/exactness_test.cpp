@@ -56,9 +56,8 @@ void expect_exact(const Agreement& agreement, const std::string& what) {
 }
 
 std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery>& rays,
-                                  const Settings& settings, Arithmetic arithmetic = Arithmetic::automatic,
-                                  const PoolWish& wish = {}) {
-  Tracer tracer(shared_context(), wish, arithmetic);
+                                  const Settings& settings, const TracerOptions& options = {}) {
+  Tracer tracer(shared_context(), options);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
 }
@@ -68,8 +67,8 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
   const Settings settings;
   const BruteForce brute(scenes.front());
   const Truth truth(scenes.front(), brute, count, settings);
-  const auto double_float = gpu_intersect(scenes.front(), truth.rays, settings, Arithmetic::double_float);
-  expect_exact(agreement_of(brute, truth.hits, double_float), "in double-float");
+  const auto gpu_kernels = gpu_intersect(scenes.front(), truth.rays, settings, {.kernels = Kernels::gpu});
+  expect_exact(agreement_of(brute, truth.hits, gpu_kernels), "kernels of GPUs");
   std::vector<RayHit> first_answers;
   for (const Scene& scene : scenes) {
     const std::vector<RayHit> answers = gpu_intersect(scene, truth.rays, settings);
@@ -78,14 +77,17 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
     if (first_answers.empty()) first_answers = answers;
     EXPECT_EQ(different_bits(answers, first_answers), 0U) << "other bits for another leaf size";
     const auto through_references =
-        gpu_intersect(scene, truth.rays, settings, Arithmetic::automatic, {.data = DataPool::references});
+        gpu_intersect(scene, truth.rays, settings, {.pools = {.data = DataPool::references}});
     EXPECT_EQ(different_bits(answers, through_references), 0U) << "other bits through references";
   }
   const std::uint64_t page = std::bit_ceil(scenes.front().reference_pool.size()) / PAGES_MOST;
   for (const DataPool data : {DataPool::copies, DataPool::references}) {
-    const PoolWish wish{.data = data, .page_elements = page};
-    const auto paged = gpu_intersect(scenes.front(), truth.rays, settings, Arithmetic::automatic, wish);
-    EXPECT_EQ(different_bits(first_answers, paged), 0U) << "other bits from pages";
+    for (const Kernels kernels : {Kernels::automatic, Kernels::gpu}) {
+      const auto paged = gpu_intersect(scenes.front(), truth.rays, settings,
+                                       {.pools = {.data = data, .page_elements = page}, .kernels = kernels});
+      EXPECT_EQ(different_bits(kernels == Kernels::gpu ? gpu_kernels : first_answers, paged), 0U)
+          << "other bits from pages";
+    }
   }
 }
 

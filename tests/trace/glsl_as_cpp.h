@@ -7,6 +7,8 @@
 #define INFINITY_F (std::numeric_limits<float>::infinity())
 
 using glm::abs;
+using glm::acos;
+using glm::atan;
 using glm::bvec3;
 using glm::clamp;
 using glm::cross;
@@ -31,3 +33,4 @@ using std::sqrt;
 
 inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
 inline int findLSB(uint x) { return x == 0U ? -1 : std::countr_zero(x); }
+inline int findMSB(uint x) { return std::bit_width(x) - 1; }

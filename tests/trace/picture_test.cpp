@@ -9,6 +9,7 @@
 #include "app/library/image_file.h"
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
+#include "tests/temp_folder.h"
 #include "tests/trace/reference_path.h"
 #include "tests/trace/scenes.h"
 
@@ -79,11 +80,11 @@ TEST_P(ScenePicture, MatchesBruteForce) {
   if (scene_case.needs_data && !data_folder())
     GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: " << scene_case.name << " is not compared";
   const std::string name = scene_case.name;
-  const std::filesystem::path points = std::filesystem::path(::testing::TempDir()) / "splatray_picture_test";
-  if (!scene_case.needs_data) write_model(name, SPLATS, points);
+  const TempFolder points;
+  if (!scene_case.needs_data) write_model(name, SPLATS, points.path());
   const std::filesystem::path file = std::filesystem::path(SPLATRAY_SCENES) / (name + ".gltf");
   const Pictures pictures =
-      pictures_of(scene_of_file(file, SPLATS, 10, scene_case.needs_data ? *data_folder() : points));
+      pictures_of(scene_of_file(file, SPLATS, 10, scene_case.needs_data ? *data_folder() : points.path()));
   EXPECT_TRUE(compare_pictures(pictures.gpu, pictures.reference, scene_case.tolerance, name).passed)
       << scene_case.why;
 }

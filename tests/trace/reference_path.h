@@ -9,7 +9,7 @@
 
 namespace splatray::testing {
 
-/// The picture as design section 4 defines it (perspective cameras; blend, kernel, side as BruteForce). All
+/// The picture as ARCHITECTURE.md defines hits (perspective cameras; blend, kernel, side as BruteForce). All
 /// cores.
 [[nodiscard]] Image reference_picture(const Scene& scene, const BruteForce& brute, const View& view,
                                       const Settings& settings, const Environment& environment);

@@ -26,7 +26,7 @@ class Stages : public ::testing::Test {
     scene.lights = default_lights(scene, camera);
     tracer.upload(scene);
     tracer.set_environment(studio_environment());
-    if (!context.is_processor() || !context.ballot) skipped = true;
+    skipped = !device_profile(context).stages;
   }
 
   void SetUp() override {

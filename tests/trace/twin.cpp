@@ -22,11 +22,11 @@ namespace glsl {
 #define KERNEL features[SPEC_KERNEL]
 #define SIDE features[SPEC_SIDE]
 #define FACES features[SPEC_FACES]
-#define GLASS features[SPEC_GLASS]
-#define COLORS features[SPEC_COLORS]
-#define COUNTERS features[SPEC_COUNTERS]
-#define FIELDS features[SPEC_FIELDS]
 #define TOP_LEVELS features[SPEC_TOP_LEVELS]
+#define GLASS ((features[SPEC_FEATURES] & FEATURE_GLASS) != 0)
+#define COLORS ((features[SPEC_FEATURES] & FEATURE_COLORS) != 0)
+#define COUNTERS ((features[SPEC_FEATURES] & FEATURE_COUNTERS) != 0)
+#define FIELDS ((features[SPEC_FEATURES] & FEATURE_FIELDS) != 0)
 
 uint top_entry(uint index) { return top.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
@@ -62,11 +62,9 @@ Features twin_features(const Scene& scene, const Settings& settings) {
   chosen[SPEC_KERNEL] = settings.kernel;
   chosen[SPEC_SIDE] = settings.side;
   chosen[SPEC_FACES] = faces_of(scene);
-  chosen[SPEC_GLASS] = 1;
-  chosen[SPEC_COLORS] = scene.color_pool.empty() ? 0 : 1;
-  const bool blends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
-  chosen[SPEC_FIELDS] = blends && !scene.field_pool.empty() ? 1 : 0;
-  chosen[SPEC_COUNTERS] = 1;
+  const bool bends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
+  chosen[SPEC_FEATURES] = FEATURE_GLASS | FEATURE_COUNTERS | (scene.color_pool.empty() ? 0 : FEATURE_COLORS) |
+                          (bends && !scene.field_pool.empty() ? FEATURE_FIELDS : 0);
   chosen[SPEC_TOP_LEVELS] = 5;
   return chosen;
 }

@@ -4,6 +4,7 @@
 // After GoogleTest, whose names Xlib's macros would replace.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <stdexcept>
 #include <thread>
 
 namespace splatray {
@@ -22,6 +24,11 @@ using Clock = std::chrono::steady_clock;
 using Connection = std::unique_ptr<Display, decltype(&XCloseDisplay)>;
 
 constexpr std::chrono::milliseconds PAUSE{20};
+
+/// Ends the test, with a failure that says why, unless `met`: without a desktop nothing else can be judged.
+void require(bool met, const std::string& sentence) {
+  if (!met) throw std::runtime_error(sentence);
+}
 
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -85,7 +92,7 @@ unsigned long find_window(const Connection& connection, unsigned long root, cons
 
 Connection connect(const std::string& display) {
   Connection connection(XOpenDisplay(display.c_str()), &XCloseDisplay);
-  EXPECT_TRUE(connection) << "no connection to the X server " << display;
+  require(connection != nullptr, "no connection to the X server " + display);
   return connection;
 }
 
@@ -93,7 +100,7 @@ Connection connect(const std::string& display) {
 
 Desktop::Desktop() {
   int channel[2];
-  EXPECT_EQ(pipe(channel), 0);
+  require(pipe(channel) == 0, "no pipe to Xvfb");
   server_ = fork();
   if (server_ == 0) {
     const std::string number = std::to_string(channel[1]);
@@ -105,7 +112,8 @@ Desktop::Desktop() {
   char digits[16] = {};
   const ssize_t length = read(channel[0], digits, sizeof(digits) - 1);
   ::close(channel[0]);
-  EXPECT_GT(length, 0) << "Xvfb did not start; Debian's package xvfb has it";
+  if (length <= 0) waitpid(server_, nullptr, 0);
+  require(length > 0, "Xvfb did not start; Debian's package xvfb has it");
   display_ = ":" + std::to_string(std::atoi(digits));
 }
 
@@ -136,7 +144,7 @@ void Desktop::xdotool(const std::vector<std::string>& words) const {
   }
   int status = 0;
   waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0) << "xdotool failed; Debian's package xdotool has it";
+  require(status == 0, "xdotool failed; Debian's package xdotool has it");
 }
 
 void Desktop::drop(unsigned long window, const std::string& file) const {
@@ -162,6 +170,21 @@ void Desktop::drop(unsigned long window, const std::string& file) const {
     if (event.type == ClientMessage && event.xclient.message_type == atom(connection, "XdndFinished")) return;
   }
   ADD_FAILURE() << "the window did not take the drop";
+}
+
+std::vector<std::uint32_t> Desktop::pixels(unsigned long window) const {
+  const Connection connection = connect(display_);
+  XWindowAttributes shape{};
+  require(XGetWindowAttributes(connection.get(), window, &shape) != 0, "the window is gone");
+  XImage* image = XGetImage(connection.get(), window, 0, 0, static_cast<unsigned>(shape.width),
+                            static_cast<unsigned>(shape.height), AllPlanes, ZPixmap);
+  require(image != nullptr, "the window shows nothing");
+  std::vector<std::uint32_t> pixels;
+  for (int y = 0; y < image->height; ++y)
+    for (int x = 0; x < image->width; ++x)
+      pixels.push_back(static_cast<std::uint32_t>(XGetPixel(image, x, y)));
+  XDestroyImage(image);
+  return pixels;
 }
 
 void Desktop::close(unsigned long window) const {

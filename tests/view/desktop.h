@@ -2,6 +2,7 @@
 #pragma once
 #include <sys/types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace splatray {
 /// An X server of its own (Xvfb) for as long as the object lives.
 class Desktop {
  public:
-  /// Asserts that Xvfb is there (Debian's package xvfb).
+  /// All members throw std::runtime_error, which ends the test as failed, where Xvfb or xdotool (Debian's packages of
+  /// these names) does not run.
   Desktop();
   ~Desktop();
   Desktop(const Desktop&) = delete;
@@ -24,6 +26,8 @@ class Desktop {
   void xdotool(const std::vector<std::string>& words) const;
   /// Drops a file on a window, as a file manager does: the XDND protocol, version 5.
   void drop(unsigned long window, const std::string& file) const;
+  /// The pixels that a window shows now, row by row.
+  [[nodiscard]] std::vector<std::uint32_t> pixels(unsigned long window) const;
   /// Asks a window to close, as the button in its title bar does.
   void close(unsigned long window) const;
 

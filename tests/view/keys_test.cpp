@@ -55,12 +55,12 @@ TEST(KeysTest, RowsJoinKeysThatDoTheSame) {
 }
 
 TEST(KeysTest, ReadmeShowsTheTable) {
-  std::ifstream file(SPLATRAY_SOURCE_DIR "/README.md");
+  std::ifstream file(SPLATRAY_SOURCE_DIR "/app/view/README.md");
   std::ostringstream readme;
   readme << file.rdbuf();
   EXPECT_NE(readme.str().find("## Keys of the viewer\n"), std::string::npos);
   EXPECT_NE(readme.str().find("\n" + keys_markdown() + "\n"), std::string::npos)
-      << "README.md must hold what splatray-view --keys prints:\n"
+      << "app/view/README.md must hold what splatray-view --keys prints:\n"
       << keys_markdown();
 }
 

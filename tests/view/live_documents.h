@@ -16,8 +16,8 @@ inline SharedScene shared_discs(std::uint32_t count = 2) {
 /// Shows them before a white environment.
 inline Document disc_document(const Scene& scene) {
   Document document;
-  document.object_names = scene.object_names;
-  document.loaded_materials = document.materials = scene.materials;
+  document.loaded = std::make_shared<const LoadedPart>(LoadedPart{{}, scene.object_names, scene.materials});
+  document.materials = scene.materials;
   document.lights = scene.lights;
   document.environment = "white";
   document.camera = disc_view(1, 1).camera;

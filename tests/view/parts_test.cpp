@@ -124,7 +124,9 @@ TEST(Drop, PastedPathsAndUris) {
 TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   const Scene scene = disc_scene(1);
   Document document = disc_document(scene);
-  document.source.inputs = {"my scene.ply"};
+  LoadedPart part = *document.loaded;
+  part.source.inputs = {"my scene.ply"};
+  document.loaded = std::make_shared<const LoadedPart>(std::move(part));
   document.camera.fov_y_deg = DEFAULT_FOV_Y_DEG;  // orthographic cameras keep none
   document.materials[0].mirror = 0.3F;
   document.materials[0].flags |= MATERIAL_HIDDEN;

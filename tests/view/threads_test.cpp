@@ -160,7 +160,7 @@ TEST_F(LoadThreadTest, OpensWithADocumentThatShowsIt) {
   await([](const LoadNews& news) {
     if (!news.opened) return false;
     EXPECT_EQ(news.opened->scene->data_pool.size(), 144U);
-    EXPECT_EQ(news.opened->document.object_names, std::vector<std::string>{"grid"});
+    EXPECT_EQ(news.opened->document.loaded->object_names, std::vector<std::string>{"grid"});
     EXPECT_FALSE(news.opened->document.lights.empty());
     return true;
   });
@@ -179,7 +179,9 @@ TEST_F(LoadThreadTest, TheNewestCountsAndCancelEndsIt) {
   const std::string grid = write("grid.ply", grid_ply(true)), other = write("other.ply", grid_ply(true, 5.0));
   for (int i = 0; i < 10; ++i) load(grid);
   load(other);
-  await([](const LoadNews& news) { return news.opened && news.opened->document.object_names[0] == "other"; });
+  await([](const LoadNews& news) {
+    return news.opened && news.opened->document.loaded->object_names[0] == "other";
+  });
   load(grid);
   thread.cancel();
   await([](const LoadNews& news) {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
 
 namespace splatray {
 namespace {

@@ -1,6 +1,7 @@
 /// What a person looks at and changes in the viewer: one value, from which a picture, a command line and a saved file are
 /// made. The window's thread owns it; other threads get copies.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,16 @@ enum class ViewMode {
   steps    ///< heat map of node words read
 };
 
+/// What stays as it was loaded.
+struct LoadedPart {
+  SceneOptions source;                    ///< the files, and how points are made of them
+  std::vector<std::string> object_names;  ///< one per object
+  std::vector<Material> materials;        ///< one per object, as the scene has them
+};
+
 struct Document {
-  SceneOptions source;                     ///< the files, and how points are made of them
-  std::vector<std::string> object_names;   ///< one per object
-  std::vector<Material> loaded_materials;  ///< as the scene has them
-  std::vector<Material> materials;         ///< as shown; hidden objects have MATERIAL_HIDDEN
+  std::shared_ptr<const LoadedPart> loaded = std::make_shared<const LoadedPart>();  ///< shared by all copies
+  std::vector<Material> materials;  ///< as shown; hidden objects have MATERIAL_HIDDEN
   std::vector<SceneLight> lights;
   std::string environment;  ///< as --env has it
   Camera camera;

@@ -6,7 +6,7 @@ namespace splatray {
 
 RenderOptions render_options(const Document& document, std::uint32_t width, std::uint32_t height) {
   RenderOptions options;
-  options.scene = document.source;
+  options.scene = document.loaded->source;
   options.exposure_ev = document.exposure_ev;
   PictureOptions& picture = options.picture;
   picture.width = width;
@@ -17,7 +17,7 @@ RenderOptions render_options(const Document& document, std::uint32_t width, std:
   picture.up = document.up;
   picture.environment = document.environment;
   picture.objects =
-      object_options_between(document.loaded_materials, document.materials, document.object_names);
+      object_options_between(document.loaded->materials, document.materials, document.loaded->object_names);
   std::vector<LightOptions>& lights = picture.lights.emplace();
   for (const SceneLight& light : document.lights) lights.push_back({light.kind, light.position, light.power});
   return options;
@@ -27,9 +27,9 @@ Document first_document(const LoadedScene& loaded, const SceneOptions& options,
                         const PictureOptions& picture) {
   const Scene& scene = loaded.scene;
   Document document;
-  document.source = options;
-  document.object_names = scene.object_names;
-  document.loaded_materials = document.materials = scene.materials;
+  document.loaded =
+      std::make_shared<const LoadedPart>(LoadedPart{options, scene.object_names, scene.materials});
+  document.materials = scene.materials;
   apply_object_options(picture.objects, scene.object_names, document.materials);
   document.camera = choose_camera(scene, picture);
   document.lights = choose_lights(loaded, picture, document.camera);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/json_depth.h"
 #include "engine/file/atomic_file.h"
@@ -71,14 +72,8 @@ void if_sound(const Read& read) {
 }  // namespace
 
 std::filesystem::path user_state_path() {
-  const char* state_home = std::getenv("XDG_STATE_HOME");
-  const char* home = std::getenv("HOME");
-  std::filesystem::path folder = state_home != nullptr ? state_home : "";
-  if (!folder.is_absolute()) {  // the specification: relative ones are invalid, to be ignored
-    if (home == nullptr || *home == '\0') return {};
-    folder = std::filesystem::path(home) / ".local" / "state";
-  }
-  return folder / "splatray" / "view.json";
+  const std::filesystem::path folder = user_state_folder();
+  return folder.empty() ? folder : folder / "view.json";
 }
 
 UserState read_user_state(const std::filesystem::path& path) {

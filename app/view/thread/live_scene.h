@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/library/user_folders.h"
 #include "app/view/model/document.h"
 #include "engine/gpu/tracer.h"
 
@@ -14,7 +15,7 @@ using SharedScene = std::shared_ptr<const Scene>;
 /// On the render thread. The context must outlive it.
 class LiveScene {
  public:
-  explicit LiveScene(const Context& context) : tracer_(context) {}
+  explicit LiveScene(const Context& context) : tracer_(context, {.pipeline_folder = user_cache_folder()}) {}
 
   /// Uploads another scene. Throws Error.
   void open(SharedScene scene);

@@ -1,11 +1,10 @@
 #include "app/view/thread/load_thread.h"
 
-#include <new>
 #include <utility>
 
 #include "app/library/scene_source.h"
+#include "app/view/model/attempt.h"
 #include "app/view/model/document_options.h"
-#include "engine/base/error.h"
 
 namespace splatray {
 namespace {
@@ -58,19 +57,11 @@ void LoadThread::run() {
       wish = std::move(*std::exchange(wish_, {}));
       cancelled_ = false;
     }
-    std::string error;
-    try {
-      load_now(wish);
-    } catch (const Error& failure) {
-      if (failure.code() != ExitCode::interrupted) error = failure.what();
-    } catch (const std::bad_alloc&) {
-      error = "out of memory while loading " + wish.scene.inputs.front().string();
-    } catch (const std::exception& failure) {
-      error = failure.what();
-    }
+    const std::optional<Failure> failure =
+        attempt("loading " + wish.scene.inputs.front().string(), [&] { load_now(wish); });
     deliver([&](LoadNews& news) {
       if (!wish_) news.progress.reset();
-      if (!error.empty()) news.error = error;
+      if (failure && !failure->interrupted) news.error = failure->sentence;
     });
   }
 }

@@ -1,6 +1,7 @@
 #include "app/view/thread/progressive.h"
 
 #include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
 
 namespace splatray {
 namespace {
@@ -10,10 +11,6 @@ constexpr double BAND_MS = 30.0;             ///< of work before changes are loo
 constexpr std::chrono::milliseconds SETTLING{150};
 constexpr std::chrono::milliseconds BETWEEN_PICTURES{
     33};  ///< of trace_samples, so that reading back costs little
-
-double milliseconds_since(Progressive::Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Progressive::Clock::now() - start).count();
-}
 
 /// Whether a picture of one is a picture of the other, but for the exposure.
 bool same_picture(const Document& a, const Document& b) {

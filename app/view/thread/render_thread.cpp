@@ -1,10 +1,9 @@
 #include "app/view/thread/render_thread.h"
 
-#include <new>
 #include <utility>
 
+#include "app/view/model/attempt.h"
 #include "app/view/model/inspect.h"
-#include "engine/base/error.h"
 
 namespace splatray {
 
@@ -21,16 +20,14 @@ RenderThread::~RenderThread() {
 }
 
 void RenderThread::show(const Document& document, glm::uvec2 window_px) {
-  const std::lock_guard lock(mutex_);
-  wishes_.document = document;
-  wishes_.window_px = window_px;
-  changed_.notify_one();
+  open(nullptr, document, window_px);
 }
 
 void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 window_px) {
+  std::optional<Document> copy(document);  // made, and the one before freed, without the mutex
   const std::lock_guard lock(mutex_);
-  wishes_.scene = std::move(scene);
-  wishes_.document = document;
+  if (scene) wishes_.scene = std::move(scene);
+  std::swap(wishes_.document, copy);
   wishes_.window_px = window_px;
   changed_.notify_one();
 }
@@ -62,10 +59,10 @@ RenderNews RenderThread::take_news() {
 
 void RenderThread::run() {
   while (const std::optional<Wishes> wishes = wait_for_wishes()) {
-    attempt([&] { fulfil(*wishes); });
+    attempt_to("showing the scene", [&] { fulfil(*wishes); });
     const auto when = progressive_.next_work();
     if (!when || *when > Progressive::Clock::now()) continue;
-    attempt([this] {
+    attempt_to("tracing the picture", [this] {
       if (SharedFrame frame = progressive_.work([this] { return something_waits(); }))
         deliver([&](RenderNews& news) { news.frame = std::move(frame); });
     });
@@ -107,7 +104,7 @@ void RenderThread::answer(const PickRequest& request) {
 
 void RenderThread::save_now(const SaveJob& job) {
   std::string notice;
-  attempt([&] {
+  attempt_to("saving a picture", [&] {
     notice = save_pictures(job, live_, context_, [this](const Work& work) {
       deliver([&](RenderNews& news) { news.saving = work; });
       const std::lock_guard lock(mutex_);
@@ -122,22 +119,15 @@ void RenderThread::save_now(const SaveJob& job) {
 }
 
 /// What goes wrong in a step becomes a sentence for the window.
-void RenderThread::attempt(const std::function<void()>& step) {
-  const auto tell = [this](const std::string& sentence) {
-    deliver([&](RenderNews& news) { news.error = sentence; });
-  };
-  try {
-    step();
-  } catch (const Error& error) {
-    if (error.code() == ExitCode::interrupted)
-      deliver([](RenderNews& news) { news.notice = "cancelled"; });
+void RenderThread::attempt_to(const char* doing, const std::function<void()>& step) {
+  const std::optional<Failure> failure = attempt(doing, step);
+  if (!failure) return;
+  deliver([&](RenderNews& news) {
+    if (failure->interrupted)
+      news.notice = "cancelled";
     else
-      tell(error.what());
-  } catch (const std::bad_alloc&) {
-    tell("out of memory");
-  } catch (const std::exception& error) {
-    tell(error.what());
-  }
+      news.error = failure->sentence;
+  });
 }
 
 void RenderThread::deliver(const std::function<void(RenderNews&)>& change) {

@@ -75,7 +75,7 @@ class RenderThread {
   void fulfil(const Wishes& wishes);
   void answer(const PickRequest& request);
   void save_now(const SaveJob& job);
-  void attempt(const std::function<void()>& step);
+  void attempt_to(const char* doing, const std::function<void()>& step);
   void deliver(const std::function<void(RenderNews&)>& change);
   [[nodiscard]] bool something_waits();
 

@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "app/library/camera_file.h"
+#include "app/view/model/attempt.h"
 #include "app/view/ui/panel_parts.h"
-#include "engine/base/error.h"
 #include "preprocess/read/formats.h"
 
 namespace splatray {
@@ -41,12 +41,13 @@ class Dialog {
 
   explicit operator bool() const { return shown_; }
 
-  /// The last row: returns whether the work is to be done; `refusal`: why it cannot be.
+  /// The last row: returns whether the work is to be done, for which Enter stands too; `refusal`: why it cannot be.
   [[nodiscard]] bool done_or_cancelled(const char* verb, const std::string& refusal) {
     if (!refusal.empty()) ImGui::TextWrapped("%s", refusal.c_str());
     ImGui::Spacing();
     ImGui::BeginDisabled(!refusal.empty());
-    const bool done = ImGui::Button(verb);
+    const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) && refusal.empty();
+    const bool done = ImGui::Button(verb) || entered;
     ImGui::EndDisabled();
     ImGui::SameLine();
     if (ImGui::Button("cancel") || done) open_ = false;
@@ -101,12 +102,10 @@ std::string refusal_of(const RecordRequest& record) {
 
 /// Writes a camera file at once, small as it is.
 void write_file(PanelState& state, const std::string& path, const std::function<void()>& write) {
-  try {
-    write();
+  if (const std::optional<Failure> failure = attempt("writing " + path, write))
+    state.error = failure->sentence;
+  else
     state.notice = "Written: " + path;
-  } catch (const Error& error) {
-    state.error = error.what();
-  }
 }
 
 bool is_ortho(const Camera& camera) { return camera.ortho_height > 0.0; }
@@ -146,8 +145,8 @@ void open_dialog(PanelState& state, Requests& requests) {
   Dialog dialog("Open", state.show_open);
   if (!dialog) return;
   const std::string hint = ".soct " + format_extensions();
-  const bool entered = ImGui::InputTextWithHint("file", hint.c_str(), &state.open_path,
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered =
+      ImGui::InputTextWithHint("file", hint.c_str(), &state.open_path, ImGuiInputTextFlags_EnterReturnsTrue);
   recent_list(state, requests);
   const std::string refusal = state.open_path.empty() ? "Name a file, or drop one on the window." : "";
   if (dialog.done_or_cancelled("open", refusal) || (entered && refusal.empty()))

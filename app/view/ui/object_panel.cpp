@@ -19,7 +19,7 @@ void set(Material& material, std::uint32_t flag, bool on) {
 }
 
 std::string shown_name(const Document& document, std::size_t object) {
-  const std::string& name = document.object_names[object];
+  const std::string& name = document.loaded->object_names[object];
   return name.empty() ? "object " + std::to_string(object) : name;
 }
 
@@ -128,8 +128,7 @@ void material_panel(Document& document, PanelState& state) {
   ImGui::TextUnformatted(shown_name(document, state.object).c_str());
   Material& material = document.materials[state.object];
   material_controls(material);
-  if (state.object < document.loaded_materials.size() && ImGui::Button("as loaded"))
-    material = document.loaded_materials[state.object];
+  if (ImGui::Button("as loaded")) material = document.loaded->materials[state.object];
   ImGui::PopID();
 }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/view/ui/panel_parts.h"
+#include "engine/base/number_text.h"
 
 namespace splatray {
 namespace {
@@ -15,11 +16,6 @@ std::string text(const char* format, double value) {
   std::array<char, 400> buffer{};
   std::snprintf(buffer.data(), buffer.size(), format, value);
   return buffer.data();
-}
-
-std::string bytes_text(std::uint64_t bytes) {
-  const double mib = static_cast<double>(bytes) / (1024.0 * 1024.0);
-  return mib < 1024.0 ? text("%.1f MiB", mib) : text("%.2f GiB", mib / 1024.0);
 }
 
 void memory_facts(const PoolBytes& bytes) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "preprocess/base/color.h"
+#include "engine/base/srgb.h"
 #include "preprocess/base/quoted_list.h"
 
 namespace splatray {

@@ -20,7 +20,7 @@
 #include <exception>
 #include <new>
 
-#include "preprocess/base/color.h"
+#include "engine/base/srgb.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/vtk/obj_check.h"
 #include "preprocess/read/vtk/vtp_check.h"

@@ -311,7 +311,7 @@ std::string word(Insertion insertion) {
 }
 
 std::string word(RadiusRule rule) {
-  constexpr const char* WORDS[] = {"coverage", "knn", "given"};
+  constexpr const char* WORDS[] = {"coverage", "knn"};
   return WORDS[static_cast<std::size_t>(rule)];
 }
 

@@ -7,7 +7,7 @@
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/prepare.h"
 #include "tests/bench/measure/measure.h"
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
 
 namespace splatray::testing {
 namespace {

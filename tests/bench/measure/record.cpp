@@ -34,15 +34,14 @@ Json settings_json(const Case& one, const Run& run, std::uint64_t splats) {
           {"height", one.height}};
 }
 
-/// YYYY-MM-DD, UTC.
+}  // namespace
+
 std::string today() {
   const std::time_t now = std::time(nullptr);
   char text[16];
   std::strftime(text, sizeof(text), "%Y-%m-%d", std::gmtime(&now));
   return text;
 }
-
-}  // namespace
 
 Json start_record(const Case& one, const Run& run, std::uint64_t splats) {
   return {{"case", one.name},

@@ -24,6 +24,9 @@ using Json = nlohmann::ordered_json;
 /// A run's record but for device, `speed`, `error` and settings.threads, on a scene of `splats` splats.
 [[nodiscard]] Json start_record(const Case& one, const Run& run, std::uint64_t splats);
 
+/// YYYY-MM-DD, UTC.
+[[nodiscard]] std::string today();
+
 /// Sets json[key] unless the value is NaN or infinite, which JSON cannot say (the PSNR of equal pictures).
 void set_number(Json& json, const std::string& key, double value);
 

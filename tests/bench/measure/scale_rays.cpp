@@ -1,7 +1,7 @@
 #include "tests/bench/measure/scale_rays.h"
 
 #include "engine/file/scene_file.h"
-#include "tests/bench/peers/splatray_racer.h"
+#include "tests/bench/measure/splatray_racer.h"
 
 namespace splatray::testing {
 namespace {

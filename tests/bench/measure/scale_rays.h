@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "engine/vulkan/context.h"
-#include "tests/bench/peers/race.h"
+#include "tests/bench/measure/race.h"
 
 namespace splatray::testing {
 

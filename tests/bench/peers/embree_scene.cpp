@@ -7,11 +7,12 @@
 
 namespace splatray::testing {
 
-EmbreeScene::EmbreeScene()
+EmbreeScene::EmbreeScene(RTCBuildQuality quality)
     : device_(rtcNewDevice(nullptr), rtcReleaseDevice), scene_(nullptr, rtcReleaseScene) {
   if (!device_) throw Error(ExitCode::failed, "Embree has no device on this machine");
   rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, this);
   scene_.reset(rtcNewScene(device_.get()));
+  rtcSetSceneBuildQuality(scene_.get(), quality);
 }
 
 bool EmbreeScene::count_bytes(void* self, ssize_t bytes, bool /*after*/) {
@@ -43,8 +44,9 @@ RTCRayHit embree_ray(const RayQuery& query) {
   return ray;
 }
 
-EmbreeBundle::EmbreeBundle(std::span<const RayQuery> rays) : query() {
-  for (unsigned lane = 0; lane < 8; ++lane) {
+template <unsigned WIDTH>
+EmbreeBundle<WIDTH>::EmbreeBundle(std::span<const RayQuery> rays) {
+  for (unsigned lane = 0; lane < WIDTH; ++lane) {
     valid[lane] = lane < rays.size() ? -1 : 0;
     const RayQuery& ray = rays[std::min<std::size_t>(lane, rays.size() - 1)];
     query.ray.org_x[lane] = ray.origin.x;
@@ -55,10 +57,31 @@ EmbreeBundle::EmbreeBundle(std::span<const RayQuery> rays) : query() {
     query.ray.dir_z[lane] = ray.dir.z;
     query.ray.tnear[lane] = std::max(ray.t_min, 0.0F);
     query.ray.tfar[lane] = INFINITY;
+    query.ray.time[lane] = 0.0F;
     query.ray.mask[lane] = ~0U;
     query.ray.id[lane] = lane;
+    query.ray.flags[lane] = 0;
     query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
   }
 }
+
+template <unsigned WIDTH>
+void EmbreeBundle<WIDTH>::intersect(RTCScene scene, RTCIntersectContext& context) {
+  if constexpr (WIDTH == 8) rtcIntersect8(valid, scene, &context, &query);
+  if constexpr (WIDTH == 16) rtcIntersect16(valid, scene, &context, &query);
+}
+
+template <unsigned WIDTH>
+void EmbreeBundle<WIDTH>::occluded(RTCScene scene, RTCIntersectContext& context,
+                                   std::span<std::uint8_t> blocked) {
+  if constexpr (WIDTH == 8) rtcOccluded8(valid, scene, &context, &query.ray);
+  if constexpr (WIDTH == 16) rtcOccluded16(valid, scene, &context, &query.ray);
+  for (std::size_t lane = 0; lane < blocked.size(); ++lane)
+    blocked[lane] = query.ray.tfar[lane] < 0.0F ? 1 : 0;
+}
+
+template struct EmbreeBundle<8>;
+template struct EmbreeBundle<16>;
 
 }  // namespace splatray::testing

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <span>
+#include <type_traits>
 
 #include "shaders/layout.h"
 
@@ -13,7 +14,8 @@ namespace splatray::testing {
 /// A device with one scene.
 class EmbreeScene {
  public:
-  EmbreeScene();
+  /// With this quality of the hierarchy.
+  explicit EmbreeScene(RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM);
 
   [[nodiscard]] RTCDevice device() const { return device_.get(); }
   [[nodiscard]] RTCScene scene() const { return scene_.get(); }
@@ -33,21 +35,16 @@ class EmbreeScene {
 /// A ray from t_min to infinity that has hit nothing.
 [[nodiscard]] RTCRayHit embree_ray(const RayQuery& query);
 
-/// Up to eight rays from t_min to infinity that have hit nothing; a ray's id is its place in the bundle.
+/// Up to WIDTH rays (8 or 16) from t_min to infinity that have hit nothing; a ray's id is its place in the bundle.
+template <unsigned WIDTH>
 struct EmbreeBundle {
   explicit EmbreeBundle(std::span<const RayQuery> rays);
-  void intersect(RTCScene scene, RTCIntersectContext& context) {
-    rtcIntersect8(valid, scene, &context, &query);
-  }
+  void intersect(RTCScene scene, RTCIntersectContext& context);
   /// 1 for each ray that anything lies on.
-  void occluded(RTCScene scene, RTCIntersectContext& context, std::span<std::uint8_t> blocked) {
-    rtcOccluded8(valid, scene, &context, &query.ray);
-    for (std::size_t lane = 0; lane < blocked.size(); ++lane)
-      blocked[lane] = query.ray.tfar[lane] < 0.0F ? 1 : 0;
-  }
+  void occluded(RTCScene scene, RTCIntersectContext& context, std::span<std::uint8_t> blocked);
 
-  alignas(32) int valid[8];
-  RTCRayHit8 query;
+  alignas(64) int valid[WIDTH];
+  std::conditional_t<WIDTH == 8, RTCRayHit8, RTCRayHit16> query;
 };
 
 }  // namespace splatray::testing

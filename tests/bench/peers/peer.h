@@ -13,7 +13,7 @@ class Peer {
   virtual ~Peer() = default;
 
   /// Most rays that trace() answers at once: neighbours, so that they may share a traversal.
-  static constexpr std::size_t BUNDLE = 8;
+  static constexpr std::size_t BUNDLE = 16;
   /// Answers up to BUNDLE primary rays of root space: `normal`, `t` (+inf on a miss), `object` and `members` of the hits
   /// are set. May be called by several threads at once. `inside`, `from_normal` and `from_object` are not read.
   virtual void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace splatray::testing {
 namespace {
@@ -54,12 +55,39 @@ struct Meetings {
   }
 }
 
+/// Puts discs of one group beside each other.
+void fit(std::span<std::uint32_t> order, const std::vector<Disc>& discs, std::size_t group) {
+  if (order.size() <= group) return;
+  vec3 low(INFINITY), high(-INFINITY);
+  for (const std::uint32_t disc : order) {
+    low = glm::min(low, discs[disc].center);
+    high = glm::max(high, discs[disc].center);
+  }
+  const vec3 size = high - low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  const std::size_t groups = (order.size() + group - 1) / group;
+  const std::size_t middle = groups / 2 * group;
+  std::nth_element(
+      order.begin(), order.begin() + std::ptrdiff_t(middle), order.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return discs[a].center[axis] < discs[b].center[axis]; });
+  fit(order.first(middle), discs, group);
+  fit(order.subspan(middle), discs, group);
+}
+
+std::vector<std::uint32_t> fitted_order(const std::vector<Disc>& discs, std::size_t group) {
+  std::vector<std::uint32_t> order(discs.size());
+  std::iota(order.begin(), order.end(), 0U);
+  fit(order, discs, group);
+  return order;
+}
+
 /// The discs as EmbreeClusters::groups_; the last group is filled up with discs that no ray meets.
-std::vector<float> in_groups(const std::vector<Disc>& discs, std::size_t group) {
+std::vector<float> in_groups(const std::vector<Disc>& discs, const std::vector<std::uint32_t>& order,
+                             std::size_t group) {
   const std::size_t places = (discs.size() + group - 1) / group * group;
   std::vector<float> groups(places * NUMBERS, -1.0F);
   for (std::size_t i = 0; i < discs.size(); ++i) {
-    const auto& [center, radius, normal, object] = discs[i];
+    const auto& [center, radius, normal, object] = discs[order[i]];
     float* place = &groups[i / group * group * NUMBERS + i % group];
     for (const float number : {center.x, center.y, center.z, normal.x, normal.y, normal.z, radius * radius}) {
       *place = number;
@@ -71,8 +99,14 @@ std::vector<float> in_groups(const std::vector<Disc>& discs, std::size_t group) 
 
 }  // namespace
 
-EmbreeClusters::EmbreeClusters(const Discs& discs, const Settings& settings, std::size_t group)
-    : discs_(discs), settings_(settings), group_(group), groups_(in_groups(discs.list, group)) {
+EmbreeClusters::EmbreeClusters(const Discs& discs, const Settings& settings, std::size_t group,
+                               RTCBuildQuality quality)
+    : discs_(discs),
+      settings_(settings),
+      group_(group),
+      order_(fitted_order(discs.list, group)),
+      groups_(in_groups(discs.list, order_, group)),
+      embree_(quality) {
   assert(group >= 1 && group <= GROUP_MOST);
   RTCGeometry geometry = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>((discs.size() + group - 1) / group));
@@ -88,7 +122,7 @@ void EmbreeClusters::bounds_of(const RTCBoundsFunctionArguments* args) {
   const std::size_t begin = args->primID * self.group_;
   vec3 lower(INFINITY), upper(-INFINITY);
   for (std::size_t i = begin; i < std::min(begin + self.group_, self.discs_.size()); ++i) {
-    const Disc& disc = self.discs_.list[i];
+    const Disc& disc = self.discs_.list[self.order_[i]];
     const vec3 reach = disc.radius * glm::sqrt(glm::max(vec3(1.0F) - disc.normal * disc.normal, vec3(0.0F)));
     lower = glm::min(lower, disc.center - reach);
     upper = glm::max(upper, disc.center + reach);
@@ -102,8 +136,9 @@ void EmbreeClusters::visit_meetings(unsigned primitive, const RTCRay& ray, const
   meet(&groups_[primitive * group_ * NUMBERS], group_, ray, meetings);
   const vec3 dir(ray.dir_x, ray.dir_y, ray.dir_z);
   for (std::size_t i = 0; i < group_; ++i) {
-    const std::size_t disc = primitive * group_ + i;
-    if (meetings.met[i] != 0 && discs_.faces(disc, dir)) visit(disc, meetings.t[i]);
+    if (meetings.met[i] == 0) continue;
+    const std::size_t disc = order_[primitive * group_ + i];
+    if (discs_.faces(disc, dir)) visit(disc, meetings.t[i]);
   }
 }
 
@@ -148,7 +183,8 @@ void EmbreeClusters::occluded(std::span<const RayQuery> rays, std::span<std::uin
 }
 
 std::uint64_t EmbreeClusters::bytes() const {
-  return embree_.bytes() + sizeof(float) * groups_.size() + discs_.bytes();
+  return embree_.bytes() + sizeof(float) * groups_.size() + sizeof(std::uint32_t) * order_.size() +
+         discs_.bytes();
 }
 
 }  // namespace splatray::testing

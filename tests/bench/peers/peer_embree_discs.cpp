@@ -1,5 +1,6 @@
 #include "tests/bench/peers/peer_embree_discs.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 
@@ -34,7 +35,7 @@ void gather(const RTCFilterFunctionNArguments* args) {
     if (args->valid[lane] == 0) continue;
     const vec3 dir = dir_of(args, lane);
     const unsigned disc = RTCHitN_primID(args->hit, args->N, lane);
-    Gathering& gathered = traversal.gathered[RTCRayN_id(args->ray, args->N, lane)];
+    Gathering& gathered = traversal.gathered[args->N == 1 ? 0 : RTCRayN_id(args->ray, args->N, lane)];
     float& tfar = RTCRayN_tfar(args->ray, args->N, lane);
     if (traversal.discs.faces(disc, dir)) gathered.add(disc, tfar, dir, traversal.discs, traversal.settings);
     tfar = gathered.end();
@@ -43,7 +44,10 @@ void gather(const RTCFilterFunctionNArguments* args) {
 
 }  // namespace
 
-EmbreeDiscs::EmbreeDiscs(const Discs& discs, const Settings& settings) : discs_(discs), settings_(settings) {
+EmbreeDiscs::EmbreeDiscs(const Discs& discs, const Settings& settings, unsigned width,
+                         RTCBuildQuality quality)
+    : discs_(discs), settings_(settings), width_(width), embree_(quality) {
+  assert(width == 1 || width == 8 || width == 16);
   RTCGeometry geometry = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, discs.list.data(),
                              offsetof(Disc, center), sizeof(Disc), discs.size());
@@ -59,13 +63,24 @@ EmbreeDiscs::EmbreeDiscs(const Discs& discs, const Settings& settings) : discs_(
   embree_.build(geometry);
 }
 
-void EmbreeDiscs::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
-  assert(rays.size() <= BUNDLE);
+void EmbreeDiscs::trace_alone(const RayQuery& ray, RayHit& hit) const {
   Traversal traversal{{}, discs_, settings_, {}};
   rtcInitIntersectContext(&traversal.context);
-  traversal.context.flags =
-      coherent_ ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  EmbreeBundle bundle(rays);
+  traversal.context.flags = flags();
+  RTCRayHit query = embree_ray(ray);
+  rtcIntersect1(embree_.scene(), &traversal.context, &query);
+  Gathering& gathered = traversal.gathered[0];
+  if (settings_.blend == BLEND_NEAREST && query.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+    gathered.add(query.hit.primID, query.ray.tfar, ray.dir, discs_, settings_);
+  hit = gathered.blended(ray, discs_, settings_);
+}
+
+template <unsigned WIDTH>
+void EmbreeDiscs::trace_together(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
+  Traversal traversal{{}, discs_, settings_, {}};
+  rtcInitIntersectContext(&traversal.context);
+  traversal.context.flags = flags();
+  EmbreeBundle<WIDTH> bundle(rays);
   bundle.intersect(embree_.scene(), traversal.context);
   for (unsigned lane = 0; lane < rays.size(); ++lane) {
     Gathering& gathered = traversal.gathered[lane];
@@ -76,12 +91,32 @@ void EmbreeDiscs::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) 
   }
 }
 
+void EmbreeDiscs::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
+  assert(rays.size() <= BUNDLE);
+  for (std::size_t begin = 0; begin < rays.size(); begin += width_) {
+    const std::size_t count = std::min<std::size_t>(width_, rays.size() - begin);
+    if (width_ == 1) trace_alone(rays[begin], hits[begin]);
+    if (width_ == 8) trace_together<8>(rays.subspan(begin, count), hits.subspan(begin, count));
+    if (width_ == 16) trace_together<16>(rays.subspan(begin, count), hits.subspan(begin, count));
+  }
+}
+
 void EmbreeDiscs::occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const {
   assert(rays.size() <= BUNDLE && blocked.size() == rays.size());
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = coherent_ ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  EmbreeBundle(rays).occluded(embree_.scene(), context, blocked);
+  context.flags = flags();
+  for (std::size_t begin = 0; begin < rays.size(); begin += width_) {
+    const std::size_t count = std::min<std::size_t>(width_, rays.size() - begin);
+    const auto some = rays.subspan(begin, count);
+    const auto answers = blocked.subspan(begin, count);
+    if (width_ == 8) EmbreeBundle<8>(some).occluded(embree_.scene(), context, answers);
+    if (width_ == 16) EmbreeBundle<16>(some).occluded(embree_.scene(), context, answers);
+    if (width_ != 1) continue;
+    RTCRay ray = embree_ray(some.front()).ray;
+    rtcOccluded1(embree_.scene(), &context, &ray);
+    answers.front() = ray.tfar < 0.0F ? 1 : 0;
+  }
 }
 
 }  // namespace splatray::testing

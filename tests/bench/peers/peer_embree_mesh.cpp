@@ -14,7 +14,7 @@ void EmbreeMesh::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) c
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  EmbreeBundle bundle(rays);
+  EmbreeBundle<16> bundle(rays);
   bundle.intersect(embree_.scene(), context);
   for (std::size_t lane = 0; lane < rays.size(); ++lane) {
     RayHit& hit = hits[lane] = {};
@@ -34,7 +34,7 @@ void EmbreeMesh::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) c
 void EmbreeMesh::occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  EmbreeBundle(rays).occluded(embree_.scene(), context, blocked);
+  EmbreeBundle<16>(rays).occluded(embree_.scene(), context, blocked);
 }
 
 std::uint64_t EmbreeMesh::bytes() const { return embree_.bytes() + sizeof(vec3) * corner_normals_.size(); }

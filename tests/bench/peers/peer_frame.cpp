@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include "engine/base/stopwatch.h"
 
 namespace splatray::testing {
 namespace {
@@ -56,10 +57,6 @@ void visit_all(const FrameParams& frame, const BundleVisitor& visit) {
     for (std::uint32_t y = task * TASK_ROWS; y < end; y += BUNDLE_HEIGHT)
       for (std::uint32_t x = 0; x < frame.width; x += BUNDLE_WIDTH) visit_bundle(frame, x, y, visit);
   });
-}
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace

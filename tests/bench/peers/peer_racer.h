@@ -2,9 +2,9 @@
 #pragma once
 #include <memory>
 
+#include "tests/bench/measure/racer.h"
 #include "tests/bench/peers/peer.h"
 #include "tests/bench/peers/peer_paths.h"
-#include "tests/bench/peers/racer.h"
 
 namespace splatray::testing {
 

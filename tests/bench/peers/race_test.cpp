@@ -4,10 +4,10 @@
 #include "data/models.h"
 #include "engine/base/error.h"
 #include "tests/bench/cases/scale_cases.h"
+#include "tests/bench/measure/race.h"
+#include "tests/bench/measure/splatray_racer.h"
 #include "tests/bench/peers/peer_embree_discs.h"
 #include "tests/bench/peers/peer_racer.h"
-#include "tests/bench/peers/race.h"
-#include "tests/bench/peers/splatray_racer.h"
 #include "tests/trace/scenes.h"
 
 namespace splatray::testing {

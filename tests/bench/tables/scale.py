@@ -6,6 +6,7 @@ import itertools
 import json
 import math
 import pathlib
+import statistics
 
 import scale_plot
 from report import machine_lines, picture
@@ -22,8 +23,8 @@ WANTED_TESTS = 12.0
 WANTED_BLENDING = 1.25
 WANTED_BYTES = 64.0
 WANTED_START_MS = 500.0
-#: Stages of a program's start that are the driver's: it is opened, compiles, and traces the frame.
-DRIVER_STAGES = ("device", "trace", "render_besides_trace")
+#: Stages of a program's start that are the driver's: it is opened, and makes the pipelines. Tracing is not.
+DRIVER_STAGES = ("device", "render_besides_trace")
 
 CLASSES = {
     "primary": "one ray through each pixel's centre",
@@ -37,8 +38,10 @@ NOTES = """
   the same rounds. splatray's are those of the dispatches and include shading, Embree's are wall times of tracing alone on
   all threads. Shadow rays stop at any hit in both. Beside Embree splatray traces every pixel's ray; elsewhere it leaves
   out the pixels that no leaf projects to.
+- Models: splatray's ratio is of every pixel's ray, as Embree traces; with culling it leaves out the pixels that no leaf
+  projects to. "wall" is the whole call, with shading and read-back.
 - Embree's shadow and mirrored rays start 0.1 median radii off the surface; splatray's know the sheet that they leave.
-  Embree's rays are traced in bundles of eight, told to be incoherent in the random class.
+  Embree's rays are traced in bundles of eight (of models: see the table), told to be incoherent in the random class.
 - Errors are measured in the same run: of primary rays against the exact sphere's picture, of random rays against the
   exact sphere, of mirrored rays by further paths of 16 bounces (a bounce is wrong that misses or ends more than 2 median
   radii off), of shadow rays by those that are blocked, as truly none is. "Unlike" are answers that differ from splatray's
@@ -185,6 +188,44 @@ def coverage_parts(records):
     return ["## Frames by coverage\n", table(head, rows)]
 
 
+def median(values):
+    return statistics.median(values) if values else math.nan
+
+
+def settings_text(record):
+    words = {"width": "rtcIntersect{}", "leaf_size": "{} discs", "quality": "{} quality"}
+    said = [words[key].format(value) for key, value in record["settings"].items() if key in words]
+    return ", ".join(said + [{True: "culled", False: "every pixel"}[value] for key, value in record["settings"].items() if key == "cull"])
+
+
+def best_of(records, method):
+    """A method's record of least median time."""
+    return min((r for r in records if r["method"] == method), key=lambda r: median(r["ms"]))
+
+
+def models_parts(records):
+    """Each model: splatray, and Embree's best settings; then every setting's median and range."""
+    parts = ["## Models, side by side\n"]
+    for model in dict.fromkeys(record["case"] for record in records):
+        runs = [record for record in records if record["case"] == model]
+        own = {r["method"]: r for r in runs if r["settings"].get("cull") is False}
+        parts.append(f"### {model}, {splats_text(runs[0]['splats'])} splats, {100 * runs[0]['coverage']:.0f} % of the pixels hit\n")
+        rows = []
+        for run in runs:
+            peer = run["method"].startswith("embree")
+            against = own[run["method"].split()[-1]]
+            best = "best" if peer and run is best_of(runs, run["method"]) else ""
+            ratios = [mine / its for mine, its in zip(against["ms"], run["ms"])]
+            wall = [mine / its for mine, its in zip(against["wall_ms"], run["wall_ms"])]
+            spread = f"{number(median(run['ms']))} ({number(min(run['ms']))} to {number(max(run['ms']))})"
+            shares = [f"×{number(median(values), 2)}" if peer else "–" for values in (ratios, wall)]
+            rows.append((run["method"], settings_text(run), spread, number(median(run["wall_ms"])), *shares, best,
+                         number(run["unlike_ppm"])))
+        head = ["method", "settings", "ms (all runs)", "wall, ms", "splatray / it", "wall times", "", "unlike splatray, ppm"]
+        parts.append(table(head, rows))
+    return parts
+
+
 STAGES = {
     "load_program": "load program",
     "device": "device",
@@ -202,6 +243,12 @@ STAGES = {
 def own_ms(record):
     """What of a start is not the driver's."""
     return record["ms"]["wall"] - sum(record["ms"][stage] for stage in DRIVER_STAGES)
+
+
+def startup_line(record):
+    """Device, driver, commit and day of a record, as machine_lines() tells them."""
+    device = record["device"]
+    return f"- {device['name']}, {device['driver']}, commit {record['commit']}, {record['date']}, start of programs"
 
 
 def startup_parts(records):
@@ -222,7 +269,7 @@ def coverage_targets(records):
             for blend in BLENDINGS:
                 what = f"{view}, {blend}, one shadow ray"
                 yield at_least(what, WANTED_FPS, " frames/s", 1000.0 / runs[blend, True].ms)
-        elif case.startswith("scale sphere"):
+        else:
             yield at_least(f"{view}, primary rays", WANTED_MRAYS, " M/s", window.get("rays_per_s") / 1e6)
             yield at_most(f"{view}, splat tests of a ray", WANTED_TESTS, "", window.get("tests_per_ray"))
         for shadows, rays in ((False, ""), (True, ", one shadow ray")):
@@ -235,7 +282,7 @@ def targets(coverage, startup):
     lines = list(coverage_targets(coverage)) if coverage else []
     for record in startup:
         if record["cache"] == "warm" and "wall" in record["ms"]:
-            what = f"{record['program']}: start to picture less the driver's share"
+            what = f"{record['program']}: start to picture less opening the driver and its pipelines"
             own = own_ms(record)
             lines.append(Target(what, f"below {WANTED_START_MS:g} ms", f"{own:.3g} ms", own < WANTED_START_MS))
     return lines
@@ -257,9 +304,12 @@ def main():
     path = options.folder / "scale_startup.json"
     startup = json.loads(path.read_text()) if path.exists() else []
     machines = [line for records in (rays, features, coverage) if records for line in machine_lines(records)]
+    machines += [startup_line(record) for record in startup if "commit" in record]
     parts = ["# Scale\n", "\n".join(dict.fromkeys(machines)) + "\n", f"```sh\n{options.commands}\n```\n"]
     parts += ["## Targets\n", targets_table(targets(coverage, startup))]
     parts += rays_parts(rays, options.folder) if rays else []
+    path = options.folder / "scale_models.json"
+    parts += models_parts(json.loads(path.read_text())) if path.exists() else []
     parts += features_parts(features) if features else []
     parts += coverage_parts(coverage) if coverage else []
     parts += startup_parts(startup) if startup else []

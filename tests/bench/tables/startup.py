@@ -1,11 +1,12 @@
 """startup.py SCENE.soct --bin FOLDER -o STARTUP.json [--runs N]: what passes between a program's start and its first pixel,
 for splatray-render and splatray-view as they are, with the driver's shader cache empty (cold) and filled (warm). Medians of
 N runs of each, cold and warm in turn; each run's cache lies in a folder of its own (XDG_CACHE_HOME). The viewer needs Xvfb;
-without it it is left out. JSON: a list of {"program", "cache", "runs", "ms": {stage: median}, "ms_min": {..}}. Stages in
+without it it is left out. JSON: a list of {"program", "cache", "runs", "commit", "date", "device": {"name", "driver"}, "ms": {stage: median}, "ms_min": {..}}. Stages in
 milliseconds: load_program, from exec to the program's own code and back (its --help); what --stats-json tells; wall; and
 other, the wall time that no stage tells of."""
 
 import argparse
+import datetime
 import json
 import os
 import pathlib
@@ -34,11 +35,13 @@ def measure_render(binaries, scene, environment, folder):
     stats = folder / "stats.json"
     words = [program, str(scene), "--quiet", "-o", str(folder / "a.png"), "--resolution", SIZE, "--samples", "1"]
     wall = run(words + ["--stats-json", str(stats)], environment)
-    times = json.loads(stats.read_text())["times_ms"]
+    told = json.loads(stats.read_text())
+    times = told["times_ms"]
     # `trace` is the dispatch, which compiles on its first use on some drivers; `render` is all of the frame.
     stages = {name: times[name] for name in ("device", "load", "upload", "trace", "write")}
     stages["render_besides_trace"] = times["render"] - times["trace"]
-    return {"load_program": help_ms} | stages | {"other": wall - help_ms - sum(stages.values()), "wall": wall}
+    rest = {"other": wall - help_ms - sum(stages.values()), "wall": wall}
+    return {"load_program": help_ms} | stages | rest, told
 
 
 def measure_view(binaries, scene, environment, folder):
@@ -53,7 +56,8 @@ def measure_view(binaries, scene, environment, folder):
         viewer.wait(VIEWER_SECONDS)
     finally:
         viewer.kill()
-    return {"load_program": help_ms, "first_picture": json.loads(stats.read_text())["first_picture_ms"]}
+    told = json.loads(stats.read_text())
+    return {"load_program": help_ms, "first_picture": told["first_picture_ms"]}, told
 
 
 def close_when_shown(environment):
@@ -88,10 +92,16 @@ def measure(program, runs):
         with tempfile.TemporaryDirectory() as folder:
             environment = os.environ | {"XDG_CACHE_HOME": folder}
             for cache in ("cold", "warm"):
-                times[cache].append(stages_of(environment, pathlib.Path(folder)))
+                stages, told = stages_of(environment, pathlib.Path(folder))
+                times[cache].append(stages)
+    about = {
+        "commit": told["commit"],
+        "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
+        "device": {key: told["device"][key] for key in ("name", "driver")},
+    }
     records = []
     for cache, measured in times.items():
-        record = {"program": name, "cache": cache, "runs": runs}
+        record = {"program": name, "cache": cache, "runs": runs} | about
         for key, choose in (("ms", statistics.median), ("ms_min", min)):
             record[key] = {stage: choose([one[stage] for one in measured]) for stage in measured[0]}
         records.append(record)

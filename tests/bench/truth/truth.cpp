@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <string>
 
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"

@@ -10,7 +10,7 @@
 #include "tests/bench/truth/analytic.h"
 #include "tests/bench/truth/errors.h"
 #include "tests/bench/truth/pixel_rays.h"
-#include "tests/readers/temp_folder.h"
+#include "tests/readers/read_error.h"
 
 namespace splatray::testing {
 namespace {

@@ -17,16 +17,20 @@ struct CaseRow {
   std::string remark = {};       ///< numbers worth knowing; nothing that changes from run to run
 };
 
-/// Adds a row for the running test and expects that something was compared, that lost rays and non-finite
-/// answers are 0, and exceptions too, or at most `most_per_million` where some are known; the row then says so.
-void conclude(const CaseRow& row, double most_per_million = 0.0);
+/// Adds a row for the running test and expects that something was compared, that lost rays, non-finite answers and exceptions
+/// are 0.
+void conclude(const CaseRow& row);
+
+/// Likewise where no exceptions are asked for and some are known: at most `known` of them, the number measured, so that it can
+/// only get better. The row says that the bound is missed.
+void conclude_missed(const CaseRow& row, std::uint64_t known);
 
 /// Adds a row for the running test whose exceptions are expected, and more than 0: what the paper says fails,
 /// or a comparison that must notice a change. Lost rays and non-finite answers must be 0 all the same.
 void conclude_failing(const CaseRow& row);
 
-/// Adds a row without expecting anything of its exceptions: a measurement.
-void note(const CaseRow& row);
+/// Adds a row of a measurement for which nothing is asked: at most `known` exceptions, the number measured.
+void note(const CaseRow& row, std::uint64_t known);
 
 /// Writes the rows of all tests that ran, in the order of the program, as a Markdown document that starts with
 /// `heading`. Throws Error (failed) when the file cannot be written.

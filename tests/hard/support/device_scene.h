@@ -17,6 +17,9 @@ namespace splatray::testing {
 /// How many rays the big counts take: the variable SPLATRAY_HARD_RAYS, or a million.
 [[nodiscard]] std::size_t hard_rays();
 
+/// The number of exceptions measured with the default number of rays, or with more of them, up to 10^7.
+[[nodiscard]] std::uint64_t known_of(std::uint64_t by_default, std::uint64_t of_ten_million);
+
 class DeviceScene {
  public:
   explicit DeviceScene(const Scene& scene, const Context& context = shared_context());

@@ -1,0 +1,44 @@
+/// What differs between kinds of devices, each with its measured reason (tests/bench/ideas.md).
+#pragma once
+#include <cstdint>
+
+#include "engine/gpu/pools.h"
+#include "engine/vulkan/context.h"
+#include "shaders/layout.h"
+
+namespace splatray {
+
+/// Which modules of shaders/variants.cmake a device runs.
+enum class Kernels {
+  automatic,  ///< cpu on CPU devices that have what these need, else gpu
+  gpu,        ///< pools in storage buffers, hits in double-float
+  cpu,        ///< pools in texel buffers, hits in float64, wavefront stages
+};
+
+/// Work of one thread in one dispatch.
+struct ThreadWork {
+  std::uint32_t samples = 1;  ///< of a pixel, >= 1
+  std::uint32_t lights = 1;   ///< at each hit, >= 1
+};
+
+struct DeviceProfile {
+  Kernels kernels = Kernels::gpu;  ///< never automatic
+  bool culls = false;              ///< pixels that no leaf projects to are left to a program of their own
+  bool stages = false;  ///< secondary rays of scenes with dielectrics are traced in wavefront stages
+  std::uint32_t samples_most = UINT32_MAX;  ///< of a pixel in a dispatch, of one ray each and its shadow rays
+  std::uint32_t paths_most = UINT32_MAX;    ///< of a pixel in a dispatch, of several rays each
+  std::uint32_t rays_most = UINT32_MAX;     ///< of a thread in a dispatch
+  std::uint32_t lights_most = LIGHTS_MOST;  ///< of a dispatch
+
+  [[nodiscard]] PoolAccess access() const {
+    return kernels == Kernels::cpu ? PoolAccess::texel : PoolAccess::storage;
+  }
+  /// The most work of a thread whose paths have up to `path_rays` rays, >= 1, and meet `lights` lights.
+  [[nodiscard]] ThreadWork work(std::uint32_t path_rays, std::uint32_t lights) const;
+};
+
+/// The profile of a context's device. `requested` is for tests and benchmarks. Throws Error (failed) where the device lacks what
+/// the requested kernels need.
+[[nodiscard]] DeviceProfile device_profile(const Context& context, Kernels requested = Kernels::automatic);
+
+}  // namespace splatray

@@ -1,0 +1,41 @@
+// Tracer's ray queries.
+#include <algorithm>
+
+#include "engine/gpu/tracer_parts.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
+
+}  // namespace
+
+std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Settings& settings) {
+  Impl& impl = *impl_;
+  Runner& runner = impl.runner;
+  runner.require_scene("intersect()");
+  const auto start = std::chrono::steady_clock::now();
+  impl.start();
+  const std::size_t most = std::min<std::size_t>(rays.size(), QUERY_RAYS);
+  reserve_storage(runner.context, runner.rays, most * sizeof(RayQuery));
+  reserve_storage(runner.context, runner.hits, most * sizeof(RayHit));
+  runner.bind(runner.accumulation);
+  Dispatch dispatch;
+  dispatch.program = Program::rays;
+  dispatch.constants = query_features(runner.scene.content(), settings);
+  dispatch.frame = runner.scene.query_params(settings);
+  std::vector<RayHit> hits(rays.size());
+  double trace_ms = 0.0;
+  for (std::size_t at = 0; at < rays.size(); at += most) {
+    const std::size_t count = std::min(most, rays.size() - at);
+    runner.rays.upload(runner.queue, std::as_bytes(rays.subspan(at, count)));
+    dispatch.frame.tile_width = dispatch.frame.width = static_cast<std::uint32_t>(count);
+    dispatch.groups_x = groups(dispatch.frame.width, GROUP_SIZE);
+    trace_ms += runner.run(dispatch);
+    runner.hits.download(runner.queue, std::as_writable_bytes(std::span(hits).subspan(at, count)));
+  }
+  impl.finish(start, trace_ms);
+  return hits;
+}
+
+}  // namespace splatray

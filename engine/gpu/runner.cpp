@@ -1,0 +1,182 @@
+#include "engine/gpu/runner.h"
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+
+namespace splatray {
+namespace {
+
+/// Most groups of pixels whose paths are traced in stages together: their queues take 42 MB.
+constexpr std::uint32_t STAGED_GROUPS = 4096;
+
+PoolWish pool_request(const TracerOptions& options, const DeviceProfile& profile) {
+  PoolWish request = options.pools;
+  request.access = profile.access();
+  return request;
+}
+
+bool counts_work(const Dispatch& dispatch) { return has(dispatch.constants, FEATURE_COUNTERS); }
+
+bool is_staged(const Dispatch& dispatch) {
+  return dispatch.constants[SPEC_STAGE] == STAGE_FIRST || dispatch.constants[SPEC_STAGE] == STAGE_NEXT;
+}
+
+}  // namespace
+
+Runner::Runner(const Context& device, const TracerOptions& options)
+    : context(device),
+      profile(device_profile(device, options.kernels)),
+      queue(device),
+      pipelines(device, profile.kernels, options.pipeline_folder),
+      scene(device, queue, pool_request(options, profile), profile.culls) {
+  reserve_storage(device, frame_buffer_, sizeof(FrameParams));
+  for (Buffer* buffer : {&accumulation, &aov, &rays, &hits, &groups_}) reserve_storage(device, *buffer, 0);
+  reserve_storage(device, counters_, COUNTER_COUNT * sizeof(std::uint32_t));
+  reserve_queues(1);
+}
+
+void Runner::require_scene(const char* call) const {
+  if (!scene.uploaded())
+    throw Error(ExitCode::failed, std::string(call) + " was called before upload(), expected a scene");
+}
+
+void Runner::bind(const Buffer& accumulation_buffer) {
+  scene.bind();
+  BindingSet& bindings = scene.bindings();
+  bindings.bind(BIND_FRAME, frame_buffer_);
+  bindings.bind(BIND_ACCUMULATION, accumulation_buffer);
+  bindings.bind(BIND_AOV, aov);
+  bindings.bind(BIND_COUNTERS, counters_);
+  bindings.bind(BIND_RAYS, rays);
+  bindings.bind(BIND_HITS, hits);
+  bindings.bind(BIND_GROUPS, groups_);
+  bindings.bind(BIND_PATHS, paths_);
+  bindings.bind(BIND_PATHS_QUEUED, queued_paths_);
+}
+
+double Runner::run(const Dispatch& dispatch) {
+  const BindingSet& bindings = scene.bindings();
+  const bool reads_counters = counts_work(dispatch) || is_staged(dispatch);
+  const VkPipeline pipeline = pipelines.get({dispatch.program, dispatch.constants}, bindings.layout());
+  const double ms = queue.run([&](VkCommandBuffer commands) {
+    vkCmdUpdateBuffer(commands, frame_buffer_.get(), 0, sizeof(FrameParams), &dispatch.frame);
+    if (reads_counters) vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
+    record_barrier(commands);
+    const VkDescriptorSet set = bindings.set();
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bindings.layout(), 0, 1, &set, 0,
+                            nullptr);
+    vkCmdDispatch(commands, dispatch.groups_x, dispatch.groups_y, 1);
+  });
+  if (reads_counters) counters_.download(queue, std::as_writable_bytes(std::span(counted_)));
+  if (counts_work(dispatch))
+    for (std::size_t i = 0; i < counted_.size(); ++i) counts[i] += counted_[i];
+  return ms;
+}
+
+void Runner::reserve_queues(std::uint32_t pixel_groups) {
+  const VkDeviceSize bytes = VkDeviceSize{pixel_groups} * GROUP_SIZE * sizeof(PathState);
+  constexpr VkBufferUsageFlags USAGE =
+      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+  for (Buffer* buffer : {&paths_, &queued_paths_})
+    if (buffer->size() < bytes) *buffer = Buffer(context, bytes, USAGE, VK_FORMAT_R32G32B32A32_UINT);
+}
+
+/// One sample of a dispatch's pixels: primary rays, then as long as paths go on one ray of each, packed together (stage/paths.glsl).
+double Runner::run_in_stages(const Dispatch& dispatch) {
+  const std::uint32_t texels = context.properties.limits.maxTexelBufferElements;
+  const std::uint32_t most =
+      std::min({STAGED_GROUPS, dispatch.frame.group_count, texels / (PATH_TEXELS * GROUP_SIZE)});
+  reserve_queues(most);
+  Buffer *traced = &paths_, *queued = &queued_paths_;
+  const auto run_stage = [&](const Dispatch& stage) {
+    scene.bindings().bind(BIND_PATHS, *traced);
+    scene.bindings().bind(BIND_PATHS_QUEUED, *queued);
+    return run(stage);
+  };
+  double ms = 0.0;
+  for (std::uint32_t first = 0; first < dispatch.frame.group_count; first += most) {
+    Dispatch stage = dispatch;
+    stage.constants[SPEC_STAGE] = STAGE_FIRST;
+    stage.frame.first_group += first;
+    stage.frame.group_count = std::min(most, dispatch.frame.group_count - first);
+    stage.set_groups(stage.frame.group_count);
+    ms += run_stage(stage);
+    stage.constants[SPEC_STAGE] = STAGE_NEXT;
+    while ((stage.frame.path_count = counted_[COUNT_QUEUED]) > 0) {
+      std::swap(traced, queued);
+      ++stage.frame.path_bounce;
+      stage.set_groups(splatray::groups(stage.frame.path_count, GROUP_SIZE));
+      ms += run_stage(stage);
+    }
+  }
+  return ms;
+}
+
+double Runner::run(const TileDispatch& tile) {
+  if (tile.group_list != group_list_) {
+    group_list_ = tile.group_list;
+    reserve_storage(context, groups_, std::span(group_list_).size_bytes());
+    scene.bindings().bind(BIND_GROUPS, groups_);
+    groups_.upload(queue, std::as_bytes(std::span(group_list_)));
+  }
+  double ms = 0.0;
+  for (const Dispatch* part : {&tile.seen, &tile.empty})
+    if (part->groups_x > 0) ms += is_staged(*part) ? run_in_stages(*part) : run(*part);
+  return ms;
+}
+
+Dispatch Runner::picture_dispatch(const View& view, const Settings& settings) const {
+  if (settings.samples < 1) throw Error(ExitCode::failed, "found settings of 0 samples, expected at least 1");
+  Dispatch dispatch;
+  dispatch.constants = picture_features(scene.content(), settings);
+  dispatch.frame = scene.picture_params(view, settings);
+  const bool glass = has(dispatch.constants, FEATURE_GLASS) && dispatch.frame.max_bounces > 0;
+  if (glass && settings.stages && profile.stages) dispatch.constants[SPEC_STAGE] = STAGE_FIRST;
+  return dispatch;
+}
+
+ThreadWork Runner::work(const Dispatch& dispatch) const {
+  const std::uint32_t lights = has(dispatch.constants, FEATURE_LIGHTS) ? dispatch.frame.light_end : 0;
+  if (is_staged(dispatch)) return {1, profile.work(1, lights).lights};
+  return profile.work(1 + dispatch.frame.max_bounces, lights);
+}
+
+double Runner::run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
+                           const ThreadWork& work) {
+  const FrameParams whole = tile.seen.frame;
+  const std::uint32_t lights = has(tile.seen.constants, FEATURE_LIGHTS) ? whole.light_end : 0;
+  tile.set_samples(begin, end);
+  tile.set_lights(0, std::min(work.lights, lights));
+  double ms = run(tile);
+  if (lights <= work.lights) return ms;
+  TileDispatch more = tile;
+  more.empty.groups_x = 0;
+  more.seen.frame.environment = vec3(0.0F);
+  std::fill(std::begin(more.seen.frame.irradiance), std::end(more.seen.frame.irradiance), vec4(0.0F));
+  for (std::uint32_t light = work.lights; light < lights; light += work.lights) {
+    more.set_lights(light, std::min(light + work.lights, lights));
+    ms += run(more);
+  }
+  tile.set_lights(0, lights);
+  return ms;
+}
+
+void Runner::trace_aov(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+                       std::vector<AovPixel>& image) {
+  dispatch.constants[SPEC_STAGE] = STAGE_AOV;
+  run(aim(dispatch, tile, footprint));
+  std::vector<AovPixel> pixels(tile.pixels());
+  aov.download(queue, std::as_writable_bytes(std::span(pixels)));
+  place(tile, pixels, image, dispatch.frame.width);
+}
+
+std::uint64_t Runner::buffer_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const Buffer* buffer : {&accumulation, &aov, &rays, &hits, &groups_, &paths_, &queued_paths_})
+    bytes += buffer->size();
+  return bytes;
+}
+
+}  // namespace splatray

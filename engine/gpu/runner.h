@@ -1,0 +1,71 @@
+/// Runs dispatches over the scene on the device, and holds the buffers that they share.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/gpu/device_scene.h"
+#include "engine/gpu/dispatch.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/tracer.h"
+#include "engine/vulkan/buffer.h"
+#include "engine/vulkan/command_queue.h"
+
+namespace splatray {
+
+class Runner {
+ public:
+  /// The context must outlive it.
+  Runner(const Context& context, const TracerOptions& options);
+
+  /// Binds everything a dispatch reads or writes; to be called where any of it may have changed.
+  void bind(const Buffer& accumulation);
+  /// Runs one dispatch, or those of a tile, and waits; returns the device's milliseconds and adds what was counted to `counts`.
+  double run(const Dispatch& dispatch);
+  double run(const TileDispatch& tile);
+
+  /// An image's dispatch, all lights and samples; `settings` as Tracer::render takes them.
+  [[nodiscard]] Dispatch picture_dispatch(const View& view, const Settings& settings) const;
+  /// How much of it a dispatch may do.
+  [[nodiscard]] ThreadWork work(const Dispatch& dispatch) const;
+  /// Runs samples [begin, end) of a tile, the lights spread over as many dispatches as `work` asks for.
+  double run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end, const ThreadWork& work);
+  /// AovPixels of a tile, put into `image` of all pixels, top row first.
+  void trace_aov(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+                 std::vector<AovPixel>& image);
+
+  /// Throws Error (failed) unless there is a scene: `call` was made before upload().
+  void require_scene(const char* call) const;
+
+  /// Device memory of buffers that are as large as images are.
+  [[nodiscard]] std::uint64_t buffer_bytes() const;
+
+  const Context& context;
+  const DeviceProfile profile;
+  CommandQueue queue;
+  PipelineCache pipelines;
+  DeviceScene scene;
+  Buffer accumulation;                                ///< of render(): means of a tile's pixels, vec4
+  Buffer aov, rays, hits;                             ///< of a tile, and of queries
+  std::array<std::uint64_t, COUNTER_COUNT> counts{};  ///< summed over dispatches that count
+
+ private:
+  double run_in_stages(const Dispatch& dispatch);
+  void reserve_queues(std::uint32_t pixel_groups);
+
+  Buffer frame_buffer_, counters_, groups_, paths_, queued_paths_;
+  std::vector<std::uint32_t> group_list_;               ///< what groups_ holds
+  std::array<std::uint32_t, COUNTER_COUNT> counted_{};  ///< by the last dispatch, if it counts
+};
+
+/// Puts a tile's values into an image of `width` columns.
+template <class Value>
+void place(const Tile& tile, const std::vector<Value>& values, std::vector<Value>& image,
+           std::uint32_t width) {
+  for (std::uint32_t row = 0; row < tile.height; ++row) {
+    const auto source = values.begin() + std::ptrdiff_t{row} * tile.width;
+    std::copy(source, source + tile.width, image.begin() + std::ptrdiff_t{tile.y + row} * width + tile.x);
+  }
+}
+
+}  // namespace splatray

@@ -1,0 +1,33 @@
+/// Compiled pipelines, kept in a file between runs: the next run's drivers need not compile them again.
+#pragma once
+#include <filesystem>
+
+#include "engine/vulkan/context.h"
+#include "engine/vulkan/handle.h"
+
+namespace splatray {
+
+class PipelineStore {
+ public:
+  /// Reads what was kept for this device and driver in `folder`, which is made when it is missing; empty = none is kept. A file
+  /// that is damaged, or another driver's, is not used. The context must outlive it.
+  PipelineStore(const Context& context, const std::filesystem::path& folder);
+  /// Writes the file where pipelines were added. One that cannot be written is left out: it only saves time.
+  ~PipelineStore();
+  PipelineStore(const PipelineStore&) = delete;
+  PipelineStore& operator=(const PipelineStore&) = delete;
+
+  [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
+
+ private:
+  const Context& context_;
+  std::filesystem::path file_;  ///< empty = none
+  std::size_t bytes_read_ = 0;
+  Handle<VkPipelineCache, vkDestroyPipelineCache> cache_;
+};
+
+/// The file of a device and driver in that folder.
+[[nodiscard]] std::filesystem::path pipeline_file(const std::filesystem::path& folder,
+                                                  const VkPhysicalDeviceProperties& properties);
+
+}  // namespace splatray

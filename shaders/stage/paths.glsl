@@ -1,0 +1,91 @@
+// Paths through the pixels of a dispatch: for each pixel and sample, camera -> path -> accumulation. On CPU devices also in wavefront
+// stages (Laine, Karras and Aila 2013, "Megakernels Considered Harmful"), one ray of each path in each: lanes of CPU devices, which
+// wait for each other's branches and loops, otherwise stay idle once their path has ended.
+#ifndef SPLATRAY_PATHS_GLSL
+#define SPLATRAY_PATHS_GLSL
+#include "stage/pixels.glsl"
+
+layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };
+
+Light light_at(uint index) { return lights[index]; }
+
+#include "light/path.glsl"
+
+#ifdef CPU
+#include "stage/queue.glsl"
+#endif
+
+/// Of one path, or of what one stage added to it. Where the lights of a sample are spread over dispatches its rays are counted once,
+/// the work of each dispatch always.
+void add_counters(Path path, Tally tally) {
+  bool once = frame.light_begin == 0u;
+  bool first = once && STAGE != STAGE_NEXT;
+  count(COUNT_PRIMARY, first ? 1u : 0u);
+  count(COUNT_HITS, first && path.coverage > 0.0f ? 1u : 0u);
+  count(COUNT_SHADOW, path.shadow);
+  count(COUNT_REFLECTED, once ? path.reflected : 0u);
+  count(COUNT_REFRACTED, once ? path.refracted : 0u);
+  count(COUNT_LEAKED, once ? path.leaked : 0u);
+  count(COUNT_BOUNCE_LIMIT, once ? path.cut : 0u);
+  count(COUNT_ENERGY_LOST, once ? uint(path.energy_lost * 1024.0f + 0.5f) : 0u);
+  count(COUNT_LEAVES, tally.leaves);
+  count(COUNT_NODE_STEPS, tally.node_steps);
+  count(COUNT_TESTS, tally.tests);
+  count(COUNT_LOST, tally.lost);
+}
+
+/// Whether the driver has stopped this thread's loops: Mesa's llvmpipe silently ends all loops of a thread after 65 535 iterations
+/// in all (LP_MAX_TGSI_LOOP_ITERATIONS). This one, which must run twice, then runs once.
+bool loops_were_cut() {
+  uint iterations = 0u;
+  do {
+    iterations += 1u;
+  } while (iterations < frame.loop_probe);
+  return iterations == 1u;  // not compared with the probe again, which compilers take for false behind the loop
+}
+
+/// Keeps a pixel's mean. A coverage that is not finite, and stays so, tells the host that it is wrong.
+void keep_mean(uint place, vec4 mean) {
+  accumulation[place] = loops_were_cut() ? vec4(mean.xyz, -INFINITY_F) : mean;
+}
+
+void add_samples(uvec2 pixel, uint index) {
+  uint pixel_number = pixel.y * frame.width + pixel.x;
+  uint place = frame.tile_first + index;
+  vec4 mean = mean_before(place);
+  uint sample_index = frame.sample_begin;
+  do {
+    Tally tally = Tally(0u, 0u, 0u, 0u);
+    Path path = path_start(sample_ray(pixel, sample_index));
+    follow_path(path, pixel_number, sample_index, tally);
+#ifdef CPU
+    if (STAGE == STAGE_FIRST && path.alive) queue_path(path, place);
+#endif
+    if (!path.alive) mean = add_to_mean(mean, path.radiance, path.coverage, sample_index);
+    if (COUNTERS) add_counters(path, tally);
+    sample_index += 1u;
+  } while (sample_index < frame.sample_end);
+  keep_mean(place, mean);
+}
+
+#ifdef CPU
+/// STAGE_NEXT: the next ray of a queued path.
+void follow_queued(uint index) {
+  uint place = 0u;
+  Path path = queued_path(index, place);
+  uint in_tile = place - frame.tile_first;
+  uint row = in_tile / frame.tile_width;
+  uint column = in_tile - row * frame.tile_width;
+  uint sample_index = frame.sample_begin;
+  Tally tally = Tally(0u, 0u, 0u, 0u);
+  follow_path(path, (frame.tile_y + row) * frame.width + frame.tile_x + column, sample_index, tally);
+  if (path.alive) {
+    queue_path(path, place);
+  } else {
+    keep_mean(place, add_to_mean(accumulation[place], path.radiance, path.coverage, sample_index));
+  }
+  if (COUNTERS) add_counters(path, tally);
+}
+#endif
+
+#endif

@@ -1,0 +1,67 @@
+// The pixels of a dispatch, and the running mean of each one's samples. Needs bindings.glsl.
+#ifndef SPLATRAY_PIXELS_GLSL
+#define SPLATRAY_PIXELS_GLSL
+#include "lang/random.glsl"
+#include "light/camera.glsl"
+
+layout(std430, binding = BIND_ACCUMULATION) buffer Accumulation { vec4 accumulation[]; };
+layout(std430, binding = BIND_GROUPS) readonly buffer GroupList { uint group_list[]; };
+layout(std430, binding = BIND_AOV) writeonly buffer AovTable { AovPixel aov[]; };
+layout(binding = BIND_ENVIRONMENT) uniform sampler2D environment_map;
+
+vec3 environment_texel(vec2 position) { return textureLod(environment_map, position, 0.0f).xyz; }
+
+#include "light/environment.glsl"
+
+/// Even bits of a Z-order index.
+uint even_bits(uint x) {
+  x &= 0x55u;
+  x = (x | (x >> 1u)) & 0x33u;
+  return (x | (x >> 2u)) & 0x0Fu;
+}
+
+/// This thread's pixel in the tile: groups of 8 x 8 in Z-order (Goradia et al. 2010, sec. IV-A), or rows.
+uvec2 tile_pixel(uint group_word) {
+  uvec2 group = uvec2(group_word & 0xFFFFu, group_word >> 16u);
+  uint thread = gl_LocalInvocationIndex;
+  if (ORDER == ORDER_LINEAR) return uvec2(group.x * GROUP_SIZE + thread, group.y);
+  return group * 8u + uvec2(even_bits(thread), even_bits(thread >> 1u));
+}
+
+uint group_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+/// Whether this thread has a pixel; which, in the tile.
+bool find_pixel(OUT(uvec2) in_tile) {
+  uint group = group_number();
+  in_tile = tile_pixel(group_list[frame.first_group + min(group, frame.group_count - 1u)]);
+  return group < frame.group_count && in_tile.x < frame.tile_width && in_tile.y < frame.tile_height;
+}
+
+Ray center_ray(uvec2 pixel, OUT(float) eye_distance) {
+  return primary_ray(float(pixel.x) + 0.5f, float(pixel.y) + 0.5f, eye_distance);
+}
+
+Ray sample_ray(uvec2 pixel, uint sample_index) {
+  vec2 at = vec2(pixel) + pixel_sample(sample_index);
+  float eye_distance = 0.0f;
+  return primary_ray(at.x, at.y, eye_distance);
+}
+
+/// The mean of a pixel's samples so far.
+vec4 mean_before(uint place) {
+  return frame.sample_begin == 0u && frame.light_begin == 0u ? vec4(0.0f) : accumulation[place];
+}
+
+/// The mean of a pixel's samples with one more, or with more of the light of the last one (FrameParams.light_begin). What is not
+/// finite shows as magenta.
+vec4 add_to_mean(vec4 mean, vec3 radiance, float coverage, uint sample_index) {
+  float brightest = max(radiance.x, max(radiance.y, radiance.z));
+  bool finite = brightest < INFINITY_F && radiance.x + radiance.y + radiance.z >= 0.0f;
+  if (COUNTERS) count(COUNT_NON_FINITE, finite ? 0u : 1u);
+  vec4 value = vec4(finite ? radiance : vec3(1.0f, 0.0f, 1.0f), coverage);
+  // A mean, not a sum: float32 would lose small samples beside a large sum.
+  vec4 change = frame.light_begin == 0u ? value - mean : vec4(value.xyz, 0.0f);
+  return mean + change / float(sample_index + 1u);
+}
+
+#endif

@@ -1,0 +1,91 @@
+// Which splats of a leaf's list a ray hits, decided exactly: each hit counts in one leaf, so what is found depends on the splats
+// alone, not on the tree. Needs, beside walk.glsl: splat_words(splat), material_at(object), and the constants BLEND, SIDE, FACES.
+#ifndef SPLATRAY_ACCEPT_GLSL
+#define SPLATRAY_ACCEPT_GLSL
+#include "trace/walk.glsl"
+
+/// The splat that decides the cluster, while the ray looks for it.
+struct First {
+  vec2 measure;   ///< least t, or least squared distance from the centre / r^2 (BLEND_PAPER, BLEND_LEAF)
+  vec2 t;         ///< in double-float: float32 would be off by 2^-4 lattice units on the far side of the root
+  vec3 from_center;
+  bool front;
+  uvec4 words;
+  uint splat;     ///< its index in the data pool
+};
+
+First no_first() {
+  First first;
+  first.measure = vec2(INFINITY_F, INFINITY_F);
+  first.t = vec2(INFINITY_F, 0.0f);
+  first.from_center = vec3(0.0f);
+  first.front = true;
+  first.words = uvec4(0u, 0u, 0u, 0u);
+  first.splat = 0u;
+  return first;
+}
+
+/// The side a ray expects (Goradia et al. 2010, sec. IV-C2, made per object): fronts outside, backs inside.
+bool side_expected(uint object, float facing, uint inside) {
+  if (FACES == FACES_BOTH) return true;
+  if (FACES == FACES_FRONT) return SIDE != SIDE_SIDE || facing < 0.0f;
+  Material material = material_at(object);
+  bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((inside >> material.mask_bit) & 1u) != 0u;
+  bool as_expected = is_inside ? facing > 0.0f : facing < 0.0f;
+  return (material.flags & MATERIAL_HIDDEN) == 0u &&
+         (SIDE != SIDE_SIDE || (material.flags & MATERIAL_TWO_SIDED) != 0u || as_expected);
+}
+
+bool is_two_sided(uint object) {
+  if (FACES == FACES_BOTH) return true;
+  if (FACES == FACES_FRONT) return false;
+  return (material_at(object).flags & MATERIAL_TWO_SIDED) != 0u;
+}
+
+/// Everything but the geometry that a hit needs in order to count.
+bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
+  uint object = splat_object(words);
+  bool own = false;
+  if (SIDE == SIDE_SIDE) own = ray.from_object != NO_OBJECT && splat_of_sheet_left(words, ray, is_two_sided(object));
+  return !own && side_expected(object, hit.facing, ray.inside);
+}
+
+/// Whether a meeting with a disc's plane is a hit on the disc that counts in the leaf's interval.
+bool hit_accepted(uvec4 words, PlaneHit hit, Ray ray, Walk walk) {
+  bool on_disc =
+      !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
+  bool in_range = hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
+  return on_disc && in_range && hit_allowed(words, hit, ray);
+}
+
+/// The candidates that are hits. `first` is updated while `finding`.
+uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool finding, INOUT(First) first) {
+  uint accepted = 0u;
+  do {
+    if (candidates != 0u) {
+      uint bit = uint(findLSB(candidates));
+      candidates &= candidates - 1u;
+      uint splat = splat_at(chunk + bit);
+      uvec4 words = splat_words(splat);
+      PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+      bool accept = hit_accepted(words, hit, ray, walk);
+      accepted |= (accept ? 1u : 0u) << bit;
+      vec2 measure = hit.t;
+      if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF)
+        measure = vec2(hit.rho_squared.x / splat_radius_squared(words), 0.0f);
+      bool before = df_less(measure, first.measure) ||
+                    (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
+      if (accept && finding && before) {
+        first.measure = measure;
+        first.t = hit.t;
+        first.from_center = hit.from_center;
+        first.front = hit.facing < 0.0f;
+        first.words = words;
+        first.splat = splat;
+      }
+    }
+  } while (candidates != 0u);
+  return accepted;
+}
+
+#endif

@@ -1,0 +1,192 @@
+// The first splat that a ray hits, and the blend of its cluster: the splats of the same object with like normals in a window of
+// depth behind it. Sums are integers, so the blend does not depend on the order in which splats are found. Needs, beside
+// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS.
+#ifndef SPLATRAY_BLEND_GLSL
+#define SPLATRAY_BLEND_GLSL
+#include "trace/accept.glsl"
+
+const float WEIGHT_UNIT = 4194304.0f;       ///< 2^22: sums are integers in this unit
+const float WEIGHT_LEAST = 0.00390625f;     ///< 2^-8: a lone hit at the rim still has a normal of 14 bits
+const uint MEMBERS_MOST = 500u;             ///< further members do not count, so that the sums stay in 31 bits
+const float WINDOW_SLACK = 1.0f;            ///< lattice units; float32's step of t: no leaf with a member is left out
+const float MIN_COSINE = 0.1f;              ///< the window grows as 1 / |n.d| up to this
+
+/// Integer sums over a cluster.
+struct Cluster {
+  int weight;
+  ivec3 normal;
+  int depth;
+  ivec3 color;
+  uint members;
+};
+
+Cluster empty_cluster() {
+  Cluster cluster;
+  cluster.weight = 0;
+  cluster.normal = ivec3(0);
+  cluster.depth = 0;
+  cluster.color = ivec3(0);
+  cluster.members = 0u;
+  return cluster;
+}
+
+/// Unit normal turned against the ray.
+vec3 normal_against(uvec4 words, vec3 dir) {
+  vec3 normal = splat_normal(words);
+  normal = normal * inversesqrt(dot(normal, normal));
+  return dot(normal, dir) > 0.0f ? -normal : normal;
+}
+
+/// Depth of the cluster's window behind (and, for BLEND_PAPER, before) the first hit.
+float window_depth(First first, vec3 dir, float kappa) {
+  float radius = sqrt(splat_radius_squared(first.words));
+  if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) return kappa * radius;
+  return kappa * radius / max(abs(dot(normal_against(first.words, dir), dir)), MIN_COSINE);
+}
+
+float blend_kernel(float u_squared) {
+  if (KERNEL == KERNEL_GAUSSIAN) return exp(-2.0f * u_squared);
+  float fall = max(1.0f - u_squared, 0.0f);
+  return fall * fall;
+}
+
+/// Weight along the window: 1 to the middle, then smoothly to 0 at the end (BLEND_WINDOW), or 1 (the paper's
+/// interval).
+float window_fall(float share) {
+  if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) return 1.0f;
+  float x = clamp(2.0f - 2.0f * share, 0.0f, 1.0f);
+  return x * x * (3.0f - 2.0f * x);
+}
+
+/// The surface where a ray meets the plane of a disc.
+struct Facet {
+  vec3 normal;    ///< unit, turned against the ray
+  float behind;   ///< how much farther along the ray than the plane
+};
+
+/// The disc itself, or what its normal field makes of it. A field's normal turns at most until it is square to the ray.
+Facet facet_at(uvec4 words, uint splat, vec3 from_center, float inverse_radius, vec3 dir) {
+  vec3 normal = splat_normal(words);
+  normal = normal * inversesqrt(dot(normal, normal));
+  float cosine = dot(normal, dir);
+  Facet facet;
+  facet.normal = cosine > 0.0f ? -normal : normal;
+  facet.behind = 0.0f;
+  if (FIELDS) {
+    FieldPoint point = field_point(field_word(splat), normal, from_center, inverse_radius);
+    vec3 turned = cosine > 0.0f ? -point.normal : point.normal;
+    turned -= dir * max(dot(turned, dir), 0.0f);
+    facet.normal = turned * inversesqrt(dot(turned, turned));
+    facet.behind = point.height / (cosine > 0.0f ? max(cosine, MIN_COSINE) : min(cosine, -MIN_COSINE));
+  }
+  return facet;
+}
+
+/// Adds the candidates that are hits and belong to the first splat's cluster: bit i of x is splat chunk + i, of y splat
+/// chunk + CHUNK + i. Where each is met is computed anew in double-float, so that grazing rays and small discs far away have
+/// exact weights.
+void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, First first, float depth,
+                           INOUT(Cluster) cluster) {
+  vec3 first_normal = normal_against(first.words, ray.dir);
+  float inverse_depth = 1.0f / depth;
+  do {
+    if ((candidates.x | candidates.y) != 0u) {
+      bool low = candidates.x != 0u;
+      uint mask = low ? candidates.x : candidates.y;
+      uint splat = splat_at(chunk + (low ? 0u : CHUNK) + uint(findLSB(mask)));
+      mask &= mask - 1u;
+      candidates = low ? uvec2(mask, candidates.y) : uvec2(0u, mask);
+      uvec4 words = splat_words(splat);
+      PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+      float behind = df_add(hit.t, -first.t).x;
+      float inverse_radius = inversesqrt(splat_radius_squared(words));
+      float u_squared = hit.rho_squared.x * (inverse_radius * inverse_radius);
+      Facet facet = facet_at(words, splat, hit.from_center, inverse_radius, ray.dir);
+      float share = behind * inverse_depth;
+      bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
+                    dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST &&
+                    hit_accepted(words, hit, ray, walk);
+      float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
+      weight = member ? weight * WEIGHT_UNIT : 0.0f;
+      share = member ? clamp((behind + facet.behind) * inverse_depth, -1.0f, 1.0f) : 0.0f;
+      cluster.weight += int(weight + 0.5f);
+      vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
+      cluster.normal += ivec3(floor(normal + vec3(0.5f)));
+      cluster.depth += int(floor(weight * share + 0.5f));
+      if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
+      cluster.members += member ? 1u : 0u;
+    }
+  } while ((candidates.x | candidates.y) != 0u);
+}
+
+/// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds
+/// no member). `shift` is what clip_to_root took from t.
+Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) {
+  Hit hit;
+  hit.found = first.measure.x < INFINITY_F;
+  hit.first = first.words;
+  hit.object = hit.found ? splat_object(first.words) : NO_OBJECT;
+  hit.front = first.front;
+  hit.members = cluster.members;
+  vec2 t = first.t;
+  vec3 normal = normal_against(first.words, ray.dir);
+  hit.color = vec3(1.0f);
+  if (BLEND != BLEND_NEAREST && cluster.weight > 0) {
+    float inverse = 1.0f / float(cluster.weight);
+    t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
+    normal = vec3(cluster.normal);
+    normal *= inversesqrt(dot(normal, normal));
+    if (COLORS) hit.color = vec3(cluster.color) * inverse;
+  } else if (hit.found) {
+    if (COLORS) hit.color = color_at(first.splat);
+    float inverse_radius = inversesqrt(splat_radius_squared(first.words));
+    Facet facet = facet_at(first.words, first.splat, first.from_center, inverse_radius, ray.dir);
+    normal = facet.normal;
+    t = df_add(t, vec2(facet.behind, 0.0f));
+  }
+  hit.position = ray.origin + ray.dir * t.x;
+  hit.normal = normal;
+  hit.t = hit.found ? df_add(t, vec2(shift, 0.0f)).x : INFINITY_F;
+  hit.t_first = hit.found ? df_add(first.t, vec2(shift, 0.0f)).x : INFINITY_F;
+  return hit;
+}
+
+/// What the ray sees first. The ray may start anywhere. The leaf with the first hit is looked through to its end before
+/// any of its splats is accumulated; one of more than two CHUNKs is then gone through again.
+Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
+  bool enters = true;
+  float t_start = 0.0f;
+  float shift = clip_to_root(ray, enters, t_start);
+  Walk walk = walk_start(ray, t_start, enters);
+  First first = no_first();
+  uint chunk = 0u;
+  uint candidates = 0u;
+  uvec2 hits = uvec2(0u, 0u);  // of this leaf: none in the leaves before
+  bool found = false;
+  do {
+    candidates = walk_candidates(walk, ray, ray.t_max, found, chunk, tally);
+    candidates = accept_candidates(chunk, candidates, ray, walk, true, first);
+    hits = uvec2(chunk == walk.begin ? candidates : hits.x, chunk == walk.begin + CHUNK ? candidates : hits.y);
+    found = first.measure.x < INFINITY_F;
+  } while (walk.inside && !(found && walk.next >= walk.end));
+  Cluster cluster = empty_cluster();
+  float depth = 0.0f;
+  if (BLEND != BLEND_NEAREST) {
+    depth = window_depth(first, ray.dir, kappa);
+    float t_end = BLEND == BLEND_WINDOW ? first.t.x + depth * 1.0001f + WINDOW_SLACK : ray.t_max;
+    uint last_leaf = BLEND == BLEND_WINDOW ? MAX_LEAVES : (BLEND == BLEND_PAPER ? walk.leaves + 1u : walk.leaves);
+    bool again = walk.end - walk.begin > 2u * CHUNK;
+    walk.next = again ? walk.begin : walk.next;
+    hits = again ? uvec2(0u, 0u) : hits;
+    chunk = walk.begin;
+    do {
+      accumulate_candidates(chunk, hits, ray, walk, first, depth, cluster);
+      bool more = walk.next < walk.end || (walk.leaves < last_leaf && walk.t_out <= t_end);
+      walk.inside = walk.inside && more;
+      hits = uvec2(walk_candidates(walk, ray, t_end, false, chunk, tally), 0u);
+    } while (hits.x != 0u);
+  }
+  return finish_hit(ray, first, cluster, depth, shift);
+}
+
+#endif

@@ -1,0 +1,28 @@
+// What tracing a ray gives, and the work it took.
+#ifndef SPLATRAY_HIT_GLSL
+#define SPLATRAY_HIT_GLSL
+#include "lang/language.glsl"
+
+/// What a ray hits. Distances are from the ray's own origin, in units of |dir|.
+struct Hit {
+  bool found;
+  float t;          ///< blended
+  vec3 position;    ///< blended, root space
+  vec3 normal;      ///< blended unit normal, turned against the ray
+  vec3 color;       ///< blended linear colour; 1 without colours
+  bool front;       ///< the first splat's front face was hit
+  uint object;
+  uint members;
+  float t_first;
+  uvec4 first;      ///< words of the first splat (BLEND_PAPER, BLEND_LEAF: the reference splat)
+};
+
+/// Work done by this invocation; kept only with COUNTERS.
+struct Tally {
+  uint leaves;
+  uint node_steps;
+  uint tests;
+  uint lost;
+};
+
+#endif

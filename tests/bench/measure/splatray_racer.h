@@ -1,0 +1,33 @@
+/// splatray in a race, on a device.
+#pragma once
+#include "engine/gpu/tracer.h"
+#include "engine/vulkan/context.h"
+#include "tests/bench/measure/racer.h"
+
+namespace splatray::testing {
+
+/// Times are those of the dispatches and include shading.
+class SplatrayRacer : public Racer {
+ public:
+  /// `tracer` holds the course's sphere and its surroundings; both must outlive the racer.
+  SplatrayRacer(const Context& context, Tracer& tracer, const Course& course, std::uint32_t blend);
+
+  double run(Frame frame) override;
+  [[nodiscard]] std::uint64_t count_rays(Frame frame) override;
+  [[nodiscard]] Image picture() override;
+  [[nodiscard]] std::vector<RayHit> intersect(std::span<const RayQuery> rays) override;
+  [[nodiscard]] std::uint64_t false_shadows() override;
+  void describe(Json& record) override;
+
+ private:
+  [[nodiscard]] Settings settings_of(Frame frame) const;
+  void trace(Frame frame, const Settings& settings);
+  [[nodiscard]] Image render(Frame frame, const Settings& settings);
+
+  const Context& context_;
+  Tracer& tracer_;
+  const Course& course_;
+  std::uint32_t blend_;
+};
+
+}  // namespace splatray::testing

@@ -1,0 +1,128 @@
+// Calls that make no sense, work that is too much for a driver, and what is kept between runs.
+#include <filesystem>
+#include <fstream>
+
+#include "engine/base/error.h"
+#include "engine/gpu/tracer.h"
+#include "engine/vulkan/command_queue.h"
+#include "engine/vulkan/pipeline_store.h"
+#include "tests/gpu/small_scene.h"
+#include "tests/temp_folder.h"
+
+namespace splatray {
+namespace {
+
+using Misuse = DeviceTest;
+
+TEST_F(Misuse, CallsBeforeUploadAreErrors) {
+  Tracer tracer(context);
+  const View view = disc_view(9, 9);
+  EXPECT_THROW((void)tracer.render(view, plain_settings()), Error);
+  EXPECT_THROW((void)tracer.trace_aov(view, plain_settings()), Error);
+  EXPECT_THROW((void)tracer.intersect(std::vector<RayQuery>(1), plain_settings()), Error);
+  EXPECT_THROW(tracer.begin(view, plain_settings()), Error);
+  EXPECT_THROW(tracer.set_lights({}), Error);
+  EXPECT_THROW(tracer.set_materials({}), Error);
+  EXPECT_THROW((void)tracer.advance(1.0), Error);
+  EXPECT_THROW((void)tracer.picture(), Error);
+}
+
+TEST_F(Misuse, AnotherNumberOfMaterialsIsAnError) {
+  Tracer tracer(context);
+  Scene scene = disc_scene(2);
+  tracer.upload(scene);
+  tracer.set_materials(scene.materials);
+  scene.materials.pop_back();
+  EXPECT_THROW(tracer.set_materials(scene.materials), Error);
+  Settings none = plain_settings();
+  none.samples = 0;
+  EXPECT_THROW((void)tracer.render(disc_view(9, 9), none), Error);
+}
+
+TEST_F(Misuse, AnImageBegunEndsWithItsScene) {
+  Tracer tracer(context);
+  tracer.upload(disc_scene());
+  tracer.begin(disc_view(9, 9), plain_settings());
+  tracer.upload(disc_scene(2));
+  EXPECT_THROW((void)tracer.advance(1.0), Error);
+  tracer.begin(disc_view(9, 9), plain_settings());
+  while (!tracer.advance(1.0)) {
+  }
+  EXPECT_TRUE(tracer.picture().rgba == tracer.render(disc_view(9, 9), plain_settings()).rgba);
+}
+
+TEST_F(Misuse, ARecordingThatThrowsLeavesTheQueueUsable) {
+  CommandQueue queue(context);
+  EXPECT_THROW((void)queue.run([](VkCommandBuffer) { throw Error(ExitCode::failed, "no"); }), Error);
+  EXPECT_NO_THROW((void)queue.run([](VkCommandBuffer) {}));
+}
+
+/// A leaf that lists the disc, and before it another that no ray meets, `others` times.
+Scene long_list(std::uint32_t others) {
+  Scene scene = disc_scene(2);
+  Splat aside = unpack_splat(scene.data_pool[1]);
+  aside.center = {1e5, 1e5, 1e5};
+  aside.radius_squared = 4.0;
+  scene.data_pool[1] = pack_splat(aside);
+  scene.reference_pool.assign(others, 1);
+  scene.reference_pool.push_back(0);
+  scene.begin_end = {0, others + 1};
+  return scene;
+}
+
+TEST_F(Misuse, WorkThatADriverCutsShortIsDoneInSmallerPartsOrRefused) {
+  if (!context.is_cpu()) GTEST_SKIP() << "only llvmpipe is known to cut loops short";
+  Settings settings = plain_settings();
+  settings.samples = 16;
+  settings.shadows = true;
+  settings.cull = false;
+  const View view = disc_view(8, 8);
+  for (const Kernels kernels : {Kernels::automatic, Kernels::gpu}) {
+    Tracer tracer(context, {.kernels = kernels});
+    tracer.upload(long_list(0));
+    const auto expected = tracer.render(view, settings).rgba;
+    tracer.upload(long_list(20'000));  // 16 samples and their shadow rays: 320 000 iterations
+    EXPECT_TRUE(tracer.render(view, settings).rgba == expected);
+    tracer.upload(long_list(200'000));  // one ray: 100 000
+    EXPECT_THROW((void)tracer.render(view, settings), Error);
+    settings.samples = 1;
+    tracer.begin(view, settings);
+    (void)tracer.advance(10.0);
+    EXPECT_THROW((void)tracer.picture(), Error);
+    settings.samples = 16;
+  }
+}
+
+class PipelineStoreTest : public DeviceTest {
+ protected:
+  void render() {
+    Tracer tracer(context, {.pipeline_folder = folder.path() / "cache"});
+    tracer.upload(disc_scene());
+    (void)tracer.render(disc_view(9, 9), plain_settings());
+  }
+
+  TempFolder folder;
+  const std::filesystem::path file = pipeline_file(folder.path() / "cache", context.properties);
+};
+
+TEST_F(PipelineStoreTest, IsKeptAndReadAgain) {
+  render();
+  ASSERT_TRUE(std::filesystem::exists(file));
+  const auto written = std::filesystem::last_write_time(file);
+  const auto size = std::filesystem::file_size(file);
+  EXPECT_GE(size, sizeof(VkPipelineCacheHeaderVersionOne));
+  render();
+  EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing new, nothing written";
+}
+
+TEST_F(PipelineStoreTest, DamagedFilesAreNotUsedAndFoldersThatCannotBeWrittenDoNoHarm) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file) << std::string(100, 'x');
+  EXPECT_NO_THROW(render());
+  std::filesystem::remove_all(file.parent_path());
+  std::ofstream(folder.path() / "cache") << "a file where the folder belongs";
+  EXPECT_NO_THROW(render());
+}
+
+}  // namespace
+}  // namespace splatray
