@@ -3,6 +3,7 @@
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/gltf/read_gltf.h"
 #include "preprocess/read/ply/read_ply.h"
+#include "preprocess/read/read_stl.h"
 #include "preprocess/read/vtk/read_vtk.h"
 
 namespace splatray {

@@ -56,7 +56,7 @@ TEST(ReadProgress, AscendsAndEveryReaderStopsWhenAsked) {
   const std::string ply = grid_ply(700);
   const std::vector<std::filesystem::path> files = {
       folder.write("a.ply", ply), folder.write("a.obj", grid_obj(200)),
-      folder.write("a.stl", grid_stl(60000)), folder.write("a.vtp", grid_vtp(200000)),
+      folder.write("a.stl", grid_stl(120000)), folder.write("a.vtp", grid_vtp(200000)),
       folder.write("a.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
                                "nodes":[{"extras":{"points":"a.ply"}}]})")};
   for (const std::filesystem::path& file : files) {

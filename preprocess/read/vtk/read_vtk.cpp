@@ -11,7 +11,6 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -22,6 +21,7 @@
 
 #include "engine/base/srgb.h"
 #include "preprocess/read/byte_reader.h"
+#include "preprocess/read/float_precision.h"
 #include "preprocess/read/vtk/obj_check.h"
 #include "preprocess/read/vtk/vtp_check.h"
 
@@ -127,29 +127,6 @@ vtkSmartPointer<vtkPolyData> run_reader(Reader* reader, const std::filesystem::p
   return data;
 }
 
-/// VTK believes the triangle count of a binary STL; a count beyond the file's end must not get that far.
-void check_stl(const std::filesystem::path& path) {
-  constexpr std::size_t HEADER_BYTES = 84;
-  constexpr std::uint64_t TRIANGLE_BYTES = 50;
-  ByteReader in(path);
-  const std::uint64_t size = in.remaining();
-  const unsigned char* bytes = in.take(std::min<std::uint64_t>(size, HEADER_BYTES));
-  const std::string start(reinterpret_cast<const char*>(bytes), std::min<std::uint64_t>(size, HEADER_BYTES));
-  std::uint64_t count = 0;
-  for (std::size_t i = HEADER_BYTES; i > 80 && start.size() == HEADER_BYTES; --i) {
-    count = count * 256 + bytes[i - 1];
-  }
-  const bool says_solid = start.rfind("solid", 0) == 0;
-  if (says_solid && size != HEADER_BYTES + TRIANGLE_BYTES * count) {
-    return;
-  }
-  if (start.size() < HEADER_BYTES || size < HEADER_BYTES + TRIANGLE_BYTES * count) {
-    throw_unreadable(path, "found " + std::to_string(size) + " bytes, expected " +
-                               std::to_string(HEADER_BYTES + TRIANGLE_BYTES * count) + " for the " +
-                               std::to_string(count) + " triangles of a binary STL");
-  }
-}
-
 void copy_points(vtkPolyData* data, Points& points) {
   const vtkIdType count = data->GetNumberOfPoints();
   points.position.resize(static_cast<std::size_t>(count));
@@ -204,23 +181,6 @@ void copy_cells(vtkCellArray* cells, bool strips, const std::filesystem::path& p
   }
 }
 
-/// float32 positions far from the origin lose detail: say so when the loss exceeds 1e-5 of the size.
-void note_precision(const Points& points, const std::filesystem::path& path, const ReadListener& listener) {
-  glm::dvec3 low(INFINITY);
-  glm::dvec3 high(-INFINITY);
-  for (const glm::dvec3& p : points.position) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const double largest = std::max(glm::length(low), glm::length(high));
-  if (largest * std::ldexp(1.0, -24) > 1e-5 * glm::length(high - low)) {
-    listener.note(
-        path,
-        "coordinates are read as float32, which blurs them this far from the origin; save a PLY with "
-        "double x, y, z to keep them");
-  }
-}
-
 Mesh mesh_of(vtkPolyData* data, const std::filesystem::path& path) {
   Mesh mesh;
   if (data->GetNumberOfPoints() > 0xFFFFFFFFLL) {
@@ -241,16 +201,7 @@ Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener) {
   if (check.has_vertex_colors) {
     listener.note(path, "vertex colours of OBJ files are not read; save a PLY to keep them");
   }
-  note_precision(mesh.vertices, path, listener);
-  return mesh;
-}
-
-Mesh read_stl(const std::filesystem::path& path, const ReadListener& listener) {
-  check_stl(path);
-  const vtkNew<vtkSTLReader> reader;
-  reader->MergingOn();
-  Mesh mesh = mesh_of(run_reader(reader.Get(), path, listener), path);
-  note_precision(mesh.vertices, path, listener);
+  note_float_precision(mesh.vertices, path, listener);
   return mesh;
 }
 

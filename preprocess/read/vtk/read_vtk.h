@@ -1,4 +1,4 @@
-/// OBJ, STL and VTP through VTK. VTK believes what a file says, so each file is checked first. Nothing is printed.
+/// OBJ and VTP through VTK. VTK believes what a file says, so each file is checked first. Nothing is printed.
 #pragma once
 #include <filesystem>
 
@@ -10,9 +10,6 @@ namespace splatray {
 /// OBJ: positions in float32, which is noted where it shows; vertex colours are lost, which is noted too. Throws Error
 /// (input_unreadable), (interrupted).
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener);
-
-/// STL, binary or ASCII: float32; equal corners become one vertex. Throws as read_obj.
-[[nodiscard]] Mesh read_stl(const std::filesystem::path& path, const ReadListener& listener);
 
 /// VTP: positions in the file's precision; point data Normals, 3 or 4 component uchar scalars (sRGB colours) and an array
 /// `radius`. Throws as read_obj.

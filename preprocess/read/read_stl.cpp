@@ -1,0 +1,179 @@
+#include "preprocess/read/read_stl.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "preprocess/mesh/mesh_normals.h"
+#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/float_precision.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::uint64_t HEADER_BYTES = 84;
+constexpr std::size_t TRIANGLE_BYTES = 50;  ///< normal, three corners, a word of attributes
+constexpr std::size_t NORMAL_BYTES = 12;
+constexpr std::size_t MOST_LINE_BYTES = 4096;
+
+std::uint64_t declared_bytes(const unsigned char* header) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, header + 80, sizeof count);
+  return HEADER_BYTES + TRIANGLE_BYTES * std::uint64_t{count};
+}
+
+/// ASCII files begin with "solid", as some binary ones do; those have the size that they declare.
+bool is_ascii(const std::filesystem::path& path) {
+  ByteReader in(path);
+  const std::uint64_t size = in.remaining();
+  const auto length = static_cast<std::size_t>(std::min(size, HEADER_BYTES));
+  const unsigned char* bytes = in.take(length);
+  const std::string_view start(reinterpret_cast<const char*>(bytes), length);
+  return start.starts_with("solid") && (length < HEADER_BYTES || size != declared_bytes(bytes));
+}
+
+/// Three corners for each triangle.
+std::vector<glm::dvec3> read_binary(const std::filesystem::path& path, const ReadListener& listener) {
+  ByteReader in(path, &listener);
+  const std::uint64_t size = in.remaining();
+  const unsigned char* header = size < HEADER_BYTES ? nullptr : in.take(HEADER_BYTES);
+  const std::uint64_t declared = header == nullptr ? HEADER_BYTES : declared_bytes(header);
+  const std::uint64_t count = (declared - HEADER_BYTES) / TRIANGLE_BYTES;
+  if (header == nullptr || size < declared) {
+    throw_unreadable(path, "found " + std::to_string(size) + " bytes, expected " + std::to_string(declared) +
+                               " for the " + std::to_string(count) + " triangles of a binary STL");
+  }
+  std::vector<glm::dvec3> corners;
+  corners.reserve(3 * static_cast<std::size_t>(count));
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const unsigned char* bytes = in.take(TRIANGLE_BYTES);
+    if (bytes == nullptr) {
+      throw_unreadable(path, "it could not be read to its end");
+    }
+    float values[9];
+    std::memcpy(values, bytes + NORMAL_BYTES, sizeof values);
+    for (int corner = 0; corner < 3; ++corner) {
+      corners.emplace_back(values[3 * corner], values[3 * corner + 1], values[3 * corner + 2]);
+    }
+  }
+  return corners;
+}
+
+std::string_view next_word(std::string_view& line) {
+  constexpr const char* BLANKS = " \t\r";
+  const std::size_t begin = std::min(line.find_first_not_of(BLANKS), line.size());
+  const std::size_t end = std::min(line.find_first_of(BLANKS, begin), line.size());
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
+  return word;
+}
+
+/// Lines of an ASCII file; of those only `vertex` and the ends of facets matter.
+class AsciiStl {
+ public:
+  AsciiStl(const std::filesystem::path& path, const ReadListener& listener) : in_(path, &listener) {}
+
+  std::vector<glm::dvec3> read() {
+    for (std::string_view line; in_.line(line, MOST_LINE_BYTES);) {
+      ++line_number_;
+      std::string word(next_word(line));
+      std::transform(word.begin(), word.end(), word.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      if (word == "vertex") {
+        corners_.push_back(read_corner(line));
+      } else if (word == "endfacet") {
+        end_facet();
+      } else if (!is_keyword(word)) {
+        fail("found '" + std::string(word.substr(0, 20)) +
+             "', expected a word of STL such as facet or vertex");
+      }
+    }
+    if (corners_.size() != 3 * facets_) {
+      fail("the file ends within a facet");
+    }
+    return std::move(corners_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw_unreadable(in_.path(), "line " + std::to_string(line_number_) + ": " + what);
+  }
+
+  static bool is_keyword(std::string_view word) {
+    const std::string_view known[] = {"", "solid", "facet", "outer", "endloop", "endsolid"};
+    return std::find(std::begin(known), std::end(known), word) != std::end(known);
+  }
+
+  glm::dvec3 read_corner(std::string_view line) const {
+    glm::dvec3 corner{0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+      std::string_view word = next_word(line);
+      word.remove_prefix(word.starts_with('+') ? 1 : 0);
+      double value = 0.0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc{} || end != word.data() + word.size()) {
+        fail("found '" + std::string(word.substr(0, 20)) + "' in a vertex, expected three numbers");
+      }
+      corner[axis] = static_cast<float>(value);
+    }
+    return corner;
+  }
+
+  void end_facet() {
+    ++facets_;
+    if (corners_.size() != 3 * facets_) {
+      fail("found a facet that has not three vertices");
+    }
+  }
+
+  ByteReader in_;
+  std::uint64_t line_number_ = 0;
+  std::size_t facets_ = 0;
+  std::vector<glm::dvec3> corners_;
+};
+
+/// The mesh of triangles that share equal corners.
+Mesh joined(std::vector<glm::dvec3> corners) {
+  const std::vector<glm::uint> weld = weld_positions(corners);
+  std::vector<glm::uint> index(corners.size());
+  Mesh mesh;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (weld[i] == i) {
+      index[i] = static_cast<glm::uint>(mesh.vertices.position.size());
+      mesh.vertices.position.push_back(corners[i]);
+    } else {
+      index[i] = index[weld[i]];
+    }
+  }
+  mesh.triangles.reserve(corners.size() / 3);
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    const glm::uvec3 triangle(index[i], index[i + 1], index[i + 2]);
+    if (triangle.x != triangle.y && triangle.y != triangle.z && triangle.z != triangle.x) {
+      mesh.triangles.push_back(triangle);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh read_stl(const std::filesystem::path& path, const ReadListener& listener) {
+  std::vector<glm::dvec3> corners =
+      is_ascii(path) ? AsciiStl(path, listener).read() : read_binary(path, listener);
+  if (corners.size() > 0xFFFFFFFFU) {
+    throw_unreadable(
+        path, "found " + std::to_string(corners.size() / 3) + " triangles, expected at most 1431655765");
+  }
+  Mesh mesh = joined(std::move(corners));
+  note_float_precision(mesh.vertices, path, listener);
+  return mesh;
+}
+
+}  // namespace splatray
