@@ -161,12 +161,15 @@ void choose_samples(std::vector<Part>& parts, Input& input, const ReadOptions& o
   }
 }
 
-void points_from_part(const Part& part, const ReadOptions& options, std::uint64_t seed,
-                      std::vector<std::string>& notes) {
+void points_from_part(const Part& part, const ReadOptions& options, std::uint64_t seed, const Stage& stage,
+                      double share, std::vector<std::string>& notes) {
+  stage.report(share);
   InputObject& object = *part.object;
   const std::vector<glm::uint> weld = weld_positions(part.mesh->vertices.position);
+  stage.report(share);
   object.oriented = orient_mesh(*part.mesh, weld, object, options.turn_outwards, notes) && object.oriented;
   object.surface_area += part.area;
+  stage.report(share);
   append_points(object.points, part.sampled ? sample_surface(*part.mesh, weld, part.samples, seed)
                                             : vertex_points(*part.mesh, weld));
 }
@@ -183,8 +186,8 @@ void points_from_meshes(Input& input, const ReadOptions& options) {
   std::vector<Part> parts = list_parts(input, options);
   choose_samples(parts, input, options);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    stage.report(static_cast<double>(i) / static_cast<double>(parts.size()));
-    points_from_part(parts[i], options, options.seed + i, input.notes);
+    const double share = static_cast<double>(i) / static_cast<double>(parts.size());
+    points_from_part(parts[i], options, options.seed + i, stage, share, input.notes);
     if (!options.keep_meshes) {
       *parts[i].mesh = Mesh{};
     }

@@ -97,8 +97,8 @@ UserState read_user_state(const std::filesystem::path& path) {
         state.recent_files.emplace_back(recent.get<std::string>());
   });
   if_sound([&] {
-    for (const auto& [scene, array] : all.at("bookmarks").items())
-      if_sound([&] { state.bookmarks[scene] = bookmarks_of(array); });
+    for (const auto& scene : all.at("bookmarks").items())
+      if_sound([&] { state.bookmarks[scene.key()] = bookmarks_of(scene.value()); });
   });
   return state;
 }
