@@ -112,5 +112,6 @@ def main():
 
 
 if __name__ == "__main__":
-    os.environ.setdefault("ASAN_OPTIONS", "detect_leaks=0")
+    # As tests/cli/child_process.cpp does.
+    os.environ["ASAN_OPTIONS"] = os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0"
     main()
