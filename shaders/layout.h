@@ -146,7 +146,7 @@ struct FrameParams {
   uint sample_end;
   uint sample_total;  ///< samples of the whole picture
   uint seed;
-  uint max_bounces;  ///< secondary rays in a path, >= 0
+  uint max_bounces;     ///< secondary rays in a path, >= 0
   uint light_end;       ///< lights of this dispatch: [light_begin, light_end)
   float kappa;          ///< window depth in units of the first splat's radius
   float delta;          ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units

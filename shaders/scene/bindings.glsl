@@ -35,11 +35,12 @@ layout(local_size_x = GROUP_SIZE) in;
 layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame_block; };
 FrameParams frame;
 
-/// main() begins with it. llvmpipe reads storage buffers lane by lane, except in uniform control flow, so before any branch or loop.
+/// main() begins with it. llvmpipe reads storage buffers lane by lane, except in uniform control flow, so before any
+/// branch or loop.
 void read_frame() { frame = frame_block; }
 
-/// Index of refraction in the dielectric that has this bit of a ray's mask. Not of the copy: llvmpipe would look through all of an
-/// array there.
+/// Index of refraction in the dielectric that has this bit of a ray's mask. Not of the copy: llvmpipe would look
+/// through all of an array there.
 float medium_at(uint bit) { return frame_block.media[bit >> 2u][bit & 3u]; }
 #else
 layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame; };

@@ -1,6 +1,7 @@
-// Paths through the pixels of a dispatch: for each pixel and sample, camera -> path -> accumulation. On CPU devices also in wavefront
-// stages (Laine, Karras and Aila 2013, "Megakernels Considered Harmful"), one ray of each path in each: lanes of CPU devices, which
-// wait for each other's branches and loops, otherwise stay idle once their path has ended.
+// Paths through the pixels of a dispatch: for each pixel and sample, camera -> path -> accumulation. On CPU devices
+// also in wavefront stages (Laine, Karras and Aila 2013, "Megakernels Considered Harmful"), one ray of each path in
+// each: lanes of CPU devices, which wait for each other's branches and loops, otherwise stay idle once their path has
+// ended.
 #ifndef SPLATRAY_PATHS_GLSL
 #define SPLATRAY_PATHS_GLSL
 #include "stage/pixels.glsl"
@@ -15,8 +16,8 @@ Light light_at(uint index) { return lights[index]; }
 #include "stage/queue.glsl"
 #endif
 
-/// Of one path, or of what one stage added to it. Where the lights of a sample are spread over dispatches its rays are counted once,
-/// the work of each dispatch always.
+/// Of one path, or of what one stage added to it. Where the lights of a sample are spread over dispatches its rays are
+/// counted once, the work of each dispatch always.
 void add_counters(Path path, Tally tally) {
   bool once = frame.light_begin == 0u;
   bool first = once && STAGE != STAGE_NEXT;
@@ -34,9 +35,10 @@ void add_counters(Path path, Tally tally) {
   count(COUNT_LOST, tally.lost);
 }
 
-/// Whether the driver has stopped this thread's loops: Mesa's llvmpipe silently ends all loops of a thread after 65 535 iterations
-/// in all (LP_MAX_TGSI_LOOP_ITERATIONS). This one, which must run frame.loop_probe times, then runs once, or twice where the
-/// compiler has moved its test. Not compared with the probe again, which compilers take for reached behind the loop.
+/// Whether the driver has stopped this thread's loops: Mesa's llvmpipe silently ends all loops of a thread after 65 535
+/// iterations in all (LP_MAX_TGSI_LOOP_ITERATIONS). This one, which must run frame.loop_probe times, then runs once, or
+/// twice where the compiler has moved its test. Not compared with the probe again, which compilers take for reached
+/// behind the loop.
 bool loops_were_cut() {
   uint iterations = 0u;
   do {

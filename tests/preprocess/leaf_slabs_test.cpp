@@ -1,6 +1,6 @@
 /// No leaf's slab or halves cut off anything that the leaf's discs have inside its cell.
-#include "engine/scene/slab_check.h"
 #include "preprocess/tree/leaf_slabs.h"
+#include "engine/scene/slab_check.h"
 
 #include <gtest/gtest.h>
 

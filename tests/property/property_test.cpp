@@ -1,6 +1,7 @@
-// property_test [--seconds N] [--rounds N] [--seed S|random]: random scenes and random rays, for as long as it is told. The GPU, the shaders
-// compiled as C++, and brute force must agree on every ray (judge.h says what that means), and the GPU must answer the same
-// bits for two leaf sizes; rounds of odd seeds decide hits in double-float, the others as the device does by default. Round n has seed S + n; a round that fails prints its seed, its scene and its rays, and
+// property_test [--seconds N] [--rounds N] [--seed S|random]: random scenes and random rays, for as long as it is told.
+// The GPU, the shaders compiled as C++, and brute force must agree on every ray (judge.h says what that means), and the
+// GPU must answer the same bits for two leaf sizes; rounds of odd seeds decide hits in double-float, the others as the
+// device does by default. Round n has seed S + n; a round that fails prints its seed, its scene and its rays, and
 // `property_test --seconds 0 --seed` with that seed runs it alone.
 #include <chrono>
 #include <iostream>

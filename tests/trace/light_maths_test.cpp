@@ -47,8 +47,7 @@ TEST(LightMaths, FresnelsShare) {
         // As far off as the share's own change for indices that differ by float32's rounding.
         const double change = std::abs(fresnel_share(rounded_eta * (1.0 + 2e-7), cosine) -
                                        fresnel_share(rounded_eta * (1.0 - 2e-7), cosine));
-        EXPECT_NEAR(twin.share, exact, 1e-6 + 2.0 * change)
-            << "eta " << eta << ", cosine " << cosine;
+        EXPECT_NEAR(twin.share, exact, 1e-6 + 2.0 * change) << "eta " << eta << ", cosine " << cosine;
         EXPECT_GE(twin.share, 0.0F);
         EXPECT_LE(twin.share, 1.0F);
       }
