@@ -9,18 +9,38 @@
 #include <vector>
 
 #include "engine/base/progress.h"
+#include "engine/scene/columns.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
 
 struct Texture;
 
-/// A point set. All arrays that are not empty have the same length.
+/// A place that a scanner stood at, or one flight, with the form of what it measured.
+struct Station {
+  std::string name;
+  std::optional<glm::dvec3> sensor_world;  ///< where the scanner was, as far as the file says it credibly
+  std::uint32_t rows = 0;                  ///< of its grid; 0 = not structured
+  std::uint32_t columns = 0;
+};
+
+/// Points::grid_cell of a point that is in no grid.
+inline constexpr std::uint32_t NO_CELL = 0xFFFFFFFF;
+
+/// A point set. All arrays that are not empty have the same length, but for `stations`.
 struct Points {
   std::vector<glm::dvec3> position;  ///< world units
   std::vector<glm::vec3> normal;     ///< any length; empty = none given. A zero normal means "estimate me"
   std::vector<glm::vec3> color;      ///< linear rgb, 0..1; empty = none
   std::vector<float> radius;         ///< world units; empty = none given
+  /// Display-encoded rgb of scans as stored, instead of `color`; empty = none. 1.0 is at `stored_color_most`, which 0 leaves
+  /// to be judged from all files of the input: LAS has 8-bit colours in 16-bit fields.
+  std::vector<glm::u16vec3> stored_color;
+  std::uint16_t stored_color_most = 0;
+  std::vector<Column> columns;           ///< further attributes, each beside `position`
+  std::vector<Station> stations;         ///< where the points were measured from; empty = not known
+  std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
+  std::vector<std::uint32_t> grid_cell;  ///< row * columns + column in the station's grid; empty = no grids
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
@@ -31,6 +51,31 @@ struct Mesh {
   std::vector<glm::vec2> texcoord;         ///< beside vertices, or empty
   std::vector<glm::uvec3> triangles;       ///< indices < vertices.size()
   std::shared_ptr<const Texture> texture;  ///< base colour by texcoord, times the vertex colour; null = none
+};
+
+/// What a scan's file holds and what its reader left out.
+struct ScanCounts {
+  std::uint64_t stored = 0;     ///< records that the header or the grid names
+  std::uint64_t missing = 0;    ///< of those, the ones the file ends before
+  std::uint64_t no_return = 0;  ///< grid cells and records without a position
+  std::uint64_t withheld = 0;   ///< deleted by convention (LAS's withheld bit)
+  std::uint64_t noise = 0;      ///< of the classes 7 and 18, and not withheld
+
+  ScanCounts& operator+=(const ScanCounts& more) {
+    stored += more.stored;
+    missing += more.missing;
+    no_return += more.no_return;
+    withheld += more.withheld;
+    noise += more.noise;
+    return *this;
+  }
+};
+
+/// A file of points without materials, which joins the others of its kind in one object.
+struct ScanFile {
+  Points points;
+  ScanCounts counts;
+  glm::dvec3 up{0.0, 0.0, 1.0};  ///< the format's own: z for what surveyors use
 };
 
 /// One object of the input: points, and what they are made of.
@@ -50,10 +95,21 @@ struct Input {
   std::vector<InputObject> objects;
   std::vector<SceneLight> lights;
   std::optional<Camera> camera;
-  std::optional<glm::dvec3> up;  ///< the format's own up axis (glTF: +y)
+  std::optional<glm::dvec3> up;  ///< the format's own up axis (glTF: +y, scans: +z)
+  ScanCounts scan_counts;        ///< of all files of scans
   std::string environment_path;  ///< resolved path of the environment map the scene names; empty = none
   std::vector<std::string>
       notes;  ///< one sentence each: unknown properties, skipped parts, ignored extensions
+};
+
+/// How scans are read.
+struct ScanOptions {
+  bool strict = false;            ///< a file that holds less than it says is refused
+  bool ignore_checksums = false;  ///< pages whose checksum is wrong are read (E57)
+  bool keep_withheld = false;     ///< points that are marked as deleted or as noise are kept
+  std::string columns;  ///< of text files: names by comma, such as "x,y,z,intensity,-,r,g,b"; empty = found
+  std::vector<std::string>
+      attributes;  ///< further ones to keep, by name (LAS's extra bytes, columns of text, PCD, PLY)
 };
 
 struct ReadOptions {
@@ -64,8 +120,9 @@ struct ReadOptions {
       data_paths;  ///< folders searched for models a scene names, after the scene's own folder
   bool keep_meshes = false;
   bool turn_outwards = false;  ///< closed meshes of all objects, not only of dielectrics, are turned outwards
-  unsigned threads = 0;        ///< 0 = all cores
-  Progress progress{};         ///< of the stages "reading" and "sampling"; may be empty
+  ScanOptions scans;
+  unsigned threads = 0;  ///< 0 = all cores
+  Progress progress{};   ///< of the stages "reading" and "sampling"; may be empty
 };
 
 /// Reads one or more files into one Input (several files: one object each; glTF: its own objects), by their
@@ -75,5 +132,8 @@ struct ReadOptions {
 
 /// The material of an object whose file says nothing: light grey, a soft highlight, two-sided.
 [[nodiscard]] Material default_material();
+
+/// Its diffuse part where points have colours: white stays below the display's white.
+inline const glm::vec3 COLORED_DIFFUSE(0.9F);
 
 }  // namespace splatray

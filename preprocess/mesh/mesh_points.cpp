@@ -122,7 +122,10 @@ std::vector<Part> list_parts(Input& input, const ReadOptions& options) {
 /// Meshes without triangles are point sets.
 void move_out_points(InputObject& object) {
   for (Mesh& mesh : object.meshes) {
-    if (mesh.triangles.empty()) {
+    if (!mesh.triangles.empty()) continue;
+    if (object.points.size() == 0) {
+      object.points = std::move(mesh.vertices);  // with its columns, which only files of one point set have
+    } else {
       append_points(object.points, std::move(mesh.vertices));
     }
   }

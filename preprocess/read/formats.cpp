@@ -12,14 +12,14 @@ namespace {
 constexpr Format FORMATS[] = {
     {".ply",
      "ASCII and binary of both endians; float and double positions, normals, colours, radius; triangles",
-     read_ply, nullptr},
-    {".obj", "points or triangles", read_obj, nullptr},
-    {".stl", "triangles, ASCII and binary", read_stl, nullptr},
-    {".vtp", "points or triangles; normals, colours, radius", read_vtp, nullptr},
+     read_ply, nullptr, nullptr},
+    {".obj", "points or triangles", read_obj, nullptr, nullptr},
+    {".stl", "triangles, ASCII and binary", read_stl, nullptr, nullptr},
+    {".vtp", "points or triangles; normals, colours, radius", read_vtp, nullptr, nullptr},
     {".gltf .glb",
      "node transforms, triangles, `POINTS`, `pbrMetallicRoughness`, transmission, ior, punctual lights, "
      "cameras",
-     nullptr, read_gltf},
+     nullptr, read_gltf, nullptr},
 };
 
 }  // namespace

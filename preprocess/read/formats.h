@@ -10,7 +10,7 @@
 
 namespace splatray {
 
-/// One format. It has one of two readers, which throw Error (input_unreadable) with the file's name, or (interrupted).
+/// One format. It has one of three readers, which throw Error (input_unreadable) with the file's name, or (interrupted).
 struct Format {
   std::string_view extensions;  ///< with their dots, in lower case, a blank between: ".gltf .glb"
   std::string_view contents;    ///< what is read, as README's table has it
@@ -19,6 +19,9 @@ struct Format {
   /// Of a file that is a scene.
   Input (*read_scene)(const std::filesystem::path& path, const ReadOptions& options,
                       const ReadListener& listener);
+  /// Of a file that is points alone: all such files make one object.
+  ScanFile (*read_scan)(const std::filesystem::path& path, const ReadOptions& options,
+                        const ReadListener& listener);
 };
 
 [[nodiscard]] std::span<const Format> formats();

@@ -8,6 +8,7 @@
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/points.h"
 #include "preprocess/read/formats.h"
+#include "preprocess/read/join_scans.h"
 #include "preprocess/read/read_mesh.h"
 
 namespace splatray {
@@ -20,9 +21,18 @@ Input read_geometry(const std::filesystem::path& path, const ReadListener& liste
   object.material = default_material();
   object.meshes.push_back(read_mesh(path, listener));
   if (!object.meshes.front().vertices.color.empty()) {
-    object.material.diffuse = glm::vec3(0.9F);  // white stays below the display's white
+    object.material.diffuse = COLORED_DIFFUSE;
   }
   input.objects.push_back(std::move(object));
+  return input;
+}
+
+/// Keeps a scan until all are read; what it says of the whole input.
+Input add_scan(const std::filesystem::path& path, ScanFile file, std::vector<NamedScan>& scans) {
+  Input input;
+  input.up = file.up;
+  input.scan_counts = file.counts;
+  scans.push_back({path.stem().string(), std::move(file)});
   return input;
 }
 
@@ -37,6 +47,7 @@ void merge(Input& to, Input&& more) {
   move_append(to.notes, more.notes);
   to.camera = to.camera ? to.camera : more.camera;
   to.up = to.up ? to.up : more.up;
+  to.scan_counts += more.scan_counts;
   to.environment_path = to.environment_path.empty() ? more.environment_path : to.environment_path;
 }
 
@@ -106,18 +117,25 @@ Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOpti
   }
   const ThreadLimit limit(options.threads);
   Input input;
+  std::vector<NamedScan> scans;
   const double files = static_cast<double>(paths.size());
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const double done = static_cast<double>(i);
     std::vector<std::string> notes;
     const ReadListener listener{notes, options.progress, done / files, (done + 1.0) / files};
     const Format* format = find_format(paths[i]);
-    const bool is_scene = format != nullptr && format->read_scene != nullptr;
-    Input more =
-        is_scene ? format->read_scene(paths[i], options, listener) : read_geometry(paths[i], listener);
+    Input more;
+    if (format != nullptr && format->read_scan != nullptr) {
+      more = add_scan(paths[i], format->read_scan(paths[i], options, listener), scans);
+    } else if (format != nullptr && format->read_scene != nullptr) {
+      more = format->read_scene(paths[i], options, listener);
+    } else {
+      more = read_geometry(paths[i], listener);
+    }
     more.notes = std::move(notes);
     merge(input, std::move(more));
   }
+  if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
   points_from_meshes(input, options);
   drop_empty_objects(input);
   if (input.objects.empty()) {

@@ -1,0 +1,43 @@
+/// Attributes of points that are kept beside them: intensity, class and the like.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace splatray {
+
+/// The names of attributes that readers of scans deliver, with what their values are.
+inline constexpr std::string_view COLUMN_INTENSITY = "intensity";  ///< as stored, of any range
+inline constexpr std::string_view COLUMN_CLASS = "class";          ///< ASPRS's codes (LAS 1.4 R15, table 17)
+inline constexpr std::string_view COLUMN_RETURN = "return";        ///< of its pulse, 1 = first
+inline constexpr std::string_view COLUMN_RETURNS = "returns";      ///< of its pulse
+inline constexpr std::string_view COLUMN_SOURCE =
+    "source";                                            ///< point source id: by convention the flight line
+inline constexpr std::string_view COLUMN_SCAN = "scan";  ///< the station's number, from 0
+inline constexpr std::string_view COLUMN_TIME = "time";  ///< GPS time, seconds
+
+/// One attribute, a value for each point.
+struct Column {
+  std::string name;
+  std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>, std::vector<double>>
+      values;
+
+  [[nodiscard]] std::size_t size() const {
+    return std::visit([](const auto& list) { return list.size(); }, values);
+  }
+  [[nodiscard]] double number(std::size_t i) const {
+    return std::visit([i](const auto& list) { return static_cast<double>(list[i]); }, values);
+  }
+};
+
+/// The column of this name; nullptr where there is none.
+[[nodiscard]] inline const Column* find_column(const std::vector<Column>& columns, std::string_view name) {
+  for (const Column& column : columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+}  // namespace splatray

@@ -1,0 +1,187 @@
+#include "preprocess/read/join_scans.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/base/srgb.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::uint16_t MOST_8_BITS = 255;
+constexpr std::uint16_t MOST_16_BITS = 65535;
+
+std::uint16_t largest_channel(const std::vector<glm::u16vec3>& colors) {
+  std::uint16_t largest = 0;
+  for (const glm::u16vec3& color : colors) largest = std::max({largest, color.x, color.y, color.z});
+  return largest;
+}
+
+bool has_unjudged_colors(const Points& points) {
+  return !points.stored_color.empty() && points.stored_color_most == 0;
+}
+
+/// Decides what the colours of unknown scale are, from all of them.
+void judge_colors(std::vector<NamedScan>& scans) {
+  std::uint16_t largest = 0;
+  for (const NamedScan& scan : scans)
+    if (has_unjudged_colors(scan.file.points))
+      largest = std::max(largest, largest_channel(scan.file.points.stored_color));
+  for (NamedScan& scan : scans) {
+    Points& points = scan.file.points;
+    if (!has_unjudged_colors(points)) continue;
+    points.stored_color_most = largest > MOST_8_BITS ? MOST_16_BITS : MOST_8_BITS;
+    if (largest == 0) points.stored_color.clear();
+  }
+}
+
+/// `color` from `stored_color`, which is freed.
+void decode_colors(Points& points) {
+  if (points.stored_color.empty()) return;
+  std::vector<float> linear(std::size_t{points.stored_color_most} + 1);
+  for (std::size_t i = 0; i < linear.size(); ++i)
+    linear[i] = srgb_to_linear(static_cast<float>(i) / static_cast<float>(points.stored_color_most));
+  const auto decoded = [&](std::uint16_t value) {
+    return linear[std::min<std::size_t>(value, linear.size() - 1)];
+  };
+  points.color.resize(points.stored_color.size());
+  tbb::parallel_for(std::size_t{0}, points.color.size(), [&](std::size_t i) {
+    const glm::u16vec3& stored = points.stored_color[i];
+    points.color[i] = {decoded(stored.x), decoded(stored.y), decoded(stored.z)};
+  });
+  points.stored_color = {};
+}
+
+/// Appends `more`, `size` values of one array; an array that is absent on one side gets `absent` there.
+template <typename Value>
+void append(std::vector<Value>& to, std::size_t to_size, std::vector<Value>&& more, std::size_t size,
+            const Value& absent) {
+  if (to.empty() && more.empty()) return;
+  if (to_size == 0) {
+    to = std::move(more);
+    return;
+  }
+  to.resize(to_size, absent);
+  if (more.empty()) {
+    to.resize(to_size + size, absent);
+  } else {
+    to.insert(to.end(), more.begin(), more.end());
+    more = {};
+  }
+}
+
+template <typename Value>
+std::vector<Value> converted(const Column& column) {
+  return std::visit(
+      [](const auto& list) {
+        std::vector<Value> values(list.size());
+        std::transform(list.begin(), list.end(), values.begin(),
+                       [](auto value) { return static_cast<Value>(value); });
+        return values;
+      },
+      column.values);
+}
+
+/// Appends one attribute; where two files store it differently, as the wider type.
+void append_column(Column& to, std::size_t to_size, Column&& more, std::size_t size) {
+  if (more.values.index() > to.values.index() && more.size() > 0)
+    std::visit(
+        [&to](auto& list) {
+          using Value = typename std::decay_t<decltype(list)>::value_type;
+          to.values = converted<Value>(to);
+        },
+        more.values);
+  std::visit(
+      [&](auto& list) {
+        using Value = typename std::decay_t<decltype(list)>::value_type;
+        std::vector<Value> values = std::holds_alternative<std::vector<Value>>(more.values)
+                                        ? std::get<std::vector<Value>>(std::move(more.values))
+                                        : converted<Value>(more);
+        append(list, to_size, std::move(values), size, Value{});
+      },
+      to.values);
+}
+
+void append_columns(Points& to, Points& more) {
+  const std::size_t to_size = to.size();
+  const std::size_t size = more.size();
+  const auto number = [](std::vector<Column>& columns, const std::string& name) {
+    const auto found = std::find_if(columns.begin(), columns.end(),
+                                    [&name](const Column& column) { return column.name == name; });
+    return static_cast<std::size_t>(found - columns.begin());
+  };
+  for (Column& column : more.columns) {
+    const std::size_t i = number(to.columns, column.name);
+    if (i == to.columns.size()) to.columns.push_back({column.name, std::vector<std::uint8_t>{}});
+    append_column(to.columns[i], to_size, std::move(column), size);
+  }
+  for (Column& column : to.columns)
+    if (number(more.columns, column.name) == more.columns.size())
+      append_column(column, to_size, {column.name, std::vector<std::uint8_t>{}}, size);
+}
+
+/// A file that knows nothing of where it was measured from is one station too.
+void name_stations(NamedScan& scan) {
+  std::vector<Station>& stations = scan.file.points.stations;
+  if (stations.empty()) stations.resize(1);
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    std::string& name = stations[i].name;
+    if (name.empty()) name = scan.name + (stations.size() > 1 ? " " + std::to_string(i + 1) : "");
+  }
+}
+
+void append_points(Points& to, Points&& more) {
+  const std::size_t to_size = to.size();
+  const std::size_t size = more.size();
+  append_columns(to, more);
+  if (!to.stations.empty() && more.station.empty()) more.station.resize(size, 0);
+  for (std::uint16_t& station : more.station)
+    station = static_cast<std::uint16_t>(station + to.stations.size());
+  append(to.station, to_size, std::move(more.station), size, std::uint16_t{0});
+  append(to.grid_cell, to_size, std::move(more.grid_cell), size, NO_CELL);
+  append(to.normal, to_size, std::move(more.normal), size, glm::vec3(0.0F));
+  append(to.color, to_size, std::move(more.color), size, glm::vec3(1.0F));
+  append(to.radius, to_size, std::move(more.radius), size, 0.0F);
+  to.stations.insert(to.stations.end(), std::make_move_iterator(more.stations.begin()),
+                     std::make_move_iterator(more.stations.end()));
+  append(to.position, to_size, std::move(more.position), size, glm::dvec3(0.0));
+}
+
+bool is_constant_zero(const Column& column) {
+  return std::visit(
+      [](const auto& list) { return std::all_of(list.begin(), list.end(), [](auto v) { return v == 0; }); },
+      column.values);
+}
+
+}  // namespace
+
+InputObject join_scans(std::vector<NamedScan> scans) {
+  judge_colors(scans);
+  InputObject object;
+  object.name = scans.size() == 1 ? scans.front().name : "scans";
+  object.material = default_material();
+  std::size_t stations = 0;
+  for (NamedScan& scan : scans) {
+    name_stations(scan);
+    stations += scan.file.points.stations.size();
+  }
+  if (stations > 0xFFFF)
+    throw Error(ExitCode::input_unreadable,
+                "the input has " + std::to_string(stations) + " scans, expected at most 65535");
+  for (NamedScan& scan : scans) {
+    decode_colors(scan.file.points);
+    append_points(object.points, std::move(scan.file.points));
+  }
+  Points& points = object.points;
+  std::erase_if(points.columns, is_constant_zero);
+  if (stations > 1) points.columns.push_back({std::string(COLUMN_SCAN), points.station});
+  if (!points.color.empty()) object.material.diffuse = COLORED_DIFFUSE;
+  return object;
+}
+
+}  // namespace splatray

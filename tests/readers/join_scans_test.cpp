@@ -1,0 +1,84 @@
+/// Many files of one survey are one object (preprocess/read/join_scans.h).
+#include "preprocess/read/join_scans.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "engine/base/srgb.h"
+
+namespace splatray {
+namespace {
+
+ScanFile scan_at(double x, std::size_t count) {
+  ScanFile file;
+  file.points.position.assign(count, glm::dvec3(x, 0.0, 0.0));
+  return file;
+}
+
+TEST(JoinScans, OneFileKeepsItsNameAndArrays) {
+  std::vector<NamedScan> scans{{"church", scan_at(1.0, 3)}};
+  scans[0].file.points.columns = {{"intensity", std::vector<std::uint16_t>{5, 0, 7}},
+                                  {"class", std::vector<std::uint8_t>{0, 0, 0}}};
+  const InputObject object = join_scans(std::move(scans));
+  EXPECT_EQ(object.name, "church");
+  EXPECT_EQ(object.points.size(), 3U);
+  ASSERT_EQ(object.points.columns.size(), 1U) << "a column of zeros says nothing and takes no bytes";
+  EXPECT_EQ(object.points.columns[0].number(2), 7.0);
+  EXPECT_EQ(find_column(object.points.columns, COLUMN_SCAN), nullptr);
+  EXPECT_EQ(object.points.stations.at(0).name, "church");
+}
+
+TEST(JoinScans, AttributesThatAFileLacksAreZeroThere) {
+  std::vector<NamedScan> scans{{"a", scan_at(1.0, 2)}, {"b", scan_at(2.0, 1)}, {"c", scan_at(3.0, 1)}};
+  scans[1].file.points.columns = {{"intensity", std::vector<std::uint16_t>{300}}};
+  scans[2].file.points.columns = {{"intensity", std::vector<float>{0.5F}}};
+  scans[1].file.points.normal = {glm::vec3(0.0F, 0.0F, 1.0F)};
+  scans[2].file.points.grid_cell = {4};
+  scans[2].file.points.stations = {{"s", glm::dvec3(1.0), 2, 3}};
+  const InputObject object = join_scans(std::move(scans));
+  const Points& points = object.points;
+  ASSERT_EQ(points.size(), 4U);
+  const Column* intensity = find_column(points.columns, COLUMN_INTENSITY);
+  ASSERT_NE(intensity, nullptr);
+  ASSERT_EQ(intensity->size(), 4U);
+  EXPECT_EQ(intensity->number(1), 0.0);
+  EXPECT_EQ(intensity->number(2), 300.0);
+  EXPECT_EQ(intensity->number(3), 0.5) << "the wider type holds both files' values";
+  ASSERT_EQ(points.normal.size(), 4U);
+  EXPECT_EQ(points.normal[0], glm::vec3(0.0F)) << "to be estimated";
+  EXPECT_EQ(points.normal[2], glm::vec3(0.0F, 0.0F, 1.0F));
+  EXPECT_EQ(points.grid_cell, (std::vector<std::uint32_t>{NO_CELL, NO_CELL, NO_CELL, 4}));
+  EXPECT_EQ(points.station, (std::vector<std::uint16_t>{0, 0, 1, 2}));
+  EXPECT_EQ(points.stations.at(2).name, "s");
+  const Column* scan = find_column(points.columns, COLUMN_SCAN);
+  ASSERT_NE(scan, nullptr);
+  EXPECT_EQ(scan->number(3), 2.0);
+}
+
+/// Of scans whose colours are of unknown scale, the red channel of the first point.
+float joined_red(const std::vector<std::uint16_t>& reds) {
+  std::vector<NamedScan> scans;
+  for (const std::uint16_t red : reds) {
+    scans.push_back({"a", scan_at(0.0, 1)});
+    scans.back().file.points.stored_color = {{red, 0, 0}};
+  }
+  const InputObject object = join_scans(std::move(scans));
+  return object.points.color.empty() ? -1.0F : object.points.color[0].x;
+}
+
+TEST(JoinScans, ColoursAreJudgedOverAllFiles) {
+  EXPECT_FLOAT_EQ(joined_red({255}), 1.0F);
+  EXPECT_FLOAT_EQ(joined_red({128}), srgb_to_linear(128.0F / 255.0F));
+  EXPECT_FLOAT_EQ(joined_red({128, 256}), srgb_to_linear(128.0F / 65535.0F))
+      << "the first tile is as dark as the second says";
+  EXPECT_EQ(joined_red({0, 0}), -1.0F) << "fields that are all zero are no colours";
+}
+
+TEST(JoinScans, MoreStationsThanNumbersAreRefused) {
+  std::vector<NamedScan> scans{{"a", scan_at(0.0, 1)}};
+  scans[0].file.points.stations.resize(65536);
+  EXPECT_THROW((void)join_scans(std::move(scans)), Error);
+}
+
+}  // namespace
+}  // namespace splatray
