@@ -14,6 +14,8 @@
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/scene/scene_check.h"
+#include "engine/scene/splat.h"
+#include "preprocess/base/append.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
@@ -59,6 +61,7 @@ Scene describe_scene(Input& input, const BuildParams& params) {
   for (InputObject& object : input.objects) {
     scene.materials.push_back(object.material);
     scene.object_names.push_back(std::move(object.name));
+    for (Station& station : object.points.stations) scene.stations.push_back(std::move(station));
     scene.surface_area_world += object.surface_area;
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
   }
@@ -165,9 +168,28 @@ bool all_flat(const std::vector<std::uint32_t>& fields) {
   return std::all_of(fields.begin(), fields.end(), [](std::uint32_t field) { return field == FIELD_FLAT; });
 }
 
+/// The columns of all objects' points, one object after the other; 0 where an object lacks one.
+std::vector<Column> take_columns(std::vector<Cloud>& clouds) {
+  std::vector<Column> columns;
+  std::size_t size = 0;
+  for (Cloud& cloud : clouds) {
+    append_columns(columns, size, std::exchange(cloud.columns, {}), cloud.size());
+    size += cloud.size();
+  }
+  return columns;
+}
+
+/// Puts the points' columns beside the splats that were made of them.
+void place_columns(std::vector<Column> columns, const std::vector<std::uint32_t>& point, Scene& scene) {
+  for (Column& column : columns)
+    std::visit([&](auto& values) { values = gather(values, point); }, column.values);
+  scene.columns = std::move(columns);
+}
+
 /// Packs all objects' points, which are then freed. Objects without colours are white where others have some;
 /// normal fields are left out where all discs are flat.
-SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, const Stage& stage) {
+SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool number_points,
+                      const Stage& stage) {
   std::size_t total = 0;
   bool has_colors = false;
   bool has_fields = false;
@@ -181,6 +203,10 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, cons
   splats.words.resize(total);
   if (has_colors) splats.color.resize(total, pack_color(glm::vec3(1.0F)));
   if (has_fields) splats.field.resize(total, FIELD_FLAT);
+  if (number_points) {
+    splats.point.resize(total);
+    std::iota(splats.point.begin(), splats.point.end(), 0U);
+  }
   std::size_t first = 0;
   for (std::uint32_t object = 0; object < clouds.size(); ++object) {
     const Cloud cloud = std::move(clouds[object]);
@@ -279,13 +305,15 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   number_objects(clouds, scene.materials);
   find_all_radii(clouds, scene, progress, stats);
   SplatList splats;
+  std::vector<Column> columns = take_columns(clouds);
   {
     const AddedTime octree_watch(stats.octree_ms);
     scene.root = fit_root(clouds);
-    splats = pack_clouds(std::move(clouds), scene.root, {"packing", progress});
+    splats = pack_clouds(std::move(clouds), scene.root, !columns.empty(), {"packing", progress});
     stats.dropped_duplicates =
         order_splats(splats, params.leaf_size > 0 ? std::min(params.leaf_size, MOST_EQUAL) : MOST_EQUAL);
   }
+  place_columns(std::move(columns), std::exchange(splats.point, {}), scene);
   if (scene.build.leaf_size == 0) {
     const AddedTime octree_watch(stats.octree_ms);
     scene.build.leaf_size = choose_leaf_size(splats, scene.build.insertion);

@@ -11,18 +11,11 @@
 #include "engine/base/progress.h"
 #include "engine/scene/columns.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/station.h"
 
 namespace splatray {
 
 struct Texture;
-
-/// A place that a scanner stood at, or one flight, with the form of what it measured.
-struct Station {
-  std::string name;
-  std::optional<glm::dvec3> sensor_world;  ///< where the scanner was, as far as the file says it credibly
-  std::uint32_t rows = 0;                  ///< of its grid; 0 = not structured
-  std::uint32_t columns = 0;
-};
 
 /// Points::grid_cell of a point that is in no grid.
 inline constexpr std::uint32_t NO_CELL = 0xFFFFFFFF;

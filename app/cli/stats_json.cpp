@@ -38,12 +38,13 @@ Json counters_json(const std::array<std::uint64_t, COUNTER_COUNT>& count) {
 }
 
 Json bytes_json(const PoolBytes& bytes) {
-  return {{"node_pool", bytes.node_pool},         {"begin_end", bytes.begin_end},
-          {"slab_pool", bytes.slab_pool},         {"reference_pool", bytes.reference_pool},
-          {"data_pool", bytes.data_pool},         {"color_pool", bytes.color_pool},
-          {"field_pool", bytes.field_pool},       {"top_table", bytes.top_table},
-          {"environment", bytes.environment},     {"frame", bytes.frame},
-          {"texel_buffers", bytes.texel_buffers}, {"pages", bytes.pages}};
+  Json json;
+  for (std::size_t i = 0; i < POOLS; ++i) json[pool_kinds()[i].key] = bytes.pools[i];
+  json["environment"] = bytes.environment;
+  json["frame"] = bytes.frame;
+  json["texel_buffers"] = bytes.texel_buffers;
+  json["pages"] = bytes.pages;
+  return json;
 }
 
 /// The pictures together, as if they were one.

@@ -1,17 +1,21 @@
 #include "engine/file/scene_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 #include <fstream>
 #include <future>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
+#include "engine/scene/pool_table.h"
 #include "engine/scene/scene_check.h"
 
 namespace splatray {
@@ -22,23 +26,17 @@ constexpr char END_MARKER[] = {'S', 'O', 'C', 'T', '.', 'E', 'N', 'D'};
 constexpr std::uint32_t ENDIANNESS = 0x01020304;
 constexpr std::uint64_t ALIGNMENT = 16;
 constexpr std::uint64_t PIECE_BYTES = 1ULL << 24;  ///< read or written between two looks at whether to go on
-constexpr std::uint32_t HAS_COLORS = 1;
-constexpr std::uint32_t HAS_FIELDS = 2;
 constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, and would overflow sizes
 
+/// Behind those of the pools, which have the numbers of their rows in POOL_TABLE.
 enum SectionId : std::uint32_t {
-  NODES,
-  LEAVES,
-  SLABS,
-  REFERENCES,
-  SPLATS,
-  COLORS,
-  FIELDS,
-  MATERIALS,
+  MATERIALS = SCENE_POOLS,
   LIGHTS,
   CAMERA,
+  STATIONS,
   STRINGS,
-  SECTION_COUNT
+  COLUMNS,
+  SECTION_COUNT = COLUMNS + COLUMNS_MOST
 };
 
 struct SectionEntry {
@@ -59,6 +57,8 @@ struct Header {
   std::uint64_t samples, seed;
   glm::dvec3 up, bounds_min, bounds_max;
   double surface_area;
+  std::uint32_t stations, zero;
+  std::uint8_t column_types[COLUMNS_MOST];  ///< 1 + index in Column::Values; 0 = no column
   std::uint32_t section_count, section_entry_size;
   SectionEntry sections[SECTION_COUNT];
 };
@@ -70,28 +70,74 @@ struct LightRecord {
   std::uint32_t zero_1;
 };
 
-static_assert(sizeof(Header) == 600 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88);
+struct StationRecord {
+  glm::dvec3 sensor;
+  std::uint32_t has_sensor, rows, columns, zero;
+};
+
+constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
+static_assert(HEADER_BYTES == 1696 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88 &&
+              sizeof(StationRecord) == 40);
+
+/// Bytes of a value of each column type.
+constexpr std::uint32_t COLUMN_BYTES[] = {0, sizeof(std::uint8_t), sizeof(std::uint16_t), sizeof(float),
+                                          sizeof(double)};
+static_assert(std::variant_size_v<Column::Values> + 1 == std::size(COLUMN_BYTES));
 
 std::uint64_t align(std::uint64_t offset) { return (offset + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
+/// Elements of a section, and the bytes of each, by the header's counts.
+struct SectionShape {
+  std::uint64_t count;
+  std::uint32_t element_bytes;
+};
+
+std::array<SectionShape, SECTION_COUNT> section_shapes(const Header& header) {
+  std::array<SectionShape, SECTION_COUNT> shapes{};
+  const std::uint64_t lengths[] = {header.nodes, header.leaves + 1, header.leaves, header.references,
+                                   header.splats};
+  std::size_t section = 0;
+  std::uint32_t optional_bit = 1;
+  for_each_pool([&](const auto& row) {
+    using Value = typename std::remove_reference_t<decltype(std::declval<Scene&>().*row.pool)>::value_type;
+    const bool absent = row.optional && (header.attributes & optional_bit) == 0;
+    if (row.optional) optional_bit <<= 1;
+    shapes[section++] = {absent ? 0 : lengths[static_cast<std::size_t>(row.length)], sizeof(Value)};
+  });
+  shapes[MATERIALS] = {header.objects, sizeof(Material)};
+  shapes[LIGHTS] = {header.lights, sizeof(LightRecord)};
+  shapes[CAMERA] = {header.has_camera, sizeof(Camera)};
+  shapes[STATIONS] = {header.stations, sizeof(StationRecord)};
+  shapes[STRINGS] = {header.string_bytes, 1};
+  for (std::size_t i = 0; i < COLUMNS_MOST; ++i)
+    shapes[COLUMNS + i] = {header.column_types[i] == 0 ? 0 : header.splats,
+                           COLUMN_BYTES[header.column_types[i]]};
+  return shapes;
+}
+
 /// The section table (but for checksums) and the file's size follow from the header's counts.
 void lay_out(Header& header) {
-  const auto if_has = [&](std::uint32_t attribute) {
-    return (header.attributes & attribute) != 0 ? header.splats : 0;
-  };
-  const std::uint64_t counts[SECTION_COUNT] = {header.nodes,       header.leaves + 1,  header.leaves,
-                                               header.references,  header.splats,      if_has(HAS_COLORS),
-                                               if_has(HAS_FIELDS), header.objects,     header.lights,
-                                               header.has_camera,  header.string_bytes};
-  constexpr std::uint32_t ELEMENT_SIZES[SECTION_COUNT] = {
-      4, 4, 4, 4, sizeof(uvec4), 4, 4, sizeof(Material), sizeof(LightRecord), sizeof(Camera), 1};
+  const auto shapes = section_shapes(header);
   std::uint64_t end = sizeof(Header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
     SectionEntry& entry = header.sections[i];
-    entry = {i + 1, ELEMENT_SIZES[i], align(end), counts[i] * ELEMENT_SIZES[i], entry.checksum};
+    const auto [count, element_bytes] = shapes[i];
+    entry = {i + 1, element_bytes, align(end), count * element_bytes, entry.checksum};
     end = entry.offset + entry.size;
   }
   header.file_size = align(end) + sizeof(END_MARKER);
+}
+
+/// One bit for each optional pool of the table, in order, that the scene has; with `all`, each that there may be.
+std::uint32_t optional_pools(const Scene& scene, bool all = false) {
+  std::uint32_t bits = 0;
+  std::uint32_t bit = 1;
+  for_each_pool([&](const auto& row) {
+    if (!row.optional) return;
+    if (all || !(scene.*row.pool).empty()) bits |= bit;
+    bit <<= 1;
+  });
+  return bits;
 }
 
 std::uint64_t header_checksum(Header header) {
@@ -105,10 +151,22 @@ std::vector<LightRecord> light_records(const std::vector<SceneLight>& lights) {
   return records;
 }
 
+std::vector<StationRecord> station_records(const std::vector<Station>& stations) {
+  std::vector<StationRecord> records;
+  for (const Station& station : stations)
+    records.push_back({station.sensor_world.value_or(glm::dvec3(0.0)), station.sensor_world ? 1U : 0U,
+                       station.rows, station.columns, 0});
+  return records;
+}
+
 std::string joined_strings(const Scene& scene) {
   std::string strings;
-  for (const std::string& name : scene.object_names) (strings += name.c_str()) += '\0';
-  return (strings += scene.environment_path.c_str()) += '\0';
+  const auto add = [&strings](const std::string& text) { (strings += text.c_str()) += '\0'; };
+  for (const std::string& name : scene.object_names) add(name);
+  add(scene.environment_path);
+  for (const Station& station : scene.stations) add(station.name);
+  for (const Column& column : scene.columns) add(column.name);
+  return strings;
 }
 
 /// The header of a scene, all but sections, file size and checksums.
@@ -125,8 +183,7 @@ Header describe(const Scene& scene, std::size_t string_bytes) {
   header.leaves = scene.begin_end.size() - 1;
   header.objects = static_cast<std::uint32_t>(scene.materials.size());
   header.lights = static_cast<std::uint32_t>(scene.lights.size());
-  header.attributes =
-      (scene.color_pool.empty() ? 0 : HAS_COLORS) | (scene.field_pool.empty() ? 0 : HAS_FIELDS);
+  header.attributes = optional_pools(scene);
   header.has_camera = scene.camera ? 1 : 0;
   header.string_bytes = string_bytes;
   header.root = scene.root;
@@ -141,6 +198,9 @@ Header describe(const Scene& scene, std::size_t string_bytes) {
   header.bounds_min = scene.bounds_min_world;
   header.bounds_max = scene.bounds_max_world;
   header.surface_area = scene.surface_area_world;
+  header.stations = static_cast<std::uint32_t>(scene.stations.size());
+  for (std::size_t i = 0; i < scene.columns.size(); ++i)
+    header.column_types[i] = static_cast<std::uint8_t>(scene.columns[i].values.index() + 1);
   header.section_count = SECTION_COUNT;
   header.section_entry_size = sizeof(SectionEntry);
   return header;
@@ -153,7 +213,7 @@ Scene described_scene(const Header& header) {
   scene.build = {header.leaf_size,    Insertion{header.insertion},
                  header.probes,       RadiusRule{header.radius_rule},
                  header.radius_scale, header.samples,
-                 header.seed,         (header.attributes & HAS_FIELDS) != 0};
+                 header.seed,         false};
   scene.up = header.up;
   scene.bounds_min_world = header.bounds_min;
   scene.bounds_max_world = header.bounds_max;
@@ -182,7 +242,7 @@ class Reader {
   [[nodiscard]] const Header& header() const { return header_; }
 
   template <typename T>
-  std::vector<T> section(SectionId id) {
+  std::vector<T> section(std::uint32_t id) {
     const SectionEntry& entry = header_.sections[id];
     skip_gap(entry.offset);
     std::vector<T> elements(entry.size / sizeof(T));
@@ -232,7 +292,9 @@ class Reader {
                sizeof header_);  // fewer bytes than a header are told below
     if (std::memcmp(header_.magic, MAGIC, sizeof MAGIC) != 0)
       refuse("another file type", "the letters SOCT at its start");
-    if (size_ < sizeof header_) refuse(std::to_string(size_) + " bytes", "a header of 600 (file truncated)");
+    if (size_ < sizeof header_)
+      refuse(std::to_string(size_) + " bytes",
+             "a header of " + std::to_string(HEADER_BYTES) + " (file truncated)");
     position_ = sizeof header_;
     if (header_.endianness != ENDIANNESS) refuse("a foreign byte order", "little-endian");
     if (header_.version != SCENE_FILE_VERSION)
@@ -252,8 +314,13 @@ class Reader {
          {header_.nodes, header_.leaves, header_.references, header_.splats, header_.string_bytes})
       if (count > MOST_ELEMENTS) refuse("a count of " + std::to_string(count), "one that fits the file");
     if (header_.has_camera > 1) refuse("a flag above 1", "0 or 1");
-    if (header_.attributes > (HAS_COLORS | HAS_FIELDS))
-      refuse("attributes " + std::to_string(header_.attributes), "0 to 3");
+    const std::uint32_t known = optional_pools({}, true);
+    if (header_.attributes > known)
+      refuse("attributes " + std::to_string(header_.attributes), "0 to " + std::to_string(known));
+    for (const std::uint8_t type : header_.column_types)
+      if (type >= std::size(COLUMN_BYTES))
+        refuse("a column of type " + std::to_string(type),
+               "0 to " + std::to_string(std::size(COLUMN_BYTES) - 1));
     lay_out(expected);
     expected.header_size = sizeof(Header);
     expected.section_count = SECTION_COUNT;
@@ -275,21 +342,53 @@ void read_lights(Reader& reader, Scene& scene) {
     scene.lights.push_back({record.kind, record.position, record.power});
 }
 
+void read_stations(Reader& reader, Scene& scene) {
+  for (const StationRecord& record : reader.section<StationRecord>(STATIONS)) {
+    if (record.has_sensor > 1) reader.refuse("a station's flag above 1", "0 or 1");
+    Station& station = scene.stations.emplace_back();
+    if (record.has_sensor == 1) station.sensor_world = record.sensor;
+    station.rows = record.rows;
+    station.columns = record.columns;
+  }
+}
+
+/// Names of what has been read, and of columns, whose values come last.
 void read_strings(Reader& reader, Scene& scene) {
+  const Header& header = reader.header();
+  for (const std::uint8_t type : header.column_types)
+    if (type != 0) scene.columns.emplace_back();
   const std::vector<char> bytes = reader.section<char>(STRINGS);
   if (bytes.empty() || bytes.back() != '\0') reader.refuse("names without an end", "a zero byte after each");
   std::vector<std::string> strings;
   for (const char* p = bytes.data(); p != bytes.data() + bytes.size(); p += strings.back().size() + 1)
     strings.emplace_back(p);
-  if (strings.size() != reader.header().objects + 1ULL)
-    reader.refuse(std::to_string(strings.size()) + " names", "one per object and the environment's");
-  scene.environment_path = strings.back();
-  strings.pop_back();
-  scene.object_names = std::move(strings);
+  const std::size_t expected = header.objects + 1ULL + scene.stations.size() + scene.columns.size();
+  if (strings.size() != expected)
+    reader.refuse(std::to_string(strings.size()) + " names",
+                  std::to_string(expected) + ", of objects, environment, stations and columns");
+  auto next = strings.begin();
+  for (std::uint32_t i = 0; i < header.objects; ++i) scene.object_names.push_back(std::move(*next++));
+  scene.environment_path = std::move(*next++);
+  for (Station& station : scene.stations) station.name = std::move(*next++);
+  for (Column& column : scene.columns) column.name = std::move(*next++);
 }
 
-void write_bytes(AtomicFile& file, const Header& header, const void* const (&contents)[SECTION_COUNT],
-                 const Progress& progress) {
+void read_columns(Reader& reader, Scene& scene) {
+  const auto& types = reader.header().column_types;
+  const auto last = std::find(std::begin(types), std::end(types), 0) - std::begin(types);
+  if (static_cast<std::size_t>(last) != scene.columns.size())
+    reader.refuse("a column behind a missing one", "columns without a gap");
+  for (std::uint32_t i = 0; i < scene.columns.size(); ++i) {
+    Column::Values& values = scene.columns[i].values;
+    if (types[i] == 1) values = reader.section<std::uint8_t>(COLUMNS + i);
+    if (types[i] == 2) values = reader.section<std::uint16_t>(COLUMNS + i);
+    if (types[i] == 3) values = reader.section<float>(COLUMNS + i);
+    if (types[i] == 4) values = reader.section<double>(COLUMNS + i);
+  }
+}
+
+void write_bytes(AtomicFile& file, const Header& header,
+                 const std::array<const void*, SECTION_COUNT>& contents, const Progress& progress) {
   constexpr char ZEROS[ALIGNMENT] = {};
   std::uint64_t position = sizeof header;
   file.write(&header, sizeof header);
@@ -311,14 +410,19 @@ void write_bytes(AtomicFile& file, const Header& header, const void* const (&con
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
   assert(!find_scene_defect(scene));
   const std::vector<LightRecord> lights = light_records(scene.lights);
+  const std::vector<StationRecord> stations = station_records(scene.stations);
   const std::string strings = joined_strings(scene);
-  const void* const contents[SECTION_COUNT] = {
-      scene.node_pool.data(),  scene.begin_end.data(),
-      scene.slab_pool.data(),  scene.reference_pool.data(),
-      scene.data_pool.data(),  scene.color_pool.data(),
-      scene.field_pool.data(), scene.materials.data(),
-      lights.data(),           scene.camera ? &*scene.camera : nullptr,
-      strings.data()};
+  std::array<const void*, SECTION_COUNT> contents{};
+  std::size_t section = 0;
+  for_each_pool([&](const auto& row) { contents[section++] = (scene.*row.pool).data(); });
+  contents[MATERIALS] = scene.materials.data();
+  contents[LIGHTS] = lights.data();
+  contents[CAMERA] = scene.camera ? &*scene.camera : nullptr;
+  contents[STATIONS] = stations.data();
+  contents[STRINGS] = strings.data();
+  section = COLUMNS;
+  for (const Column& column : scene.columns)
+    std::visit([&](const auto& values) { contents[section++] = values.data(); }, column.values);
   Header header = describe(scene, strings.size());
   lay_out(header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i)
@@ -333,20 +437,23 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
 Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
   Reader reader(path, progress);
   Scene scene = described_scene(reader.header());
-  scene.node_pool = reader.section<std::uint32_t>(NODES);
-  // Beside the reading of all else, which takes longer.
-  auto tree_defect = std::async(std::launch::async, find_tree_defect,
-                                std::span<const std::uint32_t>(scene.node_pool), reader.header().leaves);
-  scene.begin_end = reader.section<std::uint32_t>(LEAVES);
-  scene.slab_pool = reader.section<std::uint32_t>(SLABS);
-  scene.reference_pool = reader.section<std::uint32_t>(REFERENCES);
-  scene.data_pool = reader.section<uvec4>(SPLATS);
-  scene.color_pool = reader.section<std::uint32_t>(COLORS);
-  scene.field_pool = reader.section<std::uint32_t>(FIELDS);
+  std::future<std::optional<SceneDefect>> tree_defect;
+  std::uint32_t section = 0;
+  for_each_pool([&](const auto& row) {
+    using Value = typename std::remove_reference_t<decltype(scene.*row.pool)>::value_type;
+    scene.*row.pool = reader.section<Value>(section++);
+    // Beside the reading of all else, which takes longer.
+    if (!tree_defect.valid())
+      tree_defect = std::async(std::launch::async, find_tree_defect,
+                               std::span<const std::uint32_t>(scene.node_pool), reader.header().leaves);
+  });
+  scene.build.normal_fields = !scene.field_pool.empty();
   scene.materials = reader.section<Material>(MATERIALS);
   read_lights(reader, scene);
   if (const auto cameras = reader.section<Camera>(CAMERA); !cameras.empty()) scene.camera = cameras.front();
+  read_stations(reader, scene);
   read_strings(reader, scene);
+  read_columns(reader, scene);
   reader.end();
   if (const auto defect = tree_defect.get()) reader.refuse(defect->found, defect->expected);
   if (const auto defect = find_content_defect(scene)) reader.refuse(defect->found, defect->expected);

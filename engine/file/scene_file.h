@@ -1,12 +1,12 @@
 /// The scene file `.soct`: header, table of sections, sections, end marker. Little-endian. The array sections are the
 /// GPU buffer images (shaders/layout.h).
 ///
-/// Header, 248 bytes:
+/// Header, 288 bytes:
 ///   offset | type      | field
 ///        0 | char[4]   | magic "SOCT"
 ///        4 | uint32    | version, SCENE_FILE_VERSION
 ///        8 | uint32    | endianness mark 0x01020304
-///       12 | uint32    | bytes of header and section table together, 600
+///       12 | uint32    | bytes of header and section table together, 1696
 ///       16 | uint64    | bytes of the file
 ///       24 | uint64    | XXH3-64 of header and section table, taken with this field zero
 ///       32 | uint64    | splats = entries of the data pool
@@ -15,7 +15,7 @@
 ///       56 | uint64    | filled leaves = entries of Begin-End - 1
 ///       64 | uint32    | objects = materials
 ///       68 | uint32    | lights
-///       72 | uint32    | attributes: 1 there is a colour pool, 2 there are normal fields, 3 both, 0 neither
+///       72 | uint32    | optional pools, a bit each: 1 there is a colour pool, 2 there are normal fields
 ///       76 | uint32    | 1: there is a camera, 0: none
 ///       80 | uint64    | bytes of strings
 ///       88 | float64[3]| root's lowest corner, world
@@ -31,8 +31,11 @@
 ///      184 | float64[3]| bounding box of the centres, minimum, world
 ///      208 | float64[3]| ... maximum
 ///      232 | float64   | surface area of the source meshes, world units^2, 0 = unknown
-///      240 | uint32    | sections, 11
-///      244 | uint32    | bytes of a section entry, 32
+///      240 | uint32    | stations
+///      244 | uint32    | zero
+///      248 | uint8[32] | columns' types: 1 uint8, 2 uint16, 3 float32, 4 float64; 0 behind the last
+///      280 | uint32    | sections, 44
+///      284 | uint32    | bytes of a section entry, 32
 ///
 /// Section entry, 32 bytes: uint32 id, uint32 bytes of an element, uint64 offset in the file, uint64 bytes, uint64 XXH3-64.
 ///   id | element                       | bytes | section
@@ -46,7 +49,10 @@
 ///    8 | Material                      |    48 | materials
 ///    9 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world
 ///   10 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
-///   11 | char                          |     1 | object names, then the environment's path, each ended by a zero byte
+///   11 | float64[3] the scanner's place, uint32 is it known, uint32 rows, columns of its grid, uint32 zero | 40 | stations
+///   12 | char                          |     1 | names, each ended by a zero byte: objects', the environment's path,
+///      |                               |       | stations', columns'
+///   13 | a column's type               | 1 - 8 | columns, beside the data pool; up to 44
 /// Sections lie in this order, each at the next multiple of 16 bytes, gaps zero; the 8 bytes "SOCT.END" follow at the next
 /// multiple of 16 and end the file.
 #pragma once
@@ -57,14 +63,14 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t SCENE_FILE_VERSION = 7;
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 8;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot, (interrupted) when
 /// `progress`, told of the stage "writing", says so; leaves nothing behind.
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
 /// Reads and checks a whole scene file. Refuses, as Error (input_unreadable) with path, found and expected: wrong magic,
-/// newer version, foreign endianness, truncation at any byte, extra bytes, checksum mismatch, and whatever
+/// another version (those before are not read: build again), foreign endianness, truncation at any byte, extra bytes, checksum mismatch, and whatever
 /// find_scene_defect (scene_check.h) finds. Error (interrupted) when `progress`, told of the stage "reading", says so.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path, const Progress& progress = {});
 

@@ -69,8 +69,8 @@ PoolBytes DeviceScene::bytes() const {
 
 SceneContent DeviceScene::content() const {
   return {.materials = material_content_,
-          .colors = pools_.bytes.color_pool > 0,
-          .fields = pools_.bytes.field_pool > 0,
+          .colors = pools_.bytes.at(BIND_COLOR_POOL) > 0,
+          .fields = pools_.bytes.at(BIND_FIELD_POOL) > 0,
           .references = pools_.references,
           .top_levels = pools_.top_levels,
           .pages = pools_.paging.pages_constant(),

@@ -13,6 +13,7 @@
 #include "engine/image/view.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/tree.h"
 #include "engine/vulkan/command_queue.h"
 #include "engine/vulkan/texture.h"
 

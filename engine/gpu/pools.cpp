@@ -6,34 +6,23 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
+#include "engine/scene/pool_table.h"
+#include "engine/scene/tree.h"
 
 namespace splatray {
 namespace {
 
-struct PoolKind {
-  const char* name;
-  VkFormat format;              ///< of its texel buffer
-  std::uint64_t element_bytes;  ///< of that format
-};
+static_assert(SCENE_POOLS + 1 == POOLS, "a pool of the table has no binding, or a binding no pool");
 
-/// In the order of their bindings.
-constexpr std::array<PoolKind, POOLS> KINDS = {{{"node pool", VK_FORMAT_R32_UINT, 4},
-                                                {"Begin-End", VK_FORMAT_R32_UINT, 4},
-                                                {"pool of slabs", VK_FORMAT_R32_UINT, 4},
-                                                {"reference pool", VK_FORMAT_R32_UINT, 4},
-                                                {"data pool", VK_FORMAT_R32G32B32A32_UINT, 16},
-                                                {"colour pool", VK_FORMAT_R32_UINT, 4},
-                                                {"pool of normal fields", VK_FORMAT_R32_UINT, 4},
-                                                {"top table", VK_FORMAT_R32_UINT, 4}}};
-
-std::array<std::uint64_t, POOLS> sizes(const PoolBytes& bytes) {
-  return {bytes.node_pool, bytes.begin_end,  bytes.slab_pool,  bytes.reference_pool,
-          bytes.data_pool, bytes.color_pool, bytes.field_pool, bytes.top_table};
+/// Of a pool's texel buffer.
+VkFormat texel_format(const PoolKind& kind) {
+  return kind.element_bytes == sizeof(uvec4) ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT;
 }
 
 /// Most elements of that size in one buffer.
@@ -54,12 +43,12 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolL
   Paging paging{access};
   std::uint64_t all = 0;
   for (std::size_t i = 0; i < POOLS; ++i) {
-    const auto [name, format, element_bytes] = KINDS[i];
-    const std::uint64_t elements = sizes(bytes)[i] / element_bytes;
+    const auto [name, key, element_bytes] = pool_kinds()[i];
+    const std::uint64_t elements = bytes.pools[i] / element_bytes;
     const bool fits = elements <= most_elements(limits, access, element_bytes);
     const std::uint64_t pages = fits ? 1 : (elements + page - 1) / page;
     if (pages > PAGES_MOST)
-      return std::string("the ") + name + " has " + bytes_text(sizes(bytes)[i]) + ", more than " +
+      return std::string("the ") + name + " has " + bytes_text(bytes.pools[i]) + ", more than " +
              std::to_string(PAGES_MOST) + " of its largest " + (texel ? "texel" : "storage") +
              " buffers with " + bytes_text(page * element_bytes) + " each";
     paging.pages[i] = static_cast<std::uint32_t>(pages);
@@ -108,9 +97,22 @@ bool texel_format_supported(const Context& context, VkFormat format) {
 
 }  // namespace
 
+const std::array<PoolKind, POOLS>& pool_kinds() {
+  static const auto KINDS = [] {
+    std::array<PoolKind, POOLS> kinds{};
+    std::size_t i = 0;
+    for_each_pool([&](const auto& row) {
+      using Value = typename std::remove_reference_t<decltype(Scene{}.*row.pool)>::value_type;
+      kinds[i++] = {row.name, row.key, sizeof(Value)};
+    });
+    kinds[i] = {"top table", "top_table", sizeof(std::uint32_t)};
+    return kinds;
+  }();
+  return KINDS;
+}
+
 std::uint64_t total_bytes(const PoolBytes& bytes) {
-  const auto all = sizes(bytes);
-  return std::accumulate(all.begin(), all.end(), std::uint64_t{0});
+  return std::accumulate(bytes.pools.begin(), bytes.pools.end(), std::uint64_t{0});
 }
 
 PoolLimits pool_limits(const Context& context) {
@@ -140,7 +142,7 @@ std::uint32_t Paging::pages_constant() const {
 bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
                        DataPool wanted) {
   PoolBytes copies;  // no pool needs pages before the data pool does
-  copies.data_pool = counts.references * sizeof(uvec4);
+  copies.at(BIND_DATA_POOL) = counts.references * sizeof(uvec4);
   const auto paging = best_paging(copies, limits, access);
   const auto* ways = std::get_if<Paging>(&paging);
   const bool fit = copies_fit(counts) && ways != nullptr && !paged(*ways);
@@ -164,48 +166,37 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   limits.storage_bytes = std::min(limits.storage_bytes / sizeof(uvec4), wish.page_elements) * sizeof(uvec4);
   references = choose_references(pool_counts(scene), limits, wish.access, wish.data);
   const bool lists = !references && !scene.reference_pool.empty();
-  const auto bytes_listed = [&](const auto& pool) {
-    return (lists && !pool.empty() ? scene.reference_pool.size() : pool.size()) * sizeof(pool.front());
-  };
-  bytes.node_pool = std::span(scene.node_pool).size_bytes();
-  bytes.begin_end = std::span(scene.begin_end).size_bytes();
-  bytes.slab_pool = std::span(scene.slab_pool).size_bytes();
-  bytes.reference_pool = references ? std::span(scene.reference_pool).size_bytes() : 0;
-  bytes.data_pool = bytes_listed(scene.data_pool);
-  bytes.color_pool = bytes_listed(scene.color_pool);
-  bytes.field_pool = bytes_listed(scene.field_pool);
-  bytes.top_table = std::span(top).size_bytes();
+  std::uint32_t binding = BIND_NODE_POOL;
+  for_each_pool([&](const auto& row) {
+    const auto& pool = scene.*row.pool;
+    const bool absent = pool.empty() || (binding == BIND_REFERENCE_POOL && !references);
+    const std::size_t elements = absent ? 0 : lists && row.listed ? scene.reference_pool.size() : pool.size();
+    bytes.at(binding++) = elements * sizeof(pool.front());
+  });
+  bytes.at(BIND_TOP_TABLE) = std::span(top).size_bytes();
   paging = choose_paging(bytes, limits, wish.access);
   bytes.texel_buffers = paging.access == PoolAccess::texel;
   bytes.pages = *std::max_element(paging.pages.begin(), paging.pages.end());
   const VkBufferUsageFlags usage =
       bytes.texel_buffers ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   for (std::size_t i = 0; i < POOLS; ++i) {
-    const std::uint64_t page =
-        paging.pages[i] > 1 ? KINDS[i].element_bytes << paging.page_shift : VK_WHOLE_SIZE;
-    buffers[i] = PagedBuffer(context, sizes(bytes)[i], page, usage,
-                             bytes.texel_buffers ? KINDS[i].format : VK_FORMAT_UNDEFINED);
+    const PoolKind& kind = pool_kinds()[i];
+    const std::uint64_t page = paging.pages[i] > 1 ? kind.element_bytes << paging.page_shift : VK_WHOLE_SIZE;
+    buffers[i] = PagedBuffer(context, bytes.pools[i], page, usage,
+                             bytes.texel_buffers ? texel_format(kind) : VK_FORMAT_UNDEFINED);
   }
-  const auto upload = [&](std::uint32_t binding, const auto& pool, bool list) {
-    PagedBuffer& buffer = buffers[binding - BIND_NODE_POOL];
-    if (list)
-      upload_listed(queue, buffer, pool, scene.reference_pool);
-    else
-      buffer.upload(queue, std::as_bytes(std::span(pool)));
-  };
-  const auto upload_pool = [&](std::uint32_t binding, auto pool, bool list) {
-    upload(binding, scene.*pool, list);
-    if (spent != nullptr) std::exchange(spent->*pool, {});
-  };
-  upload(BIND_TOP_TABLE, top, false);
+  buffers.back().upload(queue, std::as_bytes(std::span(top)));
   std::exchange(top, {});
-  upload_pool(BIND_NODE_POOL, &Scene::node_pool, false);
-  upload_pool(BIND_BEGIN_END, &Scene::begin_end, false);
-  upload_pool(BIND_SLAB_POOL, &Scene::slab_pool, false);
-  if (references) upload_pool(BIND_REFERENCE_POOL, &Scene::reference_pool, false);
-  upload_pool(BIND_DATA_POOL, &Scene::data_pool, lists);
-  upload_pool(BIND_COLOR_POOL, &Scene::color_pool, lists);
-  upload_pool(BIND_FIELD_POOL, &Scene::field_pool, lists);
+  binding = BIND_NODE_POOL;
+  for_each_pool([&](const auto& row) {
+    PagedBuffer& buffer = buffers[binding - BIND_NODE_POOL];
+    if (lists && row.listed)
+      upload_listed(queue, buffer, scene.*row.pool, scene.reference_pool);
+    else if (bytes.at(binding) > 0)
+      buffer.upload(queue, std::as_bytes(std::span(scene.*row.pool)));
+    if (spent != nullptr && binding != BIND_REFERENCE_POOL) std::exchange(spent->*row.pool, {});
+    ++binding;
+  });
   if (spent != nullptr) std::exchange(spent->reference_pool, {});  // lists were made from it
 }
 

@@ -30,21 +30,26 @@ struct PoolWish {
   std::uint64_t page_elements = UINT64_MAX;  ///< most elements of the data pool in a page
 };
 
-/// Bytes on the device, by pool.
+/// Bytes on the device.
 struct PoolBytes {
-  std::uint64_t node_pool = 0;
-  std::uint64_t begin_end = 0;
-  std::uint64_t slab_pool = 0;
-  std::uint64_t reference_pool = 0;
-  std::uint64_t data_pool = 0;
-  std::uint64_t color_pool = 0;
-  std::uint64_t field_pool = 0;
-  std::uint64_t top_table = 0;
+  std::array<std::uint64_t, POOLS> pools{};  ///< in the order of their bindings, from BIND_NODE_POOL on
   std::uint64_t environment = 0;
   std::uint64_t frame = 0;     ///< picture, AOVs, ray queries, queues of paths: as large as pictures are
   bool texel_buffers = false;  ///< pools are read through texel buffers
   std::uint32_t pages = 0;     ///< of the pool with most
+
+  /// Of the pool with this binding.
+  [[nodiscard]] std::uint64_t& at(std::uint32_t binding) { return pools[binding - BIND_NODE_POOL]; }
+  [[nodiscard]] std::uint64_t at(std::uint32_t binding) const { return pools[binding - BIND_NODE_POOL]; }
 };
+
+/// What pools are called and made of, in the order of their bindings: those of the scene, then the top table.
+struct PoolKind {
+  const char* name;             ///< in messages and panels
+  const char* key;              ///< in JSON
+  std::uint64_t element_bytes;  ///< 4 or 16
+};
+[[nodiscard]] const std::array<PoolKind, POOLS>& pool_kinds();
 
 /// Of all pools and the top table, without environment and frame.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/scene/tree.h"
+
 namespace splatray {
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/tree.h"
 
 namespace splatray {
 

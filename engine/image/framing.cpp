@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/image/view.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 namespace {

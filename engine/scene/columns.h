@@ -19,11 +19,16 @@ inline constexpr std::string_view COLUMN_SOURCE =
 inline constexpr std::string_view COLUMN_SCAN = "scan";  ///< the station's number, from 0
 inline constexpr std::string_view COLUMN_TIME = "time";  ///< GPS time, seconds
 
+/// Most columns that a scene may have.
+inline constexpr std::size_t COLUMNS_MOST = 32;
+
 /// One attribute, a value for each point.
 struct Column {
   std::string name;
-  std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>, std::vector<double>>
-      values;
+  /// One of few types, so that a file takes no more bytes than the values need.
+  using Values = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>,
+                              std::vector<double>>;
+  Values values;
 
   [[nodiscard]] std::size_t size() const {
     return std::visit([](const auto& list) { return list.size(); }, values);

@@ -1,5 +1,7 @@
 #include "engine/scene/copies.h"
 
+#include "engine/scene/tree.h"
+
 namespace splatray {
 
 PoolCounts pool_counts(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "engine/scene/scene.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 

@@ -3,6 +3,8 @@
 #include <bit>
 #include <vector>
 
+#include "engine/scene/tree.h"
+
 namespace splatray {
 namespace {
 

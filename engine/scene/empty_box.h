@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/scene/scene.h"
+#include "engine/scene/tree.h"
 
 namespace splatray {
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "engine/scene/empty_box.h"
+#include "engine/scene/pool_table.h"
+#include "engine/scene/slab.h"
 
 namespace splatray {
 namespace {
@@ -47,15 +49,22 @@ Defect check_sizes(const Scene& scene) {
   if (splats > references)
     return SceneDefect{std::to_string(splats) + " splats in " + std::to_string(references) + " references",
                        "at least one reference per splat"};
-  if (scene.slab_pool.size() != scene.begin_end.size() - 1)
-    return SceneDefect{std::to_string(scene.slab_pool.size()) + " slabs",
-                       std::to_string(scene.begin_end.size() - 1) + ", one per filled leaf"};
-  if (!scene.color_pool.empty() && scene.color_pool.size() != splats)
-    return SceneDefect{std::to_string(scene.color_pool.size()) + " colours",
-                       std::to_string(splats) + ", one per splat"};
-  if (!scene.field_pool.empty() && scene.field_pool.size() != splats)
-    return SceneDefect{std::to_string(scene.field_pool.size()) + " normal fields",
-                       std::to_string(splats) + ", one per splat"};
+  Defect defect;
+  for_each_pool([&](const auto& row) {
+    const std::size_t found = (scene.*row.pool).size(), expected = pool_length(scene, row.length);
+    if (!defect && found != expected && !(row.optional && found == 0))
+      defect = {std::to_string(found) + " " + row.plural, std::to_string(expected)};
+  });
+  if (defect) return defect;
+  if (scene.columns.size() > COLUMNS_MOST)
+    return SceneDefect{std::to_string(scene.columns.size()) + " columns",
+                       "at most " + std::to_string(COLUMNS_MOST)};
+  for (const Column& column : scene.columns)
+    if (column.size() != splats)
+      return SceneDefect{std::to_string(column.size()) + " values of " + column.name, std::to_string(splats)};
+  for (const Station& station : scene.stations)
+    if (!finite(station.sensor_world.value_or(glm::dvec3(0.0))))
+      return SceneDefect{"a station whose place is not finite", "finite numbers"};
   if (scene.materials.size() > OBJECT_MASK + 1 || scene.object_names.size() != scene.materials.size())
     return SceneDefect{std::to_string(scene.materials.size()) + " materials and " +
                            std::to_string(scene.object_names.size()) + " object names",

@@ -1,6 +1,9 @@
 #include "engine/scene/slab_check.h"
 
 #include "engine/scene/halved_cell.h"
+#include "engine/scene/slab.h"
+#include "engine/scene/splat.h"
+#include "engine/scene/tree.h"
 
 namespace splatray {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/srgb.h"
+#include "preprocess/base/append.h"
 
 namespace splatray {
 namespace {
@@ -57,74 +58,6 @@ void decode_colors(Points& points) {
   points.stored_color = {};
 }
 
-/// Appends `more`, `size` values of one array; an array that is absent on one side gets `absent` there.
-template <typename Value>
-void append(std::vector<Value>& to, std::size_t to_size, std::vector<Value>&& more, std::size_t size,
-            const Value& absent) {
-  if (to.empty() && more.empty()) return;
-  if (to_size == 0) {
-    to = std::move(more);
-    return;
-  }
-  to.resize(to_size, absent);
-  if (more.empty()) {
-    to.resize(to_size + size, absent);
-  } else {
-    to.insert(to.end(), more.begin(), more.end());
-    more = {};
-  }
-}
-
-template <typename Value>
-std::vector<Value> converted(const Column& column) {
-  return std::visit(
-      [](const auto& list) {
-        std::vector<Value> values(list.size());
-        std::transform(list.begin(), list.end(), values.begin(),
-                       [](auto value) { return static_cast<Value>(value); });
-        return values;
-      },
-      column.values);
-}
-
-/// Appends one attribute; where two files store it differently, as the wider type.
-void append_column(Column& to, std::size_t to_size, Column&& more, std::size_t size) {
-  if (more.values.index() > to.values.index() && more.size() > 0)
-    std::visit(
-        [&to](auto& list) {
-          using Value = typename std::decay_t<decltype(list)>::value_type;
-          to.values = converted<Value>(to);
-        },
-        more.values);
-  std::visit(
-      [&](auto& list) {
-        using Value = typename std::decay_t<decltype(list)>::value_type;
-        std::vector<Value> values = std::holds_alternative<std::vector<Value>>(more.values)
-                                        ? std::get<std::vector<Value>>(std::move(more.values))
-                                        : converted<Value>(more);
-        append(list, to_size, std::move(values), size, Value{});
-      },
-      to.values);
-}
-
-void append_columns(Points& to, Points& more) {
-  const std::size_t to_size = to.size();
-  const std::size_t size = more.size();
-  const auto number = [](std::vector<Column>& columns, const std::string& name) {
-    const auto found = std::find_if(columns.begin(), columns.end(),
-                                    [&name](const Column& column) { return column.name == name; });
-    return static_cast<std::size_t>(found - columns.begin());
-  };
-  for (Column& column : more.columns) {
-    const std::size_t i = number(to.columns, column.name);
-    if (i == to.columns.size()) to.columns.push_back({column.name, std::vector<std::uint8_t>{}});
-    append_column(to.columns[i], to_size, std::move(column), size);
-  }
-  for (Column& column : to.columns)
-    if (number(more.columns, column.name) == more.columns.size())
-      append_column(column, to_size, {column.name, std::vector<std::uint8_t>{}}, size);
-}
-
 /// A file that knows nothing of where it was measured from is one station too.
 void name_stations(NamedScan& scan) {
   std::vector<Station>& stations = scan.file.points.stations;
@@ -138,7 +71,7 @@ void name_stations(NamedScan& scan) {
 void append_points(Points& to, Points&& more) {
   const std::size_t to_size = to.size();
   const std::size_t size = more.size();
-  append_columns(to, more);
+  append_columns(to.columns, to_size, std::move(more.columns), size);
   if (!to.stations.empty() && more.station.empty()) more.station.resize(size, 0);
   for (std::uint16_t& station : more.station)
     station = static_cast<std::uint16_t>(station + to.stations.size());

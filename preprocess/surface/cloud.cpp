@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/sorted_order.h"
@@ -38,6 +39,8 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   cloud.normal.resize(usable.size(), glm::vec3(0.0F));
   const std::vector<glm::vec3> color = take(points.color);
   cloud.color.resize(color.size());
+  for (Column& column : points.columns)
+    std::visit([&](auto& values) { cloud.columns.push_back({column.name, take(values)}); }, column.values);
   cloud.radius = take(points.radius);
   cloud.radius.resize(usable.size(), 0.0F);
   tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
@@ -75,7 +78,11 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
     return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), p.x, p.y, p.z, color,
                       cloud.radius[i]);
   };
-  return key(a) < key(b);
+  const auto key_a = key(a), key_b = key(b);
+  if (key_a != key_b) return key_a < key_b;
+  for (const Column& column : cloud.columns)
+    if (column.number(a) != column.number(b)) return column.number(a) < column.number(b);
+  return false;
 }
 
 /// Points' indices, ascending by Morton key of the coordinates, then by every attribute.
@@ -122,6 +129,8 @@ Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
   cloud.normal = gather(cloud.normal, order);
   cloud.color = gather(cloud.color, order);
   cloud.radius = gather(cloud.radius, order);
+  for (Column& column : cloud.columns)
+    std::visit([&](auto& values) { values = gather(values, order); }, column.values);
   count_given(cloud, has_radii, stats);
   return cloud;
 }

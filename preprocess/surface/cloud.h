@@ -26,6 +26,7 @@ struct Cloud {
   std::vector<float> radius;         ///< in units of half_extent_world; zero = unknown
   std::vector<glm::vec3> field;      ///< normal field: uu, uv, vv of the change of the unit normal per
                                      ///< half_extent_world in TangentFrame(normal); empty = all flat
+  std::vector<Column> columns;       ///< further attributes
   bool oriented = false;             ///< normals point outwards: opposite normals are opposite sheets
 
   [[nodiscard]] std::size_t size() const { return position.size(); }

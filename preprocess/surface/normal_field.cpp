@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/splat.h"
 #include "preprocess/base/vector_clones.h"
 #include "preprocess/surface/sheet.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/scene/empty_box.h"
+#include "engine/scene/tree.h"
 
 namespace splatray {
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/scene/disc.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 namespace {

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "engine/scene/disc.h"
+#include "engine/scene/splat.h"
+#include "engine/scene/tree.h"
 #include "preprocess/tree/insertion.h"
 
 namespace splatray {

@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "engine/scene/halved_cell.h"
+#include "engine/scene/slab.h"
+#include "engine/scene/splat.h"
+#include "engine/scene/tree.h"
 #include "preprocess/base/vector_clones.h"
 
 namespace splatray {

@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "engine/base/error.h"
+#include "engine/scene/splat.h"
+#include "engine/scene/tree.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/sorted_order.h"
@@ -18,7 +20,8 @@ bool splat_less(const SplatList& splats, std::uint32_t a, std::uint32_t b) {
   const auto key = [&splats](std::uint32_t i) {
     const uvec4& w = splats.words[i];
     return std::tuple(w.x, w.y, w.z, w.w, splats.color.empty() ? 0U : splats.color[i],
-                      splats.field.empty() ? 0U : splats.field[i]);
+                      splats.field.empty() ? 0U : splats.field[i],
+                      splats.point.empty() ? 0U : splats.point[i]);
   };
   return key(a) < key(b);
 }
@@ -29,6 +32,7 @@ void take(SplatList& splats, const std::vector<std::uint32_t>& order) {
   splats.words = gather(splats.words, order);
   splats.color = gather(splats.color, order);
   splats.field = gather(splats.field, order);
+  splats.point = gather(splats.point, order);
 }
 
 /// Keeps the first `copies` of equal words, which are next to each other. Returns how many splats it dropped.

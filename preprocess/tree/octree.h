@@ -5,15 +5,17 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/scene/tree.h"
 
 namespace splatray {
 
-/// Different splats with their centres' Morton keys. Ascending by key, then words, then colour, then normal field.
+/// Different splats with their centres' Morton keys. Ascending by key, then words, colour, normal field and point.
 struct SplatList {
   std::vector<std::uint64_t> key;
   std::vector<uvec4> words;
   std::vector<std::uint32_t> color;  ///< pack_color, or empty: no colours
   std::vector<std::uint32_t> field;  ///< pack_field, or empty: all discs are flat
+  std::vector<std::uint32_t> point;  ///< which of the build's points each is, or empty: not asked for
 
   [[nodiscard]] std::size_t size() const { return words.size(); }
 };

@@ -1,6 +1,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/tree/insertion.h"
 

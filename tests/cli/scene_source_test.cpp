@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include "engine/scene/splat.h"
+
 namespace splatray {
 namespace {
 

@@ -71,7 +71,7 @@ TEST_F(SceneFile, GoldenBytes) {
 
 TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(bytes.substr(0, 4), "SOCT");
-  EXPECT_EQ(get<std::uint32_t>(bytes, 4), 7U);
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), SCENE_FILE_VERSION);
   EXPECT_EQ(get<std::uint32_t>(bytes, 12), HEADER);
   EXPECT_EQ(get<std::uint64_t>(bytes, 16), bytes.size());
   EXPECT_EQ(get<std::uint64_t>(bytes, 32), 4U);
@@ -81,9 +81,9 @@ TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(get<double>(bytes, 136), 1.25);
   EXPECT_EQ(get<double>(bytes, 176), 1.0);
   EXPECT_EQ(get<double>(bytes, 232), 12.5);
-  EXPECT_EQ(bytes.substr(section_offset(bytes, 11), 15), Bytes("glass\0\0sky.hdr\0", 15));
+  EXPECT_EQ(bytes.substr(section_offset(bytes, 12), 21), Bytes("glass\0\0sky.hdr\0door\0\0", 21));
   EXPECT_EQ(bytes.substr(bytes.size() - 8), "SOCT.END");
-  for (std::size_t id = 1; id <= 11; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
+  for (std::size_t id = 1; id <= 44; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
 }
 
 TEST_F(SceneFile, RoundTrip) {
@@ -95,6 +95,16 @@ TEST_F(SceneFile, RoundTrip) {
   EXPECT_EQ(copy.data_pool, scene.data_pool);
   EXPECT_EQ(copy.color_pool, scene.color_pool);
   EXPECT_EQ(copy.field_pool, scene.field_pool);
+  ASSERT_EQ(copy.columns.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(copy.columns[i].name, scene.columns[i].name);
+    EXPECT_EQ(copy.columns[i].values, scene.columns[i].values);
+  }
+  ASSERT_EQ(copy.stations.size(), 2U);
+  EXPECT_EQ(copy.stations[0].name, "door");
+  EXPECT_EQ(copy.stations[0].sensor_world, scene.stations[0].sensor_world);
+  EXPECT_EQ(copy.stations[0].columns, 3U);
+  EXPECT_FALSE(copy.stations[1].sensor_world.has_value());
   EXPECT_EQ(copy.object_names, scene.object_names);
   EXPECT_EQ(copy.environment_path, scene.environment_path);
   EXPECT_EQ(copy.materials[0].ior, 1.5F);
@@ -112,6 +122,8 @@ TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   Scene scene = tiny_scene();
   scene.color_pool.clear();
   scene.field_pool.clear();
+  scene.columns.clear();
+  scene.stations.clear();
   scene.camera.reset();
   scene.lights.clear();
   scene.environment_path.clear();
@@ -119,6 +131,8 @@ TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   const Scene copy = read_scene(path);
   EXPECT_TRUE(copy.color_pool.empty());
   EXPECT_TRUE(copy.field_pool.empty());
+  EXPECT_TRUE(copy.columns.empty());
+  EXPECT_TRUE(copy.stations.empty());
   EXPECT_FALSE(copy.camera.has_value());
   EXPECT_TRUE(copy.lights.empty());
   EXPECT_EQ(copy.object_names, scene.object_names);
@@ -143,12 +157,12 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
     EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
   };
   says(bytes + "x", "(extra bytes)");
-  says(bytes.substr(0, 600), "(file truncated)");
+  says(bytes.substr(0, HEADER - 1), "(file truncated)");
   says("", "found 0 bytes");
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
   put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 7");
+  says(other, "found version 2, expected version 8");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");
@@ -182,7 +196,9 @@ TEST_F(SceneFile, RefusesForgedContent) {
   says(8, 32, std::bit_cast<std::uint32_t>(1e30F), "material 0 with a mirror out of range, expected 0 to 1");
   says(8, 44, 32, "material 0 with a mask bit");
   says(9, 32, std::bit_cast<std::uint32_t>(-1.0F), "light 0 with a power");
-  says(11, 0, 0, "names, expected one per object");
+  says(11, 24, 2, "a station's flag above 1");
+  says(11, 4, 0x7FF00000, "a station whose place is not finite");
+  says(12, 0, 0, "names, expected 9, of objects, environment, stations and columns");
 }
 
 TEST_F(SceneFile, RefusesForgedCounts) {
@@ -192,10 +208,18 @@ TEST_F(SceneFile, RefusesForgedCounts) {
     reseal_header(forged);
     return !refusal(forged).empty();
   };
-  for (const std::size_t offset : {40, 48, 56, 64, 72, 80, 240}) {
+  for (const std::size_t offset : {40, 48, 56, 64, 72, 80, 240, 248, 280}) {
     EXPECT_TRUE(refused(offset, 1ULL << 60U)) << offset;
     EXPECT_TRUE(refused(offset, 3)) << offset;
   }
+  for (const std::size_t column : {0, 3, 4, 31})
+    for (const std::uint64_t type : {0, 5, 255}) {
+      Bytes forged = bytes;
+      put(forged, 248 + column, static_cast<std::uint8_t>(type));
+      if (forged == bytes) continue;
+      reseal_header(forged);
+      EXPECT_NE(refusal(forged), "") << "column " << column << " of type " << type;
+    }
   EXPECT_TRUE(refused(112, 0));                  // unit_world
   EXPECT_TRUE(refused(TABLE + 8, 1ULL << 40U));  // first section's offset
 }

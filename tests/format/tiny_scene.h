@@ -1,6 +1,8 @@
-/// A complete small scene: two objects, five references in two filled leaves, colours, normal fields, lights, camera, names.
+/// A complete small scene: two objects, five references in two filled leaves, colours, normal fields, columns of each
+/// type, stations, lights, camera, names.
 #pragma once
 #include "engine/scene/scene.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 
@@ -23,6 +25,11 @@ inline Scene tiny_scene() {
                      tiny_splat(1100000, 1200000, 1300000, 0), tiny_splat(2000000, 2000000, 2000000, 1)};
   scene.color_pool = {0xFF000001, 0xFF000002, 0xFF000004, 0xFF000005};
   scene.field_pool = {FIELD_FLAT, FIELD_FLAT + 1, FIELD_FLAT + 2, FIELD_FLAT - 3};
+  scene.columns = {{"intensity", std::vector<std::uint16_t>{7, 300, 0, 65535}},
+                   {"class", std::vector<std::uint8_t>{2, 6, 18, 255}},
+                   {"confidence", std::vector<float>{0.5F, -1.0F, 0.0F, 1e30F}},
+                   {"time", std::vector<double>{1e9 + 1e-6, 0.0, -1.0, 1e-300}}};
+  scene.stations = {{"door", glm::dvec3(1.5, -2.5, 3.5), 2, 3}, {"", std::nullopt, 0, 0}};
   Material glass{};
   glass.tint = vec3(0.5F, 0.25F, 1.0F);
   glass.shininess = 1.0F;

@@ -1,9 +1,11 @@
 // The target that reads scene files.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/file/scene_file.h"
 #include "engine/scene/slab_check.h"
+#include "engine/scene/splat.h"
 #include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
 #include "tests/fuzz/memory_folder.h"
@@ -16,6 +18,9 @@ namespace {
 
 constexpr std::size_t ALIGNMENT = 16;
 constexpr std::size_t SECTION_COUNT = (HEADER - TABLE) / ENTRY;
+constexpr std::size_t COLUMN_TYPES = 248;  ///< offset in the header
+constexpr std::size_t FIRST_COLUMN = SECTION_COUNT - COLUMNS_MOST;
+constexpr std::uint32_t COLUMN_BYTES[] = {0, 1, 2, 4, 8};  ///< by type
 
 FuzzBytes view_of(const Bytes& bytes) {
   return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
@@ -57,9 +62,18 @@ std::vector<std::size_t> cut_counts(Bytes& bytes) {
   const std::uint32_t attributes = cut_flags(bytes, 72, 3);
   const std::size_t cameras = cut_flags(bytes, 76, 1);
   const std::size_t strings = cut_count<std::uint64_t>(bytes, 80, 1);
+  const std::size_t stations = cut_count<std::uint32_t>(bytes, 240, 40);
+  put<std::uint32_t>(bytes, 244, 0);
   const std::size_t colors = (attributes & 1U) != 0 ? splats : 0;
   const std::size_t fields = (attributes & 2U) != 0 ? splats : 0;
-  return {nodes, leaves + 1, leaves, references, splats, colors, fields, objects, lights, cameras, strings};
+  std::vector<std::size_t> counts{nodes,  leaves + 1, leaves, references, splats,   colors,
+                                  fields, objects,    lights, cameras,    stations, strings};
+  for (std::size_t i = 0; i < COLUMNS_MOST; ++i) {
+    const auto type = get<std::uint8_t>(bytes, COLUMN_TYPES + i) % std::size(COLUMN_BYTES);
+    put(bytes, COLUMN_TYPES + i, static_cast<std::uint8_t>(type));
+    counts.push_back(type == 0 ? 0 : splats);
+  }
+  return counts;
 }
 
 /// The bytes with a scene file's form: magic, version, sizes, section table, gaps, end marker and checksums are put
@@ -79,6 +93,8 @@ Bytes with_form(Bytes bytes, const Bytes& good) {
   for (std::size_t i = 0; i < SECTION_COUNT; ++i) {
     const std::size_t entry = TABLE + i * ENTRY;
     bytes.replace(entry, 8, good, entry, 8);
+    if (i >= FIRST_COLUMN)
+      put(bytes, entry + 4, COLUMN_BYTES[get<std::uint8_t>(bytes, COLUMN_TYPES + i - FIRST_COLUMN)]);
     const std::uint64_t size = counts.at(i) * get<std::uint32_t>(bytes, entry + 4);
     const std::uint64_t offset = pad(size);
     put<std::uint64_t>(bytes, entry + 8, offset);

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/gpu/tracer.h"
+#include "engine/scene/splat.h"
 #include "engine/vulkan/command_queue.h"
 #include "engine/vulkan/pipeline_store.h"
 #include "tests/gpu/small_scene.h"

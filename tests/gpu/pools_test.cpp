@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/gpu/tracer.h"
+#include "engine/scene/splat.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -16,6 +17,13 @@ constexpr PoolLimits LIMITS{.texel_elements = 1000,
                             .allocation_bytes = 20000,
                             .texel_buffers = 20,
                             .storage_buffers = 16};
+
+/// Sizes of some pools by binding, the others empty.
+PoolBytes pool_bytes(std::initializer_list<std::pair<std::uint32_t, std::uint64_t>> sizes) {
+  PoolBytes bytes;
+  for (const auto& [binding, size] : sizes) bytes.at(binding) = size;
+  return bytes;
+}
 
 std::string refusal(const PoolBytes& bytes, PoolAccess wanted) {
   try {
@@ -30,7 +38,8 @@ std::string refusal(const PoolBytes& bytes, PoolAccess wanted) {
 using Pages = std::array<std::uint32_t, POOLS>;
 
 TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
-  const PoolBytes bytes{.node_pool = 4000, .begin_end = 4000, .data_pool = 16000};
+  const PoolBytes bytes =
+      pool_bytes({{BIND_NODE_POOL, 4000}, {BIND_BEGIN_END, 4000}, {BIND_DATA_POOL, 16000}});
   const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(paging.access, PoolAccess::texel);
   EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 1, 1, 1, 1}));
@@ -39,14 +48,16 @@ TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
 }
 
 TEST(Paging, TakesOneStorageBufferRatherThanPages) {
-  const PoolBytes bytes{.node_pool = 4004, .begin_end = 4000, .data_pool = 8000};
+  const PoolBytes bytes =
+      pool_bytes({{BIND_NODE_POOL, 4004}, {BIND_BEGIN_END, 4000}, {BIND_DATA_POOL, 8000}});
   const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(paging.access, PoolAccess::storage);
   EXPECT_EQ(paging.pages_constant(), 0U);
 }
 
 TEST(Paging, PagesWhatOneBufferDoesNotHold) {
-  const PoolBytes bytes{.node_pool = 4004, .data_pool = 16 * 1537, .color_pool = 4 * 1000};
+  const PoolBytes bytes =
+      pool_bytes({{BIND_NODE_POOL, 4004}, {BIND_DATA_POOL, 16 * 1537}, {BIND_COLOR_POOL, 4 * 1000}});
   const Paging texel = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(texel.access, PoolAccess::texel);
   EXPECT_EQ(texel.pages, (Pages{2, 1, 1, 1, 4, 1, 1, 1}));
@@ -58,26 +69,30 @@ TEST(Paging, PagesWhatOneBufferDoesNotHold) {
 }
 
 TEST(Paging, CanBeForced) {
-  EXPECT_EQ(choose_paging({.data_pool = 16}, LIMITS, PoolAccess::storage).access, PoolAccess::storage);
-  EXPECT_EQ(choose_paging({.data_pool = 16 * 900}, LIMITS, PoolAccess::texel).access, PoolAccess::texel);
+  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16}}), LIMITS, PoolAccess::storage).access,
+            PoolAccess::storage);
+  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16 * 900}}), LIMITS, PoolAccess::texel).access,
+            PoolAccess::texel);
 }
 
 TEST(Paging, RefusalNamesPoolSizeAndLimit) {
-  const std::string sentence = refusal({.node_pool = 4, .data_pool = 30 << 20}, PoolAccess::automatic);
+  const std::string sentence =
+      refusal(pool_bytes({{BIND_NODE_POOL, 4}, {BIND_DATA_POOL, 30 << 20}}), PoolAccess::automatic);
   EXPECT_NE(sentence.find("data pool"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("30.0 MiB"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("8 of its largest texel buffers"), std::string::npos) << sentence;
 }
 
 TEST(Paging, EndsAtTheMostPagesOfAPool) {
-  EXPECT_EQ(choose_paging({.data_pool = 16 * 4096}, LIMITS, PoolAccess::texel).pages[4], PAGES_MOST);
-  EXPECT_NE(refusal({.data_pool = 16 * 4097}, PoolAccess::automatic), "");
+  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16 * 4096}}), LIMITS, PoolAccess::texel).pages[4],
+            PAGES_MOST);
+  EXPECT_NE(refusal(pool_bytes({{BIND_DATA_POOL, 16 * 4097}}), PoolAccess::automatic), "");
 }
 
 TEST(Paging, EndsAtTheMostBuffersOfAProgram) {
-  PoolBytes bytes{.data_pool = 16 * 4096, .color_pool = 4 * 2560};
+  PoolBytes bytes = pool_bytes({{BIND_DATA_POOL, 16 * 4096}, {BIND_COLOR_POOL, 4 * 2560}});
   EXPECT_EQ(choose_paging(bytes, LIMITS, PoolAccess::texel).pages, (Pages{1, 1, 1, 1, 8, 5, 1, 1}));
-  bytes.field_pool = 4 * 1025;
+  bytes.at(BIND_FIELD_POOL) = 4 * 1025;
   const std::string sentence = refusal(bytes, PoolAccess::automatic);
   EXPECT_NE(sentence.find("21 texel buffers"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("room for 20"), std::string::npos) << sentence;
@@ -86,8 +101,9 @@ TEST(Paging, EndsAtTheMostBuffersOfAProgram) {
 TEST(Paging, NeedsBuffersOfItsKind) {
   PoolLimits none = LIMITS;
   none.texel_elements = 0;
-  EXPECT_THROW((void)choose_paging({.data_pool = 16}, none, PoolAccess::texel), Error);
-  EXPECT_EQ(choose_paging({.data_pool = 16}, none, PoolAccess::automatic).access, PoolAccess::storage);
+  EXPECT_THROW((void)choose_paging(pool_bytes({{BIND_DATA_POOL, 16}}), none, PoolAccess::texel), Error);
+  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16}}), none, PoolAccess::automatic).access,
+            PoolAccess::storage);
 }
 
 /// Whether `automatic` takes references for a scene of so many splats, with so many references, where LIMITS hold.
@@ -142,9 +158,9 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
   const auto picture = [&](const TracerOptions& options, std::uint32_t pages) {
     Tracer tracer(context, options);
     tracer.upload(scene);
-    EXPECT_EQ(tracer.pool_bytes().reference_pool, options.pools.data == DataPool::copies ? 0U : 12U);
-    EXPECT_EQ(tracer.pool_bytes().data_pool, 48U);
-    EXPECT_EQ(tracer.pool_bytes().color_pool, 12U);
+    EXPECT_EQ(tracer.pool_bytes().at(BIND_REFERENCE_POOL), options.pools.data == DataPool::copies ? 0U : 12U);
+    EXPECT_EQ(tracer.pool_bytes().at(BIND_DATA_POOL), 48U);
+    EXPECT_EQ(tracer.pool_bytes().at(BIND_COLOR_POOL), 12U);
     EXPECT_EQ(tracer.pool_bytes().pages, pages);
     return tracer.render(disc_view(50, 40), plain_settings()).rgba;
   };
@@ -163,12 +179,12 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
 TEST_F(PoolUpload, ReportsBytesByPool) {
   Tracer tracer(context);
   tracer.upload(disc_scene(3));
-  EXPECT_EQ(tracer.pool_bytes().node_pool, 4U);
-  EXPECT_EQ(tracer.pool_bytes().begin_end, 8U);
-  EXPECT_EQ(tracer.pool_bytes().slab_pool, 4U);
-  EXPECT_EQ(tracer.pool_bytes().data_pool, 48U);
-  EXPECT_EQ(tracer.pool_bytes().top_table, 4U);
-  EXPECT_EQ(tracer.pool_bytes().color_pool, 0U);
+  EXPECT_EQ(tracer.pool_bytes().at(BIND_NODE_POOL), 4U);
+  EXPECT_EQ(tracer.pool_bytes().at(BIND_BEGIN_END), 8U);
+  EXPECT_EQ(tracer.pool_bytes().at(BIND_SLAB_POOL), 4U);
+  EXPECT_EQ(tracer.pool_bytes().at(BIND_DATA_POOL), 48U);
+  EXPECT_EQ(tracer.pool_bytes().at(BIND_TOP_TABLE), 4U);
+  EXPECT_EQ(tracer.pool_bytes().at(BIND_COLOR_POOL), 0U);
 }
 
 TEST_F(PoolUpload, ReportsBytesOfTheFrame) {

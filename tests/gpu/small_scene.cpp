@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/scene/splat.h"
+
 namespace splatray {
 
 Scene disc_scene(std::uint32_t objects) {

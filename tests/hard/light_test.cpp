@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "data/shapes.h"
+#include "engine/scene/splat.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "data/shapes.h"
+#include "engine/scene/splat.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 #include "tests/trace/rays.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "engine/scene/tree.h"
 #include "tests/host/pixel_ray.h"
 #include "tests/host/scenes.h"
 

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "engine/scene/scene.h"
+#include "engine/scene/tree.h"
 
 namespace splatray {
 namespace {

@@ -16,6 +16,7 @@
 #include "engine/base/error.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/copies.h"
+#include "engine/scene/splat.h"
 #include "tests/preprocess/shapes.h"
 #include "tests/temp_folder.h"
 

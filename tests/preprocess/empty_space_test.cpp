@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/scene/tree.h"
 #include "preprocess/build.h"
 #include "tests/preprocess/shapes.h"
 

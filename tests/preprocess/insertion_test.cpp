@@ -9,6 +9,7 @@
 #include <random>
 #include <span>
 
+#include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 
 namespace splatray {

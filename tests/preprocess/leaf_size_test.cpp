@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/build.h"
 #include "tests/preprocess/shapes.h"

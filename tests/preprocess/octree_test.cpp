@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 
 namespace splatray {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "engine/scene/splat.h"
+
 namespace splatray {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/splat.h"
 #include "tests/trace/agreement.h"
 
 namespace splatray::testing {

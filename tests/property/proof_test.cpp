@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "data/shapes.h"
+#include "engine/scene/splat.h"
 #include "tests/property/judge.h"
 #include "tests/property/round.h"
 #include "tests/trace/agreement.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/scene/splat.h"
 #include "tests/trace/rays.h"
 
 namespace splatray::testing {

@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <string>
 
+#include "engine/scene/splat.h"
 #include "tests/property/judge.h"
 #include "tests/property/random_rays.h"
 #include "tests/property/random_scene.h"

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/scene/splat.h"
+
 namespace splatray::testing {
 namespace {
 

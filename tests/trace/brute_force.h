@@ -6,6 +6,7 @@
 
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/splat.h"
 
 namespace splatray::testing {
 

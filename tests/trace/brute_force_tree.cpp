@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/scene/splat.h"
+
 namespace splatray::testing {
 namespace {
 

@@ -10,6 +10,7 @@
 
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
+#include "engine/scene/splat.h"
 #include "tests/trace/agreement.h"
 #include "tests/trace/different_bits.h"
 #include "tests/trace/rays.h"

@@ -9,6 +9,7 @@
 #include "app/library/image_file.h"
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
+#include "engine/scene/splat.h"
 #include "tests/temp_folder.h"
 #include "tests/trace/reference_path.h"
 #include "tests/trace/scenes.h"

@@ -6,6 +6,9 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "engine/scene/splat.h"
+#include "engine/scene/tree.h"
+
 namespace splatray::testing {
 namespace {
 

@@ -29,7 +29,7 @@ Work work_of(Scene scene) {
   static_cast<void>(tracer.render(view, settings));
   const auto& count = tracer.stats().counters;
   const auto rays = double(tracer.stats().rays());
-  const std::uint64_t pools = total_bytes(tracer.pool_bytes()) - tracer.pool_bytes().top_table;
+  const std::uint64_t pools = total_bytes(tracer.pool_bytes()) - tracer.pool_bytes().at(BIND_TOP_TABLE);
   return {double(count[COUNT_TESTS]) / rays, double(count[COUNT_NODE_STEPS]) / rays,
           double(count[COUNT_LEAVES]) / rays, double(pools) / double(scene.data_pool.size())};
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/scene/splat.h"
 #include "preprocess/build.h"
 #include "tests/view/documents.h"
 

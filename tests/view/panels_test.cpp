@@ -7,6 +7,7 @@
 #include "app/library/camera_file.h"
 #include "app/library/materials.h"
 #include "app/view/thread/live_scene.h"
+#include "engine/scene/splat.h"
 #include "tests/readers/read_error.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"
@@ -34,7 +35,7 @@ Frame some_frame(ViewMode mode) {
   frame.ms = 41.0;
   frame.mode = mode;
   frame.stats.trace_ms = 40.0;
-  frame.pool_bytes.data_pool = 123456789;
+  frame.pool_bytes.at(BIND_DATA_POOL) = 123456789;
   frame.device = "llvmpipe (LLVM 15.0.6, 256 bits)";
   return frame;
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/scene/splat.h"
+
 namespace splatray {
 namespace {
 

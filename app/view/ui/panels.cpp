@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app/view/ui/panel_parts.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 namespace {

@@ -19,20 +19,14 @@ std::string text(const char* format, double value) {
 }
 
 void memory_facts(const PoolBytes& bytes) {
-  struct Pool {
-    const char* name;
-    std::uint64_t bytes;
-  };
-  const std::array pools = {Pool{"node pool", bytes.node_pool},       Pool{"Begin-End", bytes.begin_end},
-                            Pool{"slabs", bytes.slab_pool},           Pool{"top table", bytes.top_table},
-                            Pool{"references", bytes.reference_pool}, Pool{"data pool", bytes.data_pool},
-                            Pool{"colour pool", bytes.color_pool},    Pool{"normal fields", bytes.field_pool},
-                            Pool{"environment", bytes.environment},   Pool{"frame", bytes.frame}};
   std::uint64_t sum = 0;
-  for (const Pool& pool : pools) {
-    if (pool.bytes > 0) fact(pool.name, bytes_text(pool.bytes));
-    sum += pool.bytes;
-  }
+  const auto add = [&sum](const char* name, std::uint64_t size) {
+    if (size > 0) fact(name, bytes_text(size));
+    sum += size;
+  };
+  for (std::size_t i = 0; i < POOLS; ++i) add(pool_kinds()[i].name, bytes.pools[i]);
+  add("environment", bytes.environment);
+  add("frame", bytes.frame);
   fact("memory", bytes_text(sum));
 }
 

@@ -9,6 +9,7 @@
 #include "app/library/materials.h"
 #include "data/models.h"
 #include "engine/file/scene_file.h"
+#include "engine/scene/splat.h"
 #include "preprocess/build.h"
 #include "tests/bench/cases/case_file.h"
 #ifdef SPLATRAY_EMBREE

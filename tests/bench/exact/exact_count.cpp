@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/scene/splat.h"
 #include "tests/bench/exact/exact_scenes.h"
 #include "tests/trace/agreement.h"
 #include "tests/trace/rays.h"

@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/scene/splat.h"
+
 namespace splatray::testing {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/file/scene_file.h"
+#include "engine/scene/splat.h"
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/prepare.h"
 #include "tests/bench/measure/measure.h"

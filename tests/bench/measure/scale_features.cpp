@@ -8,6 +8,7 @@
 
 #include "engine/file/scene_file.h"
 #include "engine/gpu/tracer.h"
+#include "engine/scene/splat.h"
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/scale_cases.h"
 #include "tests/bench/measure/speed_record.h"

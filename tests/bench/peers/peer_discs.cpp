@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/splat.h"
+
 namespace splatray::testing {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/scene/splat.h"
 #include "tests/trace/rays.h"
 
 namespace splatray::testing {

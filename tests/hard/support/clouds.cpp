@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/splat.h"
+
 namespace splatray::testing {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/scene/splat.h"
 #include "tests/trace/agreement.h"
 #include "tests/trace/rays.h"
 

@@ -1,0 +1,21 @@
+/// What objects are seen with: their lights. Their materials are of shaders/layout.h.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "shaders/layout.h"
+
+namespace splatray {
+
+/// A light in world space. Intensities are linear rgb.
+struct SceneLight {
+  std::uint32_t kind = LIGHT_DIRECTIONAL;  ///< LIGHT_*
+  glm::dvec3 position{0.0, 1.0, 0.0};      ///< point: position; directional: unit vector towards the light
+  glm::vec3 power{1.0F};  ///< directional: irradiance facing it; point: intensity (irradiance * distance^2)
+  bool operator==(const SceneLight&) const = default;
+};
+
+/// Most dielectrics that a ray can be inside of at once.
+inline constexpr std::uint32_t MASK_BITS = 32;
+
+}  // namespace splatray
