@@ -3,6 +3,7 @@
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/gltf/read_gltf.h"
 #include "preprocess/read/ply/read_ply.h"
+#include "preprocess/read/read_obj.h"
 #include "preprocess/read/read_stl.h"
 #include "preprocess/read/vtk/read_vtk.h"
 
@@ -13,7 +14,7 @@ constexpr Format FORMATS[] = {
     {".ply",
      "ASCII and binary of both endians; float and double positions, normals, colours, radius; triangles",
      read_ply, nullptr, nullptr},
-    {".obj", "points or triangles", read_obj, nullptr, nullptr},
+    {".obj", "points or triangles; normals, colours", read_obj, nullptr, nullptr},
     {".stl", "triangles, ASCII and binary", read_stl, nullptr, nullptr},
     {".vtp", "points or triangles; normals, colours, radius", read_vtp, nullptr, nullptr},
     {".gltf .glb",

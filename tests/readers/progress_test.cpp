@@ -55,7 +55,7 @@ TEST(ReadProgress, AscendsAndEveryReaderStopsWhenAsked) {
   const TempFolder folder;
   const std::string ply = grid_ply(700);
   const std::vector<std::filesystem::path> files = {
-      folder.write("a.ply", ply), folder.write("a.obj", grid_obj(200)),
+      folder.write("a.ply", ply), folder.write("a.obj", grid_obj(400)),
       folder.write("a.stl", grid_stl(120000)), folder.write("a.vtp", grid_vtp(200000)),
       folder.write("a.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
                                "nodes":[{"extras":{"points":"a.ply"}}]})")};

@@ -6,7 +6,6 @@
 #include <vtkDataArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
@@ -21,8 +20,6 @@
 
 #include "engine/base/srgb.h"
 #include "preprocess/read/byte_reader.h"
-#include "preprocess/read/float_precision.h"
-#include "preprocess/read/vtk/obj_check.h"
 #include "preprocess/read/vtk/vtp_check.h"
 
 namespace splatray {
@@ -193,17 +190,6 @@ Mesh mesh_of(vtkPolyData* data, const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener) {
-  const ObjCheck check = check_obj(path, listener.part(0.0, 0.3));
-  const vtkNew<vtkOBJReader> reader;
-  Mesh mesh = mesh_of(run_reader(reader.Get(), path, listener.part(0.3, 1.0)), path);
-  if (check.has_vertex_colors) {
-    listener.note(path, "vertex colours of OBJ files are not read; save a PLY to keep them");
-  }
-  note_float_precision(mesh.vertices, path, listener);
-  return mesh;
-}
 
 Mesh read_vtp(const std::filesystem::path& path, const ReadListener& listener) {
   check_vtp(path, listener.part(0.0, 0.2));

@@ -1,4 +1,4 @@
-/// OBJ and VTP through VTK. VTK believes what a file says, so each file is checked first. Nothing is printed.
+/// VTP through VTK. VTK believes what a file says, so each file is checked first. Nothing is printed.
 #pragma once
 #include <filesystem>
 
@@ -7,12 +7,8 @@
 
 namespace splatray {
 
-/// OBJ: positions in float32, which is noted where it shows; vertex colours are lost, which is noted too. Throws Error
-/// (input_unreadable), (interrupted).
-[[nodiscard]] Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener);
-
 /// VTP: positions in the file's precision; point data Normals, 3 or 4 component uchar scalars (sRGB colours) and an array
-/// `radius`. Throws as read_obj.
+/// `radius`. Throws Error (input_unreadable), (interrupted).
 [[nodiscard]] Mesh read_vtp(const std::filesystem::path& path, const ReadListener& listener);
 
 }  // namespace splatray

@@ -1,0 +1,274 @@
+#include "preprocess/read/read_obj.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "engine/base/srgb.h"
+#include "preprocess/read/byte_reader.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::size_t MOST_LINE_BYTES = std::size_t{1} << 26U;
+constexpr std::int64_t MOST_ELEMENTS = 0xFFFFFFFF;  ///< indices have 32 bits
+
+/// What corners have indices of, in the order of a corner's parts.
+enum Kind : std::size_t { VERTEX, TEXCOORD, NORMAL, KINDS };
+
+/// The next word of a line, empty at its end.
+std::string_view next_word(std::string_view& line) {
+  const std::size_t begin = line.find_first_not_of(" \t\r");
+  if (begin == std::string_view::npos) {
+    line = {};
+    return {};
+  }
+  const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
+  return word;
+}
+
+bool read_number(std::string_view word, double& value) {
+  if (!word.empty() && word.front() == '+') {
+    word.remove_prefix(1);
+  }
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error != std::errc::invalid_argument && end == word.data() + word.size();
+}
+
+/// A face's corner: indices of its vertex and normal from 1, 0 = no normal.
+struct Corner {
+  std::uint32_t vertex = 0;
+  std::uint32_t normal = 0;
+};
+
+/// What the lines of the file say.
+struct ObjContent {
+  std::vector<glm::dvec3> position;
+  std::vector<glm::vec3> color;  ///< as stored, beside `position` or shorter: the others have none
+  std::vector<glm::vec3> normal;
+  std::vector<std::array<Corner, 3>> triangles;
+};
+
+class ObjReader {
+ public:
+  ObjReader(const std::filesystem::path& path, const ReadListener& listener) : in_(path, &listener) {}
+
+  ObjContent read() {
+    std::string_view line;
+    std::string keyword;
+    bool continued = false;
+    while (in_.line(line, MOST_LINE_BYTES)) {
+      ++line_number_;
+      const bool continues = !line.empty() && line.back() == '\\';
+      line.remove_suffix(continues ? 1 : 0);
+      if (!continued) {
+        keyword = next_word(line);
+        face_.clear();
+      }
+      read_words(keyword, line);
+      continued = continues;
+    }
+    for (std::size_t kind = 0; kind < KINDS; ++kind) {
+      if (highest_[kind] > counts_[kind]) {
+        line_number_ = highest_line_[kind];
+        fail_index(kind, std::to_string(highest_[kind]));
+      }
+    }
+    return std::move(content_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw_unreadable(in_.path(), "line " + std::to_string(line_number_) + ": " + what);
+  }
+
+  [[noreturn]] void fail_index(std::size_t kind, const std::string& found) const {
+    static const std::array<const char*, KINDS> NAMES{"vertices", "texture coordinates", "normals"};
+    fail("found index " + found + ", the file has " + std::to_string(counts_[kind]) + " " + NAMES[kind]);
+  }
+
+  void count(Kind kind) {
+    if (++counts_[kind] > MOST_ELEMENTS) fail("found more than 4294967295 vertices or normals");
+  }
+
+  void read_words(const std::string& keyword, std::string_view line) {
+    if (keyword == "v") {
+      read_vertex(line);
+    } else if (keyword == "vt") {
+      count(TEXCOORD);
+    } else if (keyword == "vn") {
+      read_normal(line);
+    } else if (keyword == "f" || keyword == "l" || keyword == "p") {
+      for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+        const Corner corner = read_corner(word);
+        if (keyword == "f") add_corner(corner);
+      }
+    }
+  }
+
+  /// The numbers that the line begins with, at most as many as there is room for.
+  template <std::size_t MOST>
+  std::size_t read_numbers(std::string_view line, std::array<double, MOST>& values) const {
+    std::size_t count = 0;
+    while (count < MOST && read_number(next_word(line), values[count])) ++count;
+    return count;
+  }
+
+  void read_vertex(std::string_view line) {
+    std::array<double, 6> values{};
+    const std::size_t numbers = read_numbers(line, values);
+    if (numbers < 3) fail("found a vertex of " + std::to_string(numbers) + " numbers, expected 3");
+    count(VERTEX);
+    if (numbers == 6) {
+      content_.color.resize(content_.position.size(), glm::vec3(1.0F));
+      content_.color.emplace_back(values[3], values[4], values[5]);
+    }
+    content_.position.emplace_back(values[0], values[1], values[2]);
+  }
+
+  void read_normal(std::string_view line) {
+    std::array<double, 3> values{};
+    const std::size_t numbers = read_numbers(line, values);
+    if (numbers < 3) fail("found a normal of " + std::to_string(numbers) + " numbers, expected 3");
+    count(NORMAL);
+    content_.normal.emplace_back(values[0], values[1], values[2]);
+  }
+
+  /// "v", "v/t", "v//n" or "v/t/n"; negative indices count back from the last one read.
+  Corner read_corner(std::string_view text) {
+    std::array<std::uint32_t, KINDS> indices{};
+    for (std::size_t kind = 0; kind < KINDS; ++kind) {
+      const std::size_t slash = text.find('/');
+      const std::string_view digits = text.substr(0, slash);
+      if (!digits.empty()) {
+        indices[kind] = read_index(kind, digits);
+      } else if (kind == VERTEX) {
+        fail("found a corner without a vertex index");
+      }
+      if (slash == std::string_view::npos) {
+        return {indices[VERTEX], indices[NORMAL]};
+      }
+      text.remove_prefix(slash + 1);
+    }
+    fail("found a corner of more than three indices");
+  }
+
+  std::uint32_t read_index(std::size_t kind, std::string_view digits) {
+    std::int64_t index = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    if (error != std::errc{} || end != digits.data() + digits.size()) {
+      fail("found '" + std::string(digits.substr(0, 20)) + "', expected an index");
+    }
+    if (index == 0 || index < -counts_[kind] || index > MOST_ELEMENTS) {
+      fail_index(kind, std::to_string(index));
+    }
+    if (index > highest_[kind]) {
+      highest_[kind] = index;
+      highest_line_[kind] = line_number_;
+    }
+    return static_cast<std::uint32_t>(index > 0 ? index : counts_[kind] + 1 + index);
+  }
+
+  void add_corner(const Corner& corner) {
+    if (face_.size() == 2) {
+      content_.triangles.push_back({face_[0], face_[1], corner});
+      face_[1] = corner;
+    } else {
+      face_.push_back(corner);
+    }
+  }
+
+  ByteReader in_;
+  ObjContent content_;
+  std::vector<Corner> face_;  ///< first and last corner of the face that is read
+  std::uint64_t line_number_ = 0;
+  std::array<std::int64_t, KINDS> counts_{};   ///< read so far
+  std::array<std::int64_t, KINDS> highest_{};  ///< greatest index used of each; the file may have it later
+  std::array<std::uint64_t, KINDS> highest_line_{};
+};
+
+void decode_colors(std::vector<glm::vec3>& colors) {
+  const auto is_byte = [](const glm::vec3& c) { return c.x > 1.0F || c.y > 1.0F || c.z > 1.0F; };
+  const float scale = std::any_of(colors.begin(), colors.end(), is_byte) ? 1.0F / 255.0F : 1.0F;
+  for (glm::vec3& color : colors)
+    for (int channel = 0; channel < 3; ++channel)
+      color[channel] = srgb_to_linear(std::clamp(color[channel] * scale, 0.0F, 1.0F));
+}
+
+/// Gives corners their normals: a vertex has that of its first corner, and a double for each further one.
+class CornerJoiner {
+ public:
+  CornerJoiner(Points& vertices, const std::vector<glm::vec3>& normals)
+      : vertices_(vertices), normals_(normals), first_(vertices.size(), UNUSED) {
+    vertices_.normal.resize(vertices_.size(), glm::vec3(0.0F));
+  }
+
+  std::uint32_t index(const Corner& corner) {
+    std::uint32_t& first = first_[corner.vertex - 1];
+    if (first == UNUSED) {
+      first = corner.normal;
+      vertices_.normal[corner.vertex - 1] = normal(corner);
+    }
+    if (first == corner.normal) return corner.vertex - 1;
+    const auto next = static_cast<std::uint32_t>(vertices_.size());
+    const auto [found, is_new] =
+        doubles_.try_emplace(std::uint64_t{corner.vertex} << 32U | corner.normal, next);
+    if (is_new) {
+      vertices_.position.push_back(glm::dvec3(vertices_.position[corner.vertex - 1]));
+      vertices_.normal.push_back(normal(corner));
+      if (!vertices_.color.empty()) vertices_.color.push_back(glm::vec3(vertices_.color[corner.vertex - 1]));
+    }
+    return found->second;
+  }
+
+ private:
+  static constexpr std::uint32_t UNUSED = 0xFFFFFFFF;
+
+  [[nodiscard]] glm::vec3 normal(const Corner& corner) const {
+    return corner.normal == 0 ? glm::vec3(0.0F) : normals_[corner.normal - 1];
+  }
+
+  Points& vertices_;
+  const std::vector<glm::vec3>& normals_;
+  std::vector<std::uint32_t> first_;  ///< number of the normal that a vertex has
+  std::unordered_map<std::uint64_t, std::uint32_t> doubles_;
+};
+
+}  // namespace
+
+Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener) {
+  ObjContent content = ObjReader(path, listener).read();
+  Mesh mesh;
+  Points& vertices = mesh.vertices;
+  vertices.position = std::move(content.position);
+  if (!content.color.empty()) {
+    content.color.resize(vertices.size(), glm::vec3(1.0F));
+    decode_colors(content.color);
+    vertices.color = std::move(content.color);
+  }
+  mesh.triangles.reserve(content.triangles.size());
+  if (content.normal.empty()) {
+    for (const auto& [a, b, c] : content.triangles)
+      mesh.triangles.emplace_back(a.vertex - 1, b.vertex - 1, c.vertex - 1);
+  } else if (content.triangles.empty() && content.normal.size() == vertices.size()) {
+    vertices.normal = std::move(content.normal);  // a point set: a normal for each vertex
+  } else {
+    CornerJoiner joiner(vertices, content.normal);
+    for (const auto& [a, b, c] : content.triangles) {
+      const glm::uint first = joiner.index(a), second = joiner.index(b), third = joiner.index(c);
+      mesh.triangles.emplace_back(first, second, third);
+    }
+  }
+  if (vertices.size() > MOST_ELEMENTS) throw_unreadable(path, "found more than 4294967295 vertices");
+  return mesh;
+}
+
+}  // namespace splatray
