@@ -15,135 +15,18 @@
 
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/scene_file_header.h"
 #include "engine/scene/pool_table.h"
 #include "engine/scene/scene_check.h"
 
 namespace splatray {
+
+using namespace scene_file;
+
 namespace {
 
-constexpr char MAGIC[] = {'S', 'O', 'C', 'T'};
-constexpr char END_MARKER[] = {'S', 'O', 'C', 'T', '.', 'E', 'N', 'D'};
-constexpr std::uint32_t ENDIANNESS = 0x01020304;
-constexpr std::uint64_t ALIGNMENT = 16;
 constexpr std::uint64_t PIECE_BYTES = 1ULL << 24;  ///< read or written between two looks at whether to go on
 constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, and would overflow sizes
-
-/// Behind those of the pools, which have the numbers of their rows in POOL_TABLE.
-enum SectionId : std::uint32_t {
-  MATERIALS = SCENE_POOLS,
-  LIGHTS,
-  CAMERA,
-  STATIONS,
-  STRINGS,
-  COLUMNS,
-  SECTION_COUNT = COLUMNS + COLUMNS_MOST
-};
-
-struct SectionEntry {
-  std::uint32_t id, element_size;
-  std::uint64_t offset, size, checksum;
-};
-
-struct Header {
-  char magic[4];
-  std::uint32_t version, endianness, header_size;
-  std::uint64_t file_size, checksum;
-  std::uint64_t splats, references, nodes, leaves;
-  std::uint32_t objects, lights, attributes, has_camera;
-  std::uint64_t string_bytes;
-  RootTransform root;
-  std::uint32_t leaf_size, insertion, probes, radius_rule;
-  double radius_scale;
-  std::uint64_t samples, seed;
-  glm::dvec3 up, bounds_min, bounds_max;
-  double surface_area;
-  std::uint32_t stations, zero;
-  std::uint8_t column_types[COLUMNS_MOST];  ///< 1 + index in Column::Values; 0 = no column
-  std::uint32_t section_count, section_entry_size;
-  SectionEntry sections[SECTION_COUNT];
-};
-
-struct LightRecord {
-  std::uint32_t kind, zero_0;
-  glm::dvec3 position;
-  glm::vec3 power;
-  std::uint32_t zero_1;
-};
-
-struct StationRecord {
-  glm::dvec3 sensor;
-  std::uint32_t has_sensor, rows, columns, zero;
-};
-
-constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
-static_assert(HEADER_BYTES == 1696 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88 &&
-              sizeof(StationRecord) == 40);
-
-/// Bytes of a value of each column type.
-constexpr std::uint32_t COLUMN_BYTES[] = {0, sizeof(std::uint8_t), sizeof(std::uint16_t), sizeof(float),
-                                          sizeof(double)};
-static_assert(std::variant_size_v<Column::Values> + 1 == std::size(COLUMN_BYTES));
-
-std::uint64_t align(std::uint64_t offset) { return (offset + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
-
-/// Elements of a section, and the bytes of each, by the header's counts.
-struct SectionShape {
-  std::uint64_t count;
-  std::uint32_t element_bytes;
-};
-
-std::array<SectionShape, SECTION_COUNT> section_shapes(const Header& header) {
-  std::array<SectionShape, SECTION_COUNT> shapes{};
-  const std::uint64_t lengths[] = {header.nodes, header.leaves + 1, header.leaves, header.references,
-                                   header.splats};
-  std::size_t section = 0;
-  std::uint32_t optional_bit = 1;
-  for_each_pool([&](const auto& row) {
-    using Value = typename std::remove_reference_t<decltype(std::declval<Scene&>().*row.pool)>::value_type;
-    const bool absent = row.optional && (header.attributes & optional_bit) == 0;
-    if (row.optional) optional_bit <<= 1;
-    shapes[section++] = {absent ? 0 : lengths[static_cast<std::size_t>(row.length)], sizeof(Value)};
-  });
-  shapes[MATERIALS] = {header.objects, sizeof(Material)};
-  shapes[LIGHTS] = {header.lights, sizeof(LightRecord)};
-  shapes[CAMERA] = {header.has_camera, sizeof(Camera)};
-  shapes[STATIONS] = {header.stations, sizeof(StationRecord)};
-  shapes[STRINGS] = {header.string_bytes, 1};
-  for (std::size_t i = 0; i < COLUMNS_MOST; ++i)
-    shapes[COLUMNS + i] = {header.column_types[i] == 0 ? 0 : header.splats,
-                           COLUMN_BYTES[header.column_types[i]]};
-  return shapes;
-}
-
-/// The section table (but for checksums) and the file's size follow from the header's counts.
-void lay_out(Header& header) {
-  const auto shapes = section_shapes(header);
-  std::uint64_t end = sizeof(Header);
-  for (std::uint32_t i = 0; i < SECTION_COUNT; ++i) {
-    SectionEntry& entry = header.sections[i];
-    const auto [count, element_bytes] = shapes[i];
-    entry = {i + 1, element_bytes, align(end), count * element_bytes, entry.checksum};
-    end = entry.offset + entry.size;
-  }
-  header.file_size = align(end) + sizeof(END_MARKER);
-}
-
-/// One bit for each optional pool of the table, in order, that the scene has; with `all`, each that there may be.
-std::uint32_t optional_pools(const Scene& scene, bool all = false) {
-  std::uint32_t bits = 0;
-  std::uint32_t bit = 1;
-  for_each_pool([&](const auto& row) {
-    if (!row.optional) return;
-    if (all || !(scene.*row.pool).empty()) bits |= bit;
-    bit <<= 1;
-  });
-  return bits;
-}
-
-std::uint64_t header_checksum(Header header) {
-  header.checksum = 0;
-  return XXH3_64bits(&header, sizeof header);
-}
 
 std::vector<LightRecord> light_records(const std::vector<SceneLight>& lights) {
   std::vector<LightRecord> records;

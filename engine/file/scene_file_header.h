@@ -1,0 +1,83 @@
+/// The bytes that scene_file.h draws: header, section table and records.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <iterator>
+#include <variant>
+
+#include "engine/scene/pool_table.h"
+#include "engine/scene/scene.h"
+
+namespace splatray::scene_file {
+
+inline constexpr char MAGIC[] = {'S', 'O', 'C', 'T'};
+inline constexpr char END_MARKER[] = {'S', 'O', 'C', 'T', '.', 'E', 'N', 'D'};
+inline constexpr std::uint32_t ENDIANNESS = 0x01020304;
+inline constexpr std::uint64_t ALIGNMENT = 16;
+
+/// Behind those of the pools, which have the numbers of their rows in POOL_TABLE.
+enum SectionId : std::uint32_t {
+  MATERIALS = SCENE_POOLS,
+  LIGHTS,
+  CAMERA,
+  STATIONS,
+  STRINGS,
+  COLUMNS,
+  SECTION_COUNT = COLUMNS + COLUMNS_MOST
+};
+
+struct SectionEntry {
+  std::uint32_t id, element_size;
+  std::uint64_t offset, size, checksum;
+};
+
+struct Header {
+  char magic[4];
+  std::uint32_t version, endianness, header_size;
+  std::uint64_t file_size, checksum;
+  std::uint64_t splats, references, nodes, leaves;
+  std::uint32_t objects, lights, attributes, has_camera;
+  std::uint64_t string_bytes;
+  RootTransform root;
+  std::uint32_t leaf_size, insertion, probes, radius_rule;
+  double radius_scale;
+  std::uint64_t samples, seed;
+  glm::dvec3 up, bounds_min, bounds_max;
+  double surface_area;
+  std::uint32_t stations, zero;
+  std::uint8_t column_types[COLUMNS_MOST];  ///< 1 + index in Column::Values; 0 = no column
+  std::uint32_t section_count, section_entry_size;
+  SectionEntry sections[SECTION_COUNT];
+};
+
+struct LightRecord {
+  std::uint32_t kind, zero_0;
+  glm::dvec3 position;
+  glm::vec3 power;
+  std::uint32_t zero_1;
+};
+
+struct StationRecord {
+  glm::dvec3 sensor;
+  std::uint32_t has_sensor, rows, columns, zero;
+};
+
+inline constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
+static_assert(HEADER_BYTES == 1696 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88 &&
+              sizeof(StationRecord) == 40);
+
+/// Bytes of a value of each column type.
+inline constexpr std::uint32_t COLUMN_BYTES[] = {0, sizeof(std::uint8_t), sizeof(std::uint16_t),
+                                                 sizeof(float), sizeof(double)};
+static_assert(std::variant_size_v<Column::Values> + 1 == std::size(COLUMN_BYTES));
+
+/// The section table (but for checksums) and the file's size follow from the header's counts.
+void lay_out(Header& header);
+
+/// One bit for each optional pool of POOL_TABLE, in order, that the scene has; with `all`, each that there may be.
+[[nodiscard]] std::uint32_t optional_pools(const Scene& scene, bool all = false);
+
+/// Of header and section table, its own field taken as zero.
+[[nodiscard]] std::uint64_t header_checksum(Header header);
+
+}  // namespace splatray::scene_file
