@@ -103,6 +103,8 @@ struct ScanOptions {
   std::string columns;  ///< of text files: names by comma, such as "x,y,z,intensity,-,r,g,b"; empty = found
   std::vector<std::string>
       attributes;  ///< further ones to keep, by name (LAS's extra bytes, columns of text, PCD, PLY)
+
+  bool operator==(const ScanOptions&) const = default;
 };
 
 struct ReadOptions {
@@ -118,8 +120,8 @@ struct ReadOptions {
   Progress progress{};   ///< of the stages "reading" and "sampling"; may be empty
 };
 
-/// Reads one or more files into one Input (several files: one object each; glTF: its own objects), by their
-/// extensions (read/formats.h). Throws Error (input_unreadable), one sentence with path, found and expected, or
+/// Reads one or more files into one Input (several files: one object each, but all scans together one; glTF: its own objects),
+/// by their extensions (read/formats.h). A folder stands for the scans in it, by name. Throws Error (input_unreadable), one sentence with path, found and expected, or
 /// (interrupted) when `options.progress` says so.
 [[nodiscard]] Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options);
 

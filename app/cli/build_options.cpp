@@ -1,10 +1,42 @@
 #include "app/cli/build_options.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "app/cli/option_types.h"
 
 namespace splatray {
+
+namespace {
+
+void add_scan_options(OptionList& list, ScanOptions& scans) {
+  list.add_switch("--strict", scans.strict, "refuse a scan that holds less than it says");
+  list.add_switch("--ignore-checksums", scans.ignore_checksums, "read an E57 with damaged pages");
+  list.add_switch("--keep-withheld", scans.keep_withheld,
+                  "keep points that are marked as deleted or as noise (classes 7 and 18)");
+  add_text(
+      list, "--columns", scans.columns,
+      "columns of text files, such as x,y,z,intensity,-,r,g,b; - is skipped; default by header or values",
+      "NAME,...");
+  const auto read = [&scans](const std::string& text) {
+    scans.attributes.clear();
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      if (end == begin) refuse_option("--attributes", text, "names with a comma between");
+      scans.attributes.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  };
+  const auto write = [&scans] {
+    std::string text;
+    for (const std::string& name : scans.attributes) text += (text.empty() ? "" : ",") + name;
+    return text;
+  };
+  list.add_value("--attributes", read, write, "further attributes of scans to keep: extra bytes, columns",
+                 "NAME,...");
+}
+
+}  // namespace
 
 void add_build_options(OptionList& list, BuildOptions& options, const std::string& samples_name) {
   constexpr double MOST_WHOLE = 9007199254740992.0;  // 2^53: whole numbers are exact up to here
@@ -35,6 +67,7 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_number(list, "--radius-scale", params.radius_scale, 1e-6, 1e6, "factor on every radius; default 1");
   add_choice<bool>(list, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
                    "how normals change across each disc, where the scene curves; default on");
+  add_scan_options(list, options.scans);
   add_number(list, "--threads", options.threads, 0, 4096,
              "threads of reading and preprocess; default 0 = all cores");
 }
@@ -51,6 +84,7 @@ ReadOptions read_options(const BuildOptions& options, const Progress& progress) 
   reading.seed = options.params.seed;
   reading.data_paths = model_folders(options);
   reading.threads = options.threads;
+  reading.scans = options.scans;
   reading.progress = progress;
   return reading;
 }

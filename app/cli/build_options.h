@@ -16,6 +16,7 @@ struct BuildOptions {
   std::vector<std::filesystem::path> inputs;
   std::vector<std::filesystem::path> data_paths;  ///< folders for models a scene names
   BuildParams params;
+  ScanOptions scans;
   unsigned threads = 0;  ///< 0 = all cores
 
   bool operator==(const BuildOptions&) const = default;

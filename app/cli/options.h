@@ -8,6 +8,7 @@
 
 #include "app/cli/build_options.h"
 #include "app/cli/object_options.h"
+#include "app/library/attributes.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 
@@ -42,6 +43,7 @@ struct PictureOptions {
   double ortho_height = 0.0;                        ///< world units; 0 = perspective
   std::optional<std::vector<LightOptions>> lights;  ///< unset = the scene's, or the default ones
   std::vector<ObjectOptions> objects;               ///< changes to materials, in this order
+  AttributeOptions attributes;                      ///< what is shown of the points' attributes
   std::string environment;            ///< --env as written; empty = the scene's, else the studio
   std::optional<double> delta_world;  ///< --delta; unset = 1/1000 of the scene's diagonal
   Settings settings;

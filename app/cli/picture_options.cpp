@@ -149,6 +149,51 @@ void add_object_options(OptionList& list, PictureOptions& picture) {
   });
 }
 
+/// A list of whole numbers from 0 on, by commas.
+void add_number_list(OptionList& list, const std::string& name, std::vector<std::uint32_t>& target,
+                     const std::string& help) {
+  const auto read = [&target, name](const std::string& text) {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      numbers.push_back(read_number<std::uint32_t>(name, text.substr(begin, end - begin), 0, 65535));
+      begin = end + 1;
+    }
+    target = numbers;
+  };
+  const auto write = [&target] {
+    std::string text;
+    for (const std::uint32_t number : target) text += (text.empty() ? "" : ",") + std::to_string(number);
+    return text;
+  };
+  list.add_value(name, read, write, help, "N,...");
+}
+
+void add_attribute_options(OptionList& list, PictureOptions& picture) {
+  AttributeOptions& attributes = picture.attributes;
+  add_text(list, "--color-by", attributes.color_by,
+           "colours of points: rgb (their own), height, normal, distance (from the scanner), or an attribute "
+           "they have, such as intensity, class, return, source, scan; default rgb",
+           "NAME");
+  list.add_value(
+      "--color-range",
+      [&attributes](const std::string& text) {
+        const auto numbers = split_numbers(text, ',', 2);
+        if (numbers.empty() || !(numbers[0] < numbers[1]))
+          refuse_option("--color-range", text, "two numbers LOW,HIGH with LOW < HIGH");
+        attributes.color_range = {numbers[0], numbers[1]};
+      },
+      [&attributes] {
+        return attributes.color_range ? number_text((*attributes.color_range)[0]) + "," +
+                                            number_text((*attributes.color_range)[1])
+                                      : "";
+      },
+      "values at the ends of the colours; default 2 to 98 % of all values", "LOW,HIGH");
+  add_number_list(list, "--hide-class", attributes.hidden_classes,
+                  "classes that are not shown, such as 7,18");
+  add_number_list(list, "--hide-scan", attributes.hidden_scans, "scans that are not shown, from 0");
+}
+
 void add_method_options(OptionList& list, PictureOptions& picture) {
   Settings& settings = picture.settings;
   add_number(list, "--samples", settings.samples, 1, 65536, "samples per pixel; default 16");
@@ -211,6 +256,7 @@ void add_picture_options(OptionList& list, PictureOptions& picture) {
   add_light_options(list, picture);
   add_environment_options(list, picture);
   add_object_options(list, picture);
+  add_attribute_options(list, picture);
   add_method_options(list, picture);
 }
 

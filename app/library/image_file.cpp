@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "app/library/exr_check.h"
 #include "app/library/image_codec.h"
 #include "engine/base/error.h"
 #include "engine/base/srgb.h"
@@ -67,6 +68,9 @@ PictureHeader read_header(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) refuse(path, "no such file", EXPECTED);
   if (!std::filesystem::is_regular_file(path, error)) refuse(path, "a folder or device", EXPECTED);
+  if (const auto defect = find_exr_defect(path))
+    refuse(path, *defect,
+           "what fits the file's " + std::to_string(std::filesystem::file_size(path)) + " bytes");
   PictureHeader header;
   if (!codec().read_header(path.string(), header)) refuse(path, "no picture OpenImageIO can open", EXPECTED);
   return header;

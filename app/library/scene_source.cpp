@@ -70,6 +70,7 @@ LoadedScene load_scene(const SceneOptions& options, const PictureOptions& pictur
   if (!options.material.empty()) apply_material(loaded.scene, options.material);
   apply_object_options(picture.objects, loaded.scene.object_names, loaded.scene.materials);
   if (picture.up) loaded.scene.up = *picture.up;
+  loaded.legend = show_attributes(loaded.scene, picture.attributes);
   loaded.environment_name = picture.environment.empty() ? loaded.scene.environment_path : picture.environment;
   return loaded;
 }

@@ -13,6 +13,7 @@ namespace splatray {
 struct LoadedScene {
   Scene scene;
   std::string environment_name;     ///< --env, else what the scene names; empty = none
+  ColorLegend legend;               ///< of PictureOptions::attributes
   double load_ms = 0.0;             ///< reading and preprocess
   std::optional<BuildStats> build;  ///< unless read from a .soct
 };
@@ -23,7 +24,7 @@ struct LoadListener {
   std::function<void(const std::string&)> note;  ///< a sentence about something odd in the files
 };
 
-/// Reads or preprocesses the scene; applies --material, --object and --up. Throws Error.
+/// Reads or preprocesses the scene; applies --material, --object, --up and what is shown of attributes. Throws Error.
 [[nodiscard]] LoadedScene load_scene(const SceneOptions& scene, const PictureOptions& picture,
                                      const LoadListener& listener);
 

@@ -98,6 +98,30 @@ std::string join(const std::vector<std::filesystem::path>& paths) {
   return text;
 }
 
+/// The paths, a folder being those of its scans, by name.
+std::vector<std::filesystem::path> with_folders_opened(const std::vector<std::filesystem::path>& paths) {
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& path : paths) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error)) {
+      files.push_back(path);
+      continue;
+    }
+    const std::size_t before = files.size();
+    for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
+      const Format* format = find_format(entry.path());
+      if (format != nullptr && format->read_scan != nullptr) files.push_back(entry.path());
+    }
+    if (error) throw Error(ExitCode::input_unreadable, path.string() + ": " + error.message());
+    if (files.size() == before)
+      throw Error(
+          ExitCode::input_unreadable,
+          path.string() + ": found a folder without scans, expected files such as .laz or .e57 in it");
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+  }
+  return files;
+}
+
 }  // namespace
 
 Material default_material() {
@@ -111,10 +135,11 @@ Material default_material() {
   return material;
 }
 
-Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options) {
-  if (paths.empty()) {
+Input read_input(const std::vector<std::filesystem::path>& named, const ReadOptions& options) {
+  if (named.empty()) {
     throw Error(ExitCode::usage, "no input file was named");
   }
+  const std::vector<std::filesystem::path> paths = with_folders_opened(named);
   const ThreadLimit limit(options.threads);
   Input input;
   std::vector<NamedScan> scans;

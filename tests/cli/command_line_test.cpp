@@ -64,6 +64,12 @@ SceneOptions random_scene(Dice& dice) {
   for (std::uint32_t i = dice.below(3) + 1; i > 0; --i) scene.inputs.emplace_back(odd_text(dice) + "b.ply");
   for (std::uint32_t i = dice.below(3); i > 0; --i) scene.data_paths.emplace_back("-" + odd_text(dice));
   scene.threads = dice.below(8);
+  scene.scans.strict = dice.chance(0.5);
+  scene.scans.ignore_checksums = dice.chance(0.5);
+  scene.scans.keep_withheld = dice.chance(0.5);
+  if (dice.chance(0.5)) scene.scans.columns = odd_text(dice);
+  for (std::uint32_t i = dice.below(3); i > 0; --i)
+    scene.scans.attributes.push_back("name " + std::to_string(i));
   BuildParams& params = scene.params;
   params.leaf_size = 1 + dice.below(50);
   params.insertion = static_cast<Insertion>(dice.below(3));
@@ -110,6 +116,13 @@ PictureOptions random_picture(Dice& dice) {
     picture.lights->push_back(random_light(dice));
   for (std::uint32_t i = dice.below(3); i > 0; --i) picture.objects.push_back(random_object(dice));
   if (dice.chance(0.5)) picture.environment = odd_text(dice);
+  if (dice.chance(0.5)) picture.attributes.color_by = odd_text(dice);
+  const double low = number(dice, 1e-9, 1e9);
+  maybe(dice, picture.attributes.color_range, {low, low + number(dice, 1.0, 1e9)});
+  for (std::uint32_t i = dice.below(3); i > 0; --i)
+    picture.attributes.hidden_classes.push_back(dice.below(256));
+  for (std::uint32_t i = dice.below(3); i > 0; --i)
+    picture.attributes.hidden_scans.push_back(dice.below(65536));
   maybe(dice, picture.delta_world, number(dice, 1e-9, 1e9));
   picture.settings = random_settings(dice);
   if (dice.chance(0.5)) picture.device = odd_text(dice);

@@ -97,6 +97,37 @@ TEST(ImageFile, HeadersThatAskForMoreThanTheFileHoldsAreRefused) {
   }
 }
 
+/// An OpenEXR header of these attributes, each a name, a type and a value; `bytes` is what they say their values have.
+std::string exr_header(const std::string& name, const std::string& type, std::uint32_t bytes,
+                       const std::string& value) {
+  const char* size = reinterpret_cast<const char*>(&bytes);
+  return std::string("\x76\x2f\x31\x01\2\0\0\0", 8) + name + '\0' + type + '\0' + std::string(size, 4) +
+         value + '\0';
+}
+
+/// Found by a fuzzer: OpenEXR took 1.9 GB for an attribute of a file of 400 bytes.
+TEST(ImageFile, ExrHeadersAreCheckedBeforeOpenExrBelievesThem) {
+  const std::string path = temporary("forged.exr");
+  const auto refusal = [&path](const std::string& bytes) -> std::string {
+    std::ofstream(path, std::ios::binary) << bytes;
+    try {
+      (void)read_environment(path);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(
+      refusal(exr_header("note", "string", 1868852842, "a")).find("an attribute 'note' of 1868852842 bytes"),
+      std::string::npos);
+  const std::string window("\0\0\0\0\0\0\0\0\xff\xff\xff\x7f\xff\xff\xff\x7f", 16);
+  EXPECT_NE(refusal(exr_header("dataWindow", "box2i", 16, window)).find("2147483648 x 2147483648 pixels"),
+            std::string::npos);
+  EXPECT_NE(refusal(exr_header("views", "stringvector", 5, std::string("\0\0\0\x70x", 5))).find("a text of"),
+            std::string::npos);
+}
+
 TEST(ImageFile, PicturesOfOneColourAreReadHoweverSmallTheirFile) {
   const DisplayImage black{2048, 2048, std::vector<vec3>(2048 * 2048)};
   write_png(black, {}, temporary("black.png"));

@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "app/library/palette.h"
+
 namespace splatray {
 namespace {
 

@@ -47,10 +47,10 @@ bool hidden(const Document& document, std::size_t object) {
 /// All members of a document: whoever adds one must name it here.
 bool same(const Document& a, const Document& b) {
   const auto members = [](const Document& document) {
-    const auto& [loaded, materials, lights, environment, camera, settings, exposure_ev, mode, up,
+    const auto& [loaded, materials, lights, environment, camera, settings, exposure_ev, mode, attributes, up,
                  bounds_min_world, bounds_max_world] = document;
-    return std::tie(loaded, lights, environment, camera, settings, exposure_ev, mode, up, bounds_min_world,
-                    bounds_max_world);
+    return std::tie(loaded, lights, environment, camera, settings, exposure_ev, mode, attributes, up,
+                    bounds_min_world, bounds_max_world);
   };
   return same_materials(a.materials, b.materials) && members(a) == members(b);
 }

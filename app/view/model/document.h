@@ -25,9 +25,11 @@ enum class ViewMode {
 
 /// What stays as it was loaded.
 struct LoadedPart {
-  SceneOptions source;                    ///< the files, and how points are made of them
-  std::vector<std::string> object_names;  ///< one per object
-  std::vector<Material> materials;        ///< one per object, as the scene has them
+  SceneOptions source;                     ///< the files, and how points are made of them
+  std::vector<std::string> object_names;   ///< one per object
+  std::vector<Material> materials;         ///< one per object, as the scene has them
+  std::vector<std::string> color_sources;  ///< attributes that colours may show (attributes.h)
+  std::vector<Category> classes, scans;    ///< of the points; empty = not known
 };
 
 struct Document {
@@ -39,6 +41,7 @@ struct Document {
   Settings settings;  ///< samples: where a still picture stops
   double exposure_ev = 0.0;
   ViewMode mode = ViewMode::shaded;
+  AttributeOptions attributes;       ///< what is shown of the points' attributes
   glm::dvec3 up{0.0, 1.0, 0.0};      ///< the scene's up axis: of orbits, framing and the environment
   glm::dvec3 bounds_min_world{0.0};  ///< of the scene's splat centres
   glm::dvec3 bounds_max_world{0.0};

@@ -4,42 +4,15 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <glm/gtc/color_space.hpp>
 #include <limits>
-#include <numbers>
+
+#include "app/library/palette.h"
 
 namespace splatray {
 namespace {
 
-constexpr float MISS_GREY = 0.09F;        ///< display-encoded
-constexpr double COUNTED_SHARE = 0.995;   ///< of the pixels whose counts fit the scale
-constexpr float TURNS_APART = 0.618034F;  ///< golden section: hues of consecutive numbers lie far apart
-/// Oklch lightness, chroma and hue of the two ends of heat_color; the middle is less colourful, to stay in sRGB.
-constexpr float DARK = 0.27F, BRIGHT = 0.93F, CHROMA = 0.135F, CHROMA_DIP = 0.035F, HUE_DARK = 290.0F,
-                HUE_BRIGHT = 105.0F;
-
-/// Display-encoded rgb of Oklch (Ottosson 2020, "A perceptual color space for image processing"), clamped to
-/// sRGB. `hue_deg` any.
-glm::vec3 oklch(float lightness, float chroma, float hue_deg) {
-  const float hue = glm::radians(hue_deg);
-  const float a = chroma * std::cos(hue), b = chroma * std::sin(hue);
-  const auto cube = [](float v) { return v * v * v; };
-  const float l = cube(lightness + 0.3963377774F * a + 0.2158037573F * b);
-  const float m = cube(lightness - 0.1055613458F * a - 0.0638541728F * b);
-  const float s = cube(lightness - 0.0894841775F * a - 1.2914855480F * b);
-  const glm::vec3 linear(4.0767416621F * l - 3.3077115913F * m + 0.2309699292F * s,
-                         -1.2684380046F * l + 2.6097574011F * m - 0.3413193965F * s,
-                         -0.0041960863F * l - 0.7034186147F * m + 1.7076147010F * s);
-  return glm::convertLinearToSRGB(glm::clamp(linear, 0.0F, 1.0F));
-}
-
-/// A colour of its own for each number; consecutive ones differ in hue and lightness.
-glm::vec3 number_color(std::uint32_t number) {
-  const float turn = static_cast<float>(number % 4096U) * TURNS_APART;
-  const float lightness = 0.62F + 0.08F * static_cast<float>(number % 4U);
-  return oklch(lightness, 0.13F, 360.0F * (turn - std::floor(turn)));
-}
-
+constexpr float MISS_GREY = 0.09F;       ///< display-encoded
+constexpr double COUNTED_SHARE = 0.995;  ///< of the pixels whose counts fit the scale
 /// number_color of a few hundred colours made once, for numbers that are hashes.
 glm::vec3 hash_color(std::uint32_t hash) {
   static const std::vector<glm::vec3> COLORS = [] {
@@ -123,20 +96,6 @@ ColorRange color_range(std::span<const AovPixel> pixels, ViewMode mode) {
   const auto nth = values.begin() + std::ptrdiff_t(COUNTED_SHARE * double(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return {0.0, std::max(1.0, *nth)};
-}
-
-glm::vec3 heat_color(float share) {
-  static const std::vector<glm::vec3> COLORS = [] {
-    std::vector<glm::vec3> colors;
-    for (int i = 0; i < 256; ++i) {
-      const float t = static_cast<float>(i) / 255.0F;
-      const float dip = CHROMA_DIP * std::sin(std::numbers::pi_v<float> * t);
-      colors.push_back(oklch(std::lerp(DARK, BRIGHT, t), CHROMA - dip, std::lerp(HUE_DARK, HUE_BRIGHT, t)));
-    }
-    return colors;
-  }();
-  if (!(share > 0.0F)) return COLORS.front();
-  return COLORS[static_cast<std::size_t>(std::lround(255.0F * std::min(share, 1.0F)))];
 }
 
 std::vector<std::uint8_t> false_color(std::span<const AovPixel> pixels, ViewMode mode,

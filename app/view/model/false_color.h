@@ -24,10 +24,6 @@ struct ColorRange {
 /// [0, 1] without hits and for the other modes.
 [[nodiscard]] ColorRange color_range(std::span<const AovPixel> pixels, ViewMode mode);
 
-/// Display-encoded (sRGB) rgb, 0..1, of a share 0..1: dark blue over green to yellow, each step equally visible.
-/// Clamped outside.
-[[nodiscard]] glm::vec3 heat_color(float share);
-
 /// Display-encoded (sRGB) 8-bit rgba of each pixel, r first; alpha 255. Misses are dark grey. `mode` is not shaded.
 [[nodiscard]] std::vector<std::uint8_t> false_color(std::span<const AovPixel> pixels, ViewMode mode,
                                                     const ColorRange& range);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/library/attributes.h"
 #include "app/view/model/false_color.h"
 #include "engine/gpu/pools.h"
 #include "engine/gpu/tracer.h"
@@ -25,6 +26,7 @@ struct Frame {
   double scale = 1.0;                 ///< traced pixels / window pixels, along an edge; below 1 while moving
   double ms = 0.0;                    ///< wall time of the last whole pass over the picture
   RenderStats stats;                  ///< of all of the picture so far
+  ColorLegend legend;                 ///< of the points' colours
   PoolBytes pool_bytes;
   std::uint32_t pools_uploaded = 0;  ///< since start
   std::string device;
@@ -41,6 +43,7 @@ struct Inspected {
   std::uint32_t leaf_references = 0;
   glm::dvec3 hit_world{0.0};    ///< blended
   double distance_world = 0.0;  ///< from the eye to hit_world
+  std::vector<AttributeValue> attributes;
 };
 
 }  // namespace splatray

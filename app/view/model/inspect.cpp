@@ -1,5 +1,6 @@
 #include "app/view/model/inspect.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/scene/splat.h"
@@ -57,6 +58,9 @@ std::optional<Inspected> inspect(const Scene& scene, const Camera& camera, const
   inspected.leaf_depth = leaf.depth;
   inspected.leaf_references = leaf.references;
   inspected.hit_world = scene.root.to_world(hit_root);
+  const auto place = std::find(scene.data_pool.begin(), scene.data_pool.end(), hit.first);
+  if (!scene.columns.empty() && place != scene.data_pool.end())
+    inspected.attributes = attributes_of(scene, static_cast<std::size_t>(place - scene.data_pool.begin()));
   inspected.distance_world = glm::length(inspected.hit_world - camera.eye);
   return inspected;
 }

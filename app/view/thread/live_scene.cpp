@@ -28,9 +28,12 @@ void LiveScene::open(SharedScene scene) {
   materials_ = scene_->materials;
   lights_.reset();
   up_ = scene_->up;
+  attributes_ = {};
+  legend_ = {};
 }
 
 void LiveScene::match(const Document& document, ViewMode mode) {
+  match_attributes(document.attributes);
   match_materials(mode == ViewMode::facing ? two_sided(document.materials) : document.materials);
   if (lights_ != document.lights) {
     tracer_.set_lights(document.lights);
@@ -47,6 +50,18 @@ void LiveScene::match_materials(const std::vector<Material>& materials) {
   if (same_materials(materials, materials_)) return;
   tracer_.set_materials(materials);
   materials_ = materials;
+}
+
+/// The scene is uploaded again with other colours and radii: those of a copy that lives as long as that takes.
+void LiveScene::match_attributes(const AttributeOptions& attributes) {
+  if (attributes == attributes_) return;
+  Scene shown = *scene_;
+  legend_ = show_attributes(shown, attributes);
+  attributes_ = attributes;
+  tracer_.upload_and_free(shown);
+  materials_ = scene_->materials;
+  lights_.reset();
+  up_ = scene_->up;
 }
 
 void LiveScene::match_environment(const std::string& name) {

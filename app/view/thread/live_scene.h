@@ -1,4 +1,5 @@
-/// The scene on the device, kept like the document: what changed is uploaded, the pools never.
+/// The scene on the device, kept like the document: what changed is uploaded, the pools only where colours or
+/// hidden points change.
 #pragma once
 #include <memory>
 #include <optional>
@@ -26,10 +27,12 @@ class LiveScene {
 
   [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] const ColorLegend& legend() const { return legend_; }
   [[nodiscard]] Tracer& tracer() { return tracer_; }
 
  private:
   void match_materials(const std::vector<Material>& materials);
+  void match_attributes(const AttributeOptions& attributes);
   void match_environment(const std::string& name);
 
   Tracer tracer_;
@@ -38,6 +41,8 @@ class LiveScene {
   std::optional<std::vector<SceneLight>> lights_;
   std::optional<std::string> environment_;
   glm::dvec3 up_{0.0};
+  AttributeOptions attributes_;
+  ColorLegend legend_;
 };
 
 /// Whether the words are the same.

@@ -77,6 +77,7 @@ void LoadThread::load_now(const Wish& wish) {
       [&](const std::string& note) { deliver([&](LoadNews& news) { news.notice = note; }); }};
   PictureOptions picture = wish.picture;
   picture.objects.clear();  // the document keeps the materials without them
+  picture.attributes = {};  // the render thread applies them
   LoadedScene loaded = load_scene(wish.scene, picture, listener);
   OpenedScene opened{nullptr, first_document(loaded, wish.scene, wish.picture)};
   opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));

@@ -15,7 +15,8 @@ constexpr std::chrono::milliseconds BETWEEN_PICTURES{
 /// Whether a picture of one is a picture of the other, but for the exposure.
 bool same_picture(const Document& a, const Document& b) {
   return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights &&
-         a.up == b.up && a.environment == b.environment && same_materials(a.materials, b.materials);
+         a.up == b.up && a.attributes == b.attributes && a.environment == b.environment &&
+         same_materials(a.materials, b.materials);
 }
 
 }  // namespace
@@ -137,6 +138,7 @@ Frame Progressive::new_frame(glm::uvec2 size_px, double scale) const {
 SharedFrame Progressive::coloured(Frame frame) {
   recolour_ = false;
   frame.pool_bytes = live_.tracer().pool_bytes();
+  frame.legend = live_.legend();
   frame.pools_uploaded = live_.tracer().pools_uploaded();
   if (frame.mode == ViewMode::shaded) {
     if (!table_ || table_->exposure_ev() != document_.exposure_ev) table_.emplace(document_.exposure_ev);

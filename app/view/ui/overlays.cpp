@@ -4,7 +4,10 @@
 #include <array>
 #include <cstdio>
 
+#include "app/library/palette.h"
 #include "app/view/ui/panel_parts.h"
+#include "engine/base/srgb.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 namespace {
@@ -15,6 +18,7 @@ constexpr float SCALE_EM = 14.0F;      ///< width of a colour scale
 constexpr int SCALE_STEPS = 48;        ///< of the colours in it
 constexpr float HELP_KEYS_EM = 13.5F;  ///< width of the column of keys
 constexpr float HELP_EM = 48.0F;
+constexpr std::size_t MOST_LEGEND_ROWS = 24;
 
 constexpr ImGuiWindowFlags OVERLAY = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -46,11 +50,13 @@ std::string status_text(const Document& document, const Frame& frame, double fra
   return text.data();
 }
 
-void color_scale(const ColorRange& range, const char* meaning) {
+/// `color` gives the colour of a share 0..1, display-encoded.
+template <typename Color>
+void color_scale(const ColorRange& range, const char* meaning, const Color& color_of) {
   const float em = ImGui::GetFontSize(), step = SCALE_EM * em / SCALE_STEPS;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   for (int i = 0; i < SCALE_STEPS; ++i) {
-    const glm::vec3 color = heat_color((static_cast<float>(i) + 0.5F) / SCALE_STEPS);
+    const glm::vec3 color = color_of((static_cast<float>(i) + 0.5F) / SCALE_STEPS);
     const ImVec2 from{corner.x + static_cast<float>(i) * step, corner.y};
     ImGui::GetWindowDrawList()->AddRectFilled(from, {from.x + step + 1.0F, corner.y + em},
                                               ImGui::GetColorU32(ImVec4(color.r, color.g, color.b, 1.0F)));
@@ -62,6 +68,28 @@ void color_scale(const ColorRange& range, const char* meaning) {
   ImGui::SameLine(SCALE_EM * em - ImGui::CalcTextSize(high.data()).x + ImGui::GetStyle().WindowPadding.x);
   ImGui::TextUnformatted(high.data());
   ImGui::TextUnformatted(meaning);
+}
+
+/// What the points' colours mean.
+void attribute_legend(const ColorLegend& legend) {
+  if (!legend.ramp.empty()) {
+    color_scale({legend.low, legend.high}, legend.title.c_str(), [&legend](float share) {
+      const float last = static_cast<float>(legend.ramp.size() - 1);
+      const glm::vec3 linear = unpack_color(legend.ramp[static_cast<std::size_t>(share * last)]);
+      return glm::vec3(linear_to_srgb(linear.x), linear_to_srgb(linear.y), linear_to_srgb(linear.z));
+    });
+    return;
+  }
+  ImGui::TextUnformatted(legend.title.c_str());
+  for (std::size_t i = 0; i < std::min(legend.categories.size(), MOST_LEGEND_ROWS); ++i) {
+    const Category& category = legend.categories[i];
+    ImGui::PushID(static_cast<int>(category.value));
+    category_swatch(category);
+    ImGui::Text("%u  %s", category.value, category.name.c_str());
+    ImGui::PopID();
+  }
+  if (legend.categories.size() > MOST_LEGEND_ROWS)
+    ImGui::Text("and %zu more", legend.categories.size() - MOST_LEGEND_ROWS);
 }
 
 }  // namespace
@@ -86,18 +114,19 @@ void work_bar(const PanelView& view, float width_px, Requests& requests) {
 }
 
 void legend(const PanelView& view, float width_px) {
-  if (view.frame == nullptr || view.frame->mode == ViewMode::shaded) return;
+  if (view.frame == nullptr) return;
   const Frame& frame = *view.frame;
+  if (frame.mode == ViewMode::shaded && frame.legend.title.empty()) return;
   begin_overlay("##legend", width_px, {0.0F, 0.0F}, ImGuiWindowFlags_NoInputs);
   switch (frame.mode) {
     case ViewMode::depth:
-      color_scale(frame.range, "distance from the eye, world units");
+      color_scale(frame.range, "distance from the eye, world units", heat_color);
       break;
     case ViewMode::tests:
-      color_scale(frame.range, "splat tests of the pixel's ray");
+      color_scale(frame.range, "splat tests of the pixel's ray", heat_color);
       break;
     case ViewMode::steps:
-      color_scale(frame.range, "node words read by the pixel's ray");
+      color_scale(frame.range, "node words read by the pixel's ray", heat_color);
       break;
     case ViewMode::normal:
       ImGui::TextUnformatted("normal: red x, green y, blue z, each from -1 to 1");
@@ -112,6 +141,7 @@ void legend(const PanelView& view, float width_px) {
       ImGui::TextUnformatted("front faces grey, back faces red");
       break;
     case ViewMode::shaded:
+      attribute_legend(frame.legend);
       break;
   }
   ImGui::End();

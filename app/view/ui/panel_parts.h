@@ -7,6 +7,7 @@ namespace splatray {
 
 void object_panel(Document& document, PanelState& state);
 void material_panel(Document& document, PanelState& state);
+void attribute_panel(Document& document, const PanelView& view);
 void light_panel(Document& document, PanelState& state);
 void environment_panel(Document& document);
 void quality_panel(Document& document);
@@ -36,6 +37,8 @@ void command_button(const char* label, Action action, Requests& requests);
 void recent_list(const PanelState& state, Requests& requests);
 /// A colour that is linear, edited as it is seen; returns whether it has changed.
 bool color_edit(const char* label, glm::vec3& linear);
+/// A square of a category's colour; the next item is beside it.
+void category_swatch(const Category& category);
 /// A tip for the item before.
 void tip(const char* text);
 /// Grey text with what it is, then the value.

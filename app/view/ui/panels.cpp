@@ -41,6 +41,7 @@ void column(Document& document, PanelState& state, const PanelView& view, Reques
   mode_combo(document);
   if (section("Objects", true)) object_panel(document, state);
   if (section("Material", true)) material_panel(document, state);
+  if (!document.loaded->color_sources.empty() && section("Points", false)) attribute_panel(document, view);
   if (section("Lights", false)) light_panel(document, state);
   if (section("Environment", false)) environment_panel(document);
   if (section("Camera", false)) camera_panel(document, state, requests);

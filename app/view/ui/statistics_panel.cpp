@@ -86,6 +86,7 @@ void inspector_panel(const PanelView& view) {
   fact("splats in leaf", std::to_string(splat.leaf_references));
   vector_facts("surface", splat.hit_world, decimals);
   fact("distance", text("%.9g", splat.distance_world));
+  for (const AttributeValue& attribute : splat.attributes) fact(attribute.name.c_str(), attribute.text);
 }
 
 }  // namespace splatray

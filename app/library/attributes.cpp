@@ -1,0 +1,259 @@
+#include "app/library/attributes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "app/library/palette.h"
+#include "engine/base/error.h"
+#include "engine/base/number_text.h"
+#include "engine/base/srgb.h"
+#include "engine/scene/splat.h"
+
+namespace splatray {
+namespace {
+
+constexpr double RANGE_FIRST = 0.02,
+                 RANGE_LAST = 0.98;  ///< shares of all values that a range leaves out at its ends
+constexpr std::size_t RAMP_STEPS = 256;
+constexpr double INTENSITY_GAMMA = 2.2;
+
+std::uint32_t color_of(const glm::vec3& encoded) {
+  return pack_color({srgb_to_linear(encoded.x), srgb_to_linear(encoded.y), srgb_to_linear(encoded.z)});
+}
+
+std::vector<std::uint32_t> heat_ramp() {
+  std::vector<std::uint32_t> ramp;
+  for (std::size_t i = 0; i < RAMP_STEPS; ++i)
+    ramp.push_back(color_of(heat_color(static_cast<float>(i) / (RAMP_STEPS - 1))));
+  return ramp;
+}
+
+std::vector<std::uint32_t> grey_ramp() {
+  std::vector<std::uint32_t> ramp;
+  for (std::size_t i = 0; i < RAMP_STEPS; ++i) {
+    const double share = std::pow(static_cast<double>(i) / (RAMP_STEPS - 1), 1.0 / INTENSITY_GAMMA);
+    ramp.push_back(color_of(glm::vec3(static_cast<float>(share))));
+  }
+  return ramp;
+}
+
+struct AsprsClass {
+  const char* name;
+  glm::vec3 rgb;  ///< display-encoded, 0..255
+};
+
+/// LAS 1.4 R15, table 17; the colours are our own.
+const std::map<std::uint32_t, AsprsClass>& asprs_classes() {
+  static const std::map<std::uint32_t, AsprsClass> CLASSES = {
+      {0, {"never classified", {150, 150, 150}}},
+      {1, {"unclassified", {190, 190, 190}}},
+      {2, {"ground", {166, 116, 70}}},
+      {3, {"low vegetation", {170, 214, 110}}},
+      {4, {"medium vegetation", {96, 178, 72}}},
+      {5, {"high vegetation", {34, 120, 52}}},
+      {6, {"building", {214, 86, 60}}},
+      {7, {"low noise", {235, 30, 190}}},
+      {8, {"model key point", {240, 220, 60}}},
+      {9, {"water", {60, 130, 220}}},
+      {10, {"rail", {110, 60, 140}}},
+      {11, {"road surface", {90, 92, 98}}},
+      {12, {"overlap", {200, 170, 130}}},
+      {13, {"wire, guard", {250, 200, 40}}},
+      {14, {"wire, conductor", {250, 160, 20}}},
+      {15, {"transmission tower", {120, 160, 200}}},
+      {16, {"wire connector", {240, 120, 40}}},
+      {17, {"bridge deck", {140, 140, 170}}},
+      {18, {"high noise", {255, 90, 215}}},
+      {19, {"overhead structure", {170, 120, 180}}},
+      {20, {"ignored ground", {130, 100, 80}}},
+      {21, {"snow", {235, 242, 250}}},
+      {22, {"temporal exclusion", {120, 120, 60}}},
+  };
+  return CLASSES;
+}
+
+bool is_category(std::string_view name) {
+  return name == COLUMN_CLASS || name == COLUMN_RETURN || name == COLUMN_RETURNS || name == COLUMN_SOURCE ||
+         name == COLUMN_SCAN;
+}
+
+Category category(const Scene& scene, std::string_view column, std::uint32_t value) {
+  if (column == COLUMN_CLASS) {
+    const auto known = asprs_classes().find(value);
+    if (known != asprs_classes().end()) {
+      return {value, known->second.name, color_of(known->second.rgb / 255.0F), 0};
+    }
+  }
+  const bool named = column == COLUMN_SCAN && value < scene.stations.size();
+  return {value, named ? scene.stations[value].name : "", color_of(number_color(value)), 0};
+}
+
+glm::dvec3 center_world(const Scene& scene, std::size_t splat) {
+  return scene.root.to_world(unpack_splat(scene.data_pool[splat]).center);
+}
+
+/// The scanner's place of each scan; throws where none is known.
+std::vector<std::optional<glm::dvec3>> sensors(const Scene& scene) {
+  std::vector<std::optional<glm::dvec3>> places;
+  for (const Station& station : scene.stations) places.push_back(station.sensor_world);
+  return places;
+}
+
+bool knows_a_sensor(const Scene& scene) {
+  return std::any_of(scene.stations.begin(), scene.stations.end(),
+                     [](const Station& station) { return station.sensor_world.has_value(); });
+}
+
+/// The value of an attribute at each splat; NaN where it has none.
+std::vector<double> values_of(const Scene& scene, const std::string& name) {
+  std::vector<double> values(scene.data_pool.size());
+  const auto fill = [&values](const auto& value) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(i);
+  };
+  if (const Column* column = find_column(scene.columns, name)) {
+    fill([&](std::size_t i) { return column->number(i); });
+  } else if (name == "height") {
+    const glm::dvec3 up = glm::normalize(scene.up);
+    fill([&](std::size_t i) { return glm::dot(up, center_world(scene, i)); });
+  } else {
+    const auto places = sensors(scene);
+    const Column* scan = find_column(scene.columns, COLUMN_SCAN);
+    fill([&](std::size_t i) {
+      const auto station = scan != nullptr ? static_cast<std::size_t>(scan->number(i)) : 0;
+      return station < places.size() && places[station]
+                 ? glm::length(center_world(scene, i) - *places[station])
+                 : std::nan("");
+    });
+  }
+  return values;
+}
+
+/// From the 2nd to the 98th of 100 parts of the values that are numbers.
+std::array<double, 2> robust_range(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return {0.0, 0.0};
+  const auto at = [&values](double share) {
+    const auto place = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  };
+  const double low = at(RANGE_FIRST);
+  return {low, at(RANGE_LAST)};
+}
+
+AttributeColors ramp_colors(const Scene& scene, const AttributeOptions& options) {
+  const std::vector<double> values = values_of(scene, options.color_by);
+  const auto [low, high] = options.color_range ? *options.color_range : robust_range(values);
+  AttributeColors result;
+  result.legend = {
+      options.color_by, low, high, options.color_by == COLUMN_INTENSITY ? grey_ramp() : heat_ramp(), {}};
+  result.colors.reserve(values.size());
+  for (const double value : values) {
+    const double share = high > low ? (value - low) / (high - low) : 0.5;
+    const double step = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * (RAMP_STEPS - 1) : 0.0;
+    result.colors.push_back(result.legend.ramp[static_cast<std::size_t>(std::lround(step))]);
+  }
+  return result;
+}
+
+AttributeColors category_colors(const Scene& scene, const Column& column) {
+  AttributeColors result;
+  result.legend.title = column.name;
+  result.legend.categories = categories_of(scene, column.name);
+  std::map<std::uint32_t, std::uint32_t> color;
+  for (const Category& category : result.legend.categories) color[category.value] = category.color;
+  result.colors.reserve(column.size());
+  for (std::size_t i = 0; i < column.size(); ++i)
+    result.colors.push_back(color.at(static_cast<std::uint32_t>(column.number(i))));
+  return result;
+}
+
+AttributeColors normal_colors(const Scene& scene) {
+  AttributeColors result;
+  result.legend.title = "normal";
+  for (const uvec4& words : scene.data_pool) {
+    result.colors.push_back(color_of(glm::vec3(0.5 * unpack_splat(words).normal + 0.5)));
+  }
+  return result;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Shrinks the splats whose value of the column is in the list.
+void hide(Scene& scene, std::string_view name, const std::vector<std::uint32_t>& hidden) {
+  if (hidden.empty()) return;
+  const Column* column = find_column(scene.columns, name);
+  if (column == nullptr)
+    throw Error(ExitCode::usage,
+                "--hide-" + std::string(name) + ": the scene's points have no " + std::string(name));
+  for (std::size_t i = 0; i < column->size(); ++i) {
+    const auto value = static_cast<std::uint32_t>(column->number(i));
+    if (std::find(hidden.begin(), hidden.end(), value) == hidden.end()) continue;
+    scene.data_pool[i].w &= OBJECT_MASK;  // a stored radius of 0 is the least: sqrt(2) lattice units
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> color_sources(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Column& column : scene.columns) names.push_back(column.name);
+  names.insert(names.end(), {"height", "normal"});
+  if (knows_a_sensor(scene)) names.emplace_back("distance");
+  return names;
+}
+
+AttributeColors color_by(const Scene& scene, const AttributeOptions& options) {
+  if (options.color_by.empty() || options.color_by == "rgb") return {};
+  const std::vector<std::string> sources = color_sources(scene);
+  if (std::find(sources.begin(), sources.end(), options.color_by) == sources.end())
+    throw Error(ExitCode::usage, "--color-by: found '" + options.color_by +
+                                     "', expected what the scene's points have: rgb, " + joined(sources));
+  if (options.color_by == "normal") return normal_colors(scene);
+  if (is_category(options.color_by))
+    return category_colors(scene, *find_column(scene.columns, options.color_by));
+  return ramp_colors(scene, options);
+}
+
+std::vector<Category> categories_of(const Scene& scene, std::string_view name) {
+  const Column* column = find_column(scene.columns, name);
+  if (column == nullptr) return {};
+  std::map<std::uint32_t, std::uint64_t> points;
+  for (std::size_t i = 0; i < column->size(); ++i) ++points[static_cast<std::uint32_t>(column->number(i))];
+  std::vector<Category> categories;
+  for (const auto& [value, count] : points) {
+    categories.push_back(category(scene, name, value));
+    categories.back().points = count;
+  }
+  return categories;
+}
+
+ColorLegend show_attributes(Scene& scene, const AttributeOptions& options) {
+  AttributeColors colors = color_by(scene, options);
+  if (!colors.colors.empty()) scene.color_pool = std::move(colors.colors);
+  hide(scene, COLUMN_CLASS, options.hidden_classes);
+  hide(scene, COLUMN_SCAN, options.hidden_scans);
+  return colors.legend;
+}
+
+std::vector<AttributeValue> attributes_of(const Scene& scene, std::size_t splat) {
+  std::vector<AttributeValue> values;
+  for (const Column& column : scene.columns) {
+    std::string text = number_text(column.number(splat));
+    if (column.name == COLUMN_CLASS || column.name == COLUMN_SCAN) {
+      const std::string name =
+          category(scene, column.name, static_cast<std::uint32_t>(column.number(splat))).name;
+      if (!name.empty()) text += " (" + name + ")";
+    }
+    values.push_back({column.name, text});
+  }
+  return values;
+}
+
+}  // namespace splatray

@@ -1,0 +1,15 @@
+/// Colours that stand for numbers.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace splatray {
+
+/// Display-encoded (sRGB) rgb, 0..1, of a share 0..1: dark blue over green to yellow, each step equally visible.
+/// Clamped outside.
+[[nodiscard]] glm::vec3 heat_color(float share);
+
+/// A colour of its own for each number, display-encoded; consecutive ones differ in hue and lightness.
+[[nodiscard]] glm::vec3 number_color(std::uint32_t number);
+
+}  // namespace splatray

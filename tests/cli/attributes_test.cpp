@@ -1,0 +1,153 @@
+/// Points shown by their attributes (app/library/attributes.h).
+#include "app/library/attributes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/srgb.h"
+#include "engine/scene/splat.h"
+#include "preprocess/build.h"
+
+namespace splatray {
+namespace {
+
+constexpr int EDGE = 10;
+
+/// A sheet of points, the second half one unit higher: class 2 below and 6 above, intensity along x, two scans of which the
+/// first has a place.
+Scene sheet() {
+  Input input;
+  InputObject& object = input.objects.emplace_back();
+  object.material = default_material();
+  Points& points = object.points;
+  std::vector<std::uint8_t> classes;
+  std::vector<float> intensity;
+  std::vector<std::uint16_t> scan;
+  for (int x = 0; x < EDGE; ++x)
+    for (int y = 0; y < EDGE; ++y) {
+      const bool above = x >= EDGE / 2;
+      points.position.emplace_back(x, y, above ? 1.0 : 0.0);
+      classes.push_back(above ? 6 : 2);
+      intensity.push_back(static_cast<float>(x));
+      scan.push_back(y < EDGE / 2 ? 0 : 1);
+    }
+  points.columns = {{"class", classes}, {"intensity", intensity}, {"scan", scan}};
+  points.stations = {{"door", glm::dvec3(0.0, 0.0, 5.0), 0, 0}, {"window", std::nullopt, 0, 0}};
+  input.up = glm::dvec3(0.0, 0.0, 1.0);
+  BuildStats stats;
+  return build_scene(std::move(input), {}, 1, stats);
+}
+
+glm::dvec3 place(const Scene& scene, std::size_t splat) {
+  return scene.root.to_world(unpack_splat(scene.data_pool[splat]).center);
+}
+
+TEST(Attributes, StayWithTheirPointsThroughTheBuild) {
+  const Scene scene = sheet();
+  ASSERT_EQ(scene.columns.size(), 3U);
+  const Column* intensity = find_column(scene.columns, "intensity");
+  const Column* classes = find_column(scene.columns, COLUMN_CLASS);
+  ASSERT_EQ(intensity->size(), scene.data_pool.size());
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const glm::dvec3 p = place(scene, i);
+    EXPECT_NEAR(intensity->number(i), p.x, 1e-3);
+    EXPECT_EQ(classes->number(i), p.z > 0.5 ? 6.0 : 2.0);
+  }
+}
+
+TEST(Attributes, ColoursFollowTheValues) {
+  const Scene scene = sheet();
+  const AttributeColors colors = color_by(scene, {.color_by = "intensity",
+                                                  .color_range = {{0.0, EDGE - 1.0}},
+                                                  .hidden_classes = {},
+                                                  .hidden_scans = {}});
+  ASSERT_EQ(colors.colors.size(), scene.data_pool.size());
+  for (std::size_t i = 0; i < colors.colors.size(); ++i) {
+    const glm::vec3 linear = unpack_color(colors.colors[i]);
+    EXPECT_EQ(linear.x, linear.z) << "grey";
+    const double share = std::max(std::round(place(scene, i).x), 0.0) / (EDGE - 1.0);
+    EXPECT_NEAR(linear_to_srgb(linear.x), std::pow(share, 1.0 / 2.2), 0.01);
+  }
+  EXPECT_EQ(color_by(scene, {}).colors.size(), 0U) << "nothing is asked for";
+}
+
+TEST(Attributes, HeightAndDistanceNeedNoColumn) {
+  const Scene scene = sheet();
+  AttributeOptions options;
+  options.color_by = "height";
+  const AttributeColors height = color_by(scene, options);
+  EXPECT_NEAR(height.legend.low, 0.0, 1e-3);
+  EXPECT_NEAR(height.legend.high, 1.0, 1e-3);
+  options.color_by = "distance";
+  const AttributeColors distance = color_by(scene, options);
+  EXPECT_NEAR(distance.legend.low, 4.5, 0.6) << "of the first scan's points alone";
+  EXPECT_LT(distance.legend.high, 11.0);
+}
+
+TEST(Attributes, CategoriesAreCountedAndNamed) {
+  const Scene scene = sheet();
+  const auto classes = categories_of(scene, COLUMN_CLASS);
+  ASSERT_EQ(classes.size(), 2U);
+  EXPECT_EQ(classes[0].name, "ground");
+  EXPECT_EQ(classes[1].value, 6U);
+  EXPECT_EQ(classes[1].points, 50U);
+  EXPECT_EQ(categories_of(scene, COLUMN_SCAN).at(1).name, "window");
+  EXPECT_NE(classes[0].color, classes[1].color);
+  EXPECT_EQ(attributes_of(scene, 0).at(0).text, "2 (ground)");
+}
+
+TEST(Attributes, WhatIsHiddenIsTooSmallToBeSeen) {
+  Scene scene = sheet();
+  AttributeOptions options;
+  options.hidden_classes = {6};
+  options.hidden_scans = {1};
+  static_cast<void>(show_attributes(scene, options));
+  const Column* classes = find_column(scene.columns, COLUMN_CLASS);
+  const Column* scan = find_column(scene.columns, COLUMN_SCAN);
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const bool hidden = classes->number(i) == 6.0 || scan->number(i) == 1.0;
+    EXPECT_EQ(unpack_radius_squared(scene.data_pool[i]) == 2.0, hidden);
+  }
+}
+
+TEST(Attributes, WhatASceneDoesNotHaveIsNamed) {
+  Scene scene = sheet();
+  AttributeOptions options;
+  options.color_by = "return";
+  try {
+    static_cast<void>(color_by(scene, options));
+    FAIL() << "coloured";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what())
+                  .find("found 'return', expected what the scene's points have: rgb, class, intensity"),
+              std::string::npos)
+        << error.what();
+  }
+  scene.columns.clear();
+  options = {};
+  options.hidden_classes = {2};
+  EXPECT_THROW(static_cast<void>(show_attributes(scene, options)), Error);
+}
+
+TEST(Attributes, DoNotDependOnTheOrderOfPoints) {
+  // Points that differ in nothing but an attribute: which of them is which must not follow the file's order.
+  const auto built = [](bool reversed) {
+    Input input;
+    Points& points = input.objects.emplace_back().points;
+    points.position.assign(6, glm::dvec3(1.0, 2.0, 3.0));
+    points.position.emplace_back(0.0, 0.0, 0.0);
+    std::vector<float> values{1.0F, 5.0F, 3.0F, 2.0F, 4.0F, 6.0F, 9.0F};
+    if (reversed) std::reverse(values.begin(), values.begin() + 6);
+    points.columns = {{"intensity", values}};
+    BuildStats stats;
+    return build_scene(std::move(input), {}, 1, stats);
+  };
+  EXPECT_EQ(built(false).columns.at(0).values, built(true).columns.at(0).values);
+}
+
+}  // namespace
+}  // namespace splatray
