@@ -13,9 +13,9 @@ namespace splatray {
 struct LoadedScene {
   Scene scene;
   std::string environment_name;     ///< --env, else what the scene names; empty = none
-  ColorLegend legend;               ///< of PictureOptions::attributes
   double load_ms = 0.0;             ///< reading and preprocess
   std::optional<BuildStats> build;  ///< unless read from a .soct
+  ColorLegend legend{};             ///< of PictureOptions::attributes
 };
 
 /// Who hears of loading, on its thread.

@@ -25,11 +25,11 @@ enum class ViewMode {
 
 /// What stays as it was loaded.
 struct LoadedPart {
-  SceneOptions source;                     ///< the files, and how points are made of them
-  std::vector<std::string> object_names;   ///< one per object
-  std::vector<Material> materials;         ///< one per object, as the scene has them
-  std::vector<std::string> color_sources;  ///< attributes that colours may show (attributes.h)
-  std::vector<Category> classes, scans;    ///< of the points; empty = not known
+  SceneOptions source;                       ///< the files, and how points are made of them
+  std::vector<std::string> object_names;     ///< one per object
+  std::vector<Material> materials;           ///< one per object, as the scene has them
+  std::vector<std::string> color_sources{};  ///< attributes that colours may show (attributes.h)
+  std::vector<Category> classes{}, scans{};  ///< of the points; empty = not known
 };
 
 struct Document {

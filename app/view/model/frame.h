@@ -43,7 +43,7 @@ struct Inspected {
   std::uint32_t leaf_references = 0;
   glm::dvec3 hit_world{0.0};    ///< blended
   double distance_world = 0.0;  ///< from the eye to hit_world
-  std::vector<AttributeValue> attributes;
+  std::vector<AttributeValue> attributes{};
 };
 
 }  // namespace splatray
