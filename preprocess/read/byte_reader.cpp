@@ -59,6 +59,25 @@ bool ByteReader::fill(std::size_t count) {
   return true;
 }
 
+void ByteReader::seek(std::uint64_t offset) {
+  if (fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) != 0)
+    throw_unreadable(path_, "byte " + std::to_string(offset) + " cannot be reached");
+  begin_ = end_ = 0;
+  offset_ = offset;
+}
+
+std::vector<unsigned char> ByteReader::read(std::uint64_t count) {
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(std::min(count, remaining())));
+  for (std::size_t done = 0; done < bytes.size();) {
+    const std::size_t step = std::min(bytes.size() - done, BLOCK_BYTES);
+    const unsigned char* block = take(step);
+    if (block == nullptr) throw_unreadable(path_, "it could not be read to its end");
+    std::memcpy(bytes.data() + done, block, step);
+    done += step;
+  }
+  return bytes;
+}
+
 bool ByteReader::skip(std::uint64_t count) {
   while (count > 0) {
     const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(count, BLOCK_BYTES));

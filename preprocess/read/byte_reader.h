@@ -41,6 +41,12 @@ class ByteReader {
     return bytes;
   }
 
+  /// Goes to an offset from the file's begin, at most its size.
+  void seek(std::uint64_t offset);
+
+  /// The next `count` bytes, or those that remain where these are fewer.
+  [[nodiscard]] std::vector<unsigned char> read(std::uint64_t count);
+
   /// Skips bytes; false when fewer remain.
   [[nodiscard]] bool skip(std::uint64_t count);
 

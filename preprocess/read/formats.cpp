@@ -2,6 +2,7 @@
 
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/gltf/read_gltf.h"
+#include "preprocess/read/las/read_las.h"
 #include "preprocess/read/ply/read_ply.h"
 #include "preprocess/read/read_obj.h"
 #include "preprocess/read/read_stl.h"
@@ -21,6 +22,9 @@ constexpr Format FORMATS[] = {
      "node transforms, triangles, `POINTS`, `pbrMetallicRoughness`, transmission, ior, punctual lights, "
      "cameras",
      nullptr, read_gltf, nullptr},
+    {".las .laz",
+     "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, attributes, extra bytes",
+     nullptr, nullptr, read_las},
 };
 
 }  // namespace

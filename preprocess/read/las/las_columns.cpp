@@ -1,0 +1,146 @@
+#include "preprocess/read/las/las_columns.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "preprocess/base/little_endian.h"
+
+namespace splatray {
+namespace {
+
+/// Where the fixed attributes stand in Points::columns; extra bytes follow.
+enum Place : std::size_t { INTENSITY, CLASS, RETURN, RETURNS, SOURCE, TIME, FIXED };
+
+/// The fields of a record that both kinds have, each in its own way.
+struct Marks {
+  unsigned classification;
+  unsigned return_number;
+  unsigned returns;
+  unsigned source;
+  bool is_withheld;
+};
+
+Marks marks_of(const unsigned char* record, bool is_extended) {
+  const unsigned returns = record[14];
+  if (is_extended)
+    return {record[16], returns & 15U, returns >> 4U, load<std::uint16_t>(record + 20),
+            (record[15] & 4U) != 0};
+  const unsigned classification = record[15];
+  return {classification & 31U, returns & 7U, (returns >> 3U) & 7U, load<std::uint16_t>(record + 18),
+          (classification & 128U) != 0};
+}
+
+bool is_noise(unsigned classification) {
+  constexpr unsigned LOW_NOISE = 7;
+  constexpr unsigned HIGH_NOISE = 18;
+  return classification == LOW_NOISE || classification == HIGH_NOISE;
+}
+
+glm::dvec3 stored_position(const unsigned char* record) {
+  return {load<std::int32_t>(record), load<std::int32_t>(record + 4), load<std::int32_t>(record + 8)};
+}
+
+bool is_zero(const Column& column) {
+  return std::visit(
+      [](const auto& list) { return std::all_of(list.begin(), list.end(), [](auto v) { return v == 0; }); },
+      column.values);
+}
+
+}  // namespace
+
+LasColumns::LasColumns(const LasHeader& header, std::vector<LasExtraBytes> extra, const ScanOptions& options)
+    : header_(header), fields_(las_fields(header.point_format)), keep_all_(options.keep_withheld) {
+  points_.columns = {{std::string(COLUMN_INTENSITY), std::vector<std::uint16_t>{}},
+                     {std::string(COLUMN_CLASS), std::vector<std::uint8_t>{}},
+                     {std::string(COLUMN_RETURN), std::vector<std::uint8_t>{}},
+                     {std::string(COLUMN_RETURNS), std::vector<std::uint8_t>{}},
+                     {std::string(COLUMN_SOURCE), std::vector<std::uint16_t>{}},
+                     {std::string(COLUMN_TIME), std::vector<double>{}}};
+  for (LasExtraBytes& one : extra) {
+    if (find_column(points_.columns, one.name) != nullptr) continue;
+    points_.columns.push_back(
+        {one.name, one.fits_float() ? Column::Values(std::vector<float>{}) : std::vector<double>{}});
+    extra_.push_back(std::move(one));
+  }
+}
+
+std::vector<bool> LasColumns::used_bytes() const {
+  std::vector<bool> used(header_.record_bytes, false);
+  std::fill_n(used.begin(), fields_.bytes, true);
+  for (const LasExtraBytes& one : extra_)
+    std::fill_n(used.begin() + static_cast<std::ptrdiff_t>(one.at), one.bytes(), true);
+  return used;
+}
+
+template <class F>
+void LasColumns::for_each_array(F f) {
+  f(points_.position);
+  if (fields_.color != 0) f(points_.stored_color);
+  for (std::size_t i = 0; i < points_.columns.size(); ++i)
+    if (i != TIME || fields_.time != 0) std::visit(f, points_.columns[i].values);
+}
+
+void LasColumns::reserve(std::size_t count) {
+  for_each_array([count](auto& list) { list.reserve(count); });
+}
+
+std::size_t LasColumns::grow(std::size_t count) {
+  const std::size_t at = size();
+  for_each_array([size = at + count](auto& list) { list.resize(size); });
+  return at;
+}
+
+void LasColumns::cut(std::size_t count) {
+  for_each_array([count](auto& list) { list.resize(count); });
+}
+
+void LasColumns::move(std::size_t from, std::size_t count, std::size_t to) {
+  if (from == to) return;
+  for_each_array([=](auto& list) { std::copy_n(list.data() + from, count, list.data() + to); });
+}
+
+LasColumns::Filled LasColumns::fill(const unsigned char* records, std::size_t count, std::size_t at) {
+  const auto array = [this]<class T>(Place place, T) {
+    return std::get<std::vector<T>>(points_.columns[place].values).data();
+  };
+  std::uint16_t* const intensity = array(INTENSITY, std::uint16_t{});
+  std::uint8_t* const classification = array(CLASS, std::uint8_t{});
+  std::uint8_t* const return_number = array(RETURN, std::uint8_t{});
+  std::uint8_t* const returns = array(RETURNS, std::uint8_t{});
+  std::uint16_t* const source = array(SOURCE, std::uint16_t{});
+  double* const time = array(TIME, double{});
+  const std::size_t begin = at;
+  Filled filled;
+  for (std::size_t i = 0; i < count; ++i) {
+    const unsigned char* record = records + i * header_.record_bytes;
+    const Marks marks = marks_of(record, header_.is_extended());
+    if (!keep_all_ && (marks.is_withheld || is_noise(marks.classification))) {
+      ++(marks.is_withheld ? filled.withheld : filled.noise);
+      continue;
+    }
+    points_.position[at] = header_.scale * stored_position(record) + header_.offset;
+    intensity[at] = load<std::uint16_t>(record + 12);
+    classification[at] = static_cast<std::uint8_t>(marks.classification);
+    return_number[at] = static_cast<std::uint8_t>(marks.return_number);
+    returns[at] = static_cast<std::uint8_t>(marks.returns);
+    source[at] = static_cast<std::uint16_t>(marks.source);
+    if (fields_.time != 0) time[at] = load<double>(record + fields_.time);
+    if (fields_.color != 0) points_.stored_color[at] = load<glm::u16vec3>(record + fields_.color);
+    for (std::size_t e = 0; e < extra_.size(); ++e)
+      std::visit(
+          [&](auto& list) {
+            list[at] = static_cast<std::remove_reference_t<decltype(list[0])>>(extra_[e].value(record));
+          },
+          points_.columns[FIXED + e].values);
+    ++at;
+  }
+  filled.kept = at - begin;
+  return filled;
+}
+
+Points LasColumns::take() {
+  std::erase_if(points_.columns, is_zero);
+  return std::move(points_);
+}
+
+}  // namespace splatray

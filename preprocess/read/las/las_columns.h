@@ -1,0 +1,56 @@
+/// Points and their attributes from records of LAS files.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "preprocess/points.h"
+#include "preprocess/read/las/las_extra_bytes.h"
+#include "preprocess/read/las/las_header.h"
+
+namespace splatray {
+
+/// Collects what records hold: positions, colours, intensity, class, returns, source and time, and the extra bytes that
+/// are asked for. Points that are withheld or of the classes of noise (7, 18) are left out unless options keep them.
+class LasColumns {
+ public:
+  /// What became of some records.
+  struct Filled {
+    std::size_t kept = 0;
+    std::uint64_t withheld = 0;
+    std::uint64_t noise = 0;
+  };
+
+  /// `extra` gives columns of its names; a name that is there already is left out.
+  LasColumns(const LasHeader& header, std::vector<LasExtraBytes> extra, const ScanOptions& options);
+
+  /// Which bytes of a record are of use.
+  [[nodiscard]] std::vector<bool> used_bytes() const;
+
+  /// Expects so many points in all; nothing of it is touched yet.
+  void reserve(std::size_t count);
+  /// Makes room for `count` more points and returns the place of the first.
+  std::size_t grow(std::size_t count);
+  /// Puts the points of `count` records at `at` and behind, close together; needs as much room. Other places may be filled
+  /// by other threads meanwhile.
+  Filled fill(const unsigned char* records, std::size_t count, std::size_t at);
+  /// Moves `count` points from `from` to `to` <= `from`.
+  void move(std::size_t from, std::size_t count, std::size_t to);
+  /// Drops all points from `count` on.
+  void cut(std::size_t count);
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+  /// All points; attributes that are zero throughout are left out.
+  [[nodiscard]] Points take();
+
+ private:
+  template <class F>
+  void for_each_array(F f);
+
+  LasHeader header_;
+  LasFields fields_;
+  std::vector<LasExtraBytes> extra_;  ///< beside the last columns
+  bool keep_all_;
+  Points points_;
+};
+
+}  // namespace splatray

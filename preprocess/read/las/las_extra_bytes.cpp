@@ -1,0 +1,97 @@
+#include "preprocess/read/las/las_extra_bytes.h"
+
+#include <cmath>
+#include <string_view>
+
+#include "preprocess/base/little_endian.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::size_t DESCRIPTOR_BYTES = 192;
+constexpr unsigned TYPES = 10;
+constexpr std::size_t TYPE_BYTES[TYPES + 1] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+constexpr unsigned MOST_FLOAT_INTEGER = 4;  ///< types up to i16
+constexpr unsigned FLOAT = 9;
+constexpr unsigned OPTION_SCALE = 8;
+constexpr unsigned OPTION_OFFSET = 16;
+
+/// A finite number, or what stands for one.
+double finite_or(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
+
+/// The component `i` of `width` of an attribute.
+LasExtraBytes component(const unsigned char* descriptor, std::string_view name, unsigned type, unsigned i,
+                        unsigned width) {
+  const unsigned options = descriptor[3];
+  LasExtraBytes one;
+  one.name = std::string(name) + (width > 1 ? "[" + std::to_string(i) + "]" : "");
+  one.type = type;
+  if ((options & OPTION_SCALE) != 0) one.scale = finite_or(load<double>(descriptor + 112 + 8 * i), 1.0);
+  if ((options & OPTION_OFFSET) != 0) one.offset = finite_or(load<double>(descriptor + 136 + 8 * i), 0.0);
+  return one;
+}
+
+}  // namespace
+
+std::size_t LasExtraBytes::bytes() const { return TYPE_BYTES[type]; }
+
+bool LasExtraBytes::fits_float() const {
+  return (type <= MOST_FLOAT_INTEGER || type == FLOAT) && scale == 1.0 && offset == 0.0;
+}
+
+double LasExtraBytes::value(const unsigned char* record) const {
+  const unsigned char* bytes = record + at;
+  const double number = [&]() -> double {
+    switch (type) {
+      case 1:
+        return load<std::uint8_t>(bytes);
+      case 2:
+        return load<std::int8_t>(bytes);
+      case 3:
+        return load<std::uint16_t>(bytes);
+      case 4:
+        return load<std::int16_t>(bytes);
+      case 5:
+        return load<std::uint32_t>(bytes);
+      case 6:
+        return load<std::int32_t>(bytes);
+      case 7:
+        return static_cast<double>(load<std::uint64_t>(bytes));
+      case 8:
+        return static_cast<double>(load<std::int64_t>(bytes));
+      case FLOAT:
+        return load<float>(bytes);
+      default:
+        return load<double>(bytes);
+    }
+  }();
+  return scale * number + offset;
+}
+
+std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descriptors, std::size_t begin,
+                                           std::size_t end) {
+  std::vector<LasExtraBytes> all;
+  for (std::size_t at = begin; descriptors.size() >= DESCRIPTOR_BYTES;
+       descriptors = descriptors.subspan(DESCRIPTOR_BYTES)) {
+    const unsigned char* descriptor = descriptors.data();
+    const unsigned stored_type = descriptor[2];
+    if (stored_type == 0) {  // bytes of no known meaning, as many as the options say
+      at += descriptor[3];
+      continue;
+    }
+    if (stored_type > 3 * TYPES) break;  // nobody knows how long these are
+    const unsigned type = (stored_type - 1) % TYPES + 1;
+    const unsigned width = (stored_type - 1) / TYPES + 1;
+    std::string_view name(reinterpret_cast<const char*>(descriptor + 4), 32);
+    name = name.substr(0, name.find('\0'));
+    for (unsigned i = 0; i < width; ++i) {
+      LasExtraBytes one = component(descriptor, name, type, i, width);
+      one.at = at;
+      at += one.bytes();
+      if (at <= end) all.push_back(std::move(one));
+    }
+  }
+  return all;
+}
+
+}  // namespace splatray

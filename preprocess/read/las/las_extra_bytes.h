@@ -1,0 +1,31 @@
+/// Attributes that programs add to the records of LAS files (ASPRS, LAS Specification 1.4 R15, "Extra Bytes VLR").
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace splatray {
+
+/// One number of a record, with a name.
+struct LasExtraBytes {
+  std::string name;    ///< as stored; of vectors with "[0]", "[1]", "[2]" behind
+  unsigned type = 0;   ///< 1 to 10: u8, i8, u16, i16, u32, i32, u64, i64, float, double
+  std::size_t at = 0;  ///< bytes from the record's begin
+  double scale = 1.0;  ///< value = scale * number + offset
+  double offset = 0.0;
+
+  /// Of the number.
+  [[nodiscard]] std::size_t bytes() const;
+  /// Whether floats hold every value.
+  [[nodiscard]] bool fits_float() const;
+  /// The value in a record.
+  [[nodiscard]] double value(const unsigned char* record) const;
+};
+
+/// The attributes that `descriptors` (192 bytes each, of all such records of a file) tell of, in records whose extra bytes
+/// begin at `begin`. Those that reach beyond the records' `end` are left out: the header's length rules.
+[[nodiscard]] std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descriptors,
+                                                         std::size_t begin, std::size_t end);
+
+}  // namespace splatray

@@ -1,0 +1,14 @@
+/// Units that differ between the axes of LAS files.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "preprocess/read/las/las_vlrs.h"
+
+namespace splatray {
+
+/// A sentence where the file's coordinate system has degrees, or other units for z than for x and y; of neither, nothing.
+/// Reads of GeoTIFF's keys (OGC GeoTIFF Standard 1.1, annex B) and of well-known text (OGC 12-063r5) only what says so.
+[[nodiscard]] std::optional<std::string> differing_las_units(const LasVlrs& vlrs);
+
+}  // namespace splatray

@@ -1,0 +1,92 @@
+#include "preprocess/read/las/read_las.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "preprocess/read/las/las_columns.h"
+#include "preprocess/read/las/las_extra_bytes.h"
+#include "preprocess/read/las/las_header.h"
+#include "preprocess/read/las/las_units.h"
+#include "preprocess/read/las/las_vlrs.h"
+#include "preprocess/read/las/laz/read_laz.h"
+
+namespace splatray {
+namespace {
+
+/// The extra bytes of the file that `names` ask for; a vector's name asks for all its components.
+std::vector<LasExtraBytes> wanted_extra_bytes(const LasHeader& header, const LasVlrs& vlrs,
+                                              const std::vector<std::string>& names) {
+  std::vector<LasExtraBytes> all =
+      las_extra_bytes(vlrs.extra_bytes, las_fields(header.point_format).bytes, header.record_bytes);
+  std::vector<LasExtraBytes> wanted;
+  for (LasExtraBytes& one : all) {
+    const bool is_wanted = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return one.name == name || (one.name.starts_with(name + "[") && !name.empty());
+    });
+    if (is_wanted) wanted.push_back(std::move(one));
+  }
+  return wanted;
+}
+
+/// Points that are not compressed: as many as there are whole records.
+std::uint64_t read_records(ByteReader& in, const LasHeader& header, LasColumns& columns, ScanCounts& counts,
+                           const ReadListener& listener) {
+  in.seek(header.points_offset);
+  const std::uint64_t count =
+      std::min<std::uint64_t>(header.point_count, in.remaining() / header.record_bytes);
+  columns.reserve(static_cast<std::size_t>(count));
+  const std::size_t most = std::max<std::size_t>(1, ByteReader::BLOCK_BYTES / header.record_bytes);
+  for (std::uint64_t done = 0; done < count;) {
+    listener.report(static_cast<double>(done) / static_cast<double>(count));
+    const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(most, count - done));
+    const unsigned char* records = in.take(step * header.record_bytes);
+    if (records == nullptr) throw_unreadable(in.path(), "it could not be read to its end");
+    const std::size_t at = columns.grow(step);
+    const LasColumns::Filled filled = columns.fill(records, step, at);
+    columns.cut(at + filled.kept);
+    counts.withheld += filled.withheld;
+    counts.noise += filled.noise;
+    done += step;
+  }
+  return count;
+}
+
+/// A program that was stopped leaves a header that counts nothing before records that are there.
+void count_points(ByteReader& in, LasHeader& header, const ReadListener& listener) {
+  if (header.point_count != 0 || header.is_compressed) return;
+  in.seek(header.points_offset);
+  const std::uint64_t bytes = header.evlr_offset > header.points_offset
+                                  ? std::min(in.remaining(), header.evlr_offset - header.points_offset)
+                                  : in.remaining();
+  header.point_count = bytes / header.record_bytes;
+  if (header.point_count != 0)
+    listener.note(in.path(), "the header counts no points; found " + std::to_string(header.point_count));
+}
+
+}  // namespace
+
+ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
+                  const ReadListener& listener) {
+  ByteReader in(path);
+  LasHeader header = read_las_header(in);
+  const LasVlrs vlrs = read_las_vlrs(in, header);
+  if (const auto sentence = differing_las_units(vlrs)) listener.note(path, *sentence);
+  count_points(in, header, listener);
+  LasColumns columns(header, wanted_extra_bytes(header, vlrs, options.scans.attributes), options.scans);
+  ScanFile file;
+  file.counts.stored = header.point_count;
+  const std::uint64_t found = header.is_compressed
+                                  ? read_laz_points(in, header, vlrs.laszip, columns, file.counts, listener)
+                                  : read_records(in, header, columns, file.counts, listener);
+  file.counts.missing = header.point_count - found;
+  if (file.counts.missing != 0) {
+    const std::string sentence = "found " + std::to_string(found) + " whole points, expected the " +
+                                 std::to_string(header.point_count) + " that the header counts";
+    if (options.scans.strict) throw_unreadable(path, sentence);
+    listener.note(path, sentence);
+  }
+  file.points = columns.take();
+  return file;
+}
+
+}  // namespace splatray
