@@ -59,6 +59,13 @@ bool ByteReader::fill(std::size_t count) {
   return true;
 }
 
+void ByteReader::seek(std::uint64_t offset) {
+  if (fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) != 0)
+    throw_unreadable(path_, "byte " + std::to_string(offset) + " cannot be reached");
+  begin_ = end_ = 0;
+  offset_ = offset;
+}
+
 bool ByteReader::skip(std::uint64_t count) {
   while (count > 0) {
     const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(count, BLOCK_BYTES));

@@ -41,6 +41,9 @@ class ByteReader {
     return bytes;
   }
 
+  /// Goes to an offset from the file's begin, at most its size.
+  void seek(std::uint64_t offset);
+
   /// Skips bytes; false when fewer remain.
   [[nodiscard]] bool skip(std::uint64_t count);
 

@@ -1,6 +1,7 @@
 #include "preprocess/read/formats.h"
 
 #include "preprocess/base/file_extension.h"
+#include "preprocess/read/e57/read_e57.h"
 #include "preprocess/read/gltf/read_gltf.h"
 #include "preprocess/read/ply/read_ply.h"
 #include "preprocess/read/read_stl.h"
@@ -20,6 +21,9 @@ constexpr Format FORMATS[] = {
      "node transforms, triangles, `POINTS`, `pbrMetallicRoughness`, transmission, ior, punctual lights, "
      "cameras",
      nullptr, read_gltf, nullptr},
+    {".e57",
+     "scans with their poses and grids, cartesian or spherical; colours, intensity, normals; all bit widths",
+     nullptr, nullptr, read_e57},
 };
 
 }  // namespace
