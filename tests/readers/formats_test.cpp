@@ -30,7 +30,9 @@ TEST(Formats, ReadmesTableHasEveryRow) {
 TEST(Formats, EveryExtensionHasOneReaderThatRefusesWhatIsNoSuchFile) {
   const TempFolder folder;
   for (const Format& format : formats()) {
-    EXPECT_NE(format.read_mesh == nullptr, format.read_scene == nullptr) << format.extensions;
+    EXPECT_EQ((format.read_mesh != nullptr) + (format.read_scene != nullptr) + (format.read_scan != nullptr),
+              1)
+        << format.extensions;
     for (const std::string& extension : split(format.extensions)) {
       EXPECT_EQ(find_format("A" + extension), &format);
       static_cast<void>(read_error(folder.path() / ("missing" + extension)));

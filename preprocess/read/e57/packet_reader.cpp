@@ -37,12 +37,13 @@ E57Section read_section_header(PagedFile& file, std::uint64_t header_offset) {
                      "found a section of type " + std::to_string(header[0]) + ", expected points (1)");
   const std::uint64_t length = word64(header + 8);
   const std::uint64_t begin = file.content_offset(word64(header + 16), "the first packet");
+  if (begin < header_offset) return {};  // libE57Format writes 0 where there are no packets
   return {begin, header_offset + std::min(length, file.size() - header_offset)};
 }
 
 PacketReader::PacketReader(PagedFile& file, const E57Section& section, std::size_t field_count)
-    : file_(file), end_(section.end), field_count_(field_count) {
-  if (section.begin < section.end) file.seek(section.begin);
+    : file_(file), end_(section.begin < section.end ? section.end : 0), field_count_(field_count) {
+  if (end_ > 0) file.seek(section.begin);
 }
 
 void PacketReader::fail(const std::string& what) const {

@@ -17,7 +17,8 @@ struct E57Section {
 /// Bytes of each field of a record, in the prototype's order.
 using FieldBytes = std::vector<std::span<const unsigned char>>;
 
-/// Reads the section's header at `header_offset`. A file that is cut off before it has an empty section. Throws Error
+/// Reads the section's header at `header_offset`. The section is empty where the file is cut off before it and where it
+/// has no packets (records of constants need none). Throws Error
 /// (input_unreadable) where there is none.
 [[nodiscard]] E57Section read_section_header(PagedFile& file, std::uint64_t header_offset);
 

@@ -86,9 +86,9 @@ void ScanDecoder::decode(PagedFile& pages, const E57Section& section, const Read
   PacketReader packets(pages, section, scan_.fields.size());
   const std::vector<FieldIndex> fields = layout_.fields();
   FieldBytes bytes;
-  // Records without bits take no bytes: no more of them are believed than if each had one.
+  // Records without bits take no bytes: no more of them are believed than if each had one, or than a batch.
   const std::uint64_t section_bytes = section.end - std::min(section.begin, section.end);
-  const std::uint64_t most = std::min(scan_.records, 8 * section_bytes);
+  const std::uint64_t most = std::min(scan_.records, std::max<std::uint64_t>(8 * section_bytes, BATCH));
   decode_ready(most);
   for (std::uint64_t packet = 0; decoded_ < most && packets.next(bytes); ++packet) {
     if (packet % REPORTED_PACKETS == 0)
