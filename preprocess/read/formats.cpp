@@ -1,6 +1,7 @@
 #include "preprocess/read/formats.h"
 
 #include "preprocess/base/file_extension.h"
+#include "preprocess/read/e57/read_e57.h"
 #include "preprocess/read/gltf/read_gltf.h"
 #include "preprocess/read/las/read_las.h"
 #include "preprocess/read/ply/read_ply.h"
@@ -25,6 +26,9 @@ constexpr Format FORMATS[] = {
     {".las .laz",
      "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, attributes, extra bytes",
      nullptr, nullptr, read_las},
+    {".e57",
+     "scans with their poses and grids, cartesian or spherical; colours, intensity, normals; all bit widths",
+     nullptr, nullptr, read_e57},
 };
 
 }  // namespace

@@ -1,0 +1,142 @@
+#include "preprocess/read/e57/xml_stream.h"
+
+#include <expat.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <string_view>
+
+namespace splatray {
+namespace {
+
+constexpr std::size_t MOST_DEPTH = 64;
+constexpr std::size_t MOST_TEXT = 4096;
+constexpr std::uint64_t CHUNK_BYTES = 65536;
+constexpr std::string_view E57_NAMESPACE = "http://www.astm.org/COMMIT/E57/";
+constexpr std::string_view NORMALS_NAMESPACE = "http://www.libe57.org/E57_NOR_";
+
+struct FreeParser {
+  void operator()(XML_ParserStruct* parser) const { XML_ParserFree(parser); }
+};
+
+/// Between expat, which is C, and the receiver, which may throw.
+class Stream {
+ public:
+  Stream(PagedFile& file, XmlReceiver& receiver)
+      : file_(file), receiver_(receiver), parser_(XML_ParserCreate(nullptr)) {
+    if (!parser_) throw std::bad_alloc();
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), on_begin, on_end);
+    XML_SetCharacterDataHandler(parser_.get(), on_text);
+    XML_SetStartDoctypeDeclHandler(parser_.get(), on_doctype);
+  }
+
+  void parse(std::uint64_t size) {
+    while (!finished_) {
+      const auto count = static_cast<std::size_t>(std::min(size, CHUNK_BYTES));
+      const unsigned char* bytes = file_.take(count);
+      if (bytes == nullptr) fail("the XML section goes beyond the file");
+      size -= count;
+      const XML_Status status = XML_Parse(parser_.get(), reinterpret_cast<const char*>(bytes),
+                                          static_cast<int>(count), size == 0 ? 1 : 0);
+      if (thrown_) std::rethrow_exception(thrown_);
+      if (status != XML_STATUS_OK && !finished_)
+        fail("its XML section is not well-formed: " +
+             std::string(XML_ErrorString(XML_GetErrorCode(parser_.get()))) + " in line " +
+             std::to_string(XML_GetCurrentLineNumber(parser_.get())));
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw_unreadable(file_.path(), what); }
+
+  /// Keeps what `call` throws for after expat has returned.
+  template <class Call>
+  void guarded(const Call& call) {
+    if (thrown_ || finished_) return;
+    try {
+      call();
+    } catch (...) {
+      thrown_ = std::current_exception();
+      XML_StopParser(parser_.get(), XML_FALSE);
+    }
+  }
+
+  void learn_prefixes(const char** attributes) {
+    for (; *attributes != nullptr; attributes += 2) {
+      const std::string_view name = attributes[0];
+      const std::string_view uri = attributes[1];
+      if (!name.starts_with("xmlns:")) continue;
+      const std::string prefix(name.substr(6));
+      if (uri.starts_with(E57_NAMESPACE)) prefixes_[prefix] = "";
+      if (uri.starts_with(NORMALS_NAMESPACE)) prefixes_[prefix] = "nor:";
+    }
+  }
+
+  [[nodiscard]] std::string standard_name(std::string_view name) const {
+    const std::size_t colon = name.find(':');
+    const auto known = colon == std::string_view::npos ? prefixes_.end()
+                                                       : prefixes_.find(std::string(name.substr(0, colon)));
+    return known == prefixes_.end() ? std::string(name) : known->second + std::string(name.substr(colon + 1));
+  }
+
+  static void on_begin(void* self, const char* name, const char** attributes) {
+    auto& stream = *static_cast<Stream*>(self);
+    stream.guarded([&] {
+      if (stream.path_.size() == MOST_DEPTH)
+        stream.fail("its XML nests more than " + std::to_string(MOST_DEPTH) + " deep");
+      stream.learn_prefixes(attributes);
+      stream.path_.push_back(stream.standard_name(name));
+      stream.text_.clear();
+      stream.receiver_.begin(stream.path_, XmlAttributes(attributes));
+    });
+  }
+
+  static void on_end(void* self, const char*) {
+    auto& stream = *static_cast<Stream*>(self);
+    stream.guarded([&] {
+      stream.receiver_.end(stream.path_, stream.text_);
+      stream.path_.pop_back();
+      stream.text_.clear();
+      stream.finished_ = stream.path_.empty();
+      if (stream.finished_) XML_StopParser(stream.parser_.get(), XML_FALSE);
+    });
+  }
+
+  static void on_text(void* self, const char* text, int length) {
+    auto& stream = *static_cast<Stream*>(self);
+    stream.guarded([&] {
+      const std::size_t room = MOST_TEXT - stream.text_.size();
+      stream.text_.append(text, std::min(room, static_cast<std::size_t>(length)));
+    });
+  }
+
+  static void on_doctype(void* self, const char*, const char*, const char*, int) {
+    auto& stream = *static_cast<Stream*>(self);
+    stream.guarded([&] { stream.fail("found a document type in its XML, expected XML without"); });
+  }
+
+  PagedFile& file_;
+  XmlReceiver& receiver_;
+  std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
+  XmlPath path_;
+  std::string text_;
+  std::map<std::string, std::string> prefixes_;  ///< as in the file, to what names get instead
+  std::exception_ptr thrown_;
+  bool finished_ = false;
+};
+
+}  // namespace
+
+std::string XmlAttributes::value(const std::string& name) const {
+  for (const char** pair = pairs_; *pair != nullptr; pair += 2)
+    if (name == pair[0]) return pair[1];
+  return "";
+}
+
+void stream_xml(PagedFile& file, std::uint64_t size, XmlReceiver& receiver) {
+  Stream(file, receiver).parse(size);
+}
+
+}  // namespace splatray
