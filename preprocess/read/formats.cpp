@@ -2,9 +2,12 @@
 
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/gltf/read_gltf.h"
+#include "preprocess/read/pcd/read_pcd.h"
 #include "preprocess/read/ply/read_ply.h"
 #include "preprocess/read/read_obj.h"
 #include "preprocess/read/read_stl.h"
+#include "preprocess/read/text/read_pts.h"
+#include "preprocess/read/text/read_ptx.h"
 #include "preprocess/read/vtk/read_vtk.h"
 
 namespace splatray {
@@ -21,6 +24,10 @@ constexpr Format FORMATS[] = {
      "node transforms, triangles, `POINTS`, `pbrMetallicRoughness`, transmission, ior, punctual lights, "
      "cameras",
      nullptr, read_gltf, nullptr},
+    {".pcd", "ascii, binary and compressed; grids, viewpoint, normals, packed colours, intensity", nullptr,
+     nullptr, read_pcd},
+    {".ptx", "scans in their grids, with transforms; intensity, colours", nullptr, nullptr, read_ptx},
+    {".pts", "points as text, counted or not; intensity, colours, normals", nullptr, nullptr, read_pts},
 };
 
 }  // namespace
