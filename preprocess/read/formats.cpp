@@ -4,9 +4,12 @@
 #include "preprocess/read/e57/read_e57.h"
 #include "preprocess/read/gltf/read_gltf.h"
 #include "preprocess/read/las/read_las.h"
+#include "preprocess/read/pcd/read_pcd.h"
 #include "preprocess/read/ply/read_ply.h"
 #include "preprocess/read/read_obj.h"
 #include "preprocess/read/read_stl.h"
+#include "preprocess/read/text/read_pts.h"
+#include "preprocess/read/text/read_ptx.h"
 #include "preprocess/read/vtk/read_vtk.h"
 
 namespace splatray {
@@ -29,6 +32,10 @@ constexpr Format FORMATS[] = {
     {".e57",
      "scans with their poses and grids, cartesian or spherical; colours, intensity, normals; all bit widths",
      nullptr, nullptr, read_e57},
+    {".pcd", "ascii, binary and compressed; grids, viewpoint, normals, packed colours, intensity", nullptr,
+     nullptr, read_pcd},
+    {".ptx", "scans in their grids, with transforms; intensity, colours", nullptr, nullptr, read_ptx},
+    {".pts", "points as text, counted or not; intensity, colours, normals", nullptr, nullptr, read_pts},
 };
 
 }  // namespace

@@ -1,0 +1,166 @@
+#include "preprocess/read/pcd/pcd_points.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "preprocess/base/quoted_list.h"
+#include "preprocess/read/scan/narrow_column.h"
+
+namespace splatray {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "PCD's values are little-endian");
+
+template <typename Value>
+Value load(const unsigned char* bytes) {
+  Value value;
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
+
+std::vector<const PcdField*> find_triple(const PcdHeader& header, const char* a, const char* b,
+                                         const char* c) {
+  std::vector<const PcdField*> found{header.find(a), header.find(b), header.find(c)};
+  if (std::find(found.begin(), found.end(), nullptr) != found.end()) found.clear();
+  return found;
+}
+
+bool is_color(const PcdField& field) {
+  return field.type == PcdType::float32 || field.type == PcdType::uint32 || field.type == PcdType::int32;
+}
+
+}  // namespace
+
+/// One field's values.
+struct PcdPoints::View {
+  const unsigned char* first;
+  std::uint64_t stride;
+  PcdType type;
+
+  [[nodiscard]] const unsigned char* at(std::uint64_t i) const { return first + i * stride; }
+
+  [[nodiscard]] double number(std::uint64_t i) const {
+    const unsigned char* bytes = at(i);
+    switch (type) {
+      case PcdType::int8:
+        return load<std::int8_t>(bytes);
+      case PcdType::uint8:
+        return load<std::uint8_t>(bytes);
+      case PcdType::int16:
+        return load<std::int16_t>(bytes);
+      case PcdType::uint16:
+        return load<std::uint16_t>(bytes);
+      case PcdType::int32:
+        return load<std::int32_t>(bytes);
+      case PcdType::uint32:
+        return load<std::uint32_t>(bytes);
+      case PcdType::int64:
+        return static_cast<double>(load<std::int64_t>(bytes));
+      case PcdType::uint64:
+        return static_cast<double>(load<std::uint64_t>(bytes));
+      case PcdType::float32:
+        return static_cast<double>(load<float>(bytes));
+      case PcdType::float64:
+        break;
+    }
+    return load<double>(bytes);
+  }
+};
+
+PcdPoints::PcdPoints(const PcdHeader& header, const std::filesystem::path& path,
+                     const std::vector<std::string>& attributes)
+    : header_(header), position_(find_triple(header, "x", "y", "z")) {
+  if (position_.empty()) {
+    std::vector<std::string> names;
+    for (const PcdField& field : header.fields) names.push_back(field.name);
+    throw_unreadable(path, "found the fields " + quoted_list(names) + ", expected x, y and z among them");
+  }
+  normal_ = find_triple(header, "normal_x", "normal_y", "normal_z");
+  for (const char* name : {"rgba", "rgb"})
+    if (const PcdField* field = header.find(name); field != nullptr && is_color(*field)) color_ = field;
+  std::vector<std::string> names{std::string(COLUMN_INTENSITY)};
+  names.insert(names.end(), attributes.begin(), attributes.end());
+  for (const std::string& name : names) {
+    const PcdField* field = header.find(name);
+    const bool known = std::any_of(attributes_.begin(), attributes_.end(),
+                                   [field](const auto& attribute) { return attribute.second == field; });
+    if (field != nullptr && !known) attributes_.emplace_back(name, field);
+  }
+  values_.resize(attributes_.size());
+}
+
+PcdPoints::View PcdPoints::view(const PcdField& field, const PcdRows& rows) const {
+  switch (header_.data) {
+    case PcdData::ascii:
+      return {rows.bytes + sizeof(double) * field.cell, sizeof(double) * header_.row_cells, PcdType::float64};
+    case PcdData::binary:
+      return {rows.bytes + field.offset, header_.row_bytes, field.type};
+    case PcdData::binary_compressed:
+      break;
+  }
+  return {rows.bytes + field.offset * header_.points, field.bytes(), field.type};
+}
+
+/// Bits 0xAARRGGBB; a text of a field of type F is the number that these bits are as a float.
+glm::u16vec3 PcdPoints::color(const View& view, std::uint64_t i) const {
+  std::uint32_t bits = 0;
+  if (header_.data != PcdData::ascii) {
+    bits = load<std::uint32_t>(view.at(i));
+  } else if (const double value = view.number(i); color_->type == PcdType::float32) {
+    bits = std::isnan(value) ? 0 : std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  } else if (std::fabs(value) < 4294967296.0) {
+    bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(value));
+  }
+  return {bits >> 16U & 255U, bits >> 8U & 255U, bits & 255U};
+}
+
+void PcdPoints::append(const PcdRows& rows) {
+  const View x = view(*position_[0], rows);
+  const View y = view(*position_[1], rows);
+  const View z = view(*position_[2], rows);
+  for (std::uint64_t i = 0; i < rows.count; ++i, ++rows_) {
+    const glm::dvec3 position(x.number(i), y.number(i), z.number(i));
+    if (!std::isfinite(position.x + position.y + position.z)) {
+      ++no_return_;
+      continue;
+    }
+    points_.position.push_back(position);
+    if (!normal_.empty()) {
+      glm::vec3 normal;
+      for (int axis = 0; axis < 3; ++axis)
+        normal[axis] = static_cast<float>(view(*normal_[static_cast<std::size_t>(axis)], rows).number(i));
+      points_.normal.push_back(normal);
+    }
+    if (color_ != nullptr) points_.stored_color.push_back(color(view(*color_, rows), i));
+    for (std::size_t a = 0; a < attributes_.size(); ++a)
+      values_[a].push_back(view(*attributes_[a].second, rows).number(i));
+    if (header_.height > 1) points_.grid_cell.push_back(static_cast<std::uint32_t>(rows_));
+  }
+}
+
+std::vector<std::string> PcdPoints::unused() const {
+  std::vector<std::string> names;
+  for (const PcdField& field : header_.fields) {
+    const auto is_it = [&](const PcdField* used) { return used == &field; };
+    const bool used = std::any_of(position_.begin(), position_.end(), is_it) ||
+                      std::any_of(normal_.begin(), normal_.end(), is_it) || color_ == &field ||
+                      std::any_of(attributes_.begin(), attributes_.end(),
+                                  [&](const auto& attribute) { return attribute.second == &field; });
+    if (!used && field.name != "_") names.push_back(field.name);
+  }
+  return names;
+}
+
+Points PcdPoints::take() {
+  for (std::size_t a = 0; a < attributes_.size(); ++a)
+    points_.columns.push_back(narrow_column(attributes_[a].first, std::move(values_[a])));
+  std::vector<glm::u16vec3>& colors = points_.stored_color;
+  points_.stored_color_most = 255;
+  if (std::all_of(colors.begin(), colors.end(), [](const glm::u16vec3& c) { return c == glm::u16vec3(0); }))
+    colors.clear();
+  return std::move(points_);
+}
+
+}  // namespace splatray

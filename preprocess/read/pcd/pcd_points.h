@@ -1,0 +1,52 @@
+/// Points of a PCD file's rows.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "preprocess/points.h"
+#include "preprocess/read/pcd/pcd_header.h"
+
+namespace splatray {
+
+/// Rows in memory, in the order that the file's kind of DATA has them.
+struct PcdRows {
+  const unsigned char* bytes = nullptr;  ///< ascii: float64, row_cells of them a row
+  std::uint64_t count = 0;
+};
+
+/// Collects the points whose positions are finite.
+class PcdPoints {
+ public:
+  /// Throws Error (input_unreadable) where x, y or z is missing. `attributes`: names of further fields to keep.
+  PcdPoints(const PcdHeader& header, const std::filesystem::path& path,
+            const std::vector<std::string>& attributes);
+
+  /// Appends rows. Fields of compressed files stand one after the other, of header.points values each; `rows` are the
+  /// first of them.
+  void append(const PcdRows& rows);
+
+  /// Fields that are not used, but for paddings ("_").
+  [[nodiscard]] std::vector<std::string> unused() const;
+  /// Rows appended without a position.
+  [[nodiscard]] std::uint64_t no_return() const { return no_return_; }
+  /// What was appended, with grid cells by the number of the row; colours of zeros alone are none.
+  [[nodiscard]] Points take();
+
+ private:
+  struct View;
+  [[nodiscard]] View view(const PcdField& field, const PcdRows& rows) const;
+  [[nodiscard]] glm::u16vec3 color(const View& view, std::uint64_t i) const;
+
+  const PcdHeader& header_;
+  std::vector<const PcdField*> position_;
+  std::vector<const PcdField*> normal_;  ///< three or none
+  const PcdField* color_ = nullptr;
+  std::vector<std::pair<std::string, const PcdField*>> attributes_;  ///< with the names of their columns
+  std::vector<std::vector<double>> values_;                          ///< of the attributes
+  Points points_;
+  std::uint64_t rows_ = 0;
+  std::uint64_t no_return_ = 0;
+};
+
+}  // namespace splatray

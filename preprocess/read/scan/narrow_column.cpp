@@ -1,0 +1,43 @@
+#include "preprocess/read/scan/narrow_column.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace splatray {
+namespace {
+
+template <typename Value>
+bool all_fit(const std::vector<double>& values, double least, double most) {
+  return std::all_of(values.begin(), values.end(), [&](double v) {
+    return v >= least && v <= most && static_cast<double>(static_cast<Value>(v)) == v;
+  });
+}
+
+template <typename Value>
+std::vector<Value> converted(const std::vector<double>& values) {
+  std::vector<Value> list(values.size());
+  std::transform(values.begin(), values.end(), list.begin(), [](double v) { return static_cast<Value>(v); });
+  return list;
+}
+
+}  // namespace
+
+Column narrow_column(std::string_view name, std::vector<double> values) {
+  constexpr double MOST_FLOAT = 3.4028234663852886e38;
+  for (double& value : values)
+    if (!std::isfinite(value)) value = 0.0;
+  Column column{std::string(name), {}};
+  if (all_fit<std::uint8_t>(values, 0.0, 255.0)) {
+    column.values = converted<std::uint8_t>(values);
+  } else if (all_fit<std::uint16_t>(values, 0.0, 65535.0)) {
+    column.values = converted<std::uint16_t>(values);
+  } else if (all_fit<float>(values, -MOST_FLOAT, MOST_FLOAT)) {
+    column.values = converted<float>(values);
+  } else {
+    column.values = std::move(values);
+  }
+  return column;
+}
+
+}  // namespace splatray

@@ -1,0 +1,30 @@
+#include "preprocess/read/text/line_blocks.h"
+
+#include <algorithm>
+
+namespace splatray {
+
+LineBlocks::LineBlocks(const std::filesystem::path& path, const ReadListener& listener,
+                       const LinePlace& start)
+    : in_(path, &listener) {
+  static_cast<void>(in_.skip(start.offset));
+}
+
+std::span<char> LineBlocks::next() {
+  buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(used_));
+  while (in_.remaining() > 0 && buffer_.size() < BLOCK_BYTES) {
+    const auto step =
+        static_cast<std::size_t>(std::min<std::uint64_t>(in_.remaining(), ByteReader::BLOCK_BYTES));
+    const unsigned char* bytes = in_.take(step);
+    if (bytes == nullptr) throw_unreadable(path(), "it could not be read to its end");
+    buffer_.insert(buffer_.end(), bytes, bytes + step);
+  }
+  const auto last = std::find(buffer_.rbegin(), buffer_.rend(), '\n');
+  used_ = in_.remaining() == 0 ? buffer_.size() : static_cast<std::size_t>(buffer_.rend() - last);
+  if (used_ == 0 && !buffer_.empty())
+    throw_unreadable(path(), "found a line of more than " + std::to_string(BLOCK_BYTES) +
+                                 " bytes, expected a text file with numbers on each line");
+  return {buffer_.data(), used_};
+}
+
+}  // namespace splatray

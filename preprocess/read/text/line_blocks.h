@@ -1,0 +1,36 @@
+/// A text file in blocks of whole lines.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "preprocess/read/byte_reader.h"
+
+namespace splatray {
+
+/// A place between two lines of a file.
+struct LinePlace {
+  std::uint64_t offset = 0;  ///< in bytes
+  std::uint64_t lines = 0;   ///< before it
+};
+
+class LineBlocks {
+ public:
+  static constexpr std::size_t BLOCK_BYTES = std::size_t{4} << 20U;
+
+  /// Opens the file as ByteReader does and goes to `start`.
+  LineBlocks(const std::filesystem::path& path, const ReadListener& listener, const LinePlace& start);
+
+  /// The next lines, all with their ends but for the file's last; empty at the end. The bytes may be written to, and are
+  /// valid until the next call. Throws Error (input_unreadable) for a line longer than BLOCK_BYTES.
+  [[nodiscard]] std::span<char> next();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return in_.path(); }
+
+ private:
+  ByteReader in_;
+  std::vector<char> buffer_;
+  std::size_t used_ = 0;  ///< bytes of the buffer that the last call gave
+};
+
+}  // namespace splatray
