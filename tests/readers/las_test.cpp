@@ -72,10 +72,14 @@ TEST(Las, EveryFieldOfEveryKindOfRecord) {
     EXPECT_EQ(number(scan.points, COLUMN_SOURCE, 0), 777.0);
     const bool has_time = format != 0 && format != 2;
     EXPECT_EQ(find_column(scan.points.columns, COLUMN_TIME) != nullptr, has_time);
-    if (has_time) EXPECT_EQ(number(scan.points, COLUMN_TIME, 0), 1234.5);
+    if (has_time) {
+      EXPECT_EQ(number(scan.points, COLUMN_TIME, 0), 1234.5);
+    }
     const bool has_color = format == 2 || format == 3 || format == 7;
     ASSERT_EQ(scan.points.stored_color.size(), has_color ? 1U : 0U);
-    if (has_color) EXPECT_EQ(scan.points.stored_color[0], glm::u16vec3(1, 256, 65535));
+    if (has_color) {
+      EXPECT_EQ(scan.points.stored_color[0], glm::u16vec3(1, 256, 65535));
+    }
     EXPECT_EQ(scan.points.stored_color_most, 0);
     EXPECT_EQ(scan.up, glm::dvec3(0.0, 0.0, 1.0));
   }

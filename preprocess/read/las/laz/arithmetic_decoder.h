@@ -67,6 +67,8 @@ class ArithmeticDecoder {
 
   /// Whether no coder can have written these bytes, or more was decoded than they hold.
   [[nodiscard]] bool is_damaged() const { return is_impossible_ || beyond_ > 0; }
+  /// Whether all bytes were decoded and are not known to be damaged; what coders write is read to its very end.
+  [[nodiscard]] bool is_complete() const { return !is_damaged() && next_ == end_; }
   void set_damaged() { is_impossible_ = true; }
   /// Bytes read so far; a whole stream is read to its end.
   [[nodiscard]] std::size_t consumed() const { return static_cast<std::size_t>(next_ - begin_); }
