@@ -27,7 +27,8 @@ constexpr Format FORMATS[] = {
      "cameras",
      nullptr, read_gltf, nullptr},
     {".las .laz",
-     "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, attributes, extra bytes",
+     "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, attributes, extra "
+     "bytes",
      nullptr, nullptr, read_las},
     {".e57",
      "scans with their poses and grids, cartesian or spherical; colours, intensity, normals; all bit widths",

@@ -19,6 +19,8 @@ void check_points(const Points& points) {
   require(is_beside(points.color, points), "as many colours as points, or none");
   require(is_beside(points.radius, points), "as many radii as points, or none");
   constexpr float ONE_ROUNDED = 1.0F + 1e-6F;  // of colours interpolated in a triangle
+  for (const Column& column : points.columns)
+    require(column.size() == points.size(), "as many values of an attribute as points");
   for (const glm::vec3& color : points.color)
     for (int channel = 0; channel < 3; ++channel)
       require(color[channel] >= 0.0F && color[channel] <= ONE_ROUNDED, "colours are 0 to 1");
@@ -47,6 +49,7 @@ void read_and_check(const std::filesystem::path& path) {
   ReadOptions options;
   options.samples = 64;  // or a coarse mesh would get a hundred thousand
   options.keep_meshes = true;
+  options.scans.attributes = {"a", "b", "c", "v"};
   read_or_refuse([&] { check_input(read_input({path}, options)); });
 }
 
@@ -61,6 +64,7 @@ void fuzz_ply(FuzzBytes bytes) { read_as("fuzzed.ply", bytes); }
 void fuzz_obj(FuzzBytes bytes) { read_as("fuzzed.obj", bytes); }
 void fuzz_stl(FuzzBytes bytes) { read_as("fuzzed.stl", bytes); }
 void fuzz_vtp(FuzzBytes bytes) { read_as("fuzzed.vtp", bytes); }
+void fuzz_las(FuzzBytes bytes) { read_as("fuzzed.las", bytes); }
 
 void fuzz_gltf(FuzzBytes bytes) {
   constexpr std::string_view POINTS =

@@ -17,6 +17,8 @@ void fuzz_ply(FuzzBytes bytes);
 void fuzz_obj(FuzzBytes bytes);
 void fuzz_stl(FuzzBytes bytes);
 void fuzz_vtp(FuzzBytes bytes);
+/// The same with the extra bytes that are called a, b, c and v; LAS or LAZ, by what the header says.
+void fuzz_las(FuzzBytes bytes);
 /// The same; .glb where the bytes begin like one, with a file points.ply beside it.
 void fuzz_gltf(FuzzBytes bytes);
 /// read_camera and read_camera_path; numbers must be finite, frames ascend.
@@ -40,6 +42,7 @@ inline constexpr FuzzTarget FUZZ_TARGETS[] = {
     {"obj", fuzz_obj},
     {"stl", fuzz_stl},
     {"vtp", fuzz_vtp},
+    {"las", fuzz_las},
     {"gltf", fuzz_gltf},
     {"camera", fuzz_camera},
     {"user_state", fuzz_user_state},

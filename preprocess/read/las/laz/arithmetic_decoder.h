@@ -1,8 +1,10 @@
 /// Arithmetic decoding of bytes as LASzip codes them.
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <span>
 
+#include "preprocess/base/little_endian.h"
 #include "preprocess/read/las/laz/symbol_model.h"
 
 namespace splatray {
@@ -24,7 +26,7 @@ class ArithmeticDecoder {
   }
 
   template <unsigned N>
-  [[nodiscard]] unsigned symbol(SymbolModel<N>& model) {
+  [[nodiscard, gnu::always_inline]] unsigned symbol(SymbolModel<N>& model) {
     model.prepare();
     const std::uint32_t unit = length_ >> SYMBOL_BITS;
     const unsigned symbol = model.find(value_ / unit);
@@ -65,6 +67,8 @@ class ArithmeticDecoder {
 
   /// Whether no coder can have written these bytes, or more was decoded than they hold.
   [[nodiscard]] bool is_damaged() const { return is_impossible_ || beyond_ > 0; }
+  /// Whether all bytes were decoded and are not known to be damaged; what coders write is read to its very end.
+  [[nodiscard]] bool is_complete() const { return !is_damaged() && next_ == end_; }
   void set_damaged() { is_impossible_ = true; }
   /// Bytes read so far; a whole stream is read to its end.
   [[nodiscard]] std::size_t consumed() const { return static_cast<std::size_t>(next_ - begin_); }
@@ -77,13 +81,18 @@ class ArithmeticDecoder {
     return 0;
   }
 
+  /// Goes on with a part of the interval; whole bytes are read until its length is at least 2^24. How many cannot be
+  /// predicted, so there is no branch on it.
   void narrow(std::uint32_t begin, std::uint32_t length) {
-    constexpr std::uint32_t LEAST_LENGTH = 0x01000000;
     value_ -= begin;
-    length_ = length;
-    while (length_ < LEAST_LENGTH) {
-      value_ = (value_ << 8U) | next_byte();
-      length_ <<= 8U;
+    const unsigned shift = static_cast<unsigned>(std::countl_zero(length)) & 24U;
+    length_ = length << shift;
+    if (end_ - next_ >= 4) [[likely]] {
+      const std::uint64_t four = __builtin_bswap32(load<std::uint32_t>(next_));
+      value_ = static_cast<std::uint32_t>((((std::uint64_t{value_} << 32U) | (four)) << shift) >> 32U);
+      next_ += shift / 8;
+    } else {
+      for (unsigned i = 0; i < shift; i += 8) value_ = (value_ << 8U) | next_byte();
     }
   }
 

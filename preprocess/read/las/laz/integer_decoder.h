@@ -35,7 +35,9 @@ class DifferenceModels {
       const unsigned raw = width - HIGH_BITS;
       code = (code << raw) | in.bits(raw);
     }
-    return code >= (1U << (width - 1)) ? code + 1 : code - ((1U << width) - 1);
+    // Code + 1 in the upper half, else code - (2^w - 1); which of them cannot be predicted.
+    const std::uint32_t is_upper = code >> (width - 1);
+    return code + is_upper - (((1U << width) - 1) & (is_upper - 1));
   }
 
   /// Of the last difference.

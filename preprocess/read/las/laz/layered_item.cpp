@@ -34,6 +34,7 @@ class Rgb14 final : public LayeredItem {
   }
 
   [[nodiscard]] bool is_damaged() const override { return changes_ && in_.is_damaged(); }
+  [[nodiscard]] bool is_complete() const override { return !changes_ || in_.is_complete(); }
 
  private:
   LazChannels channels_;
@@ -67,6 +68,7 @@ class Byte14 {
   }
 
   [[nodiscard]] bool is_damaged() const { return changes_ && in_.is_damaged(); }
+  [[nodiscard]] bool is_complete() const { return !changes_ || in_.is_complete(); }
 
  private:
   LazChannels channels_;
@@ -94,6 +96,10 @@ class Bytes14 final : public LayeredItem {
 
   [[nodiscard]] bool is_damaged() const override {
     return std::any_of(bytes_.begin(), bytes_.end(), [](const auto& one) { return one.second.is_damaged(); });
+  }
+  [[nodiscard]] bool is_complete() const override {
+    return std::all_of(bytes_.begin(), bytes_.end(),
+                       [](const auto& one) { return one.second.is_complete(); });
   }
 
  private:

@@ -27,7 +27,10 @@ class LayeredItem {
   /// Decodes this part of the next channels.size() records, which lie `stride` bytes apart. The part with the position
   /// writes `channels`, which chooses the probabilities of all others.
   virtual void read(unsigned char* bytes, std::size_t stride, std::span<unsigned char> channels) = 0;
+  /// Whether what was read is known to be wrong.
   [[nodiscard]] virtual bool is_damaged() const = 0;
+  /// Whether besides each layer was read to its end, as it is when a chunk's last point was.
+  [[nodiscard]] virtual bool is_complete() const = 0;
 };
 
 /// Scanner channels of a part other than the position: which has been met, and whose last values predict the next.

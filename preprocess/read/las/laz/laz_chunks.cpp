@@ -43,7 +43,7 @@ std::optional<std::vector<LazChunk>> read_table(ByteReader& in, const LazLayout&
   const auto numbers = std::make_unique<IntegerDecoder<32, 2>>();
   numbers->reset();
   std::vector<LazChunk> chunks(count);
-  LazChunk last{begin, 0, 0};
+  LazChunk last{begin, 0, 0, false};
   for (LazChunk& chunk : chunks) {
     chunk.offset = last.offset + last.bytes;
     chunk.points =
@@ -69,9 +69,10 @@ std::vector<LazChunk> walk_layered(ByteReader& in, const LazLayout& layout, std:
     if (head.size() < head_bytes) break;
     const LayeredChunk chunk = layered_chunk(layout, head.data());
     if (chunk.points == 0 || chunk.bytes > head_bytes + in.remaining()) break;
-    chunks.push_back({offset, chunk.bytes, std::min<std::uint64_t>(chunk.points, points)});
+    chunks.push_back({offset, chunk.bytes, std::min<std::uint64_t>(chunk.points, points), false});
     offset += chunk.bytes;
     points -= chunks.back().points;
+    chunks.back().is_last = points == 0;
   }
   return chunks;
 }
@@ -97,6 +98,7 @@ std::optional<std::vector<LazChunk>> find_laz_chunks(ByteReader& in, const LasHe
     left -= chunk.points;
   }
   std::erase_if(*chunks, [](const LazChunk& chunk) { return chunk.points == 0; });
+  if (!chunks->empty()) chunks->back().is_last = true;
   return chunks;
 }
 

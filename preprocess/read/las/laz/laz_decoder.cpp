@@ -38,6 +38,7 @@ class PointwiseDecoder final : public LazDecoder {
   }
 
   [[nodiscard]] bool is_damaged() const override { return in_.is_damaged(); }
+  [[nodiscard]] bool is_complete() const override { return in_.is_complete(); }
   [[nodiscard]] std::size_t consumed() const override { return record_bytes_ + in_.consumed(); }
 
  private:
@@ -113,6 +114,10 @@ class LayeredDecoder final : public LazDecoder {
   [[nodiscard]] bool is_damaged() const override {
     return std::any_of(items_.begin(), items_.end(),
                        [](const Part& part) { return part.item && part.item->is_damaged(); });
+  }
+  [[nodiscard]] bool is_complete() const override {
+    return std::all_of(items_.begin(), items_.end(),
+                       [](const Part& part) { return !part.item || part.item->is_complete(); });
   }
   [[nodiscard]] std::size_t consumed() const override { return consumed_; }
 

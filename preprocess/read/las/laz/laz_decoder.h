@@ -25,6 +25,8 @@ class LazDecoder {
   virtual void read(unsigned char* records, std::size_t count) = 0;
   /// Whether what was read is known to be wrong.
   [[nodiscard]] virtual bool is_damaged() const = 0;
+  /// Whether besides the chunk was read to its end, as it is when all its points were.
+  [[nodiscard]] virtual bool is_complete() const = 0;
   /// Bytes of the chunk that were read so far.
   [[nodiscard]] virtual std::size_t consumed() const = 0;
 };

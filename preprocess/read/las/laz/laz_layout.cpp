@@ -19,10 +19,10 @@ struct KnownItem {
   bool is_layered;
 };
 
-/// Version 2 of layered items is an early 3.
+/// Version 2 of layered items is an early 3, that of wave packets what laz-rs calls 1.
 constexpr KnownItem KNOWN[] = {
     {Kind::point10, 20, 1, 2, false},     {Kind::gps_time11, 8, 1, 2, false},
-    {Kind::rgb12, 6, 1, 2, false},        {Kind::wavepacket13, 29, 1, 1, false},
+    {Kind::rgb12, 6, 1, 2, false},        {Kind::wavepacket13, 29, 1, 2, false},
     {Kind::bytes, 0, 1, 2, false},        {Kind::point14, 30, 2, 4, true},
     {Kind::rgb14, 6, 2, 4, true},         {Kind::rgbnir14, 8, 2, 4, true},
     {Kind::wavepacket14, 29, 3, 4, true}, {Kind::bytes14, 0, 2, 4, true},

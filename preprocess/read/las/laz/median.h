@@ -1,5 +1,7 @@
 /// What LASzip predicts differences of coordinates by.
 #pragma once
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 namespace splatray {
@@ -11,17 +13,13 @@ class StreamingMedian {
   [[nodiscard]] std::int32_t get() const { return sorted_[2]; }
 
   void add(std::int32_t value) {
-    if (drops_greatest_) {
-      drops_greatest_ = value < sorted_[2];
-      int at = 4;
-      for (; at > 0 && value < sorted_[at - 1]; --at) sorted_[at] = sorted_[at - 1];
-      sorted_[at] = value;
-    } else {
-      drops_greatest_ = !(sorted_[2] < value);
-      int at = 0;
-      for (; at < 4 && sorted_[at + 1] < value; ++at) sorted_[at] = sorted_[at + 1];
-      sorted_[at] = value;
-    }
+    const std::size_t from = drops_greatest_ ? 0 : 1;
+    drops_greatest_ = drops_greatest_ ? value < sorted_[2] : value <= sorted_[2];
+    // Where the value belongs cannot be predicted, so there is no branch on it.
+    const std::int32_t kept[] = {sorted_[from], sorted_[from + 1], sorted_[from + 2], sorted_[from + 3]};
+    sorted_[0] = std::min(kept[0], value);
+    for (std::size_t i = 1; i < 4; ++i) sorted_[i] = std::max(kept[i - 1], std::min(kept[i], value));
+    sorted_[4] = std::max(kept[3], value);
   }
 
  private:

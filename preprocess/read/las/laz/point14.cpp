@@ -127,6 +127,7 @@ struct Layer {
     in.start(bytes);
   }
   [[nodiscard]] bool is_damaged() const { return changes && in.is_damaged(); }
+  [[nodiscard]] bool is_complete() const { return !changes || in.is_complete(); }
 };
 
 class Point14Item final : public LayeredItem {
@@ -152,12 +153,19 @@ class Point14Item final : public LayeredItem {
   }
 
   [[nodiscard]] bool is_damaged() const override {
-    const Layer* const all[] = {&position_, &z_, &classification_, &flags_, &intensity_, &source_, &time_};
-    return std::any_of(std::begin(all), std::end(all),
-                       [](const Layer* layer) { return layer->is_damaged(); });
+    const auto layers = all();
+    return std::any_of(layers.begin(), layers.end(), [](const Layer* layer) { return layer->is_damaged(); });
+  }
+  [[nodiscard]] bool is_complete() const override {
+    const auto layers = all();
+    return std::all_of(layers.begin(), layers.end(), [](const Layer* layer) { return layer->is_complete(); });
   }
 
  private:
+  [[nodiscard]] std::array<const Layer*, 7> all() const {
+    return {&position_, &z_, &classification_, &flags_, &intensity_, &source_, &time_};
+  }
+
   /// The channel that other parts of the record are told. Versions before 4 say 0 but where it changes.
   unsigned read_point() {
     Channel* channel = &channels_[current_];

@@ -63,6 +63,7 @@ void decode(Loaded& loaded, Worker& worker, LasColumns& columns) {
     left -= step;
     loaded.is_whole = !decoder.is_damaged();
   }
+  loaded.is_whole = loaded.is_whole && (loaded.chunk.is_last || decoder.is_complete());
   if (!loaded.is_whole) loaded.filled = {};
 }
 
@@ -136,7 +137,7 @@ class LazReader {
 
   /// Chunks without a table, each from where the last one ends, until one is not whole.
   void read_in_a_row() {
-    LazChunk chunk{first_laz_chunk(header_, layout_), 0, 0};
+    LazChunk chunk{first_laz_chunk(header_, layout_), 0, 0, false};
     for (std::uint64_t left = header_.point_count; left > 0; left -= chunk.points) {
       in_.seek(0);
       if (chunk.offset >= in_.remaining()) return;

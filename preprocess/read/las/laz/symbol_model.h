@@ -1,8 +1,13 @@
 /// Adaptive probabilities of symbols for arithmetic decoding.
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace splatray {
 
@@ -22,7 +27,24 @@ struct BitModel {
   void update();
 };
 
-/// Of up to N symbols: A. Said's adaptive model, searched in two steps of up to 16 groups of 16 without branches.
+/// Which of 16 ascending numbers are at most `most`: as many ones from the lowest bit on.
+[[nodiscard]] inline unsigned at_most(const std::uint16_t* numbers, std::uint16_t most) {
+#if defined(__SSE2__)
+  const __m128i bound = _mm_set1_epi16(static_cast<short>(most));
+  const auto compare = [bound](const std::uint16_t* eight) {
+    const __m128i excess = _mm_subs_epu16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(eight)), bound);
+    return _mm_cmpeq_epi16(excess, _mm_setzero_si128());
+  };
+  return static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(compare(numbers), compare(numbers + 8))));
+#else
+  unsigned mask = 0;
+  for (unsigned i = 0; i < 16; ++i) mask |= (numbers[i] <= most ? 1U : 0U) << i;
+  return mask;
+#endif
+}
+
+/// Of up to N symbols: A. Said's adaptive model. Its search compares 16 symbols at once, as branches on what symbols are
+/// cannot be predicted: all of few symbols, of many those from where a table says.
 template <unsigned N>
 class SymbolModel {
  public:
@@ -40,7 +62,7 @@ class SymbolModel {
   }
 
   /// The last symbol whose begin() is at most `scaled`.
-  [[nodiscard]] unsigned find(std::uint32_t scaled) const;
+  [[nodiscard, gnu::always_inline]] inline unsigned find(std::uint32_t scaled) const;
   /// The sum of the probabilities of all symbols before this one, of 2^15.
   [[nodiscard]] std::uint32_t begin(unsigned symbol) const { return begin_[symbol]; }
 
@@ -53,20 +75,23 @@ class SymbolModel {
 
  private:
   static constexpr unsigned GROUP = 16;
-  static constexpr unsigned GROUPS = (N + GROUP - 1) / GROUP;
-  static constexpr unsigned PADDED_GROUPS = (GROUPS + GROUP - 1) / GROUP * GROUP;
+  static constexpr bool HAS_TABLE = N > 64;
+  static constexpr unsigned TABLE_BITS = N > 256 ? 7 : 6;
+  static constexpr unsigned TABLE_SIZE = HAS_TABLE ? 1U << TABLE_BITS : 1;
+  static constexpr unsigned TABLE_SHIFT = SYMBOL_BITS - TABLE_BITS;
+  static constexpr unsigned PADDED = (N + GROUP - 1) / GROUP * GROUP + (HAS_TABLE ? GROUP : 0);
   static constexpr std::uint16_t NONE = 0xFFFF;  ///< begins behind all others
 
   void start();
   void update();
 
-  std::uint16_t begin_[GROUPS * GROUP];
-  std::uint16_t group_begin_[PADDED_GROUPS];
-  std::uint16_t count_[N];
   std::uint32_t total_ = 0;
   std::uint16_t cycle_ = 0;         ///< symbols between updates
   std::uint16_t until_update_ = 0;  ///< symbols; 0 = not started
   std::uint16_t symbols_;
+  std::uint16_t begin_[PADDED];
+  std::uint16_t count_[N];
+  std::uint16_t table_[TABLE_SIZE];  ///< the symbol at each multiple of 2^TABLE_SHIFT
 };
 
 inline void BitModel::update() {
@@ -86,23 +111,23 @@ inline void BitModel::update() {
 template <unsigned N>
 unsigned SymbolModel<N>::find(std::uint32_t scaled) const {
   const auto wanted = static_cast<std::uint16_t>(std::min(scaled, 0x7FFFU));
-  unsigned group = 0;
-  if constexpr (GROUPS > 1) {
-    std::uint16_t groups = 0;
-    for (std::uint16_t begin : group_begin_)
-      groups = static_cast<std::uint16_t>(groups + (begin <= wanted ? 1 : 0));
-    group = (groups - 1U) * GROUP;
+  if constexpr (HAS_TABLE) {
+    unsigned from = table_[wanted >> TABLE_SHIFT];
+    unsigned mask = at_most(begin_ + from, wanted);
+    while (mask == 0xFFFF) [[unlikely]] {
+        from += GROUP;
+        mask = at_most(begin_ + from, wanted);
+      }
+    return from + static_cast<unsigned>(std::countr_one(mask)) - 1;
   }
-  std::uint16_t found = 0;
-  for (unsigned i = 0; i < GROUP; ++i)
-    found = static_cast<std::uint16_t>(found + (begin_[group + i] <= wanted ? 1 : 0));
-  return group + found - 1U;
+  std::uint64_t mask = 0;
+  for (unsigned i = 0; i < PADDED; i += GROUP) mask |= std::uint64_t{at_most(begin_ + i, wanted)} << i;
+  return static_cast<unsigned>(std::countr_one(mask)) - 1;
 }
 
 template <unsigned N>
 void SymbolModel<N>::start() {
   std::fill(std::begin(begin_), std::end(begin_), NONE);
-  std::fill(std::begin(group_begin_), std::end(group_begin_), NONE);
   std::fill(std::begin(count_), std::end(count_), std::uint16_t{1});
   total_ = 0;
   cycle_ = symbols_;
@@ -127,7 +152,13 @@ void SymbolModel<N>::update() {
     begin_[i] = static_cast<std::uint16_t>((scale * sum) >> (31 - SYMBOL_BITS));
     sum += count_[i];
   }
-  for (unsigned group = 0; group * GROUP < symbols_; ++group) group_begin_[group] = begin_[group * GROUP];
+  if constexpr (HAS_TABLE) {
+    unsigned symbol = 0;
+    for (unsigned i = 0; i < TABLE_SIZE; ++i) {
+      while (begin_[symbol + 1] <= i << TABLE_SHIFT) ++symbol;
+      table_[i] = static_cast<std::uint16_t>(symbol);
+    }
+  }
   const unsigned most_cycle = (symbols_ + 6U) * 8;
   cycle_ = static_cast<std::uint16_t>(std::min(cycle_ * 5U / 4, most_cycle));
   until_update_ = cycle_;
