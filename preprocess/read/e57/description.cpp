@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "preprocess/read/e57/number_text.h"
+#include "preprocess/read/e57/parse_number.h"
 #include "preprocess/read/e57/prototype_field.h"
 #include "preprocess/read/e57/xml_stream.h"
 

@@ -76,6 +76,12 @@ TEST(E57Attributes, GridsThatAreNoneAreNotUsed) {
   EXPECT_EQ(far.stations.at(0).rows, 0U);
   scan.fields[3] = E57TestField::integer("rowIndex", 0, 0, {0, 0, 0});
   EXPECT_TRUE(read_bytes(e57_bytes(scan)).points.grid_cell.empty()) << "one row is no grid";
+  testing::E57TestFile file{{line_scan(2), scan, line_scan(1), scan}};
+  EXPECT_TRUE(read_bytes(e57_bytes(file)).points.grid_cell.empty());
+  file.scans[3].fields[3] = E57TestField::integer("rowIndex", 0, 1, {0, 1, 1});
+  file.scans[3].fields[4] = E57TestField::integer("columnIndex", 0, 1, {0, 0, 1});
+  EXPECT_EQ(read_bytes(e57_bytes(file)).points.grid_cell,
+            (std::vector<std::uint32_t>{NO_CELL, NO_CELL, NO_CELL, NO_CELL, NO_CELL, NO_CELL, 0, 2, 3}));
 }
 
 std::vector<glm::u16vec3> colors_of(const std::vector<E57TestField>& channels, const std::string& xml = "") {

@@ -199,7 +199,7 @@ TEST(E57Hostile, PrototypesThatAreNone) {
   refused("type 'Blob'");
   scan.fields[0].attributes = " type=\"ScaledInteger\" minimum=\"0\" maximum=\"9\" scale=\"0\"";
   refused("a scale or offset that makes no numbers");
-  scan.fields[0].attributes = " type=\"Float\"><inner type=\"Float\"/></cartesianX><more type=\"Float\"";
+  scan.fields[0].attributes = " type=\"Float\"><inner type=\"Float\"/";
   refused("fields within the field 'cartesianX'");
   scan = simple_scan(2);
   scan.fields.pop_back();
