@@ -64,6 +64,12 @@ std::uint64_t PagedFile::content_offset(std::uint64_t physical, const std::strin
 }
 
 void PagedFile::seek(std::uint64_t offset) {
+  const std::uint64_t buffered = offset_ - begin_;
+  if (offset >= buffered && offset - buffered <= end_) {
+    begin_ = static_cast<std::size_t>(offset - buffered);
+    offset_ = offset;
+    return;
+  }
   next_page_ = std::min(offset / CONTENT_BYTES, page_count_);
   in_.seek(next_page_ * PAGE_BYTES);
   begin_ = end_ = 0;

@@ -126,7 +126,7 @@ void ScanDecoder::decode_ready(std::uint64_t most) {
   std::uint64_t left = most - decoded_;
   for (const Source& source : sources_)
     if (!source.is_constant) left = std::min(left, source.stream.available());
-  for (; left > 0;) {
+  while (left > 0) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, BATCH));
     decode_batch(count);
     left -= count;
