@@ -18,9 +18,11 @@ E57TestScan scan_with_origins(int count, int origins) {
   for (E57TestField& field : scan.fields)
     for (int i = 0; i < origins; ++i) field.packed[static_cast<std::size_t>(i)] = 0;
   scan.xml = e57_pose({}, {10.0, 20.0, 30.0});
-  for (const char* name : {"colorRed", "colorGreen", "colorBlue"})
-    scan.fields.push_back(
-        E57TestField::integer(name, 0, 255, std::vector<std::int64_t>(static_cast<std::size_t>(count), 3)));
+  for (const char* name : {"colorRed", "colorGreen", "colorBlue"}) {
+    std::vector<std::int64_t> values = counted(count);
+    for (std::int64_t& value : values) value %= 256;
+    scan.fields.push_back(E57TestField::integer(name, 0, 255, values));
+  }
   scan.fields.push_back(E57TestField::integer("intensity", 0, count, counted(count)));
   scan.fields.push_back(E57TestField::integer("rowIndex", 0, count, counted(count)));
   scan.fields.push_back(E57TestField::integer("columnIndex", 0, 1, [&] {
@@ -41,6 +43,7 @@ TEST(E57Attributes, ManyPointsAtTheScannersPlaceAreNoReturns) {
   EXPECT_EQ(many.points.grid_cell.at(0), 22U);
   EXPECT_EQ(many.points.grid_cell.size(), 89U);
   EXPECT_EQ(many.points.stored_color.size(), 89U);
+  EXPECT_EQ(many.points.stored_color.at(0), glm::u16vec3(11));
   EXPECT_EQ(read_bytes(e57_bytes(scan_with_origins(100, 10))).points.size(), 100U) << "few may be points";
   EXPECT_EQ(read_bytes(e57_bytes(scan_with_origins(12000, 11))).points.size(), 12000U) << "a small share too";
 }

@@ -177,6 +177,16 @@ TEST(E57Hostile, ScansThatShareTheirBytesAreRefused) {
   expect_refusal(e57_pages(twice), "two scans with the same points");
 }
 
+TEST(E57Hostile, ASectionEndsWhereTheNextBegins) {
+  E57TestFile file{{simple_scan(10), simple_scan(10)}};
+  file.scans[0].more_records = 5;
+  std::vector<std::string> notes;
+  const ScanFile read = read_bytes(overwritten(e57_bytes(file), 56, std::string(8, '\x7F')), notes);
+  EXPECT_EQ(read.points.size(), 20U)
+      << "a section's length too large does not give it the next scan's points";
+  EXPECT_EQ(read.counts.missing, 5U);
+}
+
 TEST(E57Hostile, HarmfulXml) {
   E57TestFile file{{simple_scan(10)}};
   file.prolog = "<!DOCTYPE a [<!ENTITY b \"c\"><!ENTITY d \"&b;&b;&b;&b;&b;&b;&b;\">]>";
