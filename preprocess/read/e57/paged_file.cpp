@@ -54,6 +54,10 @@ void PagedFile::read_header() {
   header_.file_bytes = word_at<std::uint64_t>(bytes, 16);
   header_.xml_physical_offset = word_at<std::uint64_t>(bytes, 24);
   header_.xml_bytes = word_at<std::uint64_t>(bytes, 32);
+  in_.seek(0);
+  const unsigned char* page = in_.take(PAGE_BYTES);
+  if (page == nullptr) throw_unreadable(path(), "its first page cannot be read");
+  check_page(page, 0);  // before an offset is believed
 }
 
 std::uint64_t PagedFile::content_offset(std::uint64_t physical, const std::string& what) const {

@@ -127,6 +127,10 @@ TEST(E57Attributes, ColoursAreScaledByTheirLimits) {
   EXPECT_EQ(colors_of(floats, limits("0", "1")), grey);
   EXPECT_EQ(colors_of(bytes, limits("51", "153"))[1], glm::u16vec3(0));
   EXPECT_EQ(colors_of(bytes, limits("51", "153"))[2], glm::u16vec3(255)) << "beyond the limit";
+  std::string scaled = limits("0", "131070");
+  for (std::size_t at = 0; (at = scaled.find("\"Float\"", at)) != std::string::npos;)
+    scaled.replace(at, 7, "\"ScaledInteger\" scale=\"0.5\" offset=\"0\"");
+  EXPECT_EQ(colors_of(words, scaled), grey) << "limits are numbers of any type";
   auto invalid = bytes;
   invalid.push_back(E57TestField::integer("isColorInvalid", 0, 1, {1, 0, 0}));
   EXPECT_EQ(colors_of(invalid)[0], glm::u16vec3(255)) << "white, as where there is none";

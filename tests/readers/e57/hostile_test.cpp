@@ -74,6 +74,12 @@ TEST(E57Hostile, ADamagedPageIsNamedAndReadOnlyWhenAskedTo) {
   EXPECT_NE(notes[0].find("page 5"), std::string::npos);
 }
 
+TEST(E57Hostile, ADamagedHeaderIsNamedBeforeItIsBelieved) {
+  std::string bytes = e57_bytes(simple_scan(10));
+  bytes[25] = static_cast<char>(bytes[25] ^ 0x7F);  // of the XML section's offset
+  expect_refusal(bytes, "page 0 (from byte 0) does not match its checksum");
+}
+
 TEST(E57Hostile, ACutFileGivesWhatIsThere) {
   E57TestFile file{{simple_scan(1000)}};
   file.xml_first = true;
