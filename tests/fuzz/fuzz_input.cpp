@@ -1,7 +1,9 @@
 // The targets that read points and meshes.
 #include <string_view>
+#include <vector>
 
 #include "preprocess/points.h"
+#include "preprocess/read/e57/crc32c.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/targets.h"
@@ -26,6 +28,21 @@ void check_points(const Points& points) {
       require(color[channel] >= 0.0F && color[channel] <= ONE_ROUNDED, "colours are 0 to 1");
 }
 
+/// What readers of scans promise beside.
+void check_stations(const Points& points) {
+  require(is_beside(points.station, points), "as many stations' numbers as points, or none");
+  require(is_beside(points.grid_cell, points), "as many grid cells as points, or none");
+  for (const Column& column : points.columns)
+    require(column.size() == points.size(), "as many values of an attribute as points");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t number = points.station.empty() ? 0 : points.station[i];
+    require(points.stations.empty() || number < points.stations.size(), "points are of existing stations");
+    if (points.grid_cell.empty() || points.grid_cell[i] == NO_CELL) continue;
+    const Station& station = points.stations.at(number);
+    require(points.grid_cell[i] < std::uint64_t{station.rows} * station.columns, "cells are of their grid");
+  }
+}
+
 void check_mesh(const Mesh& mesh) {
   const std::size_t count = mesh.vertices.size();
   require(mesh.texcoord.empty() || mesh.texcoord.size() == count, "a texture coordinate per vertex, or none");
@@ -41,6 +58,7 @@ void check_input(const Input& input) {
   for (const InputObject& object : input.objects) {
     require(object.points.size() > 0, "no object without points");
     check_points(object.points);
+    check_stations(object.points);
     for (const Mesh& mesh : object.meshes) check_mesh(mesh);
   }
 }
@@ -65,6 +83,20 @@ void fuzz_obj(FuzzBytes bytes) { read_as("fuzzed.obj", bytes); }
 void fuzz_stl(FuzzBytes bytes) { read_as("fuzzed.stl", bytes); }
 void fuzz_vtp(FuzzBytes bytes) { read_as("fuzzed.vtp", bytes); }
 void fuzz_las(FuzzBytes bytes) { read_as("fuzzed.las", bytes); }
+
+void fuzz_e57(FuzzBytes bytes) {
+  constexpr std::size_t PAGE = 1024;
+  constexpr std::size_t CONTENT = 1020;
+  read_as("fuzzed.e57", bytes);
+  std::vector<std::uint8_t> sealed(bytes.begin(), bytes.end());
+  sealed.resize((sealed.size() + PAGE - 1) / PAGE * PAGE);
+  for (std::size_t page = 0; page < sealed.size(); page += PAGE) {
+    const std::uint32_t checksum = crc32c(sealed.data() + page, CONTENT);
+    for (std::size_t i = 0; i < 4; ++i)
+      sealed[page + CONTENT + i] = static_cast<std::uint8_t>(checksum >> (24 - 8 * i));
+  }
+  read_as("fuzzed.e57", sealed);
+}
 
 void fuzz_gltf(FuzzBytes bytes) {
   constexpr std::string_view POINTS =

@@ -19,7 +19,9 @@ void fuzz_stl(FuzzBytes bytes);
 void fuzz_vtp(FuzzBytes bytes);
 /// The same with the extra bytes that are called a, b, c and v; LAS or LAZ, by what the header says.
 void fuzz_las(FuzzBytes bytes);
-/// The same; .glb where the bytes begin like one, with a file points.ply beside it.
+/// The same as the bytes are, and once more with the pages' checksums put right.
+void fuzz_e57(FuzzBytes bytes);
+/// The same as for the others; .glb where the bytes begin like one, with a file points.ply beside it.
 void fuzz_gltf(FuzzBytes bytes);
 /// read_camera and read_camera_path; numbers must be finite, frames ascend.
 void fuzz_camera(FuzzBytes bytes);
@@ -43,6 +45,7 @@ inline constexpr FuzzTarget FUZZ_TARGETS[] = {
     {"stl", fuzz_stl},
     {"vtp", fuzz_vtp},
     {"las", fuzz_las},
+    {"e57", fuzz_e57},
     {"gltf", fuzz_gltf},
     {"camera", fuzz_camera},
     {"user_state", fuzz_user_state},

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "preprocess/read/e57/number_text.h"
+#include "preprocess/read/e57/parse_number.h"
 #include "preprocess/read/e57/prototype_field.h"
 #include "preprocess/read/e57/xml_stream.h"
 
@@ -32,6 +32,11 @@ class DescriptionReader : public XmlReceiver {
       quaternion_ = {};
     } else if (at[SCAN_DEPTH] == "points") {
       begin_points(at, attributes);
+    } else {
+      // Limits are written as their fields are, so some are scaled integers.
+      number_type_ = attributes.value("type") == "ScaledInteger"
+                         ? prototype_field(at.back(), attributes, path_)
+                         : E57Field{};
     }
   }
 
@@ -81,25 +86,26 @@ class DescriptionReader : public XmlReceiver {
     return *count;
   }
 
-  /// An element without text is 0 by the standard.
-  [[nodiscard]] double number_of(const std::string& element, const std::string& text) const {
+  /// The number that the element is which ends, nullopt where it is none. Without text it is 0 by the standard.
+  [[nodiscard]] std::optional<double> number_of(const std::string& text) const {
     const std::optional<double> number = trimmed(text).empty() ? 0.0 : parse_number<double>(text);
-    if (!number || !std::isfinite(*number))
-      throw_unreadable(path_, "found " + element + " '" + text + "' in a pose, expected a number");
-    return *number;
+    if (!number) return std::nullopt;
+    const double scaled = *number * number_type_.scale + number_type_.offset;
+    return std::isfinite(scaled) ? std::optional(scaled) : std::nullopt;
   }
 
   void set_pose(const std::string& part, const std::string& axis, const std::string& text) {
     const std::size_t i = std::string_view("xyzw").find(axis);
     if (axis.size() != 1 || i == std::string_view::npos) return;
-    if (part == "rotation") quaternion_.at(i) = number_of(axis, text);
-    if (part == "translation" && i < 3)
-      scans_.back().translation[static_cast<int>(i)] = number_of(axis, text);
+    const std::optional<double> number = number_of(text);
+    if (!number) throw_unreadable(path_, "found " + axis + " '" + text + "' in a pose, expected a number");
+    if (part == "rotation") quaternion_.at(i) = *number;
+    if (part == "translation" && i < 3) scans_.back().translation[static_cast<int>(i)] = *number;
   }
 
   void set_bound(const std::string& structure, const std::string& name, const std::string& text) {
     E57Scan& scan = scans_.back();
-    const std::optional<double> value = trimmed(text).empty() ? 0.0 : parse_number<double>(text);
+    const std::optional<double> value = number_of(text);
     if (structure == "indexBounds" && value && *value >= 0.0 && *value < 4294967296.0) {
       if (name == "rowMaximum") scan.row_maximum = static_cast<std::uint64_t>(*value);
       if (name == "columnMaximum") scan.column_maximum = static_cast<std::uint64_t>(*value);
@@ -120,6 +126,7 @@ class DescriptionReader : public XmlReceiver {
 
   const std::filesystem::path& path_;
   std::vector<E57Scan> scans_;
+  E57Field number_type_;  ///< of the innermost element that began: its scale and offset
   std::array<double, 4>
       quaternion_{};  ///< x, y, z, w of the scan that is being read; all zero where there is none
 };

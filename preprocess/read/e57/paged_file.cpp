@@ -54,6 +54,10 @@ void PagedFile::read_header() {
   header_.file_bytes = word_at<std::uint64_t>(bytes, 16);
   header_.xml_physical_offset = word_at<std::uint64_t>(bytes, 24);
   header_.xml_bytes = word_at<std::uint64_t>(bytes, 32);
+  in_.seek(0);
+  const unsigned char* page = in_.take(PAGE_BYTES);
+  if (page == nullptr) throw_unreadable(path(), "its first page cannot be read");
+  check_page(page, 0);  // before an offset is believed
 }
 
 std::uint64_t PagedFile::content_offset(std::uint64_t physical, const std::string& what) const {
@@ -64,6 +68,12 @@ std::uint64_t PagedFile::content_offset(std::uint64_t physical, const std::strin
 }
 
 void PagedFile::seek(std::uint64_t offset) {
+  const std::uint64_t buffered = offset_ - begin_;
+  if (offset >= buffered && offset - buffered <= end_) {
+    begin_ = static_cast<std::size_t>(offset - buffered);
+    offset_ = offset;
+    return;
+  }
   next_page_ = std::min(offset / CONTENT_BYTES, page_count_);
   in_.seek(next_page_ * PAGE_BYTES);
   begin_ = end_ = 0;

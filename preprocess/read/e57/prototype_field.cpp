@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "preprocess/read/e57/number_text.h"
+#include "preprocess/read/e57/parse_number.h"
 
 namespace splatray {
 namespace {

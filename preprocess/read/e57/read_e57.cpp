@@ -1,6 +1,7 @@
 #include "preprocess/read/e57/read_e57.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "preprocess/read/e57/description.h"
@@ -20,19 +21,23 @@ std::uint64_t size_of(const E57Section& section) {
 /// of several scans.
 std::vector<E57Section> find_sections(PagedFile& file, const std::vector<E57Scan>& scans) {
   std::vector<E57Section> sections(scans.size());
+  std::vector<std::uint64_t> headers;
   std::vector<std::uint64_t> begins;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (scans[i].records == 0) continue;
-    sections[i] = read_section_header(file, file.content_offset(scans[i].physical_offset, "points"));
+    headers.push_back(file.content_offset(scans[i].physical_offset, "points"));
+    sections[i] = read_section_header(file, headers.back());
     if (size_of(sections[i]) > 0) begins.push_back(sections[i].begin);
   }
+  std::sort(headers.begin(), headers.end());
   std::sort(begins.begin(), begins.end());
   if (std::adjacent_find(begins.begin(), begins.end()) != begins.end())
     throw_unreadable(file.path(), "found two scans with the same points, expected each to have its own");
-  for (E57Section& section : sections) {
-    const auto next = std::upper_bound(begins.begin(), begins.end(), section.begin);
-    if (next != begins.end()) section.end = std::min(section.end, *next);
-  }
+  for (E57Section& section : sections)
+    for (const std::vector<std::uint64_t>& starts : {std::cref(headers), std::cref(begins)}) {
+      const auto next = std::upper_bound(starts.begin(), starts.end(), section.begin);
+      if (next != starts.end()) section.end = std::min(section.end, *next);
+    }
   return sections;
 }
 

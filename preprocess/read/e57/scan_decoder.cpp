@@ -40,13 +40,33 @@ glm::dvec3 cartesian(const glm::dvec3& spherical) {
           spherical.x * std::sin(spherical.z)};
 }
 
-std::size_t column_number(std::vector<Column>& columns, const Column& empty, std::size_t size) {
+/// Fills the list up to this scan's first point and makes room for all of the file's points.
+template <typename Value>
+void begin_list(std::vector<Value>& list, const Points& points, const Value& absent) {
+  list.reserve(points.position.capacity());
+  list.resize(points.size(), absent);
+}
+
+/// The number of the column that is named like `empty`, which is added where there is none.
+std::size_t column_number(Points& points, const Column& empty) {
+  std::vector<Column>& columns = points.columns;
   const auto found = std::find_if(columns.begin(), columns.end(),
                                   [&](const Column& column) { return column.name == empty.name; });
   const auto number = static_cast<std::size_t>(found - columns.begin());
   if (number == columns.size()) columns.push_back(empty);
-  std::visit([size](auto& list) { list.resize(size); }, columns[number].values);
+  std::visit(
+      [&points](auto& list) {
+        begin_list(list, points, typename std::decay_t<decltype(list)>::value_type{});
+      },
+      columns[number].values);
   return number;
+}
+
+/// Appends `count` values; returns the first of them.
+template <typename Value>
+Value* grow(std::vector<Value>& list, std::size_t count) {
+  list.resize(list.size() + count);
+  return list.data() + (list.size() - count);
 }
 
 /// Removes the values whose points are marked; `marks` begins at `first`.
@@ -76,10 +96,10 @@ ScanDecoder::ScanDecoder(const E57Scan& scan, const ScanLayout& layout, ScanFile
     if (sources_.back().is_constant) sources_.back().stream.decode(BATCH, sources_.back().values.data());
   }
   Points& points = file.points;
-  if (layout.colors) points.stored_color.resize(first_, WHITE);
-  if (layout.normals) points.normal.resize(first_, glm::vec3(0.0F));
-  for (const ColumnSource& column : layout.columns)
-    columns_.push_back(column_number(points.columns, column.empty, first_));
+  if (layout.colors) begin_list(points.stored_color, points, WHITE);
+  if (layout.normals) begin_list(points.normal, points, glm::vec3(0.0F));
+  if (layout.cell) begin_list(points.grid_cell, points, NO_CELL);
+  for (const ColumnSource& column : layout.columns) columns_.push_back(column_number(points, column.empty));
 }
 
 void ScanDecoder::decode(PagedFile& pages, const E57Section& section, const ReadListener& listener) {
@@ -106,7 +126,7 @@ void ScanDecoder::decode_ready(std::uint64_t most) {
   std::uint64_t left = most - decoded_;
   for (const Source& source : sources_)
     if (!source.is_constant) left = std::min(left, source.stream.available());
-  for (; left > 0;) {
+  while (left > 0) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, BATCH));
     decode_batch(count);
     left -= count;
@@ -161,21 +181,23 @@ void ScanDecoder::append_colors() {
     channel[c] = values(layout_.colors->at(c));
     scale[c] = 255.0 / (layout_.color_high[c] - layout_.color_low[c]);
   }
+  glm::u16vec3* to = grow(file_.points.stored_color, kept_.size());
   for (const std::uint32_t i : kept_) {
     glm::u16vec3 color = WHITE;
     for (std::size_t c = 0; c < 3 && (invalid == nullptr || invalid[i] == 0.0); ++c)
       color[static_cast<int>(c)] =
           attribute_of<std::uint8_t>((channel[c][i] - layout_.color_low[c]) * scale[c] + 0.5);
-    file_.points.stored_color.push_back(color);
+    *to++ = color;
   }
 }
 
 void ScanDecoder::append_normals() {
   const auto& [x, y, z] = *layout_.normals;
   const auto finite = [](double value) { return double{attribute_of<float>(value)}; };
+  glm::vec3* to = grow(file_.points.normal, kept_.size());
   for (const std::uint32_t i : kept_) {
     const glm::dvec3 local(finite(values(x)[i]), finite(values(y)[i]), finite(values(z)[i]));
-    file_.points.normal.emplace_back(rotation_ * local);
+    *to++ = glm::vec3(rotation_ * local);
   }
 }
 
@@ -187,9 +209,10 @@ void ScanDecoder::append_columns() {
     std::visit(
         [&](auto& list) {
           using Value = typename std::decay_t<decltype(list)>::value_type;
+          Value* to = grow(list, kept_.size());
           for (const std::uint32_t i : kept_)
-            list.push_back(invalid == nullptr || invalid[i] == 0.0 ? attribute_of<Value>(from[i] + source.add)
-                                                                   : Value{0});
+            *to++ = invalid == nullptr || invalid[i] == 0.0 ? attribute_of<Value>(from[i] + source.add)
+                                                            : Value{0};
         },
         file_.points.columns[columns_[c]].values);
   }
@@ -205,9 +228,11 @@ void ScanDecoder::append_cells(std::size_t count) {
     row_maximum_ = std::max(row_maximum_, r);
     column_maximum_ = std::max(column_maximum_, c);
   }
+  std::uint32_t* to_row = grow(file_.points.grid_cell, kept_.size());
+  std::uint32_t* to_column = grow(column_, kept_.size());
   for (const std::uint32_t i : kept_) {
-    row_.push_back(index_of(row[i]));
-    column_.push_back(index_of(column[i]));
+    *to_row++ = index_of(row[i]);
+    *to_column++ = index_of(column[i]);
   }
 }
 
@@ -229,7 +254,7 @@ void ScanDecoder::drop_origins() {
   for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = points.position[first_ + i] == scan_.translation;
   erase_marked(points.stored_color, first_, marks);
   erase_marked(points.normal, first_, marks);
-  erase_marked(row_, 0, marks);
+  erase_marked(points.grid_cell, first_, marks);
   erase_marked(column_, 0, marks);
   for (const std::size_t column : columns_)
     std::visit([&](auto& list) { erase_marked(list, first_, marks); }, points.columns[column].values);
@@ -240,7 +265,7 @@ void ScanDecoder::drop_origins() {
 
 /// Rows and columns are counted from 0, whatever the least is, up to what indexBounds or a record says.
 void ScanDecoder::set_grid(Station& station, std::vector<std::string>& notes) {
-  if (!layout_.cell || row_maximum_ == 0 || column_maximum_ == 0) return;
+  std::vector<std::uint32_t>& cells = file_.points.grid_cell;
   const std::uint64_t most = std::min<std::uint64_t>(NO_CELL - 1, CELLS_A_RECORD * decoded_);
   const auto fits = [most](std::uint64_t rows, std::uint64_t columns) { return columns <= most / rows; };
   std::uint64_t rows = std::max<std::uint64_t>(row_maximum_, scan_.row_maximum) + 1;
@@ -249,19 +274,21 @@ void ScanDecoder::set_grid(Station& station, std::vector<std::string>& notes) {
     rows = std::uint64_t{row_maximum_} + 1;
     columns = std::uint64_t{column_maximum_} + 1;
   }
-  if (!fits(rows, columns)) {
-    notes.push_back("a grid of " + std::to_string(rows) + " rows and " + std::to_string(columns) +
-                    " columns for " + std::to_string(decoded_) + " records is not used");
+  const bool is_grid = row_maximum_ > 0 && column_maximum_ > 0;
+  if (!is_grid || !fits(rows, columns)) {
+    if (cells.size() > first_) cells.resize(first_);
+    if (is_grid)
+      notes.push_back("a grid of " + std::to_string(rows) + " rows and " + std::to_string(columns) +
+                      " columns for " + std::to_string(decoded_) + " records is not used");
     return;
   }
   station.rows = static_cast<std::uint32_t>(rows);
   station.columns = static_cast<std::uint32_t>(columns);
-  std::vector<std::uint32_t>& cells = file_.points.grid_cell;
-  cells.resize(first_, NO_CELL);
-  cells.reserve(file_.points.position.capacity());
-  for (std::size_t i = 0; i < row_.size(); ++i)
-    cells.push_back(row_[i] == NO_CELL || column_[i] == NO_CELL ? NO_CELL
-                                                                : row_[i] * station.columns + column_[i]);
+  for (std::size_t i = 0; i < column_.size(); ++i) {
+    std::uint32_t& cell = cells[first_ + i];
+    const bool is_cell = cell != NO_CELL && column_[i] != NO_CELL;
+    cell = is_cell ? cell * station.columns + column_[i] : NO_CELL;
+  }
 }
 
 void finish_scans(Points& points, const std::vector<std::size_t>& last_of_scan) {
@@ -271,7 +298,10 @@ void finish_scans(Points& points, const std::vector<std::size_t>& last_of_scan) 
     points.stored_color_most = 255;
   }
   if (!points.normal.empty()) points.normal.resize(size, glm::vec3(0.0F));
-  if (!points.grid_cell.empty()) points.grid_cell.resize(size, NO_CELL);
+  const bool has_grid = std::any_of(points.stations.begin(), points.stations.end(),
+                                    [](const Station& station) { return station.rows > 0; });
+  if (has_grid) points.grid_cell.resize(size, NO_CELL);
+  if (!has_grid) points.grid_cell = {};
   for (Column& column : points.columns) std::visit([size](auto& list) { list.resize(size); }, column.values);
   if (points.stations.size() < 2) return;
   points.station.reserve(size);

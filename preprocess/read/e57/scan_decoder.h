@@ -63,10 +63,9 @@ class ScanDecoder {
   // Of the batch:
   std::vector<std::uint32_t> kept_;  ///< records that have a position
   std::vector<glm::dvec3> world_;    ///< beside kept_
-  // Of the scan's points, and the largest of all records:
-  std::vector<std::uint32_t> row_;
-  std::vector<std::uint32_t> column_;
-  std::uint32_t row_maximum_ = 0;
+  // Of the grid; up to finish(), Points::grid_cell holds the rows.
+  std::vector<std::uint32_t> column_;  ///< of this scan's points
+  std::uint32_t row_maximum_ = 0;      ///< of all records, with a position or without
   std::uint32_t column_maximum_ = 0;
 };
 

@@ -18,9 +18,11 @@ E57TestScan scan_with_origins(int count, int origins) {
   for (E57TestField& field : scan.fields)
     for (int i = 0; i < origins; ++i) field.packed[static_cast<std::size_t>(i)] = 0;
   scan.xml = e57_pose({}, {10.0, 20.0, 30.0});
-  for (const char* name : {"colorRed", "colorGreen", "colorBlue"})
-    scan.fields.push_back(
-        E57TestField::integer(name, 0, 255, std::vector<std::int64_t>(static_cast<std::size_t>(count), 3)));
+  for (const char* name : {"colorRed", "colorGreen", "colorBlue"}) {
+    std::vector<std::int64_t> values = counted(count);
+    for (std::int64_t& value : values) value %= 256;
+    scan.fields.push_back(E57TestField::integer(name, 0, 255, values));
+  }
   scan.fields.push_back(E57TestField::integer("intensity", 0, count, counted(count)));
   scan.fields.push_back(E57TestField::integer("rowIndex", 0, count, counted(count)));
   scan.fields.push_back(E57TestField::integer("columnIndex", 0, 1, [&] {
@@ -41,6 +43,7 @@ TEST(E57Attributes, ManyPointsAtTheScannersPlaceAreNoReturns) {
   EXPECT_EQ(many.points.grid_cell.at(0), 22U);
   EXPECT_EQ(many.points.grid_cell.size(), 89U);
   EXPECT_EQ(many.points.stored_color.size(), 89U);
+  EXPECT_EQ(many.points.stored_color.at(0), glm::u16vec3(11));
   EXPECT_EQ(read_bytes(e57_bytes(scan_with_origins(100, 10))).points.size(), 100U) << "few may be points";
   EXPECT_EQ(read_bytes(e57_bytes(scan_with_origins(12000, 11))).points.size(), 12000U) << "a small share too";
 }
@@ -76,6 +79,12 @@ TEST(E57Attributes, GridsThatAreNoneAreNotUsed) {
   EXPECT_EQ(far.stations.at(0).rows, 0U);
   scan.fields[3] = E57TestField::integer("rowIndex", 0, 0, {0, 0, 0});
   EXPECT_TRUE(read_bytes(e57_bytes(scan)).points.grid_cell.empty()) << "one row is no grid";
+  testing::E57TestFile file{{line_scan(2), scan, line_scan(1), scan}};
+  EXPECT_TRUE(read_bytes(e57_bytes(file)).points.grid_cell.empty());
+  file.scans[3].fields[3] = E57TestField::integer("rowIndex", 0, 1, {0, 1, 1});
+  file.scans[3].fields[4] = E57TestField::integer("columnIndex", 0, 1, {0, 0, 1});
+  EXPECT_EQ(read_bytes(e57_bytes(file)).points.grid_cell,
+            (std::vector<std::uint32_t>{NO_CELL, NO_CELL, NO_CELL, NO_CELL, NO_CELL, NO_CELL, 0, 2, 3}));
 }
 
 std::vector<glm::u16vec3> colors_of(const std::vector<E57TestField>& channels, const std::string& xml = "") {
@@ -118,6 +127,10 @@ TEST(E57Attributes, ColoursAreScaledByTheirLimits) {
   EXPECT_EQ(colors_of(floats, limits("0", "1")), grey);
   EXPECT_EQ(colors_of(bytes, limits("51", "153"))[1], glm::u16vec3(0));
   EXPECT_EQ(colors_of(bytes, limits("51", "153"))[2], glm::u16vec3(255)) << "beyond the limit";
+  std::string scaled = limits("0", "131070");
+  for (std::size_t at = 0; (at = scaled.find("\"Float\"", at)) != std::string::npos;)
+    scaled.replace(at, 7, "\"ScaledInteger\" scale=\"0.5\" offset=\"0\"");
+  EXPECT_EQ(colors_of(words, scaled), grey) << "limits are numbers of any type";
   auto invalid = bytes;
   invalid.push_back(E57TestField::integer("isColorInvalid", 0, 1, {1, 0, 0}));
   EXPECT_EQ(colors_of(invalid)[0], glm::u16vec3(255)) << "white, as where there is none";

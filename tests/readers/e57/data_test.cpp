@@ -158,5 +158,23 @@ TEST(E57Data, PosedRangeScansOfTheDragon) {
   }
 }
 
+TEST(E57Data, StationsOfTheSimulatedChurch) {
+  if (data_folder().empty()) GTEST_SKIP() << NO_DATA;
+  std::vector<std::string> notes;
+  const ScanFile file = read_file(data_folder() / "scans/sim_sibenik_tls.e57", notes);
+  const std::vector<glm::dvec3> sensors{{8.0, 1.7, 0.0}, {19.0, 1.7, 1.0}, {2.0, 2.84, 0.0}};
+  EXPECT_EQ(file.points.size(), 669600U);
+  ASSERT_EQ(file.points.stations.size(), sensors.size());
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const Station& station = file.points.stations[i];
+    EXPECT_EQ(station.name, "station " + std::to_string(i));
+    EXPECT_EQ(station.sensor_world, sensors[i]);
+    EXPECT_EQ(station.rows, 310U);
+    EXPECT_EQ(station.columns, 720U);
+  }
+  ASSERT_EQ(file.points.columns.size(), 1U);
+  EXPECT_EQ(file.points.columns[0].name, COLUMN_INTENSITY);
+}
+
 }  // namespace
 }  // namespace splatray

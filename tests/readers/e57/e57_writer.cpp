@@ -89,7 +89,8 @@ std::string scan_xml(const E57TestScan& scan, std::size_t at) {
                     "<points type=\"CompressedVector\" fileOffset=\"" + offset + "\" recordCount=\"" +
                     std::to_string(records + static_cast<std::uint64_t>(scan.more_records)) +
                     "\"><prototype type=\"Structure\">";
-  for (const E57TestField& field : scan.fields) xml += "<" + field.name + field.attributes + "/>";
+  for (const E57TestField& field : scan.fields)
+    xml += "<" + field.name + field.attributes + ">" + field.text + "</" + field.name + ">";
   return xml + "</prototype>" + scan.codecs + "</points></vectorChild>\n";
 }
 
@@ -112,7 +113,8 @@ E57TestField integers(const std::string& name, std::int64_t minimum, std::int64_
                      " type=\"" + type + "\" minimum=\"" + std::to_string(minimum) + "\" maximum=\"" +
                          std::to_string(maximum) + "\"",
                      static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(maximum) - low)),
-                     {}};
+                     {},
+                     std::to_string(minimum)};
   for (const std::int64_t value : values) field.packed.push_back(static_cast<std::uint64_t>(value) - low);
   return field;
 }

@@ -12,6 +12,7 @@ struct E57TestField {
   std::string attributes;  ///< of its element in the prototype
   unsigned bits = 0;       ///< of a value
   std::vector<std::uint64_t> packed;
+  std::string text{};  ///< of the element: a value that other readers want to be in range
 
   static E57TestField float32(const std::string& name, const std::vector<float>& values);
   static E57TestField float64(const std::string& name, const std::vector<double>& values);

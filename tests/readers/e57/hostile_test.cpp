@@ -74,6 +74,12 @@ TEST(E57Hostile, ADamagedPageIsNamedAndReadOnlyWhenAskedTo) {
   EXPECT_NE(notes[0].find("page 5"), std::string::npos);
 }
 
+TEST(E57Hostile, ADamagedHeaderIsNamedBeforeItIsBelieved) {
+  std::string bytes = e57_bytes(simple_scan(10));
+  bytes[25] = static_cast<char>(bytes[25] ^ 0x7F);  // of the XML section's offset
+  expect_refusal(bytes, "page 0 (from byte 0) does not match its checksum");
+}
+
 TEST(E57Hostile, ACutFileGivesWhatIsThere) {
   E57TestFile file{{simple_scan(1000)}};
   file.xml_first = true;
@@ -177,6 +183,16 @@ TEST(E57Hostile, ScansThatShareTheirBytesAreRefused) {
   expect_refusal(e57_pages(twice), "two scans with the same points");
 }
 
+TEST(E57Hostile, ASectionEndsWhereTheNextBegins) {
+  E57TestFile file{{simple_scan(10), simple_scan(10)}};
+  file.scans[0].more_records = 5;
+  std::vector<std::string> notes;
+  const ScanFile read = read_bytes(overwritten(e57_bytes(file), 56, std::string(8, '\x7F')), notes);
+  EXPECT_EQ(read.points.size(), 20U)
+      << "a section's length too large does not give it the next scan's points";
+  EXPECT_EQ(read.counts.missing, 5U);
+}
+
 TEST(E57Hostile, HarmfulXml) {
   E57TestFile file{{simple_scan(10)}};
   file.prolog = "<!DOCTYPE a [<!ENTITY b \"c\"><!ENTITY d \"&b;&b;&b;&b;&b;&b;&b;\">]>";
@@ -199,7 +215,7 @@ TEST(E57Hostile, PrototypesThatAreNone) {
   refused("type 'Blob'");
   scan.fields[0].attributes = " type=\"ScaledInteger\" minimum=\"0\" maximum=\"9\" scale=\"0\"";
   refused("a scale or offset that makes no numbers");
-  scan.fields[0].attributes = " type=\"Float\"><inner type=\"Float\"/></cartesianX><more type=\"Float\"";
+  scan.fields[0].attributes = " type=\"Float\"><inner type=\"Float\"/";
   refused("fields within the field 'cartesianX'");
   scan = simple_scan(2);
   scan.fields.pop_back();
