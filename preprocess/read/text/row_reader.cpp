@@ -152,6 +152,13 @@ void RowReader::parse(std::span<char> block) {
                     [&](std::size_t i) { PieceParser(form_, pieces_[i]).parse(texts[i]); });
 }
 
+/// Cells of the row before those of the last piece's last run; 0 = there is none.
+std::size_t RowReader::width_before() const {
+  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece)
+    if (!piece->runs.empty()) return piece->runs.back().width;
+  return width_;
+}
+
 /// Sets the last line apart, and drops it where it is no row like the one before.
 void RowReader::judge_open_end() {
   Piece& piece = pieces_.back();
@@ -159,25 +166,19 @@ void RowReader::judge_open_end() {
     piece.fault.clear();
   } else if (!piece.runs.empty()) {
     const Piece::Run last = piece.runs.back();
-    const bool first = piece.runs.size() == 1 && pieces_.size() == 1;
-    const std::size_t before = piece.runs.size() > 1 ? piece.runs[piece.runs.size() - 2].width
-                               : first || pieces_[pieces_.size() - 2].runs.empty()
-                                   ? width_
-                                   : pieces_[pieces_.size() - 2].runs.back().width;
     piece.runs.back().rows -= 1;
-    if (piece.runs.back().rows == 0) piece.runs.pop_back();
-    if (last.rows > 1 || last.width >= before)
-      piece.runs.push_back({last.line + last.rows - 1, last.width, 1});
+    if (last.rows == 1) piece.runs.pop_back();
+    open_ = last.rows > 1 || last.width >= width_before();
+    if (open_) piece.runs.push_back({last.line + last.rows - 1, last.width, 1});
   }
 }
 
 bool RowReader::load() {
   const std::span<char> block = blocks_.next();
   if (block.empty()) return false;
-  ends_open_ = block.back() != '\n';
   parse(block);
   const auto whole = [](const Piece& piece) { return piece.fault.empty(); };
-  if (ends_open_ && std::all_of(pieces_.begin(), pieces_.end() - 1, whole)) judge_open_end();
+  if (block.back() != '\n' && std::all_of(pieces_.begin(), pieces_.end() - 1, whole)) judge_open_end();
   piece_ = run_ = value_ = 0;
   return true;
 }
@@ -192,8 +193,7 @@ bool RowReader::next(RowRun& run) {
     if (run_ < piece.runs.size()) {
       const Piece::Run& found = piece.runs[run_];
       const bool last = piece_ + 1 == pieces_.size() && run_ + 1 == piece.runs.size();
-      run = {line_ + found.line + 1, found.width, found.rows, piece.values.data() + value_,
-             ends_open_ && last};
+      run = {line_ + found.line + 1, found.width, found.rows, piece.values.data() + value_, open_ && last};
       value_ += found.width * found.rows;
       width_ = found.width;
       ++run_;
