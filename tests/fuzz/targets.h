@@ -17,6 +17,10 @@ void fuzz_ply(FuzzBytes bytes);
 void fuzz_obj(FuzzBytes bytes);
 void fuzz_stl(FuzzBytes bytes);
 void fuzz_vtp(FuzzBytes bytes);
+void fuzz_pcd(FuzzBytes bytes);
+/// The same on all bytes but the first, which says what file they are: `t` a .ptx, `s` a .pts, `c` a .txt whose columns are
+/// asked for, anything else a .txt.
+void fuzz_text(FuzzBytes bytes);
 /// The same; .glb where the bytes begin like one, with a file points.ply beside it.
 void fuzz_gltf(FuzzBytes bytes);
 /// read_camera and read_camera_path; numbers must be finite, frames ascend.
@@ -40,6 +44,8 @@ inline constexpr FuzzTarget FUZZ_TARGETS[] = {
     {"obj", fuzz_obj},
     {"stl", fuzz_stl},
     {"vtp", fuzz_vtp},
+    {"pcd", fuzz_pcd},
+    {"text", fuzz_text},
     {"gltf", fuzz_gltf},
     {"camera", fuzz_camera},
     {"user_state", fuzz_user_state},
