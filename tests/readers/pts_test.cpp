@@ -1,6 +1,9 @@
 /// PTS and the two formats that share its extension, and how all text is read.
+#include <bit>
 #include <cstdlib>
+#include <random>
 
+#include "preprocess/read/text/parse_number.h"
 #include "preprocess/read/text/row_reader.h"
 #include "tests/readers/scan_reading.h"
 
@@ -76,7 +79,31 @@ TEST(Pts, ExpePointSets) {
   read_every_prefix(folder, "p.pts", expe_points(1));
 }
 
-/// Two million lines, more than one block and many pieces; a comment and an empty line among them.
+TEST(ParseNumber, IsTheNearestDouble) {
+  std::mt19937_64 random(1);
+  const auto below = [&](std::uint64_t most) { return random() % most; };
+  std::size_t through_short = 0;
+  for (int i = 0; i < 200000; ++i) {
+    std::string text = below(2) == 0 ? "-" : "";
+    for (std::uint64_t digits = below(12); digits > 0; --digits) text += static_cast<char>('0' + below(10));
+    if (below(3) > 0) text += ".";
+    for (std::uint64_t digits = below(8); digits > 0; --digits) text += static_cast<char>('0' + below(10));
+    if (below(10) == 0) text += "e" + std::to_string(static_cast<int>(below(40)) - 20);
+    const char* const end = text.data() + text.size();
+    double value = -7.0;
+    double quick = -7.0;
+    char* expected_end = nullptr;
+    const double expected = std::strtod(text.c_str(), &expected_end);
+    const char* const rest = parse_number(text.data(), end, value);
+    ASSERT_EQ(rest == end, expected_end == end) << text;
+    if (rest != end) continue;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(expected)) << text;
+    through_short += parse_short_number(text.data(), end, quick) == end ? 1 : 0;
+  }
+  EXPECT_GT(through_short, 100000U);
+}
+
+/// More than one block and many pieces; a comment and an empty line among them.
 TEST(RowReader, BlocksAndPiecesKeepLinesAndTheirNumbers) {
   constexpr std::uint64_t LINES = 900000;
   const TempFolder folder;

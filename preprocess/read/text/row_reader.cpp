@@ -19,7 +19,13 @@ constexpr std::size_t SHOWN = 20;  ///< characters of what is wrong
 /// Parses the lines of one piece.
 class RowReader::PieceParser {
  public:
-  PieceParser(const CellForm& form, Piece& piece) : form_(form), piece_(piece) {}
+  /// What the piece held is gone, but not its memory.
+  PieceParser(const CellForm& form, Piece& piece) : form_(form), piece_(piece) {
+    piece.values.clear();
+    piece.runs.clear();
+    piece.lines = 0;
+    piece.fault.clear();
+  }
 
   void parse(std::span<char> text) {
     if (form_.decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
@@ -147,7 +153,7 @@ void RowReader::parse(std::span<char> block) {
     texts.push_back(block.first(bytes));
     block = block.subspan(bytes);
   }
-  pieces_.assign(texts.size(), {});
+  pieces_.resize(texts.size());
   tbb::parallel_for(std::size_t{0}, texts.size(),
                     [&](std::size_t i) { PieceParser(form_, pieces_[i]).parse(texts[i]); });
 }
