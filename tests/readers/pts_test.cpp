@@ -95,7 +95,7 @@ TEST(ParseNumber, IsTheNearestDouble) {
     char* expected_end = nullptr;
     const double expected = std::strtod(text.c_str(), &expected_end);
     const char* const rest = parse_number(text.data(), end, value);
-    ASSERT_EQ(rest == end, expected_end == end) << text;
+    ASSERT_EQ(rest == end, expected_end == end && !text.empty()) << text;
     if (rest != end) continue;
     ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(expected)) << text;
     through_short += parse_short_number(text.data(), end, quick) == end ? 1 : 0;
@@ -117,13 +117,13 @@ TEST(RowReader, BlocksAndPiecesKeepLinesAndTheirNumbers) {
   const ReadListener listener{notes, none};
   RowReader rows(file, listener, {});
   std::uint64_t expected = 0;
+  std::uint64_t wrong = 0;
   for (RowRun run; rows.next(run);) {
     ASSERT_EQ(run.width, 3U);
-    for (std::size_t i = 0; i < run.rows; ++i, ++expected) {
-      ASSERT_EQ(run.row(i)[0], static_cast<double>(expected));
-      ASSERT_EQ(run.first_line + i, expected + 3);
-    }
+    for (std::size_t i = 0; i < run.rows; ++i, ++expected)
+      wrong += run.row(i)[0] != static_cast<double>(expected) || run.first_line + i != expected + 3 ? 1 : 0;
   }
+  EXPECT_EQ(wrong, 0U);
   EXPECT_EQ(expected, LINES);
   text += "1 2 oops\n";
   EXPECT_NE(read_error(folder.write("b.pts", text)).find("line 900003: found 'oops'"), std::string::npos);
