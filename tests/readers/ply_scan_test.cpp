@@ -84,7 +84,7 @@ TEST(PlyScan, SensorsStandInRemarks) {
   };
   EXPECT_EQ(stations("comment sensor 0 0.0 -0.5 1\n", "ring").at(0).sensor_world, glm::dvec3(0.0, -0.5, 1.0));
   EXPECT_EQ(stations("comment sensor 0.25 -0.5 1\n", "ring").at(0).sensor_world, glm::dvec3(0.25, -0.5, 1.0));
-  EXPECT_FALSE(stations("comment sensor 0 0 0 9\n", "ring").at(0).sensor_world) << "too far to be credible";
+  EXPECT_FALSE(stations("comment sensor 0 0 0 99\n", "ring").at(0).sensor_world) << "too far to be credible";
   EXPECT_TRUE(stations("comment sensor of 3 megapixels\n", "ring").empty());
   const std::vector<Station> two = stations("comment sensor 9 0 0 1\ncomment sensor 4 0 1 0\n", "scan");
   ASSERT_EQ(two.size(), 2U);

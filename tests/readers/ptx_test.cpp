@@ -71,6 +71,14 @@ TEST(Ptx, SensorsFarFromTheirPointsAreNone) {
   const ReadScan read =
       read_scan(folder.write("a.ptx", header(1, 2, "0 0 0") + "637012 849028 431 0\n637013 849030 432 0\n"));
   EXPECT_FALSE(read.file.points.stations.at(0).sensor_world);
+  const auto sensor = [&](const std::string& position, const std::string& origin) {
+    std::string text = header(1, 2, origin) + "1 0 0 0\n0 1 0 0\n";
+    text.replace(4, origin.size(), position);
+    return read_scan(folder.write("b.ptx", text)).file.points.stations.at(0).sensor_world;
+  };
+  EXPECT_EQ(sensor("0 0 9", "0 0 9"), glm::dvec3(0.0, 0.0, 9.0)) << "something small, seen from afar";
+  EXPECT_EQ(sensor("0 0 9", "0 0 0"), glm::dvec3(0.0, 0.0, 9.0)) << "points that are in the world already";
+  EXPECT_FALSE(sensor("0 0 99", "0 0 0"));
 }
 
 TEST(Ptx, TransformsWithThePositionInTheirLastColumnAreTransposed) {

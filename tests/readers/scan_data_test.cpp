@@ -167,6 +167,10 @@ TEST(ScanData, ScansHaveTheirCounts) {
             nullptr);
   const Points rings = read_any(folder / "sim_rings.ply").file.points;
   EXPECT_EQ(rings.stations.at(0).sensor_world, glm::dvec3(0.0, -0.5, 8.0));
+  const std::vector<Station> dragon = read_scan(folder / "dragon_stand_posed.ptx").file.points.stations;
+  ASSERT_EQ(dragon.size(), 3U);
+  EXPECT_EQ(dragon[0].sensor_world, glm::dvec3(0.6068275, 0.1708290, 1.1651500));
+  for (const Station& scan : dragon) EXPECT_TRUE(scan.sensor_world);
 }
 
 /// The same range grid as PTX and as Stanford's PLY: neighbours in the grid are neighbours in space.
