@@ -24,6 +24,10 @@ void transform_mesh(Mesh& mesh, const glm::dmat4& to_world) {
   for (float& radius : mesh.vertices.radius) {
     radius = static_cast<float>(radius * std::cbrt(std::abs(volume)));
   }
+  for (Station& station : mesh.vertices.stations) {
+    if (station.sensor_world)
+      station.sensor_world = glm::dvec3(to_world * glm::dvec4(*station.sensor_world, 1.0));
+  }
   if (volume < 0.0) {
     for (glm::uvec3& triangle : mesh.triangles) {
       std::swap(triangle.y, triangle.z);

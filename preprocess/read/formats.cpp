@@ -8,20 +8,29 @@
 #include "preprocess/read/ply/read_ply.h"
 #include "preprocess/read/read_obj.h"
 #include "preprocess/read/read_stl.h"
+#include "preprocess/read/scan/read_kitti.h"
 #include "preprocess/read/text/read_pts.h"
 #include "preprocess/read/text/read_ptx.h"
+#include "preprocess/read/text/read_xyz.h"
 #include "preprocess/read/vtk/read_vtk.h"
 
 namespace splatray {
 namespace {
 
+/// A reader of meshes that has no options.
+template <Mesh (*read)(const std::filesystem::path&, const ReadListener&)>
+Mesh without_options(const std::filesystem::path& path, const ReadOptions& /*options*/,
+                     const ReadListener& listener) {
+  return read(path, listener);
+}
+
 constexpr Format FORMATS[] = {
     {".ply",
      "ASCII and binary of both endians; float and double positions, normals, colours, radius; triangles",
      read_ply, nullptr, nullptr},
-    {".obj", "points or triangles; normals, colours", read_obj, nullptr, nullptr},
-    {".stl", "triangles, ASCII and binary", read_stl, nullptr, nullptr},
-    {".vtp", "points or triangles; normals, colours, radius", read_vtp, nullptr, nullptr},
+    {".obj", "points or triangles; normals, colours", without_options<read_obj>, nullptr, nullptr},
+    {".stl", "triangles, ASCII and binary", without_options<read_stl>, nullptr, nullptr},
+    {".vtp", "points or triangles; normals, colours, radius", without_options<read_vtp>, nullptr, nullptr},
     {".gltf .glb",
      "node transforms, triangles, `POINTS`, `pbrMetallicRoughness`, transmission, ior, punctual lights, "
      "cameras",
@@ -37,6 +46,9 @@ constexpr Format FORMATS[] = {
      nullptr, read_pcd},
     {".ptx", "scans in their grids, with transforms; intensity, colours", nullptr, nullptr, read_ptx},
     {".pts", "points as text, counted or not; intensity, colours, normals", nullptr, nullptr, read_pts},
+    {".xyz .csv .txt .asc", "points as text, columns by header, `--columns` or their values", nullptr,
+     nullptr, read_xyz},
+    {".bin", "sweeps of KITTI: float32 x y z reflectance", nullptr, nullptr, read_kitti},
 };
 
 }  // namespace

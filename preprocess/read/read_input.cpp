@@ -14,12 +14,13 @@
 namespace splatray {
 namespace {
 
-Input read_geometry(const std::filesystem::path& path, const ReadListener& listener) {
+Input read_geometry(const std::filesystem::path& path, const ReadOptions& options,
+                    const ReadListener& listener) {
   Input input;
   InputObject object;
   object.name = path.stem().string();
   object.material = default_material();
-  object.meshes.push_back(read_mesh(path, listener));
+  object.meshes.push_back(read_mesh(path, options, listener));
   if (!object.meshes.front().vertices.color.empty()) {
     object.material.diffuse = COLORED_DIFFUSE;
   }
@@ -155,7 +156,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
     } else if (format != nullptr && format->read_scene != nullptr) {
       more = format->read_scene(paths[i], options, listener);
     } else {
-      more = read_geometry(paths[i], listener);
+      more = read_geometry(paths[i], options, listener);
     }
     more.notes = std::move(notes);
     merge(input, std::move(more));

@@ -3,12 +3,14 @@
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/formats.h"
+#include "preprocess/read/scan/gaussian_capture.h"
 
 namespace splatray {
 
-Mesh read_mesh(const std::filesystem::path& path, const ReadListener& listener) {
+Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener) {
   const ByteReader present(path);
   const Format* format = find_format(path);
+  refuse_gaussian_file(path);
   if (format == nullptr) {
     throw_unreadable(
         path, "found the extension '" + lower_extension(path) + "', expected one of " + format_extensions());
@@ -16,7 +18,7 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadListener& listener) 
   if (format->read_mesh == nullptr) {
     throw_unreadable(path, "found a scene, expected a geometry file: " + format_extensions(true));
   }
-  return format->read_mesh(path, listener);
+  return format->read_mesh(path, options, listener);
 }
 
 }  // namespace splatray

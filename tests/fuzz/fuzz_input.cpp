@@ -21,8 +21,6 @@ void check_points(const Points& points) {
   require(is_beside(points.color, points), "as many colours as points, or none");
   require(is_beside(points.radius, points), "as many radii as points, or none");
   constexpr float ONE_ROUNDED = 1.0F + 1e-6F;  // of colours interpolated in a triangle
-  for (const Column& column : points.columns)
-    require(column.size() == points.size(), "as many values of an attribute as points");
   for (const glm::vec3& color : points.color)
     for (int channel = 0; channel < 3; ++channel)
       require(color[channel] >= 0.0F && color[channel] <= ONE_ROUNDED, "colours are 0 to 1");
@@ -63,8 +61,9 @@ void check_input(const Input& input) {
   }
 }
 
-void read_and_check(const std::filesystem::path& path) {
+void read_and_check(const std::filesystem::path& path, const ScanOptions& scans = {}) {
   ReadOptions options;
+  options.scans = scans;
   options.samples = 64;  // or a coarse mesh would get a hundred thousand
   options.keep_meshes = true;
   options.scans.attributes = {"a", "b", "c", "v"};
@@ -96,6 +95,18 @@ void fuzz_e57(FuzzBytes bytes) {
       sealed[page + CONTENT + i] = static_cast<std::uint8_t>(checksum >> (24 - 8 * i));
   }
   read_as("fuzzed.e57", sealed);
+}
+
+void fuzz_pcd(FuzzBytes bytes) { read_as("fuzzed.pcd", bytes); }
+
+void fuzz_text(FuzzBytes bytes) {
+  static const MemoryFolder folder;
+  if (bytes.empty()) return;
+  const char kind = static_cast<char>(bytes[0]);
+  ScanOptions scans;
+  if (kind == 'c') scans.columns = "y,x,-,z,echo,r,g,b";
+  const char* const name = kind == 't' ? "fuzzed.ptx" : kind == 's' ? "fuzzed.pts" : "fuzzed.txt";
+  read_and_check(folder.write(name, bytes.subspan(1)), scans);
 }
 
 void fuzz_gltf(FuzzBytes bytes) {

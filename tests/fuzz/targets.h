@@ -21,6 +21,10 @@ void fuzz_vtp(FuzzBytes bytes);
 void fuzz_las(FuzzBytes bytes);
 /// The same as the bytes are, and once more with the pages' checksums put right.
 void fuzz_e57(FuzzBytes bytes);
+void fuzz_pcd(FuzzBytes bytes);
+/// The same on all bytes but the first, which says what file they are: `t` a .ptx, `s` a .pts, `c` a .txt whose columns are
+/// asked for, anything else a .txt.
+void fuzz_text(FuzzBytes bytes);
 /// The same as for the others; .glb where the bytes begin like one, with a file points.ply beside it.
 void fuzz_gltf(FuzzBytes bytes);
 /// read_camera and read_camera_path; numbers must be finite, frames ascend.
@@ -46,6 +50,8 @@ inline constexpr FuzzTarget FUZZ_TARGETS[] = {
     {"vtp", fuzz_vtp},
     {"las", fuzz_las},
     {"e57", fuzz_e57},
+    {"pcd", fuzz_pcd},
+    {"text", fuzz_text},
     {"gltf", fuzz_gltf},
     {"camera", fuzz_camera},
     {"user_state", fuzz_user_state},

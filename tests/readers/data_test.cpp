@@ -56,7 +56,7 @@ TEST(Data, EveryPlyScanIsReadOrRefusedInOneSentence) {
   }
   for (const std::filesystem::path& file : data_files("scans")) {
     if (file.string().find("compressed") != std::string::npos) {
-      EXPECT_NE(read_error(file).find("packed Gaussians"), std::string::npos);
+      EXPECT_NE(read_error(file).find("capture of 3D Gaussians"), std::string::npos);
     } else {
       EXPECT_GT(read_input({file}, {}).objects.at(0).points.size(), 10000U) << file;
     }

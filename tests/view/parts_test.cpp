@@ -112,7 +112,7 @@ TEST(Drop, KindsByName) {
   EXPECT_EQ(drop_kind("sky.hdr"), DropKind::environment);
   EXPECT_EQ(drop_kind("camera.json"), DropKind::camera);
   EXPECT_EQ(drop_kind("picture.png"), DropKind::picture);
-  EXPECT_EQ(drop_kind("text.txt"), DropKind::unknown);
+  EXPECT_EQ(drop_kind("text.doc"), DropKind::unknown);
 }
 
 TEST(Drop, PastedPathsAndUris) {

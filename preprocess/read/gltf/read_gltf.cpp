@@ -184,7 +184,7 @@ class SceneReader {
     const std::string source = text_in(node.extras, "source");
     const FileWish wish{text_in(node.extras, "points"), "points of node '" + name_of(node) + "'",
                         source.empty() ? scene_hint_ : source, file_.path};
-    Mesh mesh = read_mesh(find_scene_file(wish, options_.data_paths), part);
+    Mesh mesh = read_mesh(find_scene_file(wish, options_.data_paths), options_, part);
     transform_mesh(mesh, to_world);
     int material = -1;
     if (const auto chosen = number_in(node.extras, "material")) {

@@ -117,6 +117,7 @@ glm::u16vec3 PcdPoints::color(const View& view, std::uint64_t i) const {
 }
 
 void PcdPoints::append(const PcdRows& rows) {
+  if (rows.count == 0) return;
   const View x = view(*position_[0], rows);
   const View y = view(*position_[1], rows);
   const View z = view(*position_[2], rows);
@@ -140,15 +141,27 @@ void PcdPoints::append(const PcdRows& rows) {
   }
 }
 
+bool PcdPoints::uses(const PcdField& field) const {
+  const auto is_it = [&](const PcdField* used) { return used == &field; };
+  return std::any_of(position_.begin(), position_.end(), is_it) ||
+         std::any_of(normal_.begin(), normal_.end(), is_it) || color_ == &field ||
+         std::any_of(attributes_.begin(), attributes_.end(),
+                     [&](const auto& attribute) { return attribute.second == &field; });
+}
+
+std::uint64_t PcdPoints::whole_points(std::uint64_t bytes) const {
+  std::uint64_t whole = header_.points;
+  for (const PcdField& field : header_.fields) {
+    const std::uint64_t begin = std::min(field.offset * header_.points, bytes);
+    if (uses(field)) whole = std::min(whole, (bytes - begin) / field.bytes());
+  }
+  return whole;
+}
+
 std::vector<std::string> PcdPoints::unused() const {
   std::vector<std::string> names;
   for (const PcdField& field : header_.fields) {
-    const auto is_it = [&](const PcdField* used) { return used == &field; };
-    const bool used = std::any_of(position_.begin(), position_.end(), is_it) ||
-                      std::any_of(normal_.begin(), normal_.end(), is_it) || color_ == &field ||
-                      std::any_of(attributes_.begin(), attributes_.end(),
-                                  [&](const auto& attribute) { return attribute.second == &field; });
-    if (!used && field.name != "_") names.push_back(field.name);
+    if (!uses(field) && field.name != "_") names.push_back(field.name);
   }
   return names;
 }

@@ -26,6 +26,9 @@ class PcdPoints {
   /// first of them.
   void append(const PcdRows& rows);
 
+  /// Of fields one after the other, how many points have all that is used of them in the first `bytes`.
+  [[nodiscard]] std::uint64_t whole_points(std::uint64_t bytes) const;
+
   /// Fields that are not used, but for paddings ("_").
   [[nodiscard]] std::vector<std::string> unused() const;
   /// Rows appended without a position.
@@ -35,6 +38,7 @@ class PcdPoints {
 
  private:
   struct View;
+  [[nodiscard]] bool uses(const PcdField& field) const;
   [[nodiscard]] View view(const PcdField& field, const PcdRows& rows) const;
   [[nodiscard]] glm::u16vec3 color(const View& view, std::uint64_t i) const;
 

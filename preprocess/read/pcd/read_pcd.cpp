@@ -61,17 +61,6 @@ std::vector<unsigned char> take_all(ByteReader& in, std::uint64_t count) {
   return all;
 }
 
-/// Of fields one after the other, the points whose positions are among the first `decoded` bytes.
-std::uint64_t whole_points(const PcdHeader& header, std::uint64_t decoded) {
-  std::uint64_t whole = header.points;
-  for (const char* axis : {"x", "y", "z"}) {
-    const PcdField& field = *header.find(axis);
-    const std::uint64_t begin = field.offset * header.points;
-    whole = std::min(whole, (decoded - std::min(begin, decoded)) / field.bytes());
-  }
-  return whole;
-}
-
 std::uint64_t read_compressed(ByteReader& in, const PcdHeader& header, PcdPoints& points) {
   std::uint32_t sizes[2] = {0, 0};  // compressed, and not
   const unsigned char* bytes = in.take(sizeof sizes);
@@ -88,8 +77,7 @@ std::uint64_t read_compressed(ByteReader& in, const PcdHeader& header, PcdPoints
   const std::vector<unsigned char> compressed = take_all(in, present);
   const std::uint64_t most = std::min<std::uint64_t>(sizes[1], present * LZF_MOST_GAIN);
   std::vector<unsigned char> decoded(static_cast<std::size_t>(most));
-  const std::uint64_t count = whole_points(header, decompress_lzf(compressed, decoded));
-  if (count > 0) decoded.resize(sizes[1]);  // the fields behind what a cut has left are zero
+  const std::uint64_t count = points.whole_points(decompress_lzf(compressed, decoded));
   points.append({decoded.data(), count});
   return count;
 }

@@ -51,7 +51,11 @@ class HeaderParser {
         parse_element(words);
       } else if (key == "property") {
         parse_property(words);
-      } else if (!key.empty() && key != "comment" && key != "obj_info") {
+      } else if (key == "comment" || key == "obj_info") {
+        std::string remark;
+        std::getline(words, remark);
+        header_.remarks.push_back(std::move(remark));
+      } else if (!key.empty()) {
         fail("found '" + key.substr(0, 40) + "', expected format, element, property, comment or end_header");
       }
     }

@@ -35,6 +35,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;  ///< in file order
+  std::vector<std::string> remarks;  ///< what follows `comment` and `obj_info`
   std::uint64_t line_count = 0;      ///< lines of the header, end_header included
 };
 

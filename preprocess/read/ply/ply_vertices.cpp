@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include "engine/base/srgb.h"
 #include "preprocess/base/quoted_list.h"
+#include "preprocess/read/scan/column_names.h"
+#include "preprocess/read/scan/narrow_column.h"
+#include "preprocess/read/scan/scan_stations.h"
 
 namespace splatray {
 namespace {
@@ -17,14 +22,16 @@ struct Columns {
   Triple position = ABSENT;
   Triple normal = ABSENT;
   Triple color = ABSENT;
-  Triple sh_color = ABSENT;  ///< f_dc_0..2, used where there is no plain colour
   int radius = -1;
+  std::vector<std::pair<int, std::string>> attributes;  ///< with the names of their columns
 
   [[nodiscard]] bool uses(int property) const {
     const auto in = [&](const Triple& triple) {
       return std::find(triple.begin(), triple.end(), property) != triple.end();
     };
-    return in(position) || in(normal) || in(color) || in(sh_color) || property == radius;
+    return in(position) || in(normal) || in(color) || property == radius ||
+           std::any_of(attributes.begin(), attributes.end(),
+                       [&](const auto& attribute) { return attribute.first == property; });
   }
 };
 
@@ -39,11 +46,15 @@ Triple find_triple(const PlyElement& element, const char* a, const char* b, cons
   return found;
 }
 
+/// Whether a known column is none of a position, normal or colour, which have their own names in PLY.
+bool is_attribute(const std::string& known) {
+  const auto is_it = [&](std::string_view name) { return name == known; };
+  return !known.empty() && std::none_of(std::begin(COLUMN_AXES), std::end(COLUMN_AXES), is_it) &&
+         std::none_of(std::begin(COLUMN_NORMALS), std::end(COLUMN_NORMALS), is_it) &&
+         std::none_of(std::begin(COLUMN_COLORS), std::end(COLUMN_COLORS), is_it);
+}
+
 Columns find_columns(const PlyBody& in, const PlyElement& element) {
-  if (element.find("packed_position") >= 0) {
-    in.fail(
-        "found packed Gaussians (property 'packed_position'), expected x, y, z: export an uncompressed PLY");
-  }
   Columns columns;
   columns.position = find_triple(element, "x", "y", "z");
   if (columns.position == ABSENT) {
@@ -57,14 +68,25 @@ Columns find_columns(const PlyBody& in, const PlyElement& element) {
   if (columns.color == ABSENT) {
     columns.color = find_triple(element, "r", "g", "b");
   }
-  if (columns.color == ABSENT) {
-    columns.sh_color = find_triple(element, "f_dc_0", "f_dc_1", "f_dc_2");
-  }
   const int radius = element.find("radius");
   if (radius >= 0 && !element.properties[static_cast<std::size_t>(radius)].is_list) {
     columns.radius = radius;
   }
   return columns;
+}
+
+void find_attributes(const PlyElement& element, const std::vector<std::string>& wanted, Columns& columns) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties) names.push_back(property.name);
+  const std::vector<std::string> known = known_columns(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto is_it = [&](const std::string& name) { return plain_name(name) == plain_name(names[i]); };
+    const auto named = std::find_if(wanted.begin(), wanted.end(), is_it);
+    std::string column = named != wanted.end() ? *named : is_attribute(known[i]) ? known[i] : "";
+    if (column.empty() && names[i] == "confidence") column = names[i];
+    const bool used = columns.uses(static_cast<int>(i)) || element.properties[i].is_list;
+    if (!used && !column.empty()) columns.attributes.emplace_back(static_cast<int>(i), std::move(column));
+  }
 }
 
 /// Rows of scalars in memory: where each property stands and how it is stored.
@@ -115,22 +137,26 @@ void copy_triple(const unsigned char* rows, std::size_t count, const RowLayout& 
 }
 
 void append_rows(const unsigned char* rows, std::size_t count, const RowLayout& layout,
-                 const Columns& columns, Points& points) {
+                 const Columns& columns, Points& points, std::vector<std::vector<double>>& values) {
   copy_triple(rows, count, layout, columns.position, points.position);
   copy_triple(rows, count, layout, columns.normal, points.normal);
   copy_triple(rows, count, layout, columns.color, points.color);
-  copy_triple(rows, count, layout, columns.sh_color, points.color);
   if (columns.radius >= 0) {
     const std::size_t begin = points.radius.size();
     points.radius.resize(begin + count);
     copy_column(rows, count, layout, columns.radius, &points.radius[begin], 1);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t begin = values[i].size();
+    values[i].resize(begin + count);
+    copy_column(rows, count, layout, columns.attributes[i].first, &values[i][begin], 1);
   }
 }
 
 void reserve(Points& points, const PlyElement& element, const Columns& columns) {
   points.position.reserve(element.count);
   points.normal.reserve(columns.normal == ABSENT ? 0 : element.count);
-  points.color.reserve(columns.color == ABSENT && columns.sh_color == ABSENT ? 0 : element.count);
+  points.color.reserve(columns.color == ABSENT ? 0 : element.count);
   points.radius.reserve(columns.radius < 0 ? 0 : element.count);
 }
 
@@ -147,6 +173,14 @@ void gather_row(PlyBody& in, const PlyElement& element, double* row) {
   in.end_row();
 }
 
+void take_attributes(const Columns& columns, std::vector<std::vector<double>> values, Points& points) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string& name = columns.attributes[i].second;
+    if (name == COLUMN_SCAN) static_cast<void>(make_stations(values[i], points));
+    points.columns.push_back(narrow_column(name, std::move(values[i])));
+  }
+}
+
 Points read_rows(PlyBody& in, const PlyElement& element, const Columns& columns) {
   const bool has_lists = std::any_of(element.properties.begin(), element.properties.end(),
                                      [](const PlyProperty& property) { return property.is_list; });
@@ -156,6 +190,7 @@ Points read_rows(PlyBody& in, const PlyElement& element, const Columns& columns)
   std::vector<double> gathered;
   Points points;
   reserve(points, element, columns);
+  std::vector<std::vector<double>> values(columns.attributes.size());
   for (std::uint64_t done = 0; done < element.count;) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block_rows, element.count - done));
     const unsigned char* rows = nullptr;
@@ -172,9 +207,10 @@ Points read_rows(PlyBody& in, const PlyElement& element, const Columns& columns)
       }
       rows = reinterpret_cast<const unsigned char*>(gathered.data());
     }
-    append_rows(rows, count, layout, columns, points);
+    append_rows(rows, count, layout, columns, points, values);
     done += count;
   }
+  take_attributes(columns, std::move(values), points);
   return points;
 }
 
@@ -206,9 +242,9 @@ float color_scale(const Points& points, PlyType type, const PlyBody& in, std::ve
 }
 
 /// Raw file values to linear rgb; NaN becomes 0.
-void linearise(std::vector<glm::vec3>& colors, float scale, float offset) {
+void linearise(std::vector<glm::vec3>& colors, float scale) {
   std::vector<float> table;
-  if (offset == 0.0F && scale >= 255.0F) {
+  if (scale >= 255.0F) {
     table.resize(static_cast<std::size_t>(scale) + 1);
     for (std::size_t i = 0; i < table.size(); ++i) {
       table[i] = srgb_to_linear(static_cast<float>(i) / scale);
@@ -216,7 +252,7 @@ void linearise(std::vector<glm::vec3>& colors, float scale, float offset) {
   }
   for (glm::vec3& color : colors) {
     for (int channel = 0; channel < 3; ++channel) {
-      const float unit = std::max(0.0F, std::min(offset + color[channel] / scale, 1.0F));
+      const float unit = std::max(0.0F, std::min(color[channel] / scale, 1.0F));
       color[channel] =
           table.empty() ? srgb_to_linear(unit) : table[static_cast<std::size_t>(unit * scale + 0.5F)];
     }
@@ -225,8 +261,10 @@ void linearise(std::vector<glm::vec3>& colors, float scale, float offset) {
 
 }  // namespace
 
-Points read_ply_vertices(PlyBody& in, const PlyElement& element, std::vector<std::string>& notes) {
-  const Columns columns = find_columns(in, element);
+Points read_ply_vertices(PlyBody& in, const PlyElement& element, const std::vector<std::string>* attributes,
+                         std::vector<std::string>& notes) {
+  Columns columns = find_columns(in, element);
+  if (attributes != nullptr) find_attributes(element, *attributes, columns);
   Points points = read_rows(in, element, columns);
   std::vector<std::string> skipped;
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -239,11 +277,7 @@ Points read_ply_vertices(PlyBody& in, const PlyElement& element, std::vector<std
   }
   if (columns.color != ABSENT) {
     const PlyType type = element.properties[static_cast<std::size_t>(columns.color[0])].type;
-    linearise(points.color, color_scale(points, type, in, notes), 0.0F);
-  } else if (columns.sh_color != ABSENT) {
-    constexpr float SH_BAND_0 = 0.28209479F;
-    linearise(points.color, 1.0F / SH_BAND_0, 0.5F);
-    notes.push_back(in.path().string() + ": Gaussian splats, only centres and base colours are used");
+    linearise(points.color, color_scale(points, type, in, notes));
   }
   return points;
 }

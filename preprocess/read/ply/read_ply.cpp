@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "preprocess/base/quoted_list.h"
+#include "preprocess/read/ply/ply_scan.h"
 #include "preprocess/read/ply/ply_vertices.h"
+#include "preprocess/read/scan/gaussian_capture.h"
 
 namespace splatray {
 namespace {
@@ -132,6 +134,19 @@ const PlyElement& vertex_element(const PlyHeader& header, const std::filesystem:
   throw_unreadable(path, "the header has no element 'vertex'");
 }
 
+bool is_triangles(const PlyElement& element) { return element.name == "face" || element.name == "tristrips"; }
+
+bool has_triangles(const PlyHeader& header) {
+  return std::any_of(header.elements.begin(), header.elements.end(),
+                     [](const PlyElement& element) { return is_triangles(element) && element.count > 0; });
+}
+
+void refuse_gaussians(const PlyElement& vertices, const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : vertices.properties) names.push_back(property.name);
+  refuse_gaussian_ply(path, names);
+}
+
 void append_faces(PlyBody& in, const PlyElement& element, std::uint64_t vertex_count, int list, Mesh& mesh,
                   std::vector<std::string>& skipped) {
   FaceReader faces(in, vertex_count, element.name == "tristrips", mesh.triangles);
@@ -145,10 +160,12 @@ void append_faces(PlyBody& in, const PlyElement& element, std::uint64_t vertex_c
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& path, const ReadListener& listener) {
+Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener) {
   ByteReader bytes(path, &listener);
   const PlyHeader header = read_ply_header(bytes);
   const PlyElement& vertices = vertex_element(header, path);
+  refuse_gaussians(vertices, path);
+  const bool point_set = !has_triangles(header);
   PlyBody in(bytes, header);
   Mesh mesh;
   std::vector<std::string> skipped;
@@ -159,14 +176,19 @@ Mesh read_ply(const std::filesystem::path& path, const ReadListener& listener) {
     check_count(in, element, header.format);
     const int list = find_index_list(element);
     if (&element == &vertices) {
-      mesh.vertices = read_ply_vertices(in, element, listener.notes);
-    } else if (list >= 0 && (element.name == "face" || element.name == "tristrips")) {
+      mesh.vertices =
+          read_ply_vertices(in, element, point_set ? &options.scans.attributes : nullptr, listener.notes);
+    } else if (list >= 0 && is_triangles(element)) {
       append_faces(in, element, vertices.count, list, mesh, skipped);
+    } else if (const auto grid = range_grid_form(header, element);
+               point_set && list >= 0 && grid && mesh.vertices.size() > 0 && element.name == "range_grid") {
+      read_range_grid(in, element, static_cast<std::size_t>(list), *grid, mesh.vertices);
     } else {
       skip_element(in, element);
       skipped.push_back(element.name);
     }
   }
+  if (point_set) place_sensors(header, mesh.vertices);
   if (!skipped.empty()) {
     listener.note(path, "skipped elements " + quoted_list(skipped));
   }

@@ -13,7 +13,8 @@ std::optional<glm::dvec3> credible_sensor(const glm::dvec3& place_world,
     high = glm::max(high, position[i]);
   }
   const double away = glm::length(place_world - glm::clamp(place_world, low, high));
-  const bool credible = first < position.size() && away <= glm::length(high - low) && std::isfinite(away);
+  const double most = glm::length(high - low) * (place_world == glm::dvec3(0.0) ? 1.0 : 10.0);
+  const bool credible = first < position.size() && away <= most && std::isfinite(away);
   return credible ? std::optional(place_world) : std::nullopt;
 }
 

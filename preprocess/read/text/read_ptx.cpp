@@ -153,7 +153,8 @@ class PtxReader {
     }
     const bool stated = scan_.triple(3) != glm::dvec3(0.0) || scan_.triple(4) != glm::dvec3(0.0) ||
                         scan_.triple(5) != glm::dvec3(0.0);
-    if (stated) station.sensor_world = credible_sensor(origin_, points_.position(), scan_.first_point);
+    const glm::dvec3 place = origin_ == glm::dvec3(0.0) ? scan_.triple(2) : origin_;
+    if (stated) station.sensor_world = credible_sensor(place, points_.position(), scan_.first_point);
     stations_.push_back(station);
   }
 

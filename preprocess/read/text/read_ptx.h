@@ -12,7 +12,7 @@ namespace splatray {
 /// column after column: x y z in the scanner's frame, intensity 0..1 and maybe r g b. Row vectors times the transform are
 /// world positions. 0 0 0 is a cell without a return. Where the lines are not as many as the cells, those there are make
 /// points without a grid, with a note; `options.scans.strict` refuses fewer. The scanner's place is the transform's origin,
-/// where that is credible. Throws Error (input_unreadable) with the line, and (interrupted).
+/// or the header's position where that origin is zero, if credible. Throws Error (input_unreadable) with the line, and (interrupted).
 [[nodiscard]] ScanFile read_ptx(const std::filesystem::path& path, const ReadOptions& options,
                                 const ReadListener& listener);
 

@@ -19,7 +19,13 @@ constexpr std::size_t SHOWN = 20;  ///< characters of what is wrong
 /// Parses the lines of one piece.
 class RowReader::PieceParser {
  public:
-  PieceParser(const CellForm& form, Piece& piece) : form_(form), piece_(piece) {}
+  /// What the piece held is gone, but not its memory.
+  PieceParser(const CellForm& form, Piece& piece) : form_(form), piece_(piece) {
+    piece.values.clear();
+    piece.runs.clear();
+    piece.lines = 0;
+    piece.fault.clear();
+  }
 
   void parse(std::span<char> text) {
     if (form_.decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
@@ -147,9 +153,16 @@ void RowReader::parse(std::span<char> block) {
     texts.push_back(block.first(bytes));
     block = block.subspan(bytes);
   }
-  pieces_.assign(texts.size(), {});
+  pieces_.resize(texts.size());
   tbb::parallel_for(std::size_t{0}, texts.size(),
                     [&](std::size_t i) { PieceParser(form_, pieces_[i]).parse(texts[i]); });
+}
+
+/// Cells of the row before those of the last piece's last run; 0 = there is none.
+std::size_t RowReader::width_before() const {
+  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece)
+    if (!piece->runs.empty()) return piece->runs.back().width;
+  return width_;
 }
 
 /// Sets the last line apart, and drops it where it is no row like the one before.
@@ -159,25 +172,19 @@ void RowReader::judge_open_end() {
     piece.fault.clear();
   } else if (!piece.runs.empty()) {
     const Piece::Run last = piece.runs.back();
-    const bool first = piece.runs.size() == 1 && pieces_.size() == 1;
-    const std::size_t before = piece.runs.size() > 1 ? piece.runs[piece.runs.size() - 2].width
-                               : first || pieces_[pieces_.size() - 2].runs.empty()
-                                   ? width_
-                                   : pieces_[pieces_.size() - 2].runs.back().width;
     piece.runs.back().rows -= 1;
-    if (piece.runs.back().rows == 0) piece.runs.pop_back();
-    if (last.rows > 1 || last.width >= before)
-      piece.runs.push_back({last.line + last.rows - 1, last.width, 1});
+    if (last.rows == 1) piece.runs.pop_back();
+    open_ = last.rows > 1 || last.width >= width_before();
+    if (open_) piece.runs.push_back({last.line + last.rows - 1, last.width, 1});
   }
 }
 
 bool RowReader::load() {
   const std::span<char> block = blocks_.next();
   if (block.empty()) return false;
-  ends_open_ = block.back() != '\n';
   parse(block);
   const auto whole = [](const Piece& piece) { return piece.fault.empty(); };
-  if (ends_open_ && std::all_of(pieces_.begin(), pieces_.end() - 1, whole)) judge_open_end();
+  if (block.back() != '\n' && std::all_of(pieces_.begin(), pieces_.end() - 1, whole)) judge_open_end();
   piece_ = run_ = value_ = 0;
   return true;
 }
@@ -192,8 +199,7 @@ bool RowReader::next(RowRun& run) {
     if (run_ < piece.runs.size()) {
       const Piece::Run& found = piece.runs[run_];
       const bool last = piece_ + 1 == pieces_.size() && run_ + 1 == piece.runs.size();
-      run = {line_ + found.line + 1, found.width, found.rows, piece.values.data() + value_,
-             ends_open_ && last};
+      run = {line_ + found.line + 1, found.width, found.rows, piece.values.data() + value_, open_ && last};
       value_ += found.width * found.rows;
       width_ = found.width;
       ++run_;

@@ -58,6 +58,7 @@ class RowReader {
 
   [[nodiscard]] bool load();
   void parse(std::span<char> block);
+  [[nodiscard]] std::size_t width_before() const;
   void judge_open_end();
 
   LineBlocks blocks_;
@@ -68,7 +69,7 @@ class RowReader {
   std::size_t value_ = 0;   ///< and its values begin here
   std::uint64_t line_ = 0;  ///< lines before the piece
   std::size_t width_ = 0;   ///< of the last run given
-  bool ends_open_ = false;  ///< the last line of the file has no end
+  bool open_ = false;       ///< the last run of the last piece is a line without an end
 };
 
 }  // namespace splatray

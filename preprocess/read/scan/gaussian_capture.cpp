@@ -1,0 +1,39 @@
+#include "preprocess/read/scan/gaussian_capture.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "preprocess/base/file_extension.h"
+#include "preprocess/read/byte_reader.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::string_view EXTENSIONS[] = {".spz", ".sog", ".ksplat", ".splat"};
+constexpr std::string_view PROPERTIES[] = {"f_dc_0", "rot_0", "packed_position"};
+
+template <typename List>
+bool holds(const List& list, const std::string& name) {
+  return std::find(std::begin(list), std::end(list), name) != std::end(list);
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& sign) {
+  throw_unreadable(path,
+                   "found a capture of 3D Gaussians (" + sign +
+                       "), expected points: export its centres as a PLY with x, y, z and red, green, blue");
+}
+
+}  // namespace
+
+void refuse_gaussian_file(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (holds(EXTENSIONS, extension)) refuse(path, extension);
+}
+
+void refuse_gaussian_ply(const std::filesystem::path& path, const std::vector<std::string>& properties) {
+  for (const std::string& name : properties)
+    if (holds(PROPERTIES, name)) refuse(path, "property '" + name + "'");
+}
+
+}  // namespace splatray

@@ -1,0 +1,29 @@
+/// What the first lines of a text file of points say.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "preprocess/points.h"
+#include "preprocess/read/text/row_reader.h"
+
+namespace splatray {
+
+struct TextLayout {
+  CellForm form;   ///< cells without a meaning are skipped
+  LinePlace data;  ///< where the first row begins
+  std::vector<std::string>
+      columns;  ///< by cell: known_columns' names, an attribute's own, "" = not used; empty = not named
+  std::vector<std::string> unused;     ///< names in the header that are not known
+  std::optional<std::uint64_t> count;  ///< of points, where a line before them says it
+  bool degrees = false;                ///< x and y are a longitude and a latitude
+};
+
+/// Finds comments, a line that counts the points, one that names the columns (also behind # or //), the separator of the
+/// first row (semicolon, tab, comma, else blanks) and, with semicolons and tabs, that commas are decimal ones.
+/// `options.columns` stands for the file's own names; `options.attributes` are kept under the names given there. Throws
+/// Error (input_unreadable) where the columns have no x, y and z, and where the first row is none.
+[[nodiscard]] TextLayout find_text_layout(const std::filesystem::path& path, const ScanOptions& options);
+
+}  // namespace splatray
