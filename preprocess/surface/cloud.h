@@ -27,6 +27,9 @@ struct Cloud {
   std::vector<glm::vec3> field;      ///< normal field: uu, uv, vv of the change of the unit normal per
                                      ///< half_extent_world in TangentFrame(normal); empty = all flat
   std::vector<Column> columns;       ///< further attributes
+  std::vector<Station> stations;     ///< where the points were measured from; empty = not known
+  std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
+  std::vector<std::uint32_t> grid_cell;  ///< Points::grid_cell
   bool oriented = false;             ///< normals point outwards: opposite normals are opposite sheets
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
@@ -38,5 +41,8 @@ struct Cloud {
 /// float64, turns normals and radii that cannot be used into "unknown" and orders the points. Adds to the
 /// counts of `stats`.
 [[nodiscard]] Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats);
+
+/// Leaves the points of these numbers in the cloud, whose positions may have changed, and puts them in order anew.
+void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept);
 
 }  // namespace splatray

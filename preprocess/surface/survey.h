@@ -1,0 +1,32 @@
+/// One look at what surrounds every point of a scan.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "preprocess/base/parallel.h"
+#include "preprocess/surface/cloud.h"
+
+namespace splatray {
+
+/// The nearest places of every point, and what one search tells of them. In the cloud's coordinates and order.
+struct Survey {
+  static constexpr std::size_t LISTED = 12;  ///< nearest places kept of each point
+  static constexpr std::size_t RING = 8;     ///< the place whose distance tells the local spacing
+
+  std::vector<std::uint32_t> listed;  ///< LISTED of each point, the nearest first; the point itself where there are fewer
+  std::vector<float> reach;           ///< distance to the RING-th place
+  std::vector<float> roughness;       ///< least variance of the neighbourhood over the sum of all three, 0..1/3
+
+  [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const {
+    return std::span(listed).subspan(point * LISTED, LISTED);
+  }
+};
+
+/// Looks through the neighbourhoods of 8, 16 and 32 places of all points and gives every unknown (zero) normal the axis of
+/// the one with the least eigenentropy (Demantke et al. 2011; Weinmann et al. 2015, "Semantic point cloud interpretation
+/// based on optimal neighborhoods", sec. 3.1), of those that are no line; their sides are as they come. Without neighbours
+/// it is `up`, a unit vector.
+[[nodiscard]] Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage);
+
+}  // namespace splatray
