@@ -14,9 +14,9 @@ namespace {
 
 using glm::dvec3;
 
-constexpr int AROUND = 6;               // rays of a beam about its middle
-constexpr double JUMP_NOISES = 5.0;     // of a beam's range from its middle's plane: it meets two surfaces
-constexpr double LEAST_JUMP = 0.01;     // of the range, the same
+constexpr int AROUND = 6;            // rays of a beam about its middle
+constexpr double JUMP_NOISES = 5.0;  // of a beam's range from its middle's plane: it meets two surfaces
+constexpr double LEAST_JUMP = 0.01;  // of the range, the same
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -79,8 +79,8 @@ std::optional<Return> send(const TriangleTree& mesh, const dvec3& sensor, const 
 using Answers = std::vector<std::optional<Return>>;
 using Direction = std::function<dvec3(std::uint32_t row, std::uint32_t column)>;
 
-Answers send_all(const TriangleTree& mesh, const dvec3& sensor, const Station& station, const Direction& direction,
-                 const Beam& beam, std::uint64_t salt) {
+Answers send_all(const TriangleTree& mesh, const dvec3& sensor, const Station& station,
+                 const Direction& direction, const Beam& beam, std::uint64_t salt) {
   Answers answers(std::size_t{station.rows} * station.columns);
   tbb::parallel_for(0U, station.rows, [&](std::uint32_t row) {
     std::mt19937_64 random(beam.seed * 1000003 + salt * 100003 + row);
@@ -154,7 +154,8 @@ SimulatedScan scan_from_air(const TriangleTree& mesh, const Flight& flight, cons
   SimulatedScan scan;
   std::vector<std::uint8_t> number, of;
   std::vector<double> time;
-  const auto add = [&](const dvec3& sensor, const dvec3& dir, const Return& answer, int which, int returns, double at) {
+  const auto add = [&](const dvec3& sensor, const dvec3& dir, const Return& answer, int which, int returns,
+                       double at) {
     add_point(scan, sensor, dir, answer);
     number.push_back(static_cast<std::uint8_t>(which));
     of.push_back(static_cast<std::uint8_t>(returns));
@@ -185,7 +186,8 @@ SimulatedScan scan_from_air(const TriangleTree& mesh, const Flight& flight, cons
       add(sensor, dir, far, 2, 2, at);
     }
   }
-  scan.points.columns = {{std::string(COLUMN_RETURN), number}, {std::string(COLUMN_RETURNS), of},
+  scan.points.columns = {{std::string(COLUMN_RETURN), number},
+                         {std::string(COLUMN_RETURNS), of},
                          {std::string(COLUMN_TIME), time}};
   return scan;
 }
@@ -203,7 +205,8 @@ SimulatedScan range_images(const TriangleTree& mesh, const RangeImages& images, 
     const dvec3 up = glm::cross(right, forward);
     const double edge = std::tan(radians(0.5 * images.fov_deg));
     const Direction direction = [&](std::uint32_t row, std::uint32_t column) {
-      const double x = 2.0 * (column + 0.5) / images.pixels - 1.0, y = 2.0 * (row + 0.5) / images.pixels - 1.0;
+      const double x = 2.0 * (column + 0.5) / images.pixels - 1.0,
+                   y = 2.0 * (row + 0.5) / images.pixels - 1.0;
       return glm::normalize(forward + edge * (x * right + y * up));
     };
     Station station;

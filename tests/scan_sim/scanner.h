@@ -18,9 +18,9 @@ enum class PointKind : std::uint8_t {
 
 /// Points with what is true of them, beside them.
 struct SimulatedScan {
-  Points points;                      ///< positions, stations, station and grid_cell; columns where the scanner has them
-  std::vector<glm::dvec3> position;   ///< without noise
-  std::vector<glm::dvec3> normal;     ///< unit, towards the scanner
+  Points points;  ///< positions, stations, station and grid_cell; columns where the scanner has them
+  std::vector<glm::dvec3> position;  ///< without noise
+  std::vector<glm::dvec3> normal;    ///< unit, towards the scanner
   std::vector<PointKind> kind;
 
   [[nodiscard]] std::size_t size() const { return kind.size(); }
@@ -28,21 +28,22 @@ struct SimulatedScan {
 
 /// What is the same of all scanners.
 struct Beam {
-  double noise = 0.003;       ///< standard deviation of the range, world units
-  double divergence = 5e-4;   ///< half the beam's angle, radians
-  double stray_share = 0.001; ///< of the points
+  double noise = 0.003;        ///< standard deviation of the range, world units
+  double divergence = 5e-4;    ///< half the beam's angle, radians
+  double stray_share = 0.001;  ///< of the points
   std::uint64_t seed = 1;
 };
 
 /// A scanner on a tripod: a grid of directions about its vertical axis +z.
 struct Tripod {
   std::vector<glm::dvec3> sensors;
-  double step_deg = 0.5;       ///< between rows and between columns
-  double lowest_deg = -60.0;   ///< elevation of the first row
+  double step_deg = 0.5;      ///< between rows and between columns
+  double lowest_deg = -60.0;  ///< elevation of the first row
   double highest_deg = 90.0;
-  glm::dmat3 axes{1.0};        ///< columns: the scanner's x, y and z in the world
+  glm::dmat3 axes{1.0};  ///< columns: the scanner's x, y and z in the world
 };
-[[nodiscard]] SimulatedScan scan_from_tripods(const TriangleTree& mesh, const Tripod& tripod, const Beam& beam);
+[[nodiscard]] SimulatedScan scan_from_tripods(const TriangleTree& mesh, const Tripod& tripod,
+                                              const Beam& beam);
 
 /// A spinning lidar: rings of even elevation, much closer points along them.
 struct Spinner {
@@ -53,15 +54,16 @@ struct Spinner {
   double highest_deg = 15.0;
   glm::dmat3 axes{1.0};
 };
-[[nodiscard]] SimulatedScan scan_by_spinner(const TriangleTree& mesh, const Spinner& spinner, const Beam& beam);
+[[nodiscard]] SimulatedScan scan_by_spinner(const TriangleTree& mesh, const Spinner& spinner,
+                                            const Beam& beam);
 
 /// A flight along x at a height over z = 0, with lines across: the columns return, returns and time, and no station's place.
 struct Flight {
   double from_x = -60.0, to_x = 60.0, y = 0.0;
   double height = 80.0;
-  double swath = 55.0;        ///< half of it, on the ground
-  double spacing = 0.35;      ///< along and across, on the ground
-  double speed = 60.0;        ///< world units a second
+  double swath = 55.0;    ///< half of it, on the ground
+  double spacing = 0.35;  ///< along and across, on the ground
+  double speed = 60.0;    ///< world units a second
 };
 [[nodiscard]] SimulatedScan scan_from_air(const TriangleTree& mesh, const Flight& flight, const Beam& beam);
 
@@ -69,11 +71,12 @@ struct Flight {
 /// layers of one surface.
 struct RangeImages {
   int views = 10;
-  double distance = 4.0;      ///< of the scanners from the origin
-  int pixels = 250;           ///< of an image's edge
+  double distance = 4.0;  ///< of the scanners from the origin
+  int pixels = 250;       ///< of an image's edge
   double fov_deg = 32.0;
-  double misplaced = 0.001;   ///< standard deviation of each image's shift, world units
+  double misplaced = 0.001;  ///< standard deviation of each image's shift, world units
 };
-[[nodiscard]] SimulatedScan range_images(const TriangleTree& mesh, const RangeImages& images, const Beam& beam);
+[[nodiscard]] SimulatedScan range_images(const TriangleTree& mesh, const RangeImages& images,
+                                         const Beam& beam);
 
 }  // namespace splatray::testing

@@ -24,7 +24,8 @@ void add_box(Mesh& mesh, const dvec3& low, const dvec3& high) {
   const auto corner = [&](int i) {
     return dvec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z);
   };
-  constexpr int FACES[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  constexpr int FACES[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                               {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (const auto& face : FACES)
     add_quad(mesh, corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3]));
 }
@@ -35,7 +36,8 @@ void add_column(Mesh& mesh, const dvec3& foot, double radius, double height) {
     const double angle = 2.0 * std::numbers::pi * i / SIDES;
     return foot + dvec3(radius * std::cos(angle), radius * std::sin(angle), z);
   };
-  for (int i = 0; i < SIDES; ++i) add_quad(mesh, rim(i, 0.0), rim(i + 1, 0.0), rim(i + 1, height), rim(i, height));
+  for (int i = 0; i < SIDES; ++i)
+    add_quad(mesh, rim(i, 0.0), rim(i + 1, 0.0), rim(i + 1, height), rim(i, height));
 }
 
 /// A square lattice of `side` x `side` cells, from the parameters (0, 0) to (1, 1).
@@ -59,9 +61,11 @@ Mesh sphere_mesh(int levels) {
         add(ab, bc, ca, left - 1);
       };
   for (int octant = 0; octant < 8; ++octant) {
-    const double x = (octant & 1) != 0 ? -1.0 : 1.0, y = (octant & 2) != 0 ? -1.0 : 1.0, z = (octant & 4) != 0 ? -1.0 : 1.0;
+    const double x = (octant & 1) != 0 ? -1.0 : 1.0, y = (octant & 2) != 0 ? -1.0 : 1.0,
+                 z = (octant & 4) != 0 ? -1.0 : 1.0;
     const bool turned = x * y * z < 0.0;
-    add({x, 0, 0}, turned ? dvec3(0, 0, z) : dvec3(0, y, 0), turned ? dvec3(0, y, 0) : dvec3(0, 0, z), levels);
+    add({x, 0, 0}, turned ? dvec3(0, 0, z) : dvec3(0, y, 0), turned ? dvec3(0, y, 0) : dvec3(0, 0, z),
+        levels);
   }
   return mesh;
 }
@@ -103,8 +107,10 @@ Mesh body_mesh() {
   Mesh mesh;
   add_sheet(mesh, 200, [](double u, double v) {
     const double longitude = 2.0 * std::numbers::pi * u, latitude = std::numbers::pi * (v - 0.5);
-    const dvec3 dir(std::cos(latitude) * std::cos(longitude), std::sin(latitude), std::cos(latitude) * std::sin(longitude));
-    const double bumps = 0.16 * std::sin(3.0 * dir.x + 1.0) * std::cos(4.0 * dir.y) + 0.10 * std::sin(6.0 * dir.z + 2.0 * dir.x) +
+    const dvec3 dir(std::cos(latitude) * std::cos(longitude), std::sin(latitude),
+                    std::cos(latitude) * std::sin(longitude));
+    const double bumps = 0.16 * std::sin(3.0 * dir.x + 1.0) * std::cos(4.0 * dir.y) +
+                         0.10 * std::sin(6.0 * dir.z + 2.0 * dir.x) +
                          0.03 * std::sin(17.0 * dir.x) * std::sin(15.0 * dir.y) * std::sin(16.0 * dir.z);
     return (0.8 + bumps) * dir * dvec3(1.0, 1.15, 0.8);
   });
