@@ -54,17 +54,24 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   return cloud;
 }
 
+/// Cloud::coord, in the cloud's frame.
+void find_coordinates(Cloud& cloud) {
+  cloud.coord.resize(cloud.size());
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    const glm::dvec3 unit = (cloud.position[i] - cloud.center_world) / cloud.half_extent_world;
+    const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
+    cloud.coord[i] = glm::vec3(steps) * COORD_STEP;
+  });
+}
+
 void normalise_coordinates(Cloud& cloud) {
   const Bounds bounds = bounds_of(cloud.position);
   cloud.center_world = 0.5 * (bounds.low + bounds.high);
   const glm::dvec3 half = 0.5 * (bounds.high - bounds.low);
   const double longest = std::max({half.x, half.y, half.z});
   cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
-  cloud.coord.resize(cloud.size());
+  find_coordinates(cloud);
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
-    const glm::dvec3 unit = (cloud.position[i] - cloud.center_world) / cloud.half_extent_world;
-    const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
-    cloud.coord[i] = glm::vec3(steps) * COORD_STEP;
     if (cloud.radius[i] > 0.0F) {
       const double radius = cloud.radius[i] / cloud.half_extent_world;
       cloud.radius[i] = static_cast<float>(std::clamp(radius, 0x1p-100, 0x1p100));
@@ -146,11 +153,10 @@ Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
   return cloud;
 }
 
-void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) {
-  const auto world = static_cast<float>(cloud.half_extent_world);
-  rearrange(cloud, kept);
-  for (float& radius : cloud.radius) radius *= world;
-  normalise_coordinates(cloud);
+void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) { rearrange(cloud, kept); }
+
+void order_points(Cloud& cloud) {
+  find_coordinates(cloud);
   rearrange(cloud, canonical_order(cloud));
 }
 

@@ -13,7 +13,8 @@ namespace splatray {
 namespace {
 
 constexpr std::array<std::size_t, 3> SIZES{8, 16, 32};
-constexpr double LINE = 0.02;  // second variance / first: below this the places of a neighbourhood lie on a line
+constexpr double LINE =
+    0.02;  // second variance / first: below this the places of a neighbourhood lie on a line
 
 double entropy(const glm::dvec3& variance) {
   const double sum = variance.x + variance.y + variance.z;
@@ -23,13 +24,8 @@ double entropy(const glm::dvec3& variance) {
   return entropy;
 }
 
-/// The normal of a neighbourhood, and its roughness.
-struct Plane {
-  glm::dvec3 axis{0.0};
-  double roughness = 0.0;
-};
-
-Plane best_plane(std::span<const glm::dvec3> offsets) {
+/// The normal of the best of the neighbourhoods; zero where it has none.
+glm::dvec3 best_axis(std::span<const glm::dvec3> offsets) {
   PlaneFit fit, best;
   fit.add(glm::dvec3(0.0));
   double least = std::numeric_limits<double>::infinity();
@@ -44,36 +40,52 @@ Plane best_plane(std::span<const glm::dvec3> offsets) {
     least = here;
     best = fit;
   }
-  const LeastAxis found = best.least_axis();
-  const double sum = found.variance.x + found.variance.y + found.variance.z;
-  return {found.axis, sum > 0.0 ? found.variance.x / sum : 0.0};
+  return best.least_axis().axis;
 }
 
 }  // namespace
+
+Survey Survey::kept(const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& number) const {
+  Survey survey;
+  survey.reach = gather(reach, kept);
+  survey.estimated = gather(estimated, kept);
+  survey.listed.resize(kept.size() * LISTED);
+  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t n) {
+    for (std::size_t j = 0; j < LISTED; ++j) {
+      const std::uint32_t other = number[around(kept[n])[j]];
+      survey.listed[n * LISTED + j] = other == NO_CELL ? static_cast<std::uint32_t>(n) : other;
+    }
+  });
+  return survey;
+}
 
 Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   Survey survey;
   survey.listed.resize(cloud.size() * Survey::LISTED);
   survey.reach.resize(cloud.size());
-  survey.roughness.resize(cloud.size());
+  survey.estimated.resize(cloud.size());
   const NeighbourSearch search(cloud, Sites::positions);
-  search.find_all(SIZES.back(), stage, [&](std::uint32_t i, std::span<const Neighbour> nearest) {
-    for (std::size_t j = 0; j < Survey::LISTED; ++j)
-      survey.listed[i * Survey::LISTED + j] = j < nearest.size() ? nearest[j].index() : i;
-    if (nearest.empty()) {
-      if (cloud.normal[i] == glm::vec3(0.0F)) cloud.normal[i] = glm::vec3(up);
-      return;
-    }
-    survey.reach[i] = std::sqrt(nearest[std::min(nearest.size(), Survey::RING) - 1].distance_squared());
-    std::array<glm::dvec3, SIZES.back()> offsets;
-    for (std::size_t j = 0; j < nearest.size(); ++j)
-      offsets[j] = glm::dvec3(cloud.coord[nearest[j].index()] - cloud.coord[i]);
-    const std::span<const glm::dvec3> found = std::span(offsets).first(nearest.size());
-    const Plane plane = best_plane(found);
-    survey.roughness[i] = static_cast<float>(plane.roughness);
-    if (cloud.normal[i] != glm::vec3(0.0F)) return;
-    cloud.normal[i] = glm::vec3(plane.axis != glm::dvec3(0.0) ? plane.axis : plane_normal(found, up));
-  });
+  const bool all_given = std::none_of(cloud.normal.begin(), cloud.normal.end(),
+                                      [](const glm::vec3& normal) { return normal == glm::vec3(0.0F); });
+  search.find_all(all_given ? Survey::LISTED : SIZES.back(), stage,
+                  [&](std::uint32_t i, std::span<const Neighbour> nearest) {
+                    for (std::size_t j = 0; j < Survey::LISTED; ++j)
+                      survey.listed[i * Survey::LISTED + j] = j < nearest.size() ? nearest[j].index() : i;
+                    survey.estimated[i] = cloud.normal[i] == glm::vec3(0.0F);
+                    if (nearest.empty()) {
+                      if (survey.estimated[i] != 0) cloud.normal[i] = glm::vec3(up);
+                      return;
+                    }
+                    survey.reach[i] =
+                        std::sqrt(nearest[std::min(nearest.size(), Survey::RING) - 1].distance_squared());
+                    if (survey.estimated[i] == 0) return;
+                    std::array<glm::dvec3, SIZES.back()> offsets;
+                    for (std::size_t j = 0; j < nearest.size(); ++j)
+                      offsets[j] = glm::dvec3(cloud.coord[nearest[j].index()] - cloud.coord[i]);
+                    const std::span<const glm::dvec3> found = std::span(offsets).first(nearest.size());
+                    const glm::dvec3 axis = best_axis(found);
+                    cloud.normal[i] = glm::vec3(axis != glm::dvec3(0.0) ? axis : plane_normal(found, up));
+                  });
   return survey;
 }
 

@@ -14,13 +14,18 @@ struct Survey {
   static constexpr std::size_t LISTED = 12;  ///< nearest places kept of each point
   static constexpr std::size_t RING = 8;     ///< the place whose distance tells the local spacing
 
-  std::vector<std::uint32_t> listed;  ///< LISTED of each point, the nearest first; the point itself where there are fewer
-  std::vector<float> reach;           ///< distance to the RING-th place
-  std::vector<float> roughness;       ///< least variance of the neighbourhood over the sum of all three, 0..1/3
+  std::vector<std::uint32_t>
+      listed;  ///< LISTED of each point, the nearest first; the point itself where there are fewer
+  std::vector<float> reach;             ///< distance to the RING-th place
+  std::vector<std::uint8_t> estimated;  ///< whether the normal was unknown before
 
   [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const {
     return std::span(listed).subspan(point * LISTED, LISTED);
   }
+
+  /// That of the points `kept` (ascending), whose numbers are then `number`; what is no more stands for itself.
+  [[nodiscard]] Survey kept(const std::vector<std::uint32_t>& kept,
+                            const std::vector<std::uint32_t>& number) const;
 };
 
 /// Looks through the neighbourhoods of 8, 16 and 32 places of all points and gives every unknown (zero) normal the axis of
