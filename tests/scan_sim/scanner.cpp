@@ -199,8 +199,9 @@ SimulatedScan range_images(const TriangleTree& mesh, const RangeImages& images, 
   for (int view = 0; view < images.views; ++view) {
     const double angle = 2.0 * std::numbers::pi * view / images.views;
     const double lift = view % 3 == 0 ? 0.5 : view % 3 == 1 ? 0.0 : -0.4;
-    const dvec3 sensor = images.distance * glm::normalize(dvec3(std::sin(angle), lift, std::cos(angle)));
-    const dvec3 forward = -glm::normalize(sensor);
+    const dvec3 outwards = glm::normalize(dvec3(std::sin(angle), lift, std::cos(angle)));
+    const dvec3 sensor = images.middle + images.distance * outwards;
+    const dvec3 forward = -outwards;
     const dvec3 right = glm::normalize(glm::cross(forward, dvec3(0, 1, 0)));
     const dvec3 up = glm::cross(right, forward);
     const double edge = std::tan(radians(0.5 * images.fov_deg));

@@ -71,10 +71,11 @@ struct Flight {
 /// layers of one surface.
 struct RangeImages {
   int views = 10;
-  double distance = 4.0;  ///< of the scanners from the origin
+  double distance = 4.0;  ///< of the scanners from the middle
   int pixels = 250;       ///< of an image's edge
   double fov_deg = 32.0;
   double misplaced = 0.001;  ///< standard deviation of each image's shift, world units
+  glm::dvec3 middle{0.0};    ///< what all look at
 };
 [[nodiscard]] SimulatedScan range_images(const TriangleTree& mesh, const RangeImages& images,
                                          const Beam& beam);
