@@ -5,6 +5,33 @@
 #include "app/cli/option_types.h"
 
 namespace splatray {
+namespace {
+
+/// auto, off or a radius (BuildParams::smooth_world).
+void add_smoothing(OptionList& list, double& smooth_world) {
+  constexpr double MOST = 1e12;
+  const auto read = [&smooth_world](const std::string& text) {
+    if (text == "auto") {
+      smooth_world = -1.0;
+    } else if (text == "off") {
+      smooth_world = 0.0;
+    } else {
+      const auto radius = split_numbers(text, ',', 1);
+      if (radius.empty() || !(radius[0] > 0.0 && radius[0] <= MOST))
+        refuse_option("--smooth", text, "auto, off or a number above 0, to 1e12");
+      smooth_world = radius[0];
+    }
+  };
+  const auto write = [&smooth_world]() -> std::string {
+    return smooth_world < 0.0 ? "auto" : smooth_world == 0.0 ? "off" : number_text(smooth_world);
+  };
+  list.add_value("--smooth", read, write,
+                 "noisy scans are smoothed as their noise asks for, not at all, or so far around each point "
+                 "(world units); default auto",
+                 "auto|off|RADIUS");
+}
+
+}  // namespace
 
 void add_build_options(OptionList& list, BuildOptions& options, const std::string& samples_name) {
   constexpr double MOST_WHOLE = 9007199254740992.0;  // 2^53: whole numbers are exact up to here
@@ -35,6 +62,7 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_number(list, "--radius-scale", params.radius_scale, 1e-6, 1e6, "factor on every radius; default 1");
   add_choice<bool>(list, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
                    "how normals change across each disc, where the scene curves; default on");
+  add_smoothing(list, params.smooth_world);
   add_number(list, "--threads", options.threads, 0, 4096,
              "threads of reading and preprocess; default 0 = all cores");
 }

@@ -112,15 +112,16 @@ bool is_room(const Cloud& cloud, const Survey& survey) {
   tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
     const std::size_t i = p * cloud.size() / planes;
     const double near = 4.0 * survey.reach[i] + 0.01;
-    std::size_t above = 0, below = 0;
+    std::size_t above = 0, below = 0, within = 0;
     for (std::size_t q = 0; q < points; ++q) {
       const std::size_t j = q * cloud.size() / points;
       const double height =
           glm::dot(glm::dvec3(cloud.normal[i]), glm::dvec3(cloud.coord[j] - cloud.coord[i]));
       above += height > near ? 1 : 0;
       below += height < -near ? 1 : 0;
+      within += std::abs(height) <= near ? 1 : 0;
     }
-    bounds[p] = std::min(above, below) < points / 50;
+    bounds[p] = std::min(above, below) < points / 50 && within > points / 25;
   });
   const auto count = static_cast<double>(std::count(bounds.begin(), bounds.end(), 1));
   return count > ROOM_SHARE * static_cast<double>(planes);

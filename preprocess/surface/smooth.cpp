@@ -11,11 +11,11 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST = 64;     // neighbours
-constexpr double LEAST_WEIGHED = 6;  // of them, that have any weight
-constexpr float REACHES = 2.5F;      // of the distance to the 8th place: about 4 spacings
+constexpr std::size_t MOST = 64;         // neighbours
+constexpr std::size_t LEAST_AROUND = 6;  // of them, that have any weight
+constexpr float REACHES = 2.5F;          // of the distance to the 8th place: about 4 spacings
 constexpr int REWEIGHTINGS = 2;
-constexpr double WIDE = 2.0;  // of the heights' standard deviation: what is farther off has little weight
+constexpr double WIDE = 4.0;  // of the heights' standard deviation: what is farther off has little weight
 
 /// A neighbour of the point that is moved.
 struct Near {
@@ -60,53 +60,98 @@ Plane fit_robust_plane(std::span<const Near> around) {
   return plane;
 }
 
+/// The points on their way: cloud coordinates and normals.
+struct Moving {
+  std::vector<glm::dvec3> place;
+  std::vector<glm::vec3> normal;
+  std::vector<std::uint8_t> supported;  ///< has enough neighbours
+};
+
+/// Moves points by their neighbours, which are looked for where they were first.
+class Projection {
+ public:
+  Projection(const Cloud& cloud, const std::vector<float>& reach, double radius, bool sided)
+      : cloud_(cloud),
+        reach_(reach),
+        radius_(radius),
+        sided_(sided),
+        search_(cloud, Sites::oriented_positions) {
+    std::vector<float> ranked = reach;
+    select_nth(std::span(ranked), ranked.size() / 2, std::identity());
+    usual_ = ranked[ranked.size() / 2];
+  }
+
+  void move(const Moving& from, std::uint32_t i, Moving& to) const {
+    std::array<Near, MOST + 1> around;
+    const std::size_t count = look_around(from, i, around);
+    to.supported[i] = count > LEAST_AROUND;
+    to.place[i] = from.place[i];
+    to.normal[i] = from.normal[i];
+    if (to.supported[i] == 0) return;
+    const Plane plane = fit_robust_plane(std::span(around).first(count));
+    to.place[i] += plane.normal * glm::dot(plane.normal, plane.mean);
+    to.normal[i] = glm::vec3(plane.normal);
+  }
+
+ private:
+  /// Neighbours that have any weight, after the point itself.
+  std::size_t look_around(const Moving& from, std::uint32_t i, std::array<Near, MOST + 1>& around) const {
+    const float limit = radius_ > 0.0 ? static_cast<float>(radius_) : REACHES * std::max(reach_[i], usual_);
+    std::array<Neighbour, MOST> nearest;
+    const std::size_t found = search_.find_within(cloud_.coord[i], nearest, limit * limit);
+    const double widest = found == MOST ? nearest[MOST - 1].distance_squared() : limit * limit;
+    const glm::dvec3 own(from.normal[i]);
+    around[0] = {glm::dvec3(0.0), own, 1.0};
+    std::size_t count = 1;
+    for (std::size_t j = 0; j < found; ++j) {
+      const std::uint32_t other = nearest[j].index();
+      glm::dvec3 normal(from.normal[other]);
+      double cosine = glm::dot(own, normal);
+      if (!sided_ && cosine < 0.0) normal = -normal, cosine = -cosine;
+      const double share = 1.0 - nearest[j].distance_squared() / widest;
+      if (cosine > 0.0 && share > 0.0)
+        around[count++] = {from.place[other] - from.place[i], normal, share * share * cosine};
+    }
+    return count;
+  }
+
+  const Cloud& cloud_;
+  const std::vector<float>& reach_;
+  double radius_;
+  bool sided_;
+  NeighbourSearch search_;
+  float usual_ = 0.0F;
+};
+
 }  // namespace
 
 Smoothed smooth_points(Cloud& cloud, const std::vector<float>& reach, double radius, bool sided,
                        const Stage& stage) {
   if (cloud.size() == 0) return {};
-  std::vector<float> ranked = reach;
-  select_nth(std::span(ranked), ranked.size() / 2, std::identity());
-  const float usual = ranked[ranked.size() / 2];
-  const NeighbourSearch search(cloud, Sites::oriented_positions);
-  std::vector<glm::dvec3> moved(cloud.size());
-  std::vector<glm::vec3> turned(cloud.size());
-  std::vector<float> distance(cloud.size(), -1.0F);
-  parallel_each(stage, cloud.size(), [&](std::size_t i) {
-    const float limit = radius > 0.0 ? static_cast<float>(radius) : REACHES * std::max(reach[i], usual);
-    std::array<Neighbour, MOST> nearest;
-    const std::size_t found = search.find_within(cloud.coord[i], nearest, limit * limit);
-    const double widest = found == MOST ? nearest[MOST - 1].distance_squared() : limit * limit;
-    const glm::dvec3 own(cloud.normal[i]);
-    std::array<Near, MOST + 1> around;
-    around[0] = {glm::dvec3(0.0), own, 1.0};
-    std::size_t count = 1;
-    for (std::size_t j = 0; j < found; ++j) {
-      const std::uint32_t other = nearest[j].index();
-      glm::dvec3 normal(cloud.normal[other]);
-      double cosine = glm::dot(own, normal);
-      if (!sided && cosine < 0.0) normal = -normal, cosine = -cosine;
-      const double share = 1.0 - nearest[j].distance_squared() / widest;
-      if (!(cosine > 0.0) || !(share > 0.0)) continue;
-      around[count++] = {glm::dvec3(cloud.coord[other] - cloud.coord[i]), normal, share * share * cosine};
-    }
-    if (static_cast<double>(count - 1) < LEAST_WEIGHED) return;
-    const Plane plane = fit_robust_plane(std::span(around).first(count));
-    const double height = glm::dot(plane.normal, plane.mean);
-    moved[i] = cloud.position[i] + plane.normal * (height * cloud.half_extent_world);
-    turned[i] = glm::vec3(plane.normal);
-    distance[i] = static_cast<float>(std::abs(height));
+  const std::size_t size = cloud.size();
+  Moving now{{cloud.coord.begin(), cloud.coord.end()}, cloud.normal, std::vector<std::uint8_t>(size)};
+  {
+    const Projection projection(cloud, reach, radius, sided);
+    Moving next{std::vector<glm::dvec3>(size), std::vector<glm::vec3>(size), std::vector<std::uint8_t>(size)};
+    parallel_each(stage, size,
+                  [&](std::size_t i) { projection.move(now, static_cast<std::uint32_t>(i), next); });
+    now = std::move(next);
+  }
+  const auto kept = numbers_where(size, [&](std::size_t i) { return now.supported[i] != 0; });
+  std::vector<float> moved(kept.size());
+  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t n) {
+    const std::uint32_t i = kept[n];
+    const glm::dvec3 by = now.place[i] - glm::dvec3(cloud.coord[i]);
+    cloud.position[i] += by * cloud.half_extent_world;
+    moved[n] = static_cast<float>(glm::length(by));
   });
-  const auto kept = numbers_where(cloud.size(), [&](std::size_t i) { return distance[i] >= 0.0F; });
-  Smoothed smoothed{kept.size(), cloud.size() - kept.size(), 0.0};
-  cloud.position = std::move(moved);
-  cloud.normal = std::move(turned);
+  cloud.normal = std::move(now.normal);
   keep_points(cloud, kept);
   order_points(cloud);
-  distance = gather(distance, kept);
-  if (distance.empty()) return smoothed;
-  select_nth(std::span(distance), distance.size() / 2, std::identity());
-  smoothed.moved_median_world = distance[distance.size() / 2] * cloud.half_extent_world;
+  Smoothed smoothed{kept.size(), size - kept.size(), 0.0};
+  if (moved.empty()) return smoothed;
+  select_nth(std::span(moved), moved.size() / 2, std::identity());
+  smoothed.moved_median_world = moved[moved.size() / 2] * cloud.half_extent_world;
   return smoothed;
 }
 

@@ -20,9 +20,11 @@ constexpr std::size_t LEAST_RANK =
     2;                        // which of the neighbours' distances: other strays may be the first two
 constexpr float LINK = 1.3F;  // of points that hang together, in units of both their distances
 constexpr std::size_t SMALL_PART = 16;
-constexpr std::size_t PARTS_MOST = 10000;  // all points over those of a part that is no stray
-constexpr double FAR_STEPS = 4.0;          // of the 8th neighbour, in steps of the scanner
-constexpr double LINE_NOISES = 1.7;        // of a point off a line, in units of what is usual
+constexpr std::size_t PARTS_MOST = 10000;     // all points over those of a part that is no stray
+constexpr std::size_t THIN_PARTS_MOST = 100;  // all points over those of a part that may be dust
+constexpr float SPARSE = 4.0F;                // of dust's distances, in units of what is usual
+constexpr double FAR_STEPS = 4.0;             // of the 8th neighbour, in steps of the scanner
+constexpr double LINE_NOISES = 1.7;           // of a point off a line, in units of what is usual
 constexpr double SECOND_OF_8 = 0.25;  // the median of the second least of 8 such distances, in the same units
 const double SLANTED =
     std::sin(15.0 * std::numbers::pi / 180.0);  // sine of the angle that a plane is seen at
@@ -43,6 +45,10 @@ void mark_isolated(const Survey& survey, std::vector<Stray>& strays) {
   });
 }
 
+struct Part {
+  std::uint32_t points = 0, sparse = 0;  ///< in all; of them, far from their neighbours
+};
+
 /// Parts of few points that are far from all others, as far as these are from each other.
 void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stray>& strays) {
   Components parts(cloud.size());
@@ -53,11 +59,20 @@ void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stra
       if (j != i && glm::dot(apart, apart) <= reach * reach) parts.join(i, j);
     }
   }
-  std::vector<std::uint32_t> size(cloud.size());
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) ++size[parts.find(i)];
+  std::vector<float> ranked = survey.reach;
+  const float sparse = SPARSE * median(ranked);
+  std::vector<Part> sizes(cloud.size());
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    Part& part = sizes[parts.find(i)];
+    ++part.points;
+    part.sparse += survey.reach[i] > sparse ? 1 : 0;
+  }
   const std::size_t least = std::max(SMALL_PART, cloud.size() / PARTS_MOST);
-  for (std::uint32_t i = 0; i < cloud.size(); ++i)
-    if (size[parts.find(i)] < least) strays[i] = Stray::isolated;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const Part& part = sizes[parts.find(i)];
+    const bool thin = part.points < cloud.size() / THIN_PARTS_MOST && 2 * part.sparse > part.points;
+    if (part.points < least || thin) strays[i] = Stray::isolated;
+  }
 }
 
 /// What one station, whose sensor is known, tells of its points.

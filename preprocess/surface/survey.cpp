@@ -16,6 +16,10 @@ constexpr std::array<std::size_t, 3> SIZES{8, 16, 32};
 constexpr double LINE =
     0.02;  // second variance / first: below this the places of a neighbourhood lie on a line
 
+constexpr std::array<std::size_t, 2> STRIDES{8, 64};
+constexpr float ROUGH = 0.01F;   // of a neighbourhood that noise or edges tell more of than a plane does
+constexpr double FLATTER = 0.5;  // roughness of a wider one that is better, over that
+
 double entropy(const glm::dvec3& variance) {
   const double sum = variance.x + variance.y + variance.z;
   double entropy = 0.0;
@@ -24,11 +28,18 @@ double entropy(const glm::dvec3& variance) {
   return entropy;
 }
 
-/// The normal of the best of the neighbourhoods; zero where it has none.
-glm::dvec3 best_axis(std::span<const glm::dvec3> offsets) {
+/// The plane of a neighbourhood.
+struct Plane {
+  glm::dvec3 axis{0.0};  ///< zero where it has none
+  double roughness = 0.0;
+  double entropy = std::numeric_limits<double>::infinity();
+};
+
+/// The best of the neighbourhoods around a point.
+Plane best_plane(std::span<const glm::dvec3> offsets) {
   PlaneFit fit, best;
   fit.add(glm::dvec3(0.0));
-  double least = std::numeric_limits<double>::infinity();
+  Plane plane;
   for (std::size_t j = 0; j < offsets.size(); ++j) {
     fit.add(offsets[j]);
     const bool last = j + 1 == offsets.size();
@@ -36,11 +47,45 @@ glm::dvec3 best_axis(std::span<const glm::dvec3> offsets) {
     const glm::dvec3 variance = fit.variances();
     const bool line = variance.y < LINE * variance.z;
     const double here = line ? std::numeric_limits<double>::max() : entropy(variance);
-    if (!(here < least) && !(line && here == least)) continue;
-    least = here;
+    if (!(here < plane.entropy) && !(line && here == plane.entropy)) continue;
+    plane.entropy = here;
     best = fit;
   }
-  return best.least_axis().axis;
+  const LeastAxis found = best.least_axis();
+  const double sum = found.variance.x + found.variance.y + found.variance.z;
+  plane.axis = found.axis;
+  plane.roughness = sum > 0.0 ? found.variance.x / sum : 0.0;
+  return plane;
+}
+
+/// Every `stride`-th point: places only.
+Cloud thinned(const Cloud& cloud, std::size_t stride) {
+  Cloud thin;
+  thin.coord.resize((cloud.size() + stride - 1) / stride);
+  for (std::size_t i = 0; i < thin.coord.size(); ++i) thin.coord[i] = cloud.coord[i * stride];
+  thin.position.resize(thin.coord.size());
+  thin.normal.resize(thin.coord.size());
+  return thin;
+}
+
+/// Tries rough points among every `stride`-th point.
+void look_wider(Cloud& cloud, std::size_t stride, Survey& survey, const Stage& stage) {
+  const auto rough = numbers_where(cloud.size(), [&](std::size_t i) { return survey.roughness[i] > ROUGH; });
+  if (rough.empty() || cloud.size() < stride * SIZES.back()) return;
+  const Cloud thin = thinned(cloud, stride);
+  const NeighbourSearch search(thin, Sites::positions);
+  parallel_each(stage, rough.size(), [&](std::size_t n) {
+    const std::uint32_t i = rough[n];
+    std::array<Neighbour, SIZES.back()> nearest;
+    std::array<glm::dvec3, SIZES.back()> offsets;
+    const std::size_t found = search.find(cloud.coord[i], nearest);
+    for (std::size_t j = 0; j < found; ++j)
+      offsets[j] = glm::dvec3(thin.coord[nearest[j].index()] - cloud.coord[i]);
+    const Plane plane = best_plane(std::span(offsets).first(found));
+    if (plane.axis == glm::dvec3(0.0) || !(plane.roughness < FLATTER * survey.roughness[i])) return;
+    cloud.normal[i] = glm::vec3(plane.axis);
+    survey.roughness[i] = static_cast<float>(plane.roughness);
+  });
 }
 
 }  // namespace
@@ -49,6 +94,7 @@ Survey Survey::kept(const std::vector<std::uint32_t>& kept, const std::vector<st
   Survey survey;
   survey.reach = gather(reach, kept);
   survey.estimated = gather(estimated, kept);
+  survey.roughness = gather(roughness, kept);
   survey.listed.resize(kept.size() * LISTED);
   tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t n) {
     for (std::size_t j = 0; j < LISTED; ++j) {
@@ -64,6 +110,7 @@ Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   survey.listed.resize(cloud.size() * Survey::LISTED);
   survey.reach.resize(cloud.size());
   survey.estimated.resize(cloud.size());
+  survey.roughness.resize(cloud.size());
   const NeighbourSearch search(cloud, Sites::positions);
   const bool all_given = std::none_of(cloud.normal.begin(), cloud.normal.end(),
                                       [](const glm::vec3& normal) { return normal == glm::vec3(0.0F); });
@@ -83,9 +130,11 @@ Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
                     for (std::size_t j = 0; j < nearest.size(); ++j)
                       offsets[j] = glm::dvec3(cloud.coord[nearest[j].index()] - cloud.coord[i]);
                     const std::span<const glm::dvec3> found = std::span(offsets).first(nearest.size());
-                    const glm::dvec3 axis = best_axis(found);
-                    cloud.normal[i] = glm::vec3(axis != glm::dvec3(0.0) ? axis : plane_normal(found, up));
+          const Plane plane = best_plane(found);
+    survey.roughness[i] = static_cast<float>(plane.roughness);
+    cloud.normal[i] = glm::vec3(plane.axis != glm::dvec3(0.0) ? plane.axis : plane_normal(found, up));
                   });
+  for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, stage);
   return survey;
 }
 

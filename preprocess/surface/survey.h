@@ -16,7 +16,9 @@ struct Survey {
 
   std::vector<std::uint32_t>
       listed;  ///< LISTED of each point, the nearest first; the point itself where there are fewer
-  std::vector<float> reach;             ///< distance to the RING-th place
+  std::vector<float> reach;  ///< distance to the RING-th place
+  std::vector<float>
+      roughness;  ///< of estimated normals: the least variance of the neighbourhood over the sum of all three
   std::vector<std::uint8_t> estimated;  ///< whether the normal was unknown before
 
   [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const {
@@ -30,8 +32,9 @@ struct Survey {
 
 /// Looks through the neighbourhoods of 8, 16 and 32 places of all points and gives every unknown (zero) normal the axis of
 /// the one with the least eigenentropy (Demantke et al. 2011; Weinmann et al. 2015, "Semantic point cloud interpretation
-/// based on optimal neighborhoods", sec. 3.1), of those that are no line; their sides are as they come. Without neighbours
-/// it is `up`, a unit vector.
+/// based on optimal neighborhoods", sec. 3.1), of those that are no line; their sides are as they come. Where that is rough,
+/// as noise makes it that is wider than the neighbourhood, the same is tried among every 8th and every 64th point. Without
+/// neighbours it is `up`, a unit vector.
 [[nodiscard]] Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage);
 
 }  // namespace splatray

@@ -52,7 +52,7 @@ PictureErrors picture_errors(const Scene& scene, const TriangleTree& truth, std:
       const auto wanted = truth.first_hit(eye, dirs[i]);
       beyond += hits[i].found && !wanted ? 1.0 : 0.0;
       if (!hits[i].found || !wanted) continue;
-      const double cosine = glm::dot(glm::normalize(hits[i].normal), wanted->normal);
+      const double cosine = glm::dot(glm::normalize(hits[i].normal), truth.smooth_normal(*wanted));
       angles.push_back(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi);
       depths.push_back(std::abs(hits[i].t * scene.root.unit_world - wanted->distance) / diagonal);
     }

@@ -130,9 +130,9 @@ std::vector<ScanCase> data_cases(const std::filesystem::path& folder) {
     const RangeImages images{.distance = 0.5,
                              .pixels = 150,
                              .fov_deg = 20.0,
-                             .misplaced = 0.0004,
+                             .misplaced = 0.0002,
                              .middle = {-0.017, 0.110, -0.0015}};
-    const Beam beam{.noise = 0.0003, .divergence = 1e-4};
+    const Beam beam{.noise = 0.00015, .divergence = 1e-4};
     cases.push_back({"bunny, range images", range_images(*bunny, images, beam), bunny, {0.0, 1.0, 0.0}});
     cases.push_back(without_stations(cases.back()));
   }

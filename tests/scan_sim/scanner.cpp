@@ -60,7 +60,7 @@ std::optional<Return> send(const TriangleTree& mesh, const dvec3& sensor, const 
   }
   Return answer;
   answer.true_range = middle->distance;
-  answer.normal = middle->normal;
+  answer.normal = mesh.smooth_normal(*middle);
   const double mean = sum / count;
   const bool mixed = jumps && std::abs(mean - middle->distance) > JUMP_NOISES * beam.noise;
   answer.kind = mixed ? PointKind::mixed : PointKind::surface;

@@ -1,5 +1,5 @@
-/// splatray-scan-table [FOLDER]: what preprocess makes of scans whose truth is known, a line each: of simulated ones, and of
-/// those of a data folder (SPLATRAY_DATA_DIR where none is named).
+/// splatray-scan-table [FOLDER [NAME]]: what preprocess makes of scans whose truth is known, a line each: of simulated ones, and of
+/// those of a data folder (SPLATRAY_DATA_DIR where none is named); only those whose names hold NAME.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -108,9 +108,13 @@ int main(int argc, char** argv) {
   std::printf("%-36s %8s  %5s %6s  %6s %6s  %-6s %7s %7s  %6s %8s  %6s %6s %9s %7s\n", "scan", "points",
               "lost%", "found%", "axis50", "axis95", "sides", "right%", "unsure", "noise", "build s", "n95",
               "n99", "depth95", "beyond%");
-  for (ScanCase& scan_case : built_in_cases()) measure(std::move(scan_case));
+  const std::string wanted = argc > 2 ? argv[2] : "";
+  const auto measure_all = [&](std::vector<ScanCase> cases) {
+    for (ScanCase& scan_case : cases)
+      if (scan_case.name.find(wanted) != std::string::npos) measure(std::move(scan_case));
+  };
+  measure_all(built_in_cases());
   const char* folder = argc > 1 ? argv[1] : std::getenv("SPLATRAY_DATA_DIR");
-  if (folder != nullptr)
-    for (ScanCase& scan_case : data_cases(folder)) measure(std::move(scan_case));
+  if (folder != nullptr) measure_all(data_cases(folder));
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "preprocess/base/bounds.h"
+#include "preprocess/mesh/mesh_normals.h"
 
 namespace splatray::testing {
 namespace {
@@ -23,11 +24,12 @@ bool meets(const dvec3& low, const dvec3& high, const dvec3& origin, const dvec3
 
 }  // namespace
 
-TriangleTree::TriangleTree(const Mesh& mesh) {
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const glm::uvec3& corners = mesh.triangles[i];
-    const dvec3& a = mesh.vertices.position[corners.x];
-    const Triangle triangle{a, mesh.vertices.position[corners.y] - a, mesh.vertices.position[corners.z] - a,
+TriangleTree::TriangleTree(Mesh mesh)
+    : mesh_(std::move(mesh)), corners_(corner_normals(mesh_, weld_positions(mesh_.vertices.position))) {
+  for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+    const glm::uvec3& corners = mesh_.triangles[i];
+    const dvec3& a = mesh_.vertices.position[corners.x];
+    const Triangle triangle{a, mesh_.vertices.position[corners.y] - a, mesh_.vertices.position[corners.z] - a,
                             i};
     if (glm::length(glm::cross(triangle.ab, triangle.ac)) > 0.0) triangles_.push_back(triangle);
   }
@@ -79,11 +81,17 @@ std::optional<TriangleHit> TriangleTree::first_hit(const dvec3& origin, const dv
       if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0 && distance < limit)) continue;
       const dvec3 normal = glm::normalize(glm::cross(t.ab, t.ac));
       limit = distance;
-      hit = TriangleHit{distance, glm::dot(normal, dir) > 0.0 ? -normal : normal, t.number};
+      hit = TriangleHit{
+          distance, glm::dot(normal, dir) > 0.0 ? -normal : normal, t.number, {1.0 - u - v, u, v}};
     }
     ++n;
   }
   return hit;
+}
+
+dvec3 TriangleTree::smooth_normal(const TriangleHit& hit) const {
+  const dvec3 normal(normal_on_triangle(mesh_, corners_, hit.triangle, hit.weights));
+  return glm::dot(normal, hit.normal) < 0.0 ? -normal : normal;
 }
 
 }  // namespace splatray::testing
