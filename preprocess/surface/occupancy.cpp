@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
+
+#include "preprocess/base/select.h"
 
 namespace splatray {
 namespace {
 
 constexpr double MOST_CELLS = 256.0;  // along the longest side
+constexpr double REACHES = 2.5;
 
 }  // namespace
 
@@ -53,6 +58,14 @@ std::optional<double> Occupancy::free_path(const glm::dvec3& origin, const glm::
     next[axis] += wait[axis];
     cell[axis] += step[axis];
   }
+}
+
+double cell_edge(const Survey& survey) {
+  if (survey.reach.empty()) return 0.0;
+  std::vector<float> ranked = survey.reach;
+  const std::size_t sparse = ranked.size() * 9 / 10;
+  select_nth(std::span(ranked), sparse, std::identity());
+  return REACHES * ranked[sparse];
 }
 
 }  // namespace splatray

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "preprocess/surface/cloud.h"
+#include "preprocess/surface/survey.h"
 
 namespace splatray {
 
@@ -34,5 +35,8 @@ class Occupancy {
   glm::ivec3 size_;
   std::vector<std::uint64_t> bits_;
 };
+
+/// The edge of cells that leave few holes in a surface: 2.5 times the distance to the 8th place, of the sparsest tenth.
+[[nodiscard]] double cell_edge(const Survey& survey);
 
 }  // namespace splatray

@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
-#include "preprocess/base/select.h"
 #include "preprocess/surface/components.h"
 #include "preprocess/surface/occupancy.h"
 #include "preprocess/surface/sides.h"
@@ -16,7 +14,6 @@ namespace {
 constexpr std::array<float, 5> LIMITS{0.01F, 0.03F, 0.07F, 0.12F, 0.2F};
 constexpr float LINK = 2.0F;  // of neighbours that are near, in units of both their distances to the 8th
 constexpr std::size_t MOST_VOTERS = 1U << 19;
-constexpr double CELLS = 2.5;        // edge of the cells of space, in distances to the 8th place
 constexpr double START = 2.2;        // of a ray above its point, in cells: beyond the surface's own
 constexpr double ROOM_SHARE = 0.15;  // of the points in planes that all others are on one side of: a room
 constexpr std::uint64_t LEAST_VOTES = 8;
@@ -111,7 +108,7 @@ bool is_room(const Cloud& cloud, const Survey& survey) {
   std::vector<std::uint8_t> bounds(planes);
   tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
     const std::size_t i = p * cloud.size() / planes;
-    const double near = 4.0 * survey.reach[i] + 0.01;
+    const double near = 2.0 * survey.reach[i] + 0.002;
     std::size_t above = 0, below = 0, within = 0;
     for (std::size_t q = 0; q < points; ++q) {
       const std::size_t j = q * cloud.size() / points;
@@ -150,9 +147,7 @@ struct Votes {
 
 /// For each point the room in front of its normal against that behind: 1, -1, or 0 where both are the same or it has no vote.
 std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, const Stage& stage) {
-  std::vector<float> ranked = survey.reach;
-  select_nth(std::span(ranked), ranked.size() * 9 / 10, std::identity());
-  const Occupancy space(cloud, CELLS * ranked[ranked.size() * 9 / 10]);
+  const Occupancy space(cloud, cell_edge(survey));
   const double beyond = is_room(cloud, survey) ? 0.0 : 4.0;  // more than any way through the cloud
   const std::size_t stride = cloud.size() / MOST_VOTERS + 1;
   std::vector<std::int8_t> votes(cloud.size());

@@ -7,6 +7,7 @@
 
 #include "preprocess/surface/flight_track.h"
 #include "preprocess/surface/normals.h"
+#include "preprocess/surface/occupancy.h"
 
 namespace splatray {
 namespace {
@@ -45,6 +46,23 @@ bool any_sensor(const Cloud& cloud) {
                      [](const Station& station) { return station.sensor_world.has_value(); });
 }
 
+/// Whether most of the cloud has more of it above or below along `axis`, as a cave or a room has and terrain has not.
+bool has_layers(const Cloud& cloud, const Survey& survey, const glm::dvec3& axis) {
+  constexpr std::size_t ASKED = 4096;
+  constexpr double START = 3.0;  // of a ray, in cells off its point
+  const Occupancy space(cloud, cell_edge(survey));
+  const std::size_t asked = std::min(ASKED, cloud.size());
+  std::size_t layered = 0;
+  for (std::size_t n = 0; n < asked; ++n) {
+    const glm::dvec3 point(cloud.coord[n * cloud.size() / asked]);
+    const auto meets = [&](const glm::dvec3& dir) {
+      return space.free_path(point + START * space.edge() * dir, dir).has_value();
+    };
+    layered += meets(axis) || meets(-axis) ? 1 : 0;
+  }
+  return 2 * layered > asked;
+}
+
 void turn_up(Cloud& cloud, const std::vector<std::uint32_t>& points, const glm::dvec3& axis) {
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t n) {
     glm::vec3& normal = cloud.normal[points[n]];
@@ -78,7 +96,7 @@ SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<s
                  [&](std::uint32_t i) { return std::optional(in_cloud(track.at(time.number(i)))); });
     return {SideRung::track, 0};
   }
-  if (const auto axis = sheet_axis(cloud, up)) {
+  if (const auto axis = sheet_axis(cloud, up); axis && !has_layers(cloud, survey, *axis)) {
     turn_up(cloud, estimated, *axis);
     return {SideRung::up, 0};
   }

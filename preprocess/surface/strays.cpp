@@ -53,6 +53,7 @@ struct Part {
 void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stray>& strays) {
   Components parts(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (i > 0 && cloud.coord[i] == cloud.coord[i - 1]) parts.join(i, i - 1);
     for (const std::uint32_t j : survey.around(i)) {
       const glm::vec3 apart = cloud.coord[i] - cloud.coord[j];
       const float reach = LINK * std::min(survey.reach[i], survey.reach[j]);

@@ -17,7 +17,9 @@ constexpr double LINE =
     0.02;  // second variance / first: below this the places of a neighbourhood lie on a line
 
 constexpr std::array<std::size_t, 2> STRIDES{8, 64};
-constexpr float ROUGH = 0.01F;   // of a neighbourhood that noise or edges tell more of than a plane does
+constexpr float ROUGH = 0.01F;  // of a neighbourhood that noise or edges tell more of than a plane does
+constexpr double ROUGHEST =
+    1.0 / 3.0;                   // of a line too: one ring with its noise makes a plane across the surface
 constexpr double FLATTER = 0.5;  // roughness of a wider one that is better, over that
 
 double entropy(const glm::dvec3& variance) {
@@ -31,31 +33,33 @@ double entropy(const glm::dvec3& variance) {
 /// The plane of a neighbourhood.
 struct Plane {
   glm::dvec3 axis{0.0};  ///< zero where it has none
-  double roughness = 0.0;
-  double entropy = std::numeric_limits<double>::infinity();
+  double roughness = ROUGHEST;
 };
 
-/// The best of the neighbourhoods around a point.
+double roughness_of(const glm::dvec3& variance) {
+  const double sum = variance.x + variance.y + variance.z;
+  return variance.y < LINE * variance.z || !(sum > 0.0) ? ROUGHEST : variance.x / sum;
+}
+
+/// The plane of the whole neighbourhood where that is flat, else of the part with the least entropy; the roughness is the
+/// whole's.
 Plane best_plane(std::span<const glm::dvec3> offsets) {
   PlaneFit fit, best;
   fit.add(glm::dvec3(0.0));
-  Plane plane;
+  double roughness = ROUGHEST, least = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < offsets.size(); ++j) {
     fit.add(offsets[j]);
-    const bool last = j + 1 == offsets.size();
-    if (!last && std::find(SIZES.begin(), SIZES.end(), j + 1) == SIZES.end()) continue;
+    const bool whole = j + 1 == offsets.size();
+    if (!whole && std::find(SIZES.begin(), SIZES.end(), j + 1) == SIZES.end()) continue;
     const glm::dvec3 variance = fit.variances();
+    roughness = roughness_of(variance);
     const bool line = variance.y < LINE * variance.z;
     const double here = line ? std::numeric_limits<double>::max() : entropy(variance);
-    if (!(here < plane.entropy) && !(line && here == plane.entropy)) continue;
-    plane.entropy = here;
+    if (!(here <= least) && !(whole && roughness <= ROUGH)) continue;
+    least = here;
     best = fit;
   }
-  const LeastAxis found = best.least_axis();
-  const double sum = found.variance.x + found.variance.y + found.variance.z;
-  plane.axis = found.axis;
-  plane.roughness = sum > 0.0 ? found.variance.x / sum : 0.0;
-  return plane;
+  return {best.least_axis().axis, roughness};
 }
 
 /// Every `stride`-th point: places only.
@@ -114,26 +118,26 @@ Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   const NeighbourSearch search(cloud, Sites::positions);
   const bool all_given = std::none_of(cloud.normal.begin(), cloud.normal.end(),
                                       [](const glm::vec3& normal) { return normal == glm::vec3(0.0F); });
-  search.find_all(all_given ? Survey::LISTED : SIZES.back(), stage,
-                  [&](std::uint32_t i, std::span<const Neighbour> nearest) {
-                    for (std::size_t j = 0; j < Survey::LISTED; ++j)
-                      survey.listed[i * Survey::LISTED + j] = j < nearest.size() ? nearest[j].index() : i;
-                    survey.estimated[i] = cloud.normal[i] == glm::vec3(0.0F);
-                    if (nearest.empty()) {
-                      if (survey.estimated[i] != 0) cloud.normal[i] = glm::vec3(up);
-                      return;
-                    }
-                    survey.reach[i] =
-                        std::sqrt(nearest[std::min(nearest.size(), Survey::RING) - 1].distance_squared());
-                    if (survey.estimated[i] == 0) return;
-                    std::array<glm::dvec3, SIZES.back()> offsets;
-                    for (std::size_t j = 0; j < nearest.size(); ++j)
-                      offsets[j] = glm::dvec3(cloud.coord[nearest[j].index()] - cloud.coord[i]);
-                    const std::span<const glm::dvec3> found = std::span(offsets).first(nearest.size());
-          const Plane plane = best_plane(found);
-    survey.roughness[i] = static_cast<float>(plane.roughness);
-    cloud.normal[i] = glm::vec3(plane.axis != glm::dvec3(0.0) ? plane.axis : plane_normal(found, up));
-                  });
+  search.find_all(
+      all_given ? Survey::LISTED : SIZES.back(), stage,
+      [&](std::uint32_t i, std::span<const Neighbour> nearest) {
+        for (std::size_t j = 0; j < Survey::LISTED; ++j)
+          survey.listed[i * Survey::LISTED + j] = j < nearest.size() ? nearest[j].index() : i;
+        survey.estimated[i] = cloud.normal[i] == glm::vec3(0.0F);
+        if (nearest.empty()) {
+          if (survey.estimated[i] != 0) cloud.normal[i] = glm::vec3(up);
+          return;
+        }
+        survey.reach[i] = std::sqrt(nearest[std::min(nearest.size(), Survey::RING) - 1].distance_squared());
+        if (survey.estimated[i] == 0) return;
+        std::array<glm::dvec3, SIZES.back()> offsets;
+        for (std::size_t j = 0; j < nearest.size(); ++j)
+          offsets[j] = glm::dvec3(cloud.coord[nearest[j].index()] - cloud.coord[i]);
+        const std::span<const glm::dvec3> found = std::span(offsets).first(nearest.size());
+        const Plane plane = best_plane(found);
+        survey.roughness[i] = static_cast<float>(plane.roughness);
+        cloud.normal[i] = glm::vec3(plane.axis != glm::dvec3(0.0) ? plane.axis : plane_normal(found, up));
+      });
   for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, stage);
   return survey;
 }

@@ -30,8 +30,8 @@ struct Survey {
                             const std::vector<std::uint32_t>& number) const;
 };
 
-/// Looks through the neighbourhoods of 8, 16 and 32 places of all points and gives every unknown (zero) normal the axis of
-/// the one with the least eigenentropy (Demantke et al. 2011; Weinmann et al. 2015, "Semantic point cloud interpretation
+/// Gives every unknown (zero) normal the axis of its neighbourhood of 32 places; where these are rough, of that of
+/// 8, 16 and 32 with the least eigenentropy (Demantke et al. 2011; Weinmann et al. 2015, "Semantic point cloud interpretation
 /// based on optimal neighborhoods", sec. 3.1), of those that are no line; their sides are as they come. Where that is rough,
 /// as noise makes it that is wider than the neighbourhood, the same is tried among every 8th and every 64th point. Without
 /// neighbours it is `up`, a unit vector.
