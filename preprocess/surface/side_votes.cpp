@@ -16,6 +16,7 @@ constexpr float LINK = 2.0F;  // of neighbours that are near, in units of both t
 constexpr std::size_t MOST_VOTERS = 1U << 19;
 constexpr double START = 2.2;        // of a ray above its point, in cells: beyond the surface's own
 constexpr double ROOM_SHARE = 0.15;  // of the points in planes that all others are on one side of: a room
+constexpr float FLAT = 0.99F;        // cosine of normals of one such plane
 constexpr std::uint64_t LEAST_VOTES = 8;
 
 /// How much two neighbours look like no one surface, 0..1: by the angle of their normals, and of the step between them to
@@ -116,7 +117,8 @@ bool is_room(const Cloud& cloud, const Survey& survey) {
           glm::dot(glm::dvec3(cloud.normal[i]), glm::dvec3(cloud.coord[j] - cloud.coord[i]));
       above += height > near ? 1 : 0;
       below += height < -near ? 1 : 0;
-      within += std::abs(height) <= near ? 1 : 0;
+      const bool alike = std::abs(glm::dot(cloud.normal[i], cloud.normal[j])) > FLAT;
+      within += alike && std::abs(height) <= near ? 1 : 0;
     }
     bounds[p] = std::min(above, below) < points / 50 && within > points / 25;
   });

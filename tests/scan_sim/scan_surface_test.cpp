@@ -62,9 +62,9 @@ SimulatedScan ball_scan(const Beam& beam = {.noise = 0.0005}) {
   return range_images(TriangleTree(sphere_mesh(4)), {.views = 6, .pixels = 60, .misplaced = 0.0}, beam);
 }
 
-SimulatedScan room_scan() {
-  const Tripod tripod{.sensors = {{-0.3, 0.2, 1.6}}, .step_deg = 1.5, .highest_deg = 75.0};
-  return scan_from_tripods(TriangleTree(room_mesh()), tripod, {.divergence = 2e-3, .stray_share = 0.003});
+SimulatedScan room_scan(double step_deg = 1.5) {
+  const Tripod tripod{.sensors = {{-0.3, 0.2, 1.6}}, .step_deg = step_deg, .highest_deg = 75.0};
+  return scan_from_tripods(TriangleTree(room_mesh()), tripod, {.stray_share = 0.003});
 }
 
 SimulatedScan without_stations(SimulatedScan scan) {
@@ -75,7 +75,7 @@ SimulatedScan without_stations(SimulatedScan scan) {
 }
 
 TEST(ScanSurface, StraysAndMixedPixelsAreNotDrawn) {
-  const SimulatedScan scan = room_scan();
+  const SimulatedScan scan = room_scan(0.5);
   const Built built = build(scan);
   const Shares shares = shares_of(scan, built.scene);
   EXPECT_GT(shares.surface, 0.96);
@@ -130,7 +130,9 @@ double roughness(const Scene& scene) {
 }
 
 TEST(ScanSurface, NoiseIsSmoothedUnlessThatIsOff) {
-  const SimulatedScan scan = ball_scan({.noise = 0.01, .stray_share = 0.0});
+  const TriangleTree ball(sphere_mesh(6));
+  const SimulatedScan scan =
+      range_images(ball, {.views = 6, .pixels = 120, .misplaced = 0.0}, {.noise = 0.005, .stray_share = 0.0});
   const Built smoothed = build(scan);
   const Built rough = build(scan, {.smooth_world = 0.0});
   EXPECT_GT(smoothed.stats.smoothed, 0U);
