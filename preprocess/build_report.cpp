@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "preprocess/surface/sides.h"
+#include "preprocess/scan/sides.h"
 
 namespace splatray {
 

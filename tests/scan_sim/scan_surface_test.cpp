@@ -9,7 +9,7 @@
 
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
-#include "preprocess/surface/sides.h"
+#include "preprocess/scan/sides.h"
 #include "tests/scan_sim/scanner.h"
 #include "tests/scan_sim/sim_meshes.h"
 

@@ -10,7 +10,7 @@
 
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
-#include "preprocess/surface/sides.h"
+#include "preprocess/scan/sides.h"
 #include "tests/scan_sim/picture_errors.h"
 #include "tests/scan_sim/scan_cases.h"
 

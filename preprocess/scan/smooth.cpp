@@ -1,4 +1,4 @@
-#include "preprocess/surface/smooth.h"
+#include "preprocess/scan/smooth.h"
 
 #include <algorithm>
 #include <array>

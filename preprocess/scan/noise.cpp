@@ -1,4 +1,4 @@
-#include "preprocess/surface/noise.h"
+#include "preprocess/scan/noise.h"
 
 #include <cmath>
 #include <functional>

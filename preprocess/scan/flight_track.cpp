@@ -1,4 +1,4 @@
-#include "preprocess/surface/flight_track.h"
+#include "preprocess/scan/flight_track.h"
 
 #include <algorithm>
 #include <cmath>

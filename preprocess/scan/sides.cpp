@@ -1,13 +1,13 @@
-#include "preprocess/surface/sides.h"
+#include "preprocess/scan/sides.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
-#include "preprocess/surface/flight_track.h"
+#include "preprocess/scan/flight_track.h"
+#include "preprocess/scan/occupancy.h"
 #include "preprocess/surface/normals.h"
-#include "preprocess/surface/occupancy.h"
 
 namespace splatray {
 namespace {

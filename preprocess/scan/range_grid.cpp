@@ -1,4 +1,4 @@
-#include "preprocess/surface/range_grid.h"
+#include "preprocess/scan/range_grid.h"
 
 #include <cmath>
 #include <limits>

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "preprocess/scan/survey.h"
 #include "preprocess/surface/cloud.h"
-#include "preprocess/surface/survey.h"
 
 namespace splatray {
 

@@ -1,4 +1,4 @@
-#include "preprocess/surface/strays.h"
+#include "preprocess/scan/strays.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
-#include "preprocess/surface/components.h"
-#include "preprocess/surface/range_grid.h"
+#include "preprocess/scan/components.h"
+#include "preprocess/scan/range_grid.h"
 
 namespace splatray {
 namespace {
@@ -51,14 +51,21 @@ struct Part {
 
 /// Parts of few points that are far from all others, as far as these are from each other.
 void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stray>& strays) {
+  std::vector<std::uint16_t> links(cloud.size());  // a bit for each of the listed
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < Survey::LISTED; ++k) {
+      const std::uint32_t j = survey.around(i)[k];
+      const glm::vec3 apart = cloud.coord[i] - cloud.coord[j];
+      const float reach = LINK * std::min(survey.reach[i], survey.reach[j]);
+      const bool linked = j != i && glm::dot(apart, apart) <= reach * reach;
+      links[i] = static_cast<std::uint16_t>(links[i] | (linked ? 1U << k : 0U));
+    }
+  });
   Components parts(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     if (i > 0 && cloud.coord[i] == cloud.coord[i - 1]) parts.join(i, i - 1);
-    for (const std::uint32_t j : survey.around(i)) {
-      const glm::vec3 apart = cloud.coord[i] - cloud.coord[j];
-      const float reach = LINK * std::min(survey.reach[i], survey.reach[j]);
-      if (j != i && glm::dot(apart, apart) <= reach * reach) parts.join(i, j);
-    }
+    for (std::size_t k = 0; k < Survey::LISTED; ++k)
+      if ((links[i] >> k & 1U) != 0) parts.join(i, survey.around(i)[k]);
   }
   std::vector<float> ranked = survey.reach;
   const float sparse = SPARSE * median(ranked);

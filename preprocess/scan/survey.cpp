@@ -1,13 +1,13 @@
-#include "preprocess/surface/survey.h"
+#include "preprocess/scan/survey.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "preprocess/scan/plane_fit.h"
 #include "preprocess/surface/neighbours.h"
 #include "preprocess/surface/normals.h"
-#include "preprocess/surface/plane_fit.h"
 
 namespace splatray {
 namespace {
@@ -19,7 +19,9 @@ constexpr double LINE =
 constexpr std::array<std::size_t, 2> STRIDES{8, 64};
 constexpr float ROUGH = 0.01F;  // of a neighbourhood that noise or edges tell more of than a plane does
 constexpr double ROUGHEST =
-    1.0 / 3.0;                   // of a line too: one ring with its noise makes a plane across the surface
+    1.0 / 3.0;  // of a line too: one ring with its noise makes a plane across the surface
+constexpr float GUESS =
+    1.3F * 32 / 8;               // squared distance to the 32nd of thinned points over stride and reach^2
 constexpr double FLATTER = 0.5;  // roughness of a wider one that is better, over that
 
 double entropy(const glm::dvec3& variance) {
@@ -82,7 +84,8 @@ void look_wider(Cloud& cloud, std::size_t stride, Survey& survey, const Stage& s
     const std::uint32_t i = rough[n];
     std::array<Neighbour, SIZES.back()> nearest;
     std::array<glm::dvec3, SIZES.back()> offsets;
-    const std::size_t found = search.find(cloud.coord[i], nearest);
+    const float guess = GUESS * static_cast<float>(stride) * survey.reach[i] * survey.reach[i];
+    const std::size_t found = search.find(cloud.coord[i], nearest, guess);
     for (std::size_t j = 0; j < found; ++j)
       offsets[j] = glm::dvec3(thin.coord[nearest[j].index()] - cloud.coord[i]);
     const Plane plane = best_plane(std::span(offsets).first(found));

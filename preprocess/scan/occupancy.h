@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "preprocess/scan/survey.h"
 #include "preprocess/surface/cloud.h"
-#include "preprocess/surface/survey.h"
 
 namespace splatray {
 

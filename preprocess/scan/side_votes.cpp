@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "preprocess/surface/components.h"
-#include "preprocess/surface/occupancy.h"
-#include "preprocess/surface/sides.h"
+#include "preprocess/scan/components.h"
+#include "preprocess/scan/occupancy.h"
+#include "preprocess/scan/sides.h"
 
 namespace splatray {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 /// Most that neighbours on one part may differ, in the rounds that join them: Kruskal's order, in steps.
 constexpr std::array<float, 5> LIMITS{0.01F, 0.03F, 0.07F, 0.12F, 0.2F};
 constexpr float LINK = 2.0F;  // of neighbours that are near, in units of both their distances to the 8th
-constexpr std::size_t MOST_VOTERS = 1U << 19;
+constexpr std::size_t MOST_VOTERS = 1U << 17;
 constexpr double START = 2.2;        // of a ray above its point, in cells: beyond the surface's own
 constexpr double ROOM_SHARE = 0.15;  // of the points in planes that all others are on one side of: a room
 constexpr float FLAT = 0.99F;        // cosine of normals of one such plane
@@ -77,19 +77,32 @@ class SignedSets {
   std::vector<std::uint8_t> turned_;  ///< against the parent
 };
 
+/// In which round each of a point's listed neighbours may join it; LIMITS.size() = in none.
+std::vector<std::uint8_t> find_rounds(const Cloud& cloud, const Survey& survey) {
+  std::vector<std::uint8_t> rounds(survey.listed.size());
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t n) {
+    const auto i = static_cast<std::uint32_t>(n);
+    for (std::size_t k = 0; k < Survey::LISTED; ++k) {
+      const std::uint32_t j = survey.around(i)[k];
+      const bool linked = j != i && are_near(cloud, survey, i, j);
+      const auto limit =
+          linked ? std::lower_bound(LIMITS.begin(), LIMITS.end(), difference(cloud, i, j)) : LIMITS.end();
+      rounds[n * Survey::LISTED + k] = static_cast<std::uint8_t>(limit - LIMITS.begin());
+    }
+  });
+  return rounds;
+}
+
 Parts find_parts(const Cloud& cloud, const Survey& survey) {
   SignedSets sets(cloud.size());
-  float from = -1.0F;
-  for (const float limit : LIMITS) {
-    for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-      for (const std::uint32_t j : survey.around(i)) {
-        if (j == i || !are_near(cloud, survey, i, j)) continue;
-        const float apart = difference(cloud, i, j);
-        if (apart > from && apart <= limit)
-          sets.join(i, j, glm::dot(cloud.normal[i], cloud.normal[j]) < 0.0F);
-      }
+  const std::vector<std::uint8_t> rounds = find_rounds(cloud, survey);
+  for (std::size_t round = 0; round < LIMITS.size(); ++round) {
+    for (std::size_t link = 0; link < rounds.size(); ++link) {
+      if (rounds[link] != round) continue;
+      const auto i = static_cast<std::uint32_t>(link / Survey::LISTED);
+      const std::uint32_t j = survey.listed[link];
+      sets.join(i, j, glm::dot(cloud.normal[i], cloud.normal[j]) < 0.0F);
     }
-    from = limit;
   }
   Parts parts;
   parts.part.resize(cloud.size());

@@ -1,12 +1,12 @@
-#include "preprocess/surface/scan_surface.h"
+#include "preprocess/scan/scan_surface.h"
 
 #include <algorithm>
 
-#include "preprocess/surface/noise.h"
-#include "preprocess/surface/sides.h"
-#include "preprocess/surface/smooth.h"
-#include "preprocess/surface/strays.h"
-#include "preprocess/surface/survey.h"
+#include "preprocess/scan/noise.h"
+#include "preprocess/scan/sides.h"
+#include "preprocess/scan/smooth.h"
+#include "preprocess/scan/strays.h"
+#include "preprocess/scan/survey.h"
 
 namespace splatray {
 namespace {

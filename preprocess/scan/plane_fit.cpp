@@ -1,4 +1,4 @@
-#include "preprocess/surface/plane_fit.h"
+#include "preprocess/scan/plane_fit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "preprocess/surface/occupancy.h"
+#include "preprocess/scan/occupancy.h"
 
 #include <algorithm>
 #include <cmath>
