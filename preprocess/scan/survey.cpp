@@ -17,7 +17,7 @@ constexpr double LINE =
     0.02;  // second variance / first: below this the places of a neighbourhood lie on a line
 
 constexpr std::array<std::size_t, 2> STRIDES{8, 64};
-constexpr float ROUGH = 0.01F;  // of a neighbourhood that noise or edges tell more of than a plane does
+constexpr float ROUGH = 0.03F;  // of a neighbourhood that noise or edges tell more of than a plane does
 constexpr double ROUGHEST =
     1.0 / 3.0;  // of a line too: one ring with its noise makes a plane across the surface
 constexpr float GUESS =
