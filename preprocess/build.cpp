@@ -20,6 +20,7 @@
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
 #include "preprocess/base/thread_limit.h"
+#include "preprocess/scan/scan_surface.h"
 #include "preprocess/surface/cloud.h"
 #include "preprocess/surface/normals.h"
 #include "preprocess/surface/radius.h"
@@ -61,7 +62,7 @@ Scene describe_scene(Input& input, const BuildParams& params) {
   for (InputObject& object : input.objects) {
     scene.materials.push_back(object.material);
     scene.object_names.push_back(std::move(object.name));
-    for (Station& station : object.points.stations) scene.stations.push_back(std::move(station));
+    for (const Station& station : object.points.stations) scene.stations.push_back(station);
     scene.surface_area_world += object.surface_area;
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
   }
@@ -75,7 +76,9 @@ Scene describe_scene(Input& input, const BuildParams& params) {
 std::vector<Cloud> make_clouds(Input& input, BuildStats& stats) {
   std::vector<Cloud> clouds;
   for (InputObject& object : input.objects) {
+    const bool measured = !object.oriented && !(object.surface_area > 0.0);
     clouds.push_back(make_cloud(std::move(object.points), object.oriented, stats));
+    clouds.back().measured = measured;
   }
   if (stats.points_read == stats.dropped_non_finite) {
     throw Error(ExitCode::input_unreadable,
@@ -103,12 +106,16 @@ void number_objects(const std::vector<Cloud>& clouds, std::vector<Material>& mat
     materials[order[i]].mask_bit = static_cast<std::uint32_t>(i % MASK_BITS);
 }
 
-void estimate_all_normals(std::vector<Cloud>& clouds, Scene& scene, const BuildProgress& progress,
-                          BuildStats& stats) {
+/// Estimates unknown normals; scans are freed of strays and noise, too.
+void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const BuildProgress& progress,
+                       BuildStats& stats) {
   const AddedTime watch(stats.normals_ms);
   for (std::size_t object = 0; object < clouds.size(); ++object) {
     Cloud& cloud = clouds[object];
-    const std::uint64_t estimated = estimate_normals(cloud, glm::normalize(scene.up), {"normals", progress});
+    const glm::dvec3 up = glm::normalize(scene.up);
+    const Stage stage{"normals", progress};
+    const std::uint64_t estimated = cloud.measured ? find_scan_surface(cloud, up, scene.build, stage, stats)
+                                                   : estimate_normals(cloud, up, stage);
     stats.normals_estimated += estimated;
     std::uint32_t& flags = scene.materials[object].flags;
     if (estimated > 0 && estimated == cloud.size() && (flags & MATERIAL_DIELECTRIC) == 0)
@@ -300,7 +307,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   check_counts(input);
   Scene scene = describe_scene(input, params);
   std::vector<Cloud> clouds = make_clouds(input, stats);
-  estimate_all_normals(clouds, scene, progress, stats);
+  find_all_surfaces(clouds, scene, progress, stats);
   find_bounds(clouds, scene);
   number_objects(clouds, scene.materials);
   find_all_radii(clouds, scene, progress, stats);

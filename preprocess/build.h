@@ -1,6 +1,7 @@
 /// Input -> Scene: repair, normals, radii, octree, insertion. The whole preprocess but for reading and
 /// writing files.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,14 @@ struct BuildStats {
   std::uint64_t points_read = 0;
   std::uint64_t dropped_non_finite = 0;  ///< position not finite
   std::uint64_t dropped_duplicates = 0;  ///< copies of a splat (same 128 bits) beyond 8, or leaf_size if less
+  std::uint64_t dropped_isolated = 0;    ///< strays of scans: far from all others
+  std::uint64_t dropped_mixed = 0;       ///< of scans with grids: between the two surfaces that a beam met
+  std::uint64_t dropped_unsupported = 0;  ///< of noisy scans: fewer than 6 neighbours on their surface
+  std::uint64_t smoothed = 0;             ///< points of noisy scans, moved onto their surface
+  double noise = 0.0;  ///< of the noisiest scan: heights off the surface over the distance to the 8th place
+  double moved_median_world = 0.0;          ///< how far smoothing moved points
+  std::array<std::uint64_t, 5> sides_by{};  ///< scans without normals by what told their sides (SideRung)
+  std::uint64_t sides_unsure = 0;           ///< points whose side is a guess
   std::uint64_t normals_given = 0;
   std::uint64_t normals_estimated = 0;  ///< of points without a usable normal
   std::uint64_t radii_given = 0;

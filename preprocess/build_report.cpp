@@ -3,12 +3,51 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "preprocess/scan/sides.h"
+
 namespace splatray {
+
+namespace {
+
+nlohmann::ordered_json sides_json(const BuildStats& stats) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (std::size_t rung = 0; rung < SIDE_RUNGS; ++rung)
+    json[std::string(name_of(static_cast<SideRung>(rung)))] = stats.sides_by[rung];
+  return json;
+}
+
+/// What was repaired of scans, in a line each.
+void tell_scans(const BuildStats& stats, std::ostringstream& text) {
+  if (stats.dropped_isolated + stats.dropped_mixed + stats.dropped_unsupported > 0) {
+    text << "  not drawn: " << stats.dropped_isolated << " isolated points, " << stats.dropped_mixed
+         << " between two surfaces, " << stats.dropped_unsupported << " with too few neighbours\n";
+  }
+  if (stats.smoothed > 0) {
+    text << "  " << stats.smoothed << " points smoothed (noise " << stats.noise
+         << " of the spacing), moved by " << stats.moved_median_world << " (median)\n";
+  }
+  for (std::size_t rung = 0; rung < SIDE_RUNGS; ++rung) {
+    if (stats.sides_by[rung] == 0) continue;
+    text << "  sides of normals told by: " << name_of(static_cast<SideRung>(rung));
+    if (stats.sides_unsure > 0) text << " (" << stats.sides_unsure << " points unsure)";
+    text << '\n';
+  }
+}
+
+}  // namespace
 
 std::string build_stats_json(const BuildStats& stats) {
   const nlohmann::ordered_json json = {{"points_read", stats.points_read},
                                        {"dropped_non_finite", stats.dropped_non_finite},
                                        {"dropped_duplicates", stats.dropped_duplicates},
+                                       {"dropped_isolated", stats.dropped_isolated},
+                                       {"dropped_mixed", stats.dropped_mixed},
+                                       {"dropped_unsupported", stats.dropped_unsupported},
+                                       {"smoothed", stats.smoothed},
+                                       {"noise", stats.noise},
+                                       {"moved_median_world", stats.moved_median_world},
+                                       {"sides_by", sides_json(stats)},
+                                       {"sides_unsure", stats.sides_unsure},
                                        {"normals_given", stats.normals_given},
                                        {"normals_estimated", stats.normals_estimated},
                                        {"radii_given", stats.radii_given},
@@ -45,6 +84,7 @@ std::string build_summary(const BuildStats& stats, const std::filesystem::path& 
   repair(stats.dropped_non_finite, "points dropped: position not finite");
   repair(stats.dropped_duplicates, "points dropped: copies of one splat beyond the most that are kept");
   repair(stats.normals_estimated, "normals estimated");
+  tell_scans(stats, text);
   repair(stats.radii_repaired, "given radii computed anew: zero, negative or not finite");
   repair(stats.radii_isolated, "points without neighbours: radius relative to the scene");
   text << "  " << stats.nodes << " nodes, " << stats.filled_leaves << " filled leaves, depth " << stats.depth

@@ -6,8 +6,31 @@
 #include "app/cli/option_types.h"
 
 namespace splatray {
-
 namespace {
+
+/// auto, off or a radius (BuildParams::smooth_world).
+void add_smoothing(OptionList& list, double& smooth_world) {
+  constexpr double MOST = 1e12;
+  const auto read = [&smooth_world](const std::string& text) {
+    if (text == "auto") {
+      smooth_world = -1.0;
+    } else if (text == "off") {
+      smooth_world = 0.0;
+    } else {
+      const auto radius = split_numbers(text, ',', 1);
+      if (radius.empty() || !(radius[0] > 0.0 && radius[0] <= MOST))
+        refuse_option("--smooth", text, "auto, off or a number above 0, to 1e12");
+      smooth_world = radius[0];
+    }
+  };
+  const auto write = [&smooth_world]() -> std::string {
+    return smooth_world < 0.0 ? "auto" : smooth_world == 0.0 ? "off" : number_text(smooth_world);
+  };
+  list.add_value("--smooth", read, write,
+                 "noisy scans are smoothed as their noise asks for, not at all, or so far around each point "
+                 "(world units); default auto",
+                 "auto|off|RADIUS");
+}
 
 void add_scan_options(OptionList& list, ScanOptions& scans) {
   list.add_switch("--strict", scans.strict, "refuse a scan that holds less than it says");
@@ -68,6 +91,7 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_choice<bool>(list, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
                    "how normals change across each disc, where the scene curves; default on");
   add_scan_options(list, options.scans);
+  add_smoothing(list, params.smooth_world);
   add_number(list, "--threads", options.threads, 0, 4096,
              "threads of reading and preprocess; default 0 = all cores");
 }

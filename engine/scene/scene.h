@@ -40,6 +40,10 @@ struct BuildParams {
   bool normal_fields =
       true;  ///< fit a normal field to every splat of a curved scene; read from a file: it has them
 
+  /// How far around each point noisy scans are smoothed, world units; 0 = not at all, negative = as their noise asks for.
+  /// Files do not tell.
+  double smooth_world = -1.0;
+
   bool operator==(const BuildParams&) const = default;
 };
 

@@ -41,6 +41,9 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   cloud.color.resize(color.size());
   for (Column& column : points.columns)
     std::visit([&](auto& values) { cloud.columns.push_back({column.name, take(values)}); }, column.values);
+  cloud.stations = std::move(points.stations);
+  cloud.station = take(points.station);
+  cloud.grid_cell = take(points.grid_cell);
   cloud.radius = take(points.radius);
   cloud.radius.resize(usable.size(), 0.0F);
   tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
@@ -51,17 +54,24 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   return cloud;
 }
 
+/// Cloud::coord, in the cloud's frame.
+void find_coordinates(Cloud& cloud) {
+  cloud.coord.resize(cloud.size());
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    const glm::dvec3 unit = (cloud.position[i] - cloud.center_world) / cloud.half_extent_world;
+    const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
+    cloud.coord[i] = glm::vec3(steps) * COORD_STEP;
+  });
+}
+
 void normalise_coordinates(Cloud& cloud) {
   const Bounds bounds = bounds_of(cloud.position);
   cloud.center_world = 0.5 * (bounds.low + bounds.high);
   const glm::dvec3 half = 0.5 * (bounds.high - bounds.low);
   const double longest = std::max({half.x, half.y, half.z});
   cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
-  cloud.coord.resize(cloud.size());
+  find_coordinates(cloud);
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
-    const glm::dvec3 unit = (cloud.position[i] - cloud.center_world) / cloud.half_extent_world;
-    const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
-    cloud.coord[i] = glm::vec3(steps) * COORD_STEP;
     if (cloud.radius[i] > 0.0F) {
       const double radius = cloud.radius[i] / cloud.half_extent_world;
       cloud.radius[i] = static_cast<float>(std::clamp(radius, 0x1p-100, 0x1p100));
@@ -75,8 +85,10 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
   const auto key = [&cloud](std::uint32_t i) {
     const glm::dvec3& p = cloud.position[i];
     const std::uint32_t color = cloud.color.empty() ? 0U : cloud.color[i];
+    const std::uint16_t station = cloud.station.empty() ? std::uint16_t{0} : cloud.station[i];
+    const std::uint32_t cell = cloud.grid_cell.empty() ? NO_CELL : cloud.grid_cell[i];
     return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), p.x, p.y, p.z, color,
-                      cloud.radius[i]);
+                      cloud.radius[i], station, cell);
   };
   const auto key_a = key(a), key_b = key(b);
   if (key_a != key_b) return key_a < key_b;
@@ -102,6 +114,19 @@ void count_given(const Cloud& cloud, bool has_radii, BuildStats& stats) {
   if (has_radii) stats.radii_repaired += static_cast<std::size_t>(unknown_radii);
 }
 
+/// Gives all arrays the values of these points, in this order.
+void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
+  const auto reorder = [&](auto& values) { values = gather(values, order); };
+  reorder(cloud.position);
+  reorder(cloud.coord);
+  reorder(cloud.normal);
+  reorder(cloud.color);
+  reorder(cloud.radius);
+  reorder(cloud.station);
+  reorder(cloud.grid_cell);
+  for (Column& column : cloud.columns) std::visit(reorder, column.values);
+}
+
 }  // namespace
 
 Bounds bounds_of(const std::vector<glm::dvec3>& points) {
@@ -123,16 +148,16 @@ Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
   cloud.oriented = oriented;
   if (cloud.size() == 0) return cloud;
   normalise_coordinates(cloud);
-  const std::vector<std::uint32_t> order = canonical_order(cloud);
-  cloud.position = gather(cloud.position, order);
-  cloud.coord = gather(cloud.coord, order);
-  cloud.normal = gather(cloud.normal, order);
-  cloud.color = gather(cloud.color, order);
-  cloud.radius = gather(cloud.radius, order);
-  for (Column& column : cloud.columns)
-    std::visit([&](auto& values) { values = gather(values, order); }, column.values);
+  rearrange(cloud, canonical_order(cloud));
   count_given(cloud, has_radii, stats);
   return cloud;
+}
+
+void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) { rearrange(cloud, kept); }
+
+void order_points(Cloud& cloud) {
+  find_coordinates(cloud);
+  rearrange(cloud, canonical_order(cloud));
 }
 
 }  // namespace splatray

@@ -22,14 +22,20 @@ struct Cloud {
   std::vector<glm::dvec3> position;  ///< world units
   std::vector<glm::vec3> coord;   ///< (position - center) / half_extent in [-1, 1], multiples of COORD_STEP
   std::vector<glm::vec3> normal;  ///< unit; zero = unknown
-  std::vector<std::uint32_t> color;  ///< pack_color; empty = none
-  std::vector<float> radius;         ///< in units of half_extent_world; zero = unknown
-  std::vector<glm::vec3> field;      ///< normal field: uu, uv, vv of the change of the unit normal per
-                                     ///< half_extent_world in TangentFrame(normal); empty = all flat
-  std::vector<Column> columns;       ///< further attributes
-  bool oriented = false;             ///< normals point outwards: opposite normals are opposite sheets
+  std::vector<std::uint32_t> color;      ///< pack_color; empty = none
+  std::vector<float> radius;             ///< in units of half_extent_world; zero = unknown
+  std::vector<glm::vec3> field;          ///< normal field: uu, uv, vv of the change of the unit normal per
+                                         ///< half_extent_world in TangentFrame(normal); empty = all flat
+  std::vector<Column> columns;           ///< further attributes
+  std::vector<Station> stations;         ///< where the points were measured from; empty = not known
+  std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
+  std::vector<std::uint32_t> grid_cell;  ///< Points::grid_cell
+  bool measured = false;                 ///< by a scanner: neither a mesh's nor made
+  bool oriented = false;                 ///< normals point outwards: opposite normals are opposite sheets
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
+  /// The number of a point's station; meant only where there are stations.
+  [[nodiscard]] std::size_t station_of(std::size_t i) const { return station.empty() ? 0 : station[i]; }
 };
 
 [[nodiscard]] Bounds bounds_of(const std::vector<glm::dvec3>& points);
@@ -38,5 +44,11 @@ struct Cloud {
 /// float64, turns normals and radii that cannot be used into "unknown" and orders the points. Adds to the
 /// counts of `stats`.
 [[nodiscard]] Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats);
+
+/// Leaves the points of these ascending numbers in the cloud; its frame stays.
+void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept);
+
+/// Puts a cloud in order whose positions have changed; its frame stays.
+void order_points(Cloud& cloud);
 
 }  // namespace splatray

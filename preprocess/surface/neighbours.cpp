@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "preprocess/base/select.h"
 
@@ -225,23 +226,33 @@ class NeighbourSearch::Ball {
     for (std::size_t level = search.levels_.size(); level-- > 0 && count_ > 0;) descend(level);
   }
 
+  /// Whether the blocks are all there are, and not too many.
+  [[nodiscard]] bool complete() const { return complete_; }
+
   /// Finds the `nearest.size()` nearest sites of a query in the box, or returns false: they may be farther away, or
   /// there are too many.
   bool find(const glm::vec3& query, std::span<Neighbour> nearest) const {
+    return collect(query, nearest) == nearest.size();
+  }
+
+  /// Finds as many of the nearest sites within reach as there are, at most nearest.size(), and returns how many;
+  /// nothing where there are too many to tell.
+  [[nodiscard]] std::optional<std::size_t> collect(const glm::vec3& query,
+                                                   std::span<Neighbour> nearest) const {
     float distance[MOST_NODES * WIDTH];
     for (std::size_t i = 0; i < count_; ++i) search_.blocks_[nodes_[i]].measure(query, distance + i * WIDTH);
     double keys[MOST_SITES + WIDTH];
     std::size_t count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
-      if (count > MOST_SITES - WIDTH) return false;
+      if (count > MOST_SITES - WIDTH) return {};
       count = add(search_.blocks_[nodes_[i]], distance + i * WIDTH, keys, count);
     }
-    if (count < nearest.size()) return false;
     std::fill_n(keys + count, WIDTH, std::numeric_limits<double>::infinity());  // they come last
     double sorted[MOST_SITES + 1];
     for (std::size_t i = 0; i < count; i += WIDTH) place(keys + i, keys, count, sorted);
-    for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::bit_cast<Neighbour>(sorted[i]);
-    return true;
+    const std::size_t found = std::min(count, nearest.size());
+    for (std::size_t i = 0; i < found; ++i) nearest[i] = std::bit_cast<Neighbour>(sorted[i]);
+    return found;
   }
 
  private:
@@ -255,6 +266,7 @@ class NeighbourSearch::Ball {
     for (std::size_t i = 0; i < count_; ++i) {
       if (count > MOST_NODES - WIDTH) {
         count = 0;
+        complete_ = false;
         break;
       }
       const Boxes& boxes = search_.levels_[level][nodes_[i]];
@@ -305,7 +317,19 @@ class NeighbourSearch::Ball {
   float reach_squared_;
   std::uint32_t nodes_[MOST_NODES];
   std::size_t count_;
+  bool complete_ = true;
 };
+
+std::size_t NeighbourSearch::find_within(const glm::vec3& query, std::span<Neighbour> nearest,
+                                         float reach_squared) const {
+  if (blocks_.empty()) return 0;
+  const Ball ball(*this, query, query, reach_squared);
+  if (ball.complete())
+    if (const auto count = ball.collect(query, nearest)) return *count;
+  std::size_t count = find(query, nearest);
+  while (count > 0 && nearest[count - 1].distance_squared() > reach_squared) --count;
+  return count;
+}
 
 std::size_t NeighbourSearch::find(const glm::vec3& query, std::span<Neighbour> nearest, float guess) const {
   if (!blocks_.empty() && Ball(*this, query, query, guess).find(query, nearest)) return nearest.size();

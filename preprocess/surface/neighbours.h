@@ -47,6 +47,10 @@ class NeighbourSearch {
   /// The same, faster where few more sites than asked for are at a squared distance of at most `guess`.
   std::size_t find(const glm::vec3& query, std::span<Neighbour> nearest, float guess) const;
 
+  /// The nearest sites at a distance > 0 and a squared one of at most `reach_squared` from `query`, ascending; as many as
+  /// there are, at most nearest.size().
+  std::size_t find_within(const glm::vec3& query, std::span<Neighbour> nearest, float reach_squared) const;
+
   /// What is done with a point of the cloud and its nearest sites.
   using Visit = std::function<void(std::uint32_t point, std::span<const Neighbour> nearest)>;
 

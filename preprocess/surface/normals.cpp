@@ -87,9 +87,11 @@ class Sides {
     if (glm::dot(spread_.axis[0], up) < 0.0) spread_.axis[0] = -spread_.axis[0];
   }
 
+  [[nodiscard]] bool is_sheet() const { return spread_.variance[0] < FLAT * FLAT * spread_.variance[1]; }
+  [[nodiscard]] const glm::dvec3& axis() const { return spread_.axis[0]; }
+
   [[nodiscard]] glm::dvec3 turned(const glm::dvec3& normal, const glm::dvec3& point) const {
-    const bool is_sheet = spread_.variance[0] < FLAT * FLAT * spread_.variance[1];
-    return glm::dot(normal, is_sheet ? spread_.axis[0] : point - spread_.mean) < 0.0 ? -normal : normal;
+    return glm::dot(normal, is_sheet() ? spread_.axis[0] : point - spread_.mean) < 0.0 ? -normal : normal;
   }
 
  private:
@@ -103,6 +105,11 @@ glm::dvec3 plane_normal(std::span<const glm::dvec3> points, const glm::dvec3& up
   if (!(spread.variance[2] > 0.0)) return up;
   if (spread.variance[1] <= STRAIGHT * spread.variance[2]) return perpendicular_nearest(spread.axis[2], up);
   return spread.axis[0];
+}
+
+std::optional<glm::dvec3> sheet_axis(const Cloud& cloud, const glm::dvec3& up) {
+  const Sides sides(cloud, up);
+  return sides.is_sheet() ? std::optional(sides.axis()) : std::nullopt;
 }
 
 std::uint64_t estimate_normals(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {

@@ -78,6 +78,7 @@ SceneOptions random_scene(Dice& dice) {
   params.radius_scale = number(dice, 1e-3, 1e3);
   params.samples = dice.seed() >> 11U;
   params.normal_fields = dice.chance(0.5);
+  params.smooth_world = dice.chance(0.3) ? -1.0 : dice.chance(0.3) ? 0.0 : 0.25 * (1 + dice.below(8));
   if (dice.chance(0.5)) scene.material = material_names()[dice.below(std::uint32_t(material_names().size()))];
   return scene;
 }

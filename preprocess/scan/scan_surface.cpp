@@ -1,0 +1,56 @@
+#include "preprocess/scan/scan_surface.h"
+
+#include <algorithm>
+
+#include "preprocess/scan/noise.h"
+#include "preprocess/scan/sides.h"
+#include "preprocess/scan/smooth.h"
+#include "preprocess/scan/strays.h"
+#include "preprocess/scan/survey.h"
+
+namespace splatray {
+namespace {
+
+constexpr double NOISY = 0.05;  // noise (measure_noise) from which points are moved
+
+/// Leaves out what find_strays finds, in the survey too.
+void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
+  const std::vector<Stray> strays = find_strays(cloud, survey);
+  const auto count = [&](Stray kind) {
+    return static_cast<std::uint64_t>(std::count(strays.begin(), strays.end(), kind));
+  };
+  const std::uint64_t isolated = count(Stray::isolated), mixed = count(Stray::mixed);
+  if (isolated + mixed == 0) return;
+  stats.dropped_isolated += isolated;
+  stats.dropped_mixed += mixed;
+  const auto kept = numbers_where(cloud.size(), [&](std::size_t i) { return strays[i] == Stray::no; });
+  std::vector<std::uint32_t> number(cloud.size(), NO_CELL);  // after the others are gone
+  for (std::uint32_t n = 0; n < kept.size(); ++n) number[kept[n]] = n;
+  keep_points(cloud, kept);
+  survey = survey.kept(kept, number);
+}
+
+}  // namespace
+
+std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildParams& params,
+                                const Stage& stage, BuildStats& stats) {
+  Survey survey = survey_points(cloud, up, stage);
+  drop_strays(cloud, survey, stats);
+  const auto estimated = numbers_where(cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0; });
+  const SidesFound sides = turn_to_sides(cloud, survey, estimated, up, stage);
+  if (!estimated.empty()) ++stats.sides_by[static_cast<std::size_t>(sides.rung)];
+  stats.sides_unsure += sides.unsure;
+  const double noise = measure_noise(cloud, survey);
+  stats.noise = std::max(stats.noise, noise);
+  if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noise > NOISY)) {
+    const double radius = std::max(params.smooth_world, 0.0) / cloud.half_extent_world;
+    const bool sided = estimated.empty() || sides.rung == SideRung::sensor;
+    const Smoothed smoothed = smooth_points(cloud, survey.reach, radius, sided, stage);
+    stats.smoothed += smoothed.moved;
+    stats.dropped_unsupported += smoothed.dropped;
+    stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);
+  }
+  return estimated.size();
+}
+
+}  // namespace splatray

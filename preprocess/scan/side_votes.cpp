@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "preprocess/scan/components.h"
+#include "preprocess/scan/occupancy.h"
+#include "preprocess/scan/sides.h"
+
+namespace splatray {
+namespace {
+
+/// Most that neighbours on one part may differ, in the rounds that join them: Kruskal's order, in steps.
+constexpr std::array<float, 5> LIMITS{0.01F, 0.03F, 0.07F, 0.12F, 0.2F};
+constexpr float LINK = 2.0F;  // of neighbours that are near, in units of both their distances to the 8th
+constexpr std::size_t MOST_VOTERS = 1U << 17;
+constexpr double START = 2.2;        // of a ray above its point, in cells: beyond the surface's own
+constexpr double ROOM_SHARE = 0.15;  // of the points in planes that all others are on one side of: a room
+constexpr float FLAT = 0.99F;        // cosine of normals of one such plane
+constexpr std::uint64_t LEAST_VOTES = 8;
+
+/// How much two neighbours look like no one surface, 0..1: by the angle of their normals, and of the step between them to
+/// both planes.
+float difference(const Cloud& cloud, std::uint32_t i, std::uint32_t j) {
+  const glm::vec3 step = cloud.coord[j] - cloud.coord[i];
+  const float length = glm::length(step);
+  const float lift =
+      std::max(std::abs(glm::dot(cloud.normal[i], step)), std::abs(glm::dot(cloud.normal[j], step)));
+  const float turn = 1.0F - std::abs(glm::dot(cloud.normal[i], cloud.normal[j]));
+  return std::max(turn, length > 0.0F ? 0.3F * lift * lift / (length * length) : 0.0F);
+}
+
+bool are_near(const Cloud& cloud, const Survey& survey, std::uint32_t i, std::uint32_t j) {
+  const glm::vec3 step = cloud.coord[j] - cloud.coord[i];
+  const float reach = LINK * std::min(survey.reach[i], survey.reach[j]);
+  return glm::dot(step, step) <= reach * reach;
+}
+
+/// Parts of the surface, and on which of its part's two sides each normal is.
+struct Parts {
+  std::vector<std::uint32_t> part;   ///< of each point: its least member
+  std::vector<std::uint8_t> turned;  ///< against the part's least member
+};
+
+/// Disjoint sets whose members know their side against the set's least one.
+class SignedSets {
+ public:
+  explicit SignedSets(std::size_t count) : parent_(count), turned_(count, 0) {
+    for (std::uint32_t i = 0; i < count; ++i) parent_[i] = i;
+  }
+
+  struct Root {
+    std::uint32_t root;
+    std::uint8_t turned;
+  };
+  [[nodiscard]] Root find(std::uint32_t i) {
+    std::uint8_t turned = 0;
+    while (parent_[i] != i) {  // paths are halved; the turns of both links add, a root has none
+      const std::uint32_t up = parent_[i];
+      turned_[i] = static_cast<std::uint8_t>(turned_[i] ^ turned_[up]);
+      parent_[i] = parent_[up];
+      turned = static_cast<std::uint8_t>(turned ^ turned_[i]);
+      i = parent_[i];
+    }
+    return {i, turned};
+  }
+  void join(std::uint32_t i, std::uint32_t j, bool opposite) {
+    Root a = find(i), b = find(j);
+    if (a.root == b.root) return;
+    if (a.root > b.root) std::swap(a, b);
+    parent_[b.root] = a.root;
+    turned_[b.root] = static_cast<std::uint8_t>(a.turned ^ b.turned ^ (opposite ? 1 : 0));
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint8_t> turned_;  ///< against the parent
+};
+
+/// In which round each of a point's listed neighbours may join it; LIMITS.size() = in none.
+std::vector<std::uint8_t> find_rounds(const Cloud& cloud, const Survey& survey) {
+  std::vector<std::uint8_t> rounds(survey.listed.size());
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t n) {
+    const auto i = static_cast<std::uint32_t>(n);
+    for (std::size_t k = 0; k < Survey::LISTED; ++k) {
+      const std::uint32_t j = survey.around(i)[k];
+      const bool linked = j != i && are_near(cloud, survey, i, j);
+      const auto limit =
+          linked ? std::lower_bound(LIMITS.begin(), LIMITS.end(), difference(cloud, i, j)) : LIMITS.end();
+      rounds[n * Survey::LISTED + k] = static_cast<std::uint8_t>(limit - LIMITS.begin());
+    }
+  });
+  return rounds;
+}
+
+Parts find_parts(const Cloud& cloud, const Survey& survey) {
+  SignedSets sets(cloud.size());
+  const std::vector<std::uint8_t> rounds = find_rounds(cloud, survey);
+  for (std::size_t round = 0; round < LIMITS.size(); ++round) {
+    for (std::size_t link = 0; link < rounds.size(); ++link) {
+      if (rounds[link] != round) continue;
+      const auto i = static_cast<std::uint32_t>(link / Survey::LISTED);
+      const std::uint32_t j = survey.listed[link];
+      sets.join(i, j, glm::dot(cloud.normal[i], cloud.normal[j]) < 0.0F);
+    }
+  }
+  Parts parts;
+  parts.part.resize(cloud.size());
+  parts.turned.resize(cloud.size());
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const auto [root, turned] = sets.find(i);
+    parts.part[i] = root;
+    parts.turned[i] = turned;
+  }
+  return parts;
+}
+
+/// Whether much of the cloud lies in walls, floors and ceilings: planes that all but few points are on one side of.
+bool is_room(const Cloud& cloud, const Survey& survey) {
+  constexpr std::size_t PLANES = 512, POINTS = 2000;
+  const std::size_t planes = std::min(PLANES, cloud.size()), points = std::min(POINTS, cloud.size());
+  std::vector<std::uint8_t> bounds(planes);
+  tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
+    const std::size_t i = p * cloud.size() / planes;
+    const double near = 2.0 * survey.reach[i] + 0.002;
+    std::size_t above = 0, below = 0, within = 0;
+    for (std::size_t q = 0; q < points; ++q) {
+      const std::size_t j = q * cloud.size() / points;
+      const double height =
+          glm::dot(glm::dvec3(cloud.normal[i]), glm::dvec3(cloud.coord[j] - cloud.coord[i]));
+      above += height > near ? 1 : 0;
+      below += height < -near ? 1 : 0;
+      const bool alike = std::abs(glm::dot(cloud.normal[i], cloud.normal[j])) > FLAT;
+      within += alike && std::abs(height) <= near ? 1 : 0;
+    }
+    bounds[p] = std::min(above, below) < points / 50 && within > points / 25;
+  });
+  const auto count = static_cast<double>(std::count(bounds.begin(), bounds.end(), 1));
+  return count > ROOM_SHARE * static_cast<double>(planes);
+}
+
+/// A direction about +z, the same for the same number, cosine-weighted: a Halton sequence's members (bases 2 and 3).
+glm::dvec3 direction(std::uint32_t number) {
+  const auto inverse = [](std::uint32_t n, std::uint32_t base) {
+    double value = 0.0, digit = 1.0 / base;
+    for (; n > 0; n /= base, digit /= base) value += digit * (n % base);
+    return value;
+  };
+  const double along = inverse(number, 2), angle = 2.0 * std::numbers::pi * inverse(number, 3);
+  const double ring = std::sqrt(along);
+  return {ring * std::cos(angle), ring * std::sin(angle), std::sqrt(1.0 - along)};
+}
+
+/// Votes of a part for its least member's side as it is, and for the opposite.
+struct Votes {
+  std::uint64_t same = 0, opposite = 0;
+
+  [[nodiscard]] bool sure() const {
+    return same + opposite >= LEAST_VOTES && std::max(same, opposite) >= 2 * std::min(same, opposite);
+  }
+};
+
+/// For each point the room in front of its normal against that behind: 1, -1, or 0 where both are the same or it has no vote.
+std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, const Stage& stage) {
+  const Occupancy space(cloud, cell_edge(survey));
+  const double beyond = is_room(cloud, survey) ? 0.0 : 4.0;  // more than any way through the cloud
+  const std::size_t stride = cloud.size() / MOST_VOTERS + 1;
+  std::vector<std::int8_t> votes(cloud.size());
+  parallel_each(stage, cloud.size() / stride, [&](std::size_t n) {
+    const std::size_t i = n * stride;
+    const glm::dvec3 normal(cloud.normal[i]);
+    const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(normal, side)), v = glm::cross(normal, u);
+    double room = 0.0;
+    for (std::uint32_t ray = 0; ray < 4; ++ray) {
+      const glm::dvec3 local = direction(static_cast<std::uint32_t>(n % 1024) * 4 + ray + 1);
+      for (const double sign : {1.0, -1.0}) {
+        const glm::dvec3 dir = local.x * u + local.y * v + sign * local.z * normal;
+        const glm::dvec3 origin = glm::dvec3(cloud.coord[i]) + sign * START * space.edge() * normal;
+        room += sign * std::min(space.free_path(origin, dir).value_or(beyond), 4.0);
+      }
+    }
+    votes[i] = static_cast<std::int8_t>(room > 0.0 ? 1 : room < 0.0 ? -1 : 0);
+  });
+  return votes;
+}
+
+/// Parts that are not sure do as their neighbours in parts that are: by the sum of cosines over all steps from one to the
+/// other. The ring of what is sure grows by one part a round.
+void ask_neighbours(const Cloud& cloud, const Survey& survey, const Parts& parts,
+                    std::vector<std::int8_t>& side) {
+  constexpr int ROUNDS = 8;
+  constexpr float LEAST = 1.0F;
+  for (int round = 0; round < ROUNDS; ++round) {
+    std::vector<float> sum(cloud.size(), 0.0F);
+    for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+      if (side[parts.part[i]] != 0) continue;
+      for (const std::uint32_t j : survey.around(i)) {
+        const std::int8_t known = side[parts.part[j]];
+        if (known == 0 || !are_near(cloud, survey, i, j)) continue;
+        const bool turned = (parts.turned[i] ^ parts.turned[j]) != 0;
+        sum[parts.part[i]] +=
+            static_cast<float>(known) * (turned ? -1.0F : 1.0F) * glm::dot(cloud.normal[i], cloud.normal[j]);
+      }
+    }
+    bool grown = false;
+    for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+      if (parts.part[i] != i || side[i] != 0 || std::abs(sum[i]) < LEAST) continue;
+      side[i] = sum[i] > 0.0F ? 1 : -1;
+      grown = true;
+    }
+    if (!grown) return;
+  }
+}
+
+}  // namespace
+
+std::uint64_t turn_by_votes(Cloud& cloud, const Survey& survey, const Stage& stage) {
+  const Parts parts = find_parts(cloud, survey);
+  const std::vector<std::int8_t> cast = cast_votes(cloud, survey, stage);
+  std::vector<Votes> votes(cloud.size());  // of parts, at their least members
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (cast[i] == 0) continue;
+    Votes& of_part = votes[parts.part[i]];
+    ++((cast[i] > 0) == (parts.turned[i] == 0) ? of_part.same : of_part.opposite);
+  }
+  std::vector<std::int8_t> side(cloud.size(), 0);
+  for (std::uint32_t i = 0; i < cloud.size(); ++i)
+    if (parts.part[i] == i && votes[i].sure()) side[i] = votes[i].same > votes[i].opposite ? 1 : -1;
+  ask_neighbours(cloud, survey, parts, side);
+  std::uint64_t unsure = 0;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const std::uint32_t part = parts.part[i];
+    unsure += side[part] == 0 ? 1 : 0;
+    const std::int8_t its = side[part] != 0 ? side[part] : votes[part].same >= votes[part].opposite ? 1 : -1;
+    if ((its > 0) == (parts.turned[i] != 0)) cloud.normal[i] = -cloud.normal[i];
+  }
+  return unsure;
+}
+
+}  // namespace splatray

@@ -1,0 +1,41 @@
+/// Which of its two sides each estimated normal points to.
+#pragma once
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "preprocess/base/parallel.h"
+#include "preprocess/scan/survey.h"
+#include "preprocess/surface/cloud.h"
+
+namespace splatray {
+
+/// What told the sides, best first.
+enum class SideRung : std::uint8_t {
+  given,   ///< the input's own normals
+  sensor,  ///< the scanner's place
+  track,   ///< the aircraft's, from its pulses
+  up,      ///< terrain and other sheets
+  votes    ///< of rays: nothing is known
+};
+inline constexpr std::size_t SIDE_RUNGS = 5;
+[[nodiscard]] std::string_view name_of(SideRung rung);
+
+/// How the sides of a cloud were found.
+struct SidesFound {
+  SideRung rung = SideRung::given;
+  std::uint64_t unsure = 0;  ///< points whose side had less than two thirds of the votes
+};
+
+/// Turns the normals of the points of `estimated` numbers (ascending) by the first of the rungs that has data.
+SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& estimated,
+                         const glm::dvec3& up, const Stage& stage);
+
+/// Sides where nothing is known: parts of smooth surface, joined over the neighbours by how little their normals differ
+/// (Hoppe et al. 1992, sec. 3.3, with Kruskal's tree), each turned to where rays tell that there is more room (Takayama et
+/// al. 2014, "A simple method for correcting facet orientations in polygon meshes based on ray casting"). What lies beyond
+/// the cloud counts as room, but for rooms, which are seen from within: there it counts as none. Returns the points whose
+/// parts had less than two thirds of the votes and no neighbour that knew better.
+[[nodiscard]] std::uint64_t turn_by_votes(Cloud& cloud, const Survey& survey, const Stage& stage);
+
+}  // namespace splatray

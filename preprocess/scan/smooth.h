@@ -1,0 +1,27 @@
+/// Noisy points, moved onto the surface that they and their neighbours are of.
+#pragma once
+#include <cstdint>
+
+#include "preprocess/base/parallel.h"
+#include "preprocess/surface/cloud.h"
+
+namespace splatray {
+
+/// What smoothing did.
+struct Smoothed {
+  std::uint64_t moved = 0;
+  std::uint64_t dropped = 0;        ///< had fewer than 6 neighbours on their surface
+  double moved_median_world = 0.0;  ///< how far the points moved
+};
+
+/// Projects every point and its normal once onto the plane of its surroundings, by moving least squares (Levin 2003; Alexa et
+/// al. 2003, "Computing and rendering point set surfaces", with the mean normal for the plane's as Adamson and Alexa 2004): at
+/// most 64 nearest places within `radius` (cloud coordinates; 0 = 2.5 times the distance to the 8th place, the point's own
+/// or the median of all, whichever is more), weights (1 - d^2/R^2)^2 times the cosine to the point's own normal, so that
+/// surfaces behind and edges stay; the plane of weighted mean and mean normal, twice weighted anew by the distance to it.
+/// Points with fewer than 6 such neighbours are dropped. Normals must be known; `sided` when their sides are too. The cloud
+/// is in order afterwards.
+[[nodiscard]] Smoothed smooth_points(Cloud& cloud, const std::vector<float>& reach, double radius, bool sided,
+                                     const Stage& stage);
+
+}  // namespace splatray

@@ -1,0 +1,189 @@
+// What preprocess makes of simulated scans: strays, sides, noise.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "engine/scene/splat.h"
+#include "preprocess/build.h"
+#include "preprocess/scan/sides.h"
+#include "tests/scan_sim/scanner.h"
+#include "tests/scan_sim/sim_meshes.h"
+
+namespace splatray::testing {
+namespace {
+
+constexpr std::string_view NUMBER = "number";  // of each point, to find it again
+
+struct Built {
+  Scene scene;
+  BuildStats stats;
+};
+
+Built build(const SimulatedScan& scan, const BuildParams& params = {}, unsigned threads = 0) {
+  Input input;
+  input.up = glm::dvec3(0.0, 0.0, 1.0);
+  InputObject object;
+  object.material = default_material();
+  object.points = scan.points;
+  std::vector<double> numbers(scan.size());
+  std::iota(numbers.begin(), numbers.end(), 0.0);
+  object.points.columns.push_back({std::string(NUMBER), numbers});
+  input.objects.push_back(std::move(object));
+  Built built;
+  built.scene = build_scene(std::move(input), params, threads, built.stats);
+  return built;
+}
+
+/// Shares of the points of each kind that are drawn, and of right sides among surface points.
+struct Shares {
+  double surface = 0.0, mixed = 0.0, stray = 0.0, right = 0.0;
+};
+
+Shares shares_of(const SimulatedScan& scan, const Scene& scene) {
+  std::array<double, 3> all{}, drawn{};
+  for (const PointKind kind : scan.kind) all[static_cast<std::size_t>(kind)] += 1.0;
+  const Column& number = *find_column(scene.columns, NUMBER);
+  double right = 0.0;
+  for (std::size_t s = 0; s < scene.data_pool.size(); ++s) {
+    const auto i = static_cast<std::size_t>(number.number(s));
+    drawn[static_cast<std::size_t>(scan.kind[i])] += 1.0;
+    if (scan.kind[i] != PointKind::surface) continue;
+    right += glm::dot(unpack_splat(scene.data_pool[s]).normal, scan.normal[i]) > 0.0 ? 1.0 : 0.0;
+  }
+  for (std::size_t kind = 0; kind < all.size(); ++kind) drawn[kind] /= std::max(all[kind], 1.0);
+  return {drawn[0], drawn[1], drawn[2], right / std::max(drawn[0] * all[0], 1.0)};
+}
+
+SimulatedScan ball_scan(const Beam& beam = {.noise = 0.0005}) {
+  return range_images(TriangleTree(sphere_mesh(4)), {.views = 6, .pixels = 60, .misplaced = 0.0}, beam);
+}
+
+SimulatedScan room_scan(double step_deg = 1.5) {
+  const Tripod tripod{.sensors = {{-0.3, 0.2, 1.6}}, .step_deg = step_deg, .highest_deg = 75.0};
+  return scan_from_tripods(TriangleTree(room_mesh()), tripod, {.stray_share = 0.003});
+}
+
+SimulatedScan without_stations(SimulatedScan scan) {
+  scan.points.stations.clear();
+  scan.points.station.clear();
+  scan.points.grid_cell.clear();
+  return scan;
+}
+
+TEST(ScanSurface, StraysAndMixedPixelsAreNotDrawn) {
+  const SimulatedScan scan = room_scan(0.5);
+  const Built built = build(scan);
+  const Shares shares = shares_of(scan, built.scene);
+  EXPECT_GT(shares.surface, 0.96);
+  EXPECT_LT(shares.stray, 0.05);
+  EXPECT_LT(shares.mixed, 0.3);
+  EXPECT_EQ(built.stats.dropped_isolated + built.stats.dropped_mixed + built.stats.dropped_unsupported,
+            scan.size() - built.scene.data_pool.size());
+}
+
+TEST(ScanSurface, SidesAreTheSensors) {
+  const SimulatedScan scan = ball_scan();
+  const Built built = build(scan);
+  EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
+  EXPECT_GT(shares_of(scan, built.scene).right, 0.995);
+}
+
+TEST(ScanSurface, SensorsOnTheOtherSideTurnTheNormals) {
+  SimulatedScan scan = ball_scan();
+  for (Station& station : scan.points.stations) station.sensor_world = glm::dvec3(0.0);
+  EXPECT_LT(shares_of(scan, build(scan).scene).right, 0.005);
+}
+
+TEST(ScanSurface, VotesTellOutsidesOfBodies) {
+  const SimulatedScan scan = without_stations(ball_scan());
+  const Built built = build(scan);
+  EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::votes)], 1U);
+  EXPECT_GT(shares_of(scan, built.scene).right, 0.97);
+}
+
+TEST(ScanSurface, VotesTellInsidesOfRooms) {
+  const SimulatedScan scan = without_stations(room_scan());
+  EXPECT_GT(shares_of(scan, build(scan).scene).right, 0.9);
+}
+
+TEST(ScanSurface, PulsesTellTheTrack) {
+  const SimulatedScan scan =
+      scan_from_air(TriangleTree(terrain_mesh()), {.from_x = -45.0, .to_x = 45.0, .spacing = 0.8},
+                    {.noise = 0.02, .divergence = 2e-3});
+  const Built built = build(scan);
+  EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::track)], 1U);
+  EXPECT_GT(shares_of(scan, built.scene).right, 0.98);
+}
+
+/// Root mean square of the points' distances from the unit sphere.
+double roughness(const Scene& scene) {
+  double sum = 0.0;
+  for (const uvec4& words : scene.data_pool) {
+    const double off = glm::length(scene.root.to_world(unpack_splat(words).center)) - 1.0;
+    sum += off * off;
+  }
+  return std::sqrt(sum / static_cast<double>(scene.data_pool.size()));
+}
+
+TEST(ScanSurface, NoiseIsSmoothedUnlessThatIsOff) {
+  const TriangleTree ball(sphere_mesh(6));
+  const SimulatedScan scan =
+      range_images(ball, {.views = 6, .pixels = 120, .misplaced = 0.0}, {.noise = 0.005, .stray_share = 0.0});
+  const Built smoothed = build(scan);
+  const Built rough = build(scan, {.smooth_world = 0.0});
+  EXPECT_GT(smoothed.stats.smoothed, 0U);
+  EXPECT_EQ(rough.stats.smoothed, 0U);
+  EXPECT_LT(roughness(smoothed.scene), 0.5 * roughness(rough.scene));
+}
+
+/// Points of a sphere without noise, with normals, as no mesh's.
+InputObject clean_points() {
+  InputObject object;
+  object.material = default_material();
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 p = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    object.points.position.push_back(p);
+    object.points.normal.emplace_back(p);
+  }
+  return object;
+}
+
+TEST(ScanSurface, CleanPointsStayBitForBit) {
+  Scene scenes[2];
+  for (const bool measured : {true, false}) {
+    Input input;
+    input.objects.push_back(clean_points());
+    input.objects[0].surface_area = measured ? 0.0 : 1.0;  // a mesh's points are never touched
+    BuildStats stats;
+    scenes[measured ? 0 : 1] = build_scene(std::move(input), {}, 0, stats);
+    EXPECT_EQ(stats.smoothed + stats.dropped_isolated + stats.dropped_mixed, 0U);
+  }
+  EXPECT_EQ(scenes[0].data_pool, scenes[1].data_pool);
+  EXPECT_EQ(scenes[0].field_pool, scenes[1].field_pool);
+}
+
+TEST(ScanSurface, DoesNotDependOnOrderOrThreads) {
+  SimulatedScan scan = room_scan();
+  const Built one = build(scan, {}, 1);
+  std::vector<std::uint32_t> order(scan.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::shuffle(order.begin(), order.end(), std::mt19937_64(3));
+  SimulatedScan shuffled = scan;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    shuffled.points.position[i] = scan.points.position[order[i]];
+    shuffled.points.station[i] = scan.points.station[order[i]];
+    shuffled.points.grid_cell[i] = scan.points.grid_cell[order[i]];
+  }
+  const Built other = build(shuffled, {}, 4);
+  EXPECT_EQ(one.scene.data_pool, other.scene.data_pool);
+  EXPECT_EQ(one.scene.reference_pool, other.scene.reference_pool);
+}
+
+}  // namespace
+}  // namespace splatray::testing

@@ -1,0 +1,120 @@
+#include "tests/scan_sim/sim_meshes.h"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace splatray::testing {
+namespace {
+
+using glm::dvec3;
+
+void add_triangle(Mesh& mesh, const dvec3& a, const dvec3& b, const dvec3& c) {
+  const auto first = static_cast<glm::uint>(mesh.vertices.position.size());
+  for (const dvec3& corner : {a, b, c}) mesh.vertices.position.push_back(corner);
+  mesh.triangles.emplace_back(first, first + 1, first + 2);
+}
+
+void add_quad(Mesh& mesh, const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
+  add_triangle(mesh, a, b, c);
+  add_triangle(mesh, a, c, d);
+}
+
+void add_box(Mesh& mesh, const dvec3& low, const dvec3& high) {
+  const auto corner = [&](int i) {
+    return dvec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z);
+  };
+  constexpr int FACES[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                               {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& face : FACES)
+    add_quad(mesh, corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3]));
+}
+
+void add_column(Mesh& mesh, const dvec3& foot, double radius, double height) {
+  constexpr int SIDES = 48;
+  const auto rim = [&](int i, double z) {
+    const double angle = 2.0 * std::numbers::pi * i / SIDES;
+    return foot + dvec3(radius * std::cos(angle), radius * std::sin(angle), z);
+  };
+  for (int i = 0; i < SIDES; ++i)
+    add_quad(mesh, rim(i, 0.0), rim(i + 1, 0.0), rim(i + 1, height), rim(i, height));
+}
+
+/// A square lattice of `side` x `side` cells, from the parameters (0, 0) to (1, 1).
+void add_sheet(Mesh& mesh, int side, const std::function<dvec3(double, double)>& place) {
+  const auto at = [&](int i, int j) { return place(double(i) / side, double(j) / side); };
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) add_quad(mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+}
+
+}  // namespace
+
+Mesh sphere_mesh(int levels) {
+  Mesh mesh;
+  const std::function<void(const dvec3&, const dvec3&, const dvec3&, int)> add =
+      [&](const dvec3& a, const dvec3& b, const dvec3& c, int left) {
+        if (left == 0) return add_triangle(mesh, a, b, c);
+        const dvec3 ab = glm::normalize(a + b), bc = glm::normalize(b + c), ca = glm::normalize(c + a);
+        add(a, ab, ca, left - 1);
+        add(ab, b, bc, left - 1);
+        add(ca, bc, c, left - 1);
+        add(ab, bc, ca, left - 1);
+      };
+  for (int octant = 0; octant < 8; ++octant) {
+    const double x = (octant & 1) != 0 ? -1.0 : 1.0, y = (octant & 2) != 0 ? -1.0 : 1.0,
+                 z = (octant & 4) != 0 ? -1.0 : 1.0;
+    const bool turned = x * y * z < 0.0;
+    add({x, 0, 0}, turned ? dvec3(0, 0, z) : dvec3(0, y, 0), turned ? dvec3(0, y, 0) : dvec3(0, 0, z),
+        levels);
+  }
+  return mesh;
+}
+
+Mesh room_mesh() {
+  Mesh mesh;
+  add_box(mesh, {-6.0, -4.5, 0.0}, {6.0, 4.5, 3.2});
+  for (const double x : {-4.0, -1.4, 1.4, 4.0})
+    for (const double y : {-2.6, 2.6}) add_column(mesh, {x, y, 0.0}, 0.25, 3.2);
+  for (const double x : {-2.7, 2.9}) {
+    add_box(mesh, {x - 0.7, -0.4, 0.70}, {x + 0.7, 0.4, 0.74});
+    for (const double leg_x : {x - 0.65, x + 0.65})
+      for (const double leg_y : {-0.35, 0.35}) add_column(mesh, {leg_x, leg_y, 0.0}, 0.025, 0.7);
+  }
+  add_box(mesh, {5.5, -3.0, 0.0}, {5.85, -1.0, 2.0});
+  return mesh;
+}
+
+Mesh terrain_mesh() {
+  Mesh mesh;
+  const auto height = [](double x, double y) {
+    return 4.0 * std::sin(0.05 * x) * std::cos(0.07 * y) + 1.5 * std::sin(0.21 * x + 0.13 * y) +
+           0.25 * std::sin(0.9 * x) * std::sin(0.8 * y);
+  };
+  add_sheet(mesh, 240, [&](double u, double v) {
+    const double x = 120.0 * (u - 0.5), y = 120.0 * (v - 0.5);
+    return dvec3(x, y, height(x, y));
+  });
+  for (const double x : {-35.0, 0.0, 30.0}) {
+    for (const double y : {-25.0, 20.0}) {
+      const double ground = height(x, y);
+      add_box(mesh, {x - 5.0, y - 4.0, ground - 3.0}, {x + 5.0, y + 4.0, ground + 4.0});
+    }
+  }
+  return mesh;
+}
+
+Mesh body_mesh() {
+  Mesh mesh;
+  add_sheet(mesh, 200, [](double u, double v) {
+    const double longitude = 2.0 * std::numbers::pi * u, latitude = std::numbers::pi * (v - 0.5);
+    const dvec3 dir(std::cos(latitude) * std::cos(longitude), std::sin(latitude),
+                    std::cos(latitude) * std::sin(longitude));
+    const double bumps = 0.16 * std::sin(3.0 * dir.x + 1.0) * std::cos(4.0 * dir.y) +
+                         0.10 * std::sin(6.0 * dir.z + 2.0 * dir.x) +
+                         0.03 * std::sin(17.0 * dir.x) * std::sin(15.0 * dir.y) * std::sin(16.0 * dir.z);
+    return (0.8 + bumps) * dir * dvec3(1.0, 1.15, 0.8);
+  });
+  return mesh;
+}
+
+}  // namespace splatray::testing
