@@ -11,7 +11,8 @@
 namespace splatray {
 namespace {
 
-constexpr double NOISY = 0.05;  // noise (measure_noise) from which points are moved
+constexpr double NOISY = 0.05;        // noise (measure_noise) from which points are moved
+constexpr std::size_t FEWEST = 1000;  // points that tell noise from shape
 
 /// Leaves out what find_strays finds, in the survey too.
 void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
@@ -42,7 +43,8 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   stats.sides_unsure += sides.unsure;
   const double noise = measure_noise(cloud, survey);
   stats.noise = std::max(stats.noise, noise);
-  if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noise > NOISY)) {
+  const bool noisy = noise > NOISY && cloud.size() >= FEWEST;
+  if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
     const double radius = std::max(params.smooth_world, 0.0) / cloud.half_extent_world;
     const bool sided = estimated.empty() || sides.rung == SideRung::sensor;
     const Smoothed smoothed = smooth_points(cloud, survey.reach, radius, sided, stage);

@@ -138,6 +138,7 @@ Smoothed smooth_points(Cloud& cloud, const std::vector<float>& reach, double rad
     now = std::move(next);
   }
   const auto kept = numbers_where(size, [&](std::size_t i) { return now.supported[i] != 0; });
+  if (kept.empty()) return {};  // nothing supports anything: the radius is too small for these points
   std::vector<float> moved(kept.size());
   tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t n) {
     const std::uint32_t i = kept[n];

@@ -134,7 +134,7 @@ TEST(Attributes, WhatASceneDoesNotHaveIsNamed) {
 }
 
 TEST(Attributes, DoNotDependOnTheOrderOfPoints) {
-  // Points that differ in nothing but an attribute: which of them is which must not follow the file's order.
+  // Far too few points to be smoothed. Points that differ in nothing but an attribute: which of them is which must not follow the file's order.
   const auto built = [](bool reversed) {
     Input input;
     Points& points = input.objects.emplace_back().points;

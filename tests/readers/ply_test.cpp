@@ -180,7 +180,7 @@ TEST(Input, WhatIsNoInputIsOneSentence) {
   EXPECT_NE(read_error(folder.write("a.abc", "1 2 3")).find(".ply .obj .stl .vtp .gltf .glb"),
             std::string::npos);
   std::filesystem::create_directory(folder.path() / "folder.ply");
-  EXPECT_NE(read_error(folder.path() / "folder.ply").find("directory"), std::string::npos);
+  EXPECT_NE(read_error(folder.path() / "folder.ply").find("found a folder without scans"), std::string::npos);
   EXPECT_NE(read_error(folder.write("none.ply",
                                     "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
                                     "property float y\nproperty float z\nend_header\n"))

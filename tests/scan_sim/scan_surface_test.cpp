@@ -185,5 +185,19 @@ TEST(ScanSurface, DoesNotDependOnOrderOrThreads) {
   EXPECT_EQ(one.scene.reference_pool, other.scene.reference_pool);
 }
 
+/// Seven points, six of them at one place: smoothing once left none of them, and an octree without a splat.
+TEST(ScanSurface, TooSmallARadiusLeavesThePointsAsTheyAre) {
+  for (const double smooth_world : {-1.0, 1e-3, 10.0}) {
+    Input input;
+    Points& points = input.objects.emplace_back().points;
+    points.position.assign(6, glm::dvec3(1.0, 2.0, 3.0));
+    points.position.emplace_back(0.0, 0.0, 0.0);
+    BuildParams params;
+    params.smooth_world = smooth_world;
+    BuildStats stats;
+    EXPECT_GE(build_scene(std::move(input), params, 1, stats).data_pool.size(), 2U) << smooth_world;
+  }
+}
+
 }  // namespace
 }  // namespace splatray::testing
