@@ -40,6 +40,7 @@ struct PictureOptions {
   std::optional<glm::dvec3> up;               ///< world; of the scene, its environment and the camera
   std::optional<glm::dvec3> camera_up;        ///< world; of the camera, where that is another
   std::optional<double> fov_y_deg;
+  Viewpoint viewpoint = Viewpoint::automatic;       ///< where no eye is given
   double ortho_height = 0.0;                        ///< world units; 0 = perspective
   std::optional<std::vector<LightOptions>> lights;  ///< unset = the scene's, or the default ones
   std::vector<ObjectOptions> objects;               ///< changes to materials, in this order

@@ -57,6 +57,13 @@ void add_camera_options(OptionList& list, PictureOptions& picture) {
       "--camera", [&picture](const std::string& file) { set_camera(picture, read_camera(file)); }, {},
       "camera file (JSON: eye, target, up, fov_y_deg or ortho_height); options beside it replace parts",
       "FILE");
+  std::vector<Choice<Viewpoint>> viewpoints;
+  for (const Viewpoint viewpoint :
+       {Viewpoint::automatic, Viewpoint::front, Viewpoint::oblique, Viewpoint::top, Viewpoint::inside})
+    viewpoints.push_back({viewpoint_name(viewpoint), viewpoint});
+  add_choice(list, "--view", picture.viewpoint, viewpoints,
+             "where a scene is looked at from without --eye; inside: from a scanner's place or the middle; "
+             "default auto: the scene's camera, else by the shape of a scan, else front");
   add_vector(list, "--eye", picture.eye,
              "camera position; default: the scene's camera, else a view of the whole scene");
   add_vector(list, "--target", picture.target, "point looked at; default the scene's centre; needs --eye");

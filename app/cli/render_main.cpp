@@ -42,6 +42,15 @@ LoadedScene load(const RenderOptions& options, ProgressLine& progress) {
   return loaded;
 }
 
+/// Says from where a scan is seen, as that was chosen by its shape.
+void tell_viewpoint(const RenderOptions& options, const Scene& scene) {
+  const PictureOptions& picture = options.picture;
+  const bool chosen = !picture.eye && !scene.camera && picture.viewpoint == Viewpoint::automatic;
+  if (options.quiet || !chosen || scene.stations.empty()) return;
+  std::fprintf(stderr, "splatray-render: view: %s (--view changes it)\n",
+               viewpoint_name(choose_viewpoint(scene)));
+}
+
 int render(int argc, char** argv) {
   const std::optional<RenderOptions> parsed = parse_render_options(argc, argv);
   if (!parsed) return static_cast<int>(ExitCode::done);
@@ -70,6 +79,7 @@ int render(int argc, char** argv) {
   Tracer tracer(context, {.pipeline_folder = user_cache_folder()});
   // What is asked of the pools, before they go.
   const Camera still = choose_camera(loaded.scene, options.picture);
+  tell_viewpoint(options, loaded.scene);
   const PoolCounts counts = pool_counts(loaded.scene);
   tracer.upload_and_free(loaded.scene);
   tracer.set_environment(environment);

@@ -83,8 +83,8 @@ Camera choose_camera(const Scene& scene, const PictureOptions& picture) {
     return {*picture.eye, target, up.value_or(up_across(scene, target - *picture.eye)),
             picture.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG), picture.ortho_height};
   }
-  if (!scene.camera || picture.up)
-    return framing_camera(scene, aspect, picture.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG));
+  if (!scene.camera || picture.up || picture.viewpoint != Viewpoint::automatic)
+    return viewpoint_camera(scene, picture.viewpoint, aspect, picture.fov_y_deg);
   Camera camera = *scene.camera;
   camera.fov_y_deg = picture.fov_y_deg.value_or(camera.fov_y_deg);
   return camera;

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "engine/image/view.h"
 #include "engine/scene/splat.h"
@@ -12,7 +14,15 @@ namespace {
 constexpr double DEG = std::numbers::pi / 180.0;
 constexpr double AZIMUTH_DEG = 27.0;    ///< from the front towards the scene's right
 constexpr double ELEVATION_DEG = 17.0;  ///< above the horizon
-constexpr double MARGIN = 1.06;         ///< picture size / size of the scene in it
+constexpr double OBLIQUE_DEG = 35.0;    ///< the same for terrain
+constexpr double OUTERMOST = 0.01;      ///< share of the points that a robust size leaves out at each end
+constexpr double FLAT = 0.3;        ///< height over width below which a scan is looked at from further above
+constexpr double EYE_SHARE = 0.45;  ///< height of the eye inside, over the scan's height
+constexpr double CENTRAL =
+    0.05;  ///< of the diagonal: an eye that near the middle looks along the longer side
+constexpr std::size_t SECTORS = 36;      ///< of directions around a scanner
+constexpr double OVERHEAD_SHARE = 0.05;  ///< of points more than 45 degrees above a scanner that is indoors
+constexpr double MARGIN = 1.06;          ///< picture size / size of the scene in it
 constexpr std::size_t MOST_POINTS = 1U << 16;
 
 /// What must be in the picture, world space: an even choice of the splat centres, or the bounding box's
@@ -45,20 +55,114 @@ struct AxisFit {
   [[nodiscard]] double distance() const { return 0.5 * (positive + negative) / slope; }
 };
 
+Camera camera_from_above(const Scene& scene, double aspect, double fov_y_deg, double elevation_deg) {
+  const glm::dmat3 axes = upright_axes(scene.up);
+  const glm::dvec3 level = std::cos(AZIMUTH_DEG * DEG) * axes[2] + std::sin(AZIMUTH_DEG * DEG) * axes[0];
+  const glm::dvec3 back = std::cos(elevation_deg * DEG) * level + std::sin(elevation_deg * DEG) * axes[1];
+  const glm::dvec3 right = glm::normalize(glm::cross(axes[1], back));
+  Camera camera = framing_camera(scene, aspect, fov_y_deg, {right, glm::cross(back, right), back});
+  camera.up = axes[1];
+  return camera;
+}
+
+/// The scene's size along right, up and front, without the outermost points.
+glm::dvec3 robust_size(const std::vector<glm::dvec3>& points, const glm::dmat3& axes) {
+  glm::dvec3 size(0.0);
+  std::vector<double> along(points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < points.size(); ++i) along[i] = glm::dot(points[i], axes[axis]);
+    const auto at = [&along](double share) {
+      const auto place = along.begin() + std::lround(share * static_cast<double>(along.size() - 1));
+      std::nth_element(along.begin(), place, along.end());
+      return *place;
+    };
+    const double low = at(OUTERMOST);
+    size[axis] = at(1.0 - OUTERMOST) - low;
+  }
+  return size;
+}
+
+/// Whether points lie on all sides of the place and above it.
+bool is_within(const std::vector<glm::dvec3>& points, const glm::dvec3& place, const glm::dmat3& axes) {
+  std::array<bool, SECTORS> seen{};
+  std::size_t overhead = 0;
+  for (const glm::dvec3& point : points) {
+    const glm::dvec3 q = glm::transpose(axes) * (point - place);
+    const double level = std::hypot(q.x, q.z);
+    if (q.y > level) ++overhead;
+    const double turn = (std::atan2(q.z, q.x) / std::numbers::pi + 1.0) / 2.0;
+    seen[std::min(static_cast<std::size_t>(turn * SECTORS), SECTORS - 1)] = true;
+  }
+  const bool around = std::count(seen.begin(), seen.end(), true) >= std::ptrdiff_t(SECTORS) * 9 / 10;
+  return around && static_cast<double>(overhead) > OVERHEAD_SHARE * static_cast<double>(points.size());
+}
+
+std::optional<glm::dvec3> first_sensor(const Scene& scene) {
+  for (const Station& station : scene.stations)
+    if (station.sensor_world) return station.sensor_world;
+  return {};
+}
+
+Camera camera_inside(const Scene& scene, double fov_y_deg) {
+  const std::vector<glm::dvec3> points = framed_points(scene);
+  const glm::dmat3 axes = upright_axes(scene.up);
+  const glm::dvec3 center = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+  const glm::dvec3 size = robust_size(points, axes);
+  Camera camera;
+  camera.eye = first_sensor(scene).value_or(center - (0.5 - EYE_SHARE) * size.y * axes[1]);
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& point : points) middle += point / static_cast<double>(points.size());
+  glm::dvec3 ahead = middle - camera.eye;
+  ahead -= glm::dot(ahead, axes[1]) * axes[1];
+  if (glm::length(ahead) < CENTRAL * scene.diagonal_world()) ahead = size.x > size.z ? axes[0] : -axes[2];
+  const double distance = 0.5 * std::max({size.x, size.z, scene.root.unit_world});
+  camera.target = camera.eye + distance * glm::normalize(ahead);
+  camera.up = axes[1];
+  camera.fov_y_deg = fov_y_deg;
+  return camera;
+}
+
 }  // namespace
+
+Viewpoint choose_viewpoint(const Scene& scene) {
+  if (scene.stations.empty() || scene.data_pool.empty()) return Viewpoint::front;
+  const std::vector<glm::dvec3> points = framed_points(scene);
+  const glm::dmat3 axes = upright_axes(scene.up);
+  const auto sensor = first_sensor(scene);
+  if (sensor && is_within(points, *sensor, axes)) return Viewpoint::inside;
+  const glm::dvec3 size = robust_size(points, axes);
+  return size.y < FLAT * std::min(size.x, size.z) ? Viewpoint::oblique : Viewpoint::front;
+}
+
+const char* viewpoint_name(Viewpoint viewpoint) {
+  static constexpr std::array NAMES = {"auto", "front", "oblique", "top", "inside"};
+  return NAMES[static_cast<std::size_t>(viewpoint)];
+}
+
+Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
+                        std::optional<double> fov_y_deg) {
+  const double fov = fov_y_deg.value_or(DEFAULT_FOV_Y_DEG);
+  const glm::dmat3 axes = upright_axes(scene.up);
+  switch (viewpoint == Viewpoint::automatic ? choose_viewpoint(scene) : viewpoint) {
+    case Viewpoint::oblique:
+      return camera_from_above(scene, aspect, fov, OBLIQUE_DEG);
+    case Viewpoint::top:
+      return framing_camera(scene, aspect, fov, {axes[0], -axes[2], axes[1]});
+    case Viewpoint::inside:
+      return camera_inside(scene, fov_y_deg.value_or(INSIDE_FOV_Y_DEG));
+    case Viewpoint::automatic:
+    case Viewpoint::front:
+      break;
+  }
+  return framing_camera(scene, aspect, fov);
+}
 
 Camera default_camera(const Scene& scene, double aspect) {
   return scene.camera ? *scene.camera : framing_camera(scene, aspect);
 }
 
 Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg) {
-  const glm::dmat3 axes = upright_axes(scene.up);
-  const glm::dvec3 level = std::cos(AZIMUTH_DEG * DEG) * axes[2] + std::sin(AZIMUTH_DEG * DEG) * axes[0];
-  const glm::dvec3 back = std::cos(ELEVATION_DEG * DEG) * level + std::sin(ELEVATION_DEG * DEG) * axes[1];
-  const glm::dvec3 right = glm::normalize(glm::cross(axes[1], back));
-  Camera camera = framing_camera(scene, aspect, fov_y_deg, {right, glm::cross(back, right), back});
-  camera.up = axes[1];
-  return camera;
+  return camera_from_above(scene, aspect, fov_y_deg, ELEVATION_DEG);
 }
 
 Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg, const glm::dmat3& axes) {

@@ -2,6 +2,7 @@
 /// and benchmarks all use it.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "engine/scene/scene.h"
@@ -64,6 +65,28 @@ inline constexpr double DEFAULT_FOV_Y_DEG = 30.0;
 /// As framing_camera, with the picture's axes given: columns right, up and back (towards the camera), orthonormal.
 [[nodiscard]] Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg,
                                     const glm::dmat3& axes);
+
+/// From where a scene is looked at that says nothing of a camera.
+enum class Viewpoint {
+  automatic,  ///< the one that choose_viewpoint chooses
+  front,      ///< as framing_camera
+  oblique,    ///< the same from 35 degrees above: terrain, sites
+  top,        ///< from straight above, the front at the bottom
+  inside,     ///< from a scanner's place, or the middle at eye height, towards most of what is there
+};
+
+/// Front for what is no scan; of scans inside for a scanner's place with points all around and overhead, oblique for what is
+/// less than 0.3 times as high as wide, else front.
+[[nodiscard]] Viewpoint choose_viewpoint(const Scene& scene);
+/// "front" and so on.
+[[nodiscard]] const char* viewpoint_name(Viewpoint viewpoint);
+
+/// Vertical field of view from inside that names none, degrees.
+inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
+
+/// A camera at that viewpoint, without a look at the scene's own.
+[[nodiscard]] Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
+                                      std::optional<double> fov_y_deg);
 
 /// The light a scene without lights is shown in: a key light over the viewer's left shoulder.
 [[nodiscard]] std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera);

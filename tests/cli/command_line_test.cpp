@@ -111,6 +111,7 @@ PictureOptions random_picture(Dice& dice) {
     if (dice.chance(0.5)) picture.ortho_height = number(dice, 1e-9, 1e9);
   }
   maybe(dice, picture.up, vector(dice));
+  picture.viewpoint = static_cast<Viewpoint>(dice.below(5));
   maybe(dice, picture.fov_y_deg, number(dice, 0.01, 179.0));
   if (dice.chance(0.7)) picture.lights.emplace();
   for (std::uint32_t i = picture.lights ? dice.below(4) : 0; i > 0; --i)

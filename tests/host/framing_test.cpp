@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/image/view.h"
+#include "engine/scene/splat.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {
@@ -56,6 +57,52 @@ TEST(FramingCamera, ShowsASinglePoint) {
   scene.bounds_min_world = scene.bounds_max_world = glm::dvec3(0.1);
   const Camera camera = framing_camera(scene, 1.0);
   EXPECT_GT(glm::length(camera.eye - camera.target), 0.0);
+}
+
+/// A scan of points on the six sides of a box, z up, its scanner in the middle where `sensor` says so.
+Scene scanned_box(const glm::dvec3& size, bool roof, bool sensor) {
+  Scene scene = box_scene();
+  scene.up = {0.0, 0.0, 1.0};
+  scene.root = {-size, 2e-6 * std::max({size.x, size.y, size.z})};
+  scene.stations.resize(1);
+  if (sensor) scene.stations[0].sensor_world = glm::dvec3(0.0);
+  for (int a = 0; a <= 40; ++a)
+    for (int b = 0; b <= 40; ++b) {
+      const double u = a / 20.0 - 1.0, v = b / 20.0 - 1.0;
+      for (const glm::dvec3& side : {glm::dvec3(u, v, -1.0), glm::dvec3(u, -1.0, v), glm::dvec3(u, 1.0, v),
+                                     glm::dvec3(-1.0, u, v), glm::dvec3(1.0, u, v), glm::dvec3(u, v, 1.0)})
+        if (roof || side.z < 1.0)
+          scene.data_pool.push_back(
+              pack_splat({scene.root.to_root(0.5 * side * size), {0.0, 0.0, 1.0}, 4.0, 0}));
+    }
+  scene.bounds_min_world = -0.5 * size;
+  scene.bounds_max_world = 0.5 * size;
+  return scene;
+}
+
+TEST(Viewpoint, FollowsTheShapeOfAScan) {
+  EXPECT_EQ(choose_viewpoint(box_scene()), Viewpoint::front) << "no scan";
+  EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, true, true)), Viewpoint::inside);
+  EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, false, true)), Viewpoint::front) << "a yard";
+  EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, true, false)), Viewpoint::front)
+      << "nobody was inside";
+  EXPECT_EQ(choose_viewpoint(scanned_box({400.0, 500.0, 30.0}, false, false)), Viewpoint::oblique);
+}
+
+TEST(Viewpoint, CamerasStandWhereTheySay) {
+  const Scene room = scanned_box({4.0, 6.0, 3.0}, true, true);
+  const Camera inside = viewpoint_camera(room, Viewpoint::inside, 1.5, {});
+  EXPECT_EQ(inside.eye, glm::dvec3(0.0)) << "at the scanner";
+  EXPECT_NEAR(std::abs(glm::normalize(inside.target - inside.eye).y), 1.0, 1e-9) << "along the longer side";
+  EXPECT_EQ(inside.fov_y_deg, INSIDE_FOV_Y_DEG);
+  const Camera top = viewpoint_camera(room, Viewpoint::top, 1.5, {});
+  EXPECT_NEAR(glm::normalize(top.eye - top.target).z, 1.0, 1e-9);
+  const Camera oblique = viewpoint_camera(room, Viewpoint::oblique, 1.5, 20.0);
+  EXPECT_NEAR(std::asin(glm::normalize(oblique.eye - oblique.target).z) / DEG, 35.0, 1e-6);
+  EXPECT_EQ(oblique.fov_y_deg, 20.0);
+  const Camera middle =
+      viewpoint_camera(scanned_box({4.0, 6.0, 3.0}, true, false), Viewpoint::inside, 1.5, {});
+  EXPECT_NEAR(middle.eye.z, -0.15, 0.02) << "at eye height";
 }
 
 TEST(DefaultCamera, IsTheScenesOwn) {
