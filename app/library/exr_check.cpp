@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <string_view>
+#include <utility>
 
 namespace splatray {
 namespace {
@@ -14,6 +16,53 @@ constexpr std::uint32_t MULTI_PART = 0x1000;  ///< bit of the version field
 constexpr std::size_t LONGEST_NAME = 255;     ///< of an attribute, or of its type
 constexpr std::uint64_t MOST_LINES = 256;     ///< that a chunk of any compression holds
 constexpr std::uint64_t OFFSET_BYTES = 8;     ///< of a chunk in the table
+
+/// Types whose values OpenEXR reads without a look at the size stated, and the bytes it reads.
+constexpr std::array<std::pair<std::string_view, std::uint32_t>, 25> FIXED_TYPES = {{{"int", 4},
+                                                                                     {"float", 4},
+                                                                                     {"double", 8},
+                                                                                     {"box2i", 16},
+                                                                                     {"box2f", 16},
+                                                                                     {"v2i", 8},
+                                                                                     {"v2f", 8},
+                                                                                     {"v2d", 16},
+                                                                                     {"v3i", 12},
+                                                                                     {"v3f", 12},
+                                                                                     {"v3d", 24},
+                                                                                     {"m33f", 36},
+                                                                                     {"m33d", 72},
+                                                                                     {"m44f", 64},
+                                                                                     {"m44d", 128},
+                                                                                     {"envmap", 1},
+                                                                                     {"compression", 1},
+                                                                                     {"lineOrder", 1},
+                                                                                     {"tiledesc", 9},
+                                                                                     {"rational", 8},
+                                                                                     {"timecode", 8},
+                                                                                     {"keycode", 28},
+                                                                                     {"chromaticities", 32},
+                                                                                     {"deepImageState", 1},
+                                                                                     {"v4f", 16}}};
+
+/// Bytes that a list of channels takes by what it holds; more than `value` has where it has no end.
+std::size_t channel_list_bytes(const std::string& value) {
+  constexpr std::size_t CHANNEL_BYTES = 16;  // behind its name
+  for (std::size_t at = 0; at < value.size();) {
+    const std::size_t end = value.find('\0', at);
+    if (end == std::string::npos) break;
+    if (end == at) return at + 1;
+    at = end + 1 + CHANNEL_BYTES;
+  }
+  return value.size() + 1;
+}
+
+/// The same of a small picture in the header: its edges, then four bytes a pixel.
+std::uint64_t preview_bytes(const std::string& value) {
+  std::array<std::uint32_t, 2> edges{};
+  if (value.size() < sizeof edges) return sizeof edges;
+  std::memcpy(&edges, value.data(), sizeof edges);
+  return sizeof edges + 4 * (std::uint64_t{edges[0]} * edges[1] & 0xFFFFFFFFFFFFFFU);
+}
 
 class ExrHeader {
  public:
@@ -74,6 +123,12 @@ class ExrHeader {
     if (!read(value.data(), bytes)) return "an OpenEXR header without an end";
     if (attribute == "dataWindow" && bytes == sizeof window_) std::memcpy(&window_, value.data(), bytes);
     if (attribute == "tiles" && bytes >= sizeof tile_) std::memcpy(&tile_, value.data(), sizeof tile_);
+    const auto fixed = std::find_if(FIXED_TYPES.begin(), FIXED_TYPES.end(),
+                                    [&type](const auto& row) { return row.first == type; });
+    if ((fixed != FIXED_TYPES.end() && fixed->second != bytes) ||
+        (type == "chlist" && channel_list_bytes(value) != bytes) ||
+        (type == "preview" && preview_bytes(value) != bytes))
+      return "an attribute '" + attribute + "' of type " + type + " and " + std::to_string(bytes) + " bytes";
     if (type != "stringvector") return {};
     for (std::size_t at = 0; at + 4 <= value.size();) {
       std::uint32_t length = 0;

@@ -200,7 +200,8 @@ void decode_colors(std::vector<glm::vec3>& colors) {
   const float scale = std::any_of(colors.begin(), colors.end(), is_byte) ? 1.0F / 255.0F : 1.0F;
   for (glm::vec3& color : colors)
     for (int channel = 0; channel < 3; ++channel)
-      color[channel] = srgb_to_linear(std::clamp(color[channel] * scale, 0.0F, 1.0F));
+      color[channel] = color[channel] > 0.0F ? srgb_to_linear(std::min(color[channel] * scale, 1.0F))
+                                             : 0.0F;  // of what is no number too
 }
 
 /// Gives corners their normals: a vertex has that of its first corner, and a double for each further one.

@@ -121,6 +121,10 @@ TEST(ImageFile, ExrHeadersAreCheckedBeforeOpenExrBelievesThem) {
   EXPECT_NE(
       refusal(exr_header("note", "string", 1868852842, "a")).find("an attribute 'note' of 1868852842 bytes"),
       std::string::npos);
+  EXPECT_NE(refusal(exr_header("channels", "chlist", 9, "RR01234567")).find("of type chlist and 9 bytes"),
+            std::string::npos);
+  EXPECT_NE(refusal(exr_header("aspect", "float", 3, "abc")).find("of type float and 3 bytes"),
+            std::string::npos);
   const std::string window("\0\0\0\0\0\0\0\0\xff\xff\xff\x7f\xff\xff\xff\x7f", 16);
   EXPECT_NE(refusal(exr_header("dataWindow", "box2i", 16, window)).find("2147483648 x 2147483648 pixels"),
             std::string::npos);

@@ -43,6 +43,7 @@ TEST(Obj, ColoursAreThoseOfTheirRange) {
   };
   EXPECT_EQ(first_color("1 0.5 0").color.at(0), glm::vec3(1.0F, srgb_to_linear(0.5F), 0.0F));
   EXPECT_FLOAT_EQ(first_color("255 51 0").color.at(0).y, srgb_to_linear(0.2F));
+  EXPECT_EQ(first_color("nan -1 inf").color.at(0).x, 0.0F);
   EXPECT_EQ(first_color("1 0.5 0").color.at(1), glm::vec3(1.0F)) << "without a colour of its own";
 }
 
