@@ -56,8 +56,8 @@ glm::dvec3 glaze(glm::dvec3 p) {
   return glm::mix(glm::dvec3(0.008, 0.030, 0.19), glm::dvec3(0.015, 0.20, 0.215), share);
 }
 
-Surface plastered(glm::dvec3 corner, glm::dvec3 edge_u, glm::dvec3 edge_v) {
-  Surface surface = rectangle_surface("walls", corner, edge_u, edge_v);
+SurfacePatch plastered(glm::dvec3 corner, glm::dvec3 edge_u, glm::dvec3 edge_v) {
+  SurfacePatch surface = rectangle_surface("walls", corner, edge_u, edge_v);
   surface.make = [make = surface.make](const Sampling& sampling) { return painted(make(sampling), plaster); };
   return surface;
 }
@@ -67,16 +67,16 @@ Model walls() {
   const glm::dvec3 along_z(0.0, 0.0, NICHE_DEPTH);
   const glm::dvec3 jamb(0.0, NICHE_JAMB, 0.0);
   const glm::dvec3 niche_corner(NICHE_X - NICHE_RADIUS, 0.0, BACK - NICHE_DEPTH);
-  Surface left = plastered({LEFT, 0.0, BACK}, {0.0, HEIGHT, 0.0}, {0.0, 0.0, FRONT - BACK});
-  Surface back = plastered({LEFT, 0.0, BACK}, {RIGHT - LEFT, 0.0, 0.0}, {0.0, HEIGHT, 0.0});
+  SurfacePatch left = plastered({LEFT, 0.0, BACK}, {0.0, HEIGHT, 0.0}, {0.0, 0.0, FRONT - BACK});
+  SurfacePatch back = plastered({LEFT, 0.0, BACK}, {RIGHT - LEFT, 0.0, 0.0}, {0.0, HEIGHT, 0.0});
   back.make = [make = back.make](const Sampling& sampling) {
     return kept(make(sampling), [](glm::dvec3 position) { return !in_niche(position); });
   };
-  Surface recess = plastered(niche_corner, {width, 0.0, 0.0}, {0.0, NICHE_JAMB + NICHE_RADIUS, 0.0});
+  SurfacePatch recess = plastered(niche_corner, {width, 0.0, 0.0}, {0.0, NICHE_JAMB + NICHE_RADIUS, 0.0});
   recess.make = [make = recess.make](const Sampling& sampling) { return kept(make(sampling), in_niche); };
-  Surface left_jamb = plastered(niche_corner, jamb, along_z);
-  Surface right_jamb = plastered(niche_corner + glm::dvec3(width, 0.0, 0.0), along_z, jamb);
-  Surface arch{"walls", PI * NICHE_RADIUS * NICHE_DEPTH, [](const Sampling& sampling) {
+  SurfacePatch left_jamb = plastered(niche_corner, jamb, along_z);
+  SurfacePatch right_jamb = plastered(niche_corner + glm::dvec3(width, 0.0, 0.0), along_z, jamb);
+  SurfacePatch arch{"walls", PI * NICHE_RADIUS * NICHE_DEPTH, [](const Sampling& sampling) {
                  OrientedPoints half = flipped(cylinder(sampling, NICHE_RADIUS, NICHE_DEPTH, 0.0, PI));
                  return painted(moved(half, {NICHE_X, NICHE_JAMB, BACK - NICHE_DEPTH}, UPRIGHT), plaster);
                }};
@@ -89,14 +89,14 @@ Model moulding() {
   constexpr double DENSITY = 4.0;
   const glm::dvec3 foot(NICHE_X, 0.0, BACK);
   const auto jamb = [=](double side) {
-    return Surface{"moulding", 2.0 * PI * TUBE * NICHE_JAMB,
+    return SurfacePatch{"moulding", 2.0 * PI * TUBE * NICHE_JAMB,
                    [=](const Sampling& sampling) {
                      return moved(cylinder(sampling, TUBE, NICHE_JAMB, 0.0, 2.0 * PI),
                                   foot + glm::dvec3(side * NICHE_RADIUS, 0.0, 0.0));
                    },
                    DENSITY};
   };
-  const Surface arch{"moulding", torus_area(NICHE_RADIUS, TUBE, -PI, PI),
+  const SurfacePatch arch{"moulding", torus_area(NICHE_RADIUS, TUBE, -PI, PI),
                      [=](const Sampling& sampling) {
                        const OrientedPoints ring =
                            moved(torus(sampling, NICHE_RADIUS, TUBE, -PI, PI), {}, UPRIGHT);
@@ -108,7 +108,7 @@ Model moulding() {
 }
 
 /// A square grid of points with whole rows in each tile, so that the joints are straight.
-Surface floor() {
+SurfacePatch floor() {
   const glm::dvec3 corner(LEFT, 0.0, FRONT);
   const glm::dvec3 edge_u(RIGHT - LEFT, 0.0, 0.0);
   const glm::dvec3 edge_v(0.0, 0.0, BACK - NICHE_DEPTH - FRONT);
@@ -176,7 +176,7 @@ Model knot_on_plinth() {
            4.0}};
 }
 
-Surface ball(const std::string& object, glm::dvec3 foot, double radius) {
+SurfacePatch ball(const std::string& object, glm::dvec3 foot, double radius) {
   return {object, 4.0 * PI * radius * radius,
           [=](const Sampling& sampling) {
             return moved(sphere(sampling, radius), foot + glm::dvec3(0.0, radius, 0.0));
@@ -184,7 +184,7 @@ Surface ball(const std::string& object, glm::dvec3 foot, double radius) {
           8.0};
 }
 
-Surface ring() {
+SurfacePatch ring() {
   constexpr double RADIUS = 0.25;
   constexpr double TUBE = 0.085;
   return {"ring", torus_area(RADIUS, TUBE, -PI, PI),

@@ -31,7 +31,7 @@ OrientedPoints grid(const Sampling& sampling, glm::dvec3 corner, glm::dvec3 edge
   return cloud;
 }
 
-Surface rectangle_surface(std::string object, glm::dvec3 corner, glm::dvec3 edge_u, glm::dvec3 edge_v) {
+SurfacePatch rectangle_surface(std::string object, glm::dvec3 corner, glm::dvec3 edge_u, glm::dvec3 edge_v) {
   return {std::move(object), glm::length(glm::cross(edge_u, edge_v)),
           [=](const Sampling& sampling) { return rectangle(sampling, corner, edge_u, edge_v); }};
 }

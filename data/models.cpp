@@ -60,10 +60,10 @@ const std::map<std::string, ModelMaker>& models() {
 
 std::map<std::string, OrientedPoints> sample(const Model& model, const Sampling& sampling) {
   double weight = 0.0;
-  for (const Surface& surface : model) weight += surface.area * surface.density;
+  for (const SurfacePatch& surface : model) weight += surface.area * surface.density;
   std::map<std::string, OrientedPoints> clouds;
   std::uint64_t seed = sampling.seed;
-  for (const Surface& surface : model) {
+  for (const SurfacePatch& surface : model) {
     const double share = surface.area * surface.density / weight;
     const auto count = static_cast<std::uint64_t>(std::llround(share * static_cast<double>(sampling.count)));
     append(clouds[surface.object], surface.make({count, sampling.even, seed++}));

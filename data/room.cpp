@@ -19,7 +19,7 @@ glm::dvec3 room_paint(glm::dvec3 p) {
   return parity == 0 ? glm::dvec3(0.38) : glm::dvec3(0.10);
 }
 
-Surface ball(const std::string& object, double x, double z, double radius) {
+SurfacePatch ball(const std::string& object, double x, double z, double radius) {
   return {object, 4.0 * PI * radius * radius,
           [=](const Sampling& sampling) {
             return moved(sphere(sampling, radius), {x, radius - 0.5 * SIZE.y, z});
@@ -31,7 +31,7 @@ Surface ball(const std::string& object, double x, double z, double radius) {
 
 Model room_model() {
   Model model = box("room", SIZE, true);
-  for (Surface& face : model) {
+  for (SurfacePatch& face : model) {
     face.make = [make = face.make](const Sampling& sampling) { return painted(make(sampling), room_paint); };
   }
   model.push_back(ball("matte", -1.1, -1.3, 0.60));

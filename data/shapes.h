@@ -12,13 +12,13 @@
 namespace splatray {
 
 /// A patch of one object's surface: how large it is and how to sample it.
-struct Surface {
+struct SurfacePatch {
   std::string object;  ///< name of the object, and of its point file without ".ply"
   double area = 0.0;   ///< m^2; points are shared out by area * density
   std::function<OrientedPoints(const Sampling& sampling)> make;
   double density = 1.0;  ///< points per area, relative to the model's other surfaces
 };
-using Model = std::vector<Surface>;
+using Model = std::vector<SurfacePatch>;
 
 /// Sphere, normals outwards.
 [[nodiscard]] OrientedPoints sphere(const Sampling& sampling, double radius);
@@ -47,7 +47,7 @@ using Model = std::vector<Surface>;
                                   glm::dvec3 edge_v);
 
 /// A surface of the rectangle's area for `object`.
-[[nodiscard]] Surface rectangle_surface(std::string object, glm::dvec3 corner, glm::dvec3 edge_u,
+[[nodiscard]] SurfacePatch rectangle_surface(std::string object, glm::dvec3 corner, glm::dvec3 edge_u,
                                         glm::dvec3 edge_v);
 
 /// The six faces of a box centred on the origin; normals outwards, or inwards for a room.

@@ -114,14 +114,38 @@ struct Material {
                  ///< light runs in the one with the highest bit
 };
 
+/// What LOOK_LIT and its like see of an object, beside its Material: glTF 2.0's metallic-roughness material with the extensions
+/// KHR_materials_ior, _specular, _clearcoat, _transmission, _volume and _emissive_strength. Colours are linear, 0..1. Dielectrics
+/// (MATERIAL_DIELECTRIC) transmit; the index of refraction inside is then the Material's.
+struct Surface {
+  vec3 base;            ///< base colour; multiplied by the splat's colour where the scene has colours
+  float metallic;       ///< 0..1
+  vec3 specular_color;  ///< factor on the reflectance of what is no metal, seen face on
+  float roughness;      ///< perceptual: the square root of GGX's alpha, 0..1
+  vec3 emission;        ///< radiance sent out, >= 0
+  float specular;       ///< factor on all of the reflectance of what is no metal, 0..1
+  vec3 absorption;      ///< of dielectrics, per length (the scene: world units; the device: lattice units), >= 0
+  float transmission;   ///< of dielectrics: share of the light that is no specular reflection and goes through, 0..1
+  float coat;           ///< clearcoat, 0..1
+  float coat_roughness;
+  float ior;            ///< of what is no dielectric, >= 1
+  float unused;         ///< zero
+};
+
 SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
 SPLATRAY_CONST LIGHT_POINT = 1u;
+SPLATRAY_CONST LIGHT_RECTANGLE = 2u;
 
+/// Lights that have a size come first in their table.
 struct Light {
-  vec3 position;  ///< point: position, root space. directional: unit vector towards the light
+  vec3 position;  ///< point, centre of a rectangle: position, root space. directional: unit vector towards the light
   uint kind;      ///< LIGHT_*
-  vec3 power;     ///< directional: irradiance facing it. point: intensity, irradiance * (lattice units)^2
-  float unused;   ///< zero
+  vec3 power;     ///< directional: irradiance facing it. point: intensity, irradiance * (lattice units)^2. rectangle: radiance
+  float size;     ///< point: radius, lattice units. directional: angular radius, radians. 0: none
+  vec3 edge_u;    ///< rectangle: half its edges, perpendicular, lattice units; it shines towards cross(u, v)
+  float share;    ///< how often a path's vertex chooses it, 0..1
+  vec3 edge_v;
+  float before;   ///< sum of the shares of the lights before it
 };
 
 /// What a dispatch is told; std140: every vec3 is followed by a scalar. Root space unless said.
@@ -163,6 +187,16 @@ struct FrameParams {
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
   vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
+  // The rest is for LOOK_LIT and its like.
+  vec3 lens_u;         ///< half axes of the lens, root units
+  float focus;         ///< distance of the sharp plane from the eye, root units
+  vec3 lens_v;
+  float reach;         ///< LOOK_AO, LOOK_SCAN: how far away something darkens a point, root units
+  uint lights_sized;   ///< lights that have a size
+  uint sky_width;      ///< cells of the sky table (engine/scene/sky_table.h)
+  uint sky_height;
+  float sky_share;     ///< how often a path's vertex chooses the environment, 0..1; the lights' shares are parts of the rest
+  vec4 absorption[32];  ///< per lattice unit, inside each bit of a ray's mask
 };
 
 /// A path between two of its rays, where paths are traced in stages (STAGE_*). Five texels.
@@ -174,9 +208,9 @@ struct PathState {
   vec3 from_normal;
   uint from_object;
   vec3 throughput;
-  uint unused_0;
+  float pdf;      ///< Path::pdf
   vec3 radiance;  ///< found so far
-  uint unused_1;
+  uint unused;
 };
 SPLATRAY_CONST PATH_TEXELS = 5u;
 
@@ -228,6 +262,8 @@ SPLATRAY_CONST COUNT_NON_FINITE = 10u;    ///< samples with a non-finite colour
 SPLATRAY_CONST COUNT_BOUNCE_LIMIT = 11u;  ///< paths cut by the bounce limit
 SPLATRAY_CONST COUNT_ENERGY_LOST = 12u;   ///< sum of their throughput, in units of 1/1024
 SPLATRAY_CONST COUNT_QUEUED = 13u;        ///< paths that go on to the next stage
+SPLATRAY_CONST COUNT_BELOW = 14u;         ///< directions chosen below the surface: light lost
+SPLATRAY_CONST COUNT_BELOW_ENERGY = 15u;  ///< sum of their paths' throughput, in units of 1/1024
 SPLATRAY_CONST COUNTER_COUNT = 16u;
 
 /// Descriptor bindings (set 0).
@@ -251,6 +287,8 @@ SPLATRAY_CONST BIND_HITS = 16u;
 SPLATRAY_CONST BIND_GROUPS = 17u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
 SPLATRAY_CONST BIND_PATHS = 18u;   ///< of this stage
 SPLATRAY_CONST BIND_PATHS_QUEUED = 19u;  ///< of the next
+SPLATRAY_CONST BIND_SURFACES = 20u;
+SPLATRAY_CONST BIND_LIGHT_TABLES = 21u;  ///< words: the albedo table, then the sky table
 
 /// Specialization constants of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_FEATURES = 0u;    ///< sum of FEATURE_*
@@ -263,7 +301,8 @@ SPLATRAY_CONST SPEC_STAGE = 6u;       ///< STAGE_*
 SPLATRAY_CONST SPEC_TOP_LEVELS = 7u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
 SPLATRAY_CONST SPEC_PAGES = 8u;       ///< buffers of a pool less one, 4 bits each, BIND_NODE_POOL lowest
 SPLATRAY_CONST SPEC_PAGE_SHIFT = 9u;  ///< a buffer of a pool that has several holds 2^PAGE_SHIFT elements
-SPLATRAY_CONST SPEC_COUNT = 10u;
+SPLATRAY_CONST SPEC_LOOK = 10u;       ///< LOOK_*
+SPLATRAY_CONST SPEC_COUNT = 11u;
 
 /// What a scene and the settings need, one bit each.
 SPLATRAY_CONST FEATURE_MIRRORS = 1u;        ///< some material mirrors
@@ -275,6 +314,22 @@ SPLATRAY_CONST FEATURE_LIGHTS = 32u;        ///< there are lights, and a materia
 SPLATRAY_CONST FEATURE_SHADOWS = 64u;       ///< shadow rays
 SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, else constant
 SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
+// Of LOOK_LIT and its like alone:
+SPLATRAY_CONST FEATURE_SKY = 512u;          ///< the environment is chosen among the lights, by the sky table
+SPLATRAY_CONST FEATURE_SIZES = 1024u;       ///< some light has a size, and can be met
+SPLATRAY_CONST FEATURE_DIFFUSE = 2048u;     ///< some surface scatters diffusely
+SPLATRAY_CONST FEATURE_SPECULAR = 4096u;    ///< some surface that is no metal has highlights
+SPLATRAY_CONST FEATURE_METAL = 8192u;       ///< some surface is a metal
+SPLATRAY_CONST FEATURE_COAT = 16384u;       ///< some surface has a clearcoat
+SPLATRAY_CONST FEATURE_EMISSION = 32768u;   ///< some surface sends out light
+SPLATRAY_CONST FEATURE_LENS = 65536u;       ///< the lens has a size
+SPLATRAY_CONST FEATURE_STRAIGHT = 131072u;  ///< light of lights passes dielectrics unbent, tinted
+
+SPLATRAY_CONST LOOK_PAPER = 0u;  ///< Phong, hard shadows, mirrors and glass (Goradia et al. 2010)
+SPLATRAY_CONST LOOK_LIT = 1u;    ///< path tracing
+SPLATRAY_CONST LOOK_CLAY = 2u;   ///< the same, everything diffuse and of albedo 0.8
+SPLATRAY_CONST LOOK_AO = 3u;     ///< ambient occlusion: which share of the sky, weighted by cosine, is not near something
+SPLATRAY_CONST LOOK_SCAN = 4u;   ///< the points' colours under ambient occlusion and the lights
 
 SPLATRAY_CONST PAGES_MOST = 8u;  ///< of a pool: buffers one behind the other, where one cannot be as large
 
@@ -288,6 +343,8 @@ SPLATRAY_CONST LOOP_PROBE = 8u;
 
 /// Most lights of a scene.
 SPLATRAY_CONST LIGHTS_MOST = 4096u;
+/// Most of them that have a size.
+SPLATRAY_CONST LIGHTS_SIZED_MOST = 256u;
 
 SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< all splats behind the first within a window (trace/blend.glsl)
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1
@@ -306,8 +363,8 @@ SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
 
 #ifdef __cplusplus
-static_assert(sizeof(Material) == 48 && sizeof(Light) == 32 && sizeof(RayQuery) == 48 &&
-              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 480 &&
+static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 64 && sizeof(RayQuery) == 48 &&
+              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 1040 &&
               sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif

@@ -26,9 +26,13 @@ struct SceneOptions : BuildOptions {
 /// A light, world space.
 struct LightOptions {
   std::uint32_t kind = LIGHT_POINT;  ///< LIGHT_*
-  glm::dvec3 position{0.0};          ///< point: position; directional: towards the light, any length > 0
+  glm::dvec3 position{
+      0.0};  ///< point: position; directional: towards the light, any length > 0; rectangle: its centre
   std::optional<glm::vec3>
-      power;  ///< as SceneLight's; unset = irradiance pi, of a point light at the scene's centre
+      power;  ///< as SceneLight's; unset = irradiance pi, of a point light at the scene's centre, of a rectangle at its target
+  double size = 0.0;       ///< point: radius; directional: angular diameter, degrees; 0 = none
+  glm::dvec3 target{0.0};  ///< rectangle: what it shines at
+  glm::dvec2 edges{0.0};   ///< rectangle: width and height; the width is level
 
   bool operator==(const LightOptions&) const = default;
 };
@@ -47,6 +51,8 @@ struct PictureOptions {
   AttributeOptions attributes;                      ///< what is shown of the points' attributes
   std::string environment;            ///< --env as written; empty = the scene's, else the studio
   std::optional<double> delta_world;  ///< --delta; unset = 1/1000 of the scene's diagonal
+  std::optional<std::uint32_t> look;  ///< LOOK_*; unset: as choose_look has it
+  double aperture_world = 0.0;        ///< diameter of the lens
   Settings settings;
   std::string device;  ///< number or part of a name; empty = best
 

@@ -1,5 +1,6 @@
 #include <memory>
 #include <numbers>
+#include <span>
 
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
@@ -73,32 +74,75 @@ void add_camera_options(OptionList& list, PictureOptions& picture) {
              "orthographic picture of this height, world units; 0 = perspective; needs --eye");
 }
 
-/// A light of X,Y,Z[,R,G,B].
-LightOptions read_light(const std::string& name, const std::string& text, std::uint32_t kind) {
-  auto numbers = split_numbers(text, ',', 3);
-  const bool bare = !numbers.empty();
-  if (!bare) numbers = split_numbers(text, ',', 6);
-  LightOptions light;
-  light.kind = kind;
-  if (numbers.empty()) refuse_option(name, text, "three or six numbers such as 1,-2,0.5 or 1,-2,0.5,9,9,9");
-  light.position = {numbers[0], numbers[1], numbers[2]};
-  if (kind == LIGHT_DIRECTIONAL && light.position == glm::dvec3(0.0))
-    refuse_option(name, text, "a direction other than 0,0,0");
-  if (bare) return light;
-  light.power = glm::vec3(numbers[3], numbers[4], numbers[5]);
+/// Finite numbers, `least` of them or three more, or either and a last one; how many there are stands in their count.
+std::vector<double> light_numbers(const std::string& name, const std::string& text, std::size_t least,
+                                  const std::string& expected) {
+  for (const std::size_t count : {least, least + 3, least + 4})
+    if (auto numbers = split_numbers(text, ',', count); !numbers.empty()) return numbers;
+  refuse_option(name, text, expected);
+}
+
+void set_power(const std::string& name, const std::string& text, std::span<const double> numbers,
+               LightOptions& light) {
+  light.power = glm::vec3(numbers[0], numbers[1], numbers[2]);
   if (!(light.power->x >= 0.0F && light.power->y >= 0.0F && light.power->z >= 0.0F) ||
       !std::isfinite(light.power->x + light.power->y + light.power->z))
     refuse_option(name, text, "R,G,B of finite numbers >= 0");
+}
+
+/// A light of X,Y,Z[,R,G,B[,SIZE]].
+LightOptions read_light(const std::string& name, const std::string& text, std::uint32_t kind) {
+  const auto numbers =
+      light_numbers(name, text, 3, "three, six or seven numbers such as 1,-2,0.5 or 1,-2,0.5,9,9,9");
+  LightOptions light;
+  light.kind = kind;
+  light.position = {numbers[0], numbers[1], numbers[2]};
+  if (kind == LIGHT_DIRECTIONAL && light.position == glm::dvec3(0.0))
+    refuse_option(name, text, "a direction other than 0,0,0");
+  if (numbers.size() > 3) set_power(name, text, std::span(numbers).subspan(3), light);
+  if (numbers.size() == 7) light.size = numbers[6];
+  const double most = kind == LIGHT_DIRECTIONAL ? 180.0 : 1e30;
+  if (!(light.size >= 0.0 && light.size <= most))
+    refuse_option(name, text,
+                  kind == LIGHT_DIRECTIONAL ? "a SIZE from 0 to 180 degrees" : "a SIZE of 0 or more");
   return light;
+}
+
+/// A rectangle of X,Y,Z,TX,TY,TZ,WIDTH,HEIGHT[,R,G,B].
+LightOptions read_rectangle(const std::string& name, const std::string& text) {
+  const auto numbers = light_numbers(
+      name, text, 8, "eight or eleven numbers such as 0,0,3,0,0,0,2,1 or 0,0,3,0,0,0,2,1,9,9,9");
+  LightOptions light;
+  light.kind = LIGHT_RECTANGLE;
+  light.position = {numbers[0], numbers[1], numbers[2]};
+  light.target = {numbers[3], numbers[4], numbers[5]};
+  light.edges = {numbers[6], numbers[7]};
+  if (light.position == light.target)
+    refuse_option(name, text, "a point TX,TY,TZ other than X,Y,Z to shine at");
+  if (!(light.edges.x > 0.0 && light.edges.y > 0.0))
+    refuse_option(name, text, "a WIDTH and HEIGHT of more than 0");
+  if (numbers.size() == 12) refuse_option(name, text, "eight or eleven numbers");
+  if (numbers.size() > 8) set_power(name, text, std::span(numbers).subspan(8), light);
+  return light;
+}
+
+std::string light_word(const LightOptions& light) {
+  const bool rectangle = light.kind == LIGHT_RECTANGLE;
+  std::string word = rectangle ? "--area-light=" : (light.kind == LIGHT_POINT ? "--light=" : "--sun=");
+  word += number_text(light.position);
+  if (rectangle)
+    word +=
+        "," + number_text(light.target) + "," + number_text(light.edges.x) + "," + number_text(light.edges.y);
+  if (light.power) word += "," + number_text(*light.power);
+  if (light.size > 0.0) word += "," + number_text(light.size);
+  return word;
 }
 
 Words light_words(const std::optional<std::vector<LightOptions>>& lights) {
   if (!lights) return {};
   if (lights->empty()) return {"--lights=none"};
   Words words;
-  for (const LightOptions& light : *lights)
-    words.push_back((light.kind == LIGHT_POINT ? "--light=" : "--sun=") + number_text(light.position) +
-                    (light.power ? "," + number_text(*light.power) : ""));
+  for (const LightOptions& light : *lights) words.push_back(light_word(light));
   return words;
 }
 
@@ -107,24 +151,29 @@ void add_light_options(OptionList& list, PictureOptions& picture) {
   const auto given = std::make_shared<std::vector<LightOptions>>();
   const auto add = [&](const std::string& name, std::uint32_t kind, const std::string& help) {
     const auto read = [&picture, given, name, kind](const std::string& text) {
-      given->push_back(read_light(name, text, kind));
+      given->push_back(kind == LIGHT_RECTANGLE ? read_rectangle(name, text) : read_light(name, text, kind));
       picture.lights = *given;
     };
-    list.add_repeated(name, read, help, "X,Y,Z[,R,G,B]");
+    list.add_repeated(name, read, help,
+                      kind == LIGHT_RECTANGLE ? "X,Y,Z,TX,TY,TZ,W,H[,R,G,B]" : "X,Y,Z[,R,G,B[,SIZE]]");
   };
   add("--light", LIGHT_POINT,
       "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at the "
-      "scene's centre; repeatable");
+      "scene's centre; SIZE: its radius, world units; repeatable");
   add("--sun", LIGHT_DIRECTIONAL,
       "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, default pi; "
-      "repeatable");
+      "SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable");
+  add("--area-light", LIGHT_RECTANGLE,
+      "a rectangle of W x H here that shines towards TX,TY,TZ, instead of the scene's lights; R,G,B: its "
+      "radiance, default irradiance pi "
+      "there; not with --look paper; repeatable");
   list.add_value(
       "--lights",
       [&picture, given](const std::string& text) {
         if (text != "none") refuse_option("--lights", text, "none");
         picture.lights = *given;
       },
-      {}, "no light but the environment's, unless --light or --sun add some", "none");
+      {}, "no light but the environment's, unless --light, --sun or --area-light add some", "none");
   list.add_words([&picture] { return light_words(picture.lights); });
 }
 
@@ -201,6 +250,32 @@ void add_attribute_options(OptionList& list, PictureOptions& picture) {
   add_number_list(list, "--hide-scan", attributes.hidden_scans, "scans that are not shown, from 0");
 }
 
+void add_look_options(OptionList& list, PictureOptions& picture) {
+  Settings& settings = picture.settings;
+  add_choice<std::optional<std::uint32_t>>(
+      list, "--look", picture.look,
+      {{"auto", std::nullopt},
+       {"lit", LOOK_LIT},
+       {"clay", LOOK_CLAY},
+       {"ao", LOOK_AO},
+       {"scan", LOOK_SCAN},
+       {"paper", LOOK_PAPER}},
+      "lit: path tracing; clay: the same, all of it white clay; ao: ambient occlusion; scan: the points' "
+      "colours under occlusion and a "
+      "soft light; paper: Phong, hard shadows, mirrors and glass; default auto: scan for points without "
+      "materials, else lit");
+  add_number(list, "--ao-radius", settings.reach_world, 0.0, 1e30,
+             "ao and scan: how far away something darkens a point, world units; default a tenth of the "
+             "scene's diagonal");
+  add_choice<bool>(list, "--glass-shadows", settings.straight_shadows, {{"paths", false}, {"straight", true}},
+                   "lit: what glass leaves of the light of lights: what paths find, or tinted shadows, "
+                   "unbent; default paths");
+  add_number(list, "--aperture", picture.aperture_world, 0.0, 1e30,
+             "diameter of the lens, world units; default 0: all is sharp; not with paper");
+  add_number(list, "--focus", settings.focus_world, 0.0, 1e30,
+             "distance from the eye at which all is sharp, world units; default 0: the camera's target");
+}
+
 void add_method_options(OptionList& list, PictureOptions& picture) {
   Settings& settings = picture.settings;
   add_number(list, "--samples", settings.samples, 1, 65536, "samples per pixel; default 16");
@@ -264,6 +339,7 @@ void add_picture_options(OptionList& list, PictureOptions& picture) {
   add_environment_options(list, picture);
   add_object_options(list, picture);
   add_attribute_options(list, picture);
+  add_look_options(list, picture);
   add_method_options(list, picture);
 }
 

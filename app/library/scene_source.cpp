@@ -39,18 +39,34 @@ void apply_material(Scene& scene, const std::string& name) {
   scene.materials[0] = named_material(name);
 }
 
+/// Up for a picture that names none: the scene's, or across it where the camera looks straight up or down.
+glm::dvec3 up_across(const Scene& scene, const glm::dvec3& view_dir) {
+  const glm::dmat3 axes = upright_axes(scene.up);
+  return glm::length(glm::cross(axes[1], view_dir)) > 1e-6 * glm::length(view_dir) ? axes[1] : -axes[2];
+}
+
 /// The light, as bright as it asks for or else with irradiance pi at the scene's centre.
 SceneLight scene_light(const Scene& scene, const LightOptions& light) {
   const glm::dvec3 to_light = light.position - bounds_center(scene);
   const double squared_distance = light.kind == LIGHT_POINT ? glm::dot(to_light, to_light) : 1.0;
   const glm::vec3 irradiance_pi(static_cast<float>(std::numbers::pi * squared_distance));
-  return {light.kind, light.position, light.power.value_or(irradiance_pi)};
+  SceneLight made{light.kind, light.position, light.power.value_or(irradiance_pi)};
+  made.size = light.kind == LIGHT_DIRECTIONAL ? light.size * std::numbers::pi / 360.0 : light.size;
+  return made;
 }
 
-/// Up for a picture that names none: the scene's, or across it where the camera looks straight up or down.
-glm::dvec3 up_across(const Scene& scene, const glm::dvec3& view_dir) {
-  const glm::dmat3 axes = upright_axes(scene.up);
-  return glm::length(glm::cross(axes[1], view_dir)) > 1e-6 * glm::length(view_dir) ? axes[1] : -axes[2];
+/// A rectangle whose width is level, facing its target.
+SceneLight rectangle_light(const Scene& scene, const LightOptions& light) {
+  const glm::dvec3 to_target = light.target - light.position;
+  const double distance_squared = glm::dot(to_target, to_target);
+  const glm::dvec3 normal = to_target / std::sqrt(distance_squared);
+  const glm::dvec3 level = glm::normalize(glm::cross(up_across(scene, normal), normal));
+  const double radiance = std::numbers::pi * distance_squared / (light.edges.x * light.edges.y);
+  SceneLight made{LIGHT_RECTANGLE, light.position,
+                  light.power.value_or(glm::vec3(static_cast<float>(radiance)))};
+  made.edge_u = 0.5 * light.edges.x * level;
+  made.edge_v = 0.5 * light.edges.y * glm::cross(normal, level);
+  return made;
 }
 
 }  // namespace
@@ -98,7 +114,9 @@ std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOp
                                        " lights in --light and --sun, expected at most " +
                                        std::to_string(LIGHTS_MOST));
     std::vector<SceneLight> lights;
-    for (const LightOptions& light : *picture.lights) lights.push_back(scene_light(loaded.scene, light));
+    for (const LightOptions& light : *picture.lights)
+      lights.push_back(light.kind == LIGHT_RECTANGLE ? rectangle_light(loaded.scene, light)
+                                                     : scene_light(loaded.scene, light));
     return lights;
   }
   if (!loaded.scene.lights.empty()) return exposed_lights(loaded.scene);
@@ -127,8 +145,14 @@ Environment choose_environment(const std::string& name) {
   return environment ? *std::move(environment) : read_environment(name);
 }
 
+std::uint32_t choose_look(const Scene&, const PictureOptions& picture) {
+  return picture.look.value_or(LOOK_PAPER);
+}
+
 Settings choose_settings(const Scene& scene, const PictureOptions& picture) {
   Settings settings = picture.settings;
+  settings.look = choose_look(scene, picture);
+  settings.lens_radius_world = 0.5 * picture.aperture_world;
   settings.delta_world = picture.delta_world.value_or(1e-3 * scene.diagonal_world());
   return settings;
 }

@@ -42,6 +42,9 @@ struct LoadListener {
 /// (input_unreadable).
 [[nodiscard]] Environment choose_environment(const std::string& name);
 
+/// The look, LOOK_*: that of --look, else LOOK_SCAN for points without materials of their own, else LOOK_LIT.
+[[nodiscard]] std::uint32_t choose_look(const Scene& scene, const PictureOptions& picture);
+
 /// The settings, with defaults that depend on the scene filled in.
 [[nodiscard]] Settings choose_settings(const Scene& scene, const PictureOptions& picture);
 

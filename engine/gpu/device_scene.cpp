@@ -1,8 +1,13 @@
 #include "engine/gpu/device_scene.h"
 
+#include <algorithm>
+#include <bit>
+#include <iterator>
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/scene/albedo_table.h"
+#include "engine/scene/surface.h"
 
 namespace splatray {
 
@@ -21,27 +26,40 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   outline_.bounds_min_world = scene.bounds_min_world;
   outline_.bounds_max_world = scene.bounds_max_world;
   materials_ = scene.materials;
-  set_materials(scene.materials);
+  set_materials(scene.materials, scene.surfaces);
   set_lights(scene.lights);
 }
 
-void DeviceScene::set_materials(std::span<const Material> materials) {
+void DeviceScene::set_materials(std::span<const Material> materials, std::span<const Surface> surfaces) {
   if (materials.size() != materials_.size())
     throw Error(ExitCode::failed, "found " + std::to_string(materials.size()) +
                                       " materials, expected the scene's " +
                                       std::to_string(materials_.size()));
   materials_.assign(materials.begin(), materials.end());
+  surfaces_.assign(surfaces.begin(), surfaces.end());
+  if (surfaces.empty())
+    std::transform(materials.begin(), materials.end(), std::back_inserter(surfaces_), surface_of);
   material_content_ = material_content(materials);
+  surface_features_ = surface_features(surfaces_, materials);
   reserve_storage(context_, material_buffer_, materials.size_bytes());
   material_buffer_.upload(queue_, std::as_bytes(materials));
+  reserve_storage(context_, surface_buffer_, std::span(surfaces_).size_bytes());
+  surface_buffer_.upload(queue_, std::as_bytes(std::span(surfaces_)));
 }
 
 void DeviceScene::set_lights(std::span<const SceneLight> lights) {
   if (lights.size() > LIGHTS_MOST)
     throw Error(ExitCode::failed, "found " + std::to_string(lights.size()) + " lights, expected at most " +
                                       std::to_string(LIGHTS_MOST));
+  const auto sized = static_cast<std::uint32_t>(std::count_if(lights.begin(), lights.end(), is_sized));
+  if (sized > LIGHTS_SIZED_MOST)
+    throw Error(ExitCode::failed, "found " + std::to_string(sized) +
+                                      " lights that have a size, expected at most " +
+                                      std::to_string(LIGHTS_SIZED_MOST));
   const std::vector<Light> in_root = lights_in_root(outline_, {lights.begin(), lights.end()});
   light_count_ = static_cast<std::uint32_t>(in_root.size());
+  lights_sized_ = sized;
+  light_irradiance_ = summed_irradiance(outline_, {lights.begin(), lights.end()});
   reserve_storage(context_, light_buffer_, std::span(in_root).size_bytes());
   light_buffer_.upload(queue_, std::as_bytes(std::span(in_root)));
 }
@@ -51,13 +69,22 @@ void DeviceScene::set_environment(const Environment& environment) {
   environment_texture_ = !environment.texels.empty();
   environment_constant_ = environment.constant;
   irradiance_ = irradiance_coefficients(environment);
+  sky_ = sky_table(environment);
+  std::vector<std::uint32_t> words;
+  for (const float albedo : ALBEDO_TABLE) words.push_back(std::bit_cast<std::uint32_t>(albedo));
+  words.insert(words.end(), sky_.words.begin(), sky_.words.end());
+  sky_.words = {};
+  reserve_storage(context_, table_buffer_, std::span(words).size_bytes());
+  table_buffer_.upload(queue_, std::as_bytes(std::span(words)));
 }
 
 void DeviceScene::bind() {
   for (std::uint32_t i = 0; i < pools_.buffers.size(); ++i)
     bindings_->bind(BIND_NODE_POOL + i, pools_.buffers[i]);
   bindings_->bind(BIND_MATERIALS, material_buffer_);
+  bindings_->bind(BIND_SURFACES, surface_buffer_);
   bindings_->bind(BIND_LIGHTS, light_buffer_);
+  bindings_->bind(BIND_LIGHT_TABLES, table_buffer_);
   bindings_->bind(environment_);
 }
 
@@ -75,21 +102,39 @@ SceneContent DeviceScene::content() const {
           .top_levels = pools_.top_levels,
           .pages = pools_.paging.pages_constant(),
           .page_shift = pools_.paging.page_shift,
+          .surfaces = surface_features_,
           .lights = light_count_ > 0,
-          .environment_texture = environment_texture_};
+          .sized_lights = lights_sized_ > 0,
+          .environment_texture = environment_texture_,
+          .sky = sky_.width > 0};
 }
 
 FrameParams DeviceScene::picture_params(const View& view, const Settings& settings) const {
   FrameParams frame = make_frame_params(outline_, view, settings);
-  if (!material_content_.mirrors && !material_content_.glass) frame.max_bounces = 0;
+  const bool traces = settings.look == LOOK_LIT || settings.look == LOOK_CLAY;
+  const bool mirrors = settings.look == LOOK_PAPER && (material_content_.mirrors || material_content_.glass);
+  if (!traces && !mirrors) frame.max_bounces = 0;
   frame.light_end = light_count_;
   frame.loop_probe = LOOP_PROBE;
-  set_media(frame, materials_);
+  set_media(frame, materials_, surfaces_);
+  frame.lights_sized = lights_sized_;
+  set_sky(settings, frame);
   frame.environment =
       settings.environment_strength * (environment_texture_ ? glm::vec3(1.0F) : environment_constant_);
   for (std::size_t i = 0; i < irradiance_.size(); ++i)
     frame.irradiance[i] = glm::vec4(settings.environment_strength * irradiance_[i], 0.0F);
   return frame;
+}
+
+/// The environment is chosen as often as its light's share of all is, but neither it nor the lights less than one time in ten.
+void DeviceScene::set_sky(const Settings& settings, FrameParams& frame) const {
+  const bool traces = settings.look == LOOK_LIT || settings.look == LOOK_CLAY;
+  if (sky_.width == 0 || !traces) return;
+  const double sky = sky_.irradiance_mean * settings.environment_strength;
+  const double share = std::clamp(sky / std::max(sky + light_irradiance_, 1e-30), 0.1, 0.9);
+  frame.sky_width = sky_.width;
+  frame.sky_height = sky_.height;
+  frame.sky_share = light_count_ > 0 ? static_cast<float>(share) : 1.0F;
 }
 
 FrameParams DeviceScene::query_params(const Settings& settings) const {
@@ -102,7 +147,8 @@ FrameParams DeviceScene::query_params(const Settings& settings) const {
 }
 
 Footprint DeviceScene::footprint(const View& view, const Settings& settings) const {
-  if (!settings.cull || !culls_) return {view.width, view.height};
+  const bool sized = settings.look != LOOK_PAPER && (settings.lens_radius_world > 0.0 || lights_sized_ > 0);
+  if (!settings.cull || !culls_ || sized) return {view.width, view.height};
   return {cells_, outline_.root, view};
 }
 

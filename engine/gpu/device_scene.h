@@ -13,6 +13,7 @@
 #include "engine/image/view.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/sky_table.h"
 #include "engine/scene/tree.h"
 #include "engine/vulkan/command_queue.h"
 #include "engine/vulkan/texture.h"
@@ -28,7 +29,7 @@ class DeviceScene {
   /// As the tracer's functions of these names.
   void upload(const Scene& scene) { upload(scene, nullptr); }
   void upload_and_free(Scene& scene) { upload(scene, &scene); }
-  void set_materials(std::span<const Material> materials);
+  void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces);
   void set_lights(std::span<const SceneLight> lights);
   void set_environment(const Environment& environment);
   void set_up(const glm::dvec3& up) { outline_.up = up; }
@@ -51,6 +52,7 @@ class DeviceScene {
  private:
   /// `spent`: as Pools has it.
   void upload(const Scene& scene, Scene* spent);
+  void set_sky(const Settings& settings, FrameParams& frame) const;
 
   const Context& context_;
   CommandQueue& queue_;
@@ -62,12 +64,16 @@ class DeviceScene {
   Pools pools_;
   std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
   std::vector<Material> materials_;
+  std::vector<Surface> surfaces_;  ///< beside them, in world units
+  std::uint32_t surface_features_ = 0;
   MaterialContent material_content_;
-  Buffer material_buffer_, light_buffer_;
-  std::uint32_t light_count_ = 0;
+  Buffer material_buffer_, surface_buffer_, light_buffer_, table_buffer_;
+  std::uint32_t light_count_ = 0, lights_sized_ = 0;
+  double light_irradiance_ = 0.0;  ///< at the scene's centre, facing all, the mean of rgb
   EnvironmentTexture environment_;
   bool environment_texture_ = false;
   glm::vec3 environment_constant_{0.0F};
+  SkyTable sky_;  ///< without its words
   std::array<glm::vec3, 9> irradiance_{};
 };
 

@@ -55,7 +55,7 @@ TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& fo
   };
   part(aimed.seen, 0, aimed.group_list.size());
   part(aimed.empty, aimed.group_list.size(), empty.size());
-  aimed.empty.program = Program::empty;
+  aimed.empty.program = dispatch.program == Program::light ? Program::empty_light : Program::empty;
   aimed.empty.constants = empty_features(dispatch.constants);
   aimed.group_list.insert(aimed.group_list.end(), empty.begin(), empty.end());
   return aimed;

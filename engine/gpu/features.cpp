@@ -30,20 +30,65 @@ MaterialContent material_content(std::span<const Material> materials) {
   return content;
 }
 
+std::uint32_t surface_features(std::span<const Surface> surfaces, std::span<const Material> materials) {
+  std::uint32_t features = 0;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& surface = surfaces[i];
+    const bool glass = (materials[i].flags & MATERIAL_DIELECTRIC) != 0;
+    const bool all_metal = surface.metallic >= 1.0F, all_clear = glass && surface.transmission >= 1.0F;
+    const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
+    add(!all_metal && !all_clear, FEATURE_DIFFUSE);
+    add(!all_metal && surface.specular > 0.0F, FEATURE_SPECULAR);
+    add(surface.metallic > 0.0F, FEATURE_METAL);
+    add(surface.coat > 0.0F, FEATURE_COAT);
+    add(glm::any(glm::greaterThan(surface.emission, vec3(0.0F))), FEATURE_EMISSION);
+  }
+  return features;
+}
+
+namespace {
+
+/// FEATURE_* of a look other than LOOK_PAPER.
+std::uint32_t light_features(const SceneContent& content, const Settings& settings) {
+  const bool all = settings.look == LOOK_LIT, traces = all || settings.look == LOOK_CLAY;
+  const bool lights = content.lights && settings.look != LOOK_AO, sky = content.sky && traces;
+  std::uint32_t features = all ? content.surfaces : FEATURE_DIFFUSE;
+  const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
+  add(all && content.materials.glass, FEATURE_GLASS);
+  add(content.colors && (all || settings.look == LOOK_SCAN), FEATURE_COLORS);
+  add(lights, FEATURE_LIGHTS);
+  add(lights && content.sized_lights, FEATURE_SIZES);
+  add(sky, FEATURE_SKY);
+  add((lights || sky) && settings.shadows, FEATURE_SHADOWS);
+  add(all && settings.straight_shadows, FEATURE_STRAIGHT);
+  add(settings.lens_radius_world > 0.0, FEATURE_LENS);
+  return features;
+}
+
+std::uint32_t phong_features(const SceneContent& content, const Settings& settings) {
+  const bool lit = content.lights && content.materials.scatters;
+  std::uint32_t features = 0;
+  const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
+  add(content.materials.mirrors, FEATURE_MIRRORS);
+  add(content.materials.glass, FEATURE_GLASS);
+  add(content.colors, FEATURE_COLORS);
+  add(lit, FEATURE_LIGHTS);
+  add(lit && settings.shadows, FEATURE_SHADOWS);
+  return features;
+}
+
+}  // namespace
+
 SpecConstants picture_features(const SceneContent& content, const Settings& settings) {
   const bool flat_blend = settings.blend == BLEND_PAPER || settings.blend == BLEND_LEAF;
-  const bool lit = content.lights && content.materials.scatters;
   SpecConstants constants{};
   const auto add = [&](bool needed, std::uint32_t feature) {
     if (needed) constants[SPEC_FEATURES] |= feature;
   };
-  add(content.materials.mirrors, FEATURE_MIRRORS);
-  add(content.materials.glass, FEATURE_GLASS);
-  add(content.colors, FEATURE_COLORS);
+  constants[SPEC_FEATURES] =
+      settings.look == LOOK_PAPER ? phong_features(content, settings) : light_features(content, settings);
   add(content.fields && !flat_blend, FEATURE_FIELDS);
   add(content.references, FEATURE_REFERENCES);
-  add(lit, FEATURE_LIGHTS);
-  add(lit && settings.shadows, FEATURE_SHADOWS);
   add(content.environment_texture, FEATURE_ENVIRONMENT);
   add(settings.counters, FEATURE_COUNTERS);
   constants[SPEC_BLEND] = settings.blend;
@@ -52,6 +97,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   constants[SPEC_FACES] = content.materials.faces;
   constants[SPEC_ORDER] = settings.order;
   constants[SPEC_STAGE] = STAGE_ALL;
+  constants[SPEC_LOOK] = settings.look;
   constants[SPEC_TOP_LEVELS] = content.top_levels;
   constants[SPEC_PAGES] = content.pages;
   constants[SPEC_PAGE_SHIFT] = content.page_shift;
@@ -60,13 +106,15 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
 
 SpecConstants empty_features(const SpecConstants& constants) {
   SpecConstants kept{};
-  kept[SPEC_FEATURES] = constants[SPEC_FEATURES] & (FEATURE_ENVIRONMENT | FEATURE_COUNTERS);
+  kept[SPEC_FEATURES] = constants[SPEC_FEATURES] & (FEATURE_ENVIRONMENT | FEATURE_COUNTERS | FEATURE_LENS);
   for (const std::uint32_t constant : {SPEC_ORDER, SPEC_STAGE}) kept[constant] = constants[constant];
   return kept;
 }
 
 SpecConstants query_features(const SceneContent& content, const Settings& settings) {
-  SpecConstants constants = picture_features(content, settings);
+  Settings phong = settings;
+  phong.look = LOOK_PAPER;
+  SpecConstants constants = picture_features(content, phong);
   constants[SPEC_FEATURES] &= ~SHADING;
   constants[SPEC_ORDER] = 0;
   return constants;

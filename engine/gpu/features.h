@@ -24,6 +24,9 @@ struct MaterialContent {
   bool glass = false;                 ///< some are dielectrics
   bool scatters = false;              ///< some send light of lights back, diffusely or as a highlight
 };
+/// FEATURE_* of the lobes that surfaces have, and of their emission.
+[[nodiscard]] std::uint32_t surface_features(std::span<const Surface> surfaces,
+                                             std::span<const Material> materials);
 [[nodiscard]] MaterialContent material_content(std::span<const Material> materials);
 
 /// What the features depend on.
@@ -35,11 +38,14 @@ struct SceneContent {
   std::uint32_t top_levels = 0;      ///< of the top table
   std::uint32_t pages = 0;           ///< Paging::pages_constant
   std::uint32_t page_shift = 0;      ///< Paging::page_shift
+  std::uint32_t surfaces = 0;        ///< surface_features
   bool lights = false;               ///< there are lights
+  bool sized_lights = false;         ///< some light has a size
   bool environment_texture = false;  ///< the environment is not constant
+  bool sky = false;                  ///< it has a sky table
 };
 
-/// Constants of images (trace.comp.glsl), STAGE_ALL.
+/// Constants of images (trace.comp.glsl), STAGE_ALL; of Program::light where the look is not LOOK_PAPER.
 [[nodiscard]] SpecConstants picture_features(const SceneContent& content, const Settings& settings);
 /// Those of them that matter where no primary ray hits anything.
 [[nodiscard]] SpecConstants empty_features(const SpecConstants& constants);

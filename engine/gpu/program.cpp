@@ -9,6 +9,10 @@ std::span<const std::uint32_t> program_code(Program program, Kernels kernels, bo
   switch (program) {
     case Program::empty:
       return EMPTY_CPU;
+    case Program::empty_light:
+      return EMPTY_LIGHT_CPU;
+    case Program::light:
+      return cpu ? (paged ? LIGHT_CPU_PAGED : LIGHT_CPU) : (paged ? LIGHT_PAGED : LIGHT);
     case Program::rays:
       return cpu ? (paged ? RAYS_CPU_PAGED : RAYS_CPU) : (paged ? RAYS_PAGED : RAYS);
     default:

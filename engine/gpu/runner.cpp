@@ -18,6 +18,12 @@ PoolWish pool_request(const TracerOptions& options, const DeviceProfile& profile
 
 bool counts_work(const Dispatch& dispatch) { return has(dispatch.constants, FEATURE_COUNTERS); }
 
+/// Lights that shadow rays are sent to at each hit: all or, with path tracing, one; with LOOK_SCAN the sky beside.
+std::uint32_t lights_at_hit(const Dispatch& dispatch) {
+  if (dispatch.program == Program::light) return 2;
+  return has(dispatch.constants, FEATURE_LIGHTS) ? dispatch.frame.light_end : 0;
+}
+
 bool is_staged(const Dispatch& dispatch) {
   return dispatch.constants[SPEC_STAGE] == STAGE_FIRST || dispatch.constants[SPEC_STAGE] == STAGE_NEXT;
 }
@@ -132,22 +138,32 @@ Dispatch Runner::picture_dispatch(const View& view, const Settings& settings) co
   Dispatch dispatch;
   dispatch.constants = picture_features(scene.content(), settings);
   dispatch.frame = scene.picture_params(view, settings);
-  const bool glass = has(dispatch.constants, FEATURE_GLASS) && dispatch.frame.max_bounces > 0;
-  if (glass && settings.stages && profile.stages) dispatch.constants[SPEC_STAGE] = STAGE_FIRST;
+  if (settings.look != LOOK_PAPER) dispatch.program = Program::light;
+  const bool uneven = dispatch.program == Program::light || has(dispatch.constants, FEATURE_GLASS);
+  if (uneven && dispatch.frame.max_bounces > 0 && settings.stages && profile.stages)
+    dispatch.constants[SPEC_STAGE] = STAGE_FIRST;
+  return dispatch;
+}
+
+Dispatch Runner::aov_dispatch(const View& view, const Settings& settings) const {
+  Settings phong = settings;
+  phong.look = LOOK_PAPER;
+  Dispatch dispatch = picture_dispatch(view, phong);
+  dispatch.constants[SPEC_STAGE] = STAGE_AOV;
   return dispatch;
 }
 
 ThreadWork Runner::work(const Dispatch& dispatch) const {
-  const std::uint32_t lights = has(dispatch.constants, FEATURE_LIGHTS) ? dispatch.frame.light_end : 0;
+  const std::uint32_t lights = lights_at_hit(dispatch);
   if (is_staged(dispatch)) return {1, profile.work(1, lights).lights};
   return profile.work(1 + dispatch.frame.max_bounces, lights);
 }
 
 double Runner::run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
                            const ThreadWork& work) {
-  const FrameParams whole = tile.seen.frame;
-  const std::uint32_t lights = has(tile.seen.constants, FEATURE_LIGHTS) ? whole.light_end : 0;
+  const std::uint32_t lights = lights_at_hit(tile.seen);
   tile.set_samples(begin, end);
+  if (tile.seen.program == Program::light) return run(tile);
   tile.set_lights(0, std::min(work.lights, lights));
   double ms = run(tile);
   if (lights <= work.lights) return ms;
@@ -163,9 +179,8 @@ double Runner::run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_
   return ms;
 }
 
-void Runner::trace_aov(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+void Runner::trace_aov(const Tile& tile, const Dispatch& dispatch, const Footprint& footprint,
                        std::vector<AovPixel>& image) {
-  dispatch.constants[SPEC_STAGE] = STAGE_AOV;
   run(aim(dispatch, tile, footprint));
   std::vector<AovPixel> pixels(tile.pixels());
   aov.download(queue, std::as_writable_bytes(std::span(pixels)));

@@ -26,12 +26,14 @@ class Runner {
 
   /// An image's dispatch, all lights and samples; `settings` as Tracer::render takes them.
   [[nodiscard]] Dispatch picture_dispatch(const View& view, const Settings& settings) const;
+  /// That of the AOVs of its pixels, whatever the look.
+  [[nodiscard]] Dispatch aov_dispatch(const View& view, const Settings& settings) const;
   /// How much of it a dispatch may do.
   [[nodiscard]] ThreadWork work(const Dispatch& dispatch) const;
   /// Runs samples [begin, end) of a tile, the lights spread over as many dispatches as `work` asks for.
   double run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end, const ThreadWork& work);
-  /// AovPixels of a tile, put into `image` of all pixels, top row first.
-  void trace_aov(const Tile& tile, Dispatch dispatch, const Footprint& footprint,
+  /// AovPixels of a tile, put into `image` of all pixels, top row first. `dispatch`: aov_dispatch's.
+  void trace_aov(const Tile& tile, const Dispatch& dispatch, const Footprint& footprint,
                  std::vector<AovPixel>& image);
 
   /// Throws Error (failed) unless there is a scene: `call` was made before upload().

@@ -77,9 +77,9 @@ void Tracer::upload_and_free(Scene& scene) {
   ++impl_->uploads;
 }
 
-void Tracer::set_materials(std::span<const Material> materials) {
+void Tracer::set_materials(std::span<const Material> materials, std::span<const Surface> surfaces) {
   impl_->runner.require_scene("set_materials()");
-  impl_->runner.scene.set_materials(materials);
+  impl_->runner.scene.set_materials(materials, surfaces);
 }
 
 void Tracer::set_lights(std::span<const SceneLight> lights) {
@@ -100,6 +100,7 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   const Clock::time_point start = Clock::now();
   impl.start();
   const Dispatch dispatch = runner.picture_dispatch(view, settings);
+  const Dispatch aov_dispatch = runner.aov_dispatch(view, settings);
   const Footprint footprint = runner.scene.footprint(view, settings);
   Image image{view.width, view.height, {}, {}};
   const std::size_t pixels = std::size_t{view.width} * view.height;
@@ -122,7 +123,7 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
       return impl.read_colors(runner.accumulation, tile, image);
     };
     if (!trace(runner.work(dispatch), false) && !trace({}, true)) refuse_cut_loops();
-    if (settings.aov) runner.trace_aov(tile, dispatch, footprint, image.aov);
+    if (settings.aov) runner.trace_aov(tile, aov_dispatch, footprint, image.aov);
   }
   impl.finish(start, trace_ms);
   return image;
@@ -135,7 +136,7 @@ std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settin
   runner.require_scene("trace_aov()");
   const Clock::time_point start = Clock::now();
   impl.start();
-  const Dispatch dispatch = runner.picture_dispatch(view, settings);
+  const Dispatch dispatch = runner.aov_dispatch(view, settings);
   const Footprint footprint = runner.scene.footprint(view, settings);
   const auto tiles = cut_into_tiles(view.width, view.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
   reserve_storage(runner.context, runner.aov, tiles.front().pixels() * sizeof(AovPixel));

@@ -55,9 +55,9 @@ class Tracer {
   /// As upload, but frees the scene's pools, each as soon as it is on the device, also where that then throws: a host needs
   /// the memory of a large scene once, not twice. All else of the scene stays.
   void upload_and_free(Scene& scene);
-  /// Replaces all materials (as many as the scene has objects), or the lights (at most LIGHTS_MOST), or the environment; no pool is
+  /// Replaces all materials (as many as the scene has objects) and, beside them, surfaces (empty: surface_of the materials), or the lights (at most LIGHTS_MOST), or the environment; no pool is
   /// touched. Before the first set_environment all is black.
-  void set_materials(std::span<const Material> materials);
+  void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces = {});
   void set_lights(std::span<const SceneLight> lights);
   void set_environment(const Environment& environment);
   /// Replaces the scene's up direction, about which the environment stands.

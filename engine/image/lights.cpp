@@ -9,18 +9,67 @@ namespace {
 
 using std::numbers::pi;
 
-/// Brightest channel of the irradiance that the lights together give a surface at `position` facing each of
-/// them.
-double summed_irradiance(const std::vector<SceneLight>& lights, const glm::dvec3& position) {
+glm::dvec3 bounds_center(const Scene& scene) {
+  return 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+}
+
+/// Irradiance of a surface at `position` that faces the light, for rectangles as if all of them were in their centre.
+glm::dvec3 irradiance_of(const SceneLight& light, const glm::dvec3& position) {
+  const glm::dvec3 to_light = light.position - position;
+  const double distance_squared = glm::dot(to_light, to_light);
+  if (light.kind == LIGHT_DIRECTIONAL) return light.power;
+  if (light.kind == LIGHT_POINT) return glm::dvec3(light.power) / distance_squared;
+  const glm::dvec3 across = glm::cross(light.edge_u, light.edge_v);
+  const double facing = std::max(-glm::dot(across, to_light), 0.0) / std::sqrt(distance_squared);
+  return glm::dvec3(light.power) * (4.0 * facing / distance_squared);
+}
+
+/// Of all lights together.
+glm::dvec3 irradiance_of(const std::vector<SceneLight>& lights, const glm::dvec3& position) {
   glm::dvec3 sum(0.0);
+  for (const SceneLight& light : lights) sum += irradiance_of(light, position);
+  return sum;
+}
+
+/// Those at infinity, which are met where nothing else is, come after the others that have a size, and those without one last.
+int table_order(const SceneLight& light) {
+  return !is_sized(light) ? 2 : (light.kind == LIGHT_DIRECTIONAL ? 1 : 0);
+}
+
+/// How often each light is chosen: half as often as it is bright at the scene's centre, half as often as any other.
+std::vector<double> light_shares(const std::vector<SceneLight>& lights, const glm::dvec3& center) {
+  std::vector<double> shares;
+  double sum = 0.0;
   for (const SceneLight& light : lights) {
-    const glm::dvec3 to_light = light.position - position;
-    sum += glm::dvec3(light.power) / (light.kind == LIGHT_POINT ? glm::dot(to_light, to_light) : 1.0);
+    const glm::dvec3 irradiance = irradiance_of(light, center);
+    shares.push_back(irradiance.x + irradiance.y + irradiance.z);
+    sum += shares.back();
   }
-  return std::max({sum.x, sum.y, sum.z});
+  const double even = 1.0 / static_cast<double>(lights.size());
+  const bool known = std::isfinite(sum) && sum > 0.0;
+  for (double& share : shares) share = known ? 0.5 * (share / sum + even) : even;
+  return shares;
+}
+
+Light light_in_root(const SceneLight& light, const RootTransform& root) {
+  const bool directional = light.kind == LIGHT_DIRECTIONAL, point = light.kind == LIGHT_POINT;
+  const double unit = root.unit_world;
+  Light in_root{};
+  in_root.position = directional ? glm::normalize(light.position) : root.to_root(light.position);
+  in_root.kind = light.kind;
+  in_root.power = glm::dvec3(light.power) / (point ? unit * unit : 1.0);
+  in_root.size = static_cast<float>(directional ? light.size : (point ? light.size / unit : 1.0));
+  in_root.edge_u = light.edge_u / unit;
+  in_root.edge_v = light.edge_v / unit;
+  return in_root;
 }
 
 }  // namespace
+
+double summed_irradiance(const Scene& scene, const std::vector<SceneLight>& lights) {
+  const glm::dvec3 sum = irradiance_of(lights, bounds_center(scene));
+  return (sum.x + sum.y + sum.z) / 3.0;
+}
 
 std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera) {
   constexpr double LEFT = 35.0 * pi / 180.0, ABOVE = 45.0 * pi / 180.0;
@@ -39,8 +88,8 @@ std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera)
 
 std::vector<SceneLight> exposed_lights(const Scene& scene) {
   std::vector<SceneLight> lights = scene.lights;
-  const double irradiance =
-      summed_irradiance(lights, 0.5 * (scene.bounds_min_world + scene.bounds_max_world));
+  const glm::dvec3 sum = irradiance_of(lights, bounds_center(scene));
+  const double irradiance = std::max({sum.x, sum.y, sum.z});
   if (!std::isfinite(irradiance) || irradiance <= 0.0) return lights;
   if (irradiance >= 0.1 * pi && irradiance <= 10.0 * pi) return lights;
   for (SceneLight& light : lights) light.power *= static_cast<float>(pi / irradiance);
@@ -48,14 +97,18 @@ std::vector<SceneLight> exposed_lights(const Scene& scene) {
 }
 
 std::vector<Light> lights_in_root(const Scene& scene, const std::vector<SceneLight>& lights) {
+  std::vector<SceneLight> sorted = lights;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const SceneLight& a, const SceneLight& b) { return table_order(a) < table_order(b); });
+  const std::vector<double> shares = light_shares(sorted, bounds_center(scene));
   std::vector<Light> in_root;
-  in_root.reserve(lights.size());
-  const double unit = scene.root.unit_world;
-  for (const SceneLight& light : lights) {
-    const bool point = light.kind == LIGHT_POINT;
-    const glm::dvec3 position = point ? scene.root.to_root(light.position) : glm::normalize(light.position);
-    const glm::dvec3 power = glm::dvec3(light.power) / (point ? unit * unit : 1.0);
-    in_root.push_back({glm::vec3(position), light.kind, glm::vec3(power), 0.0F});
+  in_root.reserve(sorted.size());
+  double before = 0.0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    in_root.push_back(light_in_root(sorted[i], scene.root));
+    in_root.back().share = static_cast<float>(shares[i]);
+    in_root.back().before = static_cast<float>(before);
+    before += shares[i];
   }
   return in_root;
 }

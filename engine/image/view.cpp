@@ -10,6 +10,9 @@
 namespace splatray {
 namespace {
 
+/// Of the scene's diagonal: how far away something darkens a point by occlusion.
+constexpr double REACH_SHARE = 0.1;
+
 /// Beyond this distance, in root edges, primary rays start on a plane through the root instead of at the eye:
 /// float32 ray parameters measured from a farther eye would be coarser than half a lattice unit.
 constexpr double FAR_EDGES = 4.0;
@@ -81,6 +84,18 @@ void set_rays(const Scene& scene, const View& view, FrameParams& frame) {
   set_near_rays(plane, frame);
 }
 
+/// Orthographic cameras have no lens.
+void set_lens(const Scene& scene, const Camera& camera, const Settings& settings, FrameParams& frame) {
+  if (!(settings.lens_radius_world > 0.0) || camera.ortho_height > 0.0) return;
+  const glm::dvec3 to_target = camera.target - camera.eye, forward = glm::normalize(to_target);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
+  const double radius = settings.lens_radius_world / scene.root.unit_world;
+  const double focus = settings.focus_world > 0.0 ? settings.focus_world : glm::length(to_target);
+  frame.lens_u = radius * right;
+  frame.lens_v = radius * glm::cross(forward, right);
+  frame.focus = static_cast<float>(focus / scene.root.unit_world);
+}
+
 }  // namespace
 
 ImagePlane image_plane(const RootTransform& root, const View& view) {
@@ -118,6 +133,11 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   frame.kappa = settings.kappa;
   frame.delta = static_cast<float>(settings.delta_world / scene.root.unit_world);
 
+  set_lens(scene, view.camera, settings, frame);
+  const double reach =
+      settings.reach_world > 0.0 ? settings.reach_world : REACH_SHARE * scene.diagonal_world();
+  frame.reach = static_cast<float>(reach / scene.root.unit_world);
+
   const glm::dmat3 axes = upright_axes(scene.up);
   const double angle = 2.0 * std::numbers::pi * settings.environment_turn;
   frame.environment_up = axes[1];
@@ -125,10 +145,12 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   return frame;
 }
 
-void set_media(FrameParams& frame, std::span<const Material> materials) {
-  for (const Material& material : materials) {
-    if ((material.flags & MATERIAL_DIELECTRIC) != 0)
-      frame.media[material.mask_bit / 4][static_cast<glm::length_t>(material.mask_bit % 4)] = material.ior;
+void set_media(FrameParams& frame, std::span<const Material> materials, std::span<const Surface> surfaces) {
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const Material& material = materials[i];
+    if ((material.flags & MATERIAL_DIELECTRIC) == 0) continue;
+    frame.media[material.mask_bit / 4][static_cast<glm::length_t>(material.mask_bit % 4)] = material.ior;
+    frame.absorption[material.mask_bit] = vec4(surfaces[i].absorption * frame.root_unit_world, 0.0F);
   }
 }
 

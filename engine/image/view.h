@@ -23,10 +23,12 @@ struct ImagePlane {
 /// That of a view that make_frame_params accepts.
 [[nodiscard]] ImagePlane image_plane(const RootTransform& root, const View& view);
 
-/// The method of a picture. Enumerators are the BLEND_*, KERNEL_*, SIDE_*, ORDER_* numbers of
+/// The method of a picture. Enumerators are the BLEND_*, KERNEL_*, SIDE_*, ORDER_*, LOOK_* numbers of
 /// shaders/layout.h.
 struct Settings {
-  std::uint32_t samples = 16;  ///< per pixel, >= 1; one sample goes through the pixel's centre
+  std::uint32_t samples =
+      16;  ///< per pixel, >= 1; with LOOK_PAPER one sample goes through the pixel's centre
+  std::uint32_t look = LOOK_PAPER;  ///< LOOK_*
   std::uint32_t seed = 1;
   std::uint32_t max_bounces = 8;  ///< secondary rays in a path, 0..64
   bool shadows = true;
@@ -43,6 +45,13 @@ struct Settings {
   bool counters = false;  ///< compile the counters in
   bool aov = false;       ///< also trace the centre rays' normal, depth, object
   float environment_strength = 1.0F;
+  // Of the other looks than LOOK_PAPER alone:
+  double reach_world =
+      0.0;  ///< LOOK_AO, LOOK_SCAN: how far away something darkens a point; 0 = a tenth of the scene's diagonal
+  bool straight_shadows =
+      false;  ///< light of lights passes dielectrics unbent, tinted; else only where paths find it
+  double lens_radius_world = 0.0;  ///< 0: all is sharp
+  double focus_world = 0.0;        ///< distance of the sharp plane from the eye; 0 = the camera's target
   float environment_turn =
       0.0F;  ///< turns (1 = a full one) about the up axis, counter-clockwise seen from above
 
@@ -90,6 +99,9 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 
 /// The light a scene without lights is shown in: a key light over the viewer's left shoulder.
 [[nodiscard]] std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera);
+/// Irradiance of a surface at the centre of the scene's bounding box that faces all lights, the mean of rgb; of rectangles as if all their
+/// light came from their centres.
+[[nodiscard]] double summed_irradiance(const Scene& scene, const std::vector<SceneLight>& lights);
 /// The scene's own lights, ready to show. Lights in physical units (candela, lux up to 1e5) would drown the
 /// picture, and dim ones would leave it black: where the brightest channel of their summed irradiance at the
 /// centre of the scene's bounding box lies outside [pi / 10, 10 pi], all are scaled by one factor that makes
@@ -102,10 +114,10 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 /// view, non-finite values, fov outside (0, 180), zero sizes.
 [[nodiscard]] FrameParams make_frame_params(const Scene& scene, const View& view, const Settings& settings);
 
-/// FrameParams::media of these materials.
-void set_media(FrameParams& frame, std::span<const Material> materials);
+/// FrameParams::media of these materials, and the absorption of their surfaces, which are beside them.
+void set_media(FrameParams& frame, std::span<const Material> materials, std::span<const Surface> surfaces);
 
-/// Lights in root space, as the engine uploads them.
+/// Lights in root space, as the engine uploads them: those with a size first, of these those at infinity last; how often each is chosen.
 [[nodiscard]] std::vector<Light> lights_in_root(const Scene& scene, const std::vector<SceneLight>& lights);
 
 }  // namespace splatray

@@ -11,9 +11,19 @@ namespace splatray {
 struct SceneLight {
   std::uint32_t kind = LIGHT_DIRECTIONAL;  ///< LIGHT_*
   glm::dvec3 position{0.0, 1.0, 0.0};      ///< point: position; directional: unit vector towards the light
-  glm::vec3 power{1.0F};  ///< directional: irradiance facing it; point: intensity (irradiance * distance^2)
+  glm::vec3 power{
+      1.0F};  ///< directional: irradiance facing it; point: intensity (irradiance * distance^2); rectangle: radiance
+  double size =
+      0.0;  ///< point: radius, world units; directional: angular radius, radians; 0 = none. LOOK_PAPER knows none
+  glm::dvec3 edge_u{0.0},
+      edge_v{0.0};  ///< rectangle: half its edges, perpendicular; it shines towards cross(u, v)
   bool operator==(const SceneLight&) const = default;
 };
+
+/// Whether a light has a size.
+[[nodiscard]] inline bool is_sized(const SceneLight& light) {
+  return light.kind == LIGHT_RECTANGLE || light.size > 0.0;
+}
 
 /// Most dielectrics that a ray can be inside of at once.
 inline constexpr std::uint32_t MASK_BITS = 32;

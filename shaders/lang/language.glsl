@@ -1,5 +1,5 @@
 // The few words in which GLSL and C++ differ, so that every other .glsl file compiles as both. The C++ side
-// of this file is tests/trace/glsl_as_cpp.h.
+// of this file is shaders/lang/glsl_as_cpp.h.
 #ifndef SPLATRAY_LANGUAGE_GLSL
 #define SPLATRAY_LANGUAGE_GLSL
 #ifndef __cplusplus

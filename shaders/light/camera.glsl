@@ -3,6 +3,9 @@
 // `frame`.
 #ifndef SPLATRAY_CAMERA_GLSL
 #define SPLATRAY_CAMERA_GLSL
+#ifdef LIT
+#include "light/sampling.glsl"
+#endif
 #include "primitive/disc.glsl"
 
 /// The ray through pixel position (x, y), direction of unit length; `eye_distance` is the distance from the
@@ -22,5 +25,21 @@ Ray primary_ray(float x, float y, OUT(float) eye_distance) {
   ray.from_object = NO_OBJECT;
   return ray;
 }
+
+#ifdef LIT
+/// A primary ray from a point of the lens instead of its middle, to the same point of the sharp plane. `eye_distance` as primary_ray
+/// has it.
+Ray through_lens(Ray ray, float eye_distance, vec2 random) {
+  vec2 at = disc_sample(random);
+  vec3 beside = frame.lens_u * at.x + frame.lens_v * at.y;
+  vec3 forward = cross(frame.lens_u, frame.lens_v);
+  forward *= inversesqrt(dot(forward, forward));
+  float sharp = frame.focus / dot(ray.dir, forward);
+  ray.origin += beside * (1.0f - eye_distance / sharp);
+  ray.dir -= beside / sharp;
+  ray.dir *= inversesqrt(dot(ray.dir, ray.dir));
+  return ray;
+}
+#endif
 
 #endif

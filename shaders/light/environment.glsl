@@ -10,6 +10,13 @@ vec3 to_environment(vec3 dir) {
   return vec3(dot(dir, right), dot(dir, up), dot(dir, cross(right, up)));
 }
 
+/// The other way round.
+vec3 from_environment(vec3 dir) {
+  vec3 up = frame.environment_up;
+  vec3 right = frame.environment_right;
+  return right * dir.x + up * dir.y + cross(right, up) * dir.z;
+}
+
 /// Where the latitude-longitude image has this direction of its own frame (engine/scene/environment.h): column and row, 0..1.
 vec2 environment_position(vec3 dir) {
   float column = atan(dir.x, -dir.z) * 0.15915494f + 0.5f;

@@ -2,9 +2,8 @@
 #ifndef SPLATRAY_LIGHTS_GLSL
 #define SPLATRAY_LIGHTS_GLSL
 #include "light/material.glsl"
+#include "light/sampling.glsl"
 #include "trace/shadow.glsl"
-
-const float PI = 3.14159265f;
 
 /// Phong shading of the hit by the dispatch's lights: diffuse / pi and the energy-normalised specular lobe, per unit irradiance.
 /// Where `scatters` is false no ray is traced: the sum is of no use.

@@ -1,6 +1,7 @@
 // Where light goes on from a hit: mirrored or through glass. Needs `frame`, medium_at(bit) and the constant SIDE.
 #ifndef SPLATRAY_MATERIAL_GLSL
 #define SPLATRAY_MATERIAL_GLSL
+#include "light/microfacet.glsl"
 #include "primitive/disc.glsl"
 #include "trace/hit.glsl"
 
@@ -23,26 +24,21 @@ Ray ray_from_hit(Hit hit, vec3 dir, uint inside) {
   return secondary_ray(hit.position, dir, inside, hit.front ? hit.normal : -hit.normal, hit.object);
 }
 
-/// Share of unpolarised light that a dielectric boundary reflects; 1 on total internal reflection. `eta` =
-/// ior on the ray's side / ior behind, `cosine` = |n.d|. `cosine_behind` is the refracted ray's |n.d|, 0 when
-/// there is none.
-float fresnel(float eta, float cosine, OUT(float) cosine_behind) {
-  float sine_squared = eta * eta * max(1.0f - cosine * cosine, 0.0f);
-  cosine_behind = sqrt(max(1.0f - sine_squared, 0.0f));
-  float parallel = (cosine - eta * cosine_behind) / (cosine + eta * cosine_behind);
-  float perpendicular = (eta * cosine - cosine_behind) / (eta * cosine + cosine_behind);
-  return sine_squared >= 1.0f ? 1.0f : 0.5f * (parallel * parallel + perpendicular * perpendicular);
+/// Index of refraction before a hit on a dielectric over that behind it.
+float eta_at(Hit hit, uint inside, Material material) {
+  uint object_bit = 1u << material.mask_bit;
+  uint others = inside & ~object_bit;
+  // Light runs in the dielectric with the highest bit of the mask.
+  float ior_without = others != 0u ? medium_at(uint(findMSB(others))) : 1.0f;
+  float ior_with = others > object_bit ? ior_without : material.ior;
+  return hit.front ? ior_without / ior_with : ior_with / ior_without;
 }
 
 /// The ray that goes on from a hit on a dielectric: reflected when `choice` is below Fresnel's share, else
 /// refracted.
 Ray dielectric_ray(Hit hit, Ray ray, Material material, float choice, OUT(bool) reflected) {
   uint object_bit = 1u << material.mask_bit;
-  uint others = ray.inside & ~object_bit;
-  // Light runs in the dielectric with the highest bit of the mask.
-  float ior_without = others != 0u ? medium_at(uint(findMSB(others))) : 1.0f;
-  float ior_with = others > object_bit ? ior_without : material.ior;
-  float eta = hit.front ? ior_without / ior_with : ior_with / ior_without;
+  float eta = eta_at(hit, ray.inside, material);
   float cosine = clamp(-dot(ray.dir, hit.normal), 0.0f, 1.0f);
   float cosine_behind = 0.0f;
   float share = fresnel(eta, cosine, cosine_behind);

@@ -1,5 +1,5 @@
 // The GPU's side of what the other .glsl files need: specialization constants, pools, tables. CPU: for CPU devices, see
-// variants.cmake. PAGED: some pool is in several buffers.
+// variants.cmake. PAGED: some pool is in several buffers. LIT: path tracing.
 #ifndef SPLATRAY_BINDINGS_GLSL
 #define SPLATRAY_BINDINGS_GLSL
 #include "layout.h"
@@ -26,6 +26,23 @@ const bool LIGHTS = (FEATURES & FEATURE_LIGHTS) != 0u;
 const bool SHADOWS = (FEATURES & FEATURE_SHADOWS) != 0u;
 const bool ENVIRONMENT = (FEATURES & FEATURE_ENVIRONMENT) != 0u;
 const bool COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
+#ifdef LIT
+layout(constant_id = SPEC_LOOK) const uint LOOK = LOOK_LIT;
+
+const bool SKY = (FEATURES & FEATURE_SKY) != 0u;
+const bool SIZES = (FEATURES & FEATURE_SIZES) != 0u;
+const bool EMISSION = (FEATURES & FEATURE_EMISSION) != 0u;
+const bool LENS = (FEATURES & FEATURE_LENS) != 0u;
+const bool STRAIGHT = (FEATURES & FEATURE_STRAIGHT) != 0u;
+const bool TINTED = STRAIGHT && GLASS;
+const bool LOBE_DIFFUSE = (FEATURES & FEATURE_DIFFUSE) != 0u;
+const bool LOBE_SPECULAR = (FEATURES & FEATURE_SPECULAR) != 0u;
+const bool LOBE_METAL = (FEATURES & FEATURE_METAL) != 0u;
+const bool LOBE_TRANSMISSION = GLASS;
+const bool LOBE_COAT = (FEATURES & FEATURE_COAT) != 0u;
+#else
+const bool TINTED = GLASS;
+#endif
 
 layout(local_size_x = GROUP_SIZE) in;
 
@@ -42,10 +59,12 @@ void read_frame() { frame = frame_block; }
 /// Index of refraction in the dielectric that has this bit of a ray's mask. Not of the copy: llvmpipe would look
 /// through all of an array there.
 float medium_at(uint bit) { return frame_block.media[bit >> 2u][bit & 3u]; }
+vec3 absorption_at(uint bit) { return frame_block.absorption[bit].xyz; }
 #else
 layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame; };
 void read_frame() {}  // a copy would take 116 registers
 float medium_at(uint bit) { return frame.media[bit >> 2u][bit & 3u]; }
+vec3 absorption_at(uint bit) { return frame.absorption[bit].xyz; }
 #endif
 
 layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Material materials[]; };

@@ -10,7 +10,20 @@ layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[
 
 Light light_at(uint index) { return lights[index]; }
 
-#include "light/path.glsl"
+#ifdef LIT
+layout(std430, binding = BIND_SURFACES) readonly buffer SurfaceTable { Surface surfaces[]; };
+layout(std430, binding = BIND_LIGHT_TABLES) readonly buffer LightTables { uint light_tables[]; };
+
+Surface surface_at(uint object) { return surfaces[object]; }
+float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
+
+#include "light/bsdf.glsl"
+
+uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
+#include "light/transport.glsl"
+#else
+#include "light/phong.glsl"
+#endif
 
 #ifdef CPU
 #include "stage/queue.glsl"
@@ -29,6 +42,10 @@ void add_counters(Path path, Tally tally) {
   count(COUNT_LEAKED, once ? path.leaked : 0u);
   count(COUNT_BOUNCE_LIMIT, once ? path.cut : 0u);
   count(COUNT_ENERGY_LOST, once ? uint(path.energy_lost * 1024.0f + 0.5f) : 0u);
+#ifdef LIT
+  count(COUNT_BELOW, path.below);
+  count(COUNT_BELOW_ENERGY, uint(path.energy_below * 1024.0f + 0.5f));
+#endif
   count(COUNT_LEAVES, tally.leaves);
   count(COUNT_NODE_STEPS, tally.node_steps);
   count(COUNT_TESTS, tally.tests);

@@ -2,6 +2,9 @@
 #ifndef SPLATRAY_PIXELS_GLSL
 #define SPLATRAY_PIXELS_GLSL
 #include "lang/random.glsl"
+#ifdef LIT
+#include "lang/sobol.glsl"
+#endif
 #include "light/camera.glsl"
 
 layout(std430, binding = BIND_ACCUMULATION) buffer Accumulation { vec4 accumulation[]; };
@@ -41,11 +44,22 @@ Ray center_ray(uvec2 pixel, OUT(float) eye_distance) {
   return primary_ray(float(pixel.x) + 0.5f, float(pixel.y) + 0.5f, eye_distance);
 }
 
+#ifdef LIT
+Ray sample_ray(uvec2 pixel, uint sample_index) {
+  vec4 random = sobol_sample(pixel.y * frame.width + pixel.x, sample_index, 0u, frame.seed);
+  vec2 at = vec2(pixel) + random.xy;
+  float eye_distance = 0.0f;
+  Ray ray = primary_ray(at.x, at.y, eye_distance);
+  if (LENS) ray = through_lens(ray, eye_distance, random.zw);
+  return ray;
+}
+#else
 Ray sample_ray(uvec2 pixel, uint sample_index) {
   vec2 at = vec2(pixel) + pixel_sample(sample_index);
   float eye_distance = 0.0f;
   return primary_ray(at.x, at.y, eye_distance);
 }
+#endif
 
 /// The mean of a pixel's samples so far.
 vec4 mean_before(uint place) {

@@ -22,6 +22,9 @@ void queue_path(Path path, uint place) {
   queued_paths[slot].from_object = path.ray.from_object;
   queued_paths[slot].throughput = path.throughput;
   queued_paths[slot].radiance = path.radiance;
+#ifdef LIT
+  queued_paths[slot].pdf = path.pdf;
+#endif
 }
 
 /// A path of this stage's queue.
@@ -33,7 +36,11 @@ Path queued_path(uint index, OUT(uint) place) {
   place = origin.w;
   Path path = path_start(secondary_ray(uintBitsToFloat(origin.xyz), uintBitsToFloat(dir.xyz), dir.w,
                                        uintBitsToFloat(from.xyz), from.w));
-  path.throughput = uintBitsToFloat(texelFetch(paths, texel + 3).xyz);
+  uvec4 throughput = texelFetch(paths, texel + 3);
+  path.throughput = uintBitsToFloat(throughput.xyz);
+#ifdef LIT
+  path.pdf = uintBitsToFloat(throughput.w);
+#endif
   path.radiance = uintBitsToFloat(texelFetch(paths, texel + 4).xyz);
   path.bounce = frame.path_bounce;
   path.coverage = 1.0f;

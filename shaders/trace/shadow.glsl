@@ -1,4 +1,5 @@
-// How much light passes along a ray. Needs what accept.glsl needs, and the constant GLASS.
+// How much light passes along a ray. Needs what accept.glsl needs, and the constant TINTED: dielectrics
+// tint light, else they are as opaque as anything.
 #ifndef SPLATRAY_SHADOW_GLSL
 #define SPLATRAY_SHADOW_GLSL
 #include "trace/accept.glsl"
@@ -16,7 +17,7 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
     uint candidates = walk_candidates(walk, ray, ray.t_max, false, chunk, tally);
     uint accepted = accept_candidates(chunk, candidates, ray, walk, false, first);
     bool opaque = accepted != 0u;
-    if (GLASS) {
+    if (TINTED) {
       opaque = false;
       do {
         if (accepted != 0u) {

@@ -115,7 +115,7 @@ std::vector<Probe> probes_at(const dvec3& center, double radius, std::size_t cou
 
 OrientedPoints box_points(const dvec3& size, double density) {
   OrientedPoints points;
-  for (const Surface& face : box("box", size, false))
+  for (const SurfacePatch& face : box("box", size, false))
     append(points, face.make({.count = static_cast<std::uint64_t>(density * face.area)}));
   return points;
 }

@@ -58,7 +58,7 @@ TEST(Energy, BounceLimits) {
 /// In a closed mirror room no path ends: all energy is lost at the limit.
 TEST(Energy, MirrorRoomNeverEnds) {
   OrientedPoints points;
-  for (const Surface& face : box("room", dvec3(2.0), true)) append(points, face.make({.count = 3000}));
+  for (const SurfacePatch& face : box("room", dvec3(2.0), true)) append(points, face.make({.count = 3000}));
   DeviceScene device(scene_of({{points, mirror_material()}}));
   Settings settings;
   settings.max_bounces = 64;

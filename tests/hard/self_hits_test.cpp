@@ -198,7 +198,7 @@ constexpr double SLAB_TOP = 0.1;
 
 TEST(SelfHit, GlassSlab) {
   OrientedPoints points;
-  for (const Surface& face : box("slab", {2.0, 2.0 * SLAB_TOP, 2.0}, false))
+  for (const SurfacePatch& face : box("slab", {2.0, 2.0 * SLAB_TOP, 2.0}, false))
     append(points, face.make({.count = static_cast<std::uint64_t>(2000.0 * face.area)}));
   const Scene scene = scene_of({{points, glass_material(1.5F)}});
   conclude(through_glass(

@@ -95,7 +95,7 @@ TEST(Sheet, ThinMirrorWalls) {
 /// Orthographic rays at a cube: what is hit outside its silhouette, and what is missed inside.
 TEST(Sheet, ConvexEdges) {
   OrientedPoints points;
-  for (const Surface& face : box("cube", dvec3(2.0), false)) append(points, face.make({.count = 3000}));
+  for (const SurfacePatch& face : box("cube", dvec3(2.0), false)) append(points, face.make({.count = 3000}));
   const Scene scene = scene_of({{points, test_material(0)}});
   const double radius = median_radius_root(scene) * scene.root.unit_world;
   DeviceScene device(scene);
@@ -123,7 +123,7 @@ TEST(Sheet, ConvexEdges) {
 
 TEST(Sheet, ConcaveEdges) {
   OrientedPoints points;
-  for (const Surface& face : box("room", dvec3(2.0), true)) append(points, face.make({.count = 3000}));
+  for (const SurfacePatch& face : box("room", dvec3(2.0), true)) append(points, face.make({.count = 3000}));
   const Scene scene = scene_of({{points, test_material(0)}});
   const double radius = median_radius_root(scene) * scene.root.unit_world;
   std::mt19937_64 random(5);

@@ -108,7 +108,7 @@ TEST(Exactness, RandomSphereGlass) { compare_sphere(false, MATERIAL_DIELECTRIC);
 
 TEST(Exactness, GlassInsideARoomOfCoplanarSplats) {
   TestObject room{{}, test_material(0)};
-  for (const Surface& face : box("room", glm::dvec3(4.0), true))
+  for (const SurfacePatch& face : box("room", glm::dvec3(4.0), true))
     append(room.points, face.make({.count = 3000}));
   const std::vector<TestObject> objects{room, sphere_object(5000, true, MATERIAL_DIELECTRIC)};
   compare_gpu({scene_of(objects, 10), scene_of(objects, 25)}, 30000);

@@ -11,7 +11,7 @@ namespace {
 
 namespace glsl {
 
-#include "tests/trace/glsl_as_cpp.h"
+#include "shaders/lang/glsl_as_cpp.h"
 
 #define SIDE SIDE_SIDE
 #define ENVIRONMENT true

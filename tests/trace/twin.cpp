@@ -19,7 +19,7 @@ thread_local Features features;
 
 namespace glsl {
 
-#include "tests/trace/glsl_as_cpp.h"
+#include "shaders/lang/glsl_as_cpp.h"
 
 #define BLEND features[SPEC_BLEND]
 #define KERNEL features[SPEC_KERNEL]

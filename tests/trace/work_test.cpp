@@ -67,7 +67,7 @@ TEST(Work, LayersOfAColoredScan) {
 
 TEST(Work, GlassBallInARoom) {
   TestObject room{{}, test_material(0)};
-  for (const Surface& face : box("room", glm::dvec3(4.0), true))
+  for (const SurfacePatch& face : box("room", glm::dvec3(4.0), true))
     append(room.points, face.make({.count = 20000}));
   expect_work(work_of(scene_of({room, ball(true, MATERIAL_DIELECTRIC)})), {17.1, 18.4, 10.3, 51.1});
 }

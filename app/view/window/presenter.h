@@ -43,7 +43,7 @@ class Presenter {
   Window& window_;
   Context context_;
   CommandQueue queue_;
-  std::optional<Surface> surface_;
+  std::optional<WindowSurface> surface_;
   VkSurfaceFormatKHR format_{};
   Handle<VkRenderPass, vkDestroyRenderPass> pass_;
   Swapchain swapchain_;

@@ -9,12 +9,12 @@
 namespace splatray {
 
 /// Owner of a window's surface. The instance must outlive it.
-class Surface {
+class WindowSurface {
  public:
-  Surface(VkInstance instance, VkSurfaceKHR surface) : instance_(instance), surface_(surface) {}
-  ~Surface() { vkDestroySurfaceKHR(instance_, surface_, nullptr); }
-  Surface(const Surface&) = delete;
-  Surface& operator=(const Surface&) = delete;
+  WindowSurface(VkInstance instance, VkSurfaceKHR surface) : instance_(instance), surface_(surface) {}
+  ~WindowSurface() { vkDestroySurfaceKHR(instance_, surface_, nullptr); }
+  WindowSurface(const WindowSurface&) = delete;
+  WindowSurface& operator=(const WindowSurface&) = delete;
 
   [[nodiscard]] VkSurfaceKHR get() const { return surface_; }
 

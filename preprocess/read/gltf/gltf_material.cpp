@@ -9,7 +9,7 @@
 namespace splatray {
 namespace {
 
-struct Surface {
+struct GltfSurface {
   glm::vec3 base{1.0F};
   float metallic = 1.0F;
   float roughness = 1.0F;
@@ -44,7 +44,7 @@ glm::vec3 attenuation(const tinygltf::Material& source) {
           std::pow(unit_clamp(color[2]), power)};
 }
 
-void make_dielectric(Material& material, const tinygltf::Material& source, const Surface& surface) {
+void make_dielectric(Material& material, const tinygltf::Material& source, const GltfSurface& surface) {
   constexpr double GLASS = 1.5;
   const tinygltf::Value* ior = find_extension(source.extensions, "KHR_materials_ior");
   const bool thin = ior == nullptr && find_extension(source.extensions, "KHR_materials_volume") == nullptr;
@@ -54,7 +54,7 @@ void make_dielectric(Material& material, const tinygltf::Material& source, const
   material.tint = surface.base * attenuation(source);
 }
 
-void make_opaque(Material& material, const Surface& surface, bool colored) {
+void make_opaque(Material& material, const GltfSurface& surface, bool colored) {
   const glm::vec3 base = colored ? glm::vec3(1.0F) : surface.base;
   const float smooth = 1.0F - surface.roughness;
   if (surface.metallic > 0.5F && surface.roughness < 0.35F && !colored) {
@@ -145,7 +145,7 @@ Material GltfMaterials::material(int index, bool colored) {
   const tinygltf::Material& from = source(index);
   material.flags = from.doubleSided ? MATERIAL_TWO_SIDED : 0U;
   material.diffuse = glm::vec3(0.0F);
-  Surface surface{color_factor(from), unit_clamp(from.pbrMetallicRoughness.metallicFactor),
+  GltfSurface surface{color_factor(from), unit_clamp(from.pbrMetallicRoughness.metallicFactor),
                   unit_clamp(from.pbrMetallicRoughness.roughnessFactor)};
   if (from.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0) {
     if (const auto picture = image(from.pbrMetallicRoughness.metallicRoughnessTexture.index)) {

@@ -50,7 +50,7 @@ Input input_of_model(const Case& one, const Variant& variant) {
   object.points.normal.assign(points.normal.begin(), points.normal.end());
   object.material = material_of(one);
   object.oriented = true;
-  for (const Surface& surface : model) object.surface_area += surface.area;
+  for (const SurfacePatch& surface : model) object.surface_area += surface.area;
   return input;
 }
 

@@ -27,8 +27,10 @@ using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
+using std::cos;
 using std::exp;
 using std::pow;
+using std::sin;
 using std::sqrt;
 
 inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }

@@ -1,0 +1,148 @@
+// make_albedo_table OUT.cpp: the albedo table (shaders/light/albedo_layout.h) as C++, made by quadrature over the facets that the shaders
+// choose. Run when the project is built.
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <glm/glm.hpp>
+#include <limits>
+#include <vector>
+
+#include "shaders/light/albedo_layout.h"
+
+namespace splatray {
+namespace {
+
+std::vector<float> table;
+
+namespace glsl {
+
+#include "shaders/lang/glsl_as_cpp.h"
+
+float albedo_at(uint index) { return table[index]; }
+
+#include "shaders/light/albedo.glsl"
+
+}  // namespace glsl
+
+constexpr int POINTS = 64;  ///< of the quadrature along each axis
+constexpr int MEAN_POINTS = 1024;
+
+glm::vec3 eye_of(float cosine) { return {std::sqrt(1.0F - cosine * cosine), 0.0F, cosine}; }
+
+float alpha_of(std::uint32_t row) {
+  const float roughness = static_cast<float>(row) / static_cast<float>(ALBEDO_ROWS - 1);
+  return std::max(roughness * roughness, glsl::ALPHA_LEAST);
+}
+
+/// The mean of what measure(facet) gives for facets as often as they are seen. The few that are steep count most for what is lost, so
+/// points are dense there.
+template <class Measure>
+glm::dvec2 mean_over_facets(const glm::vec3& to_eye, float alpha, const Measure& measure) {
+  glm::dvec2 sum(0.0);
+  for (int j = 0; j < POINTS; ++j) {
+    const float t = (static_cast<float>(j) + 0.5F) / POINTS;
+    glm::dvec2 row(0.0);
+    for (int i = 0; i < POINTS; ++i)
+      row += measure(glsl::ggx_facet(to_eye, alpha, 1.0F,
+                                     {(static_cast<float>(i) + 0.5F) / POINTS, 1.0F - t * t * t * t}));
+    sum += row * (4.0 * double(t) * double(t) * double(t));
+  }
+  return sum / double(POINTS * POINTS);
+}
+
+/// Of light mirrored by facets that the eye sees, the share that no others hide.
+float mirrored_share(const glm::vec3& to_eye, const glm::vec3& to_light, float alpha) {
+  if (!(to_light.z > 0.0F)) return 0.0F;
+  return 2.0F * to_light.z * (to_eye.z + glsl::ggx_stretch(to_eye.z, alpha)) *
+         glsl::ggx_visible(to_eye.z, to_light.z, alpha);
+}
+
+glm::dvec2 reflectance_factors(const glm::vec3& to_eye, float alpha) {
+  return mean_over_facets(to_eye, alpha, [&](const glm::vec3& facet) {
+    const float cosine = glm::dot(to_eye, facet), edge = glsl::schlick(cosine);
+    const float share = mirrored_share(to_eye, facet * (2.0F * cosine) - to_eye, alpha);
+    return glm::dvec2(share * (1.0F - edge), share * edge);
+  });
+}
+
+double glass_albedo(const glm::vec3& to_eye, float alpha, float eta) {
+  return mean_over_facets(
+             to_eye, alpha,
+             [&](const glm::vec3& facet) {
+               const float cosine = std::max(glm::dot(to_eye, facet), 1e-6F);
+               float behind = 0.0F;
+               const float share = glsl::fresnel(eta, cosine, behind);
+               const glm::vec3 through = facet * (eta * cosine - behind) - to_eye * eta;
+               const float mirrored = share * mirrored_share(to_eye, facet * (2.0F * cosine) - to_eye, alpha);
+               const bool passes = through.z < 0.0F && share < 1.0F;
+               return glm::dvec2(
+                   mirrored + (passes ? (1.0F - share) * glsl::ggx_seen(-through.z, alpha) : 0.0F), 0.0);
+             })
+      .x;
+}
+
+float column_cosine(std::uint32_t column) {
+  const float x = std::max(static_cast<float>(column), 0.05F) / static_cast<float>(ALBEDO_COLUMNS - 1);
+  return x * x;
+}
+
+void add_reflectances() {
+  for (std::uint32_t row = 0; row < ALBEDO_ROWS; ++row)
+    for (std::uint32_t column = 0; column < ALBEDO_COLUMNS; ++column) {
+      const glm::dvec2 factors = reflectance_factors(eye_of(column_cosine(column)), alpha_of(row));
+      table.push_back(static_cast<float>(factors.x));
+      table.push_back(static_cast<float>(factors.y));
+    }
+  for (std::uint32_t row = 0; row < ALBEDO_ROWS; ++row) {
+    glm::dvec2 sum(0.0);
+    for (int i = 0; i < MEAN_POINTS; ++i) {
+      const float cosine = (static_cast<float>(i) + 0.5F) / MEAN_POINTS;
+      sum += 2.0 * double(cosine) *
+             glm::dvec2(glsl::albedo_factors(cosine, std::max(alpha_of(row), 1.01F * glsl::ALPHA_LEAST)));
+    }
+    table.push_back(static_cast<float>(sum.x / MEAN_POINTS));
+    table.push_back(static_cast<float>(sum.y / MEAN_POINTS));
+  }
+}
+
+void add_glass() {
+  for (std::uint32_t k = 0; k < ALBEDO_ETAS; ++k) {
+    const float z =
+        glsl::ALBEDO_ETA_MOST * (2.0F * static_cast<float>(k) / static_cast<float>(ALBEDO_ETAS - 1) - 1.0F);
+    for (std::uint32_t row = 0; row < ALBEDO_ROWS; ++row)
+      for (std::uint32_t column = 0; column < ALBEDO_COLUMNS; ++column)
+        table.push_back(static_cast<float>(
+            glass_albedo(eye_of(column_cosine(column)), alpha_of(row), (1.0F + z) / (1.0F - z))));
+  }
+}
+
+bool write(const char* path) {
+  std::FILE* file = std::fopen(path, "w");
+  if (file == nullptr) return false;
+  std::fputs("#include \"engine/scene/albedo_table.h\"\nstatic constexpr float VALUES[] = {", file);
+  for (std::size_t i = 0; i < table.size(); ++i)
+    std::fprintf(file, "%s%.8eF,", i % 8 == 0 ? "\n" : "", double(table[i]));
+  std::fputs("};\nconst std::span<const float> splatray::ALBEDO_TABLE(VALUES);\n", file);
+  const bool written = std::ferror(file) == 0;
+  return std::fclose(file) == 0 && written;
+}
+
+}  // namespace
+
+/// Makes the table and writes it; whether that went well.
+static bool make_table(const char* path) {
+  table.reserve(ALBEDO_WORDS);
+  add_reflectances();
+  add_glass();
+  return table.size() == ALBEDO_WORDS && write(path);
+}
+
+}  // namespace splatray
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  if (splatray::make_table(argv[1])) return 0;
+  std::fprintf(stderr, "make_albedo_table: error: cannot write '%s'\n", argv[1]);
+  return 1;
+}

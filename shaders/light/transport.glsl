@@ -1,0 +1,169 @@
+// Path tracing (Kajiya 1986, "The Rendering Equation"): at each of a path's vertices light is looked for and one direction followed, both
+// joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", ch. 9). The blended
+// normal is the geometric one too: discs stand in for the smooth surface that it estimates, not the other way round. Needs surface_at(object),
+// albedo_at(index), absorption_at(bit) and the constants LOOK, LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, STAGE and those of bsdf.glsl.
+#ifndef SPLATRAY_TRANSPORT_GLSL
+#define SPLATRAY_TRANSPORT_GLSL
+#include "lang/sobol.glsl"
+#include "light/bsdf.glsl"
+#include "light/light_samples.glsl"
+#include "light/material.glsl"
+#include "light/path.glsl"
+#include "trace/blend.glsl"
+#include "trace/shadow.glsl"
+
+/// From this bounce on paths end by chance, as often as their light is weak.
+const uint ROULETTE_BOUNCE = 3u;
+const float CLAY_ALBEDO = 0.8f;
+/// LOOK_SCAN: of a colour's brightness, what comes from the sky at points that nothing is near.
+const float SCAN_SKY = 0.75f;
+
+/// What scatters light at a hit, seen at this cosine. `eta` as Bsdf has it.
+Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
+  Bsdf bsdf;
+  bsdf.base = surface.base * hit.color;
+  bsdf.metallic = surface.metallic;
+  float ior = GLASS && surface.transmission > 0.0f ? eta : surface.ior;
+  float facing = (ior - 1.0f) / (ior + 1.0f);
+  bsdf.f0 = min(surface.specular_color * (facing * facing * surface.specular), vec3(1.0f));
+  bsdf.f90 = surface.specular;
+  bsdf.alpha = surface.roughness * surface.roughness;
+  bsdf.transmission = surface.transmission;
+  bsdf.eta = eta;
+  bsdf.coat = surface.coat;
+  bsdf.coat_alpha = surface.coat_roughness * surface.coat_roughness;
+  if (LOOK == LOOK_SCAN) bsdf.base = hit.color;
+  if (LOOK == LOOK_CLAY) bsdf.base = vec3(CLAY_ALBEDO);
+  if (LOOK == LOOK_AO) bsdf.base = vec3(1.0f);
+  bsdf_seen(bsdf, cosine);
+  return bsdf;
+}
+
+/// Light that one of the lights, or the environment, sends on to the eye from a hit.
+vec3 light_found(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside, INOUT(uint) shadow_rays,
+                 INOUT(Tally) tally) {
+  LightSample chosen = light_sample(hit.position, random);
+  float pdf = 0.0f;
+  vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
+  vec3 value = bsdf_value(bsdf, to_eye, to_light, pdf);
+  float share = chosen.pdf > 0.0f && LOOK != LOOK_SCAN ? chosen.pdf * chosen.pdf / (chosen.pdf * chosen.pdf + pdf * pdf) : 1.0f;
+  vec3 light = value * chosen.radiance * share;
+  bool lit = max(light.x, max(light.y, light.z)) > 0.0f;
+  if (SHADOWS) {
+    bool crosses = to_light.z < 0.0f;
+    uint object_bit = 0u;
+    if (GLASS && crosses) object_bit = 1u << material_at(hit.object).mask_bit;
+    Ray ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
+    ray.t_max = LOOK == LOOK_SCAN ? min(chosen.distance, frame.reach) : chosen.distance;
+    ray.t_max = lit ? ray.t_max : -1.0f;
+    light *= trace_shadow(ray, tally);
+    shadow_rays += lit ? 1u : 0u;
+  }
+  return light;
+}
+
+/// Which share of the light of a white sky, weighted by cosine, arrives at a hit: of one direction, 0 or 1.
+vec3 sky_found(Hit hit, Basis basis, vec2 random, uint inside, INOUT(uint) shadow_rays, INOUT(Tally) tally) {
+  vec2 at = disc_sample(random);
+  float height = sqrt(max(1.0f - dot(at, at), 0.0f));
+  Ray ray = ray_from_hit(hit, basis.u * at.x + basis.v * at.y + hit.normal * height, inside);
+  ray.t_max = frame.reach;
+  shadow_rays += 1u;
+  return trace_shadow(ray, tally);
+}
+
+/// Has the path go on from a hit, in a direction that the surface chooses.
+void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
+  BsdfSample chosen = bsdf_sample(bsdf, to_eye, random.xyz);
+  vec3 throughput = path.throughput * chosen.weight;
+  float most = max(throughput.x, max(throughput.y, throughput.z));
+  path.alive = most > 0.0f;
+  if (COUNTERS && !path.alive && max(bsdf.base.x, max(bsdf.base.y, bsdf.base.z)) > 0.0f) {
+    path.below = 1u;
+    path.energy_below = (path.throughput.x + path.throughput.y + path.throughput.z) / 3.0f;
+  }
+  bool cut = path.alive && path.bounce >= frame.max_bounces;
+  path.cut = cut ? 1u : path.cut;
+  path.energy_lost = cut ? (throughput.x + throughput.y + throughput.z) / 3.0f : path.energy_lost;
+  path.alive = path.alive && !cut;
+  if (path.bounce >= ROULETTE_BOUNCE) {
+    float survival = min(most, 1.0f);
+    path.alive = path.alive && random.w < survival;
+    throughput /= max(survival, 1e-20f);
+  }
+  bool transmitted = (chosen.event & BSDF_TRANSMITTED) != 0u;
+  uint inside = path.ray.inside;
+  if (GLASS && transmitted) inside ^= 1u << material_at(hit.object).mask_bit;
+  vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
+  bool found_straight = STRAIGHT && transmitted && path.pdf != 0.0f;
+  path.pdf = found_straight ? -1.0f : ((chosen.event & BSDF_DELTA) != 0u ? 0.0f : chosen.pdf);
+  path.ray = ray_from_hit(hit, dir * inversesqrt(dot(dir, dir)), inside);
+  path.throughput = throughput;
+  path.reflected += path.alive && !transmitted ? 1u : 0u;
+  path.refracted += path.alive && transmitted ? 1u : 0u;
+  path.bounce += 1u;
+}
+
+/// What a path finds where it meets nothing.
+void meet_environment(INOUT(Path) path) {
+  float share = path.pdf < 0.0f ? 0.0f : 1.0f;
+  if (SKY) share = met_share(path.pdf, path.pdf > 0.0f ? sky_pdf(path.ray.dir) * frame.sky_share : 0.0f);
+  path.radiance += path.throughput * environment_radiance(path.ray.dir) * share;
+  path.leaked = path.ray.inside != 0u ? 1u : 0u;
+  path.alive = false;
+}
+
+/// What a path finds at a hit, and whether and how it goes on.
+void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Tally) tally) {
+  path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
+  Surface surface = surface_at(hit.object);
+  float eta = 1.0f;
+  if (GLASS) {
+    if ((material_at(hit.object).flags & MATERIAL_DIELECTRIC) != 0u)
+      eta = eta_at(hit, path.ray.inside, material_at(hit.object));
+    if (path.ray.inside != 0u) {
+      vec3 depth = absorption_at(uint(findMSB(path.ray.inside))) * hit.t;
+      path.throughput *= exp(-depth);
+    }
+  }
+  if (EMISSION) path.radiance += path.pdf < 0.0f ? vec3(0.0f) : path.throughput * surface.emission * hit.color;
+  Basis basis = basis_of(hit.normal);
+  vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));
+  Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
+  vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
+  if (LIGHTS || SKY) {
+    vec3 light = light_found(hit, bsdf, basis, to_eye, random.xyz, path.ray.inside, path.shadow, tally);
+    path.radiance += path.throughput * light;
+  }
+  if (LOOK == LOOK_AO || LOOK == LOOK_SCAN) {
+    vec4 random_sky = sobol_sample(pixel, sample_index, 2u, frame.seed);
+    float sky = LOOK == LOOK_SCAN ? SCAN_SKY : 1.0f;
+    path.radiance += bsdf.base * sky * sky_found(hit, basis, random_sky.xy, path.ray.inside, path.shadow, tally);
+    path.alive = false;
+  } else {
+    go_on(path, hit, bsdf, basis, to_eye, sobol_sample(pixel, sample_index, 2u + 2u * path.bounce, frame.seed));
+  }
+}
+
+/// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture.
+void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) tally) {
+  do {
+    Hit hit = trace_nearest(path.ray, frame.kappa, tally);
+    bool light_first = false;
+    if (SIZES && LOOK != LOOK_SCAN) {
+      float t = hit.t;
+      path.radiance += path.throughput * met_light(path.ray, path.pdf, t);
+      light_first = t < hit.t;
+    }
+    if (light_first) {
+      path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
+      path.alive = false;
+    } else if (hit.found) {
+      meet_surface(path, hit, pixel, sample_index, tally);
+    } else {
+      meet_environment(path);
+    }
+  } while (path.alive && STAGE == STAGE_ALL);
+}
+
+#endif

@@ -1,0 +1,219 @@
+// Light whose amount is known in closed form, as pictures have it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "data/shapes.h"
+#include "engine/gpu/tracer.h"
+#include "engine/scene/environment.h"
+#include "tests/trace/scenes.h"
+
+namespace splatray::testing {
+namespace {
+
+using glm::dvec3;
+using std::numbers::pi;
+
+Material grey(float albedo) {
+  Material material = test_material(MATERIAL_TWO_SIDED);
+  material.diffuse = vec3(albedo);
+  material.specular = material.mirror = 0.0F;
+  return material;
+}
+
+Environment constant(float radiance) { return {0, 0, {}, vec3(radiance)}; }
+
+Settings lit(std::uint32_t samples) {
+  Settings settings;
+  settings.look = LOOK_LIT;
+  settings.samples = samples;
+  settings.max_bounces = 4096;
+  settings.counters = true;
+  return settings;
+}
+
+/// Mean of the red channel over pixels whose centre is covered, with its standard error.
+struct Mean {
+  double value = 0.0, error = 0.0;
+};
+Mean mean_of(const Image& image) {
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  for (const vec4& pixel : image.rgba) {
+    if (pixel.w < 1.0F) continue;
+    sum += double(pixel.x);
+    squares += double(pixel.x) * double(pixel.x);
+    ++count;
+  }
+  const double mean = sum / count;
+  return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
+}
+
+/// A scene on a device, and pictures of it.
+class Lit : public ::testing::Test {
+ protected:
+  void show(const Scene& scene, const Environment& environment, const std::vector<SceneLight>& lights) {
+    tracer_.upload(scene);
+    tracer_.set_environment(environment);
+    tracer_.set_lights(lights);
+  }
+  Image picture(const Camera& camera, const Settings& settings, std::uint32_t edge) {
+    const Image image = tracer_.render({camera, edge, edge}, settings);
+    EXPECT_EQ(tracer_.stats().counters[COUNT_NON_FINITE], 0U);
+    EXPECT_EQ(tracer_.stats().counters[COUNT_LOST], 0U);
+    return image;
+  }
+  void TearDown() override { EXPECT_EQ(context_.validation_messages(), 0U); }
+
+  Context context_;
+  Tracer tracer_{context_};
+};
+
+Scene ball(float albedo, std::size_t splats) {
+  return scene_of({{sphere({.count = splats, .even = true, .seed = 3}, 1.0), grey(albedo)}});
+}
+
+/// Seen from within: the middle, towards -z.
+const Camera FROM_WITHIN{dvec3(0.0), dvec3(0.0, 0.0, -1.0), dvec3(0.0, 1.0, 0.0), 80.0, 0.0};
+
+TEST_F(Lit, WhiteBallUnderWhiteSkyIsWhite) {
+  const Scene scene = ball(1.0F, 5000);
+  show(scene, constant(1.0F), {});
+  const Camera camera = default_camera(scene, 1.0);
+  for (const vec4& pixel : picture(camera, lit(4), 64).rgba) EXPECT_NEAR(pixel.x, 1.0F, 1e-5F);
+  EXPECT_EQ(tracer_.stats().counters[COUNT_BELOW], 0U);
+}
+
+TEST_F(Lit, WhiteBallUnderAWhitePictureIsWhiteOnTheMean) {
+  const Scene scene = ball(1.0F, 5000);
+  show(scene, {64, 32, std::vector<glm::vec3>(64 * 32, vec3(1.0F)), vec3(0.0F)}, {});
+  const Mean mean = mean_of(picture(default_camera(scene, 1.0), lit(64), 64));
+  EXPECT_NEAR(mean.value, 1.0, 4.0 * mean.error);
+  EXPECT_LT(mean.error, 2e-3);
+}
+
+/// All bounces at once: the light that a wall gets from the rest of a ball does not depend on where it is.
+TEST_F(Lit, IntegratingSphere) {
+  constexpr double INTENSITY = 2.0;
+  const dvec3 lamp(0.3, 0.2, 0.25);
+  for (const double albedo : {0.2, 0.5, 0.9, 0.99}) {
+    show(ball(float(albedo), 20000), constant(0.0F), {{LIGHT_POINT, lamp, vec3(float(INTENSITY))}});
+    const std::uint32_t edge = 64;
+    const Image image = picture(FROM_WITHIN, lit(256), edge);
+    // Each pixel's own direct light, over what its rays see of the wall.
+    Mean mean;
+    double sum = 0.0, squares = 0.0;
+    const double half = std::tan(40.0 * pi / 180.0);
+    for (std::uint32_t y = 0; y < edge; ++y)
+      for (std::uint32_t x = 0; x < edge; ++x) {
+        double direct = 0.0;
+        for (int sub = 0; sub < 16; ++sub) {
+          const double u = (x + (sub % 4 + 0.5) / 4.0) / edge, v = (y + (sub / 4 + 0.5) / 4.0) / edge;
+          const dvec3 wall = glm::normalize(dvec3(half * (2.0 * u - 1.0), half * (1.0 - 2.0 * v), -1.0));
+          const dvec3 to_lamp = lamp - wall;
+          const double distance = glm::length(to_lamp);
+          direct += INTENSITY * glm::dot(-wall, to_lamp) / (distance * distance * distance) / 16.0;
+        }
+        const double indirect = albedo / (1.0 - albedo) * INTENSITY;
+        const double off = double(image.rgba[y * edge + x].x) / (albedo / pi * (direct + indirect)) - 1.0;
+        sum += off;
+        squares += off * off;
+      }
+    mean.value = sum / (edge * edge);
+    mean.error = std::sqrt((squares / (edge * edge) - mean.value * mean.value) / (edge * edge));
+    EXPECT_NEAR(mean.value, 0.0, 3.0 * mean.error) << "albedo " << albedo;
+    EXPECT_LT(mean.error, 2e-3) << "albedo " << albedo;
+    EXPECT_EQ(tracer_.stats().counters[COUNT_BOUNCE_LIMIT], 0U);
+    RecordProperty("albedo_" + std::to_string(int(100.0 * albedo)), std::to_string(mean.value));
+  }
+}
+
+/// A plane of splats, 4 x 4 in y = 0, seen from straight above at its middle.
+class Plane : public Lit {
+ protected:
+  Mean irradiance(const std::vector<SceneLight>& lights, std::uint32_t samples,
+                  const Environment& environment = constant(0.0F)) {
+    const SurfacePatch floor =
+        rectangle_surface("floor", {-2.0, 0.0, 2.0}, {4.0, 0.0, 0.0}, {0.0, 0.0, -4.0});
+    show(scene_of({{floor.make({.count = 4000, .even = true}), grey(1.0F)}}), environment, lights);
+    const Camera above{dvec3(0.0, 1.5, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 30.0, 0.001};
+    const Mean radiance = mean_of(picture(above, lit(samples), 8));
+    return {pi * radiance.value, pi * radiance.error};
+  }
+};
+
+TEST_F(Plane, LightWithoutSize) {
+  EXPECT_NEAR(irradiance({{LIGHT_POINT, {0.0, 2.0, 0.0}, vec3(8.0F)}}, 1).value, 2.0, 1e-3);
+  EXPECT_NEAR(irradiance({{LIGHT_DIRECTIONAL, {1.0, 1.0, 0.0}, vec3(3.0F)}}, 1).value, 3.0 * std::sqrt(0.5),
+              1e-3);
+}
+
+TEST_F(Plane, BallOfLight) {
+  SceneLight lamp{LIGHT_POINT, {0.5, 1.2, 0.0}, vec3(3.0F)};
+  lamp.size = 0.4;
+  const double distance = glm::length(lamp.position), cosine = lamp.position.y / distance;
+  const Mean found = irradiance({lamp}, 4096);
+  // A ball that is all above the plane lights it as if its light came from its middle.
+  EXPECT_NEAR(found.value, 3.0 * cosine / (distance * distance), 1e-3 * found.value + 3.0 * found.error);
+}
+
+TEST_F(Plane, SunWithASize) {
+  SceneLight sun{LIGHT_DIRECTIONAL, {1.0, 1.0, 0.0}, vec3(3.0F)};
+  sun.size = 0.2;
+  const Mean found = irradiance({sun}, 4096);
+  EXPECT_NEAR(found.value, 3.0 * std::sqrt(0.5), 1e-3 * found.value + 3.0 * found.error);
+}
+
+TEST_F(Plane, RectangleOfLight) {
+  SceneLight lamp{LIGHT_RECTANGLE, {0.5, 1.0, 0.25}, vec3(5.0F)};
+  lamp.edge_u = {0.5, 0.0, 0.0};
+  lamp.edge_v = {0.0, 0.0, 0.25};  // cross(u, v) = -y
+  // Its corner is above the point: Siegel and Howell, configuration B-3 with a = width / height, b = depth / height.
+  const double a = 1.0, b = 0.5, p = std::sqrt(1.0 + a * a), q = std::sqrt(1.0 + b * b);
+  const double form_factor = (a / p * std::atan(b / p) + b / q * std::atan(a / q)) / (2.0 * pi);
+  const Mean found = irradiance({lamp}, 4096);
+  EXPECT_NEAR(found.value, pi * 5.0 * form_factor, 1e-3 * found.value + 3.0 * found.error);
+}
+
+TEST_F(Plane, ManyLightsOfAllKinds) {
+  std::vector<SceneLight> lights;
+  double expected = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 0.7 * i, height = 1.0 + 0.05 * i;
+    SceneLight light{
+        i % 2 == 0 ? LIGHT_POINT : LIGHT_DIRECTIONAL, {std::cos(angle), height, std::sin(angle)}, vec3(0.1F)};
+    light.size = i % 3 == 0 ? 0.05 : 0.0;
+    const double distance = glm::length(light.position), cosine = height / distance;
+    expected += 0.1 * cosine / (i % 2 == 0 ? distance * distance : 1.0);
+    lights.push_back(light);
+  }
+  const Mean found = irradiance(lights, 4096);
+  EXPECT_NEAR(found.value, expected, 1e-3 * expected + 3.0 * found.error);
+}
+
+TEST_F(Plane, EnvironmentWithABrightSpot) {
+  Environment sky{64, 32, std::vector<glm::vec3>(64 * 32, vec3(0.2F)), vec3(0.0F)};
+  sky.texels[10 * 64 + 20] = vec3(300.0F);
+  double expected = 0.0;
+  constexpr int STEPS = 16;  // of a texel, which filtering blends with its neighbours
+  const auto texel = [&](int column, int row) {
+    return double(sky.texels[std::size_t(std::clamp(row, 0, 31) * 64 + (column + 64) % 64)].x);
+  };
+  for (int row = 0; row < 32 * STEPS; ++row)
+    for (int column = 0; column < 64 * STEPS; ++column) {
+      const double x = (column + 0.5) / STEPS - 0.5, y = (row + 0.5) / STEPS - 0.5;
+      const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
+      const double on_x = x - x0, on_y = y - y0;
+      const double radiance = (texel(x0, y0) * (1 - on_x) + texel(x0 + 1, y0) * on_x) * (1 - on_y) +
+                              (texel(x0, y0 + 1) * (1 - on_x) + texel(x0 + 1, y0 + 1) * on_x) * on_y;
+      const double theta = pi * (row + 0.5) / (32 * STEPS);
+      expected += radiance * std::max(std::cos(theta), 0.0) * std::sin(theta) * pi / (32 * STEPS) * 2.0 * pi /
+                  (64 * STEPS);
+    }
+  const Mean found = irradiance({}, 4096, sky);
+  EXPECT_NEAR(found.value, expected, 2e-3 * expected + 3.0 * found.error);
+  EXPECT_LT(found.error, 0.01 * expected);
+}
+
+}  // namespace
+}  // namespace splatray::testing
