@@ -76,6 +76,7 @@ struct InputObject {
   std::string name;
   Points points;
   Material material{vec3(0.0F), 0.0F, vec3(0.0F), 1.0F, 0.0F, 1.0F, 0, 0};  ///< black
+  std::optional<Surface> surface{};  ///< what path tracing sees; unset: surface_of(material)
   bool oriented =
       false;  ///< normals are known to point outwards (closed mesh); else they may be turned either way
   double surface_area = 0.0;  ///< of the source mesh, world units^2; 0 = unknown

@@ -10,6 +10,7 @@
 #include "app/library/materials.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
+#include "engine/scene/surface.h"
 #include "preprocess/base/quoted_list.h"
 
 namespace splatray {
@@ -36,12 +37,12 @@ Key preset_key() {
   return {"preset", read, [](const ObjectOptions& options) { return options.preset; }};
 }
 
-Key color_key(const std::string& name, std::optional<glm::vec3> ObjectOptions::*member) {
+Key color_key(const std::string& name, std::optional<glm::vec3> ObjectOptions::*member, double most = 1.0) {
   const auto read = [=](const std::string& value, ObjectOptions& options) {
     const auto numbers = split_numbers(value, '/', 3);
-    const auto in_range = [](double x) { return x >= 0.0 && x <= 1.0; };
+    const auto in_range = [most](double x) { return x >= 0.0 && x <= most; };
     if (numbers.empty() || !std::all_of(numbers.begin(), numbers.end(), in_range))
-      refuse(name + "=" + value, "three numbers from 0 to 1 such as 0.8/0.5/0.2");
+      refuse(name + "=" + value, "three numbers from 0 to " + number_text(most) + " such as 0.8/0.5/0.2");
     options.*member = glm::vec3(numbers[0], numbers[1], numbers[2]);
   };
   const auto write = [=](const ObjectOptions& options) {
@@ -78,16 +79,22 @@ Key switch_key(const std::string& name, std::optional<bool> ObjectOptions::*memb
 
 const std::vector<Key>& keys() {
   constexpr double MOST = 1e6, LEAST_IOR = 1e-3;
-  static const std::vector<Key> KEYS = {preset_key(),
-                                        color_key("diffuse", &ObjectOptions::diffuse),
-                                        number_key("specular", &ObjectOptions::specular, 0.0, 1.0),
-                                        number_key("shininess", &ObjectOptions::shininess, 1.0, MOST),
-                                        number_key("mirror", &ObjectOptions::mirror, 0.0, 1.0),
-                                        number_key("ior", &ObjectOptions::ior, LEAST_IOR, MOST),
-                                        color_key("tint", &ObjectOptions::tint),
-                                        switch_key("glass", &ObjectOptions::glass),
-                                        switch_key("two-sided", &ObjectOptions::two_sided),
-                                        switch_key("hidden", &ObjectOptions::hidden)};
+  static const std::vector<Key> KEYS = {
+      preset_key(),
+      color_key("diffuse", &ObjectOptions::diffuse),
+      number_key("specular", &ObjectOptions::specular, 0.0, 1.0),
+      number_key("shininess", &ObjectOptions::shininess, 1.0, MOST),
+      number_key("mirror", &ObjectOptions::mirror, 0.0, 1.0),
+      number_key("ior", &ObjectOptions::ior, LEAST_IOR, MOST),
+      color_key("tint", &ObjectOptions::tint),
+      switch_key("glass", &ObjectOptions::glass),
+      switch_key("two-sided", &ObjectOptions::two_sided),
+      switch_key("hidden", &ObjectOptions::hidden),
+      number_key("metallic", &ObjectOptions::metallic, 0.0, 1.0),
+      number_key("roughness", &ObjectOptions::roughness, 0.0, 1.0),
+      number_key("coat", &ObjectOptions::coat, 0.0, 1.0),
+      number_key("coat-roughness", &ObjectOptions::coat_roughness, 0.0, 1.0),
+      color_key("emission", &ObjectOptions::emission, MOST)};
   return KEYS;
 }
 
@@ -135,7 +142,13 @@ void set_flag(Material& material, std::uint32_t flag, std::optional<bool> on) {
   if (on) material.flags = *on ? material.flags | flag : material.flags & ~flag;
 }
 
-void apply(const ObjectOptions& options, Material& material) {
+/// Whether options change what surface_of(material) looks at.
+bool changes_surface(const ObjectOptions& options) {
+  return !options.preset.empty() || options.diffuse || options.specular || options.tint ||
+         options.shininess || options.mirror || options.ior || options.glass;
+}
+
+void apply(const ObjectOptions& options, Material& material, Surface& surface) {
   if (!options.preset.empty()) change_material(material, options.preset);
   material.diffuse = options.diffuse.value_or(material.diffuse);
   material.specular = options.specular.value_or(material.specular);
@@ -146,6 +159,23 @@ void apply(const ObjectOptions& options, Material& material) {
   set_flag(material, MATERIAL_DIELECTRIC, options.glass);
   set_flag(material, MATERIAL_TWO_SIDED, options.two_sided);
   set_flag(material, MATERIAL_HIDDEN, options.hidden);
+  if (changes_surface(options)) surface = surface_of(material);
+  surface.metallic = options.metallic.value_or(surface.metallic);
+  surface.roughness = options.roughness.value_or(surface.roughness);
+  surface.coat = options.coat.value_or(surface.coat);
+  surface.coat_roughness = options.coat_roughness.value_or(surface.coat_roughness);
+  surface.emission = options.emission.value_or(surface.emission);
+}
+
+void set_difference(const Surface& from, const Surface& to, ObjectOptions& options) {
+  const auto set = [](auto& option, const auto& before, const auto& after) {
+    if (before != after) option = after;
+  };
+  set(options.metallic, from.metallic, to.metallic);
+  set(options.roughness, from.roughness, to.roughness);
+  set(options.coat, from.coat, to.coat);
+  set(options.coat_roughness, from.coat_roughness, to.coat_roughness);
+  set(options.emission, from.emission, to.emission);
 }
 
 ObjectOptions difference(const Material& from, const Material& to) {
@@ -189,17 +219,21 @@ std::string object_text(const ObjectOptions& options) {
 }
 
 void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
-                          std::vector<Material>& materials) {
-  for (const ObjectOptions& change : options) apply(change, materials[find_object(change.object, names)]);
+                          ObjectLooks& looks) {
+  for (const ObjectOptions& change : options) {
+    const std::size_t object = find_object(change.object, names);
+    apply(change, looks.materials[object], looks.surfaces[object]);
+  }
 }
 
-std::vector<ObjectOptions> object_options_between(const std::vector<Material>& loaded,
-                                                  const std::vector<Material>& shown,
+std::vector<ObjectOptions> object_options_between(const ObjectLooks& loaded, const ObjectLooks& shown,
                                                   const std::vector<std::string>& names) {
-  assert(loaded.size() == shown.size() && names.size() == shown.size());
+  assert(loaded.materials.size() == shown.materials.size() && names.size() == shown.materials.size());
   std::vector<ObjectOptions> changes;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    ObjectOptions change = difference(loaded[i], shown[i]);
+  for (std::size_t i = 0; i < shown.materials.size(); ++i) {
+    ObjectOptions change = difference(loaded.materials[i], shown.materials[i]);
+    const Surface before = changes_surface(change) ? surface_of(shown.materials[i]) : loaded.surfaces[i];
+    set_difference(before, shown.surfaces[i], change);
     if (change == ObjectOptions{}) continue;
     change.object = object_key(i, names);
     changes.push_back(std::move(change));

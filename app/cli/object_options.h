@@ -15,6 +15,9 @@ struct ObjectOptions {
   std::optional<glm::vec3> diffuse, tint;
   std::optional<float> specular, shininess, mirror, ior;
   std::optional<bool> glass, two_sided, hidden;
+  // Of the Surface. All but two_sided and hidden above replace it by surface_of(material) first.
+  std::optional<float> metallic, roughness, coat, coat_roughness;
+  std::optional<glm::vec3> emission;
 
   bool operator==(const ObjectOptions&) const = default;
 };
@@ -25,13 +28,19 @@ struct ObjectOptions {
 /// The text that reads back to equal options.
 [[nodiscard]] std::string object_text(const ObjectOptions& options);
 
-/// Changes the materials of the objects named `names`, in the order given; each keeps its mask_bit. Throws Error (usage) for an object that does not exist or a name that several have.
+/// What objects look like: beside each other, one for each.
+struct ObjectLooks {
+  std::vector<Material> materials;
+  std::vector<Surface> surfaces;
+};
+
+/// Changes the looks of the objects named `names`, in the order given; each keeps its mask_bit. Throws Error (usage) for an object that does not exist or a name that several have.
 void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
-                          std::vector<Material>& materials);
+                          ObjectLooks& looks);
 
 /// The options that make `loaded` look like `shown`, one for each object that differs; mask_bit is not looked at.
-[[nodiscard]] std::vector<ObjectOptions> object_options_between(const std::vector<Material>& loaded,
-                                                                const std::vector<Material>& shown,
+[[nodiscard]] std::vector<ObjectOptions> object_options_between(const ObjectLooks& loaded,
+                                                                const ObjectLooks& shown,
                                                                 const std::vector<std::string>& names);
 
 }  // namespace splatray

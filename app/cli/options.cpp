@@ -48,7 +48,15 @@ void add_output_options(OptionList& list, RenderOptions& options) {
   list.add_words([&options] {
     return options.output.empty() ? Words{} : Words{"-o", options.output.string()};
   });
-  add_number(list, "--exposure", options.exposure_ev, -60.0, 60.0, "brightness of a PNG in stops; default 0");
+  const auto read_exposure = [&options](const std::string& text) {
+    options.exposure_ev.reset();
+    if (text != "auto") options.exposure_ev = read_number<double>("--exposure", text, -60.0, 60.0);
+  };
+  list.add_value(
+      "--exposure", read_exposure,
+      [&options] { return options.exposure_ev ? number_text(*options.exposure_ev) : std::string("auto"); },
+      "brightness of a PNG in stops, or auto: what is seen becomes middle grey on the mean; default 0",
+      "EV|auto");
   list.add_value(
       "--aov", [&options](const std::string& text) { read_aovs(text, options); },
       [&options] { return aov_text(options); }, "more channels of an EXR picture: Z, N.X N.Y N.Z, id",

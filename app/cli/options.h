@@ -9,6 +9,7 @@
 #include "app/cli/build_options.h"
 #include "app/cli/object_options.h"
 #include "app/library/attributes.h"
+#include "app/library/display_image.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 
@@ -53,11 +54,15 @@ struct PictureOptions {
   std::optional<double> delta_world;  ///< --delta; unset = 1/1000 of the scene's diagonal
   std::optional<std::uint32_t> look;  ///< LOOK_*; unset: as choose_look has it
   double aperture_world = 0.0;        ///< diameter of the lens
+  std::optional<Tone> tone;           ///< unset: as choose_tone has it
   Settings settings;
   std::string device;  ///< number or part of a name; empty = best
 
   bool operator==(const PictureOptions&) const = default;
 };
+
+/// The tone curve: that of --tone, else Tone::soft with --look paper and Tone::neutral otherwise.
+[[nodiscard]] Tone choose_tone(const PictureOptions& picture);
 
 /// Makes the picture's camera exactly this one.
 void set_camera(PictureOptions& picture, const Camera& camera);
@@ -86,7 +91,7 @@ struct RenderOptions {
   PictureOptions picture;
   SequenceOptions sequence;
   std::filesystem::path output;
-  double exposure_ev = 0.0;  ///< stops, PNG only
+  std::optional<double> exposure_ev = 0.0;  ///< stops, PNG only; unset = automatic
   bool aov_depth = false, aov_normal = false, aov_id = false;
   std::filesystem::path stats_json;    ///< empty = none
   std::filesystem::path reference;     ///< empty = no comparison

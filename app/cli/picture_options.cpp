@@ -196,7 +196,9 @@ void add_object_options(OptionList& list, PictureOptions& picture) {
   list.add_repeated("--object", read,
                     "change the material of one object, given by its index or name; keys: preset (a name of "
                     "--material), diffuse=r/g/b, specular, shininess, mirror, ior, tint=r/g/b, and glass, "
-                    "two-sided, hidden = on or off; repeatable, the last change holds",
+                    "two-sided, hidden = on or off; of what path tracing sees: metallic, roughness, coat, "
+                    "coat-roughness, emission=r/g/b; "
+                    "repeatable, the last change holds",
                     "OBJECT:KEY=VALUE,...");
   list.add_words([&picture] {
     Words words;
@@ -264,6 +266,12 @@ void add_look_options(OptionList& list, PictureOptions& picture) {
       "colours under occlusion and a "
       "soft light; paper: Phong, hard shadows, mirrors and glass; default auto: scan for points without "
       "materials, else lit");
+  std::vector<Choice<std::optional<Tone>>> tones = {{"auto", std::nullopt}};
+  for (std::size_t i = 0; i < TONE_NAMES.size(); ++i) tones.push_back({TONE_NAMES[i], Tone(i)});
+  add_choice(list, "--tone", picture.tone, tones,
+             "how a PNG shows what is brighter than white: neutral (colours stay), agx (like film), soft "
+             "(each channel alone), none (cut off); "
+             "default auto: soft with --look paper, else neutral");
   add_number(list, "--ao-radius", settings.reach_world, 0.0, 1e30,
              "ao and scan: how far away something darkens a point, world units; default a tenth of the "
              "scene's diagonal");
@@ -322,6 +330,10 @@ void add_scene_options(OptionList& list, SceneOptions& scene) {
   for (const std::string& name : material_names()) materials.push_back({name, name});
   add_choice(list, "--material", scene.material, materials,
              "material of a scene with one object; glass and ruby need a closed one");
+}
+
+Tone choose_tone(const PictureOptions& picture) {
+  return picture.tone.value_or(picture.look == LOOK_PAPER ? Tone::soft : Tone::neutral);
 }
 
 void set_camera(PictureOptions& picture, const Camera& camera) {

@@ -1,5 +1,6 @@
 #include "app/library/display_image.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/srgb.h"
@@ -9,23 +10,84 @@ namespace {
 
 float shoulder(float x) {
   constexpr float KNEE = 0.8F, ROOM = 1.0F - KNEE;
-  if (!(x > 0.0F)) return 0.0F;
   return x <= KNEE ? x : 1.0F - ROOM * std::exp((KNEE - x) / ROOM);
 }
 
-}  // namespace
-
-vec3 display_value(vec3 radiance, double exposure_ev) {
-  const auto factor = static_cast<float>(std::exp2(exposure_ev));
-  const auto channel = [factor](float x) { return linear_to_srgb(shoulder(factor * x)); };
-  return {channel(radiance.x), channel(radiance.y), channel(radiance.z)};
+/// Khronos PBR Neutral's published formula and constants.
+vec3 neutral(vec3 color) {
+  constexpr float START = 0.8F - 0.04F, DESATURATION = 0.15F;
+  const float least = std::min({color.x, color.y, color.z});
+  color -= least < 0.08F ? least - 6.25F * least * least : 0.04F;
+  const float peak = std::max({color.x, color.y, color.z});
+  if (peak < START) return color;
+  constexpr float ROOM = 1.0F - START;
+  const float lowered = 1.0F - ROOM * ROOM / (peak + ROOM - START);
+  const float faded = 1.0F - 1.0F / (DESATURATION * (peak - lowered) + 1.0F);
+  return glm::mix(color * (lowered / peak), vec3(lowered), faded);
 }
 
-DisplayImage display_image(const Image& image, double exposure_ev) {
-  DisplayImage display{image.width, image.height, {}};
-  display.rgb.reserve(image.rgba.size());
-  for (const vec4& pixel : image.rgba) display.rgb.push_back(display_value(vec3(pixel), exposure_ev));
-  return display;
+/// AgX's matrices and range of stops, its curve as a polynomial.
+vec3 agx(const vec3& color) {
+  const glm::mat3 inset(0.842479062253094F, 0.0423282422610123F, 0.0423756549057051F, 0.0784335999999992F,
+                        0.878468636469772F, 0.0784336F, 0.0792237451477643F, 0.0791661274605434F,
+                        0.879142973793104F);
+  const glm::mat3 outset(1.19687900512017F, -0.0528968517574562F, -0.0529716355144438F, -0.0980208811401368F,
+                         1.15190312990417F, -0.0980434501171241F, -0.0990297440797205F, -0.0989611768448433F,
+                         1.15107367264116F);
+  constexpr float LEAST_EV = -12.47393F, MOST_EV = 4.026069F;
+  const vec3 inside = glm::max(inset * color, vec3(1e-10F));
+  const vec3 x = (glm::clamp(glm::log2(inside), LEAST_EV, MOST_EV) - LEAST_EV) / (MOST_EV - LEAST_EV);
+  const vec3 x2 = x * x, x4 = x2 * x2;
+  const vec3 curve = 15.5F * x4 * x2 - 40.14F * x4 * x + 31.96F * x4 - 6.868F * x2 * x + 0.4298F * x2 +
+                     0.1191F * x - 0.00232F;
+  return glm::pow(glm::max(outset * curve, vec3(0.0F)), vec3(2.2F));
+}
+
+/// What is not a number, and what is negative, is black; infinity the largest number whose square is one.
+float usable(float x) { return x > 0.0F ? std::min(x, 1e18F) : 0.0F; }
+
+}  // namespace
+
+vec3 toned(vec3 radiance, const Display& display) {
+  const auto factor = static_cast<float>(std::exp2(display.exposure_ev));
+  const vec3 color(usable(factor * radiance.x), usable(factor * radiance.y), usable(factor * radiance.z));
+  switch (display.tone) {
+    case Tone::neutral:
+      return glm::clamp(neutral(color), vec3(0.0F), vec3(1.0F));
+    case Tone::agx:
+      return glm::clamp(agx(color), vec3(0.0F), vec3(1.0F));
+    case Tone::none:
+      return glm::min(color, vec3(1.0F));
+    default:
+      return {shoulder(color.x), shoulder(color.y), shoulder(color.z)};
+  }
+}
+
+vec3 display_value(vec3 radiance, const Display& display) {
+  const vec3 color = toned(radiance, display);
+  return {linear_to_srgb(color.x), linear_to_srgb(color.y), linear_to_srgb(color.z)};
+}
+
+DisplayImage display_image(const Image& image, const Display& display) {
+  DisplayImage shown{image.width, image.height, {}};
+  shown.rgb.reserve(image.rgba.size());
+  for (const vec4& pixel : image.rgba) shown.rgb.push_back(display_value(vec3(pixel), display));
+  return shown;
+}
+
+double automatic_exposure_ev(const Image& image) {
+  constexpr double MIDDLE = 0.25;
+  for (const float least_coverage : {0.5F, 0.0F}) {
+    double sum = 0.0, count = 0.0;
+    for (const vec4& pixel : image.rgba) {
+      const double bright = (double(pixel.x) + double(pixel.y) + double(pixel.z)) / 3.0;
+      if (pixel.w < least_coverage || !(bright > 1e-9) || !std::isfinite(bright)) continue;
+      sum += std::log2(bright);
+      ++count;
+    }
+    if (count > 0.0) return std::log2(MIDDLE) - sum / count;
+  }
+  return 0.0;
 }
 
 void quantise(DisplayImage& image) {

@@ -187,10 +187,10 @@ Metadata read_metadata(const std::filesystem::path& path) {
   return metadata;
 }
 
-DisplayImage read_display_image(const std::filesystem::path& path, double exposure_ev) {
+DisplayImage read_display_image(const std::filesystem::path& path, const Display& display) {
   Picture picture = read_picture(path);
   if (!picture.encoded)
-    for (vec3& pixel : picture.rgb) pixel = display_value(pixel, exposure_ev);
+    for (vec3& pixel : picture.rgb) pixel = display_value(pixel, display);
   return {picture.width, picture.height, std::move(picture.rgb)};
 }
 

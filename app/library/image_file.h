@@ -35,7 +35,7 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
 
 /// Reads a picture to compare with: files of 8 or 16 bit as they are, float files (EXR, HDR) through
 /// display_value. Throws Error (input_unreadable) with path, found and expected.
-[[nodiscard]] DisplayImage read_display_image(const std::filesystem::path& path, double exposure_ev);
+[[nodiscard]] DisplayImage read_display_image(const std::filesystem::path& path, const Display& display);
 
 /// Reads a latitude-longitude environment, any format OpenImageIO reads; 8 and 16 bit files are taken as
 /// sRGB. Values that are negative or not finite become 0. Throws Error (input_unreadable) with path, found

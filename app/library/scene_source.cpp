@@ -9,6 +9,7 @@
 #include "app/library/materials.h"
 #include "engine/base/error.h"
 #include "engine/file/scene_file.h"
+#include "engine/scene/surface.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray {
@@ -37,6 +38,16 @@ void apply_material(Scene& scene, const std::string& name) {
                                      std::to_string(scene.materials.size()) +
                                      " objects, expected one object");
   scene.materials[0] = named_material(name);
+  scene.surfaces.clear();
+}
+
+/// Applies --object.
+void change_objects(const std::vector<ObjectOptions>& options, Scene& scene) {
+  if (options.empty()) return;
+  ObjectLooks looks{scene.materials, surfaces_of(scene)};
+  apply_object_options(options, scene.object_names, looks);
+  scene.materials = std::move(looks.materials);
+  scene.surfaces = std::move(looks.surfaces);
 }
 
 /// Up for a picture that names none: the scene's, or across it where the camera looks straight up or down.
@@ -53,6 +64,13 @@ SceneLight scene_light(const Scene& scene, const LightOptions& light) {
   SceneLight made{light.kind, light.position, light.power.value_or(irradiance_pi)};
   made.size = light.kind == LIGHT_DIRECTIONAL ? light.size * std::numbers::pi / 360.0 : light.size;
   return made;
+}
+
+/// The key light for LOOK_SCAN, whose sky gives most of the light: softer and weaker.
+SceneLight scan_light(SceneLight key) {
+  key.size = 0.12;
+  key.power *= 0.5F;
+  return key;
 }
 
 /// A rectangle whose width is level, facing its target.
@@ -84,7 +102,7 @@ LoadedScene load_scene(const SceneOptions& options, const PictureOptions& pictur
   }
   loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   if (!options.material.empty()) apply_material(loaded.scene, options.material);
-  apply_object_options(picture.objects, loaded.scene.object_names, loaded.scene.materials);
+  change_objects(picture.objects, loaded.scene);
   if (picture.up) loaded.scene.up = *picture.up;
   loaded.legend = show_attributes(loaded.scene, picture.attributes);
   loaded.environment_name = picture.environment.empty() ? loaded.scene.environment_path : picture.environment;
@@ -121,7 +139,19 @@ std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOp
   }
   if (!loaded.scene.lights.empty()) return exposed_lights(loaded.scene);
   if (!loaded.environment_name.empty()) return {};
-  return default_lights(loaded.scene, camera);
+  std::vector<SceneLight> lights = default_lights(loaded.scene, camera);
+  if (choose_look(loaded.scene, picture) == LOOK_SCAN) lights.front() = scan_light(lights.front());
+  return lights;
+}
+
+LightOptions light_options(const SceneLight& light) {
+  LightOptions options{light.kind, light.position, light.power};
+  options.size = light.kind == LIGHT_DIRECTIONAL ? light.size * 360.0 / std::numbers::pi : light.size;
+  if (light.kind != LIGHT_RECTANGLE) return options;
+  options.size = 0.0;
+  options.target = light.position + glm::normalize(glm::cross(light.edge_u, light.edge_v));
+  options.edges = 2.0 * glm::dvec2(glm::length(light.edge_u), glm::length(light.edge_v));
+  return options;
 }
 
 std::optional<Environment> built_in_environment(const std::string& name) {
@@ -145,8 +175,11 @@ Environment choose_environment(const std::string& name) {
   return environment ? *std::move(environment) : read_environment(name);
 }
 
-std::uint32_t choose_look(const Scene&, const PictureOptions& picture) {
-  return picture.look.value_or(LOOK_PAPER);
+std::uint32_t choose_look(const Scene& scene, const PictureOptions& picture) {
+  if (picture.look) return *picture.look;
+  const bool plain = scene.lights.empty() && picture.environment.empty() && scene.environment_path.empty() &&
+                     !picture.lights;
+  return !scene.stations.empty() && plain ? LOOK_SCAN : LOOK_LIT;
 }
 
 Settings choose_settings(const Scene& scene, const PictureOptions& picture) {

@@ -35,6 +35,9 @@ struct LoadListener {
 [[nodiscard]] std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
                                                     const Camera& camera);
 
+/// The option that makes a light.
+[[nodiscard]] LightOptions light_options(const SceneLight& light);
+
 /// The environment of a name that needs no file: white, black, studio or r,g,b, empty = studio; nothing for other names.
 /// Throws Error (usage) for a radiance that is negative or not finite.
 [[nodiscard]] std::optional<Environment> built_in_environment(const std::string& name);
@@ -42,7 +45,7 @@ struct LoadListener {
 /// (input_unreadable).
 [[nodiscard]] Environment choose_environment(const std::string& name);
 
-/// The look, LOOK_*: that of --look, else LOOK_SCAN for points without materials of their own, else LOOK_LIT.
+/// The look, LOOK_*: that of --look, else LOOK_SCAN for scans in no light of their own or of the options', else LOOK_LIT.
 [[nodiscard]] std::uint32_t choose_look(const Scene& scene, const PictureOptions& picture);
 
 /// The settings, with defaults that depend on the scene filled in.

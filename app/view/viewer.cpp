@@ -139,7 +139,7 @@ void Viewer::open(const std::filesystem::path& file) {
 }
 
 void Viewer::open(const RenderOptions& options) {
-  document_.exposure_ev = options.exposure_ev;
+  document_.exposure_ev = options.exposure_ev.value_or(0.0);
   loader_.load(options.scene, options.picture);
 }
 

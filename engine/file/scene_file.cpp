@@ -82,6 +82,7 @@ Header describe(const Scene& scene, std::size_t string_bytes) {
   header.bounds_max = scene.bounds_max_world;
   header.surface_area = scene.surface_area_world;
   header.stations = static_cast<std::uint32_t>(scene.stations.size());
+  header.surfaces = static_cast<std::uint32_t>(scene.surfaces.size());
   for (std::size_t i = 0; i < scene.columns.size(); ++i)
     header.column_types[i] = static_cast<std::uint8_t>(scene.columns[i].values.index() + 1);
   header.section_count = SECTION_COUNT;
@@ -303,6 +304,7 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
   contents[CAMERA] = scene.camera ? &*scene.camera : nullptr;
   contents[STATIONS] = stations.data();
   contents[STRINGS] = strings.data();
+  contents[SURFACES] = scene.surfaces.data();
   section = COLUMNS;
   for (const Column& column : scene.columns)
     std::visit([&](const auto& values) { contents[section++] = values.data(); }, column.values);
@@ -332,6 +334,7 @@ Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
   });
   scene.build.normal_fields = !scene.field_pool.empty();
   scene.materials = reader.section<Material>(MATERIALS);
+  scene.surfaces = reader.section<Surface>(SURFACES);
   read_lights(reader, scene);
   if (const auto cameras = reader.section<Camera>(CAMERA); !cameras.empty()) scene.camera = cameras.front();
   read_stations(reader, scene);

@@ -6,7 +6,7 @@
 ///        0 | char[4]   | magic "SOCT"
 ///        4 | uint32    | version, SCENE_FILE_VERSION
 ///        8 | uint32    | endianness mark 0x01020304
-///       12 | uint32    | bytes of header and section table together, 1696
+///       12 | uint32    | bytes of header and section table together, 1728
 ///       16 | uint64    | bytes of the file
 ///       24 | uint64    | XXH3-64 of header and section table, taken with this field zero
 ///       32 | uint64    | splats = entries of the data pool
@@ -32,9 +32,9 @@
 ///      208 | float64[3]| ... maximum
 ///      232 | float64   | surface area of the source meshes, world units^2, 0 = unknown
 ///      240 | uint32    | stations
-///      244 | uint32    | zero
+///      244 | uint32    | surfaces: as many as objects, or 0
 ///      248 | uint8[32] | columns' types: 1 uint8, 2 uint16, 3 float32, 4 float64; 0 behind the last
-///      280 | uint32    | sections, 44
+///      280 | uint32    | sections, 45
 ///      284 | uint32    | bytes of a section entry, 32
 ///
 /// Section entry, 32 bytes: uint32 id, uint32 bytes of an element, uint64 offset in the file, uint64 bytes, uint64 XXH3-64.
@@ -52,7 +52,8 @@
 ///   11 | float64[3] the scanner's place, uint32 is it known, uint32 rows, columns of its grid, uint32 zero | 40 | stations
 ///   12 | char                          |     1 | names, each ended by a zero byte: objects', the environment's path,
 ///      |                               |       | stations', columns'
-///   13 | a column's type               | 1 - 8 | columns, beside the data pool; up to 44
+///   13 | Surface                       |    80 | surfaces, beside the materials
+///   14 | a column's type               | 1 - 8 | columns, beside the data pool; up to 45
 /// Sections lie in this order, each at the next multiple of 16 bytes, gaps zero; the 8 bytes "SOCT.END" follow at the next
 /// multiple of 16 and end the file.
 #pragma once
@@ -63,7 +64,7 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t SCENE_FILE_VERSION = 8;
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 9;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot, (interrupted) when
 /// `progress`, told of the stage "writing", says so; leaves nothing behind.

@@ -37,6 +37,7 @@ std::array<SectionShape, SECTION_COUNT> section_shapes(const Header& header) {
   shapes[CAMERA] = {header.has_camera, sizeof(Camera)};
   shapes[STATIONS] = {header.stations, sizeof(StationRecord)};
   shapes[STRINGS] = {header.string_bytes, 1};
+  shapes[SURFACES] = {header.surfaces, sizeof(Surface)};
   for (std::size_t i = 0; i < COLUMNS_MOST; ++i)
     shapes[COLUMNS + i] = {header.column_types[i] == 0 ? 0 : header.splats,
                            COLUMN_BYTES[header.column_types[i]]};

@@ -22,6 +22,7 @@ enum SectionId : std::uint32_t {
   CAMERA,
   STATIONS,
   STRINGS,
+  SURFACES,
   COLUMNS,
   SECTION_COUNT = COLUMNS + COLUMNS_MOST
 };
@@ -44,7 +45,7 @@ struct Header {
   std::uint64_t samples, seed;
   glm::dvec3 up, bounds_min, bounds_max;
   double surface_area;
-  std::uint32_t stations, zero;
+  std::uint32_t stations, surfaces;
   std::uint8_t column_types[COLUMNS_MOST];  ///< 1 + index in Column::Values; 0 = no column
   std::uint32_t section_count, section_entry_size;
   SectionEntry sections[SECTION_COUNT];
@@ -63,7 +64,7 @@ struct StationRecord {
 };
 
 inline constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
-static_assert(HEADER_BYTES == 1696 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88 &&
+static_assert(HEADER_BYTES == 1728 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88 &&
               sizeof(StationRecord) == 40);
 
 /// Bytes of a value of each column type.

@@ -163,6 +163,27 @@ Defect check_material(const Material& material) {
   return {};
 }
 
+/// Ranges: layout.h.
+Defect check_surface(const Surface& surface) {
+  const auto in_range = [](float value, float least, float most) { return value >= least && value <= most; };
+  const auto amount = [](const vec3& value) {
+    return finite(value) && !glm::any(glm::lessThan(value, vec3(0.0F)));
+  };
+  if (!is_share(surface.base)) return SceneDefect{"a base colour", "0 to 1"};
+  if (!in_range(surface.metallic, 0.0F, 1.0F)) return SceneDefect{"a metallic", "0 to 1"};
+  if (!in_range(surface.roughness, 0.0F, 1.0F)) return SceneDefect{"a roughness", "0 to 1"};
+  if (!in_range(surface.specular, 0.0F, 1.0F)) return SceneDefect{"a specular", "0 to 1"};
+  if (!amount(surface.specular_color)) return SceneDefect{"a specular colour", "finite numbers, 0 or more"};
+  if (!amount(surface.emission)) return SceneDefect{"an emission", "finite numbers, 0 or more"};
+  if (!amount(surface.absorption)) return SceneDefect{"an absorption", "finite numbers, 0 or more"};
+  if (!in_range(surface.transmission, 0.0F, 1.0F)) return SceneDefect{"a transmission", "0 to 1"};
+  if (!in_range(surface.coat, 0.0F, 1.0F)) return SceneDefect{"a clearcoat", "0 to 1"};
+  if (!in_range(surface.coat_roughness, 0.0F, 1.0F)) return SceneDefect{"a clearcoat roughness", "0 to 1"};
+  if (!finite(surface.ior) || !(surface.ior >= 1.0F))
+    return SceneDefect{"a surface's index of refraction", "1 or more"};
+  return {};
+}
+
 Defect check_light(const SceneLight& light) {
   if (light.kind > LIGHT_POINT) return SceneDefect{"a kind", "a directional or point light"};
   const bool aimed = light.kind == LIGHT_POINT || glm::dot(light.position, light.position) > 0.0;
@@ -260,6 +281,11 @@ std::optional<SceneDefect> find_look_defect(const Scene& scene) {
   };
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     if (const Defect defect = check_material(scene.materials[i])) return in("material", i, *defect);
+  if (!scene.surfaces.empty() && scene.surfaces.size() != scene.materials.size())
+    return SceneDefect{std::to_string(scene.surfaces.size()) + " surfaces",
+                       "none or the " + std::to_string(scene.materials.size()) + " of the objects"};
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+    if (const Defect defect = check_surface(scene.surfaces[i])) return in("surface", i, *defect);
   if (scene.lights.size() > LIGHTS_MOST)
     return SceneDefect{std::to_string(scene.lights.size()) + " lights",
                        "at most " + std::to_string(LIGHTS_MOST)};

@@ -5,18 +5,23 @@
 
 #include "app/library/materials.h"
 #include "engine/base/error.h"
+#include "engine/scene/surface.h"
 
 namespace splatray {
 namespace {
 
 const std::vector<std::string> NAMES = {"dragon", "a:b", "twin", "twin", "", "7"};
 
-std::vector<Material> matte() { return std::vector<Material>(NAMES.size(), named_material("matte")); }
+ObjectLooks matte() {
+  const Material material = named_material("matte");
+  return {std::vector<Material>(NAMES.size(), material),
+          std::vector<Surface>(NAMES.size(), surface_of(material))};
+}
 
 std::string refusal(const std::string& text) {
   try {
-    std::vector<Material> materials = matte();
-    apply_object_options({read_object_options(text)}, NAMES, materials);
+    ObjectLooks looks = matte();
+    apply_object_options({read_object_options(text)}, NAMES, looks);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     return error.what();
@@ -25,11 +30,12 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(ObjectOptions, ChangesWhatIsSetAndNothingElse) {
-  std::vector<Material> materials = matte();
+  ObjectLooks looks = matte();
+  const std::vector<Material>& materials = looks.materials;
   apply_object_options(
       {read_object_options("dragon:preset=gold,hidden=on"), read_object_options("a:b:mirror=0.25"),
        read_object_options("2:diffuse=1/0/0.5,two-sided=off")},
-      NAMES, materials);
+      NAMES, looks);
   EXPECT_EQ(materials[0].tint, named_material("gold").tint);
   EXPECT_EQ(materials[0].flags, MATERIAL_TWO_SIDED | MATERIAL_HIDDEN);
   EXPECT_EQ(materials[1].mirror, 0.25F);
@@ -40,10 +46,11 @@ TEST(ObjectOptions, ChangesWhatIsSetAndNothingElse) {
 }
 
 TEST(ObjectOptions, ObjectsKeepTheirBit) {
-  std::vector<Material> materials = matte();
-  materials[4].mask_bit = 3;
+  ObjectLooks looks = matte();
+  const std::vector<Material>& materials = looks.materials;
+  looks.materials[4].mask_bit = 3;
   apply_object_options({read_object_options("4:preset=glass"), read_object_options("4:ior=1.3")}, NAMES,
-                       materials);
+                       looks);
   EXPECT_NE(materials[4].flags & MATERIAL_DIELECTRIC, 0U);
   EXPECT_EQ(materials[4].mask_bit, 3U);
 }
@@ -61,19 +68,38 @@ TEST(ObjectOptions, RefusalsNameWhatExists) {
     EXPECT_NE(refusal(text), "") << text;
 }
 
+TEST(ObjectOptions, SurfacesFollowMaterials) {
+  ObjectLooks looks = matte();
+  looks.surfaces[1].emission = vec3(2.0F);
+  apply_object_options(
+      {read_object_options("dragon:preset=gold,roughness=0.3"), read_object_options("1:two-sided=off"),
+       read_object_options("2:emission=5/4/0,coat=1,coat-roughness=0.2,metallic=0.5")},
+      NAMES, looks);
+  EXPECT_EQ(looks.surfaces[0].metallic, 1.0F);
+  EXPECT_EQ(looks.surfaces[0].roughness, 0.3F);
+  EXPECT_EQ(looks.surfaces[1].emission, vec3(2.0F));
+  EXPECT_EQ(looks.surfaces[2].emission, vec3(5.0F, 4.0F, 0.0F));
+  EXPECT_EQ(looks.surfaces[2].coat_roughness, 0.2F);
+  EXPECT_NE(refusal("dragon:roughness=2"), "");
+  EXPECT_NE(refusal("dragon:emission=-1/0/0"), "");
+}
+
 TEST(ObjectOptions, DifferencesAreFoundAndAppliedAgain) {
-  const std::vector<Material> loaded = matte();
-  std::vector<Material> shown = loaded;
-  shown[0] = named_material("glass");
-  shown[1].flags |= MATERIAL_HIDDEN;
-  shown[3].diffuse.y = 0.1F;
-  shown[4].shininess = 7.7F;
-  shown[5].mirror = 0.3F;
+  const ObjectLooks loaded = matte();
+  ObjectLooks shown = loaded;
+  shown.materials[0] = named_material("glass");
+  shown.surfaces[0] = surface_of(shown.materials[0]);
+  shown.surfaces[0].roughness = 0.25F;
+  shown.materials[1].flags |= MATERIAL_HIDDEN;
+  shown.materials[3].diffuse.y = 0.1F;
+  shown.surfaces[3] = surface_of(shown.materials[3]);
+  shown.materials[4].shininess = 7.7F;
+  shown.surfaces[5].emission = vec3(3.0F, 0.0F, 0.0F);
   const auto changes = object_options_between(loaded, shown, NAMES);
   ASSERT_EQ(changes.size(), 5U);
   EXPECT_EQ(changes[1].object, "a:b");
   EXPECT_EQ(changes[2].object, "3");
-  std::vector<Material> again = loaded;
+  ObjectLooks again = loaded;
   std::vector<ObjectOptions> read;
   for (const ObjectOptions& change : changes) read.push_back(read_object_options(object_text(change)));
   apply_object_options(read, NAMES, again);

@@ -4,6 +4,7 @@
 
 #include "app/view/model/document.h"
 #include "app/view/thread/live_scene.h"
+#include "engine/scene/surface.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -16,8 +17,9 @@ inline SharedScene shared_discs(std::uint32_t count = 2) {
 /// Shows them before a white environment.
 inline Document disc_document(const Scene& scene) {
   Document document;
-  document.loaded = std::make_shared<const LoadedPart>(LoadedPart{{}, scene.object_names, scene.materials});
-  document.materials = scene.materials;
+  document.loaded = std::make_shared<const LoadedPart>(
+      LoadedPart{{}, scene.object_names, {scene.materials, surfaces_of(scene)}});
+  document.looks = document.loaded->looks;
   document.lights = scene.lights;
   document.environment = "white";
   document.camera = disc_view(1, 1).camera;

@@ -8,6 +8,7 @@
 #include "app/library/materials.h"
 #include "app/view/thread/live_scene.h"
 #include "engine/scene/splat.h"
+#include "engine/scene/surface.h"
 #include "tests/readers/read_error.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"
@@ -20,7 +21,9 @@ Document document_of(std::size_t objects) {
   LoadedPart loaded;
   for (std::size_t i = 0; i < objects; ++i)
     loaded.object_names.push_back(i == 1 ? "" : "part " + std::to_string(i));
-  document.materials = loaded.materials = std::vector<Material>(objects, named_material("matte"));
+  loaded.looks.materials = std::vector<Material>(objects, named_material("matte"));
+  loaded.looks.surfaces = std::vector<Surface>(objects, surface_of(named_material("matte")));
+  document.looks = loaded.looks;
   document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
   if (objects > 0) document.lights.resize(2);
   return document;
@@ -41,18 +44,18 @@ Frame some_frame(ViewMode mode) {
 }
 
 bool hidden(const Document& document, std::size_t object) {
-  return (document.materials[object].flags & MATERIAL_HIDDEN) != 0;
+  return (document.looks.materials[object].flags & MATERIAL_HIDDEN) != 0;
 }
 
 /// All members of a document: whoever adds one must name it here.
 bool same(const Document& a, const Document& b) {
   const auto members = [](const Document& document) {
-    const auto& [loaded, materials, lights, environment, camera, settings, exposure_ev, mode, attributes, up,
+    const auto& [loaded, looks, lights, environment, camera, settings, exposure_ev, tone, mode, attributes, up,
                  bounds_min_world, bounds_max_world] = document;
-    return std::tie(loaded, lights, environment, camera, settings, exposure_ev, mode, attributes, up,
+    return std::tie(loaded, lights, environment, camera, settings, exposure_ev, tone, mode, attributes, up,
                     bounds_min_world, bounds_max_world);
   };
-  return same_materials(a.materials, b.materials) && members(a) == members(b);
+  return same_looks(a.looks, b.looks) && members(a) == members(b);
 }
 
 TEST(PanelsTest, AllPanelsRunOverAnyDocumentAndChangeNothing) {
@@ -114,31 +117,31 @@ TEST(PanelsTest, HideAllMeansTheObjectsListed) {
 TEST(PanelsTest, APresetReplacesTheMaterialButKeepsItHidden) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(3);
-  gui.document.materials[1].flags |= MATERIAL_HIDDEN;
+  gui.document.looks.materials[1].flags |= MATERIAL_HIDDEN;
   gui.click("/objects", {1, "object 1"});
   EXPECT_EQ(gui.state.object, 1U);
   gui.click("##column", {1, "preset"});
   gui.click("##Combo", {"gold"});
-  EXPECT_EQ(gui.document.materials[1].tint, named_material("gold").tint);
+  EXPECT_EQ(gui.document.looks.materials[1].tint, named_material("gold").tint);
   EXPECT_TRUE(hidden(gui.document, 1));
-  EXPECT_EQ(gui.document.materials[0].tint, named_material("matte").tint);
+  EXPECT_EQ(gui.document.looks.materials[0].tint, named_material("matte").tint);
   gui.click("##column", {1, "as loaded"});
-  EXPECT_TRUE(same_materials({gui.document.materials[1]}, {gui.document.loaded->materials[1]}));
+  EXPECT_TRUE(same_looks(gui.document.looks, gui.document.loaded->looks));
 }
 
 TEST(PanelsTest, GlassObjectsKeepTheirBit) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(3);
-  gui.document.materials[2].mask_bit = 1;
+  gui.document.looks.materials[2].mask_bit = 1;
   for (const int object : {2, 0}) {
     gui.state.object = static_cast<std::uint32_t>(object);
     gui.click("##column", {object, "glass"});
-    const Material& material = gui.document.materials[static_cast<std::size_t>(object)];
+    const Material& material = gui.document.looks.materials[static_cast<std::size_t>(object)];
     EXPECT_EQ(material.flags, MATERIAL_DIELECTRIC);
     EXPECT_GT(material.ior, 1.0F);
   }
-  EXPECT_EQ(gui.document.materials[0].mask_bit, 0U);
-  EXPECT_EQ(gui.document.materials[2].mask_bit, 1U);
+  EXPECT_EQ(gui.document.looks.materials[0].mask_bit, 0U);
+  EXPECT_EQ(gui.document.looks.materials[2].mask_bit, 1U);
 }
 
 TEST(PanelsTest, LightsAreAddedAndRemoved) {

@@ -128,8 +128,8 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   part.source.inputs = {"my scene.ply"};
   document.loaded = std::make_shared<const LoadedPart>(std::move(part));
   document.camera.fov_y_deg = DEFAULT_FOV_Y_DEG;  // orthographic cameras keep none
-  document.materials[0].mirror = 0.3F;
-  document.materials[0].flags |= MATERIAL_HIDDEN;
+  document.looks.materials[0].mirror = 0.3F;
+  document.looks.materials[0].flags |= MATERIAL_HIDDEN;
   document.lights.push_back({LIGHT_POINT, {0.1, 0.2, 0.3}, {0.5F, 0.25F, 0.75F}});
   document.exposure_ev = -0.75;
   document.settings.max_bounces = 3;
@@ -141,7 +141,7 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   const Document again = first_document(loaded, options.scene, options.picture);
   EXPECT_TRUE(again.camera == document.camera);
   EXPECT_TRUE(again.lights == document.lights);
-  EXPECT_TRUE(same_materials(again.materials, document.materials));
+  EXPECT_TRUE(same_looks(again.looks, document.looks));
   EXPECT_EQ(again.settings.max_bounces, 3U);
   EXPECT_EQ(again.settings.environment_turn, 0.4F);
   EXPECT_EQ(again.environment, "white");

@@ -34,7 +34,8 @@ class ProgressiveTest : public DeviceTest {
   Image headless() {
     Tracer tracer(context);
     Scene shown = *scene;
-    shown.materials = document.materials;
+    shown.materials = document.looks.materials;
+    shown.surfaces = document.looks.surfaces;
     shown.lights = document.lights;
     shown.up = document.up;
     tracer.upload(shown);
@@ -69,15 +70,15 @@ TEST_F(ProgressiveTest, Camera) {
 }
 
 TEST_F(ProgressiveTest, Materials) {
-  document.materials[0].diffuse = {0.5F, 0.25F, 0.125F};
-  document.materials[0].mirror = 0.5F;
-  document.materials[0].tint = vec3(1.0F);
+  document.looks.materials[0].diffuse = {0.5F, 0.25F, 0.125F};
+  document.looks.materials[0].mirror = 0.5F;
+  document.looks.materials[0].tint = vec3(1.0F);
   expect_live_change();
 }
 
 TEST_F(ProgressiveTest, HiddenObject) {
-  document.materials[0].flags |= MATERIAL_HIDDEN;
-  document.materials[1].diffuse = vec3(0.25F);
+  document.looks.materials[0].flags |= MATERIAL_HIDDEN;
+  document.looks.materials[1].diffuse = vec3(0.25F);
   expect_live_change();
 }
 
@@ -119,8 +120,8 @@ TEST_F(ProgressiveTest, FacingShowsBackFacesOfOneSidedObjects) {
   const AovPixel& middle = frame->image.aov[SIZE.y / 2 * SIZE.x + SIZE.x / 2];
   EXPECT_NE(middle.object, NO_OBJECT);
   EXPECT_EQ(middle.splat & 1U, 0U) << "its back";
-  document.materials[0].flags |= MATERIAL_HIDDEN;
-  document.materials[1].flags |= MATERIAL_HIDDEN;
+  document.looks.materials[0].flags |= MATERIAL_HIDDEN;
+  document.looks.materials[1].flags |= MATERIAL_HIDDEN;
   for (const AovPixel& pixel : finish().back()->image.aov) EXPECT_EQ(pixel.object, NO_OBJECT);
 }
 

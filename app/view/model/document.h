@@ -27,19 +27,20 @@ enum class ViewMode {
 struct LoadedPart {
   SceneOptions source;                       ///< the files, and how points are made of them
   std::vector<std::string> object_names;     ///< one per object
-  std::vector<Material> materials;           ///< one per object, as the scene has them
+  ObjectLooks looks{};                       ///< one per object, as the scene has them
   std::vector<std::string> color_sources{};  ///< attributes that colours may show (attributes.h)
   std::vector<Category> classes{}, scans{};  ///< of the points; empty = not known
 };
 
 struct Document {
   std::shared_ptr<const LoadedPart> loaded = std::make_shared<const LoadedPart>();  ///< shared by all copies
-  std::vector<Material> materials;  ///< as shown; hidden objects have MATERIAL_HIDDEN
+  ObjectLooks looks;  ///< as shown; hidden objects have MATERIAL_HIDDEN
   std::vector<SceneLight> lights;
   std::string environment;  ///< as --env has it
   Camera camera;
   Settings settings;  ///< samples: where a still picture stops
   double exposure_ev = 0.0;
+  Tone tone = Tone::neutral;
   ViewMode mode = ViewMode::shaded;
   AttributeOptions attributes;       ///< what is shown of the points' attributes
   glm::dvec3 up{0.0, 1.0, 0.0};      ///< the scene's up axis: of orbits, framing and the environment

@@ -3,29 +3,35 @@
 #include <cstring>
 
 #include "app/library/scene_source.h"
+#include "engine/scene/surface.h"
 
 namespace splatray {
 namespace {
 
 /// So that back faces are seen too.
-std::vector<Material> two_sided(std::vector<Material> materials) {
-  for (Material& material : materials)
+ObjectLooks two_sided(ObjectLooks looks) {
+  for (Material& material : looks.materials)
     material.flags = (material.flags & MATERIAL_HIDDEN) | MATERIAL_TWO_SIDED;
-  return materials;
+  return looks;
+}
+
+template <class Element>
+bool same_bytes(const std::vector<Element>& a, const std::vector<Element>& b) {
+  if (a.size() != b.size()) return false;
+  return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0;
 }
 
 }  // namespace
 
-bool same_materials(const std::vector<Material>& a, const std::vector<Material>& b) {
-  if (a.size() != b.size()) return false;
-  return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Material)) == 0;
+bool same_looks(const ObjectLooks& a, const ObjectLooks& b) {
+  return same_bytes(a.materials, b.materials) && same_bytes(a.surfaces, b.surfaces);
 }
 
 void LiveScene::open(SharedScene scene) {
   scene_.reset();
   tracer_.upload(*scene);
   scene_ = std::move(scene);
-  materials_ = scene_->materials;
+  looks_ = {scene_->materials, surfaces_of(*scene_)};
   lights_.reset();
   up_ = scene_->up;
   attributes_ = {};
@@ -34,7 +40,7 @@ void LiveScene::open(SharedScene scene) {
 
 void LiveScene::match(const Document& document, ViewMode mode) {
   match_attributes(document.attributes);
-  match_materials(mode == ViewMode::facing ? two_sided(document.materials) : document.materials);
+  match_looks(mode == ViewMode::facing ? two_sided(document.looks) : document.looks);
   if (lights_ != document.lights) {
     tracer_.set_lights(document.lights);
     lights_ = document.lights;
@@ -46,10 +52,10 @@ void LiveScene::match(const Document& document, ViewMode mode) {
   match_environment(document.environment);
 }
 
-void LiveScene::match_materials(const std::vector<Material>& materials) {
-  if (same_materials(materials, materials_)) return;
-  tracer_.set_materials(materials);
-  materials_ = materials;
+void LiveScene::match_looks(const ObjectLooks& looks) {
+  if (same_looks(looks, looks_)) return;
+  tracer_.set_materials(looks.materials, looks.surfaces);
+  looks_ = looks;
 }
 
 /// The scene is uploaded again with other colours and radii: those of a copy that lives as long as that takes.
@@ -59,7 +65,7 @@ void LiveScene::match_attributes(const AttributeOptions& attributes) {
   legend_ = show_attributes(shown, attributes);
   attributes_ = attributes;
   tracer_.upload_and_free(shown);
-  materials_ = scene_->materials;
+  looks_ = {scene_->materials, surfaces_of(*scene_)};
   lights_.reset();
   up_ = scene_->up;
 }

@@ -31,13 +31,13 @@ class LiveScene {
   [[nodiscard]] Tracer& tracer() { return tracer_; }
 
  private:
-  void match_materials(const std::vector<Material>& materials);
+  void match_looks(const ObjectLooks& looks);
   void match_attributes(const AttributeOptions& attributes);
   void match_environment(const std::string& name);
 
   Tracer tracer_;
   SharedScene scene_;
-  std::vector<Material> materials_;  ///< as uploaded, and so on
+  ObjectLooks looks_;  ///< as uploaded, and so on
   std::optional<std::vector<SceneLight>> lights_;
   std::optional<std::string> environment_;
   glm::dvec3 up_{0.0};
@@ -46,6 +46,6 @@ class LiveScene {
 };
 
 /// Whether the words are the same.
-[[nodiscard]] bool same_materials(const std::vector<Material>& a, const std::vector<Material>& b);
+[[nodiscard]] bool same_looks(const ObjectLooks& a, const ObjectLooks& b);
 
 }  // namespace splatray

@@ -16,14 +16,16 @@ constexpr std::chrono::milliseconds BETWEEN_PICTURES{
 bool same_picture(const Document& a, const Document& b) {
   return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights &&
          a.up == b.up && a.attributes == b.attributes && a.environment == b.environment &&
-         same_materials(a.materials, b.materials);
+         same_looks(a.looks, b.looks);
 }
+
+Display display_of(const Document& document) { return {document.exposure_ev, document.tone}; }
 
 }  // namespace
 
 void Progressive::show(const Document& document, glm::uvec2 window_px) {
   const bool same = window_px == window_px_ && same_picture(document, document_);
-  if (document.exposure_ev != document_.exposure_ev) recolour_ = last_ != nullptr;
+  if (display_of(document) != display_of(document_)) recolour_ = last_ != nullptr;
   document_ = document;
   window_px_ = window_px;
   if (!same) restart();
@@ -141,7 +143,7 @@ SharedFrame Progressive::coloured(Frame frame) {
   frame.legend = live_.legend();
   frame.pools_uploaded = live_.tracer().pools_uploaded();
   if (frame.mode == ViewMode::shaded) {
-    if (!table_ || table_->exposure_ev() != document_.exposure_ev) table_.emplace(document_.exposure_ev);
+    if (!table_ || table_->display() != display_of(document_)) table_.emplace(display_of(document_));
     frame.display = table_->rgba(frame.image.rgba);
   } else {
     frame.range = color_range(frame.image.aov, frame.mode);

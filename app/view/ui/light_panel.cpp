@@ -17,6 +17,7 @@ using std::numbers::pi;
 constexpr std::size_t MOST_LIGHTS = 64;
 constexpr double POINT_DISTANCE_RADII = 2.0;  ///< of a new point light from the scene's centre
 constexpr float MOST_STRENGTH = 1e30F;
+constexpr std::array KINDS = {"sun ", "point light ", "area light "};  // LIGHT_*
 
 /// Over the viewer's shoulder, the direction of new lights.
 glm::dvec3 shoulder(const Document& document) {
@@ -49,8 +50,7 @@ void add_button(const char* label, std::uint32_t kind, Document& document, Panel
 
 void light_list(const Document& document, PanelState& state) {
   for (std::size_t i = 0; i < document.lights.size(); ++i) {
-    const bool point = document.lights[i].kind == LIGHT_POINT;
-    const std::string name = (point ? "point light " : "sun ") + std::to_string(i + 1);
+    const std::string name = KINDS[document.lights[i].kind] + std::to_string(i + 1);
     if (ImGui::Selectable(name.c_str(), state.light == i)) state.light = static_cast<std::uint32_t>(i);
   }
 }
@@ -71,6 +71,21 @@ void sun_controls(const Document& document, SceneLight& light) {
   const double level = std::cos(double(elevation));
   light.position = axes * glm::dvec3(level * std::sin(double(azimuth)), std::sin(double(elevation)),
                                      level * std::cos(double(azimuth)));
+}
+
+/// Of what path tracing sees.
+void size_controls(const Document& document, SceneLight& light) {
+  if (light.kind == LIGHT_RECTANGLE) return;
+  if (light.kind == LIGHT_POINT) {
+    const double least = 0.0, most = scene_radius_world(document);
+    ImGui::SliderScalar("radius", ImGuiDataType_Double, &light.size, &least, &most, "%.4g",
+                        ImGuiSliderFlags_AlwaysClamp);
+    return;
+  }
+  float degrees = static_cast<float>(light.size * 360.0 / pi);
+  if (ImGui::SliderFloat("angle", &degrees, 0.0F, 60.0F, "%.2f\u00B0", ImGuiSliderFlags_AlwaysClamp))
+    light.size = degrees * pi / 360.0;
+  tip("how large the sun seems");
 }
 
 void power_controls(SceneLight& light) {
@@ -96,7 +111,8 @@ void light_panel(Document& document, PanelState& state) {
   state.light = std::min(state.light, static_cast<std::uint32_t>(document.lights.size() - 1));
   SceneLight& light = document.lights[state.light];
   ImGui::PushID(static_cast<int>(state.light));
-  light.kind == LIGHT_POINT ? point_controls(document, light) : sun_controls(document, light);
+  light.kind == LIGHT_DIRECTIONAL ? sun_controls(document, light) : point_controls(document, light);
+  if (document.settings.look != LOOK_PAPER) size_controls(document, light);
   power_controls(light);
   if (ImGui::Button("remove")) document.lights.erase(document.lights.begin() + state.light);
   ImGui::PopID();

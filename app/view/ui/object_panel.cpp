@@ -2,15 +2,18 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "app/library/materials.h"
 #include "app/view/ui/panel_parts.h"
+#include "engine/scene/surface.h"
 
 namespace splatray {
 namespace {
 
 constexpr float LIST_EM = 8.0F;  ///< height of the list of objects
-constexpr float MOST_SHININESS = 1e4F, LEAST_IOR = 0.2F, MOST_IOR = 4.0F, GLASS_IOR = 1.52F;
+constexpr float MOST_SHININESS = 1e4F, LEAST_IOR = 0.2F, MOST_IOR = 4.0F, GLASS_IOR = 1.52F,
+                MOST_EMISSION = 1e4F;
 
 bool has(const Material& material, std::uint32_t flag) { return (material.flags & flag) != 0; }
 
@@ -25,14 +28,14 @@ std::string shown_name(const Document& document, std::size_t object) {
 
 std::vector<std::size_t> filtered_objects(const Document& document, const std::string& filter) {
   std::vector<std::size_t> objects;
-  for (std::size_t i = 0; i < document.materials.size(); ++i)
+  for (std::size_t i = 0; i < document.looks.materials.size(); ++i)
     if (filter.empty() || shown_name(document, i).find(filter) != std::string::npos) objects.push_back(i);
   return objects;
 }
 
 void object_row(Document& document, PanelState& state, std::size_t object) {
   ImGui::PushID(static_cast<int>(object));
-  Material& material = document.materials[object];
+  Material& material = document.looks.materials[object];
   bool visible = !has(material, MATERIAL_HIDDEN);
   if (ImGui::Checkbox("##visible", &visible)) set(material, MATERIAL_HIDDEN, !visible);
   tip("shown or hidden");
@@ -51,7 +54,7 @@ void visibility_buttons(Document& document, const std::vector<std::size_t>& obje
   const bool invert = ImGui::SmallButton("invert");
   if (!all && !none && !invert) return;
   for (const std::size_t object : objects) {
-    Material& material = document.materials[object];
+    Material& material = document.looks.materials[object];
     set(material, MATERIAL_HIDDEN, none || (invert && !has(material, MATERIAL_HIDDEN)));
   }
 }
@@ -89,6 +92,20 @@ void surface_controls(Material& material) {
   if (ImGui::Checkbox("two-sided", &two_sided)) set(material, MATERIAL_TWO_SIDED, two_sided);
 }
 
+/// Of what path tracing sees.
+void light_controls(Surface& surface) {
+  share("metallic", surface.metallic);
+  share("roughness", surface.roughness);
+  share("coat", surface.coat);
+  if (surface.coat > 0.0F) share("coat roughness", surface.coat_roughness);
+  float strength = std::max({surface.emission.x, surface.emission.y, surface.emission.z});
+  vec3 color = strength > 0.0F ? surface.emission / strength : vec3(1.0F);
+  bool changed = ImGui::DragFloat("emission", &strength, 0.02F, 0.0F, MOST_EMISSION, "%.3g",
+                                  ImGuiSliderFlags_AlwaysClamp);
+  if (strength > 0.0F) changed |= color_edit("its colour", color);
+  if (changed) surface.emission = strength * color;
+}
+
 void material_controls(Material& material) {
   preset_combo(material);
   glass_switch(material);
@@ -105,7 +122,7 @@ void material_controls(Material& material) {
 
 void object_panel(Document& document, PanelState& state) {
   const float em = ImGui::GetFontSize();
-  if (document.materials.size() > 1) {
+  if (document.looks.materials.size() > 1) {
     ImGui::SetNextItemWidth(-em);
     ImGui::InputTextWithHint("##filter", "part of a name", &state.object_filter);
   }
@@ -122,13 +139,20 @@ void object_panel(Document& document, PanelState& state) {
 }
 
 void material_panel(Document& document, PanelState& state) {
-  if (document.materials.empty()) return;
-  state.object = std::min(state.object, static_cast<std::uint32_t>(document.materials.size() - 1));
+  if (document.looks.materials.empty()) return;
+  state.object = std::min(state.object, static_cast<std::uint32_t>(document.looks.materials.size() - 1));
   ImGui::PushID(static_cast<int>(state.object));
   ImGui::TextUnformatted(shown_name(document, state.object).c_str());
-  Material& material = document.materials[state.object];
+  Material& material = document.looks.materials[state.object];
+  Surface& surface = document.looks.surfaces[state.object];
+  const Material before = material;
   material_controls(material);
-  if (ImGui::Button("as loaded")) material = document.loaded->materials[state.object];
+  if (std::memcmp(&before, &material, sizeof material) != 0) surface = surface_of(material);
+  if (document.settings.look == LOOK_LIT) light_controls(surface);
+  if (ImGui::Button("as loaded")) {
+    material = document.loaded->looks.materials[state.object];
+    surface = document.loaded->looks.surfaces[state.object];
+  }
   ImGui::PopID();
 }
 

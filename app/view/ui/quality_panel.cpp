@@ -14,6 +14,7 @@ constexpr double LEAST_EXPOSURE_EV = -10.0, MOST_EXPOSURE_EV = 10.0;
 
 constexpr std::array BLENDS = {"window", "paper", "nearest", "leaf"};  // BLEND_*
 constexpr std::array KERNELS = {"rim", "gaussian"};                    // KERNEL_*
+constexpr std::array LOOKS = {"paper", "lit", "clay", "ao", "scan"};   // LOOK_*
 constexpr std::array ENVIRONMENTS = {"studio", "white", "black"};
 
 template <std::size_t N>
@@ -49,6 +50,10 @@ void environment_panel(Document& document) {
 
 void quality_panel(Document& document) {
   Settings& settings = document.settings;
+  choice("look", settings.look, LOOKS);
+  tip("paper: Phong, hard shadows, mirrors and glass; lit: path tracing; clay: the same, white; ao: ambient "
+      "occlusion; scan: colours under "
+      "occlusion and a soft light");
   ImGui::SliderScalar("samples", ImGuiDataType_U32, &settings.samples, &LEAST_SAMPLES, &MOST_SAMPLES, "%u",
                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
   tip("per pixel, where a still picture stops");
@@ -57,6 +62,9 @@ void quality_panel(Document& document) {
   ImGui::Checkbox("shadows", &settings.shadows);
   ImGui::SliderScalar("exposure", ImGuiDataType_Double, &document.exposure_ev, &LEAST_EXPOSURE_EV,
                       &MOST_EXPOSURE_EV, "%+.2f EV", ImGuiSliderFlags_AlwaysClamp);
+  auto tone = static_cast<std::uint32_t>(document.tone);
+  choice("tone", tone, TONE_NAMES);
+  document.tone = static_cast<Tone>(tone);
   choice("blend", settings.blend, BLENDS);
   tip("how overlapping splats make one surface");
   choice("kernel", settings.kernel, KERNELS);

@@ -6,15 +6,16 @@
 #include <span>
 #include <vector>
 
+#include "app/library/display_image.h"
 #include "shaders/layout.h"
 
 namespace splatray {
 
 /// display_value of app/library/display_image.h, rounded to 8 bits, as a table over the sign, exponent and upper 8 bits of the
-/// fraction of a float: at most 1 off.
+/// fraction of a float: at most 1 off. Tone curves that mix channels are worked out for each pixel, before the table.
 class DisplayTable {
  public:
-  explicit DisplayTable(double exposure_ev);
+  explicit DisplayTable(const Display& display);
 
   /// 0 for negative numbers and NaN.
   [[nodiscard]] std::uint8_t operator()(float radiance) const {
@@ -22,12 +23,13 @@ class DisplayTable {
   }
   /// Each pixel as r, g, b, 255.
   [[nodiscard]] std::vector<std::uint8_t> rgba(std::span<const vec4> pixels) const;
-  [[nodiscard]] double exposure_ev() const { return exposure_ev_; }
+  [[nodiscard]] const Display& display() const { return display_; }
 
  private:
   static constexpr std::uint32_t DROPPED_BITS = 15;
 
-  double exposure_ev_;
+  Display display_;
+  bool mixes_;  ///< the tone curve mixes channels
   std::array<std::uint8_t, 1U << (32U - DROPPED_BITS)> values_{};
 };
 

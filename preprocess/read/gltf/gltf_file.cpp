@@ -17,8 +17,9 @@ namespace splatray {
 namespace {
 
 constexpr std::array SUPPORTED_EXTENSIONS{
-    "KHR_lights_punctual",  "KHR_materials_ior",     "KHR_materials_transmission",
-    "KHR_materials_volume", "KHR_mesh_quantization", "KHR_texture_transform",
+    "KHR_lights_punctual",    "KHR_materials_ior",       "KHR_materials_transmission",
+    "KHR_materials_volume",   "KHR_mesh_quantization",   "KHR_texture_transform",
+    "KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
 };
 constexpr std::array COMPRESSIONS{
     "KHR_draco_mesh_compression",

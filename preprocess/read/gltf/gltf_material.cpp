@@ -81,6 +81,53 @@ void apply_extras(Material& material, const tinygltf::Value& extras) {
   }
 }
 
+/// Whether a material's extras, which are for the paper's look, change it.
+bool changes_look(const tinygltf::Value& extras) {
+  return number_in(extras, "mirror") || number_in(extras, "specular") || number_in(extras, "shininess");
+}
+
+float number_of(const tinygltf::Value* extension, const char* name, double otherwise) {
+  return extension == nullptr ? float(otherwise) : float(number_in(*extension, name).value_or(otherwise));
+}
+
+glm::vec3 color_of(const tinygltf::Value* extension, const char* name) {
+  if (extension == nullptr) return glm::vec3(1.0F);
+  const std::vector<double> color = numbers_in(*extension, name, {1.0, 1.0, 1.0});
+  return glm::max(glm::vec3(color[0], color[1], color[2]), glm::vec3(0.0F));
+}
+
+/// Absorption that leaves the attenuation colour after the attenuation distance; a channel that is black leaves 1/1000.
+glm::vec3 volume_absorption(const tinygltf::Value* volume) {
+  if (volume == nullptr) return glm::vec3(0.0F);
+  const float distance = number_of(volume, "attenuationDistance", INFINITY);
+  const glm::vec3 color = glm::clamp(color_of(volume, "attenuationColor"), glm::vec3(1e-3F), glm::vec3(1.0F));
+  return distance > 0.0F && std::isfinite(distance) ? -glm::log(color) / distance : glm::vec3(0.0F);
+}
+
+/// What a material's emission and extensions say.
+Surface extension_surface(const tinygltf::Material& from) {
+  const auto extension = [&](const char* name) { return find_extension(from.extensions, name); };
+  Surface surface{};
+  surface.ior = std::max(number_of(extension("KHR_materials_ior"), "ior", 1.5), 1.0F);
+  const tinygltf::Value* specular = extension("KHR_materials_specular");
+  surface.specular = unit_clamp(number_of(specular, "specularFactor", 1.0));
+  surface.specular_color = color_of(specular, "specularColorFactor");
+  const tinygltf::Value* coat = extension("KHR_materials_clearcoat");
+  surface.coat = unit_clamp(number_of(coat, "clearcoatFactor", 0.0));
+  surface.coat_roughness = unit_clamp(number_of(coat, "clearcoatRoughnessFactor", 0.0));
+  surface.transmission =
+      unit_clamp(number_of(extension("KHR_materials_transmission"), "transmissionFactor", 0.0));
+  if (surface.transmission <= 0.5F) surface.transmission = 0.0F;
+  surface.absorption = volume_absorption(extension("KHR_materials_volume"));
+  const float strength =
+      std::max(number_of(extension("KHR_materials_emissive_strength"), "emissiveStrength", 1.0), 0.0F);
+  if (from.emissiveFactor.size() == 3)
+    surface.emission =
+        strength * glm::max(glm::vec3(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]),
+                            glm::vec3(0.0F));
+  return surface;
+}
+
 TextureWrap wrap_of(int gltf_wrap) {
   switch (gltf_wrap) {
     case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
@@ -146,7 +193,7 @@ Material GltfMaterials::material(int index, bool colored) {
   material.flags = from.doubleSided ? MATERIAL_TWO_SIDED : 0U;
   material.diffuse = glm::vec3(0.0F);
   GltfSurface surface{color_factor(from), unit_clamp(from.pbrMetallicRoughness.metallicFactor),
-                  unit_clamp(from.pbrMetallicRoughness.roughnessFactor)};
+                      unit_clamp(from.pbrMetallicRoughness.roughnessFactor)};
   if (from.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0) {
     if (const auto picture = image(from.pbrMetallicRoughness.metallicRoughnessTexture.index)) {
       const glm::vec4 mean = picture->mean();
@@ -165,10 +212,29 @@ Material GltfMaterials::material(int index, bool colored) {
   if (from.alphaMode != "OPAQUE") {
     note_once(index, "alphaMode " + from.alphaMode.substr(0, 20) + " is not supported, shown opaque");
   }
-  if (std::any_of(from.emissiveFactor.begin(), from.emissiveFactor.end(), [](double e) { return e > 0.0; })) {
-    note_once(index, "emission is not shown");
-  }
   return material;
+}
+
+std::optional<glm::vec4> GltfMaterials::texture_mean(int texture) {
+  if (texture < 0) return {};
+  const auto picture = image(texture);
+  return picture ? std::optional(picture->mean()) : std::nullopt;
+}
+
+std::optional<Surface> GltfMaterials::surface(int index, bool colored) {
+  if (index < 0 || changes_look(source(index).extras)) return {};
+  const tinygltf::Material& from = source(index);
+  const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+  Surface surface = extension_surface(from);
+  surface.base = colored ? glm::vec3(1.0F) : color_factor(from);
+  surface.metallic = unit_clamp(pbr.metallicFactor);
+  surface.roughness = unit_clamp(pbr.roughnessFactor);
+  if (const auto mean = texture_mean(pbr.metallicRoughnessTexture.index)) {
+    surface.metallic *= mean->z;
+    surface.roughness *= mean->y;
+  }
+  if (const auto mean = texture_mean(from.emissiveTexture.index)) surface.emission *= glm::vec3(*mean);
+  return surface;
 }
 
 glm::vec3 GltfMaterials::base_color(int index) const {

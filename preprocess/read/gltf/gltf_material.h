@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ class GltfMaterials {
   /// themselves, so `diffuse` leaves it out. Throws Error (input_unreadable) for an index out of range.
   [[nodiscard]] Material material(int index, bool colored);
 
+  /// The surface that material() stands for, as glTF has it, with KHR_materials_ior, _specular, _clearcoat, _transmission, _volume and
+  /// _emissive_strength; textures other than the base colour's count by their mean. Nothing for -1, and where `extras` change the material.
+  [[nodiscard]] std::optional<Surface> surface(int index, bool colored);
+
   /// Linear base colour factor; white for -1.
   [[nodiscard]] glm::vec3 base_color(int index) const;
 
@@ -52,6 +57,7 @@ class GltfMaterials {
   [[nodiscard]] const tinygltf::Material& source(int index) const;
   [[nodiscard]] std::shared_ptr<const TextureImage> image(int texture);
   [[nodiscard]] std::shared_ptr<const TextureImage> decode(std::size_t image);
+  [[nodiscard]] std::optional<glm::vec4> texture_mean(int texture);
   void note_once(int index, const std::string& what);
 
   const GltfFile& file_;

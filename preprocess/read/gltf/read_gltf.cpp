@@ -156,7 +156,9 @@ class SceneReader {
       if (by_material.size() > 1 && material >= 0) {
         object.name += "/" + file_.model.materials[static_cast<std::size_t>(material)].name;
       }
-      object.material = materials_.material(material, make_colors_complete(meshes, material));
+      const bool colored = make_colors_complete(meshes, material);
+      object.material = materials_.material(material, colored);
+      object.surface = materials_.surface(material, colored);
       object.meshes = std::move(meshes);
       object.samples = by_material.size() == 1 ? samples_wished(node) : 0;
       input_.objects.push_back(std::move(object));
@@ -199,6 +201,7 @@ class SceneReader {
     InputObject object;
     object.name = name_of(node);
     object.material = materials_.material(material, !mesh.vertices.color.empty());
+    object.surface = materials_.surface(material, !mesh.vertices.color.empty());
     object.meshes.push_back(std::move(mesh));
     object.samples = samples_wished(node);
     input_.objects.push_back(std::move(object));
