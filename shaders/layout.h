@@ -287,8 +287,9 @@ SPLATRAY_CONST BIND_HITS = 16u;
 SPLATRAY_CONST BIND_GROUPS = 17u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
 SPLATRAY_CONST BIND_PATHS = 18u;   ///< of this stage
 SPLATRAY_CONST BIND_PATHS_QUEUED = 19u;  ///< of the next
-SPLATRAY_CONST BIND_SURFACES = 20u;
-SPLATRAY_CONST BIND_LIGHT_TABLES = 21u;  ///< words: the albedo table, then the sky table
+// Of path tracing, in the place of what it does not use, as devices bound how many buffers a program has:
+SPLATRAY_CONST BIND_SURFACES = BIND_RAYS;
+SPLATRAY_CONST BIND_LIGHT_TABLES = BIND_HITS;  ///< words: the albedo table, then the sky table
 
 /// Specialization constants of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_FEATURES = 0u;    ///< sum of FEATURE_*

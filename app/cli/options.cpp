@@ -18,7 +18,8 @@ struct AovName {
 };
 constexpr AovName AOV_NAMES[] = {{"depth", &RenderOptions::aov_depth},
                                  {"normal", &RenderOptions::aov_normal},
-                                 {"id", &RenderOptions::aov_id}};
+                                 {"id", &RenderOptions::aov_id},
+                                 {"error", &RenderOptions::aov_error}};
 
 void read_aovs(const std::string& text, RenderOptions& options) {
   for (const AovName& aov : AOV_NAMES) options.*aov.member = false;
@@ -26,10 +27,11 @@ void read_aovs(const std::string& text, RenderOptions& options) {
   for (std::string name; std::getline(names, name, ',');) {
     const auto found = std::find_if(std::begin(AOV_NAMES), std::end(AOV_NAMES),
                                     [&](const AovName& aov) { return name == aov.name; });
-    if (found == std::end(AOV_NAMES)) refuse_option("--aov", text, "a list of depth, normal, id");
+    if (found == std::end(AOV_NAMES)) refuse_option("--aov", text, "a list of depth, normal, id, error");
     options.*found->member = true;
   }
-  options.picture.settings.aov = !text.empty();
+  options.picture.settings.aov = options.aov_depth || options.aov_normal || options.aov_id;
+  options.picture.settings.estimate_error = options.aov_error;
 }
 
 std::string aov_text(const RenderOptions& options) {
@@ -59,8 +61,16 @@ void add_output_options(OptionList& list, RenderOptions& options) {
       "EV|auto");
   list.add_value(
       "--aov", [&options](const std::string& text) { read_aovs(text, options); },
-      [&options] { return aov_text(options); }, "more channels of an EXR picture: Z, N.X N.Y N.Z, id",
-      "depth,normal,id");
+      [&options] { return aov_text(options); },
+      "more channels of an EXR picture: Z, N.X N.Y N.Z, id, error (estimated, of the radiance)",
+      "depth,normal,id,error");
+  add_number(list, "--error", options.error_goal, 0.0, 1e3,
+             "trace until no region of 32 x 32 pixels has more than this relative error, as it is estimated, "
+             "such as 0.02, instead of "
+             "--samples; default 0 = none");
+  add_number(list, "--time", options.seconds_goal, 0.0, 1e9,
+             "the best picture in so many seconds of tracing, instead of --samples; beside --error the end "
+             "of it; default 0 = none");
   add_path(list, "--stats-json", options.stats_json, "write times, counts, bytes and device here");
   add_path(list, "--reference", options.reference, "picture to compare with; exit 1 when they differ");
   add_number(list, "--reference-threshold", options.reference_threshold, 0.0, 1.0,
@@ -138,10 +148,13 @@ void check_together(const RenderOptions& options) {
   const std::string extension = lower_extension(options.output);
   if (!options.output.empty() && extension != ".png" && extension != ".exr")
     fail("found output '" + options.output.string() + "', expected a name ending in .png or .exr");
-  if (picture.settings.aov && extension == ".png") fail("found --aov with a .png output, expected .exr");
+  if ((picture.settings.aov || options.aov_error) && extension == ".png")
+    fail("found --aov with a .png output, expected .exr");
   if (picture.target && !picture.eye) fail("found --target without --eye, expected both");
   if (picture.ortho_height > 0.0 && !picture.eye) fail("found --ortho without --eye, expected both");
   if (picture.camera_up && !picture.eye) fail("found --camera-up without --eye, expected both");
+  if (options.aov_error && !options.has_goal() && picture.settings.samples < 2)
+    fail("found --aov error with one sample, expected at least two");
   check_sequence(options);
 }
 

@@ -91,8 +91,13 @@ struct RenderOptions {
   PictureOptions picture;
   SequenceOptions sequence;
   std::filesystem::path output;
+  double error_goal = 0.0;    ///< Goal::error; 0 = none
+  double seconds_goal = 0.0;  ///< Goal::seconds; 0 = none
+
+  /// Whether a picture is traced until it is good enough, instead of by Settings::samples.
+  [[nodiscard]] bool has_goal() const { return error_goal > 0.0 || seconds_goal > 0.0; }
   std::optional<double> exposure_ev = 0.0;  ///< stops, PNG only; unset = automatic
-  bool aov_depth = false, aov_normal = false, aov_id = false;
+  bool aov_depth = false, aov_normal = false, aov_id = false, aov_error = false;
   std::filesystem::path stats_json;    ///< empty = none
   std::filesystem::path reference;     ///< empty = no comparison
   double reference_threshold = 0.004;  ///< allowed error of a pixel, display-encoded 0..1

@@ -64,7 +64,8 @@ Metadata picture_metadata(const RenderOptions& options, const Scene& scene, cons
 void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path) {
   if (is_png(path)) return write_png(display_image(image, display_of(options, image)), metadata, path);
-  write_exr(image, {options.aov_depth, options.aov_normal, options.aov_id}, metadata, path);
+  write_exr(image, {options.aov_depth, options.aov_normal, options.aov_id, options.aov_error}, metadata,
+            path);
 }
 
 void require_match(const RenderOptions& options, const Image& image, const DisplayImage& reference) {

@@ -9,6 +9,9 @@
 namespace splatray {
 namespace {
 
+/// Most samples of a pixel of a picture that is traced until it is good enough.
+constexpr std::uint32_t GOAL_SAMPLES = 65536;
+
 /// What all pictures of a run share.
 struct Run {
   const RenderOptions& options;
@@ -24,11 +27,19 @@ void make_picture(const Run& run, const Camera& camera, const SequenceFrame& fra
   const View view{camera, run.options.picture.width, run.options.picture.height};
   const std::vector<SceneLight> lights = choose_lights(run.loaded, run.options.picture, camera);
   run.tracer.set_lights(lights);
-  record.last =
-      run.tracer.render(view, choose_settings(run.loaded.scene, run.options.picture), [&](double share) {
-        run.progress.show(stage, share);
-        return !interrupted();
-      });
+  const auto progress = [&](double share) {
+    run.progress.show(stage, share);
+    return !interrupted();
+  };
+  Settings settings = choose_settings(run.loaded.scene, run.options.picture);
+  if (run.options.has_goal()) {
+    settings.samples = GOAL_SAMPLES;
+    Goal goal{.error = run.options.error_goal};
+    if (run.options.seconds_goal > 0.0) goal.seconds = run.options.seconds_goal;
+    record.last = run.tracer.render_until(view, settings, goal, progress);
+  } else {
+    record.last = run.tracer.render(view, settings, progress);
+  }
   run.progress.clear();
   Stopwatch watch;
   write_output(run.options, record.last, picture_metadata(run.options, run.loaded.scene, view, run.context),

@@ -21,6 +21,9 @@ RenderOptions looks_only(const RenderOptions& options) {
   looks.aov_depth = options.aov_depth;
   looks.aov_normal = options.aov_normal;
   looks.aov_id = options.aov_id;
+  looks.aov_error = options.aov_error;
+  looks.error_goal = options.error_goal;
+  looks.seconds_goal = options.seconds_goal;
   return looks;
 }
 

@@ -1,5 +1,6 @@
 #include "app/cli/stats_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/library/commit.h"
@@ -34,7 +35,9 @@ Json counters_json(const std::array<std::uint64_t, COUNTER_COUNT>& count) {
           {"leaked", count[COUNT_LEAKED]},
           {"non_finite", count[COUNT_NON_FINITE]},
           {"bounce_limit", count[COUNT_BOUNCE_LIMIT]},
-          {"energy_lost", static_cast<double>(count[COUNT_ENERGY_LOST]) / 1024.0}};
+          {"energy_lost", static_cast<double>(count[COUNT_ENERGY_LOST]) / 1024.0},
+          {"below", count[COUNT_BELOW]},
+          {"energy_below", static_cast<double>(count[COUNT_BELOW_ENERGY]) / 1024.0}};
 }
 
 Json bytes_json(const PoolBytes& bytes) {
@@ -55,6 +58,8 @@ PictureRecord sum_of(const std::vector<PictureRecord>& pictures) {
     sum.stats.trace_ms += picture.stats.trace_ms;
     sum.stats.wall_ms += picture.stats.wall_ms;
     sum.write_ms += picture.write_ms;
+    sum.stats.error = std::max(sum.stats.error, picture.stats.error);
+    sum.stats.samples = std::max(sum.stats.samples, picture.stats.samples);
     for (std::size_t i = 0; i < COUNTER_COUNT; ++i) sum.stats.counters[i] += picture.stats.counters[i];
   }
   return sum;
@@ -86,7 +91,8 @@ void write_stats(const RenderOptions& options, const LoadedScene& loaded, const 
       {"picture",
        {{"width", options.picture.width},
         {"height", options.picture.height},
-        {"samples", settings.samples},
+        {"samples", sum.stats.samples},
+        {"error", sum.stats.error},
         {"seed", settings.seed}}},
       {"times_ms",
        {{"device", times.device_ms},

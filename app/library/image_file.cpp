@@ -147,6 +147,7 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
   if (aovs.depth) names.emplace_back("Z");
   if (aovs.normal) names.insert(names.end(), {"N.X", "N.Y", "N.Z"});
   if (aovs.id) names.emplace_back("id");
+  if (aovs.error) names.emplace_back("error");
   std::vector<float> values;
   values.reserve(image.rgba.size() * names.size());
   for (std::size_t i = 0; i < image.rgba.size(); ++i) {
@@ -156,6 +157,7 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
       values.insert(values.end(), {image.aov[i].normal.x, image.aov[i].normal.y, image.aov[i].normal.z});
     if (aovs.id)
       values.push_back(image.aov[i].object == NO_OBJECT ? -1.0F : static_cast<float>(image.aov[i].object));
+    if (aovs.error) values.push_back(image.error[i]);
   }
   // An empty DateTime: else it is the time of writing, and the same picture would make another file.
   PictureHeader header{static_cast<int>(image.width),

@@ -11,9 +11,9 @@
 
 namespace splatray {
 
-/// Which auxiliary channels an EXR gets beside R G B A: Z; N.X N.Y N.Z; id.
+/// Which auxiliary channels an EXR gets beside R G B A: Z; N.X N.Y N.Z; id; error.
 struct AovChannels {
-  bool depth = false, normal = false, id = false;
+  bool depth = false, normal = false, id = false, error = false;
 };
 /// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, their names after "splatray.".
 using Metadata = std::vector<std::pair<std::string, std::string>>;

@@ -334,11 +334,11 @@ Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
   });
   scene.build.normal_fields = !scene.field_pool.empty();
   scene.materials = reader.section<Material>(MATERIALS);
-  scene.surfaces = reader.section<Surface>(SURFACES);
   read_lights(reader, scene);
   if (const auto cameras = reader.section<Camera>(CAMERA); !cameras.empty()) scene.camera = cameras.front();
   read_stations(reader, scene);
   read_strings(reader, scene);
+  scene.surfaces = reader.section<Surface>(SURFACES);
   read_columns(reader, scene);
   reader.end();
   if (const auto defect = tree_defect.get()) reader.refuse(defect->found, defect->expected);

@@ -12,7 +12,9 @@
 namespace splatray {
 
 DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish, bool culls)
-    : context_(context), queue_(queue), wish_(wish), culls_(culls), environment_(context, queue, {}) {}
+    : context_(context), queue_(queue), wish_(wish), culls_(culls), environment_(context, queue, {}) {
+  upload_tables({});
+}
 
 void DeviceScene::upload(const Scene& scene, Scene* spent) {
   bindings_.reset();
@@ -70,10 +72,15 @@ void DeviceScene::set_environment(const Environment& environment) {
   environment_constant_ = environment.constant;
   irradiance_ = irradiance_coefficients(environment);
   sky_ = sky_table(environment);
+  upload_tables(sky_);
+  sky_.words = {};
+}
+
+/// What path tracing reads beside the scene.
+void DeviceScene::upload_tables(const SkyTable& sky) {
   std::vector<std::uint32_t> words;
   for (const float albedo : ALBEDO_TABLE) words.push_back(std::bit_cast<std::uint32_t>(albedo));
-  words.insert(words.end(), sky_.words.begin(), sky_.words.end());
-  sky_.words = {};
+  words.insert(words.end(), sky.words.begin(), sky.words.end());
   reserve_storage(context_, table_buffer_, std::span(words).size_bytes());
   table_buffer_.upload(queue_, std::as_bytes(std::span(words)));
 }
@@ -82,10 +89,13 @@ void DeviceScene::bind() {
   for (std::uint32_t i = 0; i < pools_.buffers.size(); ++i)
     bindings_->bind(BIND_NODE_POOL + i, pools_.buffers[i]);
   bindings_->bind(BIND_MATERIALS, material_buffer_);
-  bindings_->bind(BIND_SURFACES, surface_buffer_);
   bindings_->bind(BIND_LIGHTS, light_buffer_);
-  bindings_->bind(BIND_LIGHT_TABLES, table_buffer_);
   bindings_->bind(environment_);
+}
+
+void DeviceScene::bind_light() {
+  bindings_->bind(BIND_SURFACES, surface_buffer_);
+  bindings_->bind(BIND_LIGHT_TABLES, table_buffer_);
 }
 
 PoolBytes DeviceScene::bytes() const {

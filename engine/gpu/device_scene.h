@@ -39,6 +39,8 @@ class DeviceScene {
   /// Of the scene uploaded; its own bindings are set by bind().
   [[nodiscard]] BindingSet& bindings() { return *bindings_; }
   void bind();
+  /// Binds what path tracing alone reads, where ray queries have their rays and hits.
+  void bind_light();
 
   [[nodiscard]] PoolBytes bytes() const;
   /// What the features of a pipeline depend on.
@@ -52,6 +54,7 @@ class DeviceScene {
  private:
   /// `spent`: as Pools has it.
   void upload(const Scene& scene, Scene* spent);
+  void upload_tables(const SkyTable& sky);
   void set_sky(const Settings& settings, FrameParams& frame) const;
 
   const Context& context_;

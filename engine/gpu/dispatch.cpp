@@ -1,6 +1,7 @@
 #include "engine/gpu/dispatch.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace splatray {
 namespace {
@@ -18,6 +19,22 @@ std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threa
 void Dispatch::set_groups(std::uint32_t count) {
   groups_x = std::min(count, MOST_GROUPS_X);
   groups_y = groups(count, std::max(groups_x, 1U));
+}
+
+void TileDispatch::keep(const std::function<bool(std::uint32_t x, std::uint32_t y)>& keeps) {
+  const bool linear = seen.constants[SPEC_ORDER] == ORDER_LINEAR;
+  const std::uint32_t width = linear ? GROUP_SIZE : 8, height = linear ? 1 : 8;
+  std::vector<std::uint32_t> kept;
+  for (Dispatch* part : {&seen, &empty}) {
+    const auto first = group_list.begin() + part->frame.first_group;
+    part->frame.first_group = static_cast<std::uint32_t>(kept.size());
+    std::copy_if(first, first + part->frame.group_count, std::back_inserter(kept), [&](std::uint32_t group) {
+      return keeps((group & 0xFFFFU) * width, (group >> 16U) * height);
+    });
+    part->frame.group_count = static_cast<std::uint32_t>(kept.size()) - part->frame.first_group;
+    part->set_groups(part->frame.group_count);
+  }
+  group_list = std::move(kept);
 }
 
 void TileDispatch::set_samples(std::uint32_t begin, std::uint32_t end) {

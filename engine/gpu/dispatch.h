@@ -1,6 +1,7 @@
 /// One dispatch of a picture or a query, and how large the next one should be.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/gpu/features.h"
@@ -28,6 +29,8 @@ struct TileDispatch {
   Dispatch seen, empty;
   std::vector<std::uint32_t> group_list;  ///< of both (BIND_GROUPS)
 
+  /// Leaves only those groups of pixels for whose corner, in pixels of the tile, `keeps` is true.
+  void keep(const std::function<bool(std::uint32_t x, std::uint32_t y)>& keeps);
   /// Has them trace samples [begin, end) of each pixel.
   void set_samples(std::uint32_t begin, std::uint32_t end);
   /// Has them add the light of lights [begin, end) alone.

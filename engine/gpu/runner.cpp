@@ -54,15 +54,19 @@ void Runner::bind(const Buffer& accumulation_buffer) {
   bindings.bind(BIND_ACCUMULATION, accumulation_buffer);
   bindings.bind(BIND_AOV, aov);
   bindings.bind(BIND_COUNTERS, counters_);
-  bindings.bind(BIND_RAYS, rays);
-  bindings.bind(BIND_HITS, hits);
   bindings.bind(BIND_GROUPS, groups_);
   bindings.bind(BIND_PATHS, paths_);
   bindings.bind(BIND_PATHS_QUEUED, queued_paths_);
 }
 
 double Runner::run(const Dispatch& dispatch) {
-  const BindingSet& bindings = scene.bindings();
+  BindingSet& bindings = scene.bindings();
+  if (dispatch.program == Program::light || dispatch.program == Program::empty_light) {
+    scene.bind_light();
+  } else {
+    bindings.bind(BIND_RAYS, rays);
+    bindings.bind(BIND_HITS, hits);
+  }
   const bool reads_counters = counts_work(dispatch) || is_staged(dispatch);
   const VkPipeline pipeline = pipelines.get({dispatch.program, dispatch.constants}, bindings.layout());
   const double ms = queue.run([&](VkCommandBuffer commands) {

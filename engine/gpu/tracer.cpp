@@ -5,33 +5,31 @@
 
 #include "engine/base/error.h"
 #include "engine/gpu/tracer_parts.h"
+#include "engine/image/picture_error.h"
 
 namespace splatray {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Adds all samples to a tile's means, whose buffer is bound; returns the device's milliseconds.
-double trace_samples(Runner& runner, const Dispatch& dispatch, const Tile& tile, const Footprint& footprint,
+}  // namespace
+
+double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
                      const ThreadWork& work, const std::function<void(std::uint32_t)>& advance) {
   // The device counts in 32 bits, which many samples of a large tile would overflow.
-  const std::uint32_t most = has(dispatch.constants, FEATURE_COUNTERS) ? 1 : work.samples;
-  const std::uint32_t total = dispatch.frame.sample_total;
-  TileDispatch aimed = aim(dispatch, tile, footprint);
+  const std::uint32_t most = has(tile.seen.constants, FEATURE_COUNTERS) ? 1 : work.samples;
   std::uint32_t batch = 1;
   double all_ms = 0.0;
-  for (std::uint32_t sample = 0; sample < total;) {
-    const std::uint32_t end = sample + std::min(batch, total - sample);
-    const double ms = runner.run_samples(aimed, sample, end, work);
+  for (std::uint32_t sample = begin; sample < end;) {
+    const std::uint32_t next = sample + std::min(batch, end - sample);
+    const double ms = runner.run_samples(tile, sample, next, work);
     all_ms += ms;
-    advance(end - sample);
-    sample = end;
+    advance(next - sample);
+    sample = next;
     batch = std::min(next_batch(batch, ms), most);
   }
   return all_ms;
 }
-
-}  // namespace
 
 void report(const Tracer::Progress& progress, double share) {
   if (progress && !progress(share)) throw Error(ExitCode::interrupted, "rendering was interrupted");
@@ -106,6 +104,7 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   const std::size_t pixels = std::size_t{view.width} * view.height;
   image.rgba.resize(pixels);
   if (settings.aov) image.aov.resize(pixels);
+  Image first_half = image;
 
   const std::vector<Tile> tiles = cut_into_tiles(view.width, view.height);
   reserve_storage(runner.context, runner.accumulation, tiles.front().pixels() * sizeof(vec4));
@@ -119,13 +118,22 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
         done += again ? 0 : tile.pixels() * samples;
         report(progress, static_cast<double>(done) / (static_cast<double>(pixels) * settings.samples));
       };
-      trace_ms += trace_samples(runner, dispatch, tile, footprint, work, advance);
+      TileDispatch aimed = aim(dispatch, tile, footprint);
+      const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;
+      trace_ms += trace_samples(runner, aimed, 0, half, work, advance);
+      if (half > 0 && !impl.read_colors(runner.accumulation, tile, first_half)) return false;
+      trace_ms += trace_samples(runner, aimed, half, settings.samples, work, advance);
       return impl.read_colors(runner.accumulation, tile, image);
     };
     if (!trace(runner.work(dispatch), false) && !trace({}, true)) refuse_cut_loops();
     if (settings.aov) runner.trace_aov(tile, aov_dispatch, footprint, image.aov);
   }
   impl.finish(start, trace_ms);
+  impl.stats.samples = settings.samples;
+  if (settings.estimate_error && settings.samples > 1) {
+    image.error = pixel_errors(image.rgba, first_half.rgba);
+    impl.stats.error = relative_error(image);
+  }
   return image;
 }
 

@@ -23,6 +23,9 @@ struct RenderStats {
   double trace_ms =
       0.0;  ///< device time where it has timestamps, else wall time of the dispatches; without those for AOVs
   double wall_ms = 0.0;  ///< the whole call, read-back included
+  double error =
+      0.0;  ///< relative error of the whole picture (picture_error.h); 0 where it was not estimated
+  double samples = 0.0;  ///< per pixel, on the mean
   std::array<std::uint64_t, COUNTER_COUNT>
       counters{};  ///< zero unless Settings::counters; without the AOVs' rays
 
@@ -68,6 +71,11 @@ class Tracer {
   using Progress = std::function<bool(double)>;
   /// The picture of the uploaded scene.
   [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {});
+  /// The picture whose error is as small as the goal asks for: regions get samples until they are good enough, at most
+  /// Settings::samples in a pixel. Two pictures of independent samples are made, and the samples of each depend on the other alone,
+  /// so that their mean is unbiased: where samples were counted until they look good, it would not be. Its error is half their difference.
+  [[nodiscard]] Image render_until(const View& view, const Settings& settings, const Goal& goal,
+                                   const Progress& progress = {});
   /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit
   /// what render() gives, whatever other calls than upload() and set_...() happened between. Settings::aov is not looked at.
   /// Throws Error (out_of_memory) for more pixels than the device lets a buffer hold.

@@ -35,6 +35,10 @@ struct Tracer::Impl {
   std::uint32_t uploads = 0;
 };
 
+/// Adds samples [begin, end) to a tile's means, whose buffer is bound; tells `advance` of each batch. Returns the device's milliseconds.
+double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
+                     const ThreadWork& work, const std::function<void(std::uint32_t)>& advance);
+
 /// Throws Error (interrupted) where `progress` says so.
 void report(const Tracer::Progress& progress, double share);
 

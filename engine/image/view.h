@@ -2,6 +2,7 @@
 /// and benchmarks all use it.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -43,7 +44,10 @@ struct Settings {
   bool stages =
       true;  ///< on processors: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same
   bool counters = false;  ///< compile the counters in
-  bool aov = false;       ///< also trace the centre rays' normal, depth, object
+  /// Also estimate the picture's error, by how much the second half of its samples changes what the first half showed: too high
+  /// rather than too low, as samples of both halves complete each other. Needs two samples.
+  bool estimate_error = false;
+  bool aov = false;  ///< also trace the centre rays' normal, depth, object
   float environment_strength = 1.0F;
   // Of the other looks than LOOK_PAPER alone:
   double reach_world =
@@ -56,6 +60,13 @@ struct Settings {
       0.0F;  ///< turns (1 = a full one) about the up axis, counter-clockwise seen from above
 
   bool operator==(const Settings&) const = default;
+};
+
+/// When a picture is good enough.
+struct Goal {
+  double error =
+      0.0;  ///< relative error that no region of 32 x 32 pixels shall have more of (picture_error.h); 0: as small as time allows
+  double seconds = std::numeric_limits<double>::infinity();  ///< to trace in
 };
 
 /// Vertical field of view of pictures that name none, degrees: a portrait lens.

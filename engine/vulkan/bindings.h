@@ -6,7 +6,7 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t BINDINGS = BIND_LIGHT_TABLES + 1;
+inline constexpr std::uint32_t BINDINGS = BIND_PATHS_QUEUED + 1;
 inline constexpr std::uint32_t POOLS = BIND_TOP_TABLE - BIND_NODE_POOL + 1;
 /// Of a program's bindings, beside the pools: the environment and the paths of stages, and storage buffers.
 inline constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 2;

@@ -138,34 +138,41 @@ struct BsdfSample {
 
 vec3 mirrored_about(vec3 dir, vec3 facet) { return facet * (2.0f * dot(dir, facet)) - dir; }
 
-/// random.xy choose the direction, random.z the lobe.
+/// A number in [0, 1) anew from one that is, or is not, below `share`.
+float used_again(float number, float share, bool below) {
+  float again = below ? number / share : (number - share) / (1.0f - share);
+  return clamp(again, 0.0f, 0.99999994f);
+}
+
+/// random.x chooses the lobe, and what is left of it, with random.y, the direction; random.z whether light is reflected or refracted.
 BsdfSample bsdf_sample(Bsdf bsdf, vec3 to_eye, vec3 random) {
-  vec2 at = disc_sample(vec2(random.x, random.y));
+  float x = random.x;
+  bool coat = LOBE_COAT && x < bsdf.coat_chosen;
+  if (LOBE_COAT) x = used_again(x, bsdf.coat_chosen, coat);
+  bool glass = LOBE_TRANSMISSION && !coat && x < bsdf.glass_chosen;
+  if (LOBE_TRANSMISSION && !coat) x = used_again(x, bsdf.glass_chosen, glass);
+  bool layer = !coat && !glass && x < bsdf.layer_chosen;
+  if ((LOBE_SPECULAR || LOBE_METAL) && !coat && !glass) x = used_again(x, bsdf.layer_chosen, layer);
+  vec2 within = vec2(x, random.y);
+  vec2 at = disc_sample(within);
   BsdfSample chosen;
   chosen.dir = vec3(at, sqrt(max(1.0f - dot(at, at), 0.0f)));
   chosen.event = BSDF_REFLECTED;
   chosen.weight = bsdf.base;
   chosen.pdf = chosen.dir.z * INVERSE_PI;
   if (!LOBE_SPECULAR && !LOBE_METAL && !LOBE_TRANSMISSION && !LOBE_COAT) return chosen;
-  float choice = random.z;
-  bool coat = LOBE_COAT && choice < bsdf.coat_chosen;
-  if (LOBE_COAT) choice = (choice - bsdf.coat_chosen) / (1.0f - bsdf.coat_chosen);
-  bool glass = LOBE_TRANSMISSION && !coat && choice < bsdf.glass_chosen;
-  float glass_choice = choice / max(bsdf.glass_chosen, 1e-9f);
-  if (LOBE_TRANSMISSION) choice = (choice - bsdf.glass_chosen) / max(1.0f - bsdf.glass_chosen, 1e-9f);
-  bool layer = !coat && !glass && choice < bsdf.layer_chosen;
   float alpha = coat ? bsdf.coat_alpha : bsdf.alpha;
   bool smooth_lobe = alpha < ALPHA_LEAST && (coat || layer);
   if (LOBE_TRANSMISSION) smooth_lobe = smooth_lobe || (glass && glass_is_clear(alpha, bsdf.eta));
   if (coat || layer) {
     vec3 facet = smooth_lobe ? vec3(0.0f, 0.0f, 1.0f)
-                             : ggx_facet(to_eye, alpha, ggx_bound(to_eye, alpha), vec2(random.x, random.y));
+                             : ggx_facet(to_eye, alpha, ggx_bound(to_eye, alpha), within);
     chosen.dir = mirrored_about(to_eye, facet);
     chosen.weight = coat ? vec3(1.0f) : bsdf.mirrored / (bsdf.layer_chosen * (1.0f - bsdf.glass_chosen));
   }
   if (LOBE_TRANSMISSION && glass) {
     bool back = true;
-    chosen.dir = glass_sample(to_eye, alpha, bsdf.eta, vec2(random.x, random.y), glass_choice, back);
+    chosen.dir = glass_sample(to_eye, alpha, bsdf.eta, within, random.z, back);
     chosen.event = back ? BSDF_REFLECTED : BSDF_TRANSMITTED;
     chosen.weight = back ? vec3(1.0f) : bsdf.base;
   }

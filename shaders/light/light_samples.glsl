@@ -66,19 +66,21 @@ uint find_light(float at) {
   return low;
 }
 
-/// Light of one light, or of the environment, at a point.
-LightSample light_sample(vec3 position, vec3 random) {
+/// Light of one light, or of the environment, at a point. The first number chooses which, and what is left of it is used again, so that
+/// the samples of each are even, too.
+LightSample light_sample(vec3 position, vec2 random) {
   LightSample chosen;
-  if (SKY && (!LIGHTS || random.z < frame.sky_share)) {
-    chosen.dir = sky_sample(random.xy, chosen.pdf);
+  if (SKY && (!LIGHTS || random.x < frame.sky_share)) {
+    chosen.dir = sky_sample(vec2(min(random.x / frame.sky_share, 0.99999994f), random.y), chosen.pdf);
     chosen.pdf *= frame.sky_share;
     chosen.radiance = environment_radiance(chosen.dir) / chosen.pdf;
     chosen.distance = INFINITY_F;
   } else {
-    float at = SKY ? (random.z - frame.sky_share) / (1.0f - frame.sky_share) : random.z;
+    float at = SKY ? (random.x - frame.sky_share) / (1.0f - frame.sky_share) : random.x;
     Light light = light_at(find_light(at));
+    vec2 within = vec2(clamp((at - light.before) / light.share, 0.0f, 0.99999994f), random.y);
     float share = light.share * (1.0f - frame.sky_share);
-    chosen = one_light_sample(light, position, random.xy);
+    chosen = one_light_sample(light, position, within);
     chosen.radiance /= share;
     chosen.pdf *= share;
   }

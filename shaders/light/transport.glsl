@@ -40,7 +40,7 @@ Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
 }
 
 /// Light that one of the lights, or the environment, sends on to the eye from a hit.
-vec3 light_found(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside, INOUT(uint) shadow_rays,
+vec3 light_found(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec2 random, uint inside, INOUT(uint) shadow_rays,
                  INOUT(Tally) tally) {
   LightSample chosen = light_sample(hit.position, random);
   float pdf = 0.0f;
@@ -132,7 +132,7 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
   if (LIGHTS || SKY) {
-    vec3 light = light_found(hit, bsdf, basis, to_eye, random.xyz, path.ray.inside, path.shadow, tally);
+    vec3 light = light_found(hit, bsdf, basis, to_eye, random.xy, path.ray.inside, path.shadow, tally);
     path.radiance += path.throughput * light;
   }
   if (LOOK == LOOK_AO || LOOK == LOOK_SCAN) {

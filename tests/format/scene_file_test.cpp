@@ -83,7 +83,7 @@ TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(get<double>(bytes, 232), 12.5);
   EXPECT_EQ(bytes.substr(section_offset(bytes, 12), 21), Bytes("glass\0\0sky.hdr\0door\0\0", 21));
   EXPECT_EQ(bytes.substr(bytes.size() - 8), "SOCT.END");
-  for (std::size_t id = 1; id <= 44; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
+  for (std::size_t id = 1; id <= 45; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
 }
 
 TEST_F(SceneFile, RoundTrip) {
@@ -109,6 +109,8 @@ TEST_F(SceneFile, RoundTrip) {
   EXPECT_EQ(copy.environment_path, scene.environment_path);
   EXPECT_EQ(copy.materials[0].ior, 1.5F);
   EXPECT_EQ(copy.materials[1].diffuse, scene.materials[1].diffuse);
+  ASSERT_EQ(copy.surfaces.size(), 2U);
+  EXPECT_EQ(copy.surfaces[1].emission, scene.surfaces[1].emission);
   EXPECT_EQ(copy.lights.at(0).position, scene.lights[0].position);
   EXPECT_EQ(copy.camera.value().fov_y_deg, 35.0);
   EXPECT_EQ(copy.build.insertion, Insertion::probe);
@@ -126,6 +128,7 @@ TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   scene.stations.clear();
   scene.camera.reset();
   scene.lights.clear();
+  scene.surfaces.clear();
   scene.environment_path.clear();
   write_scene(scene, path);
   const Scene copy = read_scene(path);
@@ -135,6 +138,7 @@ TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   EXPECT_TRUE(copy.stations.empty());
   EXPECT_FALSE(copy.camera.has_value());
   EXPECT_TRUE(copy.lights.empty());
+  EXPECT_TRUE(copy.surfaces.empty());
   EXPECT_EQ(copy.object_names, scene.object_names);
 }
 
