@@ -44,6 +44,36 @@ TEST(DisplayValue, ShoulderIsContinuousMonotoneAndBounded) {
   EXPECT_NEAR(display_value(vec3(0.1F), 1.0).x, display_value(vec3(0.2F), 0.0).x, 1e-6F);
 }
 
+TEST(Tones, KeepWhatADisplayCanShow) {
+  const vec3 orange(0.6F, 0.3F, 0.1F);
+  EXPECT_EQ(toned(orange, {0.0, Tone::none}), orange);
+  EXPECT_EQ(toned(orange, {0.0, Tone::soft}), orange);
+  // Khronos PBR Neutral takes 0.04 from colours whose least channel is at least 0.08: a dielectric's reflection.
+  EXPECT_NEAR(glm::length(toned(orange, {0.0, Tone::neutral}) - (orange - 0.04F)), 0.0F, 1e-6F);
+  for (const Tone tone : {Tone::soft, Tone::neutral, Tone::agx, Tone::none}) {
+    float before = -1.0F;
+    for (float x = 0.0F; x < 50.0F; x += 0.05F) {
+      const vec3 grey = toned(vec3(x), {0.0, tone});
+      EXPECT_GE(grey.x + 1e-3F, before) << TONE_NAMES[std::size_t(tone)] << " of " << x;
+      EXPECT_TRUE(grey.x >= 0.0F && grey.x <= 1.0F);
+      EXPECT_NEAR(grey.x, grey.z, 2e-3F);
+      before = grey.x;
+    }
+    EXPECT_EQ(toned(vec3(NAN, -1.0F, 0.0F), {0.0, tone}).x, toned(vec3(0.0F), {0.0, tone}).x);
+  }
+}
+
+TEST(Tones, AutomaticExposureMakesWhatIsSeenGrey) {
+  Image image{2,
+              2,
+              {vec4(4.0F, 4.0F, 4.0F, 1.0F), vec4(1.0F, 1.0F, 1.0F, 1.0F), vec4(9e4F, 9e4F, 9e4F, 0.0F),
+               vec4(0.0F, 0.0F, 0.0F, 1.0F)},
+              {}};
+  EXPECT_NEAR(automatic_exposure_ev(image), -3.0, 1e-6);
+  image.rgba.assign(4, vec4(0.0F));
+  EXPECT_EQ(automatic_exposure_ev(image), 0.0);
+}
+
 TEST(ImageFile, PngRoundTrip) {
   const std::string path = temporary("round.png");
   DisplayImage display = display_image(gradient(), 0.0);
