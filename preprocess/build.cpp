@@ -138,7 +138,7 @@ void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const BuildProg
 
 void find_bounds(const std::vector<Cloud>& clouds, Scene& scene) {
   Bounds bounds;
-  for (const Cloud& cloud : clouds) bounds.add(bounds_of(cloud.position));
+  for (const Cloud& cloud : clouds) bounds.add(bounds_of(cloud));
   scene.bounds_min_world = bounds.low;
   scene.bounds_max_world = bounds.high;
 }
@@ -165,7 +165,7 @@ RootTransform fit_root(const std::vector<Cloud>& clouds) {
     using Range = tbb::blocked_range<std::size_t>;
     const auto add_discs = [&cloud](const Range& range, DiscBounds some) {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
-        some.add(cloud.position[i], glm::dvec3(cloud.normal[i]), cloud.radius[i] * cloud.half_extent_world);
+        some.add(cloud.place_world(i), glm::dvec3(cloud.normal[i]), cloud.radius[i] * cloud.half_extent_world);
       return some;
     };
     const auto join = [](DiscBounds a, const DiscBounds& b) { return a.add(b), a; };
@@ -232,7 +232,7 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
     const Cloud cloud = std::move(clouds[object]);
     parallel_each(stage, cloud.size(), [&](std::size_t i) {
       const double radius = cloud.radius[i] * cloud.half_extent_world / root.unit_world;
-      const uvec4 words = pack_splat({root.to_root(cloud.position[i]),
+      const uvec4 words = pack_splat({root.to_root(cloud.place_world(i)),
                                       glm::normalize(glm::dvec3(cloud.normal[i])), radius * radius, object});
       const Splat splat = unpack_splat(words);
       splats.words[first + i] = words;

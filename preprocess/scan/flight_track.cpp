@@ -38,8 +38,8 @@ std::vector<Pulse> find_pulses(const Cloud& cloud, const Column& number, const C
     const std::uint32_t a = some[k], b = some[k + 1];
     const bool one_pulse =
         time.number(a) == time.number(b) && number.number(a) == 1.0 && number.number(b) > 1.0;
-    if (one_pulse && cloud.position[a] != cloud.position[b])
-      pulses.push_back({time.number(a), cloud.position[a], cloud.position[b]});
+    if (one_pulse && cloud.coord[a] != cloud.coord[b])
+      pulses.push_back({time.number(a), cloud.place_world(a), cloud.place_world(b)});
   }
   return pulses;
 }

@@ -1,52 +1,78 @@
 #include "preprocess/scan/plane_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "preprocess/base/vector_clones.h"
 
 namespace splatray {
 namespace {
 
-/// Eigenvalues, ascending, of a symmetric matrix xx, yy, zz, xy, xz, yz (Smith 1961, "Eigenvalues of a symmetric 3 x 3
-/// matrix").
-glm::dvec3 eigenvalues(const std::array<double, 6>& m) {
-  const auto [xx, yy, zz, xy, xz, yz] = m;
+/// Sums over places, some in each lane.
+struct LaneSums {
+  Lanes x{}, y{}, z{}, xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+
+  [[gnu::always_inline]] void add(const Lanes& dx, const Lanes& dy, const Lanes& dz) {
+    x += dx, y += dy, z += dz;
+    xx += dx * dx, yy += dy * dy, zz += dz * dz;
+    xy += dx * dy, xz += dx * dz, yz += dy * dz;
+  }
+};
+
+}  // namespace
+
+SPLATRAY_VECTOR_CLONES Covariance covariance_of(const Offsets& offsets, std::size_t count) {
+  LaneSums sums;
+  Lanes x, y, z;
+  std::size_t j = 0;
+  for (; j + LANES <= count; j += LANES) {
+    load_lanes(offsets.x + j, x), load_lanes(offsets.y + j, y), load_lanes(offsets.z + j, z);
+    sums.add(x, y, z);
+  }
+  if (j < count) {
+    x = y = z = Lanes{};
+    for (std::size_t k = 0; j + k < count; ++k)
+      x[k] = offsets.x[j + k], y[k] = offsets.y[j + k], z[k] = offsets.z[j + k];
+    sums.add(x, y, z);
+  }
+  const double by = 1.0 / static_cast<double>(count + 1);
+  const double mx = by * sum_lanes(sums.x), my = by * sum_lanes(sums.y), mz = by * sum_lanes(sums.z);
+  return {by * sum_lanes(sums.xx) - mx * mx, by * sum_lanes(sums.yy) - my * my,
+          by * sum_lanes(sums.zz) - mz * mz, by * sum_lanes(sums.xy) - mx * my,
+          by * sum_lanes(sums.xz) - mx * mz, by * sum_lanes(sums.yz) - my * mz};
+}
+
+glm::dvec3 variances_of(const Covariance& covariance) {
+  const auto [xx, yy, zz, xy, xz, yz] = covariance;
   const double mean = (xx + yy + zz) / 3.0;
   const double a = xx - mean, b = yy - mean, c = zz - mean;
   const double off = xy * xy + xz * xz + yz * yz;
   const double p = std::sqrt((a * a + b * b + c * c + 2.0 * off) / 6.0);
   if (!(p > 0.0)) return glm::dvec3(mean);
   const double determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
-  const double angle = std::acos(std::clamp(determinant / (2.0 * p * p * p), -1.0, 1.0)) / 3.0;
-  const double largest = mean + 2.0 * p * std::cos(angle);
-  const double least = mean + 2.0 * p * std::cos(angle + 2.0 * std::numbers::pi / 3.0);
+  const double cosine = std::clamp(determinant / (2.0 * p * p * p), -1.0, 1.0);  // of three times the angle
+  // float32 from here: the sine keeps small angles, and where it does not, eigenvalues do not depend on them.
+  const float angle =
+      std::atan2(static_cast<float>(std::sqrt(1.0 - cosine * cosine)), static_cast<float>(cosine)) / 3.0F;
+  const double along = std::cos(angle), across = std::sin(angle);
+  const double largest = mean + 2.0 * p * along;
+  const double least = mean - p * (along + std::numbers::sqrt3 * across);
   return {std::max(least, 0.0), std::max(3.0 * mean - largest - least, 0.0), largest};
 }
 
-}  // namespace
-
-std::array<double, 6> PlaneFit::covariance() const {
-  const glm::dvec3 m = mean();
-  const double by = 1.0 / weight_;
-  return {xx_ * by - m.x * m.x, yy_ * by - m.y * m.y, zz_ * by - m.z * m.z,
-          xy_ * by - m.x * m.y, xz_ * by - m.x * m.z, yz_ * by - m.y * m.z};
-}
-
-glm::dvec3 PlaneFit::variances() const { return eigenvalues(covariance()); }
-
-LeastAxis PlaneFit::least_axis() const {
-  const std::array<double, 6> m = covariance();
-  LeastAxis found{eigenvalues(m), glm::dvec3(0.0)};
+glm::dvec3 least_axis_of(const Covariance& covariance, const glm::dvec3& variances) {
+  const auto [xx, yy, zz, xy, xz, yz] = covariance;
   // The columns of M - least I span what is perpendicular to its eigenvector.
-  const double least = found.variance.x;
-  const glm::dvec3 x(m[0] - least, m[3], m[4]), y(m[3], m[1] - least, m[5]), z(m[4], m[5], m[2] - least);
+  const double least = variances.x;
+  const glm::dvec3 x(xx - least, xy, xz), y(xy, yy - least, yz), z(xz, yz, zz - least);
   const std::array<glm::dvec3, 3> candidates{glm::cross(x, y), glm::cross(y, z), glm::cross(z, x)};
   const auto longest = std::max_element(
       candidates.begin(), candidates.end(),
       [](const glm::dvec3& a, const glm::dvec3& b) { return glm::dot(a, a) < glm::dot(b, b); });
   const double length = glm::length(*longest);
-  if (length > 1e-12 * found.variance.z * found.variance.z) found.axis = *longest / length;
-  return found;
+  return length > 1e-12 * variances.z * variances.z ? *longest / length : glm::dvec3(0.0);
 }
 
 }  // namespace splatray

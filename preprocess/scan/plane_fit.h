@@ -1,41 +1,38 @@
-/// Planes through the surroundings of points, by running sums.
+/// Planes through the surroundings of points.
 #pragma once
-#include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
+
+#include "preprocess/base/lanes.h"
 
 namespace splatray {
 
-/// Eigenvalues of a symmetric matrix, ascending, and the unit eigenvector of the least.
-struct LeastAxis {
-  glm::dvec3 variance{0.0};
-  glm::dvec3 axis{0.0};  ///< zero where no direction is the least: the two lesser eigenvalues are the same
-};
+/// Places of a point's neighbours relative to it, component by component.
+struct Offsets {
+  static constexpr std::size_t MOST = 32;
 
-/// Sums over weighted points of their offsets and products of offsets.
-class PlaneFit {
- public:
-  void add(const glm::dvec3& offset, double weight = 1.0) {
-    const glm::dvec3 weighted = weight * offset;
-    weight_ += weight;
-    sum_ += weighted;
-    xx_ += weighted.x * offset.x, xy_ += weighted.x * offset.y, xz_ += weighted.x * offset.z;
-    yy_ += weighted.y * offset.y, yz_ += weighted.y * offset.z, zz_ += weighted.z * offset.z;
+  std::size_t count = 0;
+  float x[MOST], y[MOST], z[MOST];
+
+  void add(const glm::vec3& offset) {
+    x[count] = offset.x, y[count] = offset.y, z[count] = offset.z;
+    ++count;
   }
-
-  [[nodiscard]] double weight() const { return weight_; }
-  [[nodiscard]] glm::dvec3 mean() const { return sum_ / weight_; }
-  /// Variances of the points about their mean, ascending; weight() must be positive.
-  [[nodiscard]] glm::dvec3 variances() const;
-  /// The same, and the normal of the plane of least squares.
-  [[nodiscard]] LeastAxis least_axis() const;
-
- private:
-  /// xx, yy, zz, xy, xz, yz of the covariance.
-  [[nodiscard]] std::array<double, 6> covariance() const;
-
-  double weight_ = 0.0;
-  glm::dvec3 sum_{0.0};
-  double xx_ = 0.0, xy_ = 0.0, xz_ = 0.0, yy_ = 0.0, yz_ = 0.0, zz_ = 0.0;
 };
+
+/// The spread of places about their mean: a symmetric matrix.
+struct Covariance {
+  double xx, yy, zz, xy, xz, yz;
+};
+
+/// That of a point and the first `count` of its neighbours.
+[[nodiscard]] Covariance covariance_of(const Offsets& offsets, std::size_t count);
+
+/// Eigenvalues, ascending (Smith 1961, "Eigenvalues of a symmetric 3 x 3 matrix").
+[[nodiscard]] glm::dvec3 variances_of(const Covariance& covariance);
+
+/// The unit eigenvector of the least eigenvalue, given that; zero where no direction is the least: the two lesser eigenvalues
+/// are the same.
+[[nodiscard]] glm::dvec3 least_axis_of(const Covariance& covariance, const glm::dvec3& variances);
 
 }  // namespace splatray

@@ -28,7 +28,7 @@ void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
   std::vector<std::uint32_t> number(cloud.size(), NO_CELL);  // after the others are gone
   for (std::uint32_t n = 0; n < kept.size(); ++n) number[kept[n]] = n;
   keep_points(cloud, kept);
-  survey = survey.kept(kept, number);
+  survey.keep(kept, number);
 }
 
 }  // namespace
@@ -46,8 +46,9 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   const bool noisy = noise > NOISY && cloud.size() >= FEWEST;
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
     const double radius = std::max(params.smooth_world, 0.0) / cloud.half_extent_world;
+    survey.listed = {};
     const bool sided = estimated.empty() || sides.rung == SideRung::sensor;
-    const Smoothed smoothed = smooth_points(cloud, survey.reach, radius, sided, stage);
+    const Smoothed smoothed = smooth_points(cloud, survey, radius, sided, stage);
     stats.smoothed += smoothed.moved;
     stats.dropped_unsupported += smoothed.dropped;
     stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);

@@ -5,154 +5,219 @@
 #include <cmath>
 #include <functional>
 
+#include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
+#include "preprocess/base/vector_clones.h"
 #include "preprocess/surface/neighbours.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST = 64;         // neighbours
+constexpr std::size_t MOST = 96;         // neighbours
+constexpr float ENOUGH = 64.0F;          // of them, that are looked for
 constexpr std::size_t LEAST_AROUND = 6;  // of them, that have any weight
 constexpr float REACHES = 2.5F;          // of the distance to the 8th place: about 4 spacings
 constexpr int REWEIGHTINGS = 2;
-constexpr double WIDE = 4.0;  // of the heights' standard deviation: what is farther off has little weight
+constexpr float WIDE = 4.0F;  // of the heights' standard deviation: what is farther off has little weight
 
-/// A neighbour of the point that is moved.
-struct Near {
-  glm::dvec3 offset, normal;
-  double weight;
+/// The point that is moved and its neighbours, component by component; without weight up to whole vectors.
+struct Around {
+  static constexpr std::size_t ROOM = (MOST + 1 + LANES - 1) / LANES * LANES;
+
+  std::size_t count = 0;                                 ///< a multiple of LANES
+  float x[ROOM], y[ROOM], z[ROOM];                       ///< places relative to the point
+  float normal_x[ROOM], normal_y[ROOM], normal_z[ROOM];  ///< on the side of the point's own
+  float weight[ROOM];
 };
 
+/// A plane by weighted means.
 struct Plane {
-  glm::dvec3 mean{0.0}, normal{0.0};
-  double weight = 0.0, deviation = 0.0;  ///< of the heights over it
+  glm::vec3 mean{0.0F}, normal{0.0F};
+  float deviation = 0.0F;  ///< of the heights over it
 };
 
-Plane fit_plane(std::span<const Near> around, const std::array<double, MOST + 1>& weights) {
-  Plane plane;
-  for (std::size_t j = 0; j < around.size(); ++j) {
-    plane.mean += weights[j] * around[j].offset;
-    plane.normal += weights[j] * around[j].normal;
-    plane.weight += weights[j];
+/// Heights of LANES places over a plane.
+[[gnu::always_inline]] inline void heights_over(const Plane& plane, const Around& around, std::size_t j,
+                                                Lanes& heights) {
+  Lanes x, y, z;
+  load_lanes(around.x + j, x), load_lanes(around.y + j, y), load_lanes(around.z + j, z);
+  heights = (x - plane.mean.x) * plane.normal.x + (y - plane.mean.y) * plane.normal.y +
+            (z - plane.mean.z) * plane.normal.z;
+}
+
+/// Sums, and from them means, of vectors.
+struct VectorSum {
+  Lanes x{}, y{}, z{};
+
+  [[gnu::always_inline]] void add(const Lanes& weight, const float* at_x, const float* at_y,
+                                  const float* at_z) {
+    Lanes here;
+    load_lanes(at_x, here), x += weight * here;
+    load_lanes(at_y, here), y += weight * here;
+    load_lanes(at_z, here), z += weight * here;
   }
-  plane.mean /= plane.weight;
-  plane.normal = glm::normalize(plane.normal);
-  double sum = 0.0;
-  for (std::size_t j = 0; j < around.size(); ++j) {
-    const double height = glm::dot(plane.normal, around[j].offset - plane.mean);
-    sum += weights[j] * height * height;
+  [[nodiscard, gnu::always_inline]] glm::vec3 over(float weight) const {
+    return glm::vec3(sum_lanes(x), sum_lanes(y), sum_lanes(z)) / weight;
   }
-  plane.deviation = std::sqrt(sum / plane.weight);
+};
+
+[[gnu::always_inline]] inline Plane fit_plane(const Around& around, const float* weights) {
+  VectorSum mean, normal;
+  Lanes sum{}, squares{}, weight, heights;
+  for (std::size_t j = 0; j < around.count; j += LANES) {
+    load_lanes(weights + j, weight);
+    mean.add(weight, around.x + j, around.y + j, around.z + j);
+    normal.add(weight, around.normal_x + j, around.normal_y + j, around.normal_z + j);
+    sum += weight;
+  }
+  const float all = sum_lanes(sum);
+  Plane plane{mean.over(all), glm::normalize(normal.over(all)), 0.0F};
+  for (std::size_t j = 0; j < around.count; j += LANES) {
+    load_lanes(weights + j, weight);
+    heights_over(plane, around, j, heights);
+    squares += weight * heights * heights;
+  }
+  plane.deviation = std::sqrt(sum_lanes(squares) / all);
   return plane;
 }
 
-Plane fit_robust_plane(std::span<const Near> around) {
-  std::array<double, MOST + 1> weights;
-  for (std::size_t j = 0; j < around.size(); ++j) weights[j] = around[j].weight;
-  Plane plane = fit_plane(around, weights);
-  for (int round = 0; round < REWEIGHTINGS && plane.deviation > 0.0; ++round) {
-    for (std::size_t j = 0; j < around.size(); ++j) {
-      const double height = glm::dot(plane.normal, around[j].offset - plane.mean) / (WIDE * plane.deviation);
-      weights[j] = around[j].weight / ((1.0 + height * height) * (1.0 + height * height));
+SPLATRAY_VECTOR_CLONES Plane fit_robust_plane(const Around& around) {
+  Plane plane = fit_plane(around, around.weight);
+  float weights[Around::ROOM];
+  for (int round = 0; round < REWEIGHTINGS && plane.deviation > 0.0F; ++round) {
+    const float unit = 1.0F / (WIDE * plane.deviation);
+    for (std::size_t j = 0; j < around.count; j += LANES) {
+      Lanes heights, weight;
+      heights_over(plane, around, j, heights);
+      load_lanes(around.weight + j, weight);
+      const Lanes off = 1.0F + (heights * unit) * (heights * unit);
+      store_lanes(weight / (off * off), weights + j);
     }
     plane = fit_plane(around, weights);
   }
   return plane;
 }
 
-/// The points on their way: cloud coordinates and normals.
-struct Moving {
-  std::vector<glm::dvec3> place;
+/// Weights by distance and by the cosine to the point's own normal, to whose side normals are turned where sides are not
+/// known. Returns how many places have any weight. `distance_squared` is of the places.
+SPLATRAY_VECTOR_CLONES std::size_t weigh(Around& around, const float* distance_squared, float widest_squared,
+                                         const glm::vec3& own, bool sided) {
+  LaneInts used{};
+  const float by = 1.0F / widest_squared;
+  for (std::size_t j = 0; j < around.count; j += LANES) {
+    Lanes x, y, z, squared;
+    load_lanes(around.normal_x + j, x), load_lanes(around.normal_y + j, y),
+        load_lanes(around.normal_z + j, z);
+    load_lanes(distance_squared + j, squared);
+    Lanes cosine = x * own.x + y * own.y + z * own.z;
+    if (!sided) {
+      const Lanes side = cosine < 0.0F ? Lanes{} - 1.0F : Lanes{} + 1.0F;
+      x *= side, y *= side, z *= side, cosine *= side;
+      store_lanes(x, around.normal_x + j), store_lanes(y, around.normal_y + j),
+          store_lanes(z, around.normal_z + j);
+    }
+    const Lanes share = 1.0F - squared * by;
+    const LaneInts has = (cosine > 0.0F) & (share > 0.0F);
+    const Lanes weight = has ? share * share * cosine : Lanes{};
+    used -= has;
+    store_lanes(weight, around.weight + j);
+  }
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < LANES; ++k) count += static_cast<std::size_t>(used[k]);
+  return count;
+}
+
+/// Where points go: along their new normals.
+struct Moved {
+  std::vector<float> lift;  ///< cloud coordinates
   std::vector<glm::vec3> normal;
   std::vector<std::uint8_t> supported;  ///< has enough neighbours
 };
 
-/// Moves points by their neighbours, which are looked for where they were first.
+/// Moves points by their neighbours.
 class Projection {
  public:
-  Projection(const Cloud& cloud, const std::vector<float>& reach, double radius, bool sided)
-      : cloud_(cloud),
-        reach_(reach),
-        radius_(radius),
-        sided_(sided),
-        search_(cloud, Sites::oriented_positions) {
-    std::vector<float> ranked = reach;
+  Projection(const Cloud& cloud, const Survey& survey, double radius, bool sided)
+      : cloud_(cloud), survey_(survey), radius_(static_cast<float>(radius)), sided_(sided) {
+    std::vector<float> ranked = survey.reach;
     select_nth(std::span(ranked), ranked.size() / 2, std::identity());
     usual_ = ranked[ranked.size() / 2];
   }
 
-  void move(const Moving& from, std::uint32_t i, Moving& to) const {
-    std::array<Near, MOST + 1> around;
-    const std::size_t count = look_around(from, i, around);
-    to.supported[i] = count > LEAST_AROUND;
-    to.place[i] = from.place[i];
-    to.normal[i] = from.normal[i];
-    if (to.supported[i] == 0) return;
-    const Plane plane = fit_robust_plane(std::span(around).first(count));
-    to.place[i] += plane.normal * glm::dot(plane.normal, plane.mean);
-    to.normal[i] = glm::vec3(plane.normal);
+  [[nodiscard]] NeighbourSearch::Query query(std::uint32_t i) const {
+    const float limit = radius_ > 0.0F ? radius_ : REACHES * std::max(survey_.reach[i], usual_);
+    const float squared = std::min(limit * limit, survey_.expected_squared(i, ENOUGH));
+    return {cloud_.coord[i], squared, squared};
+  }
+
+  void move(std::uint32_t i, std::span<const Neighbour> nearest, Moved& moved) const {
+    Around around;
+    float distance_squared[Around::ROOM];
+    const float widest = nearest.size() == MOST ? farthest(nearest) : query(i).limit_squared;
+    gather(i, nearest, around, distance_squared);
+    const std::size_t used = weigh(around, distance_squared, widest, cloud_.normal[i], sided_);
+    moved.supported[i] = used > LEAST_AROUND;
+    moved.normal[i] = cloud_.normal[i];
+    if (moved.supported[i] == 0) return;
+    const Plane plane = fit_robust_plane(around);
+    moved.lift[i] = glm::dot(plane.normal, plane.mean);
+    moved.normal[i] = plane.normal;
   }
 
  private:
-  /// Neighbours that have any weight, after the point itself.
-  std::size_t look_around(const Moving& from, std::uint32_t i, std::array<Near, MOST + 1>& around) const {
-    const float limit = radius_ > 0.0 ? static_cast<float>(radius_) : REACHES * std::max(reach_[i], usual_);
-    std::array<Neighbour, MOST> nearest;
-    const std::size_t found = search_.find_within(cloud_.coord[i], nearest, limit * limit);
-    const double widest = found == MOST ? nearest[MOST - 1].distance_squared() : limit * limit;
-    const glm::dvec3 own(from.normal[i]);
-    around[0] = {glm::dvec3(0.0), own, 1.0};
-    std::size_t count = 1;
-    for (std::size_t j = 0; j < found; ++j) {
-      const std::uint32_t other = nearest[j].index();
-      glm::dvec3 normal(from.normal[other]);
-      double cosine = glm::dot(own, normal);
-      if (!sided_ && cosine < 0.0) normal = -normal, cosine = -cosine;
-      const double share = 1.0 - nearest[j].distance_squared() / widest;
-      if (cosine > 0.0 && share > 0.0)
-        around[count++] = {from.place[other] - from.place[i], normal, share * share * cosine};
+  static float farthest(std::span<const Neighbour> nearest) {
+    float squared = 0.0F;
+    for (const Neighbour& neighbour : nearest) squared = std::max(squared, neighbour.distance_squared());
+    return squared;
+  }
+
+  /// The point itself and its neighbours.
+  void gather(std::uint32_t i, std::span<const Neighbour> nearest, Around& around,
+              float* distance_squared) const {
+    const auto add = [&](const glm::vec3& offset, const glm::vec3& normal, float squared) {
+      const std::size_t j = around.count++;
+      around.x[j] = offset.x, around.y[j] = offset.y, around.z[j] = offset.z;
+      around.normal_x[j] = normal.x, around.normal_y[j] = normal.y, around.normal_z[j] = normal.z;
+      distance_squared[j] = squared;
+    };
+    add(glm::vec3(0.0F), cloud_.normal[i], 0.0F);
+    for (const Neighbour& neighbour : nearest) {
+      const std::uint32_t other = neighbour.index();
+      add(cloud_.coord[other] - cloud_.coord[i], cloud_.normal[other], neighbour.distance_squared());
     }
-    return count;
+    while (around.count % LANES != 0) add(glm::vec3(0.0F), glm::vec3(0.0F), 0.0F);
   }
 
   const Cloud& cloud_;
-  const std::vector<float>& reach_;
-  double radius_;
+  const Survey& survey_;
+  float radius_;
   bool sided_;
-  NeighbourSearch search_;
   float usual_ = 0.0F;
 };
 
 }  // namespace
 
-Smoothed smooth_points(Cloud& cloud, const std::vector<float>& reach, double radius, bool sided,
-                       const Stage& stage) {
+Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided, const Stage& stage) {
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
-  Moving now{{cloud.coord.begin(), cloud.coord.end()}, cloud.normal, std::vector<std::uint8_t>(size)};
+  Moved moved{std::vector<float>(size), std::vector<glm::vec3>(size), std::vector<std::uint8_t>(size)};
   {
-    const Projection projection(cloud, reach, radius, sided);
-    Moving next{std::vector<glm::dvec3>(size), std::vector<glm::vec3>(size), std::vector<std::uint8_t>(size)};
-    parallel_each(stage, size,
-                  [&](std::size_t i) { projection.move(now, static_cast<std::uint32_t>(i), next); });
-    now = std::move(next);
+    const NeighbourSearch search(cloud, Sites::oriented_positions);
+    const Projection projection(cloud, survey, radius, sided);
+    search.find_each(
+        size, [&](std::uint32_t i) { return projection.query(i); }, MOST, stage,
+        [&](std::uint32_t i, std::span<const Neighbour> nearest) { projection.move(i, nearest, moved); });
   }
-  const auto kept = numbers_where(size, [&](std::size_t i) { return now.supported[i] != 0; });
+  const auto kept = numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
   if (kept.empty()) return {};  // nothing supports anything: the radius is too small for these points
-  std::vector<float> moved(kept.size());
-  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t n) {
-    const std::uint32_t i = kept[n];
-    const glm::dvec3 by = now.place[i] - glm::dvec3(cloud.coord[i]);
-    cloud.position[i] += by * cloud.half_extent_world;
-    moved[n] = static_cast<float>(glm::length(by));
-  });
-  cloud.normal = std::move(now.normal);
+  cloud.normal = std::move(moved.normal);
+  moved.lift = gather(moved.lift, kept);
   keep_points(cloud, kept);
-  order_points(cloud);
+  move_points(cloud, moved.lift);
   Smoothed smoothed{kept.size(), size - kept.size(), 0.0};
-  if (moved.empty()) return smoothed;
-  select_nth(std::span(moved), moved.size() / 2, std::identity());
-  smoothed.moved_median_world = moved[moved.size() / 2] * cloud.half_extent_world;
+  for (float& lift : moved.lift) lift = std::abs(lift);
+  select_nth(std::span(moved.lift), moved.lift.size() / 2, std::identity());
+  smoothed.moved_median_world = moved.lift[moved.lift.size() / 2] * cloud.half_extent_world;
   return smoothed;
 }
 

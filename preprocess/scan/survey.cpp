@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "preprocess/scan/plane_fit.h"
 #include "preprocess/surface/neighbours.h"
@@ -19,16 +20,19 @@ constexpr double LINE =
 constexpr std::array<std::size_t, 2> STRIDES{8, 64};
 constexpr float ROUGH = 0.03F;  // of a neighbourhood that noise or edges tell more of than a plane does
 constexpr double ROUGHEST =
-    1.0 / 3.0;  // of a line too: one ring with its noise makes a plane across the surface
-constexpr float GUESS =
-    1.3F * 32 / 8;               // squared distance to the 32nd of thinned points over stride and reach^2
-constexpr double FLATTER = 0.5;  // roughness of a wider one that is better, over that
+    1.0 / 3.0;                    // of a line too: one ring with its noise makes a plane across the surface
+constexpr float EVEN = 2.0F;      // distance to the 32nd place over that to the 8th on a surface
+constexpr float ROOM = 1.3F;      // squared distance that is searched over what is expected
+constexpr float TOGETHER = 0.3F;  // extent of rough points that share a wider neighbourhood, over its radius
+constexpr double FLATTER = 0.5;   // roughness of a wider one that is better, over that
 
-double entropy(const glm::dvec3& variance) {
-  const double sum = variance.x + variance.y + variance.z;
-  double entropy = 0.0;
-  for (int i = 0; i < 3; ++i)
-    if (variance[i] > 0.0) entropy -= variance[i] / sum * std::log(variance[i] / sum);
+float entropy(const glm::dvec3& variance) {
+  const double by = 1.0 / (variance.x + variance.y + variance.z);
+  float entropy = 0.0F;
+  for (int i = 0; i < 3; ++i) {
+    const auto share = static_cast<float>(variance[i] * by);
+    if (share > 0.0F) entropy -= share * std::log(share);
+  }
   return entropy;
 }
 
@@ -38,30 +42,52 @@ struct Plane {
   double roughness = ROUGHEST;
 };
 
+bool is_line(const glm::dvec3& variance) { return variance.y < LINE * variance.z; }
+
+/// What planes are chosen by, the least first.
+float order_of(const glm::dvec3& variance) {
+  return is_line(variance) ? std::numeric_limits<float>::max() : entropy(variance);
+}
+
 double roughness_of(const glm::dvec3& variance) {
   const double sum = variance.x + variance.y + variance.z;
-  return variance.y < LINE * variance.z || !(sum > 0.0) ? ROUGHEST : variance.x / sum;
+  return is_line(variance) || !(sum > 0.0) ? ROUGHEST : variance.x / sum;
+}
+
+Offsets offsets_of(const Cloud& cloud, const glm::vec3& place, std::span<const Neighbour> nearest) {
+  Offsets offsets;
+  for (const Neighbour& neighbour : nearest) offsets.add(cloud.coord[neighbour.index()] - place);
+  return offsets;
 }
 
 /// The plane of the whole neighbourhood where that is flat, else of the part with the least entropy; the roughness is the
 /// whole's.
-Plane best_plane(std::span<const glm::dvec3> offsets) {
-  PlaneFit fit, best;
-  fit.add(glm::dvec3(0.0));
-  double roughness = ROUGHEST, least = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < offsets.size(); ++j) {
-    fit.add(offsets[j]);
-    const bool whole = j + 1 == offsets.size();
-    if (!whole && std::find(SIZES.begin(), SIZES.end(), j + 1) == SIZES.end()) continue;
-    const glm::dvec3 variance = fit.variances();
-    roughness = roughness_of(variance);
-    const bool line = variance.y < LINE * variance.z;
-    const double here = line ? std::numeric_limits<double>::max() : entropy(variance);
-    if (!(here <= least) && !(whole && roughness <= ROUGH)) continue;
-    least = here;
-    best = fit;
+Plane best_plane(const Offsets& offsets) {
+  Covariance best = covariance_of(offsets, offsets.count);
+  glm::dvec3 variances = variances_of(best);
+  const double roughness = roughness_of(variances);
+  if (roughness > ROUGH) {
+    float least = order_of(variances);
+    for (const std::size_t size : {SIZES[1], SIZES[0]}) {
+      if (size >= offsets.count) continue;
+      const Covariance covariance = covariance_of(offsets, size);
+      const glm::dvec3 its = variances_of(covariance);
+      const float here = order_of(its);
+      if (!(here < least)) continue;
+      least = here;
+      best = covariance, variances = its;
+    }
   }
-  return {best.least_axis().axis, roughness};
+  return {least_axis_of(best, variances), roughness};
+}
+
+/// The normal of a neighbourhood without a plane of its own.
+glm::dvec3 degenerate_plane(const Cloud& cloud, std::uint32_t i, std::span<const Neighbour> nearest,
+                            const glm::dvec3& up) {
+  std::vector<glm::dvec3> places;
+  for (const Neighbour& neighbour : nearest)
+    places.emplace_back(cloud.coord[neighbour.index()] - cloud.coord[i]);
+  return plane_normal(places, up);
 }
 
 /// Every `stride`-th point: places only.
@@ -69,79 +95,121 @@ Cloud thinned(const Cloud& cloud, std::size_t stride) {
   Cloud thin;
   thin.coord.resize((cloud.size() + stride - 1) / stride);
   for (std::size_t i = 0; i < thin.coord.size(); ++i) thin.coord[i] = cloud.coord[i * stride];
-  thin.position.resize(thin.coord.size());
-  thin.normal.resize(thin.coord.size());
   return thin;
 }
 
+/// Rough points next to each other that share a wider neighbourhood.
+struct Bunch {
+  std::uint32_t begin, end;  ///< among the rough points
+  glm::vec3 middle;
+  float expected_squared;  ///< the least Survey::expected_squared of them
+};
+
+std::vector<Bunch> find_bunches(const Cloud& cloud, const Survey& survey,
+                                const std::vector<std::uint32_t>& rough, float count) {
+  std::vector<Bunch> bunches;
+  for (std::uint32_t begin = 0; begin < rough.size();) {
+    float expected_squared = survey.expected_squared(rough[begin], count);
+    glm::vec3 low = cloud.coord[rough[begin]], high = low;
+    std::uint32_t end = begin + 1;
+    for (; end < rough.size(); ++end) {
+      const glm::vec3& place = cloud.coord[rough[end]];
+      const glm::vec3 new_low = glm::min(low, place), new_high = glm::max(high, place);
+      const glm::vec3 across = new_high - new_low;
+      const float least = std::min(expected_squared, survey.expected_squared(rough[end], count));
+      if (glm::dot(across, across) > TOGETHER * TOGETHER * least) break;
+      low = new_low, high = new_high, expected_squared = least;
+    }
+    bunches.push_back({begin, end, 0.5F * (low + high), expected_squared});
+    begin = end;
+  }
+  return bunches;
+}
+
 /// Tries rough points among every `stride`-th point.
-void look_wider(Cloud& cloud, std::size_t stride, Survey& survey, const Stage& stage) {
-  const auto rough = numbers_where(cloud.size(), [&](std::size_t i) { return survey.roughness[i] > ROUGH; });
+void look_wider(Cloud& cloud, std::size_t stride, const Survey& survey, std::vector<float>& roughness,
+                const Stage& stage) {
+  const auto rough = numbers_where(cloud.size(), [&](std::size_t i) { return roughness[i] > ROUGH; });
   if (rough.empty() || cloud.size() < stride * SIZES.back()) return;
   const Cloud thin = thinned(cloud, stride);
   const NeighbourSearch search(thin, Sites::positions);
-  parallel_each(stage, rough.size(), [&](std::size_t n) {
-    const std::uint32_t i = rough[n];
-    std::array<Neighbour, SIZES.back()> nearest;
-    std::array<glm::dvec3, SIZES.back()> offsets;
-    const float guess = GUESS * static_cast<float>(stride) * survey.reach[i] * survey.reach[i];
-    const std::size_t found = search.find(cloud.coord[i], nearest, guess);
-    for (std::size_t j = 0; j < found; ++j)
-      offsets[j] = glm::dvec3(thin.coord[nearest[j].index()] - cloud.coord[i]);
-    const Plane plane = best_plane(std::span(offsets).first(found));
-    if (plane.axis == glm::dvec3(0.0) || !(plane.roughness < FLATTER * survey.roughness[i])) return;
-    cloud.normal[i] = glm::vec3(plane.axis);
-    survey.roughness[i] = static_cast<float>(plane.roughness);
-  });
+  const auto bunches = find_bunches(cloud, survey, rough, static_cast<float>(stride * SIZES.back()));
+  const auto query = [&](std::uint32_t n) -> NeighbourSearch::Query {
+    return {bunches[n].middle, ROOM * bunches[n].expected_squared, std::numeric_limits<float>::infinity()};
+  };
+  const auto try_plane = [&](std::uint32_t n, std::span<const Neighbour> nearest) {
+    const Plane plane = best_plane(offsets_of(thin, bunches[n].middle, nearest));
+    if (plane.axis == glm::dvec3(0.0)) return;
+    for (std::uint32_t r = bunches[n].begin; r < bunches[n].end; ++r) {
+      const std::uint32_t i = rough[r];
+      if (!(plane.roughness < FLATTER * roughness[i])) continue;
+      cloud.normal[i] = glm::vec3(plane.axis);
+      roughness[i] = static_cast<float>(plane.roughness);
+    }
+  };
+  search.find_each(bunches.size(), query, SIZES.back(), stage, try_plane);
+}
+
+/// What is known of each point before wider surroundings are tried.
+void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& survey,
+                 std::vector<float>& roughness, const Stage& stage) {
+  const NeighbourSearch search(cloud, Sites::positions);
+  survey.listed.resize(cloud.size() * Survey::LISTED);
+  const auto visit = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
+    for (std::size_t j = 0; j < Survey::LISTED; ++j)
+      survey.listed[i * Survey::LISTED + j] = j < nearest.size() ? nearest[j].index() : i;
+    survey.estimated[i] = cloud.normal[i] == glm::vec3(0.0F);
+    if (nearest.empty()) {
+      if (survey.estimated[i] != 0) cloud.normal[i] = glm::vec3(up);
+      return;
+    }
+    survey.reach[i] = std::sqrt(nearest[std::min(nearest.size(), Survey::RING) - 1].distance_squared());
+    survey.wide[i] = nearest.size() == Survey::WIDE ? std::sqrt(nearest.back().distance_squared())
+                                                    : EVEN * survey.reach[i];
+    if (survey.estimated[i] == 0) return;
+    const Plane plane = best_plane(offsets_of(cloud, cloud.coord[i], nearest));
+    roughness[i] = static_cast<float>(plane.roughness);
+    cloud.normal[i] =
+        glm::vec3(plane.axis != glm::dvec3(0.0) ? plane.axis : degenerate_plane(cloud, i, nearest, up));
+  };
+  search.find_all(all_given ? Survey::LISTED : Survey::WIDE, stage, visit);
 }
 
 }  // namespace
 
-Survey Survey::kept(const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& number) const {
-  Survey survey;
-  survey.reach = gather(reach, kept);
-  survey.estimated = gather(estimated, kept);
-  survey.roughness = gather(roughness, kept);
-  survey.listed.resize(kept.size() * LISTED);
+float Survey::expected_squared(std::size_t point, float count) const {
+  const float squared = wide[point] * wide[point];
+  if (!(reach[point] > 0.0F)) return squared;
+  const float growth =
+      std::min(squared / (reach[point] * reach[point]), EVEN * EVEN);  // of four times as many
+  return squared * std::pow(growth, 0.5F * std::log2(count / static_cast<float>(WIDE)));
+}
+
+void Survey::keep(const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& number) {
+  reach = gather(reach, kept);
+  wide = gather(wide, kept);
+  estimated = gather(estimated, kept);
   tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t n) {
-    for (std::size_t j = 0; j < LISTED; ++j) {
-      const std::uint32_t other = number[around(kept[n])[j]];
-      survey.listed[n * LISTED + j] = other == NO_CELL ? static_cast<std::uint32_t>(n) : other;
-    }
+    for (std::uint32_t& other : std::span(listed).subspan(kept[n] * LISTED, LISTED))
+      other = number[other] == NO_CELL ? static_cast<std::uint32_t>(n) : number[other];
   });
-  return survey;
+  for (std::size_t n = 0; n < kept.size(); ++n)  // in place, as this is the largest array of the build
+    std::copy_n(listed.begin() + static_cast<std::ptrdiff_t>(kept[n] * LISTED), LISTED,
+                listed.begin() + static_cast<std::ptrdiff_t>(n * LISTED));
+  listed.resize(kept.size() * LISTED);
 }
 
 Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
-  Survey survey;
-  survey.listed.resize(cloud.size() * Survey::LISTED);
-  survey.reach.resize(cloud.size());
-  survey.estimated.resize(cloud.size());
-  survey.roughness.resize(cloud.size());
-  const NeighbourSearch search(cloud, Sites::positions);
   const bool all_given = std::none_of(cloud.normal.begin(), cloud.normal.end(),
                                       [](const glm::vec3& normal) { return normal == glm::vec3(0.0F); });
-  search.find_all(
-      all_given ? Survey::LISTED : SIZES.back(), stage,
-      [&](std::uint32_t i, std::span<const Neighbour> nearest) {
-        for (std::size_t j = 0; j < Survey::LISTED; ++j)
-          survey.listed[i * Survey::LISTED + j] = j < nearest.size() ? nearest[j].index() : i;
-        survey.estimated[i] = cloud.normal[i] == glm::vec3(0.0F);
-        if (nearest.empty()) {
-          if (survey.estimated[i] != 0) cloud.normal[i] = glm::vec3(up);
-          return;
-        }
-        survey.reach[i] = std::sqrt(nearest[std::min(nearest.size(), Survey::RING) - 1].distance_squared());
-        if (survey.estimated[i] == 0) return;
-        std::array<glm::dvec3, SIZES.back()> offsets;
-        for (std::size_t j = 0; j < nearest.size(); ++j)
-          offsets[j] = glm::dvec3(cloud.coord[nearest[j].index()] - cloud.coord[i]);
-        const std::span<const glm::dvec3> found = std::span(offsets).first(nearest.size());
-        const Plane plane = best_plane(found);
-        survey.roughness[i] = static_cast<float>(plane.roughness);
-        cloud.normal[i] = glm::vec3(plane.axis != glm::dvec3(0.0) ? plane.axis : plane_normal(found, up));
-      });
-  for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, stage);
+  if (!all_given) cloud.position = {};
+  Survey survey;
+  survey.reach.resize(cloud.size());
+  survey.wide.resize(cloud.size());
+  survey.estimated.resize(cloud.size());
+  std::vector<float> roughness(cloud.size());
+  look_around(cloud, up, all_given, survey, roughness, stage);
+  for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, roughness, stage);
   return survey;
 }
 

@@ -14,27 +14,32 @@ struct Survey {
   static constexpr std::size_t LISTED = 12;  ///< nearest places kept of each point
   static constexpr std::size_t RING = 8;     ///< the place whose distance tells the local spacing
 
+  static constexpr std::size_t WIDE = 32;
+
   std::vector<std::uint32_t>
       listed;  ///< LISTED of each point, the nearest first; the point itself where there are fewer
   std::vector<float> reach;  ///< distance to the RING-th place
-  std::vector<float>
-      roughness;  ///< of estimated normals: the least variance of the neighbourhood over the sum of all three
+  std::vector<float> wide;   ///< distance to the WIDE-th place, or what it is on a surface of even density
   std::vector<std::uint8_t> estimated;  ///< whether the normal was unknown before
 
   [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const {
     return std::span(listed).subspan(point * LISTED, LISTED);
   }
 
-  /// That of the points `kept` (ascending), whose numbers are then `number`; what is no more stands for itself.
-  [[nodiscard]] Survey kept(const std::vector<std::uint32_t>& kept,
-                            const std::vector<std::uint32_t>& number) const;
+  /// The squared distance within which `count` places are expected, as few as 8 and 32 are within theirs: it grows alike with
+  /// each doubling, on surfaces and in the crowns of trees, but never more than on surfaces.
+  [[nodiscard]] float expected_squared(std::size_t point, float count) const;
+
+  /// Leaves the points `kept` (ascending), whose numbers are then `number`; what is no more stands for itself.
+  void keep(const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& number);
 };
 
 /// Gives every unknown (zero) normal the axis of its neighbourhood of 32 places; where these are rough, of that of
 /// 8, 16 and 32 with the least eigenentropy (Demantke et al. 2011; Weinmann et al. 2015, "Semantic point cloud interpretation
 /// based on optimal neighborhoods", sec. 3.1), of those that are no line; their sides are as they come. Where that is rough,
-/// as noise makes it that is wider than the neighbourhood, the same is tried among every 8th and every 64th point. Without
-/// neighbours it is `up`, a unit vector.
+/// as noise makes it that is wider than the neighbourhood, the same is tried among every 8th and every 64th point; rough points
+/// within a third of the radius of such a wider neighbourhood share it. Without neighbours it is `up`, a unit vector. Where
+/// any normal was unknown, the cloud's positions are from then on those of its coordinates, which saves their room.
 [[nodiscard]] Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage);
 
 }  // namespace splatray

@@ -45,22 +45,25 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   cloud.station = take(points.station);
   cloud.grid_cell = take(points.grid_cell);
   cloud.radius = take(points.radius);
-  cloud.radius.resize(usable.size(), 0.0F);
   tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
     cloud.normal[i] = glm::vec3(unit_or_zero(glm::dvec3(cloud.normal[i])));
     if (!color.empty()) cloud.color[i] = pack_color(color[i]);
-    if (!(std::isfinite(cloud.radius[i]) && cloud.radius[i] > 0.0F)) cloud.radius[i] = 0.0F;
   });
+  for (float& radius : cloud.radius)
+    if (!(std::isfinite(radius) && radius > 0.0F)) radius = 0.0F;
   return cloud;
+}
+
+glm::vec3 rounded(const glm::dvec3& unit) {
+  const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
+  return glm::vec3(steps) * COORD_STEP;
 }
 
 /// Cloud::coord, in the cloud's frame.
 void find_coordinates(Cloud& cloud) {
-  cloud.coord.resize(cloud.size());
+  cloud.coord.resize(cloud.position.size());
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
-    const glm::dvec3 unit = (cloud.position[i] - cloud.center_world) / cloud.half_extent_world;
-    const glm::dvec3 steps = glm::round(glm::clamp(unit, -1.0, 1.0) / static_cast<double>(COORD_STEP));
-    cloud.coord[i] = glm::vec3(steps) * COORD_STEP;
+    cloud.coord[i] = rounded((cloud.position[i] - cloud.center_world) / cloud.half_extent_world);
   });
 }
 
@@ -71,7 +74,7 @@ void normalise_coordinates(Cloud& cloud) {
   const double longest = std::max({half.x, half.y, half.z});
   cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
   find_coordinates(cloud);
-  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, cloud.radius.size(), [&](std::size_t i) {
     if (cloud.radius[i] > 0.0F) {
       const double radius = cloud.radius[i] / cloud.half_extent_world;
       cloud.radius[i] = static_cast<float>(std::clamp(radius, 0x1p-100, 0x1p100));
@@ -83,12 +86,13 @@ auto sort_key(const glm::vec3& v) { return std::make_tuple(v.x, v.y, v.z); }
 
 bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
   const auto key = [&cloud](std::uint32_t i) {
-    const glm::dvec3& p = cloud.position[i];
+    const glm::dvec3 p = cloud.place_world(i);
     const std::uint32_t color = cloud.color.empty() ? 0U : cloud.color[i];
     const std::uint16_t station = cloud.station.empty() ? std::uint16_t{0} : cloud.station[i];
     const std::uint32_t cell = cloud.grid_cell.empty() ? NO_CELL : cloud.grid_cell[i];
-    return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), p.x, p.y, p.z, color,
-                      cloud.radius[i], station, cell);
+    const float radius = cloud.radius.empty() ? 0.0F : cloud.radius[i];
+    return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), p.x, p.y, p.z, color, radius,
+                      station, cell);
   };
   const auto key_a = key(a), key_b = key(b);
   if (key_a != key_b) return key_a < key_b;
@@ -106,12 +110,12 @@ std::vector<std::uint32_t> canonical_order(const Cloud& cloud) {
                       [&cloud](std::uint32_t a, std::uint32_t b) { return point_less(cloud, a, b); });
 }
 
-void count_given(const Cloud& cloud, bool has_radii, BuildStats& stats) {
+void count_given(const Cloud& cloud, BuildStats& stats) {
   const auto unknown_normals = std::count(cloud.normal.begin(), cloud.normal.end(), glm::vec3(0.0F));
-  const auto unknown_radii = std::count(cloud.radius.begin(), cloud.radius.end(), 0.0F);
+  const auto radii_repaired = std::count(cloud.radius.begin(), cloud.radius.end(), 0.0F);
   stats.normals_given += cloud.size() - static_cast<std::size_t>(unknown_normals);
-  stats.radii_given += cloud.size() - static_cast<std::size_t>(unknown_radii);
-  if (has_radii) stats.radii_repaired += static_cast<std::size_t>(unknown_radii);
+  stats.radii_given += cloud.radius.size() - static_cast<std::size_t>(radii_repaired);
+  stats.radii_repaired += static_cast<std::size_t>(radii_repaired);
 }
 
 /// Gives all arrays the values of these points, in this order.
@@ -127,36 +131,53 @@ void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
   for (Column& column : cloud.columns) std::visit(reorder, column.values);
 }
 
-}  // namespace
-
-Bounds bounds_of(const std::vector<glm::dvec3>& points) {
+template <typename PlaceOf>
+Bounds bounds_of(std::size_t count, const PlaceOf& place_of) {
   using Range = tbb::blocked_range<std::size_t>;
   const auto add = [&](const Range& range, Bounds bounds) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) bounds.add({points[i], points[i]});
+    for (std::size_t i = range.begin(); i < range.end(); ++i) bounds.add({place_of(i), place_of(i)});
     return bounds;
   };
   const auto join = [](Bounds a, const Bounds& b) { return a.add(b), a; };
-  return tbb::parallel_reduce(Range(0, points.size()), Bounds{}, add, join);
+  return tbb::parallel_reduce(Range(0, count), Bounds{}, add, join);
+}
+
+}  // namespace
+
+Bounds bounds_of(const std::vector<glm::dvec3>& points) {
+  return bounds_of(points.size(), [&](std::size_t i) -> const glm::dvec3& { return points[i]; });
+}
+
+Bounds bounds_of(const Cloud& cloud) {
+  return bounds_of(cloud.size(), [&](std::size_t i) { return cloud.place_world(i); });
 }
 
 Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
   const std::vector<std::uint32_t> usable = usable_points(points);
-  const bool has_radii = !points.radius.empty();
   stats.points_read += points.size();
   stats.dropped_non_finite += points.size() - usable.size();
   Cloud cloud = take_points(std::move(points), usable);
   cloud.oriented = oriented;
-  if (cloud.size() == 0) return cloud;
+  if (usable.empty()) return cloud;
   normalise_coordinates(cloud);
   rearrange(cloud, canonical_order(cloud));
-  count_given(cloud, has_radii, stats);
+  count_given(cloud, stats);
   return cloud;
 }
 
 void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) { rearrange(cloud, kept); }
 
-void order_points(Cloud& cloud) {
-  find_coordinates(cloud);
+void move_points(Cloud& cloud, const std::vector<float>& lift) {
+  if (cloud.position.empty()) {
+    tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+      cloud.coord[i] = rounded(glm::dvec3(cloud.coord[i]) + glm::dvec3(cloud.normal[i]) * double{lift[i]});
+    });
+  } else {
+    tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+      cloud.position[i] += glm::dvec3(cloud.normal[i]) * (lift[i] * cloud.half_extent_world);
+    });
+    find_coordinates(cloud);
+  }
   rearrange(cloud, canonical_order(cloud));
 }
 

@@ -19,11 +19,11 @@ inline constexpr float COORD_STEP = 0x1p-24F;
 struct Cloud {
   glm::dvec3 center_world{0.0};      ///< centre of the points' bounding box
   double half_extent_world = 1.0;    ///< half its longest side; 1 when all points coincide
-  std::vector<glm::dvec3> position;  ///< world units
+  std::vector<glm::dvec3> position;  ///< world units; empty = as `coord` says
   std::vector<glm::vec3> coord;   ///< (position - center) / half_extent in [-1, 1], multiples of COORD_STEP
   std::vector<glm::vec3> normal;  ///< unit; zero = unknown
   std::vector<std::uint32_t> color;      ///< pack_color; empty = none
-  std::vector<float> radius;             ///< in units of half_extent_world; zero = unknown
+  std::vector<float> radius;             ///< in units of half_extent_world; zero = unknown; empty = all are
   std::vector<glm::vec3> field;          ///< normal field: uu, uv, vv of the change of the unit normal per
                                          ///< half_extent_world in TangentFrame(normal); empty = all flat
   std::vector<Column> columns;           ///< further attributes
@@ -33,12 +33,18 @@ struct Cloud {
   bool measured = false;                 ///< by a scanner: neither a mesh's nor made
   bool oriented = false;                 ///< normals point outwards: opposite normals are opposite sheets
 
-  [[nodiscard]] std::size_t size() const { return position.size(); }
+  [[nodiscard]] std::size_t size() const { return coord.size(); }
+  /// Where a point is, world units.
+  [[nodiscard]] glm::dvec3 place_world(std::size_t i) const {
+    return position.empty() ? center_world + half_extent_world * glm::dvec3(coord[i]) : position[i];
+  }
   /// The number of a point's station; meant only where there are stations.
   [[nodiscard]] std::size_t station_of(std::size_t i) const { return station.empty() ? 0 : station[i]; }
 };
 
 [[nodiscard]] Bounds bounds_of(const std::vector<glm::dvec3>& points);
+/// Of the places, world units.
+[[nodiscard]] Bounds bounds_of(const Cloud& cloud);
 
 /// Takes an object's points: drops positions that are not finite (or beyond 1e100), normalises normals in
 /// float64, turns normals and radii that cannot be used into "unknown" and orders the points. Adds to the
@@ -48,7 +54,7 @@ struct Cloud {
 /// Leaves the points of these ascending numbers in the cloud; its frame stays.
 void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept);
 
-/// Puts a cloud in order whose positions have changed; its frame stays.
-void order_points(Cloud& cloud);
+/// Moves points by this much along their normals (cloud coordinates) and puts the cloud in order; its frame stays.
+void move_points(Cloud& cloud, const std::vector<float>& lift);
 
 }  // namespace splatray

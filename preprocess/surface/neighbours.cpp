@@ -6,11 +6,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <optional>
 
 #include "preprocess/base/select.h"
+#include "preprocess/surface/ball.h"
 
 namespace splatray {
 namespace {
@@ -18,9 +17,6 @@ namespace {
 constexpr std::size_t MAX_COINCIDENT = 8;
 constexpr std::size_t PARALLEL_SIZE = 1U << 14;  // sites worth another task
 constexpr std::size_t MOST_MEASURED = 64;        // of a part's sites, to find its longest axis
-constexpr std::size_t GROUPS_PER_TASK = 8;
-constexpr float REACH_GROWTH = 1.1F;  // of the squared distance searched, over what the block before needed
-constexpr std::size_t MOST_NEAREST = 32;
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 /// max(below, above, 0), of which one at most is positive. Twice max(x, 0) is exactly x + |x|, which vectorises where max
@@ -28,13 +24,6 @@ constexpr float INFINITE = std::numeric_limits<float>::infinity();
 float gap(float below, float above) { return 0.5F * ((below + std::abs(below)) + (above + std::abs(above))); }
 
 }  // namespace
-
-Neighbour::Neighbour(float distance_squared, std::uint32_t index)
-    : key_(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(distance_squared)) << 32 | index) {}
-
-float Neighbour::distance_squared() const {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(key_ >> 32));
-}
 
 /// The best so far, ascending.
 struct NeighbourSearch::Nearest {
@@ -196,15 +185,6 @@ void NeighbourSearch::visit(std::size_t level, std::uint32_t node, const glm::ve
   }
 }
 
-void NeighbourSearch::Block::measure(const glm::vec3& query, float* distance) const {
-  for (std::uint32_t j = 0; j < WIDTH; ++j) {
-    const float dx = x[j] - query.x;
-    const float dy = y[j] - query.y;
-    const float dz = z[j] - query.z;
-    distance[j] = dx * dx + dy * dy + dz * dz;
-  }
-}
-
 void NeighbourSearch::visit_block(const Block& block, const glm::vec3& query, Nearest& nearest) const {
   float distance[WIDTH];
   block.measure(query, distance);
@@ -214,164 +194,6 @@ void NeighbourSearch::visit_block(const Block& block, const glm::vec3& query, Ne
       nearest.add(Neighbour(distance[j], block.index[j]));
     }
   }
-}
-
-/// The blocks that come within some distance of a box of queries, so that all sites near these are among theirs.
-class NeighbourSearch::Ball {
- public:
-  Ball(const NeighbourSearch& search, const glm::vec3& low, const glm::vec3& high, float reach_squared)
-      : search_(search), low_(low), high_(high), reach_squared_(reach_squared) {
-    nodes_[0] = 0;
-    count_ = 1;
-    for (std::size_t level = search.levels_.size(); level-- > 0 && count_ > 0;) descend(level);
-  }
-
-  /// Whether the blocks are all there are, and not too many.
-  [[nodiscard]] bool complete() const { return complete_; }
-
-  /// Finds the `nearest.size()` nearest sites of a query in the box, or returns false: they may be farther away, or
-  /// there are too many.
-  bool find(const glm::vec3& query, std::span<Neighbour> nearest) const {
-    return collect(query, nearest) == nearest.size();
-  }
-
-  /// Finds as many of the nearest sites within reach as there are, at most nearest.size(), and returns how many;
-  /// nothing where there are too many to tell.
-  [[nodiscard]] std::optional<std::size_t> collect(const glm::vec3& query,
-                                                   std::span<Neighbour> nearest) const {
-    float distance[MOST_NODES * WIDTH];
-    for (std::size_t i = 0; i < count_; ++i) search_.blocks_[nodes_[i]].measure(query, distance + i * WIDTH);
-    double keys[MOST_SITES + WIDTH];
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (count > MOST_SITES - WIDTH) return {};
-      count = add(search_.blocks_[nodes_[i]], distance + i * WIDTH, keys, count);
-    }
-    std::fill_n(keys + count, WIDTH, std::numeric_limits<double>::infinity());  // they come last
-    double sorted[MOST_SITES + 1];
-    for (std::size_t i = 0; i < count; i += WIDTH) place(keys + i, keys, count, sorted);
-    const std::size_t found = std::min(count, nearest.size());
-    for (std::size_t i = 0; i < found; ++i) nearest[i] = std::bit_cast<Neighbour>(sorted[i]);
-    return found;
-  }
-
- private:
-  static constexpr std::size_t MOST_NODES = 128;
-  static constexpr std::size_t MOST_SITES = 128;
-
-  /// Replaces the nodes by those of their children that are near; by none when these are too many.
-  void descend(std::size_t level) {
-    std::uint32_t children[MOST_NODES];
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (count > MOST_NODES - WIDTH) {
-        count = 0;
-        complete_ = false;
-        break;
-      }
-      const Boxes& boxes = search_.levels_[level][nodes_[i]];
-      float distance[WIDTH];
-      for (std::uint32_t j = 0; j < WIDTH; ++j) {
-        const float x = apart(boxes, 0, j), y = apart(boxes, 1, j), z = apart(boxes, 2, j);
-        distance[j] = x * x + y * y + z * z;  // NaN for boxes at infinity
-      }
-      for (std::uint32_t j = 0; j < WIDTH; ++j) {
-        children[count] = nodes_[i] * WIDTH + j;
-        count += static_cast<std::size_t>(distance[j] <= reach_squared_);
-      }
-    }
-    std::copy_n(children, count_ = count, nodes_);
-  }
-
-  [[nodiscard]] float apart(const Boxes& boxes, int axis, std::uint32_t j) const {
-    return gap(boxes.low[axis][j] - high_[axis], low_[axis] - boxes.high[axis][j]);
-  }
-
-  /// Puts WIDTH of the keys where they belong: as many keys are smaller. Two at a time, as every processor can.
-  static void place(const double* some, const double* keys, std::size_t count, double* sorted) {
-    using Pair = double __attribute__((vector_size(16)));
-    using Count = std::int64_t __attribute__((vector_size(16)));
-    Pair values[WIDTH / 2];
-    std::memcpy(values, some, sizeof values);
-    Count smaller[WIDTH / 2]{};
-    for (std::size_t j = 0; j < count; ++j) {
-      const Pair key{keys[j], keys[j]};
-      for (std::size_t k = 0; k < WIDTH / 2; ++k) smaller[k] -= key < values[k];  // true is -1
-    }
-    for (std::size_t k = 0; k < WIDTH; ++k) sorted[smaller[k / 2][k % 2]] = some[k];
-  }
-
-  /// Adds the sites of a block that are near, but not at the query. Bits of floats >= 0 order like their values; less 1,
-  /// zero is the largest.
-  std::size_t add(const Block& block, const float* distance, double* keys, std::size_t count) const {
-    const auto reach_bits = std::bit_cast<std::uint32_t>(reach_squared_);
-    for (std::uint32_t j = 0; j < WIDTH; ++j) {
-      keys[count] = std::bit_cast<double>(Neighbour(distance[j], block.index[j]));
-      count += static_cast<std::size_t>(std::bit_cast<std::uint32_t>(distance[j]) - 1U < reach_bits);
-    }
-    return count;
-  }
-
-  const NeighbourSearch& search_;
-  glm::vec3 low_, high_;
-  float reach_squared_;
-  std::uint32_t nodes_[MOST_NODES];
-  std::size_t count_;
-  bool complete_ = true;
-};
-
-std::size_t NeighbourSearch::find_within(const glm::vec3& query, std::span<Neighbour> nearest,
-                                         float reach_squared) const {
-  if (blocks_.empty()) return 0;
-  const Ball ball(*this, query, query, reach_squared);
-  if (ball.complete())
-    if (const auto count = ball.collect(query, nearest)) return *count;
-  std::size_t count = find(query, nearest);
-  while (count > 0 && nearest[count - 1].distance_squared() > reach_squared) --count;
-  return count;
-}
-
-std::size_t NeighbourSearch::find(const glm::vec3& query, std::span<Neighbour> nearest, float guess) const {
-  if (!blocks_.empty() && Ball(*this, query, query, guess).find(query, nearest)) return nearest.size();
-  return find(query, nearest);
-}
-
-float NeighbourSearch::find_block(std::uint32_t block, float reach_squared, std::size_t count,
-                                  const Visit& visit) const {
-  const Boxes& boxes = levels_[0][block / WIDTH];
-  const auto corner = [&](const float(&planes)[3][WIDTH]) {
-    return glm::vec3(planes[0][block % WIDTH], planes[1][block % WIDTH], planes[2][block % WIDTH]);
-  };
-  const Ball ball(*this, corner(boxes.low), corner(boxes.high), reach_squared);
-  std::array<Neighbour, MOST_NEAREST> places;
-  float widest = 0.0F;
-  const Block& sites = blocks_[block];
-  for (std::uint32_t j = 0; j < WIDTH && sites.x[j] < INFINITE; ++j) {
-    const glm::vec3 query(sites.x[j], sites.y[j], sites.z[j]);
-    std::span<Neighbour> nearest = std::span(places).first(count);
-    if (!ball.find(query, nearest)) nearest = nearest.first(find(query, nearest));
-    if (!nearest.empty()) widest = std::max(widest, nearest.back().distance_squared());
-    visit(sites.index[j], nearest);
-  }
-  return REACH_GROWTH * widest;
-}
-
-void NeighbourSearch::find_all(std::size_t count, const Stage& stage, const Visit& visit) const {
-  const auto group = [&](std::size_t g) {
-    const std::size_t begin = g * WIDTH, end = std::min(begin + WIDTH, blocks_.size());
-    const Block& first = blocks_[begin];
-    std::array<Neighbour, MOST_NEAREST> places;
-    const std::size_t found = find({first.x[0], first.y[0], first.z[0]}, std::span(places).first(count));
-    float reach_squared = found > 0 ? REACH_GROWTH * places[found - 1].distance_squared() : 0.0F;
-    for (std::size_t b = begin; b < end; ++b)
-      reach_squared = find_block(static_cast<std::uint32_t>(b), reach_squared, count, visit);
-  };
-  parallel_each(stage, blocks_.empty() ? 0 : levels_[0].size(), group, GROUPS_PER_TASK);
-  tbb::parallel_for(std::size_t{0}, copies_.size(), [&](std::size_t i) {
-    std::array<Neighbour, MOST_NEAREST> places;
-    const std::size_t found = find(cloud_.coord[copies_[i]], std::span(places).first(count));
-    visit(copies_[i], std::span(places).first(found));
-  });
 }
 
 }  // namespace splatray

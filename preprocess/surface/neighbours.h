@@ -1,5 +1,6 @@
 /// Nearest neighbours among the points of a cloud.
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -16,8 +17,11 @@ namespace splatray {
 class Neighbour {
  public:
   Neighbour() = default;
-  Neighbour(float distance_squared, std::uint32_t index);
-  [[nodiscard]] float distance_squared() const;
+  Neighbour(float distance_squared, std::uint32_t index)
+      : key_(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(distance_squared)) << 32 | index) {}
+  [[nodiscard]] float distance_squared() const {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(key_ >> 32));
+  }
   [[nodiscard]] std::uint32_t index() const { return static_cast<std::uint32_t>(key_); }
   friend auto operator<=>(const Neighbour&, const Neighbour&) = default;
 
@@ -47,19 +51,34 @@ class NeighbourSearch {
   /// The same, faster where few more sites than asked for are at a squared distance of at most `guess`.
   std::size_t find(const glm::vec3& query, std::span<Neighbour> nearest, float guess) const;
 
-  /// The nearest sites at a distance > 0 and a squared one of at most `reach_squared` from `query`, ascending; as many as
-  /// there are, at most nearest.size().
-  std::size_t find_within(const glm::vec3& query, std::span<Neighbour> nearest, float reach_squared) const;
-
-  /// What is done with a point of the cloud and its nearest sites.
-  using Visit = std::function<void(std::uint32_t point, std::span<const Neighbour> nearest)>;
+  /// What is done with a point of the cloud and its nearest sites, which may be put into another order.
+  using Visit = std::function<void(std::uint32_t point, std::span<Neighbour> nearest)>;
 
   /// Calls visit for every point of the cloud with what find() gives for `count` <= 32 sites, from many threads and in any
   /// order. Faster than find(), as the sites of a block look through the same blocks around them.
   void find_all(std::size_t count, const Stage& stage, const Visit& visit) const;
 
+  /// Most neighbours that find_each looks for.
+  static constexpr std::size_t MOST_EACH = 96;
+
+  /// What is looked for around a place, in cloud coordinates.
+  struct Query {
+    glm::vec3 place;
+    float
+        guess_squared;  ///< distance within which few more sites than asked for are expected; > 0, at most the limit
+    float limit_squared;  ///< of the distance of what counts; may be infinite
+  };
+  using QueryOf = std::function<Query(std::uint32_t number)>;
+
+  /// Calls visit for every number below `queries` with the nearest sites within its limit, at a distance > 0 from its place, at
+  /// most `count` <= MOST_EACH, in an order that is the same on all machines; from many threads and in any order. Fastest where
+  /// the places of most are near those of the numbers before.
+  void find_each(std::size_t queries, const QueryOf& query_of, std::size_t count, const Stage& stage,
+                 const Visit& visit) const;
+
  private:
   static constexpr std::uint32_t WIDTH = 8;
+  static constexpr std::size_t MOST_NEAREST = 32;  // that find_all looks for
   struct Block {
     float x[WIDTH], y[WIDTH], z[WIDTH];  // unused places are at infinity
     std::uint32_t index[WIDTH];
@@ -84,6 +103,9 @@ class NeighbourSearch {
   void visit(std::size_t level, std::uint32_t node, const glm::vec3& query, Nearest& nearest) const;
   void visit_block(const Block& block, const glm::vec3& query, Nearest& nearest) const;
   float find_block(std::uint32_t block, float reach_squared, std::size_t count, const Visit& visit) const;
+  std::size_t find_one(const Query& query, std::span<Neighbour> nearest) const;
+  std::size_t find_some(std::span<const Query> queries, std::size_t first, std::size_t count, float& factor,
+                        const Visit& visit) const;
 
   const Cloud& cloud_;
   std::vector<std::uint32_t> copies_;  // points that are no sites

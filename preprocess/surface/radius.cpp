@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "preprocess/base/select.h"
@@ -121,16 +122,25 @@ SPLATRAY_VECTOR_CLONES std::optional<double> covering_radius(const Neighbourhood
   return std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW)), NOISE_LIMIT * reach.radius);
 }
 
-/// `around`: the FEW nearest places, or all where there are fewer.
-double coverage_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point,
-                       const Neighbourhood& around) {
-  if (const auto radius = covering_radius(around, FEW)) return *radius;
-  std::array<Neighbour, MANY> more;
-  const float guess = MANY_OVER_FEW * static_cast<float>(around.distance_squared[around.count - 1]);
-  const std::size_t found = search.find(cloud.coord[point], more, guess);
-  const Neighbourhood wider(cloud, point, std::span(more).first(found));
-  if (const auto radius = covering_radius(wider, MANY)) return *radius;
-  return knn_radius(cloud, search, point);
+/// Radii that the FEW nearest places settle; of others the squared distance of the last of these, negative.
+float radius_of_few(const Neighbourhood& around) {
+  if (const auto radius = covering_radius(around, FEW)) return static_cast<float>(*radius);
+  return -static_cast<float>(around.distance_squared[around.count - 1]);
+}
+
+/// Settles what radius_of_few has not.
+void look_further(Cloud& cloud, const NeighbourSearch& search, const Stage& stage) {
+  const auto open = numbers_where(cloud.size(), [&](std::size_t i) { return cloud.radius[i] < 0.0F; });
+  const auto query = [&](std::uint32_t n) -> NeighbourSearch::Query {
+    return {cloud.coord[open[n]], MANY_OVER_FEW * -cloud.radius[open[n]],
+            std::numeric_limits<float>::infinity()};
+  };
+  search.find_each(open.size(), query, MANY, stage, [&](std::uint32_t n, std::span<Neighbour> nearest) {
+    const std::uint32_t i = open[n];
+    if (!std::is_sorted(nearest.begin(), nearest.end())) std::sort(nearest.begin(), nearest.end());
+    const auto radius = covering_radius(Neighbourhood(cloud, i, nearest), MANY);
+    cloud.radius[i] = static_cast<float>(radius ? *radius : knn_radius(cloud, search, i));
+  });
 }
 
 float median(std::span<float> values) {
@@ -157,6 +167,7 @@ void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector
 }  // namespace
 
 void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const Stage& stage) {
+  cloud.radius.resize(cloud.size(), 0.0F);
   const auto unknown = numbers_where(cloud.size(), [&](std::size_t i) { return cloud.radius[i] == 0.0F; });
   if (fields) cloud.field.resize(cloud.size());
   if (!unknown.empty() || fields) {
@@ -168,11 +179,11 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
       const Neighbourhood around(cloud, i, nearest);
       if (fields) cloud.field[i] = fit_normal_field(around);
       if (cloud.radius[i] != 0.0F) return;
-      cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i)
-                                               : coverage_radius(cloud, *sheets, i, around));
+      cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i) : radius_of_few(around));
     };
     if (sheets) {
       sheets->find_all(FEW, stage, fill);
+      if (!knn) look_further(cloud, *sheets, stage);
     } else {
       parallel_each(stage, cloud.size(), [&](std::size_t i) { fill(static_cast<std::uint32_t>(i), {}); });
     }

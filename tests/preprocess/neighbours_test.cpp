@@ -56,6 +56,41 @@ void expect_same_as_brute_force(const Cloud& cloud, std::size_t stride) {
   }
 }
 
+/// All sites within the limit of each query, or the nearest `count`.
+void expect_each_as_brute_force(const Cloud& cloud, std::size_t count, float limit_squared,
+                                float guess_share) {
+  const NeighbourSearch search(cloud, Sites::positions);
+  const BuildProgress silent;
+  std::vector<std::vector<Neighbour>> all(cloud.size());
+  search.find_each(
+      cloud.size(),
+      [&](std::uint32_t i) -> NeighbourSearch::Query {
+        return {cloud.coord[i], guess_share * limit_squared, limit_squared};
+      },
+      count, {"neighbours", silent},
+      [&](std::uint32_t i, std::span<Neighbour> nearest) { all[i].assign(nearest.begin(), nearest.end()); });
+  for (std::uint32_t i = 0; i < cloud.size(); i += 7) {
+    std::vector<Neighbour> expected = brute_force(cloud, cloud.coord[i], count);
+    while (!expected.empty() && expected.back().distance_squared() > limit_squared) expected.pop_back();
+    std::sort(all[i].begin(), all[i].end());
+    ASSERT_EQ(all[i], expected) << "point " << i << ", " << count << " neighbours within " << limit_squared
+                                << ", a guess of " << guess_share;
+  }
+}
+
+TEST(Neighbours, EachWithinItsLimit) {
+  const Cloud sphere = test::cloud_of(test::random_sphere(3001, 6));
+  const Cloud lattice = test::cloud_of(test::square_lattice(40, 0.125));
+  for (const float limit_squared : {0.0004F, 0.01F, 0.5F, 1e9F}) {
+    for (const float guess_share : {0.01F, 1.0F}) {
+      for (const std::size_t count : {1U, 12U, 32U, 96U}) {
+        expect_each_as_brute_force(sphere, count, limit_squared, guess_share);
+        expect_each_as_brute_force(lattice, count, limit_squared, guess_share);
+      }
+    }
+  }
+}
+
 TEST(Neighbours, RandomSphere) {
   expect_same_as_brute_force(test::cloud_of(test::random_sphere(3001, 1)), 13);
 }
