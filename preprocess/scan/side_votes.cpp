@@ -79,7 +79,7 @@ class SignedSets {
 
 /// In which round each of a point's listed neighbours may join it; LIMITS.size() = in none.
 std::vector<std::uint8_t> find_rounds(const Cloud& cloud, const Survey& survey) {
-  std::vector<std::uint8_t> rounds(survey.listed.size());
+  std::vector<std::uint8_t> rounds(cloud.size() * Survey::LISTED);
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t n) {
     const auto i = static_cast<std::uint32_t>(n);
     for (std::size_t k = 0; k < Survey::LISTED; ++k) {
@@ -95,15 +95,16 @@ std::vector<std::uint8_t> find_rounds(const Cloud& cloud, const Survey& survey) 
 
 Parts find_parts(const Cloud& cloud, const Survey& survey) {
   SignedSets sets(cloud.size());
-  const std::vector<std::uint8_t> rounds = find_rounds(cloud, survey);
+  std::vector<std::uint8_t> rounds = find_rounds(cloud, survey);
   for (std::size_t round = 0; round < LIMITS.size(); ++round) {
     for (std::size_t link = 0; link < rounds.size(); ++link) {
       if (rounds[link] != round) continue;
       const auto i = static_cast<std::uint32_t>(link / Survey::LISTED);
-      const std::uint32_t j = survey.listed[link];
+      const std::uint32_t j = survey.around(i)[link % Survey::LISTED];
       sets.join(i, j, glm::dot(cloud.normal[i], cloud.normal[j]) < 0.0F);
     }
   }
+  rounds = {};
   Parts parts;
   parts.part.resize(cloud.size());
   parts.turned.resize(cloud.size());
@@ -153,7 +154,7 @@ glm::dvec3 direction(std::uint32_t number) {
 
 /// Votes of a part for its least member's side as it is, and for the opposite.
 struct Votes {
-  std::uint64_t same = 0, opposite = 0;
+  std::uint32_t same = 0, opposite = 0;
 
   [[nodiscard]] bool sure() const {
     return same + opposite >= LEAST_VOTES && std::max(same, opposite) >= 2 * std::min(same, opposite);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "preprocess/scan/plane_fit.h"
@@ -154,10 +155,11 @@ void look_wider(Cloud& cloud, std::size_t stride, const Survey& survey, std::vec
 void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& survey,
                  std::vector<float>& roughness, const Stage& stage) {
   const NeighbourSearch search(cloud, Sites::positions);
-  survey.listed.resize(cloud.size() * Survey::LISTED);
+  for (std::size_t begin = 0; begin < cloud.size(); begin += Survey::CHUNK)
+    survey.listed.emplace_back(std::min(Survey::CHUNK, cloud.size() - begin) * Survey::LISTED);
   const auto visit = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
-    for (std::size_t j = 0; j < Survey::LISTED; ++j)
-      survey.listed[i * Survey::LISTED + j] = j < nearest.size() ? nearest[j].index() : i;
+    std::uint32_t* const listed = &survey.listed[i / Survey::CHUNK][i % Survey::CHUNK * Survey::LISTED];
+    for (std::size_t j = 0; j < Survey::LISTED; ++j) listed[j] = j < nearest.size() ? nearest[j].index() : i;
     survey.estimated[i] = cloud.normal[i] == glm::vec3(0.0F);
     if (nearest.empty()) {
       if (survey.estimated[i] != 0) cloud.normal[i] = glm::vec3(up);
@@ -189,14 +191,19 @@ void Survey::keep(const std::vector<std::uint32_t>& kept, const std::vector<std:
   reach = gather(reach, kept);
   wide = gather(wide, kept);
   estimated = gather(estimated, kept);
-  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t n) {
-    for (std::uint32_t& other : std::span(listed).subspan(kept[n] * LISTED, LISTED))
-      other = number[other] == NO_CELL ? static_cast<std::uint32_t>(n) : number[other];
-  });
-  for (std::size_t n = 0; n < kept.size(); ++n)  // in place, as this is the largest array of the build
-    std::copy_n(listed.begin() + static_cast<std::ptrdiff_t>(kept[n] * LISTED), LISTED,
-                listed.begin() + static_cast<std::ptrdiff_t>(n * LISTED));
-  listed.resize(kept.size() * LISTED);
+  std::vector<std::vector<std::uint32_t>> before = std::exchange(listed, {});
+  for (std::size_t begin = 0, freed = 0; begin < kept.size(); begin += CHUNK) {
+    const std::size_t end = std::min(begin + CHUNK, kept.size());
+    std::vector<std::uint32_t>& to = listed.emplace_back((end - begin) * LISTED);
+    tbb::parallel_for(begin, end, [&](std::size_t n) {
+      const std::uint32_t* from = before[kept[n] / CHUNK].data() + kept[n] % CHUNK * LISTED;
+      for (std::size_t j = 0; j < LISTED; ++j) {
+        const std::uint32_t other = number[from[j]];
+        to[(n - begin) * LISTED + j] = other == NO_CELL ? static_cast<std::uint32_t>(n) : other;
+      }
+    });
+    for (; freed < kept[end - 1] / CHUNK; ++freed) before[freed] = {};
+  }
 }
 
 Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {

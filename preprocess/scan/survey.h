@@ -16,14 +16,17 @@ struct Survey {
 
   static constexpr std::size_t WIDE = 32;
 
-  std::vector<std::uint32_t>
-      listed;  ///< LISTED of each point, the nearest first; the point itself where there are fewer
+  static constexpr std::size_t CHUNK = 1U << 15;  ///< points whose lists are in one array
+
+  /// LISTED of each point, the nearest first; the point itself where there are fewer. In many small arrays, which find room
+  /// where a large one does not.
+  std::vector<std::vector<std::uint32_t>> listed;
   std::vector<float> reach;  ///< distance to the RING-th place
   std::vector<float> wide;   ///< distance to the WIDE-th place, or what it is on a surface of even density
   std::vector<std::uint8_t> estimated;  ///< whether the normal was unknown before
 
   [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const {
-    return std::span(listed).subspan(point * LISTED, LISTED);
+    return std::span(listed[point / CHUNK]).subspan(point % CHUNK * LISTED, LISTED);
   }
 
   /// The squared distance within which `count` places are expected, as few as 8 and 32 are within theirs: it grows alike with

@@ -28,7 +28,7 @@ class NeighbourSearch::Ball {
   [[gnu::always_inline]] Ball(const NeighbourSearch& search, const glm::vec3& low, const glm::vec3& high,
                               float reach_squared)
       : search_(&search), low_(low), high_(high), reach_squared_(reach_squared) {
-    count_ = search.levels_.empty() ? 0 : 1;
+    count_ = search.blocks_.empty() ? 0 : 1;
     nodes_[0] = 0;
     for (std::size_t level = search.levels_.size(); level-- > 0 && count_ > 0;) descend(level);
     take_boxes();

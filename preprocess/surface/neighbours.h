@@ -48,9 +48,6 @@ class NeighbourSearch {
   /// from many threads.
   std::size_t find(const glm::vec3& query, std::span<Neighbour> nearest) const;
 
-  /// The same, faster where few more sites than asked for are at a squared distance of at most `guess`.
-  std::size_t find(const glm::vec3& query, std::span<Neighbour> nearest, float guess) const;
-
   /// What is done with a point of the cloud and its nearest sites, which may be put into another order.
   using Visit = std::function<void(std::uint32_t point, std::span<Neighbour> nearest)>;
 

@@ -24,13 +24,6 @@ float next_guess(float reach_squared, std::optional<std::size_t> found, std::siz
 
 }  // namespace
 
-SPLATRAY_VECTOR_CLONES std::size_t NeighbourSearch::find(const glm::vec3& query, std::span<Neighbour> nearest,
-                                                         float guess) const {
-  const Ball ball(*this, query, query, guess);
-  if (ball.collect(query, nearest, guess, true) == nearest.size()) return nearest.size();
-  return find(query, nearest);
-}
-
 SPLATRAY_VECTOR_CLONES float NeighbourSearch::find_block(std::uint32_t block, float reach_squared,
                                                          std::size_t count, const Visit& visit) const {
   const Boxes& boxes = levels_[0][block / WIDTH];

@@ -47,11 +47,6 @@ void expect_same_as_brute_force(const Cloud& cloud, std::size_t stride) {
       found.resize(search.find(cloud.coord[i], found));
       ASSERT_EQ(found, brute_force(cloud, cloud.coord[i], wanted))
           << "point " << i << ", " << wanted << " neighbours";
-      for (const float share : {0.5F, 1.0F, 4.0F}) {
-        std::vector<Neighbour> guessed(wanted);
-        guessed.resize(search.find(cloud.coord[i], guessed, share * found.back().distance_squared()));
-        ASSERT_EQ(guessed, found) << "point " << i << ", a guess of " << share << " of the distance";
-      }
     }
   }
 }
@@ -69,7 +64,7 @@ void expect_each_as_brute_force(const Cloud& cloud, std::size_t count, float lim
       },
       count, {"neighbours", silent},
       [&](std::uint32_t i, std::span<Neighbour> nearest) { all[i].assign(nearest.begin(), nearest.end()); });
-  for (std::uint32_t i = 0; i < cloud.size(); i += 7) {
+  for (std::uint32_t i = 0; i < cloud.size(); i += 61) {
     std::vector<Neighbour> expected = brute_force(cloud, cloud.coord[i], count);
     while (!expected.empty() && expected.back().distance_squared() > limit_squared) expected.pop_back();
     std::sort(all[i].begin(), all[i].end());
@@ -83,7 +78,7 @@ TEST(Neighbours, EachWithinItsLimit) {
   const Cloud lattice = test::cloud_of(test::square_lattice(40, 0.125));
   for (const float limit_squared : {0.0004F, 0.01F, 0.5F, 1e9F}) {
     for (const float guess_share : {0.01F, 1.0F}) {
-      for (const std::size_t count : {1U, 12U, 32U, 96U}) {
+      for (const std::size_t count : {1U, 32U, 96U}) {
         expect_each_as_brute_force(sphere, count, limit_squared, guess_share);
         expect_each_as_brute_force(lattice, count, limit_squared, guess_share);
       }
@@ -122,6 +117,11 @@ TEST(Neighbours, FewerPointsThanWanted) {
   std::vector<Neighbour> found(8);
   EXPECT_EQ(NeighbourSearch(cloud, Sites::positions).find(cloud.coord[0], found), 2U);
   EXPECT_EQ(NeighbourSearch(Cloud(), Sites::positions).find(glm::vec3(0.0F), found), 0U);
+  const BuildProgress silent;
+  const auto query = [](std::uint32_t) -> NeighbourSearch::Query { return {glm::vec3(0.0F), 0.25F, 1.0F}; };
+  const auto visit = [](std::uint32_t, std::span<Neighbour> nearest) { EXPECT_TRUE(nearest.empty()); };
+  const Cloud empty;
+  NeighbourSearch(empty, Sites::positions).find_each(3, query, 8, {"neighbours", silent}, visit);
 }
 
 TEST(Neighbours, OrientedPlacesKeepDifferentNormals) {
