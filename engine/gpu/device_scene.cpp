@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/scene/albedo_table.h"
+#include "engine/table/albedo_table.h"
 #include "engine/scene/surface.h"
 
 namespace splatray {

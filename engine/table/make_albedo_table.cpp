@@ -120,7 +120,7 @@ void add_glass() {
 bool write(const char* path) {
   std::FILE* file = std::fopen(path, "w");
   if (file == nullptr) return false;
-  std::fputs("#include \"engine/scene/albedo_table.h\"\nstatic constexpr float VALUES[] = {", file);
+  std::fputs("#include \"engine/table/albedo_table.h\"\nstatic constexpr float VALUES[] = {", file);
   for (std::size_t i = 0; i < table.size(); ++i)
     std::fprintf(file, "%s%.8eF,", i % 8 == 0 ? "\n" : "", double(table[i]));
   std::fputs("};\nconst std::span<const float> splatray::ALBEDO_TABLE(VALUES);\n", file);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "engine/scene/albedo_table.h"
+#include "engine/table/albedo_table.h"
 #include "shaders/light/albedo_layout.h"
 
 namespace splatray::testing {
