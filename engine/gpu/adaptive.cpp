@@ -93,13 +93,15 @@ class AdaptiveTile {
     return std::size_t{y / REGION} * columns_ + x / REGION;
   }
 
-  /// Regions of a half that have `samples` and are worse than wanted, as the other half says: a half's own samples must not decide
-  /// how many they are.
+  /// Regions of a half that have `samples` and are worse than wanted, as what the other half says lets expect of so many: a half's own
+  /// samples must not decide how many they are.
   [[nodiscard]] std::vector<bool> regions_above(std::uint32_t half, std::uint32_t samples,
                                                 double wanted) const {
+    const Half& other = halves_[1 - half];
     std::vector<bool> above(regions_);
     for (std::size_t r = 0; r < regions_; ++r)
-      above[r] = halves_[half].samples[r] == samples && halves_[1 - half].errors[r] > wanted;
+      above[r] = halves_[half].samples[r] == samples &&
+                 other.errors[r] * std::sqrt(double(other.samples[r]) / double(samples)) > wanted;
     return above;
   }
 
