@@ -63,11 +63,11 @@ std::vector<std::size_t> cut_counts(Bytes& bytes) {
   const std::size_t cameras = cut_flags(bytes, 76, 1);
   const std::size_t strings = cut_count<std::uint64_t>(bytes, 80, 1);
   const std::size_t stations = cut_count<std::uint32_t>(bytes, 240, 40);
-  put<std::uint32_t>(bytes, 244, 0);
+  const std::size_t surfaces = cut_count<std::uint32_t>(bytes, 244, 80);
   const std::size_t colors = (attributes & 1U) != 0 ? splats : 0;
   const std::size_t fields = (attributes & 2U) != 0 ? splats : 0;
-  std::vector<std::size_t> counts{nodes,  leaves + 1, leaves, references, splats,   colors,
-                                  fields, objects,    lights, cameras,    stations, strings};
+  std::vector<std::size_t> counts{nodes,   leaves + 1, leaves,  references, splats,  colors,  fields,
+                                  objects, lights,     cameras, stations,   strings, surfaces};
   for (std::size_t i = 0; i < COLUMNS_MOST; ++i) {
     const auto type = get<std::uint8_t>(bytes, COLUMN_TYPES + i) % std::size(COLUMN_BYTES);
     put(bytes, COLUMN_TYPES + i, static_cast<std::uint8_t>(type));

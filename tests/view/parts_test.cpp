@@ -15,6 +15,7 @@
 #include "app/view/window/display_table.h"
 #include "app/view/window/drop.h"
 #include "app/view/window/mouse.h"
+#include "engine/scene/surface.h"
 #include "tests/view/live_documents.h"
 
 namespace splatray {
@@ -129,6 +130,8 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   document.loaded = std::make_shared<const LoadedPart>(std::move(part));
   document.camera.fov_y_deg = DEFAULT_FOV_Y_DEG;  // orthographic cameras keep none
   document.looks.materials[0].mirror = 0.3F;
+  document.looks.surfaces[0] = surface_of(document.looks.materials[0]);
+  document.looks.surfaces[0].coat = 0.25F;
   document.looks.materials[0].flags |= MATERIAL_HIDDEN;
   document.lights.push_back({LIGHT_POINT, {0.1, 0.2, 0.3}, {0.5F, 0.25F, 0.75F}});
   document.exposure_ev = -0.75;

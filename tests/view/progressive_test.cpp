@@ -106,6 +106,7 @@ TEST_F(ProgressiveTest, EveryPictureIsWhole) {
 
 TEST_F(ProgressiveTest, ExposureOnlyColours) {
   document.exposure_ev = -2.0;
+  document.tone = Tone::none;
   const std::vector<SharedFrame> frames = finish();
   ASSERT_EQ(frames.size(), 1U);
   EXPECT_FALSE(frames[0]->moving);
