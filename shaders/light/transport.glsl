@@ -39,37 +39,61 @@ Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
   return bsdf;
 }
 
-/// Light that one of the lights, or the environment, sends on to the eye from a hit.
-vec3 light_found(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec2 random, uint inside, INOUT(uint) shadow_rays,
-                 INOUT(Tally) tally) {
+/// A ray that is worth tracing for the light it brings where nothing is in its way.
+struct Probe {
+  Ray ray;     ///< ends before it starts where it brings none
+  vec3 light;  ///< sent on to the eye from a hit
+};
+
+/// Towards one of the lights, or the environment.
+Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec2 random, uint inside) {
   LightSample chosen = light_sample(hit.position, random);
   float pdf = 0.0f;
   vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
   vec3 value = bsdf_value(bsdf, to_eye, to_light, pdf);
-  float share = chosen.pdf > 0.0f && LOOK != LOOK_SCAN ? chosen.pdf * chosen.pdf / (chosen.pdf * chosen.pdf + pdf * pdf) : 1.0f;
-  vec3 light = value * chosen.radiance * share;
-  bool lit = max(light.x, max(light.y, light.z)) > 0.0f;
-  if (SHADOWS) {
-    bool crosses = to_light.z < 0.0f;
-    uint object_bit = 0u;
-    if (GLASS && crosses) object_bit = 1u << material_at(hit.object).mask_bit;
-    Ray ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
-    ray.t_max = LOOK == LOOK_SCAN ? min(chosen.distance, frame.reach) : chosen.distance;
-    ray.t_max = lit ? ray.t_max : -1.0f;
-    light *= trace_shadow(ray, tally);
-    shadow_rays += lit ? 1u : 0u;
-  }
-  return light;
+  float share = LOOK == LOOK_SCAN ? 1.0f : met_share(chosen.pdf, pdf);
+  Probe probe;
+  probe.light = value * chosen.radiance * share;
+  uint object_bit = 0u;
+  if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
+  probe.ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
+  probe.ray.t_max = LOOK == LOOK_SCAN ? min(chosen.distance, frame.reach) : chosen.distance;
+  if (max(probe.light.x, max(probe.light.y, probe.light.z)) <= 0.0f) probe.ray.t_max = -1.0f;
+  return probe;
 }
 
-/// Which share of the light of a white sky, weighted by cosine, arrives at a hit: of one direction, 0 or 1.
-vec3 sky_found(Hit hit, Basis basis, vec2 random, uint inside, INOUT(uint) shadow_rays, INOUT(Tally) tally) {
+/// Towards a white sky, whose light is weighted by cosine.
+Probe sky_probe(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
   vec2 at = disc_sample(random);
   float height = sqrt(max(1.0f - dot(at, at), 0.0f));
-  Ray ray = ray_from_hit(hit, basis.u * at.x + basis.v * at.y + hit.normal * height, inside);
-  ray.t_max = frame.reach;
-  shadow_rays += 1u;
-  return trace_shadow(ray, tally);
+  Probe probe;
+  probe.light = bsdf.base * (LOOK == LOOK_SCAN ? SCAN_SKY : 1.0f);
+  probe.ray = ray_from_hit(hit, basis.u * at.x + basis.v * at.y + hit.normal * height, inside);
+  probe.ray.t_max = frame.reach;
+  return probe;
+}
+
+/// The light found from a hit by LOOK's rays: to a light, to the sky or both, one after the other, so that programs hold one walk for them.
+void find_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
+                INOUT(Tally) tally) {
+  bool sky = LOOK == LOOK_AO || LOOK == LOOK_SCAN;
+  bool to_lights = LIGHTS || SKY;
+  do {
+    Probe probe;
+    if (sky) {
+      vec4 random_sky = sobol_sample(pixel, sample_index, 2u, frame.seed);
+      probe = sky_probe(hit, bsdf, basis, random_sky.xy, path.ray.inside);
+    } else {
+      probe = light_probe(hit, bsdf, basis, to_eye, random.xy, path.ray.inside);
+      to_lights = false;
+    }
+    if (SHADOWS || sky) {
+      probe.light *= trace_shadow(probe.ray, tally);
+      path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
+    }
+    path.radiance += path.throughput * probe.light;
+    sky = false;
+  } while (to_lights);
 }
 
 /// Has the path go on from a hit, in a direction that the surface chooses.
@@ -131,14 +155,9 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
-  if (LIGHTS || SKY) {
-    vec3 light = light_found(hit, bsdf, basis, to_eye, random.xy, path.ray.inside, path.shadow, tally);
-    path.radiance += path.throughput * light;
-  }
+  if (LIGHTS || SKY || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
+    find_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, tally);
   if (LOOK == LOOK_AO || LOOK == LOOK_SCAN) {
-    vec4 random_sky = sobol_sample(pixel, sample_index, 2u, frame.seed);
-    float sky = LOOK == LOOK_SCAN ? SCAN_SKY : 1.0f;
-    path.radiance += bsdf.base * sky * sky_found(hit, basis, random_sky.xy, path.ray.inside, path.shadow, tally);
     path.alive = false;
   } else {
     go_on(path, hit, bsdf, basis, to_eye, sobol_sample(pixel, sample_index, 2u + 2u * path.bounce, frame.seed));

@@ -69,43 +69,57 @@ void keep_mean(uint place, vec4 mean) {
   accumulation[place] = loops_were_cut() ? vec4(mean.xyz, -INFINITY_F) : mean;
 }
 
-void add_samples(uvec2 pixel, uint index) {
-  uint pixel_number = pixel.y * frame.width + pixel.x;
-  uint place = frame.tile_first + index;
-  vec4 mean = mean_before(place);
+/// What a thread traces: a pixel and, in STAGE_NEXT, its queued path.
+struct Work {
+  uvec2 pixel;
+  uint place;  ///< in the accumulation buffer
+  Path path;
+};
+
+/// Whether this thread has something to trace, and what.
+bool find_work(OUT(Work) work) {
+  uvec2 in_tile = uvec2(0u);
+  bool found = false;
+#ifdef CPU
+  if (STAGE == STAGE_NEXT) {
+    uint queued = group_number() * GROUP_SIZE + gl_LocalInvocationIndex;
+    found = queued < frame.path_count;
+    if (!found) return false;
+    work.path = queued_path(queued, work.place);
+    uint index = work.place - frame.tile_first;
+    in_tile.y = index / frame.tile_width;
+    in_tile.x = index - in_tile.y * frame.tile_width;
+  } else
+#endif
+  {
+    found = find_pixel(in_tile);
+    work.place = frame.tile_first + in_tile.y * frame.tile_width + in_tile.x;
+  }
+  work.pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);
+  return found;
+}
+
+/// The samples of the dispatch at a pixel; in a stage one ray of its one sample. Called once in a program: drivers take as long to read
+/// a second copy of the walk whether it is used or not.
+void add_samples(INOUT(Work) work) {
+  uint pixel_number = work.pixel.y * frame.width + work.pixel.x;
+  vec4 mean = STAGE == STAGE_NEXT ? vec4(0.0f) : mean_before(work.place);
   uint sample_index = frame.sample_begin;
   do {
     Tally tally = Tally(0u, 0u, 0u, 0u);
-    Path path = path_start(sample_ray(pixel, sample_index));
-    follow_path(path, pixel_number, sample_index, tally);
+    if (STAGE != STAGE_NEXT) work.path = path_start(sample_ray(work.pixel, sample_index));
+    follow_path(work.path, pixel_number, sample_index, tally);
 #ifdef CPU
-    if (STAGE == STAGE_FIRST && path.alive) queue_path(path, place);
+    if (STAGE != STAGE_ALL && work.path.alive) queue_path(work.path, work.place);
 #endif
-    if (!path.alive) mean = add_to_mean(mean, path.radiance, path.coverage, sample_index);
-    if (COUNTERS) add_counters(path, tally);
+    if (!work.path.alive) {
+      if (STAGE == STAGE_NEXT) mean = accumulation[work.place];
+      mean = add_to_mean(mean, work.path.radiance, work.path.coverage, sample_index);
+    }
+    if (COUNTERS) add_counters(work.path, tally);
     sample_index += 1u;
   } while (sample_index < frame.sample_end);
-  keep_mean(place, mean);
+  if (STAGE != STAGE_NEXT || !work.path.alive) keep_mean(work.place, mean);
 }
-
-#ifdef CPU
-/// STAGE_NEXT: the next ray of a queued path.
-void follow_queued(uint index) {
-  uint place = 0u;
-  Path path = queued_path(index, place);
-  uint in_tile = place - frame.tile_first;
-  uint row = in_tile / frame.tile_width;
-  uint column = in_tile - row * frame.tile_width;
-  uint sample_index = frame.sample_begin;
-  Tally tally = Tally(0u, 0u, 0u, 0u);
-  follow_path(path, (frame.tile_y + row) * frame.width + frame.tile_x + column, sample_index, tally);
-  if (path.alive) {
-    queue_path(path, place);
-  } else {
-    keep_mean(place, add_to_mean(accumulation[place], path.radiance, path.coverage, sample_index));
-  }
-  if (COUNTERS) add_counters(path, tally);
-}
-#endif
 
 #endif

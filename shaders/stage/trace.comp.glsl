@@ -5,6 +5,7 @@
 #include "scene/bindings.glsl"
 #include "stage/paths.glsl"
 
+#ifndef LIT
 /// A number that tells splats apart.
 uint hash_words(uvec4 words) {
   return hash_uint(words.x ^ hash_uint(words.y ^ hash_uint(words.z ^ hash_uint(words.w))));
@@ -22,23 +23,17 @@ void write_aov(uvec2 pixel, uint index) {
   aov[index].tests = tally.tests;
   aov[index].steps = tally.node_steps;
 }
+#endif
 
 void main() {
   read_frame();
-#ifdef CPU
-  if (STAGE == STAGE_NEXT) {
-    uint queued = group_number() * GROUP_SIZE + gl_LocalInvocationIndex;
-    if (queued < frame.path_count) follow_queued(queued);
+  Work work;
+  if (!find_work(work)) return;
+#ifndef LIT
+  if (STAGE == STAGE_AOV) {
+    write_aov(work.pixel, work.place - frame.tile_first);
     return;
   }
 #endif
-  uvec2 in_tile = uvec2(0u);
-  if (!find_pixel(in_tile)) return;
-  uvec2 pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);
-  uint index = in_tile.y * frame.tile_width + in_tile.x;
-  if (STAGE == STAGE_AOV) {
-    write_aov(pixel, index);
-  } else {
-    add_samples(pixel, index);
-  }
+  add_samples(work);
 }
