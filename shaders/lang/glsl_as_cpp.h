@@ -29,6 +29,7 @@ using glm::vec3;
 using glm::vec4;
 using std::cos;
 using std::exp;
+using std::log;
 using std::pow;
 using std::sin;
 using std::sqrt;

@@ -12,7 +12,9 @@ struct AlbedoPlace {
   vec2 on;
 };
 AlbedoPlace albedo_place(float cosine, float alpha) {
-  float x = clamp(sqrt(cosine) * float(ALBEDO_COLUMNS - 1u), 0.0f, float(ALBEDO_COLUMNS - 1u) - 1e-3f);
+  float width = max(alpha, 1e-3f);
+  float x = log(1.0f + cosine / width) / log(1.0f + 1.0f / width);
+  x = clamp(x * float(ALBEDO_COLUMNS - 1u), 0.0f, float(ALBEDO_COLUMNS - 1u) - 1e-3f);
   float y = clamp(sqrt(alpha) * float(ALBEDO_ROWS - 1u), 0.0f, float(ALBEDO_ROWS - 1u) - 1e-3f);
   AlbedoPlace place;
   place.first = uint(y) * ALBEDO_COLUMNS + uint(x);
@@ -32,7 +34,9 @@ vec2 albedo_factors(float cosine, float alpha) {
   float edge = schlick(cosine);
   if (alpha < ALPHA_LEAST) return vec2(1.0f - edge, edge);
   AlbedoPlace place = albedo_place(cosine, alpha);
-  return vec2(albedo_between(2u * place.first, 2u, place), albedo_between(2u * place.first + 1u, 2u, place));
+  float all = albedo_between(2u * place.first, 2u, place);
+  float high = clamp(edge * all + albedo_between(2u * place.first + 1u, 2u, place), 0.0f, all);
+  return vec2(all - high, high);
 }
 
 /// Their means over all directions, weighted by cosine.
@@ -48,7 +52,8 @@ vec2 albedo_means(float alpha) {
 /// What both sides of a rough dielectric send on in all.
 float albedo_of_glass(float cosine, float alpha, float eta) {
   AlbedoPlace place = albedo_place(cosine, alpha);
-  float z = ((eta - 1.0f) / (eta + 1.0f) / ALBEDO_ETA_MOST + 1.0f) * (0.5f * float(ALBEDO_ETAS - 1u));
+  float z = (eta - 1.0f) / (eta + 1.0f) / ALBEDO_ETA_MOST;
+  z = ((z < 0.0f ? -sqrt(-z) : sqrt(max(z, 0.0f))) + 1.0f) * (0.5f * float(ALBEDO_ETAS - 1u));
   z = clamp(z, 0.0f, float(ALBEDO_ETAS - 1u) - 1e-3f);
   uint first = ALBEDO_GLASS + uint(z) * (ALBEDO_COLUMNS * ALBEDO_ROWS) + place.first;
   float low = albedo_between(first, 1u, place);

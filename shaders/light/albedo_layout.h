@@ -8,12 +8,14 @@
 namespace splatray {
 #endif
 
-SPLATRAY_CONST ALBEDO_COLUMNS = 48u;  ///< cosines (column / (ALBEDO_COLUMNS - 1))^2
+SPLATRAY_CONST ALBEDO_COLUMNS = 48u;  ///< cosines, evenly in log(1 + cosine / alpha): lobes change where it is about alpha
 SPLATRAY_CONST ALBEDO_ROWS = 32u;     ///< roughness row / (ALBEDO_ROWS - 1)
-/// Reflectance = f0 * first + f90 * second (Karis 2013, "Real Shading in Unreal Engine 4"): pairs, row by row; then for each row the means of
-/// both over all directions, weighted by cosine.
+/// Pairs, row by row: what facets that mirror all light reflect, and by how much the part of f90 in it exceeds schlick(cosine) of
+/// that; the rest is f0's (Karis 2013, "Real Shading in Unreal Engine 4"). Then for each row the means of both parts over all
+/// directions, weighted by cosine.
 SPLATRAY_CONST ALBEDO_MEANS = 2u * ALBEDO_COLUMNS * ALBEDO_ROWS;
-/// Both sides of dielectrics together: eta by eta, (eta - 1) / (eta + 1) evenly over +- ALBEDO_ETA_MOST.
+/// Both sides of dielectrics together: eta by eta, the root of (eta - 1) / (eta + 1) evenly to that of ALBEDO_ETA_MOST, and
+/// likewise below 1.
 SPLATRAY_CONST ALBEDO_GLASS = ALBEDO_MEANS + 2u * ALBEDO_ROWS;
 SPLATRAY_CONST ALBEDO_ETAS = 65u;
 SPLATRAY_CONST ALBEDO_WORDS = ALBEDO_GLASS + ALBEDO_COLUMNS * ALBEDO_ROWS * ALBEDO_ETAS;

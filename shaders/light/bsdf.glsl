@@ -1,9 +1,10 @@
-// How a surface scatters light: glTF 2.0's metallic-roughness model with its layers' energy kept. A rough layer that mirrors lies over a
-// diffuse base, which gets what the layer lets through, and sends back what it lets out again (Ashikhmin and Shirley 2000, "An Anisotropic
-// Phong Light Reflection Model", eq. 5; here by the albedo table); metals get back what facets hide from each other (Kulla and Conty 2017, "Revisiting
-// Physically Based Shading at Imageworks"); rough glass is brightened by as much as one bounce loses, and a coat takes its part on the
-// eye's side alone: these two are not reciprocal, all else is. Needs albedo_at(index) and the constants LOBE_DIFFUSE, LOBE_SPECULAR,
-// LOBE_METAL, LOBE_TRANSMISSION, LOBE_COAT: what no surface has is not compiled.
+// How a surface scatters light: glTF 2.0's metallic-roughness model with its layers' energy kept. A rough layer that mirrors lies
+// over a diffuse base, which gets what the layer lets through, and sends back what it lets out again (Ashikhmin and Shirley 2000,
+// "An Anisotropic Phong Light Reflection Model", eq. 5; here by the albedo table); metals get back what facets hide from each
+// other (Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks"); rough glass is brightened by as much as one
+// bounce loses, and a coat takes its part on the eye's side alone: these two are not reciprocal, all else is. Needs
+// albedo_at(index) and the constants LOBE_DIFFUSE, LOBE_SPECULAR, LOBE_METAL, LOBE_TRANSMISSION, LOBE_COAT: what no surface has
+// is not compiled.
 #ifndef SPLATRAY_BSDF_GLSL
 #define SPLATRAY_BSDF_GLSL
 #include "light/glass.glsl"
@@ -64,7 +65,7 @@ void bsdf_seen(INOUT(Bsdf) bsdf, float cosine) {
       float seen_mean = means.x + means.y;
       vec3 kept = fresnel_mean * fresnel_mean * seen_mean / (vec3(1.0f) - fresnel_mean * (1.0f - seen_mean));
       float hidden = bsdf.metallic * (1.0f - factors.x - factors.y);
-      bsdf.again = kept * (hidden / max(1.0f - seen_mean, 1e-4f));
+      bsdf.again = kept * (hidden / max(1.0f - seen_mean, 1e-7f));
       scattered += mean_of(kept) * hidden;
       bsdf.mirrored += (bsdf.base * factors.x + vec3(factors.y)) * bsdf.metallic;
     }
@@ -79,7 +80,8 @@ void bsdf_seen(INOUT(Bsdf) bsdf, float cosine) {
   }
 }
 
-/// Value times |cosine| towards to_eye of light from to_light, both unit; without what is delta. `pdf`: bsdf_sample's probability of it.
+/// Value times |cosine| towards to_eye of light from to_light, both unit; without what is delta. `pdf`: bsdf_sample's probability
+/// of it.
 vec3 bsdf_value(Bsdf bsdf, vec3 to_eye, vec3 to_light, OUT(float) pdf) {
   bool above = to_light.z > 0.0f;
   float cosine = max(to_light.z, 0.0f);
@@ -144,7 +146,8 @@ float used_again(float number, float share, bool below) {
   return clamp(again, 0.0f, 0.99999994f);
 }
 
-/// random.x chooses the lobe, and what is left of it, with random.y, the direction; random.z whether light is reflected or refracted.
+/// random.x chooses the lobe, and what is left of it, with random.y, the direction; random.z whether light is reflected or
+/// refracted.
 BsdfSample bsdf_sample(Bsdf bsdf, vec3 to_eye, vec3 random) {
   float x = random.x;
   bool coat = LOBE_COAT && x < bsdf.coat_chosen;

@@ -31,7 +31,7 @@ glm::vec3 f0_of(float ior) {
 /// White surfaces of every lobe and every mixture of them, over roughness and index of refraction.
 std::vector<Case> white_cases() {
   std::vector<Case> cases = {{"matte", {}}};
-  for (const float roughness : {0.0F, 0.02F, 0.1F, 0.25F, 0.5F, 0.75F, 1.0F}) {
+  for (const float roughness : {0.0F, 0.02F, 0.05F, 0.1F, 0.25F, 0.5F, 0.75F, 1.0F}) {
     const float alpha = roughness * roughness;
     const std::string rough = " of roughness " + std::to_string(roughness);
     for (const float ior : {1.0F, 1.3F, 1.5F, 2.5F}) {
@@ -76,17 +76,14 @@ Sent albedo(const TwinSurface& surface, const glm::vec3& to_eye, std::uint32_t s
   return {mean, std::sqrt(std::max(squares / samples - mean.x * mean.x, 0.0) / samples)};
 }
 
-/// Light in very rough glass: asked for is 0.002 too, but the table's points do not follow where total reflection begins.
-bool misses_the_furnace(const TwinSurface& surface) {
-  return surface.transmission > 0.0F && surface.eta > 1.0F && surface.alpha > 0.5F;
-}
-
 TEST(Bsdf, WhiteFurnace) {
   double least = 2.0, most = 0.0;
   for (const Case& tested : white_cases())
-    for (const float cosine : {0.05F, 0.2F, 0.5F, 0.8F, 0.99F}) {
-      const Sent sent = albedo(tested.surface, direction(cosine), 1U << 15U);
-      const double allowed = (misses_the_furnace(tested.surface) ? 0.007 : 0.002) + 3.0 * sent.error;
+    for (const float cosine : {0.02F, 0.05F, 0.2F, 0.5F, 0.8F, 0.99F}) {
+      Sent sent = albedo(tested.surface, direction(cosine), 1U << 15U);
+      // Lobes with long tails: what seems a miss is looked at again.
+      if (std::abs(sent.mean.x - 1.0) > 0.002) sent = albedo(tested.surface, direction(cosine), 1U << 19U);
+      const double allowed = 0.002 + sent.error;
       least = std::min(least, sent.mean.x);
       most = std::max(most, sent.mean.x);
       EXPECT_NEAR(sent.mean.x, 1.0, allowed) << tested.name << ", cosine " << cosine;
@@ -101,7 +98,7 @@ TEST(Bsdf, ColouredSurfacesSendBackNoMoreThanCame) {
     tested.surface.base = {0.9F, 0.5F, 0.1F};
     for (const float cosine : {0.05F, 0.5F, 0.99F}) {
       const glm::dvec3 sent = albedo(tested.surface, direction(cosine), 1U << 14U).mean;
-      EXPECT_LE(std::max({sent.x, sent.y, sent.z}), 1.008) << tested.name << ", cosine " << cosine;
+      EXPECT_LE(std::max({sent.x, sent.y, sent.z}), 1.003) << tested.name << ", cosine " << cosine;
       EXPECT_GE(sent.x + 1e-3, sent.z) << tested.name;
     }
   }
