@@ -16,7 +16,8 @@ constexpr std::uint32_t REGION = 32;  ///< edge of a region, pixels
 constexpr std::uint32_t FIRST_SAMPLES =
     4;  ///< of each half, in every pixel; each later round doubles a region's
 constexpr double DARK_SHARE =
-    0.02;  ///< of the picture's mean radiance: darker regions count as if they had it
+    0.02;                       ///< of the picture's mean radiance: darker regions count as if they had it
+constexpr double NOISE = 1e-6;  ///< a relative error that is float32's
 constexpr std::uint32_t SEED_STEP = 0x9E3779B9U;
 
 /// One of two independent pictures of a tile.
@@ -47,22 +48,20 @@ class AdaptiveTile {
   void trace(const Goal& goal, const std::function<bool(double error)>& proceed) {
     for (std::uint32_t half = 0; half < 2; ++half)
       step(half, std::vector<bool>(regions_, true), FIRST_SAMPLES);
-    double threshold = std::numeric_limits<double>::infinity();
-    while (proceed(worst_)) {
-      const double wanted =
-          goal.error > 0.0 ? goal.error * std::sqrt(2.0) : std::min(threshold, 0.7 * worst_);
-      threshold = wanted;
-      bool any = false;
+    double wanted = goal.error * std::sqrt(2.0);
+    if (goal.error <= 0.0) wanted = 0.7 * worst_;
+    bool more = true;
+    while (more && proceed(worst_)) {
+      more = goal.error <= 0.0 && wanted > NOISE;
       for (std::uint32_t half = 0; half < 2; ++half)
-        for (std::uint32_t samples = FIRST_SAMPLES; samples < dispatch_.frame.sample_total / 2;
-             samples *= 2) {
+        for (std::uint32_t samples = FIRST_SAMPLES; samples < most_samples(); samples *= 2) {
           const std::vector<bool> chosen = regions_above(half, samples, wanted);
           if (std::none_of(chosen.begin(), chosen.end(), [](bool c) { return c; })) continue;
-          any = true;
+          more = true;
           step(half, chosen, samples);
           if (!proceed(worst_)) return;
         }
-      if (!any) return;
+      if (goal.error <= 0.0) wanted *= 0.7;
     }
   }
 
@@ -93,8 +92,11 @@ class AdaptiveTile {
     return std::size_t{y / REGION} * columns_ + x / REGION;
   }
 
-  /// Regions of a half that have `samples` and are worse than wanted, as what the other half says lets expect of so many: a half's own
-  /// samples must not decide how many they are.
+  /// Of a half in a region, about.
+  [[nodiscard]] std::uint32_t most_samples() const { return dispatch_.frame.sample_total / 2; }
+
+  /// Regions of a half that have `samples` and are worse than wanted, as what the other half says lets expect of so many: a
+  /// half's own samples must not decide how many they are.
   [[nodiscard]] std::vector<bool> regions_above(std::uint32_t half, std::uint32_t samples,
                                                 double wanted) const {
     const Half& other = halves_[1 - half];
@@ -176,25 +178,16 @@ Image Tracer::render_until(const View& view, const Settings& settings, const Goa
   Runner& runner = impl.runner;
   runner.require_scene("render_until()");
   const Clock::time_point start = Clock::now();
-  impl.start();
-  const Dispatch dispatch = runner.picture_dispatch(view, settings);
-  const Dispatch aov_dispatch = runner.aov_dispatch(view, settings);
-  const Footprint footprint = runner.scene.footprint(view, settings);
-  Image image{view.width, view.height, {}, {}, {}};
-  const std::size_t pixels = std::size_t{view.width} * view.height;
-  image.rgba.resize(pixels);
+  Picture picture = impl.start_picture(view, settings, 2);
+  Image& image = picture.image;
+  const std::size_t pixels = image.rgba.size();
   image.error.resize(pixels);
-  if (settings.aov) image.aov.resize(pixels);
-  const std::vector<Tile> tiles = cut_into_tiles(view.width, view.height, TILE_PIXELS / 2);
-  reserve_storage(runner.context, runner.accumulation, 2 * tiles.front().pixels() * sizeof(vec4));
-  if (settings.aov) reserve_storage(runner.context, runner.aov, tiles.front().pixels() * sizeof(AovPixel));
-  runner.bind(runner.accumulation);
   double trace_ms = 0.0, samples = 0.0, done = 0.0;
-  for (const Tile& tile : tiles) {
+  for (const Tile& tile : picture.tiles) {
     const double share = static_cast<double>(tile.pixels()) / static_cast<double>(pixels);
     const double end_ms = 1e3 * goal.seconds * (done + share);
     double first_error = 0.0;
-    AdaptiveTile adaptive(runner, dispatch, tile, footprint);
+    AdaptiveTile adaptive(runner, picture.dispatch, tile, picture.footprint);
     adaptive.trace(goal, [&](double error) {
       first_error = std::max(first_error, error);
       const double ms = milliseconds_since(start);
@@ -210,12 +203,12 @@ Image Tracer::render_until(const View& view, const Settings& settings, const Goa
     trace_ms += adaptive.trace_ms();
     samples += adaptive.samples();
     done += share;
-    if (settings.aov) runner.trace_aov(tile, aov_dispatch, footprint, image.aov);
+    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov);
   }
   impl.finish(start, trace_ms);
   impl.stats.samples = samples / static_cast<double>(pixels);
   impl.stats.error = relative_error(image);
-  return image;
+  return std::move(image);
 }
 
 }  // namespace splatray

@@ -91,42 +91,50 @@ void Tracer::set_environment(const Environment& environment) {
   impl_->runner.scene.set_environment(environment);
 }
 
+Picture Tracer::Impl::start_picture(const View& view, const Settings& settings, std::uint32_t means) {
+  start();
+  Picture picture{runner.picture_dispatch(view, settings),
+                  runner.aov_dispatch(view, settings),
+                  runner.scene.footprint(view, settings),
+                  cut_into_tiles(view.width, view.height, TILE_PIXELS / means),
+                  {view.width, view.height, {}, {}, {}}};
+  picture.image.rgba.resize(std::size_t{view.width} * view.height);
+  const std::size_t most_pixels = picture.tiles.front().pixels();
+  reserve_storage(runner.context, runner.accumulation, means * most_pixels * sizeof(vec4));
+  if (settings.aov) {
+    picture.image.aov.resize(picture.image.rgba.size());
+    reserve_storage(runner.context, runner.aov, most_pixels * sizeof(AovPixel));
+  }
+  runner.bind(runner.accumulation);
+  return picture;
+}
+
 Image Tracer::render(const View& view, const Settings& settings, const Progress& progress) {
   Impl& impl = *impl_;
   Runner& runner = impl.runner;
   runner.require_scene("render()");
   const Clock::time_point start = Clock::now();
-  impl.start();
-  const Dispatch dispatch = runner.picture_dispatch(view, settings);
-  const Dispatch aov_dispatch = runner.aov_dispatch(view, settings);
-  const Footprint footprint = runner.scene.footprint(view, settings);
-  Image image{view.width, view.height, {}, {}};
-  const std::size_t pixels = std::size_t{view.width} * view.height;
-  image.rgba.resize(pixels);
-  if (settings.aov) image.aov.resize(pixels);
+  Picture picture = impl.start_picture(view, settings, 1);
+  Image& image = picture.image;
+  const std::size_t pixels = image.rgba.size();
   Image first_half = image;
-
-  const std::vector<Tile> tiles = cut_into_tiles(view.width, view.height);
-  reserve_storage(runner.context, runner.accumulation, tiles.front().pixels() * sizeof(vec4));
-  if (settings.aov) reserve_storage(runner.context, runner.aov, tiles.front().pixels() * sizeof(AovPixel));
-  runner.bind(runner.accumulation);
   std::uint64_t done = 0;
   double trace_ms = 0.0;
-  for (const Tile& tile : tiles) {
+  for (const Tile& tile : picture.tiles) {
     const auto trace = [&](const ThreadWork& work, bool again) {
       const auto advance = [&](std::uint32_t samples) {
         done += again ? 0 : tile.pixels() * samples;
         report(progress, static_cast<double>(done) / (static_cast<double>(pixels) * settings.samples));
       };
-      TileDispatch aimed = aim(dispatch, tile, footprint);
+      TileDispatch aimed = aim(picture.dispatch, tile, picture.footprint);
       const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;
       trace_ms += trace_samples(runner, aimed, 0, half, work, advance);
       if (half > 0 && !impl.read_colors(runner.accumulation, tile, first_half)) return false;
       trace_ms += trace_samples(runner, aimed, half, settings.samples, work, advance);
       return impl.read_colors(runner.accumulation, tile, image);
     };
-    if (!trace(runner.work(dispatch), false) && !trace({}, true)) refuse_cut_loops();
-    if (settings.aov) runner.trace_aov(tile, aov_dispatch, footprint, image.aov);
+    if (!trace(runner.work(picture.dispatch), false) && !trace({}, true)) refuse_cut_loops();
+    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov);
   }
   impl.finish(start, trace_ms);
   impl.stats.samples = settings.samples;
@@ -134,7 +142,7 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
     image.error = pixel_errors(image.rgba, first_half.rgba);
     impl.stats.error = relative_error(image);
   }
-  return image;
+  return std::move(image);
 }
 
 std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings,

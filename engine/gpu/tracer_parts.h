@@ -19,11 +19,21 @@ struct Progressive {
   std::uint32_t rows = 8;      ///< of the next dispatch
 };
 
+/// An image that is traced tile by tile.
+struct Picture {
+  Dispatch dispatch, aov_dispatch;
+  Footprint footprint;
+  std::vector<Tile> tiles;
+  Image image;  ///< rgba and, where they are wanted, aov have room for all pixels
+};
+
 struct Tracer::Impl {
   Impl(const Context& context, const TracerOptions& options) : runner(context, options) {}
 
   /// Begins a call whose work is counted and timed.
   void start();
+  /// Begins an image, `means` of each of whose pixels are traced at once; binds buffers with room for a tile of it.
+  [[nodiscard]] Picture start_picture(const View& view, const Settings& settings, std::uint32_t means);
   /// Ends it.
   void finish(std::chrono::steady_clock::time_point start, double trace_ms);
   /// Reads the means of a tile back from `accumulation` into the image. Returns false where a driver cut some pixel's loops.
@@ -35,7 +45,8 @@ struct Tracer::Impl {
   std::uint32_t uploads = 0;
 };
 
-/// Adds samples [begin, end) to a tile's means, whose buffer is bound; tells `advance` of each batch. Returns the device's milliseconds.
+/// Adds samples [begin, end) to a tile's means, whose buffer is bound; tells `advance` of each batch. Returns the device's
+/// milliseconds.
 double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
                      const ThreadWork& work, const std::function<void(std::uint32_t)>& advance);
 
