@@ -76,10 +76,11 @@ Model walls() {
   recess.make = [make = recess.make](const Sampling& sampling) { return kept(make(sampling), in_niche); };
   SurfacePatch left_jamb = plastered(niche_corner, jamb, along_z);
   SurfacePatch right_jamb = plastered(niche_corner + glm::dvec3(width, 0.0, 0.0), along_z, jamb);
-  SurfacePatch arch{"walls", PI * NICHE_RADIUS * NICHE_DEPTH, [](const Sampling& sampling) {
-                 OrientedPoints half = flipped(cylinder(sampling, NICHE_RADIUS, NICHE_DEPTH, 0.0, PI));
-                 return painted(moved(half, {NICHE_X, NICHE_JAMB, BACK - NICHE_DEPTH}, UPRIGHT), plaster);
-               }};
+  SurfacePatch arch{
+      "walls", PI * NICHE_RADIUS * NICHE_DEPTH, [](const Sampling& sampling) {
+        OrientedPoints half = flipped(cylinder(sampling, NICHE_RADIUS, NICHE_DEPTH, 0.0, PI));
+        return painted(moved(half, {NICHE_X, NICHE_JAMB, BACK - NICHE_DEPTH}, UPRIGHT), plaster);
+      }};
   return {left, back, recess, left_jamb, right_jamb, arch};
 }
 
@@ -90,20 +91,20 @@ Model moulding() {
   const glm::dvec3 foot(NICHE_X, 0.0, BACK);
   const auto jamb = [=](double side) {
     return SurfacePatch{"moulding", 2.0 * PI * TUBE * NICHE_JAMB,
-                   [=](const Sampling& sampling) {
-                     return moved(cylinder(sampling, TUBE, NICHE_JAMB, 0.0, 2.0 * PI),
-                                  foot + glm::dvec3(side * NICHE_RADIUS, 0.0, 0.0));
-                   },
-                   DENSITY};
+                        [=](const Sampling& sampling) {
+                          return moved(cylinder(sampling, TUBE, NICHE_JAMB, 0.0, 2.0 * PI),
+                                       foot + glm::dvec3(side * NICHE_RADIUS, 0.0, 0.0));
+                        },
+                        DENSITY};
   };
   const SurfacePatch arch{"moulding", torus_area(NICHE_RADIUS, TUBE, -PI, PI),
-                     [=](const Sampling& sampling) {
-                       const OrientedPoints ring =
-                           moved(torus(sampling, NICHE_RADIUS, TUBE, -PI, PI), {}, UPRIGHT);
-                       const auto upper = [](glm::dvec3 position) { return position.y >= 0.0; };
-                       return moved(kept(ring, upper), foot + glm::dvec3(0.0, NICHE_JAMB, 0.0));
-                     },
-                     DENSITY};
+                          [=](const Sampling& sampling) {
+                            const OrientedPoints ring =
+                                moved(torus(sampling, NICHE_RADIUS, TUBE, -PI, PI), {}, UPRIGHT);
+                            const auto upper = [](glm::dvec3 position) { return position.y >= 0.0; };
+                            return moved(kept(ring, upper), foot + glm::dvec3(0.0, NICHE_JAMB, 0.0));
+                          },
+                          DENSITY};
   return {jamb(-1.0), jamb(1.0), arch};
 }
 

@@ -48,7 +48,7 @@ using Model = std::vector<SurfacePatch>;
 
 /// A surface of the rectangle's area for `object`.
 [[nodiscard]] SurfacePatch rectangle_surface(std::string object, glm::dvec3 corner, glm::dvec3 edge_u,
-                                        glm::dvec3 edge_v);
+                                             glm::dvec3 edge_v);
 
 /// The six faces of a box centred on the origin; normals outwards, or inwards for a room.
 [[nodiscard]] Model box(const std::string& object, glm::dvec3 size, bool inwards);

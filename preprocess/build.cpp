@@ -165,7 +165,8 @@ RootTransform fit_root(const std::vector<Cloud>& clouds) {
     using Range = tbb::blocked_range<std::size_t>;
     const auto add_discs = [&cloud](const Range& range, DiscBounds some) {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
-        some.add(cloud.place_world(i), glm::dvec3(cloud.normal[i]), cloud.radius[i] * cloud.half_extent_world);
+        some.add(cloud.place_world(i), glm::dvec3(cloud.normal[i]),
+                 cloud.radius[i] * cloud.half_extent_world);
       return some;
     };
     const auto join = [](DiscBounds a, const DiscBounds& b) { return a.add(b), a; };

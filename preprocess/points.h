@@ -121,9 +121,9 @@ struct ReadOptions {
   Progress progress{};   ///< of the stages "reading" and "sampling"; may be empty
 };
 
-/// Reads one or more files into one Input (several files: one object each, but all scans together one; glTF: its own objects),
-/// by their extensions (read/formats.h). A folder stands for the scans in it, by name. Throws Error (input_unreadable), one sentence with path, found and expected, or
-/// (interrupted) when `options.progress` says so.
+/// Reads one or more files into one Input (several files: one object each, but all scans together one; glTF: its own objects), by
+/// their extensions (read/formats.h). A folder stands for the scans in it, by name. Throws Error (input_unreadable), one sentence
+/// with path, found and expected, or (interrupted) when `options.progress` says so.
 [[nodiscard]] Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options);
 
 /// The material of an object whose file says nothing: light grey, a soft highlight, two-sided.

@@ -124,12 +124,12 @@ struct Surface {
   float roughness;      ///< perceptual: the square root of GGX's alpha, 0..1
   vec3 emission;        ///< radiance sent out, >= 0
   float specular;       ///< factor on all of the reflectance of what is no metal, 0..1
-  vec3 absorption;      ///< of dielectrics, per length (the scene: world units; the device: lattice units), >= 0
-  float transmission;   ///< of dielectrics: share of the light that is no specular reflection and goes through, 0..1
+  vec3 absorption;      ///< of dielectrics, per world unit (on the device: lattice unit), >= 0
+  float transmission;   ///< of dielectrics: share of light not mirrored that goes through, 0..1
   float coat;           ///< clearcoat, 0..1
   float coat_roughness;
-  float ior;            ///< of what is no dielectric, >= 1
-  float unused;         ///< zero
+  float ior;     ///< of what is no dielectric, >= 1
+  float unused;  ///< zero
 };
 
 SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
@@ -138,14 +138,14 @@ SPLATRAY_CONST LIGHT_RECTANGLE = 2u;
 
 /// Lights that have a size come first in their table.
 struct Light {
-  vec3 position;  ///< point, centre of a rectangle: position, root space. directional: unit vector towards the light
+  vec3 position;  ///< root space; directional: unit vector towards the light
   uint kind;      ///< LIGHT_*
-  vec3 power;     ///< directional: irradiance facing it. point: intensity, irradiance * (lattice units)^2. rectangle: radiance
-  float size;     ///< point: radius, lattice units. directional: angular radius, radians. 0: none
+  vec3 power;     ///< irradiance, intensity (of lattice units) or, rectangle, radiance
+  float size;     ///< point: radius, lattice units; directional: angular, radians; 0: none
   vec3 edge_u;    ///< rectangle: half its edges, perpendicular, lattice units; it shines towards cross(u, v)
   float share;    ///< how often a path's vertex chooses it, 0..1
   vec3 edge_v;
-  float before;   ///< sum of the shares of the lights before it
+  float before;  ///< sum of the shares of the lights before it
 };
 
 /// What a dispatch is told; std140: every vec3 is followed by a scalar. Root space unless said.
@@ -188,14 +188,14 @@ struct FrameParams {
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
   vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
   // The rest is for LOOK_LIT and its like.
-  vec3 lens_u;         ///< half axes of the lens, root units
-  float focus;         ///< distance of the sharp plane from the eye, root units
+  vec3 lens_u;  ///< half axes of the lens, root units
+  float focus;  ///< distance of the sharp plane from the eye, root units
   vec3 lens_v;
-  float reach;         ///< LOOK_AO, LOOK_SCAN: how far away something darkens a point, root units
-  uint lights_sized;   ///< lights that have a size
-  uint sky_width;      ///< cells of the sky table (engine/scene/sky_table.h)
+  float reach;        ///< LOOK_AO, LOOK_SCAN: how far away something darkens a point, root units
+  uint lights_sized;  ///< lights that have a size
+  uint sky_width;     ///< cells of the sky table (engine/scene/sky_table.h)
   uint sky_height;
-  float sky_share;     ///< how often a path's vertex chooses the environment, 0..1; the lights' shares are parts of the rest
+  float sky_share;      ///< how often a path's vertex chooses the environment, 0..1; else a light
   vec4 absorption[32];  ///< per lattice unit, inside each bit of a ray's mask
 };
 
@@ -329,8 +329,8 @@ SPLATRAY_CONST FEATURE_STRAIGHT = 131072u;  ///< light of lights passes dielectr
 SPLATRAY_CONST LOOK_PAPER = 0u;  ///< Phong, hard shadows, mirrors and glass (Goradia et al. 2010)
 SPLATRAY_CONST LOOK_LIT = 1u;    ///< path tracing
 SPLATRAY_CONST LOOK_CLAY = 2u;   ///< the same, everything diffuse and of albedo 0.8
-SPLATRAY_CONST LOOK_AO = 3u;     ///< ambient occlusion: which share of the sky, weighted by cosine, is not near something
-SPLATRAY_CONST LOOK_SCAN = 4u;   ///< the points' colours under ambient occlusion and the lights
+SPLATRAY_CONST LOOK_AO = 3u;  ///< ambient occlusion: the share of the sky, by cosine, that nothing near hides
+SPLATRAY_CONST LOOK_SCAN = 4u;  ///< the points' colours under ambient occlusion and the lights
 
 SPLATRAY_CONST PAGES_MOST = 8u;  ///< of a pool: buffers one behind the other, where one cannot be as large
 
@@ -364,9 +364,9 @@ SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
 
 #ifdef __cplusplus
-static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 64 && sizeof(RayQuery) == 48 &&
-              sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 && sizeof(FrameParams) == 1040 &&
-              sizeof(PathState) == 16 * PATH_TEXELS);
+static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 64 &&
+              sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
+              sizeof(FrameParams) == 1040 && sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif
 #endif

@@ -34,7 +34,8 @@ struct ObjectLooks {
   std::vector<Surface> surfaces;
 };
 
-/// Changes the looks of the objects named `names`, in the order given; each keeps its mask_bit. Throws Error (usage) for an object that does not exist or a name that several have.
+/// Changes the looks of the objects named `names`, in the order given; each keeps its mask_bit. Throws Error (usage) for an
+/// object that does not exist or a name that several have.
 void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
                           ObjectLooks& looks);
 

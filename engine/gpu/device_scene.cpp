@@ -6,8 +6,8 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/table/albedo_table.h"
 #include "engine/scene/surface.h"
+#include "engine/table/albedo_table.h"
 
 namespace splatray {
 

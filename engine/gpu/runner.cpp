@@ -93,7 +93,8 @@ void Runner::reserve_queues(std::uint32_t pixel_groups) {
     if (buffer->size() < bytes) *buffer = Buffer(context, bytes, USAGE, VK_FORMAT_R32G32B32A32_UINT);
 }
 
-/// One sample of a dispatch's pixels: primary rays, then as long as paths go on one ray of each, packed together (stage/paths.glsl).
+/// One sample of a dispatch's pixels: primary rays, then as long as paths go on one ray of each, packed together
+/// (stage/paths.glsl).
 double Runner::run_in_stages(const Dispatch& dispatch) {
   const std::uint32_t texels = context.properties.limits.maxTexelBufferElements;
   const std::uint32_t most =

@@ -58,8 +58,8 @@ class Tracer {
   /// As upload, but frees the scene's pools, each as soon as it is on the device, also where that then throws: a host needs
   /// the memory of a large scene once, not twice. All else of the scene stays.
   void upload_and_free(Scene& scene);
-  /// Replaces all materials (as many as the scene has objects) and, beside them, surfaces (empty: surface_of the materials), or the lights (at most LIGHTS_MOST), or the environment; no pool is
-  /// touched. Before the first set_environment all is black.
+  /// Replaces all materials (as many as the scene has objects) and, beside them, surfaces (empty: surface_of the materials), or
+  /// the lights (at most LIGHTS_MOST), or the environment; no pool is touched. Before the first set_environment all is black.
   void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces = {});
   void set_lights(std::span<const SceneLight> lights);
   void set_environment(const Environment& environment);
@@ -72,8 +72,9 @@ class Tracer {
   /// The picture of the uploaded scene.
   [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {});
   /// The picture whose error is as small as the goal asks for: regions get samples until they are good enough, at most
-  /// Settings::samples in a pixel. Two pictures of independent samples are made, and the samples of each depend on the other alone,
-  /// so that their mean is unbiased: where samples were counted until they look good, it would not be. Its error is half their difference.
+  /// Settings::samples in a pixel. Two pictures of independent samples are made, and the samples of each depend on the other
+  /// alone, so that their mean is unbiased: where samples were counted until they look good, it would not be. Its error is half
+  /// their difference.
   [[nodiscard]] Image render_until(const View& view, const Settings& settings, const Goal& goal,
                                    const Progress& progress = {});
   /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit

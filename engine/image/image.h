@@ -12,7 +12,8 @@ struct Image {
   std::uint32_t height = 0;
   std::vector<vec4> rgba;     ///< top row first; linear radiance, not premultiplied by A = coverage
   std::vector<AovPixel> aov;  ///< empty unless Settings::aov
-  /// Estimated error of each pixel, radiance: the root of the mean square over rgb; empty unless Settings::estimate_error or a Goal.
+  /// Estimated error of each pixel, radiance: the root of the mean square over rgb; empty unless Settings::estimate_error or a
+  /// Goal.
   std::vector<float> error{};
 };
 

@@ -110,8 +110,8 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 
 /// The light a scene without lights is shown in: a key light over the viewer's left shoulder.
 [[nodiscard]] std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera);
-/// Irradiance of a surface at the centre of the scene's bounding box that faces all lights, the mean of rgb; of rectangles as if all their
-/// light came from their centres.
+/// Irradiance of a surface at the centre of the scene's bounding box that faces all lights, the mean of rgb; of rectangles as if
+/// all their light came from their centres.
 [[nodiscard]] double summed_irradiance(const Scene& scene, const std::vector<SceneLight>& lights);
 /// The scene's own lights, ready to show. Lights in physical units (candela, lux up to 1e5) would drown the
 /// picture, and dim ones would leave it black: where the brightest channel of their summed irradiance at the
@@ -128,7 +128,8 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 /// FrameParams::media of these materials, and the absorption of their surfaces, which are beside them.
 void set_media(FrameParams& frame, std::span<const Material> materials, std::span<const Surface> surfaces);
 
-/// Lights in root space, as the engine uploads them: those with a size first, of these those at infinity last; how often each is chosen.
+/// Lights in root space, as the engine uploads them: those with a size first, of these those at infinity last; how often each is
+/// chosen.
 [[nodiscard]] std::vector<Light> lights_in_root(const Scene& scene, const std::vector<SceneLight>& lights);
 
 }  // namespace splatray

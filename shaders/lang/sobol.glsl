@@ -1,5 +1,6 @@
-// Numbers that fill the unit square evenly, for each of a path's decisions: two pairs of the two-dimensional Sobol sequence, shuffled and
-// Owen-scrambled by hashes (Burley 2020, "Practical Hash-based Owen Scrambling"). Integers only, so the same on every device.
+// Numbers that fill the unit square evenly, for each of a path's decisions: two pairs of the two-dimensional Sobol sequence,
+// shuffled and Owen-scrambled by hashes (Burley 2020, "Practical Hash-based Owen Scrambling"). Integers only, so the same on
+// every device.
 #ifndef SPLATRAY_SOBOL_GLSL
 #define SPLATRAY_SOBOL_GLSL
 #include "lang/random.glsl"
@@ -13,8 +14,8 @@ uint reversed(uint x) {
   return (x >> 16u) | (x << 16u);
 }
 
-/// Owen's scrambling of bits in reverse order: each depends on those below it (Laine and Karras 2011, "Stratified Sampling for Stochastic
-/// Transparency"; constants by N. Vegdahl 2021, "Building a Better LK Hash").
+/// Owen's scrambling of bits in reverse order: each depends on those below it (Laine and Karras 2011, "Stratified Sampling for
+/// Stochastic Transparency"; constants by N. Vegdahl 2021, "Building a Better LK Hash").
 uint owen_scrambled(uint x, uint seed) {
   x ^= x * 0x3d20adeau;
   x += seed;

@@ -27,8 +27,8 @@ Ray primary_ray(float x, float y, OUT(float) eye_distance) {
 }
 
 #ifdef LIT
-/// A primary ray from a point of the lens instead of its middle, to the same point of the sharp plane. `eye_distance` as primary_ray
-/// has it.
+/// A primary ray from a point of the lens instead of its middle, to the same point of the sharp plane. `eye_distance` as
+/// primary_ray has it.
 Ray through_lens(Ray ray, float eye_distance, vec2 random) {
   vec2 at = disc_sample(random);
   vec3 beside = frame.lens_u * at.x + frame.lens_v * at.y;

@@ -30,8 +30,8 @@ vec3 environment_radiance(vec3 dir) {
   return frame.environment;
 }
 
-/// What a white diffuse surface of this normal sends out under the environment alone (Ramamoorthi and Hanrahan 2001, "An Efficient
-/// Representation for Irradiance Environment Maps").
+/// What a white diffuse surface of this normal sends out under the environment alone (Ramamoorthi and Hanrahan 2001, "An
+/// Efficient Representation for Irradiance Environment Maps").
 vec3 environment_diffuse(vec3 normal) {
   vec3 n = to_environment(normal);
   vec4 sum = frame.irradiance[0] + frame.irradiance[1] * n.y + frame.irradiance[2] * n.z +

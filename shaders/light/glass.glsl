@@ -1,10 +1,11 @@
-// Rough dielectric boundaries (Walter et al. 2007, sec. 5.2 and 5.3). Radiance is per squared index of refraction, so that crossing a boundary
-// alone changes none. Needs microfacet.glsl and albedo_at(index).
+// Rough dielectric boundaries (Walter et al. 2007, sec. 5.2 and 5.3). Radiance is per squared index of refraction, so that
+// crossing a boundary alone changes none. Needs microfacet.glsl and albedo_at(index).
 #ifndef SPLATRAY_GLASS_GLSL
 #define SPLATRAY_GLASS_GLSL
 #include "light/albedo.glsl"
 
-/// What one bounce on the facets leaves of white light, sent back and through: value and probability of a direction, |cosine| included.
+/// What one bounce on the facets leaves of white light, sent back and through: value and probability of a direction, |cosine|
+/// included.
 float glass_value(vec3 to_eye, vec3 to_light, float alpha, float eta, OUT(float) pdf) {
   bool back = to_light.z > 0.0f;
   vec3 bent = to_eye * eta + to_light;

@@ -1,5 +1,5 @@
-// Lights as a path's vertex looks for them, and as a ray meets them. Needs `frame`, light_at(index), and the constants LIGHTS, SKY, SIZES,
-// ENVIRONMENT.
+// Lights as a path's vertex looks for them, and as a ray meets them. Needs `frame`, light_at(index), and the constants LIGHTS,
+// SKY, SIZES, ENVIRONMENT.
 #ifndef SPLATRAY_LIGHT_SAMPLES_GLSL
 #define SPLATRAY_LIGHT_SAMPLES_GLSL
 #include "light/sampling.glsl"
@@ -66,8 +66,8 @@ uint find_light(float at) {
   return low;
 }
 
-/// Light of one light, or of the environment, at a point. The first number chooses which, and what is left of it is used again, so that
-/// the samples of each are even, too.
+/// Light of one light, or of the environment, at a point. The first number chooses which, and what is left of it is used again,
+/// so that the samples of each are even, too.
 LightSample light_sample(vec3 position, vec2 random) {
   LightSample chosen;
   if (SKY && (!LIGHTS || random.x < frame.sky_share)) {
@@ -94,8 +94,8 @@ float met_share(float pdf, float light_pdf) {
   return pdf == 0.0f ? 1.0f : pdf * pdf / (pdf * pdf + light_pdf * light_pdf);
 }
 
-/// Light of the lights with a size that the ray meets before t_max, which becomes where. Those at infinity come last in the table, and
-/// count where nothing else is met. `pdf` as Path has it.
+/// Light of the lights with a size that the ray meets before t_max, which becomes where. Those at infinity come last in the
+/// table, and count where nothing else is met. `pdf` as Path has it.
 vec3 met_light(Ray ray, float pdf, INOUT(float) t_max) {
   vec3 light_met = vec3(0.0f);
   uint index = 0u;

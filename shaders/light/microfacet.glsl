@@ -1,5 +1,5 @@
-// Rough surfaces as small mirrors: GGX, isotropic (Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces"). Local
-// frames: +z is the surface's normal, on the eye's side.
+// Rough surfaces as small mirrors: GGX, isotropic (Walter et al. 2007, "Microfacet Models for Refraction through Rough
+// Surfaces"). Local frames: +z is the surface's normal, on the eye's side.
 #ifndef SPLATRAY_MICROFACET_GLSL
 #define SPLATRAY_MICROFACET_GLSL
 #include "light/sampling.glsl"
@@ -27,7 +27,8 @@ float ggx_visible(float cosine_eye, float cosine_light, float alpha) {
   return 0.5f / (cosine_light * ggx_stretch(cosine_eye, alpha) + cosine_eye * ggx_stretch(cosine_light, alpha));
 }
 
-/// How far below the horizon of the stretched hemisphere directions reach (Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for the Smith-GGX BRDF").
+/// How far below the horizon of the stretched hemisphere directions reach (Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for the
+/// Smith-GGX BRDF").
 float ggx_bound(vec3 to_eye, float alpha) {
   float reach = 1.0f + sqrt(to_eye.x * to_eye.x + to_eye.y * to_eye.y);
   float alpha_squared = alpha * alpha;
@@ -35,8 +36,8 @@ float ggx_bound(vec3 to_eye, float alpha) {
   return (1.0f - alpha_squared) * reach_squared / (reach_squared + alpha_squared * to_eye.z * to_eye.z);
 }
 
-/// A facet seen from the eye (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"); `bound`: ggx_bound, so that few
-/// mirror below the horizon, or 1 for all facets seen.
+/// A facet seen from the eye (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"); `bound`: ggx_bound, so
+/// that few mirror below the horizon, or 1 for all facets seen.
 vec3 ggx_facet(vec3 to_eye, float alpha, float bound, vec2 random) {
   vec3 stretched = vec3(to_eye.x * alpha, to_eye.y * alpha, to_eye.z);
   stretched *= inversesqrt(dot(stretched, stretched));
@@ -56,8 +57,8 @@ float ggx_mirrored_pdf(vec3 to_eye, vec3 half_way, float alpha, float bound) {
   return ggx_density(half_way, alpha) / (2.0f * (bound * to_eye.z + stretched));
 }
 
-/// Share of unpolarised light that a dielectric boundary reflects; 1 on total internal reflection. `eta` = ior on the ray's side / ior
-/// behind, `cosine` = |n.d|. `cosine_behind` is the refracted ray's |n.d|, 0 when there is none.
+/// Share of unpolarised light that a dielectric boundary reflects; 1 on total internal reflection. `eta` = ior on the ray's side
+/// / ior behind, `cosine` = |n.d|. `cosine_behind` is the refracted ray's |n.d|, 0 when there is none.
 float fresnel(float eta, float cosine, OUT(float) cosine_behind) {
   float sine_squared = eta * eta * max(1.0f - cosine * cosine, 0.0f);
   cosine_behind = sqrt(max(1.0f - sine_squared, 0.0f));
@@ -66,8 +67,8 @@ float fresnel(float eta, float cosine, OUT(float) cosine_behind) {
   return sine_squared >= 1.0f ? 1.0f : 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-/// (1 - cosine)^5: how far reflectance has gone from that seen face on to that seen edge on (Schlick 1994, "An Inexpensive BRDF Model for
-/// Physically-Based Rendering").
+/// (1 - cosine)^5: how far reflectance has gone from that seen face on to that seen edge on (Schlick 1994, "An Inexpensive BRDF
+/// Model for Physically-Based Rendering").
 float schlick(float cosine) {
   float x = clamp(1.0f - cosine, 0.0f, 1.0f);
   float x_squared = x * x;

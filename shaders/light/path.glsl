@@ -18,7 +18,7 @@ struct Path {
   uint cut;            ///< 1 when the bounce limit ended it
   float energy_lost;   ///< its throughput then
 #ifdef LIT
-  float pdf;           ///< of its direction, per solid angle, where a vertex before looked for lights; 0: none did; < 0: lights met count no more
+  float pdf;           ///< of its direction, per solid angle; 0: nothing looked for lights before; < 0: lights met do not count
   uint below;          ///< directions chosen below the surface
   float energy_below;  ///< their throughput
 #endif

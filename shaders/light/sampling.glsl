@@ -7,7 +7,8 @@ const float PI = 3.14159265f;
 const float TWO_PI = 6.28318531f;
 const float INVERSE_PI = 0.31830989f;
 
-/// Two unit vectors that are perpendicular to a third and to each other (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+/// Two unit vectors that are perpendicular to a third and to each other (Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited").
 struct Basis {
   vec3 u;
   vec3 v;

@@ -1,7 +1,8 @@
-// Path tracing (Kajiya 1986, "The Rendering Equation"): at each of a path's vertices light is looked for and one direction followed, both
-// joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", ch. 9). The blended
-// normal is the geometric one too: discs stand in for the smooth surface that it estimates, not the other way round. Needs surface_at(object),
-// albedo_at(index), absorption_at(bit) and the constants LOOK, LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, STAGE and those of bsdf.glsl.
+// Path tracing (Kajiya 1986, "The Rendering Equation"): at each of a path's vertices light is looked for and one direction
+// followed, both joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
+// ch. 9). The blended normal is the geometric one too: discs stand in for the smooth surface that it estimates, not the other way
+// round. Needs surface_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK, LIGHTS, SHADOWS, EMISSION, GLASS,
+// STRAIGHT, STAGE and those of bsdf.glsl.
 #ifndef SPLATRAY_TRANSPORT_GLSL
 #define SPLATRAY_TRANSPORT_GLSL
 #include "lang/sobol.glsl"
@@ -73,7 +74,8 @@ Probe sky_probe(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
   return probe;
 }
 
-/// The light found from a hit by LOOK's rays: to a light, to the sky or both, one after the other, so that programs hold one walk for them.
+/// The light found from a hit by LOOK's rays: to a light, to the sky or both, one after the other, so that programs hold one walk
+/// for them.
 void find_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
                 INOUT(Tally) tally) {
   bool sky = LOOK == LOOK_AO || LOOK == LOOK_SCAN;

@@ -99,8 +99,8 @@ bool find_work(OUT(Work) work) {
   return found;
 }
 
-/// The samples of the dispatch at a pixel; in a stage one ray of its one sample. Called once in a program: drivers take as long to read
-/// a second copy of the walk whether it is used or not.
+/// The samples of the dispatch at a pixel; in a stage one ray of its one sample. Called once in a program: drivers take as long
+/// to read a second copy of the walk whether it is used or not.
 void add_samples(INOUT(Work) work) {
   uint pixel_number = work.pixel.y * frame.width + work.pixel.x;
   vec4 mean = STAGE == STAGE_NEXT ? vec4(0.0f) : mean_before(work.place);

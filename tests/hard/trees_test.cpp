@@ -29,7 +29,8 @@ Scene mirror_torus(std::uint32_t leaf_size) {
 
 Scene room_with_glass(std::uint32_t leaf_size) {
   TestObject room{{}, test_material(0)};
-  for (const SurfacePatch& face : box("room", dvec3(4.0), true)) append(room.points, face.make({.count = 150}));
+  for (const SurfacePatch& face : box("room", dvec3(4.0), true))
+    append(room.points, face.make({.count = 150}));
   return scene_of({room, {sphere({.count = 700}, 1.0), glass_material(1.33F)}}, leaf_size);
 }
 

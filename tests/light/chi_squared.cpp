@@ -23,7 +23,8 @@ int bin_of(const glm::vec3& dir) {
   return row * COLUMNS + column;
 }
 
-/// The probability of a bin by Gauss-Legendre's rule of two points in each of its parts; `edge`: there and not there both occur in it.
+/// The probability of a bin by Gauss-Legendre's rule of two points in each of its parts; `edge`: there and not there both occur
+/// in it.
 double bin_probability(const SampledDirections& directions, int row, int column, int parts, bool& edge) {
   constexpr double POINTS[] = {0.21132486540518713, 0.7886751345948129};
   double sum = 0.0;

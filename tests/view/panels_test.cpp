@@ -50,8 +50,8 @@ bool hidden(const Document& document, std::size_t object) {
 /// All members of a document: whoever adds one must name it here.
 bool same(const Document& a, const Document& b) {
   const auto members = [](const Document& document) {
-    const auto& [loaded, looks, lights, environment, camera, settings, exposure_ev, tone, mode, attributes, up,
-                 bounds_min_world, bounds_max_world] = document;
+    const auto& [loaded, looks, lights, environment, camera, settings, exposure_ev, tone, mode, attributes,
+                 up, bounds_min_world, bounds_max_world] = document;
     return std::tie(loaded, lights, environment, camera, settings, exposure_ev, tone, mode, attributes, up,
                     bounds_min_world, bounds_max_world);
   };

@@ -40,8 +40,9 @@ class GltfMaterials {
   /// themselves, so `diffuse` leaves it out. Throws Error (input_unreadable) for an index out of range.
   [[nodiscard]] Material material(int index, bool colored);
 
-  /// The surface that material() stands for, as glTF has it, with KHR_materials_ior, _specular, _clearcoat, _transmission, _volume and
-  /// _emissive_strength; textures other than the base colour's count by their mean. Nothing for -1, and where `extras` change the material.
+  /// The surface that material() stands for, as glTF has it, with KHR_materials_ior, _specular, _clearcoat, _transmission,
+  /// _volume and _emissive_strength; textures other than the base colour's count by their mean. Nothing for -1, and where
+  /// `extras` change the material.
   [[nodiscard]] std::optional<Surface> surface(int index, bool colored);
 
   /// Linear base colour factor; white for -1.
