@@ -136,7 +136,8 @@ SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
 SPLATRAY_CONST LIGHT_POINT = 1u;
 SPLATRAY_CONST LIGHT_RECTANGLE = 2u;
 
-/// Lights that have a size come first in their table.
+/// Lights that have a size come first in their table. Behind all lights: balls (position, size) that hold what objects send out
+/// light with, `share` in proportion to its power.
 struct Light {
   vec3 position;  ///< root space; directional: unit vector towards the light
   uint kind;      ///< LIGHT_*
@@ -195,7 +196,11 @@ struct FrameParams {
   uint lights_sized;  ///< lights that have a size
   uint sky_width;     ///< cells of the sky table (engine/scene/sky_table.h)
   uint sky_height;
-  float sky_share;      ///< how often a path's vertex chooses the environment, 0..1; else a light
+  float sky_share;  ///< how often a path's vertex chooses the environment, 0..1; else a light
+  uint emitters;    ///< balls that hold what objects send out light with, in the table behind light_end
+  uint unused_0;    ///< zero, as the next two
+  uint unused_1;
+  uint unused_2;
   vec4 absorption[32];  ///< per lattice unit, inside each bit of a ray's mask
 };
 
@@ -366,7 +371,7 @@ SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixel
 #ifdef __cplusplus
 static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 64 &&
               sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
-              sizeof(FrameParams) == 1040 && sizeof(PathState) == 16 * PATH_TEXELS);
+              sizeof(FrameParams) == 1056 && sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif
 #endif

@@ -20,6 +20,7 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   bindings_.reset();
   pools_ = {};  // the device may not have room for two scenes
   cells_ = filled_cells(scene);
+  const std::vector<Emitter> emitters = find_emitters(scene, scene.surfaces);
   pools_ = Pools(context_, queue_, scene, wish_, spent);
   bindings_.emplace(context_, pools_.paging);
   outline_ = {};
@@ -30,6 +31,7 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   materials_ = scene.materials;
   set_materials(scene.materials, scene.surfaces);
   set_lights(scene.lights);
+  set_emitters(emitters);
 }
 
 void DeviceScene::set_materials(std::span<const Material> materials, std::span<const Surface> surfaces) {
@@ -59,11 +61,29 @@ void DeviceScene::set_lights(std::span<const SceneLight> lights) {
                                       " lights that have a size, expected at most " +
                                       std::to_string(LIGHTS_SIZED_MOST));
   const std::vector<Light> in_root = lights_in_root(outline_, {lights.begin(), lights.end()});
+  lights_.erase(lights_.begin(), lights_.begin() + light_count_);
+  lights_.insert(lights_.begin(), in_root.begin(), in_root.end());
   light_count_ = static_cast<std::uint32_t>(in_root.size());
   lights_sized_ = sized;
   light_irradiance_ = summed_irradiance(outline_, {lights.begin(), lights.end()});
-  reserve_storage(context_, light_buffer_, std::span(in_root).size_bytes());
-  light_buffer_.upload(queue_, std::as_bytes(std::span(in_root)));
+  upload_lights();
+}
+
+void DeviceScene::set_emitters(std::span<const Emitter> emitters) {
+  lights_.resize(light_count_);
+  for (const Emitter& emitter : emitters) {
+    Light ball{};
+    ball.position = vec3(emitter.center);
+    ball.size = static_cast<float>(emitter.radius);
+    ball.share = static_cast<float>(emitter.power);
+    lights_.push_back(ball);
+  }
+  upload_lights();
+}
+
+void DeviceScene::upload_lights() {
+  reserve_storage(context_, light_buffer_, std::span(lights_).size_bytes());
+  light_buffer_.upload(queue_, std::as_bytes(std::span(lights_)));
 }
 
 void DeviceScene::set_environment(const Environment& environment) {
@@ -128,6 +148,7 @@ FrameParams DeviceScene::picture_params(const View& view, const Settings& settin
   frame.loop_probe = LOOP_PROBE;
   set_media(frame, materials_, surfaces_);
   frame.lights_sized = lights_sized_;
+  frame.emitters = static_cast<std::uint32_t>(lights_.size()) - light_count_;
   set_sky(settings, frame);
   frame.environment =
       settings.environment_strength * (environment_texture_ ? glm::vec3(1.0F) : environment_constant_);

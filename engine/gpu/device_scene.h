@@ -11,6 +11,7 @@
 #include "engine/gpu/pools.h"
 #include "engine/image/footprint.h"
 #include "engine/image/view.h"
+#include "engine/image/emitters.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/sky_table.h"
@@ -31,6 +32,7 @@ class DeviceScene {
   void upload_and_free(Scene& scene) { upload(scene, &scene); }
   void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces);
   void set_lights(std::span<const SceneLight> lights);
+  void set_emitters(std::span<const Emitter> emitters);
   void set_environment(const Environment& environment);
   void set_up(const glm::dvec3& up) { outline_.up = up; }
 
@@ -55,6 +57,7 @@ class DeviceScene {
   /// `spent`: as Pools has it.
   void upload(const Scene& scene, Scene* spent);
   void upload_tables(const SkyTable& sky);
+  void upload_lights();
   void set_sky(const Settings& settings, FrameParams& frame) const;
 
   const Context& context_;
@@ -71,6 +74,7 @@ class DeviceScene {
   std::uint32_t surface_features_ = 0;
   MaterialContent material_content_;
   Buffer material_buffer_, surface_buffer_, light_buffer_, table_buffer_;
+  std::vector<Light> lights_;  ///< in root space; then a ball of each emitter
   std::uint32_t light_count_ = 0, lights_sized_ = 0;
   double light_irradiance_ = 0.0;  ///< at the scene's centre, facing all, the mean of rgb
   EnvironmentTexture environment_;

@@ -85,6 +85,11 @@ void Tracer::set_lights(std::span<const SceneLight> lights) {
   impl_->runner.scene.set_lights(lights);
 }
 
+void Tracer::set_emitters(std::span<const Emitter> emitters) {
+  impl_->runner.require_scene("set_emitters()");
+  impl_->runner.scene.set_emitters(emitters);
+}
+
 void Tracer::set_up(const glm::dvec3& up) { impl_->runner.scene.set_up(up); }
 
 void Tracer::set_environment(const Environment& environment) {

@@ -12,6 +12,7 @@
 #include "engine/gpu/pools.h"
 #include "engine/image/image.h"
 #include "engine/image/view.h"
+#include "engine/image/emitters.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/scene.h"
 #include "engine/vulkan/context.h"
@@ -62,6 +63,9 @@ class Tracer {
   /// the lights (at most LIGHTS_MOST), or the environment; no pool is touched. Before the first set_environment all is black.
   void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces = {});
   void set_lights(std::span<const SceneLight> lights);
+  /// Where paths look for light that objects send out; upload() sets find_emitters() of the scene. Where surfaces change, others make
+  /// pictures less noisy.
+  void set_emitters(std::span<const Emitter> emitters);
   void set_environment(const Environment& environment);
   /// Replaces the scene's up direction, about which the environment stands.
   void set_up(const glm::dvec3& up);

@@ -146,9 +146,18 @@ float used_again(float number, float share, bool below) {
   return clamp(again, 0.0f, 0.99999994f);
 }
 
-/// random.x chooses the lobe, and what is left of it, with random.y, the direction; random.z whether light is reflected or
-/// refracted.
-BsdfSample bsdf_sample(Bsdf bsdf, vec3 to_eye, vec3 random) {
+/// How often bsdf_direction chooses a direction that is no delta event's.
+float bsdf_scatters(Bsdf bsdf) {
+  float layer = bsdf.alpha < ALPHA_LEAST ? 1.0f - bsdf.layer_chosen : 1.0f;
+  float glass = glass_is_clear(bsdf.alpha, bsdf.eta) ? 0.0f : 1.0f;
+  float below = layer + (glass - layer) * bsdf.glass_chosen;
+  float coat = bsdf.coat_alpha < ALPHA_LEAST ? 0.0f : 1.0f;
+  return below + (coat - below) * bsdf.coat_chosen;
+}
+
+/// A direction, and the weight of delta events. random.x chooses the lobe, and what is left of it, with random.y, the direction; random.z
+/// whether light is reflected or refracted.
+BsdfSample bsdf_direction(Bsdf bsdf, vec3 to_eye, vec3 random) {
   float x = random.x;
   bool coat = LOBE_COAT && x < bsdf.coat_chosen;
   if (LOBE_COAT) x = used_again(x, bsdf.coat_chosen, coat);
@@ -161,8 +170,8 @@ BsdfSample bsdf_sample(Bsdf bsdf, vec3 to_eye, vec3 random) {
   BsdfSample chosen;
   chosen.dir = vec3(at, sqrt(max(1.0f - dot(at, at), 0.0f)));
   chosen.event = BSDF_REFLECTED;
-  chosen.weight = bsdf.base;
-  chosen.pdf = chosen.dir.z * INVERSE_PI;
+  chosen.weight = vec3(1.0f);
+  chosen.pdf = 0.0f;
   if (!LOBE_SPECULAR && !LOBE_METAL && !LOBE_TRANSMISSION && !LOBE_COAT) return chosen;
   float alpha = coat ? bsdf.coat_alpha : bsdf.alpha;
   bool smooth_lobe = alpha < ALPHA_LEAST && (coat || layer);
@@ -179,15 +188,27 @@ BsdfSample bsdf_sample(Bsdf bsdf, vec3 to_eye, vec3 random) {
     chosen.event = back ? BSDF_REFLECTED : BSDF_TRANSMITTED;
     chosen.weight = back ? vec3(1.0f) : bsdf.base;
   }
-  bool possible = (chosen.event == BSDF_REFLECTED) == (chosen.dir.z > 0.0f);
-  if (smooth_lobe) {
-    chosen.pdf = 0.0f;
-    chosen.event |= BSDF_DELTA;
-  } else {
+  if (smooth_lobe) chosen.event |= BSDF_DELTA;
+  return chosen;
+}
+
+/// Gives a direction chosen its probability, as bsdf_direction's, and weight; those of delta events are left.
+void bsdf_weigh(Bsdf bsdf, vec3 to_eye, INOUT(BsdfSample) chosen) {
+  bool possible = ((chosen.event & BSDF_REFLECTED) != 0u) == (chosen.dir.z > 0.0f);
+  if (!LOBE_SPECULAR && !LOBE_METAL && !LOBE_TRANSMISSION && !LOBE_COAT) {
+    chosen.weight = bsdf.base;
+    chosen.pdf = max(chosen.dir.z, 0.0f) * INVERSE_PI;
+  } else if ((chosen.event & BSDF_DELTA) == 0u) {
     vec3 value = bsdf_value(bsdf, to_eye, chosen.dir, chosen.pdf);
     chosen.weight = chosen.pdf > 0.0f ? value / chosen.pdf : vec3(0.0f);
   }
   chosen.weight = possible ? chosen.weight : vec3(0.0f);
+}
+
+/// A direction with its weight.
+BsdfSample bsdf_sample(Bsdf bsdf, vec3 to_eye, vec3 random) {
+  BsdfSample chosen = bsdf_direction(bsdf, to_eye, random);
+  bsdf_weigh(bsdf, to_eye, chosen);
   return chosen;
 }
 

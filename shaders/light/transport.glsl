@@ -7,6 +7,7 @@
 #define SPLATRAY_TRANSPORT_GLSL
 #include "lang/sobol.glsl"
 #include "light/bsdf.glsl"
+#include "light/guide.glsl"
 #include "light/light_samples.glsl"
 #include "light/material.glsl"
 #include "light/path.glsl"
@@ -40,6 +41,9 @@ Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
   return bsdf;
 }
 
+/// How often a path goes on from a hit towards objects that send out light.
+float guided_share(Bsdf bsdf) { return EMISSION && frame.emitters > 0u ? GUIDED * bsdf_scatters(bsdf) : 0.0f; }
+
 /// A ray that is worth tracing for the light it brings where nothing is in its way.
 struct Probe {
   Ray ray;     ///< ends before it starts where it brings none
@@ -52,6 +56,8 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec2 random, uin
   float pdf = 0.0f;
   vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
   vec3 value = bsdf_value(bsdf, to_eye, to_light, pdf);
+  float guided = guided_share(bsdf);
+  if (EMISSION && guided > 0.0f) pdf += guided * (guide_pdf(hit.position, chosen.dir) - pdf);
   float share = LOOK == LOOK_SCAN ? 1.0f : met_share(chosen.pdf, pdf);
   Probe probe;
   probe.light = value * chosen.radiance * share;
@@ -98,13 +104,37 @@ void find_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, 
   } while (to_lights);
 }
 
-/// Has the path go on from a hit, in a direction that the surface chooses.
+/// A direction in which a path goes on from a hit, in the hit's frame: one that the surface chooses or one towards light, both with the
+/// probability of either.
+BsdfSample next_direction(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random) {
+  float share = guided_share(bsdf);
+  bool guided = random.x < share;
+  if (EMISSION) random.x = used_again(random.x, share, guided);
+  BsdfSample chosen = bsdf_direction(bsdf, to_eye, random);
+  if (EMISSION && guided) {
+    vec3 dir = guide_sample(hit.position, random.z, random.xy);
+    chosen.dir = vec3(dot(dir, basis.u), dot(dir, basis.v), dot(dir, hit.normal));
+    chosen.event = chosen.dir.z > 0.0f ? BSDF_REFLECTED : BSDF_TRANSMITTED;
+  }
+  bsdf_weigh(bsdf, to_eye, chosen);
+  if (EMISSION && (chosen.event & BSDF_DELTA) != 0u) {
+    chosen.weight /= 1.0f - share;
+  } else if (EMISSION && share > 0.0f) {
+    vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
+    float either = chosen.pdf + share * (guide_pdf(hit.position, dir) - chosen.pdf);
+    chosen.weight *= either > 0.0f ? chosen.pdf / either : 0.0f;
+    chosen.pdf = either;
+  }
+  return chosen;
+}
+
+/// Has the path go on from a hit.
 void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
-  BsdfSample chosen = bsdf_sample(bsdf, to_eye, random.xyz);
+  BsdfSample chosen = next_direction(hit, bsdf, basis, to_eye, random.xyz);
   vec3 throughput = path.throughput * chosen.weight;
   float most = max(throughput.x, max(throughput.y, throughput.z));
   path.alive = most > 0.0f;
-  if (COUNTERS && !path.alive && max(bsdf.base.x, max(bsdf.base.y, bsdf.base.z)) > 0.0f) {
+  if (COUNTERS && !path.alive && (chosen.event & BSDF_REFLECTED) != 0u && max(bsdf.base.x, max(bsdf.base.y, bsdf.base.z)) > 0.0f) {
     path.below = 1u;
     path.energy_below = (path.throughput.x + path.throughput.y + path.throughput.z) / 3.0f;
   }

@@ -85,15 +85,13 @@ TEST_F(Adaptive, EndsWhereNothingIsToBeSeen) {
 /// pictures be too dark on the mean, here by 3.5 %: balls that glow, each a tenth of a pixel wide. The halves' counts still hang together by the rounds
 /// before; the 1.0 +- 0.5 % found are within the bound, but may be that.
 TEST_F(Adaptive, HardlyDarkensWhatIsRare) {
-  OrientedPoints balls = sphere({.count = 24, .even = true, .seed = 3}, 0.004);
-  const std::size_t one = balls.position.size();
-  for (int ball = 1; ball < 24; ++ball) {
-    const glm::dvec3 away(std::fmod(ball * 0.618, 1.0) * 1.6 - 0.8, std::fmod(ball * 0.382, 1.0) * 1.2 - 0.6,
-                          0.0);
-    for (std::size_t i = 0; i < one; ++i) {
-      balls.position.push_back(balls.position[i] + away);
-      balls.normal.push_back(balls.normal[i]);
-    }
+  OrientedPoints balls;
+  for (int ball = 0; ball < 24; ++ball) {
+    OrientedPoints one = sphere({.count = 24, .even = true, .seed = 3}, 0.004);
+    for (glm::dvec3& position : one.position)
+      position +=
+          glm::dvec3(std::fmod(ball * 0.618, 1.0) * 1.6 - 0.8, std::fmod(ball * 0.382, 1.0) * 1.2 - 0.6, 0.0);
+    append(balls, one);
   }
   Scene glowing = scene_of({{balls, test_material(MATERIAL_TWO_SIDED)}});
   glowing.surfaces = surfaces_of(glowing);

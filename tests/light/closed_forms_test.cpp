@@ -2,72 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
-#include "data/shapes.h"
-#include "engine/gpu/tracer.h"
-#include "engine/scene/environment.h"
-#include "tests/trace/scenes.h"
+#include "tests/light/lit.h"
 
 namespace splatray::testing {
 namespace {
-
-using glm::dvec3;
-using std::numbers::pi;
-
-Material grey(float albedo) {
-  Material material = test_material(MATERIAL_TWO_SIDED);
-  material.diffuse = vec3(albedo);
-  material.specular = material.mirror = 0.0F;
-  return material;
-}
-
-Environment constant(float radiance) { return {0, 0, {}, vec3(radiance)}; }
-
-Settings lit(std::uint32_t samples) {
-  Settings settings;
-  settings.look = LOOK_LIT;
-  settings.samples = samples;
-  settings.max_bounces = 4096;
-  settings.counters = true;
-  return settings;
-}
-
-/// Mean of the red channel over pixels whose centre is covered, with its standard error.
-struct Mean {
-  double value = 0.0, error = 0.0;
-};
-Mean mean_of(const Image& image) {
-  double sum = 0.0, squares = 0.0, count = 0.0;
-  for (const vec4& pixel : image.rgba) {
-    if (pixel.w < 1.0F) continue;
-    sum += double(pixel.x);
-    squares += double(pixel.x) * double(pixel.x);
-    ++count;
-  }
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
-}
-
-/// A scene on a device, and pictures of it.
-class Lit : public ::testing::Test {
- protected:
-  void show(const Scene& scene, const Environment& environment, const std::vector<SceneLight>& lights) {
-    tracer_.upload(scene);
-    tracer_.set_environment(environment);
-    tracer_.set_lights(lights);
-  }
-  Image picture(const Camera& camera, const Settings& settings, std::uint32_t edge) {
-    const Image image = tracer_.render({camera, edge, edge}, settings);
-    EXPECT_EQ(tracer_.stats().counters[COUNT_NON_FINITE], 0U);
-    EXPECT_EQ(tracer_.stats().counters[COUNT_LOST], 0U);
-    return image;
-  }
-  void TearDown() override { EXPECT_EQ(context_.validation_messages(), 0U); }
-
-  Context context_;
-  Tracer tracer_{context_};
-};
 
 Scene ball(float albedo, std::size_t splats) {
   return scene_of({{sphere({.count = splats, .even = true, .seed = 3}, 1.0), grey(albedo)}});
@@ -136,20 +75,6 @@ TEST_F(Lit, IntegratingSphere) {
     RecordProperty("albedo_" + std::to_string(int(100.0 * albedo)), std::to_string(mean.value));
   }
 }
-
-/// A plane of splats, 4 x 4 in y = 0, seen from straight above at its middle.
-class Plane : public Lit {
- protected:
-  Mean irradiance(const std::vector<SceneLight>& lights, std::uint32_t samples,
-                  const Environment& environment = constant(0.0F)) {
-    const SurfacePatch floor =
-        rectangle_surface("floor", {-2.0, 0.0, 2.0}, {4.0, 0.0, 0.0}, {0.0, 0.0, -4.0});
-    show(scene_of({{floor.make({.count = 4000, .even = true}), grey(1.0F)}}), environment, lights);
-    const Camera above{dvec3(0.0, 1.5, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 30.0, 0.001};
-    const Mean radiance = mean_of(picture(above, lit(samples), 4));
-    return {pi * radiance.value, pi * radiance.error};
-  }
-};
 
 TEST_F(Plane, LightWithoutSize) {
   EXPECT_NEAR(irradiance({{LIGHT_POINT, {0.0, 2.0, 0.0}, vec3(8.0F)}}, 1).value, 2.0, 1e-3);

@@ -55,6 +55,7 @@ void LiveScene::match(const Document& document, ViewMode mode) {
 void LiveScene::match_looks(const ObjectLooks& looks) {
   if (same_looks(looks, looks_)) return;
   tracer_.set_materials(looks.materials, looks.surfaces);
+  tracer_.set_emitters(find_emitters(*scene_, looks.surfaces));
   looks_ = looks;
 }
 

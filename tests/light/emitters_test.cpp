@@ -1,0 +1,123 @@
+// Light that objects send out: where it is looked for, and that it is all found, against closed forms and against chance.
+#include "engine/image/emitters.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/scene/splat.h"
+#include "engine/scene/surface.h"
+#include "tests/light/lit.h"
+
+namespace splatray::testing {
+namespace {
+
+OrientedPoints ball_at(const dvec3& center, double radius, std::size_t splats) {
+  OrientedPoints points = sphere({.count = splats, .even = true, .seed = 5}, radius);
+  for (dvec3& position : points.position) position += center;
+  return points;
+}
+
+/// The last object sends out this radiance.
+Scene glowing(const std::vector<TestObject>& objects, const vec3& radiance) {
+  Scene scene = scene_of(objects);
+  scene.surfaces = surfaces_of(scene);
+  scene.surfaces.back().emission = radiance;
+  return scene;
+}
+
+std::vector<Emitter> emitters_of(const OrientedPoints& points) {
+  const Scene scene = glowing({{points, grey(0.0F)}}, vec3(1.0F));
+  const std::vector<Emitter> emitters = find_emitters(scene, scene.surfaces);
+  double power = 0.0, all = 0.0;
+  for (const Emitter& emitter : emitters) power += emitter.power;
+  for (const uvec4& words : scene.data_pool) {
+    const Splat splat = unpack_splat(words);
+    all += pi * splat.radius_squared;
+    EXPECT_TRUE(std::any_of(emitters.begin(), emitters.end(), [&](const Emitter& emitter) {
+      return glm::distance(emitter.center, splat.center) + std::sqrt(splat.radius_squared) <=
+             emitter.radius * (1.0 + 1e-12);
+    }));
+  }
+  EXPECT_NEAR(power, all, 1e-9 * all);
+  return emitters;
+}
+
+TEST(Emitters, DividedWhereThatHelps) {
+  EXPECT_EQ(emitters_of(ball_at({}, 1.0, 500)).size(), 1U);
+  OrientedPoints lamps = ball_at({-5.0, 0.0, 0.0}, 0.5, 200);
+  append(lamps, ball_at({5.0, 0.0, 0.0}, 0.5, 200));
+  EXPECT_EQ(emitters_of(lamps).size(), 2U);
+  OrientedPoints row;
+  for (int i = 0; i < 40; ++i) append(row, ball_at({double(i), 0.0, 0.0}, 0.1, 50));
+  EXPECT_GE(emitters_of(row).size(), 8U);
+  EXPECT_LE(emitters_of(row).size(), EMITTERS_MOST);
+}
+
+TEST(Emitters, OnlyOfWhatIsSeenAndSendsOutLight) {
+  Scene scene = glowing({{ball_at({}, 1.0, 50), grey(0.5F)}, {ball_at({3.0, 0.0, 0.0}, 0.1, 50), grey(0.5F)}},
+                        vec3(1.0F));
+  EXPECT_TRUE(find_emitters(scene, {}).empty());
+  EXPECT_EQ(find_emitters(scene, scene.surfaces).size(), 1U);
+  scene.materials.back().flags |= MATERIAL_HIDDEN;
+  EXPECT_TRUE(find_emitters(scene, scene.surfaces).empty());
+}
+
+/// A lamp above a plane.
+class Lamp : public Plane {
+ protected:
+  static constexpr double RADIUS = 0.2, RADIANCE = 10.0;
+  static constexpr dvec3 CENTER{0.5, 1.0, 0.0};
+
+  /// Its irradiance at the plane's middle.
+  static double truth() {
+    const double distance = glm::length(CENTER);
+    return pi * RADIANCE * RADIUS * RADIUS / (distance * distance) * CENTER.y / distance;
+  }
+  void show_lamp(const Environment& environment, const std::vector<SceneLight>& lights) {
+    show(glowing({floor(), {ball_at(CENTER, RADIUS, 4000), grey(0.0F)}}, vec3(float(RADIANCE))), environment,
+         lights);
+  }
+};
+
+TEST_F(Lamp, GivesWhatItShould) {
+  show_lamp(constant(0.0F), {});
+  const Mean found = irradiance_shown(1024);
+  // Splats of a ball of 4000 stand out by less than a thousandth of its radius.
+  EXPECT_NEAR(found.value, truth(), 3e-3 * truth() + 3.0 * found.error);
+  EXPECT_LT(found.error, 5e-3 * truth());
+}
+
+TEST_F(Lamp, IsLookedFor) {
+  show_lamp(constant(0.0F), {});
+  const Mean guided = irradiance_shown(256);
+  tracer_.set_emitters({});
+  const Mean by_chance = irradiance_shown(256);
+  EXPECT_LT(5.0 * guided.error, by_chance.error);
+  EXPECT_NEAR(by_chance.value, truth(), 4.0 * by_chance.error);
+}
+
+/// The sum of each: no light counts twice or is missed where several ways find it.
+TEST_F(Lamp, BesideOtherLights) {
+  SceneLight light{LIGHT_POINT, {-0.5, 1.2, 0.3}, vec3(2.0F)};
+  light.size = 0.3;
+  const Environment sky{64, 32, std::vector<glm::vec3>(64 * 32, vec3(0.25F)), vec3(0.0F)};
+  const Mean others = irradiance({light}, 1024, sky);
+  show_lamp(sky, {light});
+  const Mean all = irradiance_shown(1024);
+  // The lamp, black but for its light, hides a part of the sky: as much as it would light at that radiance.
+  const double expected = others.value + truth() * (1.0 - 0.25 / RADIANCE);
+  EXPECT_NEAR(all.value, expected, 3e-3 * expected + 3.0 * (all.error + others.error));
+}
+
+TEST_F(Lamp, OverAMirrorWithAMatteBase) {
+  Scene scene = glowing({floor(), {ball_at(CENTER, RADIUS, 4000), grey(0.0F)}}, vec3(float(RADIANCE)));
+  scene.surfaces.front().specular = 1.0F;
+  scene.surfaces.front().roughness = 0.0F;
+  show(scene, constant(0.0F), {});
+  const Mean guided = irradiance_shown(1024);
+  tracer_.set_emitters({});
+  const Mean by_chance = irradiance_shown(4096);
+  EXPECT_NEAR(guided.value, by_chance.value, 3.0 * (guided.error + by_chance.error));
+}
+
+}  // namespace
+}  // namespace splatray::testing
