@@ -64,7 +64,7 @@ void bsdf_seen(INOUT(Bsdf) bsdf, float cosine) {
       vec3 fresnel_mean = bsdf.base + (vec3(1.0f) - bsdf.base) * SCHLICK_MEAN;
       float seen_mean = means.x + means.y;
       vec3 kept = fresnel_mean * fresnel_mean * seen_mean / (vec3(1.0f) - fresnel_mean * (1.0f - seen_mean));
-      float hidden = bsdf.metallic * (1.0f - factors.x - factors.y);
+      float hidden = bsdf.metallic * max(1.0f - factors.x - factors.y, 0.0f);
       bsdf.again = kept * (hidden / max(1.0f - seen_mean, 1e-7f));
       scattered += mean_of(kept) * hidden;
       bsdf.mirrored += (bsdf.base * factors.x + vec3(factors.y)) * bsdf.metallic;
@@ -92,7 +92,7 @@ vec3 bsdf_value(Bsdf bsdf, vec3 to_eye, vec3 to_light, OUT(float) pdf) {
   if (LOBE_SPECULAR || LOBE_METAL || LOBE_TRANSMISSION) {
     vec2 factors = albedo_factors(cosine, bsdf.alpha);
     value *= vec3(1.0f) - bsdf.f0 * factors.x - vec3(bsdf.f90 * factors.y);
-    if (LOBE_METAL) value += bsdf.again * (1.0f - factors.x - factors.y);
+    if (LOBE_METAL) value += bsdf.again * max(1.0f - factors.x - factors.y, 0.0f);
   }
   value *= cosine * INVERSE_PI;
   if (LOBE_SPECULAR || LOBE_METAL) {

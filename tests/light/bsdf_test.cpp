@@ -129,6 +129,21 @@ TEST(Bsdf, WeightTimesProbabilityIsValue) {
     }
 }
 
+TEST(Bsdf, NothingIsNegativeOrNotFinite) {
+  for (const Case& tested : white_cases())
+    for (std::uint32_t i = 0; i < 400; ++i) {
+      const glm::vec4 random = twin_sobol_sample(3, i, 0, 1);
+      const glm::vec3 to_eye = direction(i % 4 == 0 ? 1e-6F : random.x);
+      const glm::vec3 to_light = direction(i % 5 == 0 ? 1e-6F : 2.0F * random.y - 1.0F, 6.28F * random.z);
+      const TwinValue value = twin_bsdf_value(tested.surface, to_eye, to_light);
+      EXPECT_TRUE(value.value.x >= 0.0F && value.value.x < 1e30F) << tested.name << ": " << value.value.x;
+      EXPECT_TRUE(value.pdf >= 0.0F && value.pdf < 1e30F) << tested.name << ": " << value.pdf;
+      const TwinSample chosen = twin_bsdf_sample(tested.surface, to_eye, glm::vec3(random));
+      EXPECT_TRUE(chosen.weight.x >= 0.0F && chosen.weight.x < 1e30F)
+          << tested.name << ": " << chosen.weight.x;
+    }
+}
+
 TEST(Bsdf, LayersAndMetalsAreReciprocal) {
   for (const Case& tested : white_cases()) {
     if (tested.surface.coat > 0.0F || tested.surface.transmission > 0.0F) continue;
