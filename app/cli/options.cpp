@@ -71,6 +71,9 @@ void add_output_options(OptionList& list, RenderOptions& options) {
   add_number(list, "--time", options.seconds_goal, 0.0, 1e9,
              "the best picture in so many seconds of tracing, instead of --samples; beside --error the end "
              "of it; default 0 = none");
+  list.add_switch(
+      "--denoise", options.denoise,
+      "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of our own");
   add_path(list, "--stats-json", options.stats_json, "write times, counts, bytes and device here");
   add_path(list, "--reference", options.reference, "picture to compare with; exit 1 when they differ");
   add_number(list, "--reference-threshold", options.reference_threshold, 0.0, 1.0,
@@ -155,6 +158,12 @@ void check_together(const RenderOptions& options) {
   if (picture.camera_up && !picture.eye) fail("found --camera-up without --eye, expected both");
   if (options.aov_error && !options.has_goal() && picture.settings.samples < 2)
     fail("found --aov error with one sample, expected at least two");
+  if (options.denoise && !options.has_goal() && picture.settings.samples < 2)
+    fail("found --denoise with one sample, expected at least two");
+  if (options.denoise && picture.look == LOOK_PAPER)
+    fail("found --denoise with --look paper, expected a look that has noise");
+  if (options.denoise && !options.reference.empty())
+    fail("found --denoise with --reference, expected pictures compared as they were traced");
   check_sequence(options);
 }
 

@@ -96,6 +96,7 @@ struct RenderOptions {
 
   /// Whether a picture is traced until it is good enough, instead of by Settings::samples.
   [[nodiscard]] bool has_goal() const { return error_goal > 0.0 || seconds_goal > 0.0; }
+  bool denoise = false;
   std::optional<double> exposure_ev = 0.0;  ///< stops, PNG only; unset = automatic
   bool aov_depth = false, aov_normal = false, aov_id = false, aov_error = false;
   std::filesystem::path stats_json;    ///< empty = none

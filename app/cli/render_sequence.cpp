@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "app/cli/denoise.h"
 #include "app/cli/picture.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
@@ -32,6 +33,8 @@ void make_picture(const Run& run, const Camera& camera, const SequenceFrame& fra
     return !interrupted();
   };
   Settings settings = choose_settings(run.loaded.scene, run.options.picture);
+  settings.aov = settings.aov || run.options.denoise;
+  settings.estimate_error = settings.estimate_error || run.options.denoise;
   if (run.options.has_goal()) {
     settings.samples = GOAL_SAMPLES;
     Goal goal{.error = run.options.error_goal};
@@ -40,11 +43,19 @@ void make_picture(const Run& run, const Camera& camera, const SequenceFrame& fra
   } else {
     record.last = run.tracer.render(view, settings, progress);
   }
-  run.progress.clear();
+  const RenderStats stats = run.tracer.stats();
+  Metadata metadata = picture_metadata(run.options, run.loaded.scene, view, run.context);
+  double denoise_ms = 0.0;
   Stopwatch watch;
-  write_output(run.options, record.last, picture_metadata(run.options, run.loaded.scene, view, run.context),
-               frame.output);
-  record.made.push_back({frame, lights.size(), run.tracer.stats(), watch.lap_ms()});
+  run.progress.clear();
+  if (run.options.denoise) {
+    const std::string denoiser = remove_noise(run.tracer, view, settings, record.last);
+    metadata.emplace_back("denoised", denoiser);
+    denoise_ms = watch.lap_ms();
+    if (!run.options.quiet) std::fprintf(stderr, "splatray-render: denoised by %s\n", denoiser.c_str());
+  }
+  write_output(run.options, record.last, metadata, frame.output);
+  record.made.push_back({frame, lights.size(), stats, watch.lap_ms(), denoise_ms});
 }
 
 }  // namespace

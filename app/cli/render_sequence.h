@@ -15,6 +15,7 @@ struct PictureRecord {
   std::size_t lights = 0;
   RenderStats stats;
   double write_ms = 0.0;
+  double denoise_ms = 0.0;  ///< 0 without --denoise
 };
 
 struct SequenceRecord {

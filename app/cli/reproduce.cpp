@@ -24,6 +24,7 @@ RenderOptions looks_only(const RenderOptions& options) {
   looks.aov_error = options.aov_error;
   looks.error_goal = options.error_goal;
   looks.seconds_goal = options.seconds_goal;
+  looks.denoise = options.denoise;
   return looks;
 }
 

@@ -58,6 +58,7 @@ PictureRecord sum_of(const std::vector<PictureRecord>& pictures) {
     sum.stats.trace_ms += picture.stats.trace_ms;
     sum.stats.wall_ms += picture.stats.wall_ms;
     sum.write_ms += picture.write_ms;
+    sum.denoise_ms += picture.denoise_ms;
     sum.stats.error = std::max(sum.stats.error, picture.stats.error);
     sum.stats.samples = std::max(sum.stats.samples, picture.stats.samples);
     for (std::size_t i = 0; i < COUNTER_COUNT; ++i) sum.stats.counters[i] += picture.stats.counters[i];
@@ -104,6 +105,7 @@ void write_stats(const RenderOptions& options, const LoadedScene& loaded, const 
       {"bytes", bytes_json(bytes)}};
   if (loaded.build) json["build"] = Json::parse(build_stats_json(*loaded.build));
   if (settings.counters) json["counters"] = counters_json(sum.stats.counters);
+  if (options.denoise) json["times_ms"]["denoise"] = sum.denoise_ms;
   if (options.sequence.many()) json["frames"] = frames_json(record.made);
   write_text_file(json.dump(2) + '\n', options.stats_json);
 }

@@ -51,11 +51,13 @@ namespace {
 /// FEATURE_* of a look other than LOOK_PAPER.
 std::uint32_t light_features(const SceneContent& content, const Settings& settings) {
   const bool all = settings.look == LOOK_LIT, traces = all || settings.look == LOOK_CLAY;
-  const bool lights = content.lights && settings.look != LOOK_AO, sky = content.sky && traces;
+  const bool colored = all || settings.look == LOOK_SCAN || settings.look == LOOK_BASE;
+  const bool lights = content.lights && settings.look != LOOK_AO && settings.look != LOOK_BASE,
+             sky = content.sky && traces;
   std::uint32_t features = all ? content.surfaces : FEATURE_DIFFUSE;
   const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
   add(all && content.materials.glass, FEATURE_GLASS);
-  add(content.colors && (all || settings.look == LOOK_SCAN), FEATURE_COLORS);
+  add(content.colors && colored, FEATURE_COLORS);
   add(lights, FEATURE_LIGHTS);
   add(lights && content.sized_lights, FEATURE_SIZES);
   add(sky, FEATURE_SKY);

@@ -189,7 +189,8 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
   if (LIGHTS || SKY || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
     find_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, tally);
-  if (LOOK == LOOK_AO || LOOK == LOOK_SCAN) {
+  if (LOOK == LOOK_BASE) path.radiance = bsdf.base;
+  if (LOOK == LOOK_AO || LOOK == LOOK_SCAN || LOOK == LOOK_BASE) {
     path.alive = false;
   } else {
     go_on(path, hit, bsdf, basis, to_eye, sobol_sample(pixel, sample_index, 2u + 2u * path.bounce, frame.seed));

@@ -84,8 +84,7 @@ bool find_work(OUT(Work) work) {
   if (STAGE == STAGE_NEXT) {
     uint queued = group_number() * GROUP_SIZE + gl_LocalInvocationIndex;
     found = queued < frame.path_count;
-    if (!found) return false;
-    work.path = queued_path(queued, work.place);
+    work.path = queued_path(min(queued, frame.path_count - 1u), work.place);
     uint index = work.place - frame.tile_first;
     in_tile.y = index / frame.tile_width;
     in_tile.x = index - in_tile.y * frame.tile_width;

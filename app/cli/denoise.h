@@ -1,0 +1,15 @@
+/// --denoise: pictures of few samples without their noise.
+#pragma once
+#include <string>
+
+#include "engine/gpu/tracer.h"
+
+namespace splatray {
+
+/// Takes the noise out of a picture that the tracer made of this view with these settings, which have aov and estimate_error: by
+/// Open Image Denoise 2 where that is installed, else by our own filter (engine/image/denoise.h). Returns which, as it is told to
+/// the user. Throws Error (failed) with Open Image Denoise's own words.
+[[nodiscard]] std::string remove_noise(Tracer& tracer, const View& view, const Settings& settings,
+                                       Image& image);
+
+}  // namespace splatray
