@@ -89,7 +89,7 @@ Scene describe_scene(Input& input, const BuildParams& params) {
 std::vector<Cloud> make_clouds(Input& input, BuildStats& stats) {
   std::vector<Cloud> clouds;
   for (InputObject& object : input.objects) {
-    const bool measured = !object.oriented && !(object.surface_area > 0.0);
+    const bool measured = object.measured && !object.oriented && !(object.surface_area > 0.0);
     clouds.push_back(make_cloud(std::move(object.points), object.oriented, stats));
     clouds.back().measured = measured;
   }

@@ -79,6 +79,7 @@ struct InputObject {
   std::optional<Surface> surface{};  ///< what path tracing sees; unset: surface_of(material)
   bool oriented =
       false;  ///< normals are known to point outwards (closed mesh); else they may be turned either way
+  bool measured = true;  ///< points without a surface and sides known are a scanner's, with strays and noise
   double surface_area = 0.0;  ///< of the source mesh, world units^2; 0 = unknown
   std::uint64_t samples = 0;  ///< points the scene asks for on this object's meshes; 0 = it does not say
   std::vector<Mesh> meshes;   ///< source triangles in world space, kept only when ReadOptions::keep_meshes

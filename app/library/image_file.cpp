@@ -112,17 +112,45 @@ bool has_bytes(std::ifstream& file, std::streamoff at, const std::string& bytes)
 
 constexpr const char* PREFIX = "splatray.";  ///< of the names of our metadata
 
-/// Encodes in memory, as OpenImageIO does not report every failed write to a file.
-void write_picture(PictureHeader header, const Metadata& metadata, const void* values, const char* format,
-                   const std::filesystem::path& path) {
-  for (const auto& [name, value] : metadata) header.attributes.emplace_back(PREFIX + name, value);
-  AtomicFile file(path);
+/// A picture's file in memory; `name` is what to call it where that fails.
+std::vector<unsigned char> encode(PictureHeader header, const Metadata& metadata, const void* values,
+                                  const char* format, const std::string& name) {
+  for (const auto& [key, value] : metadata) header.attributes.emplace_back(PREFIX + key, value);
   std::vector<unsigned char> bytes;
   std::string reason;
   if (!codec().encode(format, header, values, bytes, reason))
-    throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
+    throw Error(ExitCode::failed, "cannot write " + name + ": " + reason);
+  return bytes;
+}
+
+/// Encodes in memory, as OpenImageIO does not report every failed write to a file.
+void write_picture(PictureHeader header, const Metadata& metadata, const void* values, const char* format,
+                   const std::filesystem::path& path) {
+  AtomicFile file(path);
+  const auto bytes = encode(std::move(header), metadata, values, format, "'" + path.string() + "'");
   file.write(bytes.data(), bytes.size());
   file.commit();
+}
+
+/// What a PNG's file holds beside its metadata.
+struct PngContents {
+  PictureHeader header;
+  std::vector<std::uint8_t> bytes;
+};
+
+PngContents png_contents(const DisplayImage& image) {
+  PngContents contents{{static_cast<int>(image.width),
+                        static_cast<int>(image.height),
+                        1,
+                        {"R", "G", "B"},
+                        true,
+                        {{"oiio:ColorSpace", "sRGB"}}},
+                       {}};
+  contents.bytes.reserve(3 * image.rgb.size());
+  for (const vec3& pixel : image.rgb)
+    for (int channel = 0; channel < 3; ++channel)
+      contents.bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * pixel[channel])));
+  return contents;
 }
 
 }  // namespace
@@ -130,15 +158,13 @@ void write_picture(PictureHeader header, const Metadata& metadata, const void* v
 void load_image_codec() { static_cast<void>(codec()); }
 
 void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(3 * image.rgb.size());
-  for (const vec3& pixel : image.rgb)
-    for (int channel = 0; channel < 3; ++channel)
-      bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * pixel[channel])));
-  PictureHeader header{
-      static_cast<int>(image.width), static_cast<int>(image.height), 1, {"R", "G", "B"}, true,
-      {{"oiio:ColorSpace", "sRGB"}}};
-  write_picture(std::move(header), metadata, bytes.data(), "png", path);
+  PngContents contents = png_contents(image);
+  write_picture(std::move(contents.header), metadata, contents.bytes.data(), "png", path);
+}
+
+std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata& metadata) {
+  PngContents contents = png_contents(image);
+  return encode(std::move(contents.header), metadata, contents.bytes.data(), "png", "a PNG");
 }
 
 void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,

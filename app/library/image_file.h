@@ -21,6 +21,9 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;
 /// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); then an older file of that name is as it was.
 void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path);
 
+/// The bytes that write_png writes.
+[[nodiscard]] std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata& metadata);
+
 /// Writes linear float EXR. Throws Error (failed) as write_png does.
 void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
                const std::filesystem::path& path);

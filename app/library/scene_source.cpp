@@ -137,10 +137,16 @@ std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOp
                                                      : scene_light(loaded.scene, light));
     return lights;
   }
-  if (!loaded.scene.lights.empty()) return exposed_lights(loaded.scene);
-  if (!loaded.environment_name.empty()) return {};
-  std::vector<SceneLight> lights = default_lights(loaded.scene, camera);
-  if (choose_look(loaded.scene, picture) == LOOK_SCAN) lights.front() = scan_light(lights.front());
+  return own_lights(loaded.scene, !loaded.environment_name.empty(), choose_look(loaded.scene, picture),
+                    camera);
+}
+
+std::vector<SceneLight> own_lights(const Scene& scene, bool environment_named, std::uint32_t look,
+                                   const Camera& camera) {
+  if (!scene.lights.empty()) return exposed_lights(scene);
+  if (environment_named) return {};
+  std::vector<SceneLight> lights = default_lights(scene, camera);
+  if (look == LOOK_SCAN) lights.front() = scan_light(lights.front());
   return lights;
 }
 

@@ -31,7 +31,11 @@ struct LoadListener {
 /// The camera the options ask for: --eye, else the scene's own, else a view of the whole scene.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const PictureOptions& picture);
 
-/// The lights: --light and --sun, else the scene's, else (when no environment is named) the key light.
+/// The lights a scene is shown in that nothing else is said of: its own, else the key light of a look (LOOK_*), none where an environment
+/// is named.
+[[nodiscard]] std::vector<SceneLight> own_lights(const Scene& scene, bool environment_named,
+                                                 std::uint32_t look, const Camera& camera);
+/// The lights: --light and --sun, else own_lights.
 [[nodiscard]] std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
                                                     const Camera& camera);
 

@@ -12,10 +12,9 @@ namespace splatray {
 namespace {
 
 constexpr double DEG = std::numbers::pi / 180.0;
-constexpr double AZIMUTH_DEG = 27.0;    ///< from the front towards the scene's right
-constexpr double ELEVATION_DEG = 17.0;  ///< above the horizon
-constexpr double OBLIQUE_DEG = 35.0;    ///< the same for terrain
-constexpr double OUTERMOST = 0.01;      ///< share of the points that a robust size leaves out at each end
+constexpr double OBLIQUE_DEG = 35.0;   ///< elevation of a look at terrain
+constexpr double STEEPEST_DEG = 89.9;  ///< beyond it the scene's up tells no picture's top
+constexpr double OUTERMOST = 0.01;     ///< share of the points that a robust size leaves out at each end
 constexpr double FLAT = 0.3;        ///< height over width below which a scan is looked at from further above
 constexpr double EYE_SHARE = 0.45;  ///< height of the eye inside, over the scan's height
 constexpr double CENTRAL =
@@ -54,16 +53,6 @@ struct AxisFit {
   [[nodiscard]] double offset() const { return 0.5 * (positive - negative); }
   [[nodiscard]] double distance() const { return 0.5 * (positive + negative) / slope; }
 };
-
-Camera camera_from_above(const Scene& scene, double aspect, double fov_y_deg, double elevation_deg) {
-  const glm::dmat3 axes = upright_axes(scene.up);
-  const glm::dvec3 level = std::cos(AZIMUTH_DEG * DEG) * axes[2] + std::sin(AZIMUTH_DEG * DEG) * axes[0];
-  const glm::dvec3 back = std::cos(elevation_deg * DEG) * level + std::sin(elevation_deg * DEG) * axes[1];
-  const glm::dvec3 right = glm::normalize(glm::cross(axes[1], back));
-  Camera camera = framing_camera(scene, aspect, fov_y_deg, {right, glm::cross(back, right), back});
-  camera.up = axes[1];
-  return camera;
-}
 
 /// The scene's size along right, up and front, without the outermost points.
 glm::dvec3 robust_size(const std::vector<glm::dvec3>& points, const glm::dmat3& axes) {
@@ -145,7 +134,7 @@ Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
   const glm::dmat3 axes = upright_axes(scene.up);
   switch (viewpoint == Viewpoint::automatic ? choose_viewpoint(scene) : viewpoint) {
     case Viewpoint::oblique:
-      return camera_from_above(scene, aspect, fov, OBLIQUE_DEG);
+      return angled_camera(scene, aspect, fov, DEFAULT_AZIMUTH_DEG, OBLIQUE_DEG);
     case Viewpoint::top:
       return framing_camera(scene, aspect, fov, {axes[0], -axes[2], axes[1]});
     case Viewpoint::inside:
@@ -162,7 +151,20 @@ Camera default_camera(const Scene& scene, double aspect) {
 }
 
 Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg) {
-  return camera_from_above(scene, aspect, fov_y_deg, ELEVATION_DEG);
+  return angled_camera(scene, aspect, fov_y_deg, DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG);
+}
+
+Camera angled_camera(const Scene& scene, double aspect, double fov_y_deg, double azimuth_deg,
+                     double elevation_deg) {
+  const glm::dmat3 axes = upright_axes(scene.up);
+  const double azimuth = azimuth_deg * DEG, elevation = elevation_deg * DEG;
+  const glm::dvec3 level = std::cos(azimuth) * axes[2] + std::sin(azimuth) * axes[0];
+  const glm::dvec3 back = std::cos(elevation) * level + std::sin(elevation) * axes[1];
+  const bool steep = std::abs(elevation_deg) > STEEPEST_DEG;
+  const glm::dvec3 right = glm::normalize(glm::cross(axes[1], steep ? level : back));
+  Camera camera = framing_camera(scene, aspect, fov_y_deg, {right, glm::cross(back, right), back});
+  if (!steep) camera.up = axes[1];
+  return camera;
 }
 
 Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg, const glm::dmat3& axes) {

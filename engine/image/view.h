@@ -86,6 +86,13 @@ inline constexpr double DEFAULT_FOV_Y_DEG = 30.0;
 [[nodiscard]] Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg,
                                     const glm::dmat3& axes);
 
+/// Where framing_camera looks from, degrees.
+inline constexpr double DEFAULT_AZIMUTH_DEG = 27.0;    ///< from the front towards the scene's right
+inline constexpr double DEFAULT_ELEVATION_DEG = 17.0;  ///< above the horizon
+/// As framing_camera, from elsewhere: `elevation_deg` -90 to 90.
+[[nodiscard]] Camera angled_camera(const Scene& scene, double aspect, double fov_y_deg, double azimuth_deg,
+                                   double elevation_deg);
+
 /// From where a scene is looked at that says nothing of a camera.
 enum class Viewpoint {
   automatic,  ///< the one that choose_viewpoint chooses

@@ -115,6 +115,7 @@ std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
 }
 
 std::vector<DeviceInfo> list_devices() {
+  if (!vulkan_is_installed()) return {};
   const auto destroy = [](VkInstance instance) { vkDestroyInstance(instance, nullptr); };
   const std::unique_ptr<std::remove_pointer_t<VkInstance>, decltype(destroy)> instance(make_instance(nullptr),
                                                                                        destroy);

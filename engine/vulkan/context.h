@@ -1,13 +1,13 @@
 /// Instance, device and queue; headless unless told what a window needs. No extension is required; Vulkan 1.2.
 #pragma once
-#include <vulkan/vulkan.h>
-
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "engine/vulkan/functions.h"
 
 namespace splatray {
 

@@ -1,8 +1,8 @@
 /// Ownership of a Vulkan object.
 #pragma once
-#include <vulkan/vulkan.h>
-
 #include <utility>
+
+#include "engine/vulkan/functions.h"
 
 namespace splatray {
 

@@ -1,0 +1,58 @@
+#include <cstring>
+
+#include "app/library/api/guard.h"
+#include "app/library/api/scene_impl.h"
+#include "app/library/image_file.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray::api {
+namespace {
+
+void check(const Image& image, double exposure) {
+  constexpr double MOST_STOPS = 60.0;
+  const std::size_t pixels = std::size_t{image.width} * image.height;
+  const auto is_none_or_all = [pixels](std::size_t size) { return size == 0 || size == pixels; };
+  if (pixels == 0 || image.pixels.size() != pixels || !is_none_or_all(image.depth.size()) ||
+      image.normal.size() != image.depth.size() || image.object.size() != image.depth.size())
+    refuse("a picture whose arrays do not fit its size of " + std::to_string(image.width) + " x " +
+               std::to_string(image.height),
+           "as many elements as pixels");
+  if (!(exposure >= -MOST_STOPS && exposure <= MOST_STOPS))
+    refuse("an exposure of " + std::to_string(exposure) + " stops", "-60 to 60");
+}
+
+splatray::Image inner_image(const Image& image) {
+  splatray::Image inner{image.width, image.height, {}, {}};
+  inner.rgba.resize(image.pixels.size());
+  std::memcpy(inner.rgba.data(), image.pixels.data(), image.pixels.size() * sizeof(vec4));
+  for (std::size_t i = 0; i < image.depth.size(); ++i) {
+    AovPixel& pixel = inner.aov.emplace_back();
+    pixel.z = image.depth[i];
+    pixel.normal = vector(image.normal[i]);
+    pixel.object = image.object[i] < 0 ? NO_OBJECT : static_cast<std::uint32_t>(image.object[i]);
+  }
+  return inner;
+}
+
+}  // namespace
+
+void Image::save(const std::filesystem::path& file, double exposure) const {
+  guarded([&] {
+    check(*this, exposure);
+    const std::string extension = lower_extension(file);
+    const splatray::Image inner = inner_image(*this);
+    if (extension == ".png") return write_png(display_image(inner, exposure), {}, file);
+    if (extension != ".exr") refuse("output '" + file.string() + "'", "a name ending in .png or .exr");
+    const bool channels = !depth.empty();
+    write_exr(inner, {channels, channels, channels}, {}, file);
+  });
+}
+
+std::vector<unsigned char> Image::png(double exposure) const {
+  return guarded([&] {
+    check(*this, exposure);
+    return encode_png(display_image(inner_image(*this), exposure), {});
+  });
+}
+
+}  // namespace splatray::api

@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/library/api/guard.h"
+#include "app/library/api/scene_impl.h"
+#include "engine/scene/splat.h"
+#include "preprocess/base/morton.h"
+
+namespace splatray::api {
+namespace {
+
+constexpr std::size_t RAYS_AT_ONCE = std::size_t{1} << 17;
+constexpr double ROOT_EDGE = 1U << LATTICE_BITS;
+
+/// A ray that meets the root cube: the query, and what is added to its t.
+struct Aimed {
+  RayQuery query{};
+  double start = 0.0;  ///< root units
+};
+
+bool finite(const Double3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+/// The unit vector along v, whatever its length; zero where that is.
+glm::dvec3 unit(glm::dvec3 v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return largest > 0.0 ? glm::normalize(v / largest) : glm::dvec3(0.0);
+}
+
+void check_rays(std::span<const Double3> origins, std::span<const Double3> directions) {
+  if (origins.size() != directions.size())
+    refuse(
+        std::to_string(origins.size()) + " origins and " + std::to_string(directions.size()) + " directions",
+        "as many of each");
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    if (!finite(origins[i]) || !finite(directions[i]))
+      refuse("an origin or direction that is not finite in ray " + std::to_string(i), "three numbers each");
+    if (unit(vector(directions[i])) == glm::dvec3(0.0))
+      refuse("a direction of length 0 in ray " + std::to_string(i), "any other");
+  }
+}
+
+/// Begins the ray where it enters the root cube, as float32 is finest there; nothing for a ray that passes it.
+std::optional<Aimed> aim(const RootTransform& root, const Double3& origin, const Double3& direction) {
+  const glm::dvec3 from = root.to_root(vector(origin));
+  const glm::dvec3 dir = unit(vector(direction));
+  double enter = 0.0, leave = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (dir[axis] == 0.0) {
+      if (!(from[axis] >= 0.0 && from[axis] <= ROOT_EDGE)) return {};
+      continue;
+    }
+    const double a = -from[axis] / dir[axis], b = (ROOT_EDGE - from[axis]) / dir[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  if (!(enter < leave)) return {};
+  Aimed aimed;
+  aimed.query.origin = glm::clamp(from + enter * dir, 0.0, ROOT_EDGE);
+  aimed.query.dir = dir;
+  aimed.query.from_object = NO_OBJECT;
+  aimed.start = enter;
+  return aimed;
+}
+
+/// The number of the splat with these words; splats lie in Z-order.
+std::int64_t find_splat(const splatray::Scene& scene, const uvec4& words) {
+  const auto key = [](const uvec4& splat) { return morton_key(glm::uvec3(unpack_splat(splat).center)); };
+  auto at = std::lower_bound(scene.data_pool.begin(), scene.data_pool.end(), key(words),
+                             [&](const uvec4& splat, std::uint64_t wanted) { return key(splat) < wanted; });
+  while (at != scene.data_pool.end() && *at != words && key(*at) == key(words)) ++at;
+  return at != scene.data_pool.end() && *at == words ? at - scene.data_pool.begin() : -1;
+}
+
+void reserve(Hits& hits, std::size_t count) {
+  hits.t.resize(count, std::numeric_limits<double>::infinity());
+  hits.normal.resize(count, Float3{});
+  hits.object.resize(count, -1);
+  hits.splat.resize(count, -1);
+  hits.point.resize(count, -1);
+}
+
+void keep(const splatray::Scene& scene, const Column* points, const RayHit& hit, double start,
+          std::size_t ray, Hits& hits) {
+  if (hit.object == NO_OBJECT) return;
+  hits.t[ray] = (start + static_cast<double>(hit.t)) * scene.root.unit_world;
+  hits.normal[ray] = array(hit.normal);
+  hits.object[ray] = static_cast<std::int32_t>(hit.object);
+  hits.splat[ray] = find_splat(scene, hit.first);
+  if (points != nullptr && hits.splat[ray] >= 0)
+    hits.point[ray] = static_cast<std::int64_t>(points->number(static_cast<std::size_t>(hits.splat[ray])));
+}
+
+}  // namespace
+
+Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const Double3> directions,
+           const Progress& progress) {
+  return guarded(progress, [&](ProgressRelay& relay) {
+    Scene::Impl& impl = SceneAccess::impl(scene);
+    const splatray::Scene& inner = impl.loaded.scene;
+    check_rays(origins, directions);
+    const Column* points = impl.loaded.build ? find_column(inner.columns, COLUMN_POINT) : nullptr;
+    Hits hits;
+    reserve(hits, origins.size());
+    for (std::size_t begin = 0; begin < origins.size(); begin += RAYS_AT_ONCE) {
+      if (!relay("tracing", static_cast<double>(begin) / static_cast<double>(origins.size())))
+        throw Error(ErrorKind::cancelled, "tracing was cancelled");
+      std::vector<std::size_t> rays;
+      std::vector<RayQuery> queries;
+      std::vector<double> starts;
+      for (std::size_t i = begin; i < std::min(begin + RAYS_AT_ONCE, origins.size()); ++i) {
+        const std::optional<Aimed> aimed = aim(inner.root, origins[i], directions[i]);
+        if (!aimed) continue;
+        rays.push_back(i);
+        queries.push_back(aimed->query);
+        starts.push_back(aimed->start);
+      }
+      const std::vector<RayHit> found =
+          impl.with_tracer([&](Tracer& tracer) { return tracer.intersect(queries, splatray::Settings{}); });
+      for (std::size_t i = 0; i < found.size(); ++i) keep(inner, points, found[i], starts[i], rays[i], hits);
+    }
+    return hits;
+  });
+}
+
+}  // namespace splatray::api
