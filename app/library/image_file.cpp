@@ -47,13 +47,14 @@ std::filesystem::path own_folder() {
   return std::filesystem::absolute(own.dli_fname).parent_path();
 }
 
-/// The library image_codec.h describes: beside this code, where it is installed to from there, or where the system looks.
+/// The library image_codec.h describes: beside this code, where it is installed to from a library or a program, or where the
+/// system looks.
 const ImageCodec& codec() {
   static const ImageCodec& loaded = []() -> const ImageCodec& {
     const std::filesystem::path folder = own_folder();
     void* library = nullptr;
-    for (const auto& place : {folder / IMAGE_CODEC, folder / IMAGE_CODEC_FOLDER / IMAGE_CODEC,
-                              std::filesystem::path(IMAGE_CODEC)})
+    for (const auto& place : {folder / IMAGE_CODEC, folder / "splatray" / IMAGE_CODEC,
+                              folder / IMAGE_CODEC_FOLDER / IMAGE_CODEC, std::filesystem::path(IMAGE_CODEC)})
       if (library == nullptr) library = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* symbol = library == nullptr ? nullptr : dlsym(library, "splatray_image_codec");
     if (symbol == nullptr)

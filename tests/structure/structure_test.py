@@ -10,7 +10,7 @@ import tempfile
 
 # A file may include those of its own room and of the rooms before it.
 ROOMS = ["shaders", "engine/base", "engine/scene", "engine/file engine/image", "engine/vulkan", "engine/gpu", "preprocess",
-         "app/cli app/library", "app/view", "data", "tests"]
+         "app/cli app/library", "app/view app/python", "data", "tests"]
 # Rooms that look into one before them only for what is named.
 ALSO = {"data": {"app/cli/option_types.h"}}
 NOT_COUNTED = ("tests/fuzz/corpus", "tests/bench/results", "data")

@@ -1,0 +1,208 @@
+// The library of image_codec.h for Python's wheel, which carries all it needs: PNG, JPEG and Radiance HDR by stb, EXR by OpenEXR, in
+// place of OpenImageIO and its 200 libraries. PNG is written without metadata.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTestFile.h>
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <memory>
+
+#include "app/library/image_codec.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::uint64_t DEFLATE = 1032;  ///< most bytes that one compressed byte gives: 258 for 2 bits
+
+bool is_exr(const std::string& path) { return Imf::isOpenExrFile(path.c_str()); }
+
+/// What is read of an EXR: R, G, B where it has them, else its first channel.
+std::vector<std::string> color_channels(const Imf::ChannelList& all) {
+  if (all.findChannel("R") != nullptr && all.findChannel("G") != nullptr && all.findChannel("B") != nullptr)
+    return {"R", "G", "B"};
+  return all.begin() == all.end() ? std::vector<std::string>{} : std::vector<std::string>{all.begin().name()};
+}
+
+std::uint64_t pixel_bytes(const Imf::ChannelList& channels) {
+  std::uint64_t bytes = 0;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+    bytes += channel.channel().type == Imf::HALF ? 2 : 4;
+  return std::max<std::uint64_t>(bytes, 1);
+}
+
+void read_exr_header(const std::string& path, std::uint64_t file_bytes, PictureHeader& header) {
+  const Imf::InputFile file(path.c_str());
+  const Imath::Box2i window = file.header().dataWindow();
+  header.width = window.max.x - window.min.x + 1;
+  header.height = window.max.y - window.min.y + 1;
+  header.channels = color_channels(file.header().channels());
+  for (auto attribute = file.header().begin(); attribute != file.header().end(); ++attribute)
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
+      header.attributes.emplace_back(attribute.name(), text->value());
+  const Imf::Compression compression = file.header().compression();
+  const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+  header.most_pixels = file_bytes * DEFLATE * (dwa ? 64 : 1) / pixel_bytes(file.header().channels());
+}
+
+bool read_stb_header(const std::string& path, std::uint64_t file_bytes, PictureHeader& header) {
+  int channels = 0;
+  if (stbi_info(path.c_str(), &header.width, &header.height, &channels) == 0) return false;
+  header.channels = channels < 3 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+  header.integers = stbi_is_hdr(path.c_str()) == 0;
+  // A run of up to 127 takes two bytes in each of an HDR's four channels; a PNG's pixel may be one bit.
+  header.most_pixels = header.integers ? file_bytes * DEFLATE * 8 : file_bytes * 127 / 8;
+  return true;
+}
+
+bool read_header(const std::string& path, PictureHeader& header) {
+  std::error_code error;
+  const std::uint64_t bytes = std::filesystem::file_size(path, error);
+  if (error) return false;
+  try {
+    if (!is_exr(path)) return read_stb_header(path, bytes, header);
+    read_exr_header(path, bytes, header);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+void read_exr(const std::string& path, int first_row, int channels, const PixelSink& sink) {
+  Imf::InputFile file(path.c_str());
+  const Imath::Box2i window = file.header().dataWindow();
+  const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+  const auto count = static_cast<std::size_t>(channels);
+  const std::vector<std::string> names = color_channels(file.header().channels());
+  std::vector<float> row(width * count);
+  for (int y = window.min.y + first_row; y <= window.max.y; ++y) {
+    Imf::FrameBuffer buffer;
+    for (std::size_t i = 0; i < count; ++i)
+      buffer.insert(names[i], Imf::Slice::Make(Imf::FLOAT, row.data() + i, Imath::V2i(window.min.x, y),
+                                               static_cast<std::int64_t>(width), 1, sizeof(float) * count,
+                                               sizeof(float) * count * width));
+    file.setFrameBuffer(buffer);
+    file.readPixels(y);
+    sink(row.data(), width);
+  }
+}
+
+bool read_stb(const std::string& path, int first_row, int channels, const PixelSink& sink,
+              std::string& error) {
+  int width = 0, height = 0, stored = 0;
+  const auto give = [&](const auto* values, float most) {
+    std::vector<float> row(static_cast<std::size_t>(width) * static_cast<std::size_t>(channels));
+    for (int y = first_row; y < height; ++y) {
+      const auto* from = values + static_cast<std::size_t>(y) * row.size();
+      std::transform(from, from + row.size(), row.begin(),
+                     [most](auto value) { return static_cast<float>(value) / most; });
+      sink(row.data(), static_cast<std::size_t>(width));
+    }
+  };
+  const auto free = [](void* values) { stbi_image_free(values); };
+  std::unique_ptr<void, decltype(free)> values(nullptr, free);
+  if (stbi_is_hdr(path.c_str()) != 0) {
+    values.reset(stbi_loadf(path.c_str(), &width, &height, &stored, channels));
+    if (values) give(static_cast<const float*>(values.get()), 1.0F);
+  } else if (stbi_is_16_bit(path.c_str()) != 0) {
+    values.reset(stbi_load_16(path.c_str(), &width, &height, &stored, channels));
+    if (values) give(static_cast<const stbi_us*>(values.get()), 65535.0F);
+  } else {
+    values.reset(stbi_load(path.c_str(), &width, &height, &stored, channels));
+    if (values) give(static_cast<const stbi_uc*>(values.get()), 255.0F);
+  }
+  if (!values) error = stbi_failure_reason();
+  return values != nullptr;
+}
+
+bool read_pixels(const std::string& path, int first_row, int channels, const PixelSink& sink,
+                 std::string& error) {
+  try {
+    if (!is_exr(path)) return read_stb(path, first_row, channels, sink, error);
+    read_exr(path, first_row, channels, sink);
+    return true;
+  } catch (const std::exception& thrown) {
+    error = thrown.what();
+    return false;
+  }
+}
+
+/// A file in memory.
+class MemoryStream : public Imf::OStream {
+ public:
+  explicit MemoryStream(std::vector<unsigned char>& bytes) : OStream("memory"), bytes_(bytes) {}
+  void write(const char values[], int count) override {
+    const std::size_t end = at_ + static_cast<std::size_t>(count);
+    if (bytes_.size() < end) bytes_.resize(end);
+    std::memcpy(bytes_.data() + at_, values, static_cast<std::size_t>(count));
+    at_ = end;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+
+ private:
+  std::vector<unsigned char>& bytes_;
+  std::size_t at_ = 0;
+};
+
+void encode_exr(const PictureHeader& header, const float* values, std::vector<unsigned char>& bytes) {
+  Imf::Header file_header(header.width, header.height);
+  file_header.compression() = Imf::ZIP_COMPRESSION;
+  for (const auto& [name, value] : header.attributes)
+    if (name.starts_with("splatray.")) file_header.insert(name, Imf::StringAttribute(value));
+  const std::size_t step = sizeof(float) * header.channels.size();
+  Imf::FrameBuffer buffer;
+  for (std::size_t i = 0; i < header.channels.size(); ++i) {
+    file_header.channels().insert(header.channels[i], Imf::Channel(Imf::FLOAT));
+    buffer.insert(header.channels[i],
+                  Imf::Slice(Imf::FLOAT, const_cast<char*>(reinterpret_cast<const char*>(values + i)), step,
+                             step * static_cast<std::size_t>(header.width)));
+  }
+  MemoryStream stream(bytes);
+  Imf::OutputFile file(stream, file_header);
+  file.setFrameBuffer(buffer);
+  file.writePixels(header.height);
+}
+
+bool encode_png(const PictureHeader& header, const void* values, std::vector<unsigned char>& bytes) {
+  const auto append = [](void* to, void* data, int size) {
+    const auto* from = static_cast<const unsigned char*>(data);
+    auto& list = *static_cast<std::vector<unsigned char>*>(to);
+    list.insert(list.end(), from, from + size);
+  };
+  const auto channels = static_cast<int>(header.channels.size());
+  return stbi_write_png_to_func(append, &bytes, header.width, header.height, channels, values,
+                                header.width * channels) != 0;
+}
+
+bool encode(const char* format, const PictureHeader& header, const void* values,
+            std::vector<unsigned char>& bytes, std::string& error) {
+  try {
+    if (std::strcmp(format, "openexr") == 0) {
+      encode_exr(header, static_cast<const float*>(values), bytes);
+      return true;
+    }
+    if (encode_png(header, values, bytes)) return true;
+    error = "a PNG could not be made";
+  } catch (const std::exception& thrown) {
+    error = thrown.what();
+  }
+  return false;
+}
+
+}  // namespace
+}  // namespace splatray
+
+const splatray::ImageCodec* splatray_image_codec() {
+  static constexpr splatray::ImageCodec CODEC{splatray::read_header, splatray::read_pixels, splatray::encode};
+  return &CODEC;
+}

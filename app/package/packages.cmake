@@ -1,0 +1,38 @@
+# cpack -G DEB: packages of the programs, the library, and what other projects need of the library.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME splatray)
+set(CPACK_PACKAGE_CONTACT "The splatray authors <maintainers@splatray.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL programs library development)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
+set(library_package libsplatray${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME splatray)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_package})
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsplatray-dev)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+# Vulkan and the library for picture files are loaded by name, so that no tool finds them.
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "libvulkan1, ${library_package} (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libvulkan1)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library_package} (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS mesa-vulkan-drivers)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS mesa-vulkan-drivers)
+
+# What others that link the library depend on, and that the loader's cache is made anew.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libsplatray ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} ${library_package} (>= ${PROJECT_VERSION})\n")
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/shlibs ${CMAKE_CURRENT_BINARY_DIR}/triggers)
+
+set(about "splatray ray-traces point clouds as splats, oriented discs in an octree, with\n shadows, mirrors, glass and environment light, on any Vulkan device.")
+set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "ray tracer for point clouds as splats\n${about}")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "ray tracer for point clouds as splats - library\n${about}")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "ray tracer for point clouds as splats - development files\n${about}")
+include(CPack)

@@ -1,0 +1,221 @@
+// splatray._core: the library's interface as the Python files beside it use it. They check and convert what users give.
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+#include <tuple>
+
+#include "app/python/module.h"
+
+namespace splatray::python {
+namespace {
+
+template <typename Value>
+using Rows = nb::ndarray<const Value, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using Column = nb::ndarray<const float, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+/// Rows of three as the interface takes them, without a copy.
+template <typename Value>
+std::span<const std::array<Value, 3>> rows(const Rows<Value>& array) {
+  return {reinterpret_cast<const std::array<Value, 3>*>(array.data()), array.shape(0)};
+}
+
+template <typename Value>
+std::span<const std::array<Value, 3>> rows(const std::optional<Rows<Value>>& array) {
+  return array ? rows(*array) : std::span<const std::array<Value, 3>>{};
+}
+
+/// A scene that ends without the interpreter's lock: it waits for its device, whose user may wait for the lock.
+struct Scene {
+  explicit Scene(api::Scene opened) : scene(std::in_place, std::move(opened)) {}
+  Scene(Scene&&) = default;
+  ~Scene() {
+    const nb::gil_scoped_release unlocked;
+    scene.reset();
+  }
+  std::optional<api::Scene> scene;
+};
+
+/// Runs body() without the interpreter's lock.
+template <typename Body>
+auto unlocked(const Body& body) {
+  const nb::gil_scoped_release release;
+  return body();
+}
+
+Scene* open(const std::vector<std::filesystem::path>& files, api::OpenOptions options,
+            const nb::object& progress) {
+  options.progress = progress_of(progress);
+  return unlocked([&] { return new Scene(api::open(files, options)); });
+}
+
+Scene* make_scene(const Rows<double>& positions, const std::optional<Rows<float>>& normals,
+                  const std::optional<Rows<float>>& colors, const std::optional<Column>& radii,
+                  const std::string& name, const std::optional<api::Material>& material,
+                  std::optional<bool> scanned, api::OpenOptions options, const nb::object& progress) {
+  api::Points points;
+  points.positions = rows(positions);
+  points.normals = rows(normals);
+  points.colors = rows(colors);
+  if (radii) points.radii = {radii->data(), radii->shape(0)};
+  points.name = name;
+  points.material = material;
+  points.scanned = scanned;
+  options.progress = progress_of(progress);
+  return unlocked([&] { return new Scene(api::make_scene(points, options)); });
+}
+
+api::Camera frame(const Scene& scene, std::optional<double> azimuth, std::optional<double> elevation,
+                  std::optional<double> fov, double aspect) {
+  return unlocked([&] { return api::frame(*scene.scene, {azimuth, elevation, fov, aspect}); });
+}
+
+api::Image* render(const Scene& scene, const api::Camera& camera, std::uint32_t width, std::uint32_t height,
+                   const api::Look& look, const api::Settings& settings, const nb::object& progress) {
+  const api::Progress relay = progress_of(progress);
+  return unlocked([&] {
+    return new api::Image(api::render(*scene.scene, {camera, width, height}, look, settings, relay));
+  });
+}
+
+nb::tuple trace(const Scene& scene, const Rows<double>& origins, const Rows<double>& directions,
+                const nb::object& progress) {
+  const api::Progress relay = progress_of(progress);
+  api::Hits hits = unlocked([&] { return api::trace(*scene.scene, rows(origins), rows(directions), relay); });
+  const std::size_t count = hits.t.size();
+  return nb::make_tuple(owning_array<double>(std::move(hits.t), {count}),
+                        owning_array<float>(std::move(hits.normal), {count, 3}),
+                        owning_array<std::int32_t>(std::move(hits.object), {count}),
+                        owning_array<std::int64_t>(std::move(hits.splat), {count}),
+                        owning_array<std::int64_t>(std::move(hits.point), {count}));
+}
+
+nb::tuple splats(const Scene& scene) {
+  const std::size_t count = scene.scene->splats();
+  std::vector<api::Double3> centers, normals;
+  std::vector<double> radii;
+  std::vector<std::int32_t> objects;
+  for (std::size_t i = 0; i < count; ++i) {
+    const api::Scene::Splat splat = scene.scene->splat(i);
+    centers.push_back(splat.center);
+    normals.push_back(splat.normal);
+    radii.push_back(splat.radius);
+    objects.push_back(static_cast<std::int32_t>(splat.object));
+  }
+  return nb::make_tuple(owning_array<double>(std::move(centers), {count, 3}),
+                        owning_array<double>(std::move(normals), {count, 3}),
+                        owning_array<double>(std::move(radii), {count}),
+                        owning_array<std::int32_t>(std::move(objects), {count}));
+}
+
+/// A channel of an image, which the array keeps alive; None where the image has no such channel.
+template <typename Value, typename Element>
+nb::object channel(api::Image& image, std::vector<Element>& values, std::size_t depth) {
+  if (values.empty()) return nb::none();
+  auto* data = reinterpret_cast<Value*>(values.data());
+  const nb::object owner = nb::find(image);
+  if (depth == 1) return nb::cast(nb::ndarray<nb::numpy, Value>(data, {image.height, image.width}, owner));
+  return nb::cast(nb::ndarray<nb::numpy, Value>(data, {image.height, image.width, depth}, owner));
+}
+
+nb::bytes png(const api::Image& image, double exposure) {
+  const auto bytes = unlocked([&] { return image.png(exposure); });
+  return nb::bytes(bytes.data(), bytes.size());
+}
+
+void add_scene(nb::module_& module) {
+  nb::class_<Scene>(module, "Scene")
+      .def_prop_ro("splat_count", [](const Scene& scene) { return scene.scene->splats(); })
+      .def_prop_ro("bounds",
+                   [](const Scene& scene) {
+                     return std::make_tuple(scene.scene->bounds_low(), scene.scene->bounds_high());
+                   })
+      .def_prop_ro("up", [](const Scene& scene) { return scene.scene->up(); })
+      .def_prop_ro("objects", [](const Scene& scene) { return scene.scene->objects(); })
+      .def_prop_ro("materials", [](const Scene& scene) { return scene.scene->materials(); })
+      .def_prop_ro("notes", [](const Scene& scene) { return scene.scene->notes(); })
+      .def_prop_ro("device",
+                   [](const Scene& scene) { return unlocked([&] { return scene.scene->device(); }); })
+      .def("splats", splats)
+      .def("save", [](const Scene& scene,
+                      const std::filesystem::path& file) { unlocked([&] { scene.scene->save(file); }); })
+      .def("frame", frame, nb::arg("azimuth").none(), nb::arg("elevation").none(), nb::arg("fov").none(),
+           nb::arg("aspect"))
+      .def("render", render, nb::arg("camera"), nb::arg("width"), nb::arg("height"), nb::arg("look"),
+           nb::arg("settings"), nb::arg("progress").none())
+      .def("trace", trace, nb::arg("origins"), nb::arg("directions"), nb::arg("progress").none());
+  module.def("open", open, nb::arg("files"), nb::arg("options"), nb::arg("progress").none());
+  module.def("make_scene", make_scene, nb::arg("positions"), nb::arg("normals").none(),
+             nb::arg("colors").none(), nb::arg("radii").none(), nb::arg("name"), nb::arg("material").none(),
+             nb::arg("scanned").none(), nb::arg("options"), nb::arg("progress").none());
+}
+
+void add_image(nb::module_& module) {
+  nb::class_<api::Image>(module, "Image")
+      .def_ro("width", &api::Image::width)
+      .def_ro("height", &api::Image::height)
+      .def_prop_ro("pixels", [](api::Image& image) { return channel<float>(image, image.pixels, 4); })
+      .def_prop_ro("depth", [](api::Image& image) { return channel<float>(image, image.depth, 1); })
+      .def_prop_ro("normal", [](api::Image& image) { return channel<float>(image, image.normal, 3); })
+      .def_prop_ro("object", [](api::Image& image) { return channel<std::int32_t>(image, image.object, 1); })
+      .def("png", png, nb::arg("exposure"))
+      .def("save", [](const api::Image& image, const std::filesystem::path& file, double exposure) {
+        unlocked([&] { image.save(file, exposure); });
+      });
+}
+
+/// Python's exception for each kind of error; its two own ones are beside them.
+PyObject* exception_for(api::ErrorKind kind, PyObject* no_device, PyObject* cancelled) {
+  switch (kind) {
+    case api::ErrorKind::usage:
+    case api::ErrorKind::input:
+      return PyExc_ValueError;
+    case api::ErrorKind::no_device:
+      return no_device;
+    case api::ErrorKind::out_of_memory:
+      return PyExc_MemoryError;
+    case api::ErrorKind::cancelled:
+      return cancelled;
+    default:
+      return PyExc_RuntimeError;
+  }
+}
+
+void add_exceptions(nb::module_& module) {
+  static PyObject* no_device = PyErr_NewException("splatray.NoDeviceError", PyExc_RuntimeError, nullptr);
+  static PyObject* cancelled = PyErr_NewException("splatray.Cancelled", nullptr, nullptr);
+  module.attr("NoDeviceError") = nb::handle(no_device);
+  module.attr("Cancelled") = nb::handle(cancelled);
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const api::Error& error) {
+      PyErr_SetString(exception_for(error.kind(), no_device, cancelled), error.what());
+    }
+  });
+}
+
+std::vector<std::tuple<std::string, std::string, std::string, std::string>> devices() {
+  std::vector<std::tuple<std::string, std::string, std::string, std::string>> found;
+  for (const api::Device& device : unlocked([] { return api::devices(); }))
+    found.emplace_back(device.name, device.type, device.driver, device.refused);
+  return found;
+}
+
+}  // namespace
+}  // namespace splatray::python
+
+NB_MODULE(_core, module) {
+  namespace python = splatray::python;
+  python::add_exceptions(module);
+  python::add_values(module);
+  python::add_scene(module);
+  python::add_image(module);
+  module.def("named_material", splatray::api::named_material);
+  module.def("devices", python::devices);
+  module.def("version", splatray::api::version);
+}

@@ -1,0 +1,26 @@
+"""Pictures and exact ray queries of point clouds, ray-traced as splats on any Vulkan device, a CPU included.
+
+    import splatray as sr
+    scene = sr.open("scan.laz")                              # or sr.points(xyz, normals=n, colors=c)
+    image = scene.render(sr.frame(scene, azimuth=30, fov=35), (1280, 720), samples=64)
+    image.save("scan.png"); a = image.pixels                 # float32 (720, 1280, 4), no copy
+    hits = scene.trace(origins, directions)                  # exact: t, normal, object, splat
+
+World space is right-handed, in the units of the input, float64. Colours and radiances are linear sRGB, angles degrees. Long calls
+run without the interpreter's lock, can be ended by Ctrl-C, and take `progress`, which is called as progress(stage, share) and ends
+the call by returning False.
+
+Exceptions: ValueError for arguments and files that make no sense, TypeError, FileNotFoundError, OSError where a file cannot be
+written, NoDeviceError without a Vulkan device, Cancelled, MemoryError, RuntimeError for all else.
+"""
+
+from ._core import Cancelled, NoDeviceError, version as _version
+from .camera import Camera, frame
+from .device import Device, devices
+from .image import Image
+from .look import Light, Material, material, point_light, sun
+from .scene import Hits, Scene, Splats, open, points
+
+__version__ = _version()
+__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Material", "NoDeviceError", "Scene", "Splats", "devices", "frame",
+           "material", "open", "point_light", "points", "sun"]

@@ -1,0 +1,89 @@
+"""What users give, checked and in the types that the core takes: each failure names the argument."""
+
+from __future__ import annotations
+
+import math
+import operator
+from typing import Any, Callable, Optional, Tuple
+
+import numpy as np
+
+Progress = Callable[[str, float], Optional[bool]]
+
+
+def number(name: str, value: Any) -> float:
+    """A finite number."""
+    try:
+        result = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"{name}: found {value!r}, expected a number") from None
+    if not math.isfinite(result):
+        raise ValueError(f"{name}: found {value!r}, expected a finite number")
+    return result
+
+
+def whole(name: str, value: Any, least: int, most: int) -> int:
+    """A whole number in [least, most]."""
+    try:
+        result = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: found {value!r}, expected a whole number") from None
+    if not least <= result <= most:
+        raise ValueError(f"{name}: found {result}, expected {least} to {most}")
+    return result
+
+
+def text(name: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name}: found {value!r}, expected a str")
+    return value
+
+
+def array(name: str, value: Any, dtype: type) -> np.ndarray:
+    """Numbers as a contiguous array of this type, copied only where they are not that yet."""
+    try:
+        found = np.asarray(value)
+        if found.dtype.kind not in "fiub":
+            raise TypeError
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.ascontiguousarray(found, dtype=dtype)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: found {type(value).__name__} that is no array of real numbers") from None
+
+
+def rows(name: str, value: Any, dtype: type) -> np.ndarray:
+    """An array (n, 3)."""
+    found = array(name, value, dtype)
+    if found.ndim != 2 or found.shape[1] != 3:
+        raise ValueError(f"{name}: found an array of shape {found.shape}, expected (n, 3)")
+    return found
+
+
+def vector(name: str, value: Any) -> Tuple[float, float, float]:
+    """Three finite numbers."""
+    found = array(name, value, np.float64)
+    if found.shape != (3,):
+        raise ValueError(f"{name}: found an array of shape {found.shape}, expected 3 numbers")
+    if not np.isfinite(found).all():
+        raise ValueError(f"{name}: found {value!r}, expected finite numbers")
+    return tuple(found.tolist())
+
+
+def color(name: str, value: Any) -> Tuple[float, float, float]:
+    """Three finite numbers, or one for all three."""
+    return vector(name, [value] * 3 if np.ndim(value) == 0 else value)
+
+
+def size(value: Any) -> Tuple[int, int]:
+    """A picture's width and height."""
+    try:
+        width, height = value
+    except (TypeError, ValueError):
+        raise TypeError(f"size: found {value!r}, expected (width, height)") from None
+    return whole("width", width, 1, 32768), whole("height", height, 1, 32768)
+
+
+def progress(value: Any) -> Optional[Progress]:
+    if value is not None and not callable(value):
+        raise TypeError(f"progress: found {value!r}, expected a function or None")
+    return value

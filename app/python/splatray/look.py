@@ -1,0 +1,80 @@
+"""Materials and lights."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Tuple
+
+from . import _check, _core
+
+Color = Tuple[float, float, float]
+Vector = Tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Material:
+    """What an object is made of. Colours are linear, 0..1.
+
+    diffuse: reflectance, times the points' colours where they have some. specular, shininess: share of light in Phong's highlight, and
+    its exponent. mirror, tint: share of light mirrored, and its colour; of glass, transmittance of each crossing. ior: index of refraction
+    of glass, whose object must be closed with normals outwards. two_sided: both faces are seen. hidden: no ray hits it.
+    """
+
+    diffuse: Color = (0.64, 0.61, 0.57)
+    specular: float = 0.05
+    shininess: float = 40.0
+    tint: Color = (1.0, 1.0, 1.0)
+    mirror: float = 0.0
+    ior: float = 1.5
+    glass: bool = False
+    two_sided: bool = True
+    hidden: bool = False
+
+    def _to_core(self) -> _core.Material:
+        core = _core.Material()
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.name in ("diffuse", "tint"):
+                value = _check.color(field.name, value)
+            elif field.name in ("glass", "two_sided", "hidden"):
+                value = bool(value)
+            else:
+                value = _check.number(field.name, value)
+            setattr(core, field.name, value)
+        return core
+
+    @classmethod
+    def _of_core(cls, core: _core.Material) -> "Material":
+        values = {field.name: getattr(core, field.name) for field in fields(cls)}
+        return cls(**{name: tuple(value) if isinstance(value, (list, tuple)) else value for name, value in values.items()})
+
+
+def material(name: str) -> Material:
+    """The material of a name: matte, glossy, mirror, gold, copper, glass or ruby."""
+    return Material._of_core(_core.named_material(_check.text("name", name)))
+
+
+@dataclass(frozen=True)
+class Light:
+    """A light; point_light() and sun() make them. power: intensity of a point light, irradiance of a sun, linear r, g, b."""
+
+    position: Vector
+    power: Color
+    point: bool = False
+
+    def _to_core(self) -> _core.Light:
+        light = _core.Light()
+        light.point = bool(self.point)
+        light.position = _check.vector("position", self.position)
+        light.power = _check.color("power", self.power)
+        return light
+
+
+def point_light(position: Vector, power: Color) -> Light:
+    """A point light at a place; power: irradiance times distance^2, a number or r, g, b."""
+    return Light(_check.vector("position", position), _check.color("power", power), True)
+
+
+def sun(direction: Vector, power: Color = (3.14, 3.14, 3.14)) -> Light:
+    """Parallel light from `direction`, of any length; power: irradiance of what faces it, a number or r, g, b."""
+    return Light(_check.vector("direction", direction), _check.color("power", power), False)
