@@ -86,16 +86,6 @@ void add_output_options(OptionList& list, RenderOptions& options) {
   list.add_switch("--quiet", options.quiet, "only errors on stderr");
 }
 
-FrameRange read_frames(const std::string& text) {
-  constexpr double MOST = 999999.0;
-  auto numbers = split_numbers(text, '-', 2);
-  if (numbers.empty()) numbers = split_numbers(text, '-', 1);
-  const bool good = !numbers.empty() && numbers.front() <= numbers.back() && numbers.back() <= MOST &&
-                    std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == std::floor(x); });
-  if (!good) refuse_option("--frames", text, "first-last such as 0-47, each up to 999999");
-  return {static_cast<std::uint32_t>(numbers.front()), static_cast<std::uint32_t>(numbers.back())};
-}
-
 void add_sequence_options(OptionList& list, RenderOptions& options) {
   SequenceOptions& sequence = options.sequence;
   list.add_value(
@@ -111,13 +101,17 @@ void add_sequence_options(OptionList& list, RenderOptions& options) {
   add_number(
       list, "--turntable", sequence.turntable, 0, 999999,
       "this many pictures of a full turn about the scene's up axis through the target; default 0 = none");
-  const auto frames_text = [&sequence]() -> std::string {
-    if (!sequence.frames) return "";
-    return std::to_string(sequence.frames->first) + "-" + std::to_string(sequence.frames->last);
+  const auto read_frames = [&sequence](const std::string& text) {
+    const auto ranges = read_frame_list(text);
+    if (!ranges)
+      refuse_option("--frames", text,
+                    "first-last such as 0-47, or several such as 0-3,7,9-12:3, each up to " +
+                        std::to_string(LAST_FRAME));
+    sequence.frames = *ranges;
   };
   list.add_value(
-      "--frames", [&sequence](const std::string& text) { sequence.frames = read_frames(text); }, frames_text,
-      "only these frames of a sequence; default all", "A-B");
+      "--frames", read_frames, [&sequence] { return frame_list_text(sequence.frames); },
+      "only these frames of a sequence, such as 0-47 or 0-3,7,9-12:3; default all", "A-B:STEP,...");
   list.add_switch("--skip-existing", sequence.skip_existing,
                   "leave out pictures whose file exists and is whole");
 }
@@ -126,7 +120,7 @@ void add_sequence_options(OptionList& list, RenderOptions& options) {
 void check_sequence(const RenderOptions& options) {
   const auto fail = [](const std::string& sentence) { throw Error(ExitCode::usage, sentence); };
   const SequenceOptions& sequence = options.sequence;
-  if (sequence.frames && !sequence.many())
+  if (!sequence.frames.empty() && !sequence.many())
     fail("found --frames alone, expected --camera-path or --turntable beside it");
   if (sequence.turntable > 0 && !sequence.camera_path.empty())
     fail("found --turntable and --camera-path, expected one of them");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/build_options.h"
+#include "app/cli/frame_list.h"
 #include "app/cli/object_options.h"
 #include "app/library/attributes.h"
 #include "app/library/display_image.h"
@@ -67,18 +68,11 @@ struct PictureOptions {
 /// Makes the picture's camera exactly this one.
 void set_camera(PictureOptions& picture, const Camera& camera);
 
-/// Frames, both ends included; first <= last.
-struct FrameRange {
-  std::uint32_t first = 0, last = 0;
-
-  bool operator==(const FrameRange&) const = default;
-};
-
 /// Which pictures make a sequence; with neither a camera path nor a turntable there is one, a still.
 struct SequenceOptions {
   std::filesystem::path camera_path;  ///< camera_file.h; empty = none
   std::uint32_t turntable = 0;        ///< frames of a full turn, 0.. turntable - 1; 0 = none
-  std::optional<FrameRange> frames;   ///< unset = all
+  std::vector<FrameRange> frames;     ///< empty = all
   bool skip_existing = false;         ///< leave out pictures that exist
 
   /// Whether the output is a pattern of names.

@@ -15,17 +15,16 @@ FrameRange whole_range(const Sequence& sequence) {
   return {0, sequence.turntable - 1};
 }
 
-FrameRange wanted_range(const Sequence& sequence, const SequenceOptions& options) {
+/// The frames that are asked for.
+std::vector<std::uint32_t> wanted_frames(const Sequence& sequence, const SequenceOptions& options) {
   const FrameRange whole = whole_range(sequence);
-  const FrameRange wanted = options.frames.value_or(whole);
-  const auto text = [](const FrameRange& range) {
-    return std::to_string(range.first) + "-" + std::to_string(range.last);
-  };
-  if (wanted.first < whole.first || wanted.last > whole.last)
-    throw Error(ExitCode::usage, "found --frames " + text(wanted) + ", expected some of " + text(whole) +
-                                     ", which " +
-                                     (sequence.path.empty() ? "--turntable" : "the camera path") + " has");
-  return wanted;
+  if (options.frames.empty()) return listed_frames({whole});
+  for (const FrameRange& range : options.frames)
+    if (range.first < whole.first || range.last > whole.last)
+      throw Error(ExitCode::usage, "found --frames " + frame_list_text(options.frames) +
+                                       ", expected some of " + frame_list_text({whole}) + ", which " +
+                                       (sequence.path.empty() ? "--turntable" : "the camera path") + " has");
+  return listed_frames(options.frames);
 }
 
 }  // namespace
@@ -48,8 +47,7 @@ Sequence plan_sequence(const RenderOptions& options) {
   if (options.sequence.many()) {
     if (!options.sequence.camera_path.empty()) sequence.path = read_camera_path(options.sequence.camera_path);
     sequence.turntable = options.sequence.turntable;
-    const FrameRange range = wanted_range(sequence, options.sequence);
-    for (std::uint32_t number = range.first; number <= range.last; ++number)
+    for (const std::uint32_t number : wanted_frames(sequence, options.sequence))
       sequence.frames.push_back({number, frame_file(options.output, number)});
   } else {
     sequence.frames.push_back({0, options.output});

@@ -64,6 +64,7 @@ struct Material {
   bool glass = false;                   ///< refracts; the object must be closed, its normals outwards
   bool two_sided = true;                ///< both faces are seen; glass is one-sided
   bool hidden = false;                  ///< not hit by any ray
+  bool operator==(const Material&) const = default;
 };
 /// The material of a name: matte, glossy, mirror, gold, copper, glass or ruby. Throws Error (usage) for another.
 [[nodiscard]] SPLATRAY_API Material named_material(const std::string& name);
@@ -173,9 +174,21 @@ struct Light {
   /// Point: its place; directional: direction towards the light, any length > 0.
   Double3 position{0.0, 1.0, 0.0};
   Float3 power{3.14F, 3.14F, 3.14F};  ///< directional: irradiance facing it; point: irradiance * distance^2
+  double size =
+      0.0;  ///< makes shadows soft. point: radius, world units; directional: angular diameter, degrees
+};
+/// How light is followed.
+enum class Style {
+  automatic,  ///< scan for scans in no light of their own, else lit
+  paper,      ///< highlights, mirrors, glass and hard shadows, no light between surfaces: quick
+  lit,        ///< path tracing
+  clay,       ///< the same, everything matt and light grey
+  ambient,    ///< ambient occlusion
+  scan,       ///< the points' colours under ambient occlusion and the lights
 };
 /// In what light, and made of what, a scene is shown.
 struct Look {
+  Style style = Style::automatic;
   /// Unset = the scene's; without those, and without `environment`, a key light.
   std::optional<std::vector<Light>> lights{};
   /// A latitude-longitude picture's file, or studio, white, black, or a radiance r,g,b; empty = the scene's, else studio.
@@ -194,6 +207,19 @@ struct Settings {
   bool channels = false;  ///< also Image::depth, normal and object
 };
 
+/// How what is brighter than a display can be is brought below 1.
+enum class Tone {
+  soft,     ///< each channel alone, from 0.8 on
+  neutral,  ///< Khronos PBR Neutral: colours keep their hue, bright ones go towards white
+  agx,      ///< AgX: like film
+  none,     ///< cut off at 1
+};
+/// What stands between a picture and a .png.
+struct Display {
+  double exposure = 0.0;  ///< brightness, stops
+  Tone tone = Tone::neutral;
+};
+
 /// A picture; rows from the top.
 struct SPLATRAY_API Image {
   std::uint32_t width = 0, height = 0;
@@ -203,11 +229,10 @@ struct SPLATRAY_API Image {
   std::vector<Float3> normal{};        ///< unit, world space, 0 on a miss; likewise
   std::vector<std::int32_t> object{};  ///< -1 on a miss; likewise
 
-  /// Writes .png (sRGB, 8 bit, brightened by 2^exposure) or .exr (linear float; with Z, N.X N.Y N.Z and id where there are
-  /// channels). Throws Error (usage, failed); an older file then stays as it was.
-  void save(const std::filesystem::path& file, double exposure = 0.0) const;
+  /// Writes .png (sRGB, 8 bit, through `display`) or .exr (linear float; with Z, N.X N.Y N.Z and id where there are channels). Throws Error (usage, failed); an older file then stays as it was.
+  void save(const std::filesystem::path& file, const Display& display = {}) const;
   /// The bytes of the .png.
-  [[nodiscard]] std::vector<unsigned char> png(double exposure = 0.0) const;
+  [[nodiscard]] std::vector<unsigned char> png(const Display& display = {}) const;
 };
 
 /// The picture of a scene: the same scene, look, view, settings and device give the same bits. Throws Error.

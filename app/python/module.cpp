@@ -122,8 +122,8 @@ nb::object channel(api::Image& image, std::vector<Element>& values, std::size_t 
   return nb::cast(nb::ndarray<nb::numpy, Value>(data, {image.height, image.width, depth}, owner));
 }
 
-nb::bytes png(const api::Image& image, double exposure) {
-  const auto bytes = unlocked([&] { return image.png(exposure); });
+nb::bytes png(const api::Image& image, double exposure, int tone) {
+  const auto bytes = unlocked([&] { return image.png({exposure, static_cast<api::Tone>(tone)}); });
   return nb::bytes(bytes.data(), bytes.size());
 }
 
@@ -162,9 +162,9 @@ void add_image(nb::module_& module) {
       .def_prop_ro("depth", [](api::Image& image) { return channel<float>(image, image.depth, 1); })
       .def_prop_ro("normal", [](api::Image& image) { return channel<float>(image, image.normal, 3); })
       .def_prop_ro("object", [](api::Image& image) { return channel<std::int32_t>(image, image.object, 1); })
-      .def("png", png, nb::arg("exposure"))
-      .def("save", [](const api::Image& image, const std::filesystem::path& file, double exposure) {
-        unlocked([&] { image.save(file, exposure); });
+      .def("png", png, nb::arg("exposure"), nb::arg("tone"))
+      .def("save", [](const api::Image& image, const std::filesystem::path& file, double exposure, int tone) {
+        unlocked([&] { image.save(file, {exposure, static_cast<api::Tone>(tone)}); });
       });
 }
 

@@ -49,9 +49,13 @@ void add_picture_values(nb::module_& module) {
             light.kind = point ? api::Light::Kind::point : api::Light::Kind::directional;
           })
       .def_rw("position", &api::Light::position)
+      .def_rw("size", &api::Light::size)
       .def_rw("power", &api::Light::power);
   nb::class_<api::Look>(module, "Look")
       .def(nb::init<>())
+      .def_prop_rw(
+          "style", [](const api::Look& look) { return static_cast<int>(look.style); },
+          [](api::Look& look, int style) { look.style = static_cast<api::Style>(style); })
       .def_rw("lights", &api::Look::lights)
       .def_rw("environment", &api::Look::environment)
       .def_rw("environment_strength", &api::Look::environment_strength)

@@ -140,8 +140,10 @@ SequenceOptions random_sequence(Dice& dice, const PictureOptions& picture) {
     sequence.turntable = 1 + dice.below(999999);
   else
     sequence.camera_path = odd_text(dice);
-  const std::uint32_t first = dice.below(1000);
-  maybe(dice, sequence.frames, {first, first + dice.below(1000)});
+  for (std::uint32_t i = dice.below(4); i > 0; --i) {
+    const std::uint32_t first = dice.below(1000);
+    sequence.frames.push_back({first, first + dice.below(3) * dice.below(400), 1 + dice.below(5)});
+  }
   return sequence;
 }
 

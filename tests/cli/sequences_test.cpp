@@ -112,6 +112,28 @@ TEST_F(CliSequences, InterruptLeavesWholeFrames) {
   for (const std::string& name : names()) EXPECT_EQ(read_display_image(file(name), 0.0).width, 64U) << name;
 }
 
+TEST_F(CliSequences, FramesOfAChunk) {
+  ASSERT_EQ(render_to("a#.png", {grid, "--turntable=12", "--frames=0-1,5,5-11:3"}).code, 0);
+  EXPECT_EQ(names(),
+            (std::vector<std::string>{"a0.png", "a1.png", "a11.png", "a5.png", "a8.png", "grid.ply"}));
+  ASSERT_EQ(render_to("b#.png", {grid, "--turntable=12"}).code, 0);
+  EXPECT_EQ(bytes("a8.png"), bytes("b8.png"));
+  EXPECT_NE(bytes("a8.png"), bytes("b7.png"));
+}
+
+TEST(FrameList, IsReadAsFarmsWriteIt) {
+  const auto frames = [](const std::string& text) { return listed_frames(read_frame_list(text).value()); };
+  using Frames = std::vector<std::uint32_t>;
+  EXPECT_EQ(frames("7"), (Frames{7}));
+  EXPECT_EQ(frames("0-3,7,9-12:3"), (Frames{0, 1, 2, 3, 7, 9, 12}));
+  EXPECT_EQ(frames("4-9:4"), (Frames{4, 8}));
+  EXPECT_EQ(frames("3,1-4"), (Frames{3, 1, 2, 4}));
+  EXPECT_EQ(frames("999999"), (Frames{999999}));
+  for (const char* text : {"", ",", "1,", "2-1", "1-2:0", "1:2", "1-", "-1", "a", "1 -2", "1000000",
+                           "1-2:", "1--2", "99999999999", "1-2:3:4"})
+    EXPECT_FALSE(read_frame_list(text)) << text;
+}
+
 TEST_F(CliSequences, NonsenseIsRefused) {
   const std::string path =
       write("path.json", R"({"keys": [)" + key("1, 1, 1", 3) + "," + key("2, 1, 1", 9) + "]}");
@@ -123,6 +145,7 @@ TEST_F(CliSequences, NonsenseIsRefused) {
   refuse({"--frames=1-2"}, "--camera-path or --turntable");
   refuse({"--turntable=4", "--frames=2-4"}, "0-3");
   refuse({"--turntable=4", "--frames=2-1"}, "first-last");
+  refuse({"--turntable=4", "--frames=0,2-3:0"}, "first-last");
   refuse({"--turntable=4", "--camera-path", path}, "one of them");
   refuse({"--camera-path", path, "--frames=2-9"}, "3-9");
   refuse({"--camera-path", path, "--eye=1,1,1"}, "only the path");

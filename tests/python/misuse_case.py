@@ -46,13 +46,14 @@ class Misuse(unittest.TestCase):
         self.refused(ValueError, image.save, "a.gif")
         self.refused(TypeError, image.save, 3)
         self.refused(ValueError, image.save, "a.png", exposure=1000)
+        self.refused(ValueError, image.save, "a.png", tone="bright")
 
     def test_render(self):
         render = self.scene.render
         for names in ({"size": (0, 5)}, {"size": (5, 40000)}, {"samples": 0}, {"samples": 2**40}, {"seed": -1}, {"bounces": 65},
-                      {"environment_strength": -1}, {"environment_turn": NAN}, {"environment": "no.hdr"}, {"environment": "1,nan,1"},
+                      {"environment_strength": -1}, {"environment_turn": NAN}, {"look": "nice"}, {"environment": "no.hdr"}, {"environment": "1,nan,1"},
                       {"materials": {"other": sr.Material()}}, {"materials": {"points": sr.Material(ior=-1.0)}},
-                      {"lights": [sr.Light((0, 0, 1), (-1, 0, 0))]}, {"lights": [sr.Light((0, 0, 0), (1, 1, 1))]}):
+                      {"lights": [sr.Light((0, 0, 1), (-1, 0, 0))]}, {"lights": [sr.Light((0, 0, 0), (1, 1, 1))]}, {"lights": [sr.sun((0, 0, 1), 1, 200)]}):
             self.refused(ValueError, render, **({"size": (8, 8)} | names))
         for names in ({"size": 5}, {"size": (5, 5.5)}, {"samples": "3"}, {"camera": (1, 2, 3)}, {"lights": [3]}, {"materials": [1]},
                       {"environment": 4}, {"progress": "x"}, {"materials": {"points": "gold"}}):

@@ -76,6 +76,9 @@ class Pictures(unittest.TestCase):
         lit = self.scene.render(size=size, lights=[sr.point_light((0, 0, 3), 20.0), sr.sun((1, 0, 0))], environment="black").pixels
         dark = self.scene.render(size=size, lights=[], environment="black").pixels
         self.assertEqual(dark[..., :3].max(), 0.0)
+        for look in ("paper", "clay", "ao", "scan"):
+            other = self.scene.render(size=size, look=look).pixels
+            self.assertTrue(np.isfinite(other).all() and np.abs(other - plain).max() > 0.02, look)
         for a, b in ((plain, gold), (plain, lit), (gold, lit)):
             self.assertGreater(np.abs(a - b).max(), 0.05)
         np.testing.assert_array_equal(plain, self.scene.render(size=size).pixels)

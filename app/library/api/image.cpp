@@ -8,6 +8,19 @@
 namespace splatray::api {
 namespace {
 
+splatray::Display inner_display(const Display& display) {
+  switch (display.tone) {
+    case Tone::soft:
+      return {display.exposure, splatray::Tone::soft};
+    case Tone::agx:
+      return {display.exposure, splatray::Tone::agx};
+    case Tone::none:
+      return {display.exposure, splatray::Tone::none};
+    default:
+      return {display.exposure, splatray::Tone::neutral};
+  }
+}
+
 void check(const Image& image, double exposure) {
   constexpr double MOST_STOPS = 60.0;
   const std::size_t pixels = std::size_t{image.width} * image.height;
@@ -36,22 +49,22 @@ splatray::Image inner_image(const Image& image) {
 
 }  // namespace
 
-void Image::save(const std::filesystem::path& file, double exposure) const {
+void Image::save(const std::filesystem::path& file, const Display& display) const {
   guarded([&] {
-    check(*this, exposure);
+    check(*this, display.exposure);
     const std::string extension = lower_extension(file);
     const splatray::Image inner = inner_image(*this);
-    if (extension == ".png") return write_png(display_image(inner, exposure), {}, file);
+    if (extension == ".png") return write_png(display_image(inner, inner_display(display)), {}, file);
     if (extension != ".exr") refuse("output '" + file.string() + "'", "a name ending in .png or .exr");
     const bool channels = !depth.empty();
     write_exr(inner, {channels, channels, channels}, {}, file);
   });
 }
 
-std::vector<unsigned char> Image::png(double exposure) const {
+std::vector<unsigned char> Image::png(const Display& display) const {
   return guarded([&] {
-    check(*this, exposure);
-    return encode_png(display_image(inner_image(*this), exposure), {});
+    check(*this, display.exposure);
+    return encode_png(display_image(inner_image(*this), inner_display(display)), {});
   });
 }
 

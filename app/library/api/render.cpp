@@ -1,9 +1,11 @@
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
 #include "engine/scene/scene_check.h"
+#include "engine/scene/surface.h"
 
 namespace splatray::api {
 namespace {
@@ -18,6 +20,27 @@ splatray::View inner_view(const View& view) {
       {vector(camera.eye), vector(camera.target), vector(camera.up), camera.fov_y_deg, camera.ortho_height},
       view.width,
       view.height};
+}
+
+/// LOOK_* of a style; automatic as the programs have it.
+std::uint32_t inner_look(const LoadedScene& loaded, const Look& look) {
+  switch (look.style) {
+    case Style::paper:
+      return LOOK_PAPER;
+    case Style::lit:
+      return LOOK_LIT;
+    case Style::clay:
+      return LOOK_CLAY;
+    case Style::ambient:
+      return LOOK_AO;
+    case Style::scan:
+      return LOOK_SCAN;
+    default:
+      PictureOptions picture;
+      picture.environment = look.environment;
+      if (look.lights) picture.lights.emplace();
+      return choose_look(loaded.scene, picture);
+  }
 }
 
 splatray::Settings inner_settings(const Look& look, const Settings& settings) {
@@ -42,39 +65,44 @@ splatray::Settings inner_settings(const Look& look, const Settings& settings) {
   return inner;
 }
 
-/// The materials and lights of a picture.
-struct Shown {
-  std::vector<splatray::Material> materials;
-  std::vector<SceneLight> lights;
-};
-
-std::vector<splatray::Material> inner_materials(const splatray::Scene& scene, const Look& look) {
+/// The scene's materials, surfaces and lights as a picture shows them.
+splatray::Scene inner_materials(const splatray::Scene& scene, const Look& look) {
   if (!look.materials.empty() && look.materials.size() != scene.materials.size())
     refuse(std::to_string(look.materials.size()) + " materials",
            "none or as many as the " + std::to_string(scene.materials.size()) + " objects");
-  std::vector<splatray::Material> materials = scene.materials;
-  for (std::size_t i = 0; i < look.materials.size(); ++i)
-    materials[i] = changed(materials[i], look.materials[i]);
-  return materials;
+  splatray::Scene shown;
+  shown.materials = scene.materials;
+  shown.surfaces = surfaces_of(scene);
+  for (std::size_t i = 0; i < look.materials.size(); ++i) {
+    if (look.materials[i] == described(scene.materials[i])) continue;  // what else the file says of it stays
+    shown.materials[i] = changed(scene.materials[i], look.materials[i]);
+    shown.surfaces[i] = surface_of(shown.materials[i]);
+  }
+  return shown;
 }
 
-Shown choose_shown(const LoadedScene& loaded, const Look& look, const splatray::Camera& camera) {
-  Shown shown{inner_materials(loaded.scene, look), {}};
+SceneLight inner_light(const Light& light) {
+  constexpr double LARGEST = 1e30, WHOLE_SKY_DEG = 180.0;
+  const bool point = light.kind == Light::Kind::point;
+  if (!(light.size >= 0.0 && light.size <= (point ? LARGEST : WHOLE_SKY_DEG)))
+    refuse("a light of size " + std::to_string(light.size),
+           "0 or more, of directional ones at most 180 degrees");
+  SceneLight inner{point ? LIGHT_POINT : LIGHT_DIRECTIONAL, vector(light.position), vector(light.power)};
+  inner.size = point ? light.size : light.size * std::numbers::pi / 360.0;
+  if (!point && glm::length(inner.position) > 0.0) inner.position = glm::normalize(inner.position);
+  return inner;
+}
+
+splatray::Scene choose_shown(const LoadedScene& loaded, const Look& look, std::uint32_t inner_look,
+                             const splatray::Camera& camera) {
+  splatray::Scene shown = inner_materials(loaded.scene, look);
   if (look.lights) {
-    for (const Light& light : *look.lights)
-      shown.lights.push_back({light.kind == Light::Kind::point ? LIGHT_POINT : LIGHT_DIRECTIONAL,
-                              vector(light.position), vector(light.power)});
+    for (const Light& light : *look.lights) shown.lights.push_back(inner_light(light));
   } else {
-    shown.lights =
-        own_lights(loaded.scene, !look.environment.empty() || !loaded.environment_name.empty(), camera);
+    const bool environment_named = !look.environment.empty() || !loaded.environment_name.empty();
+    shown.lights = own_lights(loaded.scene, environment_named, inner_look, camera);
   }
-  for (SceneLight& light : shown.lights)
-    if (light.kind == LIGHT_DIRECTIONAL && glm::length(light.position) > 0.0)
-      light.position = glm::normalize(light.position);
-  splatray::Scene checked;
-  checked.materials = shown.materials;
-  checked.lights = shown.lights;
-  if (const auto defect = find_look_defect(checked)) refuse(defect->found, defect->expected);
+  if (const auto defect = find_look_defect(shown)) refuse(defect->found, defect->expected);
   return shown;
 }
 
@@ -98,12 +126,13 @@ Image render(const Scene& scene, const View& view, const Look& look, const Setti
   return guarded(progress, [&](ProgressRelay& relay) {
     Scene::Impl& impl = SceneAccess::impl(scene);
     const splatray::View inner = inner_view(view);
-    const splatray::Settings method = inner_settings(look, settings);
+    splatray::Settings method = inner_settings(look, settings);
+    method.look = inner_look(impl.loaded, look);
     (void)make_frame_params(impl.loaded.scene, inner, method);  // refuses a camera before a device is opened
-    const Shown shown = choose_shown(impl.loaded, look, inner.camera);
+    const splatray::Scene shown = choose_shown(impl.loaded, look, method.look, inner.camera);
     return impl.with_tracer([&](Tracer& tracer) {
       impl.show_environment(look.environment.empty() ? impl.loaded.environment_name : look.environment);
-      tracer.set_materials(shown.materials);
+      tracer.set_materials(shown.materials, shown.surfaces);
       tracer.set_lights(shown.lights);
       return outer_image(tracer.render(inner, method, [&](double share) { return relay("tracing", share); }));
     });

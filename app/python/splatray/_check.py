@@ -83,6 +83,13 @@ def size(value: Any) -> Tuple[int, int]:
     return whole("width", width, 1, 32768), whole("height", height, 1, 32768)
 
 
+def choice(name: str, value: Any, choices: Tuple[str, ...]) -> int:
+    """The place of a word among those there are."""
+    if text(name, value) not in choices:
+        raise ValueError(f"{name}: found {value!r}, expected one of {', '.join(choices)}")
+    return choices.index(value)
+
+
 def progress(value: Any) -> Optional[Progress]:
     if value is not None and not callable(value):
         raise TypeError(f"progress: found {value!r}, expected a function or None")

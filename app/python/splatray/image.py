@@ -9,6 +9,8 @@ import numpy as np
 
 from . import _check, _core
 
+TONES = ("soft", "neutral", "agx", "none")
+
 
 class Image:
     """A picture; rows from the top. The arrays are views of it, not copies."""
@@ -48,17 +50,21 @@ class Image:
         """int32 (height, width): index into Scene.objects, -1 on a miss. None unless rendered with channels=True."""
         return self._core.object
 
-    def save(self, path: Any, exposure: float = 0.0) -> None:
-        """Writes .png (sRGB, 8 bit, brightened by 2^exposure) or .exr (linear float, with all channels)."""
-        stops = _check.number("exposure", exposure)
+    def save(self, path: Any, exposure: float = 0.0, tone: str = "neutral") -> None:
+        """Writes .png (sRGB, 8 bit) or .exr (linear float, with all channels).
+
+        exposure: brightness of a .png, stops. tone: how what is brighter than a display can be is brought below 1: neutral, agx, soft or
+        none.
+        """
+        stops, curve = _check.number("exposure", exposure), _check.choice("tone", tone, TONES)
         try:
-            self._core.save(os.fspath(path), stops)
+            self._core.save(os.fspath(path), stops, curve)
         except RuntimeError as error:
             raise OSError(str(error)) from None
 
-    def png(self, exposure: float = 0.0) -> bytes:
+    def png(self, exposure: float = 0.0, tone: str = "neutral") -> bytes:
         """The bytes of the .png."""
-        return self._core.png(_check.number("exposure", exposure))
+        return self._core.png(_check.number("exposure", exposure), _check.choice("tone", tone, TONES))
 
     def _repr_png_(self) -> bytes:
         return self.png()

@@ -56,25 +56,29 @@ def material(name: str) -> Material:
 
 @dataclass(frozen=True)
 class Light:
-    """A light; point_light() and sun() make them. power: intensity of a point light, irradiance of a sun, linear r, g, b."""
+    """A light; point_light() and sun() make them. power: intensity of a point light, irradiance of a sun, linear r, g, b. size:
+    radius of a point light in world units, angular diameter of a sun in degrees.
+    """
 
     position: Vector
     power: Color
     point: bool = False
+    size: float = 0.0
 
     def _to_core(self) -> _core.Light:
         light = _core.Light()
         light.point = bool(self.point)
         light.position = _check.vector("position", self.position)
         light.power = _check.color("power", self.power)
+        light.size = _check.number("size", self.size)
         return light
 
 
-def point_light(position: Vector, power: Color) -> Light:
-    """A point light at a place; power: irradiance times distance^2, a number or r, g, b."""
-    return Light(_check.vector("position", position), _check.color("power", power), True)
+def point_light(position: Vector, power: Color, radius: float = 0.0) -> Light:
+    """A light at a place; power: irradiance times distance^2, a number or r, g, b. radius: world units; above 0 shadows are soft."""
+    return Light(_check.vector("position", position), _check.color("power", power), True, _check.number("radius", radius))
 
 
-def sun(direction: Vector, power: Color = (3.14, 3.14, 3.14)) -> Light:
-    """Parallel light from `direction`, of any length; power: irradiance of what faces it, a number or r, g, b."""
-    return Light(_check.vector("direction", direction), _check.color("power", power), False)
+def sun(direction: Vector, power: Color = (3.14, 3.14, 3.14), diameter: float = 0.0) -> Light:
+    """Light from `direction`, of any length; power: irradiance of what faces it, a number or r, g, b. diameter: degrees, the real sun's is 0.5."""
+    return Light(_check.vector("direction", direction), _check.color("power", power), False, _check.number("diameter", diameter))

@@ -15,6 +15,8 @@ from .look import Light, Material
 
 Path = Union[str, "os.PathLike[str]"]
 
+STYLES = ("auto", "paper", "lit", "clay", "ao", "scan")
+
 
 class Hits(NamedTuple):
     """What rays hit, an element a ray.
@@ -116,13 +118,14 @@ class Scene:
             raise OSError(str(error)) from None
 
     def render(self, camera: Optional[Camera] = None, size: Tuple[int, int] = (1280, 720), *, samples: int = 16, seed: int = 1,
-               bounces: int = 8, shadows: bool = True, channels: bool = False, lights: Optional[Sequence[Light]] = None,
+               bounces: int = 8, shadows: bool = True, channels: bool = False, look: str = "auto", lights: Optional[Sequence[Light]] = None,
                environment: str = "", environment_strength: float = 1.0, environment_turn: float = 0.0,
                materials: Optional[Mapping[str, Material]] = None, progress: Optional[_check.Progress] = None) -> Image:
         """The picture of the scene; the same arguments and device give the same bits.
 
         camera: None for frame(). size: (width, height), pixels, to 32768. samples: a pixel, to 65536. bounces: mirror and glass rays in
-        a path, to 64. channels: also depth, normal and object. lights: None for the scene's own, or a key light. environment: file of a
+        a path, to 64. channels: also depth, normal and object. look: lit (path tracing), paper (highlights, mirrors, glass and hard shadows:
+        quick), clay (all matt and grey), ao (ambient occlusion), scan (colours under ambient occlusion and the lights), auto for scan or lit. lights: None for the scene's own, or a key light. environment: file of a
         latitude-longitude picture, or studio, white, black, or a radiance "r,g,b"; empty for the scene's, else the studio.
         environment_turn: turns about up, 1 = a full one. materials: by object's name, in place of the scene's.
         """
@@ -131,19 +134,21 @@ class Scene:
         camera = frame(self, aspect=width / height) if camera is None else camera
         if not isinstance(camera, Camera):
             raise TypeError(f"camera: found {camera!r}, expected a splatray.Camera")
-        look = _core.Look()
-        look.lights = None if lights is None else [_to_core(Light, "lights", light) for light in lights]
-        look.environment = _check.text("environment", os.fspath(environment))
-        look.environment_strength = _check.number("environment_strength", environment_strength)
-        look.environment_turn = _check.number("environment_turn", environment_turn)
-        look.materials = _materials(core, materials)
+        style = _check.choice("look", look, STYLES)
+        shown = _core.Look()
+        shown.style = style
+        shown.lights = None if lights is None else [_to_core(Light, "lights", light) for light in lights]
+        shown.environment = _check.text("environment", os.fspath(environment))
+        shown.environment_strength = _check.number("environment_strength", environment_strength)
+        shown.environment_turn = _check.number("environment_turn", environment_turn)
+        shown.materials = _materials(core, materials)
         settings = _core.Settings()
         settings.samples = _check.whole("samples", samples, 1, 65536)
         settings.seed = _check.whole("seed", seed, 0, 2**32 - 1)
         settings.bounces = _check.whole("bounces", bounces, 0, 64)
         settings.shadows = bool(shadows)
         settings.channels = bool(channels)
-        return Image(core.render(camera._to_core(), width, height, look, settings, _check.progress(progress)))
+        return Image(core.render(camera._to_core(), width, height, shown, settings, _check.progress(progress)))
 
     def trace(self, origins: Any, directions: Any, *, progress: Optional[_check.Progress] = None) -> Hits:
         """Traces rays exactly, as brute force over all discs would.
