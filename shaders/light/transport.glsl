@@ -82,7 +82,7 @@ Probe sky_probe(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
 
 /// The light found from a hit by LOOK's rays: to a light, to the sky or both, one after the other, so that programs hold one walk
 /// for them.
-void find_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
+void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
                 INOUT(Tally) tally) {
   bool sky = LOOK == LOOK_AO || LOOK == LOOK_SCAN;
   bool to_lights = LIGHTS || SKY;
@@ -188,7 +188,7 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
   if (LIGHTS || SKY || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
-    find_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, tally);
+    look_for_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, tally);
   if (LOOK == LOOK_BASE) path.radiance = bsdf.base;
   if (LOOK == LOOK_AO || LOOK == LOOK_SCAN || LOOK == LOOK_BASE) {
     path.alive = false;

@@ -74,8 +74,16 @@ TEST_F(CliOptions, MissingPartsAreRefused) {
   expect_refused([&] { return render({grid, "--eye=9,9,9", "--up=0,0,0"}); }, 2, "up is zero");
   expect_refused([&] { return run_program({RENDER}); }, 2, "no SCENE");
   expect_refused([&] { return render({grid, "--denoise", "--samples=1"}); }, 2, "--denoise with one sample");
-  expect_refused([&] { return render({grid, "--denoise", "--look=paper"}); }, 2, "--denoise with --look paper");
-  expect_refused([&] { return render({grid, "--denoise", "--reference=x.png"}); }, 2, "--denoise with --reference");
+  expect_refused(
+      [&] {
+        return render({grid, "--denoise", "--samples=2", "--look=paper"});
+      },
+      2, "--denoise with --look paper");
+  expect_refused(
+      [&] {
+        return render({grid, "--denoise", "--samples=2", "--reference=x.png"});
+      },
+      2, "--denoise with --reference");
   expect_refused([&] { return run_program({RENDER, grid}); }, 2, "no output");
   expect_refused([&] { return run_program({RENDER, grid, "-o", file("a.jpg")}); }, 2, ".png or .exr");
   expect_refused([&] { return run_program({RENDER, grid, "-o", file("a")}); }, 2, ".png or .exr");

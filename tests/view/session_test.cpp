@@ -272,7 +272,8 @@ TEST_F(ViewSession, DragonOfAMillionIsFluid) {
   std::sort(per_second.begin(), per_second.end());
   std::cout << "first picture " << first_picture_ms[1] << " ms, " << per_second[1]
             << " pictures/s while moving\n";
-  EXPECT_LE(first_picture_ms[1], 1000.0);
+  // What a path-traced first picture may take with no shader compiled before; 1 s was the bound while it was Phong's.
+  EXPECT_LE(first_picture_ms[1], 1500.0);
   EXPECT_GE(per_second[1], 15.0);
 }
 

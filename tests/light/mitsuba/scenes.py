@@ -129,6 +129,7 @@ def scan(model):
         rows, columns = np.mgrid[0:64, 0:128]
         sky = np.full((64, 128, 3), 0.3) + 0.7 * (1.0 - rows / 63.0)[..., None] * [0.6, 0.8, 1.0]
         sky[14:18, 30:36] += [60.0, 55.0, 45.0]
+        sky = sky.repeat(8, 0).repeat(8, 1)  # Mitsuba's rows lie half a row beside ours
         return Scene(parts={"body": body, "floor": floor}, eye=(2.5, 1.8, 4.0), target=(0, 0.7, 0), fov_deg=35, sky=sky)
 
     return make
