@@ -110,7 +110,8 @@ class OpenImageDenoise {
 
 std::string remove_noise(Tracer& tracer, const View& view, const Settings& settings, Image& image) {
   const std::vector<vec4> base = base_colors(tracer, view, settings);
-  if (const auto library = OpenImageDenoise::find()) return "Open Image Denoise " + library->run(image, base);
+  static const std::optional<OpenImageDenoise> library = OpenImageDenoise::find();
+  if (library) return "Open Image Denoise " + library->run(image, base);
   image = denoised(image, base);
   return "splatray's own filter";
 }

@@ -5,9 +5,9 @@
 ///     sr::Image image = sr::render(scene, {sr::frame(scene), 1280, 720});
 ///     image.save("scan.png");
 ///
-/// World space is right-handed, in the units of the input, float64. Colours and radiances are linear sRGB. Lengths are world units,
-/// angles degrees. Nothing is printed, and no file is written but those that are named. Every failure is an Error. All functions
-/// may be called from several threads at once, with the same scene too: what needs the device waits its turn.
+/// World space is right-handed, in the units of the input, float64. Colours and radiances are linear sRGB. Lengths are world
+/// units, angles degrees. Nothing is printed, and no file is written but those that are named. Every failure is an Error. All
+/// functions may be called from several threads at once, with the same scene too: what needs the device waits its turn.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -100,8 +100,8 @@ struct OpenOptions {
 };
 
 class Scene;
-/// Reads scenes, models and scans: .ply .obj .stl .vtp .gltf .glb .las .laz .e57 .pcd .ptx .pts .xyz .csv .txt .asc .bin, folders of
-/// scans, or one .soct alone. Throws Error (input, usage, cancelled, out_of_memory).
+/// Reads scenes, models and scans: .ply .obj .stl .vtp .gltf .glb .las .laz .e57 .pcd .ptx .pts .xyz .csv .txt .asc .bin, folders
+/// of scans, or one .soct alone. Throws Error (input, usage, cancelled, out_of_memory).
 [[nodiscard]] SPLATRAY_API Scene open(std::span<const std::filesystem::path> files,
                                       const OpenOptions& options = {});
 [[nodiscard]] SPLATRAY_API Scene open(const std::filesystem::path& file, const OpenOptions& options = {});
@@ -229,7 +229,8 @@ struct SPLATRAY_API Image {
   std::vector<Float3> normal{};        ///< unit, world space, 0 on a miss; likewise
   std::vector<std::int32_t> object{};  ///< -1 on a miss; likewise
 
-  /// Writes .png (sRGB, 8 bit, through `display`) or .exr (linear float; with Z, N.X N.Y N.Z and id where there are channels). Throws Error (usage, failed); an older file then stays as it was.
+  /// Writes .png (sRGB, 8 bit, through `display`) or .exr (linear float; with Z, N.X N.Y N.Z and id where there are channels).
+  /// Throws Error (usage, failed); an older file then stays as it was.
   void save(const std::filesystem::path& file, const Display& display = {}) const;
   /// The bytes of the .png.
   [[nodiscard]] std::vector<unsigned char> png(const Display& display = {}) const;
@@ -249,9 +250,9 @@ struct Hits {
   std::vector<std::int64_t> point{};
 };
 /// Traces rays exactly: a ray hits what brute force over all discs finds, of the ray rounded to float32 in a cube about the scene
-/// (so t errs by up to 1e-6 of the scene's size). Directions have any length > 0; rays outside one-sided objects see front faces alone.
-/// `origins` and `directions` are of one length. Throws Error (usage) with the number of a ray that is not finite or has no
-/// direction.
+/// (so t errs by up to 1e-6 of the scene's size). Directions have any length > 0; rays outside one-sided objects see front faces
+/// alone. `origins` and `directions` are of one length. Throws Error (usage) with the number of a ray that is not finite or has
+/// no direction.
 [[nodiscard]] SPLATRAY_API Hits trace(const Scene& scene, std::span<const Double3> origins,
                                       std::span<const Double3> directions, const Progress& progress = {});
 

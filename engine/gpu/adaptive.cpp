@@ -48,8 +48,7 @@ class AdaptiveTile {
   void trace(const Goal& goal, const std::function<bool(double error)>& proceed) {
     for (std::uint32_t half = 0; half < 2; ++half)
       step(half, std::vector<bool>(regions_, true), FIRST_SAMPLES);
-    double wanted = goal.error * std::sqrt(2.0);
-    if (goal.error <= 0.0) wanted = 0.7 * worst_;
+    double wanted = goal.error > 0.0 ? goal.error * std::sqrt(2.0) : 0.7 * worst_;
     bool more = true;
     while (more && proceed(worst_)) {
       more = goal.error <= 0.0 && wanted > NOISE;

@@ -10,6 +10,21 @@
 #include "engine/table/albedo_table.h"
 
 namespace splatray {
+namespace {
+
+/// Emitters as the table of lights has them.
+std::vector<Light> balls_of(std::span<const Emitter> emitters) {
+  std::vector<Light> balls;
+  for (const Emitter& emitter : emitters) {
+    Light& ball = balls.emplace_back();
+    ball.position = vec3(emitter.center);
+    ball.size = static_cast<float>(emitter.radius);
+    ball.share = static_cast<float>(emitter.power);
+  }
+  return balls;
+}
+
+}  // namespace
 
 DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish, bool culls)
     : context_(context), queue_(queue), wish_(wish), culls_(culls), environment_(context, queue, {}) {
@@ -20,7 +35,7 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   bindings_.reset();
   pools_ = {};  // the device may not have room for two scenes
   cells_ = filled_cells(scene);
-  const std::vector<Emitter> emitters = find_emitters(scene, scene.surfaces);
+  emitters_ = balls_of(find_emitters(scene, scene.surfaces));
   pools_ = Pools(context_, queue_, scene, wish_, spent);
   bindings_.emplace(context_, pools_.paging);
   outline_ = {};
@@ -31,7 +46,6 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   materials_ = scene.materials;
   set_materials(scene.materials, scene.surfaces);
   set_lights(scene.lights);
-  set_emitters(emitters);
 }
 
 void DeviceScene::set_materials(std::span<const Material> materials, std::span<const Surface> surfaces) {
@@ -60,30 +74,22 @@ void DeviceScene::set_lights(std::span<const SceneLight> lights) {
     throw Error(ExitCode::failed, "found " + std::to_string(sized) +
                                       " lights that have a size, expected at most " +
                                       std::to_string(LIGHTS_SIZED_MOST));
-  const std::vector<Light> in_root = lights_in_root(outline_, {lights.begin(), lights.end()});
-  lights_.erase(lights_.begin(), lights_.begin() + light_count_);
-  lights_.insert(lights_.begin(), in_root.begin(), in_root.end());
-  light_count_ = static_cast<std::uint32_t>(in_root.size());
+  lights_ = lights_in_root(outline_, {lights.begin(), lights.end()});
   lights_sized_ = sized;
   light_irradiance_ = summed_irradiance(outline_, {lights.begin(), lights.end()});
   upload_lights();
 }
 
 void DeviceScene::set_emitters(std::span<const Emitter> emitters) {
-  lights_.resize(light_count_);
-  for (const Emitter& emitter : emitters) {
-    Light ball{};
-    ball.position = vec3(emitter.center);
-    ball.size = static_cast<float>(emitter.radius);
-    ball.share = static_cast<float>(emitter.power);
-    lights_.push_back(ball);
-  }
+  emitters_ = balls_of(emitters);
   upload_lights();
 }
 
 void DeviceScene::upload_lights() {
-  reserve_storage(context_, light_buffer_, std::span(lights_).size_bytes());
-  light_buffer_.upload(queue_, std::as_bytes(std::span(lights_)));
+  std::vector<Light> table = lights_;
+  table.insert(table.end(), emitters_.begin(), emitters_.end());
+  reserve_storage(context_, light_buffer_, std::span(table).size_bytes());
+  light_buffer_.upload(queue_, std::as_bytes(std::span(table)));
 }
 
 void DeviceScene::set_environment(const Environment& environment) {
@@ -133,7 +139,7 @@ SceneContent DeviceScene::content() const {
           .pages = pools_.paging.pages_constant(),
           .page_shift = pools_.paging.page_shift,
           .surfaces = surface_features_,
-          .lights = light_count_ > 0,
+          .lights = !lights_.empty(),
           .sized_lights = lights_sized_ > 0,
           .environment_texture = environment_texture_,
           .sky = sky_.width > 0};
@@ -144,11 +150,11 @@ FrameParams DeviceScene::picture_params(const View& view, const Settings& settin
   const bool traces = settings.look == LOOK_LIT || settings.look == LOOK_CLAY;
   const bool mirrors = settings.look == LOOK_PAPER && (material_content_.mirrors || material_content_.glass);
   if (!traces && !mirrors) frame.max_bounces = 0;
-  frame.light_end = light_count_;
+  frame.light_end = static_cast<std::uint32_t>(lights_.size());
   frame.loop_probe = LOOP_PROBE;
   set_media(frame, materials_, surfaces_);
   frame.lights_sized = lights_sized_;
-  frame.emitters = static_cast<std::uint32_t>(lights_.size()) - light_count_;
+  frame.emitters = static_cast<std::uint32_t>(emitters_.size());
   set_sky(settings, frame);
   frame.environment =
       settings.environment_strength * (environment_texture_ ? glm::vec3(1.0F) : environment_constant_);
@@ -165,7 +171,7 @@ void DeviceScene::set_sky(const Settings& settings, FrameParams& frame) const {
   const double share = std::clamp(sky / std::max(sky + light_irradiance_, 1e-30), 0.1, 0.9);
   frame.sky_width = sky_.width;
   frame.sky_height = sky_.height;
-  frame.sky_share = light_count_ > 0 ? static_cast<float>(share) : 1.0F;
+  frame.sky_share = lights_.empty() ? 1.0F : static_cast<float>(share);
 }
 
 FrameParams DeviceScene::query_params(const Settings& settings) const {

@@ -9,9 +9,9 @@
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/pools.h"
+#include "engine/image/emitters.h"
 #include "engine/image/footprint.h"
 #include "engine/image/view.h"
-#include "engine/image/emitters.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/sky_table.h"
@@ -74,8 +74,8 @@ class DeviceScene {
   std::uint32_t surface_features_ = 0;
   MaterialContent material_content_;
   Buffer material_buffer_, surface_buffer_, light_buffer_, table_buffer_;
-  std::vector<Light> lights_;  ///< in root space; then a ball of each emitter
-  std::uint32_t light_count_ = 0, lights_sized_ = 0;
+  std::vector<Light> lights_, emitters_;  ///< in root space; their table has them in this order
+  std::uint32_t lights_sized_ = 0;
   double light_irradiance_ = 0.0;  ///< at the scene's centre, facing all, the mean of rgb
   EnvironmentTexture environment_;
   bool environment_texture_ = false;

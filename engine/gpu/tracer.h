@@ -10,9 +10,9 @@
 
 #include "engine/gpu/device_profile.h"
 #include "engine/gpu/pools.h"
+#include "engine/image/emitters.h"
 #include "engine/image/image.h"
 #include "engine/image/view.h"
-#include "engine/image/emitters.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/scene.h"
 #include "engine/vulkan/context.h"

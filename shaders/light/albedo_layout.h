@@ -8,7 +8,7 @@
 namespace splatray {
 #endif
 
-SPLATRAY_CONST ALBEDO_COLUMNS = 48u;  ///< cosines, evenly in log(1 + cosine / alpha): lobes change where it is about alpha
+SPLATRAY_CONST ALBEDO_COLUMNS = 48u;  ///< cosines, evenly in log(1 + cosine / alpha)
 SPLATRAY_CONST ALBEDO_ROWS = 32u;     ///< roughness row / (ALBEDO_ROWS - 1)
 /// Pairs, row by row: what facets that mirror all light reflect, and by how much the part of f90 in it exceeds schlick(cosine) of
 /// that; the rest is f0's (Karis 2013, "Real Shading in Unreal Engine 4"). Then for each row the means of both parts over all

@@ -155,8 +155,8 @@ float bsdf_scatters(Bsdf bsdf) {
   return below + (coat - below) * bsdf.coat_chosen;
 }
 
-/// A direction, and the weight of delta events. random.x chooses the lobe, and what is left of it, with random.y, the direction; random.z
-/// whether light is reflected or refracted.
+/// A direction, and the weight of delta events. random.x chooses the lobe, and what is left of it, with random.y, the direction;
+/// random.z whether light is reflected or refracted.
 BsdfSample bsdf_direction(Bsdf bsdf, vec3 to_eye, vec3 random) {
   float x = random.x;
   bool coat = LOBE_COAT && x < bsdf.coat_chosen;

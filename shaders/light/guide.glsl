@@ -1,12 +1,13 @@
-// Directions towards objects that send out light, in which paths may go on beside those that surfaces choose: such light is found where a
-// ray arrives, so that no splat of an object need be chosen, nor overlapping ones told apart. Needs `frame` and light_at(index).
+// Directions towards objects that send out light, in which paths may go on beside those that surfaces choose: such light is found
+// where a ray arrives, so that no splat of an object need be chosen, nor overlapping ones told apart. Needs `frame` and
+// light_at(index).
 #ifndef SPLATRAY_GUIDE_GLSL
 #define SPLATRAY_GUIDE_GLSL
 #include "light/sampling.glsl"
 
-/// How often a path goes on towards light, of those times at which its surface scatters; else as the surface chooses. One in two costs
-/// at most twice the variance where there is nothing to find (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
-/// sec. 9.2.3).
+/// How often a path goes on towards light, of those times at which its surface scatters; else as the surface chooses. One in two
+/// costs at most twice the variance where there is nothing to find (Veach 1997, "Robust Monte Carlo Methods for Light Transport
+/// Simulation", sec. 9.2.3).
 const float GUIDED = 0.5f;
 
 /// A ball with light in it, seen from a point.
@@ -26,7 +27,8 @@ GuideBall guide_ball(uint index, vec3 position) {
   return ball;
 }
 
-/// A direction into one of the balls. `choice` chooses which, in one pass: each takes the place of those before as often as it should.
+/// A direction into one of the balls. `choice` chooses which, in one pass: each takes the place of those before as often as it
+/// should.
 vec3 guide_sample(vec3 position, float choice, vec2 random) {
   GuideBall chosen = guide_ball(0u, position);
   float all = chosen.power;

@@ -30,14 +30,7 @@ std::string read_text(const std::string& path) {
   const int err_file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(out_file, STDOUT_FILENO);
   dup2(err_file, STDERR_FILENO);
-  // GCC 12's leak sanitizer now and then crashes at the end of programs that have loaded the picture codec ("Tracer caught signal
-  // 11"): leaks are looked for in the tests' own processes.
-  if (const char* options = std::getenv("ASAN_OPTIONS"))
-    setenv("ASAN_OPTIONS", (std::string(options) + ":detect_leaks=0").c_str(), 1);
-  for (const std::string& variable : environment) {
-    const std::size_t equals = variable.find('=');
-    setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
-  }
+  set_child_environment(environment);
   const rlimit size{limits.most_bytes, limits.most_bytes};
   if (limits.most_bytes > 0) setrlimit(RLIMIT_FSIZE, &size);
   if (limits.bound_by_permissions) prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
@@ -65,6 +58,17 @@ bool catches(pid_t process, int signal) {
 }
 
 }  // namespace
+
+void set_child_environment(const std::vector<std::string>& environment) {
+  // GCC 12's leak sanitizer now and then crashes at the end of programs that have loaded the picture codec ("Tracer caught signal
+  // 11"): leaks are looked for in the tests' own processes.
+  if (const char* options = std::getenv("ASAN_OPTIONS"))
+    setenv("ASAN_OPTIONS", (std::string(options) + ":detect_leaks=0").c_str(), 1);
+  for (const std::string& variable : environment) {
+    const std::size_t equals = variable.find('=');
+    setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
+  }
+}
 
 ChildResult run_program(const std::vector<std::string>& command, const std::vector<std::string>& environment,
                         const std::function<bool()>& interrupt_when, int signal, const Limits& limits) {

@@ -26,6 +26,10 @@ struct Limits {
   bool bound_by_permissions = false;
 };
 
+/// The environment that programs under test run in: this process's without leak checking, and further variables, NAME=VALUE.
+/// To be called in the child.
+void set_child_environment(const std::vector<std::string>& environment);
+
 /// Runs a program to its end. `environment`: further variables, NAME=VALUE. `interrupt_when`: the program gets `signal` once
 /// it catches that and this says so.
 [[nodiscard]] ChildResult run_program(const std::vector<std::string>& command,

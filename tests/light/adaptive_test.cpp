@@ -3,12 +3,8 @@
 
 #include <cmath>
 
-#include "data/shapes.h"
-#include "engine/gpu/tracer.h"
-#include "engine/image/picture_error.h"
-#include "engine/scene/environment.h"
 #include "engine/scene/surface.h"
-#include "tests/trace/scenes.h"
+#include "tests/light/lit.h"
 
 namespace splatray::testing {
 namespace {
@@ -33,12 +29,6 @@ class Adaptive : public ::testing::Test {
 
   [[nodiscard]] View view() const { return {camera_, WIDTH, HEIGHT}; }
 
-  [[nodiscard]] double error_of(const Image& image) const {
-    Image apart = image;
-    apart.error = pixel_errors(image.rgba, truth_);
-    return relative_error(apart);
-  }
-
   const Scene scene_ =
       scene_of({{sphere({.count = 2000, .even = true, .seed = 3}, 1.0), test_material(MATERIAL_TWO_SIDED)}});
   const Camera camera_;
@@ -52,7 +42,7 @@ TEST_F(Adaptive, TellsTheErrorItHas) {
   double samples_before = 0.0;
   for (const double error : {0.3, 0.1, 0.05}) {
     const Image image = tracer_.render_until(view(), settings_, {.error = error});
-    const double found = error_of(image);
+    const double found = error_against(image, truth_);
     EXPECT_LT(found, error);
     EXPECT_NEAR(tracer_.stats().error, found, 0.15 * found) << error;
     EXPECT_GT(tracer_.stats().samples, 1.5 * samples_before);
@@ -81,17 +71,15 @@ TEST_F(Adaptive, EndsWhereNothingIsToBeSeen) {
   EXPECT_EQ(mean_radiance(image.rgba), 0.0);
 }
 
-/// Where a half's own samples decided how many they are, regions whose first samples miss what is rare and bright would stop at once, and
-/// pictures be too dark on the mean, here by 3.5 %: balls that glow, each a tenth of a pixel wide. The halves' counts still hang together by the rounds
-/// before; the 1.0 +- 0.5 % found are within the bound, but may be that.
+/// Where a half's own samples decided how many they are, regions whose first samples miss what is rare and bright would stop at
+/// once, and pictures be too dark on the mean, here by 3.5 %: balls that glow, each a tenth of a pixel wide. The halves' counts
+/// still hang together by the rounds before; the 1.0 +- 0.5 % found are within the bound, but may be that.
 TEST_F(Adaptive, HardlyDarkensWhatIsRare) {
   OrientedPoints balls;
   for (int ball = 0; ball < 24; ++ball) {
-    OrientedPoints one = sphere({.count = 24, .even = true, .seed = 3}, 0.004);
-    for (glm::dvec3& position : one.position)
-      position +=
-          glm::dvec3(std::fmod(ball * 0.618, 1.0) * 1.6 - 0.8, std::fmod(ball * 0.382, 1.0) * 1.2 - 0.6, 0.0);
-    append(balls, one);
+    const dvec3 center(std::fmod(ball * 0.618, 1.0) * 1.6 - 0.8, std::fmod(ball * 0.382, 1.0) * 1.2 - 0.6,
+                       0.0);
+    append(balls, ball_at(center, 0.004, 24));
   }
   Scene glowing = scene_of({{balls, test_material(MATERIAL_TWO_SIDED)}});
   glowing.surfaces = surfaces_of(glowing);
@@ -119,8 +107,8 @@ TEST_F(Adaptive, FixedSamplesTellNoLessThanTheirError) {
   settings_.samples = 32;
   settings_.estimate_error = true;
   const Image image = tracer_.render(view(), settings_);
-  EXPECT_GT(tracer_.stats().error, 0.9 * error_of(image));
-  EXPECT_LT(tracer_.stats().error, 3.0 * error_of(image));
+  EXPECT_GT(tracer_.stats().error, 0.9 * error_against(image, truth_));
+  EXPECT_LT(tracer_.stats().error, 3.0 * error_against(image, truth_));
   settings_.estimate_error = false;
   EXPECT_EQ(tracer_.render(view(), settings_).rgba, image.rgba);
 }

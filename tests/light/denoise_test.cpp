@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/image/picture_error.h"
 #include "tests/light/lit.h"
 
 namespace splatray::testing {
@@ -16,9 +15,7 @@ class Denoise : public Plane {
  protected:
   Denoise() {
     TestObject stripes = floor();
-    OrientedPoints ball = sphere({.count = 4000, .even = true, .seed = 2}, 0.4);
-    for (dvec3& position : ball.position) position.y += 0.4;
-    append(stripes.points, ball);
+    append(stripes.points, ball_at({0.0, 0.4, 0.0}, 0.4, 4000));
     for (const dvec3& position : stripes.points.position)
       stripes.points.color.push_back(std::sin(20.0 * position.x) > 0.0 ? vec3(0.8F) : vec3(0.2F));
     show(scene_of({stripes}), studio_environment(), {});
@@ -39,12 +36,6 @@ class Denoise : public Plane {
     plain.aov = plain.estimate_error = false;
     return picture(camera_, plain, EDGE).rgba;
   }
-  static double error(const Image& image, const Image& truth) {
-    Image apart = image;
-    apart.error = pixel_errors(image.rgba, truth.rgba);
-    return relative_error(apart);
-  }
-
   const Camera camera_{dvec3(1.0, 2.0, 2.5), dvec3(0.0, 0.3, 0.0), dvec3(0.0, 1.0, 0.0), 40.0, 0.0};
   Settings settings_;
 };
@@ -52,9 +43,9 @@ class Denoise : public Plane {
 TEST_F(Denoise, IsNearerToTheTruth) {
   const Image truth = traced(512, 99), noisy = traced(8, 1);
   const Image clean = denoised(noisy, base());
-  RecordProperty("before", std::to_string(error(noisy, truth)));
-  RecordProperty("after", std::to_string(error(clean, truth)));
-  EXPECT_LT(error(clean, truth), 0.5 * error(noisy, truth));
+  RecordProperty("before", std::to_string(error_against(noisy, truth.rgba)));
+  RecordProperty("after", std::to_string(error_against(clean, truth.rgba)));
+  EXPECT_LT(error_against(clean, truth.rgba), 0.5 * error_against(noisy, truth.rgba));
   EXPECT_NEAR(mean_radiance(clean.rgba), mean_radiance(noisy.rgba), 0.01 * mean_radiance(noisy.rgba));
 }
 
@@ -62,7 +53,7 @@ TEST_F(Denoise, LeavesWhatHasNoNoise) {
   Image image = traced(512, 99);
   std::fill(image.error.begin(), image.error.end(), 0.0F);
   const Image clean = denoised(image, base());
-  EXPECT_LT(error(clean, image), 1e-3);
+  EXPECT_LT(error_against(clean, image.rgba), 1e-3);
 }
 
 TEST_F(Denoise, BaseColoursAreThose) {

@@ -10,12 +10,6 @@
 namespace splatray::testing {
 namespace {
 
-OrientedPoints ball_at(const dvec3& center, double radius, std::size_t splats) {
-  OrientedPoints points = sphere({.count = splats, .even = true, .seed = 5}, radius);
-  for (dvec3& position : points.position) position += center;
-  return points;
-}
-
 /// The last object sends out this radiance.
 Scene glowing(const std::vector<TestObject>& objects, const vec3& radiance) {
   Scene scene = scene_of(objects);

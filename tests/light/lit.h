@@ -9,6 +9,7 @@
 
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
+#include "engine/image/picture_error.h"
 #include "engine/scene/environment.h"
 #include "tests/trace/scenes.h"
 
@@ -49,6 +50,19 @@ inline Mean mean_of(const Image& image) {
   }
   const double mean = sum / count;
   return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
+}
+
+/// The relative error of a picture against a better one's pixels.
+inline double error_against(Image image, const std::vector<vec4>& truth) {
+  image.error = pixel_errors(image.rgba, truth);
+  return relative_error(image);
+}
+
+/// Points on a ball.
+inline OrientedPoints ball_at(const dvec3& center, double radius, std::size_t splats) {
+  OrientedPoints points = sphere({.count = splats, .even = true, .seed = 5}, radius);
+  for (dvec3& position : points.position) position += center;
+  return points;
 }
 
 /// A scene on a device, and pictures of it.

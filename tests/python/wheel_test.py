@@ -9,15 +9,11 @@ import sys
 import tempfile
 import zipfile
 
+sys.path.append(str(pathlib.Path(__file__).parents[1] / "install"))
+from install_test import run  # noqa: E402  (lies in the folder just named)
+
 MOST_BYTES = 15 << 20
 MISSING = 77
-
-
-def run(*command, **options):
-    done = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: found exit code {done.returncode}, expected 0:\n{done.stdout[-6000:]}")
-    return done.stdout
 
 
 def skip(reason):

@@ -17,6 +17,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/cli/child_process.h"
+
 namespace splatray {
 namespace {
 
@@ -199,10 +201,7 @@ Program::Program(const std::vector<std::string>& command, const std::vector<std:
   if (child_ != 0) return;
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(file, STDERR_FILENO);
-  for (const std::string& variable : environment) {
-    const std::size_t equals = variable.find('=');
-    setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
-  }
+  set_child_environment(environment);
   std::vector<std::string> words = command;
   if (chdir(folder.c_str()) == 0) execv(words[0].c_str(), pointers(words).data());
   _exit(127);

@@ -1,5 +1,6 @@
 #include "app/view/thread/live_scene.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "app/library/scene_source.h"
@@ -19,6 +20,11 @@ template <class Element>
 bool same_bytes(const std::vector<Element>& a, const std::vector<Element>& b) {
   if (a.size() != b.size()) return false;
   return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0;
+}
+
+bool same_emission(const std::vector<Surface>& a, const std::vector<Surface>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Surface& x, const Surface& y) { return x.emission == y.emission; });
 }
 
 }  // namespace
@@ -55,7 +61,8 @@ void LiveScene::match(const Document& document, ViewMode mode) {
 void LiveScene::match_looks(const ObjectLooks& looks) {
   if (same_looks(looks, looks_)) return;
   tracer_.set_materials(looks.materials, looks.surfaces);
-  tracer_.set_emitters(find_emitters(*scene_, looks.surfaces));
+  if (!same_emission(looks.surfaces, looks_.surfaces))
+    tracer_.set_emitters(find_emitters(*scene_, looks.surfaces));
   looks_ = looks;
 }
 
