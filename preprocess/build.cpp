@@ -13,6 +13,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
+#include "engine/scene/clip.h"
 #include "engine/scene/scene_check.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/surface.h"
@@ -185,6 +186,23 @@ std::uint32_t packed_field(const Cloud& cloud, std::size_t i, const glm::dvec3& 
   return pack_field(matrix, packed_normal);
 }
 
+/// The clip lines of a splat that has been packed.
+std::uint32_t packed_clip(const Cloud& cloud, std::size_t i, const RootTransform& root, const uvec4& words) {
+  const PointClip& clip = cloud.clip[i];
+  if (cloud.radius[i] > clip.reach) return CLIP_NONE;
+  std::array<ClipEdge, 2> edges;
+  for (std::size_t line = 0; line < clip.lines(); ++line) {
+    const glm::dvec3 dir(clip.dir[line]);
+    const glm::dvec3 to_line = dir * (clip.distance[line] * cloud.half_extent_world);
+    edges[line] = {dir, root.to_root(cloud.place_world(i) + to_line)};
+  }
+  return pack_clip(words, std::span(edges).first(clip.lines()));
+}
+
+bool all_whole(const std::vector<std::uint32_t>& clips) {
+  return std::all_of(clips.begin(), clips.end(), [](std::uint32_t clip) { return clip == CLIP_NONE; });
+}
+
 bool all_flat(const std::vector<std::uint32_t>& fields) {
   return std::all_of(fields.begin(), fields.end(), [](std::uint32_t field) { return field == FIELD_FLAT; });
 }
@@ -208,15 +226,17 @@ void place_columns(std::vector<Column> columns, const std::vector<std::uint32_t>
 }
 
 /// Packs all objects' points, which are then freed. Objects without colours are white where others have some;
-/// normal fields are left out where all discs are flat.
+/// normal fields are left out where all discs are flat, clip lines where all are whole.
 SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool number_points,
                       const Stage& stage) {
   std::size_t total = 0;
   bool has_colors = false;
   bool has_fields = false;
+  bool has_clips = false;
   for (const Cloud& cloud : clouds) {
     total += cloud.size();
     has_fields = has_fields || !cloud.field.empty();
+    has_clips = has_clips || !cloud.clip.empty();
     has_colors = has_colors || !cloud.color.empty();
   }
   SplatList splats;
@@ -224,6 +244,7 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
   splats.words.resize(total);
   if (has_colors) splats.color.resize(total, pack_color(glm::vec3(1.0F)));
   if (has_fields) splats.field.resize(total, FIELD_FLAT);
+  if (has_clips) splats.clip.resize(total, CLIP_NONE);
   if (number_points) {
     splats.point.resize(total);
     std::iota(splats.point.begin(), splats.point.end(), 0U);
@@ -239,12 +260,14 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
       splats.words[first + i] = words;
       splats.key[first + i] = morton_key(glm::uvec3(splat.center));
       if (!cloud.field.empty()) splats.field[first + i] = packed_field(cloud, i, splat.normal);
+      if (!cloud.clip.empty()) splats.clip[first + i] = packed_clip(cloud, i, root, words);
     });
     std::copy(cloud.color.begin(), cloud.color.end(),
               splats.color.begin() + static_cast<std::ptrdiff_t>(cloud.color.empty() ? 0 : first));
     first += cloud.size();
   }
   if (all_flat(splats.field)) splats.field.clear();
+  if (all_whole(splats.clip)) splats.clip.clear();
   return splats;
 }
 
@@ -291,10 +314,13 @@ void fill_pools(ListedOctree built, SplatList splats, Scene& scene, BuildStats& 
   scene.data_pool = std::move(splats.words);
   scene.color_pool = std::move(splats.color);
   scene.field_pool = std::move(splats.field);
+  scene.clip_pool = std::move(splats.clip);
 }
 
 void count_result(const Scene& scene, BuildStats& stats) {
   stats.splats = scene.data_pool.size();
+  stats.clipped = scene.clip_pool.size() - static_cast<std::uint64_t>(std::count(
+                                               scene.clip_pool.begin(), scene.clip_pool.end(), CLIP_NONE));
   stats.references = scene.reference_pool.size();
   stats.nodes = scene.node_pool.size();
   stats.filled_leaves = scene.begin_end.size() - 1;

@@ -31,6 +31,7 @@ struct BuildStats {
   std::uint64_t radii_isolated =
       0;  ///< no neighbour to take a radius from: 1/100 of the scene's diagonal instead
   std::uint64_t splats = 0;
+  std::uint64_t clipped = 0;     ///< splats that end at a border or a crease
   std::uint64_t references = 0;  ///< data pool entries
   std::uint64_t nodes = 0;
   std::uint64_t filled_leaves = 0;
@@ -45,12 +46,11 @@ struct BuildStats {
 
 using BuildProgress = Progress;
 
-/// Builds the scene. A point without a neighbour at another place gets a radius of 1/100 of the diagonal of
-/// all centres, 1 world unit where that is zero. An object none of whose normals is given becomes two-sided
-/// unless it is a dielectric. Dielectrics get their mask bits in order; from the 33rd on they share them. The
-/// scene depends neither on the order of an object's points nor on threads: `threads` 0 = all cores; Throws
-/// Error (input_unreadable) when no point is left, there are more than 65536 objects, or a material or light is out of range, (interrupted) when
-/// `progress` says so, (failed) when 32-bit addresses do not suffice.
+/// Builds the scene. A point without a neighbour at another place gets a radius of 1/100 of the diagonal of all centres, 1 world
+/// unit where that is zero. An object none of whose normals is given becomes two-sided unless it is a dielectric. Dielectrics get
+/// their mask bits in order; from the 33rd on they share them. The scene depends neither on the order of an object's points nor
+/// on threads: `threads` 0 = all cores; Throws Error (input_unreadable) when no point is left, there are more than 65536 objects,
+/// or a material or light is out of range, (interrupted) when `progress` says so, (failed) when 32-bit addresses do not suffice.
 [[nodiscard]] Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
                                 const BuildProgress& progress = {});
 

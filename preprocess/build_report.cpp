@@ -54,6 +54,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"radii_repaired", stats.radii_repaired},
                                        {"radii_isolated", stats.radii_isolated},
                                        {"splats", stats.splats},
+                                       {"clipped", stats.clipped},
                                        {"references", stats.references},
                                        {"nodes", stats.nodes},
                                        {"filled_leaves", stats.filled_leaves},
@@ -87,6 +88,7 @@ std::string build_summary(const BuildStats& stats, const std::filesystem::path& 
   tell_scans(stats, text);
   repair(stats.radii_repaired, "given radii computed anew: zero, negative or not finite");
   repair(stats.radii_isolated, "points without neighbours: radius relative to the scene");
+  repair(stats.clipped, "splats end at a border or a crease");
   text << "  " << stats.nodes << " nodes, " << stats.filled_leaves << " filled leaves, depth " << stats.depth
        << ", " << stats.references << " references: growth " << 100.0 * stats.growth << " %";
   if (stats.growth_overlap > stats.growth) text << " (overlap: " << 100.0 * stats.growth_overlap << " %)";

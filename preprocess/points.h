@@ -20,12 +20,32 @@ struct Texture;
 /// Points::grid_cell of a point that is in no grid.
 inline constexpr std::uint32_t NO_CELL = 0xFFFFFFFF;
 
+/// Where the surface ends beside a point: up to two lines that its disc ends at. World units.
+struct PointClip {
+  glm::vec3 dir[2]{glm::vec3(0.0F),
+                   glm::vec3(0.0F)};  ///< unit, square to the normal, out of the surface; zero = no line
+  float distance[2]{};                ///< from the point to the line, >= 0
+  float reach =
+      0.0F;  ///< discs of larger radius are not clipped, as nobody looked so far for what they cover
+
+  [[nodiscard]] std::size_t lines() const {
+    return dir[0] == glm::vec3(0.0F) ? 0 : (dir[1] == glm::vec3(0.0F) ? 1 : 2);
+  }
+  /// Whether an offset from the point lies beyond one of the lines.
+  [[nodiscard]] bool cuts(const glm::dvec3& offset) const {
+    for (std::size_t i = 0; i < lines(); ++i)
+      if (glm::dot(glm::dvec3(dir[i]), offset) > static_cast<double>(distance[i])) return true;
+    return false;
+  }
+};
+
 /// A point set. All arrays that are not empty have the same length, but for `stations`.
 struct Points {
   std::vector<glm::dvec3> position;  ///< world units
   std::vector<glm::vec3> normal;     ///< any length; empty = none given. A zero normal means "estimate me"
   std::vector<glm::vec3> color;      ///< linear rgb, 0..1; empty = none
   std::vector<float> radius;         ///< world units; empty = none given
+  std::vector<PointClip> clip;       ///< where the surface ends; empty = nowhere
   /// Display-encoded rgb of scans as stored, instead of `color`; empty = none. 1.0 is at `stored_color_most`, which 0 leaves
   /// to be judged from all files of the input: LAS has 8-bit colours in 16-bit fields.
   std::vector<glm::u16vec3> stored_color;
@@ -116,6 +136,9 @@ struct ReadOptions {
   std::vector<std::filesystem::path>
       data_paths;  ///< folders searched for models a scene names, after the scene's own folder
   bool keep_meshes = false;
+  bool clip = true;  ///< points on meshes know where the surface ends or has a crease
+  double crease_degrees =
+      BuildParams{}.crease_degrees;  ///< edges that turn by more, and are not shaded smoothly, are creases
   bool turn_outwards = false;  ///< closed meshes of all objects, not only of dielectrics, are turned outwards
   ScanOptions scans;
   unsigned threads = 0;  ///< 0 = all cores

@@ -22,6 +22,14 @@
 /// Orthonormal Basis, Revisited"): at the offset (u, v) from the centre the normal is n + [[uu, uv], [uv, vv]] (u, v) / r.
 ///   bits 9..0 uu, 19..10 uv, 29..20 vv; each q + 512, q in [-511, 511], value = sign(q) (q / 511)^2 / 2
 ///
+/// Clip lines, 32 bits beside a splat, only in scenes whose surfaces end or have creases: up to two lines of its plane that the
+/// disc ends at (Zwicker et al. 2004, "Perspective Accurate Splatting"), 16 bits each, bits 15..0 and 31..16. Exact integers: of
+/// the normal n as stored, |x| + |y| + |z| = OCT_SCALE, let e be the axis along which it is least (x before y before z), and h
+/// the least integer with r < 2^h that r^2's exponent allows. A point at the offset x from the centre stays where m.x <= limit
+/// for both lines:
+///   bits 7..0 direction d: m = a (e cross n) + b OCT_SCALE e, a = |128 - d| - 64, b = |128 - (d + 192 & 255)| - 64
+///   bits 15..8 distance q: limit = (q - 127) 2^h OCT_SCALE / 2; 255 cuts nothing off
+///
 /// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
 /// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them
 /// if low h <= a.(p - c) <= (low + thickness) h, where a is the axis, |x| + |y| + |z| = 1, x >= 0.
@@ -39,8 +47,8 @@
 ///   NODE_EMPTY  : how far the empty space around the leaf's cell reaches: a box without filled leaves, wider than the cell by so
 ///                 many of the cell's sizes on each side: bits 1..0 -x, 3..2 +x, 5..4 -y, 7..6 +y, 9..8 -z, 11..10 +z; 29..12 zero
 ///
-/// Reference, 32 bits: index of a splat in the data pool, and of its colour and normal field. A device may hold copies of the
-/// splats, leaf by leaf, in place of references (SPEC_REFERENCES).
+/// Reference, 32 bits: index of a splat in the data pool, and of its colour, normal field and clip lines. A device may hold
+/// copies of the splats, leaf by leaf, in place of references (SPEC_REFERENCES).
 ///
 /// Top table, 32 bits for each cell of TOP_LEVELS below the root, x fastest, made from the node pool: descents begin here.
 /// The node word of the deepest node that holds the cell and lies no deeper than TOP_LEVELS; that of a leaf has in bits
@@ -88,6 +96,9 @@ SPLATRAY_CONST OCT_SCALE = 32767u;        ///< octahedral normals: |u| + |v| + |
 SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;     ///< word 3: object index
 SPLATRAY_CONST FIELD_FLAT = 0x20080200u;  ///< the normal field of a flat disc
 SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
+SPLATRAY_CONST CLIP_NONE = 0xFF00FF00u;   ///< clip lines that cut nothing off
+SPLATRAY_CONST CLIP_STEPS = 64u;          ///< directions of clip lines: |a| + |b| = CLIP_STEPS
+SPLATRAY_CONST CLIP_ZERO = 127u;          ///< q of a line through the centre
 SPLATRAY_CONST SLAB_FULL =
     0x0FF803E0u;  ///< a slab that holds the whole cell, and halves that hold the whole list
 SPLATRAY_CONST SLAB_AXIS_SCALE = 31u;  ///< slab axes: |u| + |v| + |w| = SLAB_AXIS_SCALE
@@ -280,18 +291,19 @@ SPLATRAY_CONST BIND_REFERENCE_POOL = 4u;
 SPLATRAY_CONST BIND_DATA_POOL = 5u;
 SPLATRAY_CONST BIND_COLOR_POOL = 6u;
 SPLATRAY_CONST BIND_FIELD_POOL = 7u;
-SPLATRAY_CONST BIND_TOP_TABLE = 8u;
-SPLATRAY_CONST BIND_MATERIALS = 9u;
-SPLATRAY_CONST BIND_LIGHTS = 10u;
-SPLATRAY_CONST BIND_ENVIRONMENT = 11u;
-SPLATRAY_CONST BIND_ACCUMULATION = 12u;
-SPLATRAY_CONST BIND_AOV = 13u;
-SPLATRAY_CONST BIND_COUNTERS = 14u;
-SPLATRAY_CONST BIND_RAYS = 15u;
-SPLATRAY_CONST BIND_HITS = 16u;
-SPLATRAY_CONST BIND_GROUPS = 17u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
-SPLATRAY_CONST BIND_PATHS = 18u;   ///< of this stage
-SPLATRAY_CONST BIND_PATHS_QUEUED = 19u;  ///< of the next
+SPLATRAY_CONST BIND_CLIP_POOL = 8u;
+SPLATRAY_CONST BIND_TOP_TABLE = 9u;
+SPLATRAY_CONST BIND_MATERIALS = 10u;
+SPLATRAY_CONST BIND_LIGHTS = 11u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 12u;
+SPLATRAY_CONST BIND_ACCUMULATION = 13u;
+SPLATRAY_CONST BIND_AOV = 14u;
+SPLATRAY_CONST BIND_COUNTERS = 15u;
+SPLATRAY_CONST BIND_RAYS = 16u;
+SPLATRAY_CONST BIND_HITS = 17u;
+SPLATRAY_CONST BIND_GROUPS = 18u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
+SPLATRAY_CONST BIND_PATHS = 19u;   ///< of this stage
+SPLATRAY_CONST BIND_PATHS_QUEUED = 20u;  ///< of the next
 // Of path tracing, in the place of what it does not use, as devices bound how many buffers a program has:
 SPLATRAY_CONST BIND_SURFACES = BIND_RAYS;
 SPLATRAY_CONST BIND_LIGHT_TABLES = BIND_HITS;  ///< words: the albedo table, then the sky table
@@ -305,7 +317,7 @@ SPLATRAY_CONST SPEC_FACES = 4u;       ///< FACES_*
 SPLATRAY_CONST SPEC_ORDER = 5u;       ///< ORDER_*
 SPLATRAY_CONST SPEC_STAGE = 6u;       ///< STAGE_*
 SPLATRAY_CONST SPEC_TOP_LEVELS = 7u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
-SPLATRAY_CONST SPEC_PAGES = 8u;       ///< buffers of a pool less one, 4 bits each, BIND_NODE_POOL lowest
+SPLATRAY_CONST SPEC_PAGES = 8u;       ///< buffers of a pool less one, 3 bits each, BIND_NODE_POOL lowest
 SPLATRAY_CONST SPEC_PAGE_SHIFT = 9u;  ///< a buffer of a pool that has several holds 2^PAGE_SHIFT elements
 SPLATRAY_CONST SPEC_LOOK = 10u;       ///< LOOK_*
 SPLATRAY_CONST SPEC_COUNT = 11u;
@@ -320,6 +332,7 @@ SPLATRAY_CONST FEATURE_LIGHTS = 32u;        ///< there are lights, and a materia
 SPLATRAY_CONST FEATURE_SHADOWS = 64u;       ///< shadow rays
 SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, else constant
 SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
+SPLATRAY_CONST FEATURE_CLIPS = 262144u;     ///< there is a pool of clip lines
 // Of LOOK_LIT and its like alone:
 SPLATRAY_CONST FEATURE_SKY = 512u;          ///< the environment is chosen among the lights, by the sky table
 SPLATRAY_CONST FEATURE_SIZES = 1024u;       ///< some light has a size, and can be met

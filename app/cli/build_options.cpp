@@ -90,6 +90,10 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_number(list, "--radius-scale", params.radius_scale, 1e-6, 1e6, "factor on every radius; default 1");
   add_choice<bool>(list, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
                    "how normals change across each disc, where the scene curves; default on");
+  add_choice<bool>(list, "--clip", params.clip, {{"on", true}, {"off", false}},
+                   "discs on meshes end at borders and creases; default on");
+  add_number(list, "--crease", params.crease_degrees, 0, 180,
+             "degrees by which a mesh turns at a crease, where it is not shaded smoothly; default 30");
   add_scan_options(list, options.scans);
   add_smoothing(list, params.smooth_world);
   add_number(list, "--threads", options.threads, 0, 4096,
@@ -108,6 +112,8 @@ ReadOptions read_options(const BuildOptions& options, const Progress& progress) 
   reading.seed = options.params.seed;
   reading.data_paths = model_folders(options);
   reading.threads = options.threads;
+  reading.clip = options.params.clip;
+  reading.crease_degrees = options.params.crease_degrees;
   reading.scans = options.scans;
   reading.progress = progress;
   return reading;

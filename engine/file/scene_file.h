@@ -6,7 +6,7 @@
 ///        0 | char[4]   | magic "SOCT"
 ///        4 | uint32    | version, SCENE_FILE_VERSION
 ///        8 | uint32    | endianness mark 0x01020304
-///       12 | uint32    | bytes of header and section table together, 1728
+///       12 | uint32    | bytes of header and section table together, 1760
 ///       16 | uint64    | bytes of the file
 ///       24 | uint64    | XXH3-64 of header and section table, taken with this field zero
 ///       32 | uint64    | splats = entries of the data pool
@@ -15,7 +15,7 @@
 ///       56 | uint64    | filled leaves = entries of Begin-End - 1
 ///       64 | uint32    | objects = materials
 ///       68 | uint32    | lights
-///       72 | uint32    | optional pools, a bit each: 1 there is a colour pool, 2 there are normal fields
+///       72 | uint32    | optional pools, a bit each: 1 colour pool, 2 normal fields, 4 clip lines
 ///       76 | uint32    | 1: there is a camera, 0: none
 ///       80 | uint64    | bytes of strings
 ///       88 | float64[3]| root's lowest corner, world
@@ -34,7 +34,7 @@
 ///      240 | uint32    | stations
 ///      244 | uint32    | surfaces: as many as objects, or 0
 ///      248 | uint8[32] | columns' types: 1 uint8, 2 uint16, 3 float32, 4 float64; 0 behind the last
-///      280 | uint32    | sections, 45
+///      280 | uint32    | sections, 46
 ///      284 | uint32    | bytes of a section entry, 32
 ///
 /// Section entry, 32 bytes: uint32 id, uint32 bytes of an element, uint64 offset in the file, uint64 bytes, uint64 XXH3-64.
@@ -46,14 +46,15 @@
 ///    5 | uvec4                         |    16 | data pool
 ///    6 | uint32                        |     4 | colour pool, beside the data pool
 ///    7 | uint32                        |     4 | normal fields, beside the data pool
-///    8 | Material                      |    48 | materials
-///    9 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world
-///   10 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
-///   11 | float64[3] the scanner's place, uint32 is it known, uint32 rows, columns of its grid, uint32 zero | 40 | stations
-///   12 | char                          |     1 | names, each ended by a zero byte: objects', the environment's path,
+///    8 | uint32                        |     4 | clip lines, beside the data pool
+///    9 | Material                      |    48 | materials
+///   10 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world
+///   11 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
+///   12 | float64[3] the scanner's place, uint32 is it known, uint32 rows, columns of its grid, uint32 zero | 40 | stations
+///   13 | char                          |     1 | names, each ended by a zero byte: objects', the environment's path,
 ///      |                               |       | stations', columns'
-///   13 | Surface                       |    80 | surfaces, beside the materials
-///   14 | a column's type               | 1 - 8 | columns, beside the data pool; up to 45
+///   14 | Surface                       |    80 | surfaces, beside the materials
+///   15 | a column's type               | 1 - 8 | columns, beside the data pool; up to 46
 /// Sections lie in this order, each at the next multiple of 16 bytes, gaps zero; the 8 bytes "SOCT.END" follow at the next
 /// multiple of 16 and end the file.
 #pragma once
@@ -64,7 +65,7 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t SCENE_FILE_VERSION = 9;
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 10;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot, (interrupted) when
 /// `progress`, told of the stage "writing", says so; leaves nothing behind.

@@ -64,7 +64,7 @@ struct StationRecord {
 };
 
 inline constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
-static_assert(HEADER_BYTES == 1728 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88 &&
+static_assert(HEADER_BYTES == 1760 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88 &&
               sizeof(StationRecord) == 40);
 
 /// Bytes of a value of each column type.

@@ -134,6 +134,7 @@ SceneContent DeviceScene::content() const {
   return {.materials = material_content_,
           .colors = pools_.bytes.at(BIND_COLOR_POOL) > 0,
           .fields = pools_.bytes.at(BIND_FIELD_POOL) > 0,
+          .clips = pools_.bytes.at(BIND_CLIP_POOL) > 0,
           .references = pools_.references,
           .top_levels = pools_.top_levels,
           .pages = pools_.paging.pages_constant(),

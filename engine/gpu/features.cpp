@@ -90,6 +90,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   constants[SPEC_FEATURES] =
       settings.look == LOOK_PAPER ? phong_features(content, settings) : light_features(content, settings);
   add(content.fields && !flat_blend, FEATURE_FIELDS);
+  add(content.clips, FEATURE_CLIPS);
   add(content.references, FEATURE_REFERENCES);
   add(content.environment_texture, FEATURE_ENVIRONMENT);
   add(settings.counters, FEATURE_COUNTERS);

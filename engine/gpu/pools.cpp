@@ -135,7 +135,7 @@ PoolLimits pool_limits(const Context& context) {
 
 std::uint32_t Paging::pages_constant() const {
   std::uint32_t constant = 0;
-  for (std::uint32_t i = 0; i < POOLS; ++i) constant |= (pages[i] - 1) << 4 * i;
+  for (std::uint32_t i = 0; i < POOLS; ++i) constant |= (pages[i] - 1) << 3 * i;
   return constant;
 }
 

@@ -1,4 +1,4 @@
-/// The octree on the device: node pool, Begin-End, slabs, references, data pool, colour pool and normal fields.
+/// The octree on the device: node pool, Begin-End, slabs, references, data pool, colours, normal fields and clip lines.
 #pragma once
 #include <array>
 #include <cstdint>

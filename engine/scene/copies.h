@@ -15,14 +15,18 @@ struct PoolCounts {
   std::size_t filled_leaves = 0;
   bool colors = false;
   bool fields = false;
+  bool clips = false;
 };
 [[nodiscard]] PoolCounts pool_counts(const Scene& scene);
 
 /// Most bytes on a device for each splat, if leaves are to have copies of their splats.
 inline constexpr std::uint64_t MOST_SPLAT_BYTES = 64;
+/// And as many more where splats have clip lines.
+inline constexpr std::uint64_t MOST_CLIP_BYTES = 8;
 
-/// Whether all pools and the top table stay within MOST_SPLAT_BYTES with a copy of a splat, its colour and its normal field for
-/// each reference. Through references instead a test is two fetches, and a splat takes about 40 bytes.
+/// Whether all pools and the top table stay within MOST_SPLAT_BYTES, and MOST_CLIP_BYTES where there are clip lines, with a copy
+/// of a splat, its colour, its normal field and its clip lines for each reference. Through references instead a test is two
+/// fetches, and a splat takes about 40 bytes.
 [[nodiscard]] bool copies_fit(const PoolCounts& counts);
 
 }  // namespace splatray

@@ -44,6 +44,8 @@ inline constexpr std::tuple POOL_TABLE{
                            true, true},
     PoolRow<std::uint32_t>{"pool of normal fields", "normal fields", "field_pool", &Scene::field_pool,
                            PoolLength::splats, true, true},
+    PoolRow<std::uint32_t>{"pool of clip lines", "clip lines", "clip_pool", &Scene::clip_pool,
+                           PoolLength::splats, true, true},
 };
 
 /// Rows of the table.

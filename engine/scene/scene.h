@@ -40,6 +40,10 @@ struct BuildParams {
   bool normal_fields =
       true;  ///< fit a normal field to every splat of a curved scene; read from a file: it has them
 
+  /// Discs of meshes end at borders and creases. Files do not tell.
+  bool clip = true;
+  double crease_degrees = 30.0;  ///< edges that turn by more, and are not shaded smoothly, are creases
+
   /// How far around each point noisy scans are smoothed, world units; 0 = not at all, negative = as their noise asks for.
   /// Files do not tell.
   double smooth_world = -1.0;
@@ -59,6 +63,7 @@ struct Scene {
   std::vector<uvec4> data_pool;  ///< the splats, in Z-order of their centres
   std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
   std::vector<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
+  std::vector<std::uint32_t> clip_pool;   ///< clip lines beside data_pool, or empty (all discs are whole)
   std::vector<Column> columns;            ///< attributes beside data_pool, kept on the host; may be empty
   std::vector<Station> stations;          ///< of all objects' scans: what COLUMN_SCAN counts; may be empty
   std::vector<Material> materials;        ///< one per object

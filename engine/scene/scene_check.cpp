@@ -4,9 +4,9 @@
 #include <bit>
 #include <cmath>
 
-#include "engine/scene/empty_box.h"
+#include "engine/scene/leaf/empty_box.h"
+#include "engine/scene/leaf/slab.h"
 #include "engine/scene/pool_table.h"
-#include "engine/scene/slab.h"
 
 namespace splatray {
 namespace {

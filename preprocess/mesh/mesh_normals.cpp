@@ -9,7 +9,6 @@
 namespace splatray {
 namespace {
 
-constexpr double COS_CREASE = 0.643;  ///< 50 degrees
 constexpr double LEAST_SUM = 0.4;     ///< of a vertex' weighted normals, in units of its angles' sum
 
 std::uint64_t hash_position(const glm::dvec3& position) {
@@ -69,14 +68,15 @@ CornerFans gather_fans(const Mesh& mesh, const std::vector<glm::uint>& weld) {
 }
 
 /// Sum over the fan of those within the crease angle of `face`.
-glm::vec3 smooth_normal(const CornerFans& fans, std::size_t vertex, const glm::vec3& face) {
+glm::vec3 smooth_normal(const CornerFans& fans, std::size_t vertex, const glm::vec3& face,
+                        double crease_cosine) {
   constexpr std::size_t WIDEST_FAN = 256;
   const std::size_t begin = fans.begin[vertex];
   const std::size_t end = fans.begin[vertex + 1];
   glm::vec3 sum{0.0F};
   for (std::size_t i = begin; i < end && end - begin <= WIDEST_FAN; ++i) {
     const glm::vec3& weighted = fans.weighted[i];
-    if (glm::dot(weighted, face) > static_cast<float>(COS_CREASE) * glm::length(weighted)) {
+    if (glm::dot(weighted, face) > static_cast<float>(crease_cosine) * glm::length(weighted)) {
       sum += weighted;
     }
   }
@@ -149,7 +149,8 @@ std::vector<glm::vec3> vertex_normals(const Mesh& mesh, const std::vector<glm::u
   return normals;
 }
 
-std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::uint>& weld) {
+std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::uint>& weld,
+                                      double crease_cosine) {
   const CornerFans fans = gather_fans(mesh, weld);
   std::vector<glm::vec3> normals(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -159,7 +160,8 @@ std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::u
       const std::size_t vertex = triangle[corner];
       const bool given = !mesh.vertices.normal.empty() && is_usable(mesh.vertices.normal[vertex]);
       normals[3 * t + static_cast<std::size_t>(corner)] =
-          given ? glm::normalize(mesh.vertices.normal[vertex]) : smooth_normal(fans, weld[vertex], face);
+          given ? glm::normalize(mesh.vertices.normal[vertex])
+                : smooth_normal(fans, weld[vertex], face, crease_cosine);
     }
   }
   return normals;

@@ -7,6 +7,9 @@
 
 namespace splatray {
 
+/// Of 30 degrees, BuildParams::crease_degrees.
+inline constexpr double DEFAULT_CREASE_COSINE = 0.86602540378443865;
+
 /// For each position the index of the first position equal to it (-0 equals +0; NaN equals nothing).
 [[nodiscard]] std::vector<glm::uint> weld_positions(const std::vector<glm::dvec3>& positions);
 
@@ -18,9 +21,10 @@ namespace splatray {
 [[nodiscard]] std::vector<glm::vec3> vertex_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
 
 /// Unit normals of each triangle's three corners, 3 * triangles: the given one, or the angle-weighted sum
-/// over those triangles at the corner that turn less than 50 degrees from this one, so that creases stay
+/// over those triangles at the corner that turn less than the angle of `crease_cosine` from this one, so that creases stay
 /// sharp.
-[[nodiscard]] std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::uint>& weld);
+[[nodiscard]] std::vector<glm::vec3> corner_normals(const Mesh& mesh, const std::vector<glm::uint>& weld,
+                                                    double crease_cosine = DEFAULT_CREASE_COSINE);
 
 /// Unit normal at the point of a triangle with these barycentric weights: its three `corners` (corner_normals)
 /// interpolated, at most 20 degrees from the triangle's own; zero where they cancel.

@@ -34,8 +34,8 @@ void drop_non_finite_triangles(Mesh& mesh, const std::string& name, std::vector<
   }
 }
 
-/// Turns a closed mesh of a dielectric outwards, or with `turn` of any object; whether the mesh is closed and its normals are known to
-/// point outwards.
+/// Turns a closed mesh of a dielectric outwards, or with `turn` of any object; whether the mesh is closed and its normals are
+/// known to point outwards.
 bool orient_mesh(Mesh& mesh, const std::vector<glm::uint>& weld, const InputObject& object, bool turn,
                  std::vector<std::string>& notes) {
   const bool dielectric = turn || (object.material.flags & MATERIAL_DIELECTRIC) != 0;
@@ -102,6 +102,7 @@ void append_points(Points& to, Points&& more) {
   append(to.normal, more.normal, glm::vec3(0.0F));
   append(to.color, more.color, glm::vec3(1.0F));
   append(to.radius, more.radius, 0.0F);
+  append(to.clip, more.clip, PointClip{});
 }
 
 std::vector<Part> list_parts(Input& input, const ReadOptions& options) {
@@ -173,8 +174,9 @@ void points_from_part(const Part& part, const ReadOptions& options, std::uint64_
   object.oriented = orient_mesh(*part.mesh, weld, object, options.turn_outwards, notes) && object.oriented;
   object.surface_area += part.area;
   stage.report(share);
-  append_points(object.points, part.sampled ? sample_surface(*part.mesh, weld, part.samples, seed)
-                                            : vertex_points(*part.mesh, weld));
+  const MeshCreases creases{std::cos(glm::radians(options.crease_degrees)), options.clip};
+  append_points(object.points, part.sampled ? sample_surface(*part.mesh, weld, part.samples, seed, creases)
+                                            : vertex_points(*part.mesh, weld, creases));
 }
 
 }  // namespace

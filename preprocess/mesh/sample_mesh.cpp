@@ -7,15 +7,28 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <random>
+#include <span>
 #include <utility>
 
 #include "preprocess/base/morton.h"
+#include "preprocess/base/parallel.h"
+#include "preprocess/mesh/alpha_mask.h"
+#include "preprocess/mesh/clip_points.h"
+#include "preprocess/mesh/edge_sites.h"
+#include "preprocess/mesh/mesh_edges.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/texture.h"
 
 namespace splatray {
 namespace {
+
+constexpr float COS_SAME = 0.9994F;  // 2 degrees: normals of corners that are one point
+constexpr double EDGE_REACH =
+    2.0;  // of a sample, in units of the samples' distance: more than twice its disc's radius
+constexpr double VERTEX_EDGE_REACH = 1.2;  // of a vertex, in units of its longest edge
 
 std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
   const std::vector<glm::dvec3>& positions = mesh.vertices.position;
@@ -62,15 +75,20 @@ std::vector<std::uint32_t> morton_order(const Mesh& mesh) {
 /// Appends points given by triangle and barycentric weights.
 class SampleWriter {
  public:
-  SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count)
-      : mesh_(mesh), normals_(corner_normals(mesh, weld)) {
+  SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
+               double crease_cosine)
+      : mesh_(mesh), mask_(mesh), normals_(corner_normals(mesh, weld, crease_cosine)) {
+    triangles_.reserve(count);
     points_.position.reserve(count);
     points_.normal.reserve(count);
     points_.color.reserve(mesh.vertices.color.empty() && !mesh.texture ? 0 : count);
   }
 
+  /// Leaves out what the mesh's texture cuts out.
   void add(std::size_t triangle_index, const glm::dvec3& weights) {
+    if (mask_.cut_out(static_cast<std::uint32_t>(triangle_index), weights)) return;
     const glm::uvec3& triangle = mesh_.triangles[triangle_index];
+    triangles_.push_back(static_cast<std::uint32_t>(triangle_index));
     const glm::vec3 w(weights);
     const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
     points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
@@ -89,12 +107,29 @@ class SampleWriter {
     points_.color.push_back(color);
   }
 
+  /// Adds points where edges lack them, at most as many as there are, and gives all their clip lines.
+  void clip(const std::vector<glm::uint>& weld, double crease_cosine, double spacing_world) {
+    const MeshEdges edges(mesh_, weld, normals_, crease_cosine);
+    for (const MeshPlace& site :
+         edge_sites(mesh_, edges, triangles_, points_.position, spacing_world, points_.size()))
+      add(site.triangle, site.weights);
+    const double reach_world = EDGE_REACH * spacing_world;
+    clip_points(
+        mesh_, weld, edges,
+        [&](std::size_t i) {
+          return PointOnMesh{std::span(triangles_).subspan(i, 1), reach_world};
+        },
+        points_);
+  }
+
   Points finish() { return std::move(points_); }
 
  private:
   const Mesh& mesh_;
+  AlphaMask mask_;
   std::vector<glm::vec3> normals_;
   Points points_;
+  std::vector<std::uint32_t> triangles_;  ///< beside points_
 };
 
 /// Index of the corner opposite the longest edge: the lattice's rows are then short.
@@ -110,6 +145,66 @@ int apex_of(const std::array<glm::dvec3, 3>& corners) {
     }
   }
   return apex;
+}
+
+/// The triangles at each place of a mesh.
+class Fans {
+ public:
+  Fans(const Mesh& mesh, const std::vector<glm::uint>& weld) : begin_(mesh.vertices.size() + 1, 0) {
+    for (const glm::uvec3& triangle : mesh.triangles)
+      for (glm::length_t corner = 0; corner < 3; ++corner) ++begin_[weld[triangle[corner]]];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    triangles_.resize(3 * mesh.triangles.size());
+    for (std::size_t t = mesh.triangles.size(); t-- > 0;)
+      for (glm::length_t corner = 0; corner < 3; ++corner)
+        triangles_[--begin_[weld[mesh.triangles[t][corner]]]] = static_cast<std::uint32_t>(t);
+  }
+
+  [[nodiscard]] std::span<std::uint32_t> at(glm::uint place) {
+    return std::span(triangles_).subspan(begin_[place], begin_[place + 1] - begin_[place]);
+  }
+
+ private:
+  std::vector<std::size_t> begin_;
+  std::vector<std::uint32_t> triangles_;
+};
+
+/// Clip lines of points at vertices, `kept`: of the triangles there, those whose corner has the point's normal.
+void clip_vertices(const Mesh& mesh, const std::vector<glm::uint>& weld,
+                   const std::vector<glm::vec3>& normals, double crease_cosine,
+                   const std::vector<glm::uint>& kept, Points& points) {
+  const MeshEdges edges(mesh, weld, corner_normals(mesh, weld, crease_cosine), crease_cosine);
+  if (!edges.any() && !AlphaMask(mesh).any()) return;
+  Fans fans(mesh, weld);
+  std::vector<double> reach(kept.size());
+  const auto fan_of = [&](std::size_t i) { return fans.at(weld[kept[i]]); };
+  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t i) {
+    double longest = 0.0;
+    for (const std::uint32_t t : fan_of(i))
+      longest = std::max(longest, longest_edge(corners_of(mesh, mesh.triangles[t])));
+    reach[i] = VERTEX_EDGE_REACH * longest;
+  });
+  const auto has_normal = [&](std::size_t i, std::uint32_t t) {
+    for (glm::length_t corner = 0; corner < 3; ++corner) {
+      const glm::uint vertex = mesh.triangles[t][corner];
+      if (weld[vertex] == weld[kept[i]] && glm::dot(normals[vertex], normals[kept[i]]) >= COS_SAME)
+        return true;
+    }
+    return false;
+  };
+  std::vector<std::vector<std::uint32_t>> split(kept.size());
+  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t i) {
+    const auto fan = fan_of(i);
+    const auto is_own = [&](std::uint32_t t) { return has_normal(i, t); };
+    if (!std::all_of(fan.begin(), fan.end(), is_own))
+      std::copy_if(fan.begin(), fan.end(), std::back_inserter(split[i]), is_own);
+  });
+  clip_points(
+      mesh, weld, edges,
+      [&](std::size_t i) {
+        return PointOnMesh{split[i].empty() ? std::span<const std::uint32_t>(fan_of(i)) : split[i], reach[i]};
+      },
+      points);
 }
 
 }  // namespace
@@ -136,8 +231,7 @@ bool is_coarse(const Mesh& mesh) {
   return coarse_area > 0.1 * area;
 }
 
-Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld) {
-  constexpr float COS_SAME = 0.9994F;
+Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const MeshCreases& creases) {
   constexpr glm::uint NONE = 0xFFFFFFFFU;
   const std::vector<glm::vec3> normals = vertex_normals(mesh, weld);
   std::vector<bool> used(mesh.vertices.size(), false);
@@ -147,15 +241,18 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld) {
   std::vector<glm::uint> first_kept(mesh.vertices.size(), NONE);  // by weld representative: head of a chain
   std::vector<glm::uint> next_kept(mesh.vertices.size(), NONE);
   Points points;
+  std::vector<glm::uint> kept;
+  const AlphaMask mask(mesh);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     glm::uint other = first_kept[weld[i]];
     while (other != NONE && glm::dot(normals[other], normals[i]) < COS_SAME) {
       other = next_kept[other];
     }
-    if (!used[i] || other != NONE) {
+    if (!used[i] || other != NONE || (mask.any() && mesh.texture->cut_out(mesh.texcoord[i]))) {
       continue;
     }
     next_kept[i] = std::exchange(first_kept[weld[i]], static_cast<glm::uint>(i));
+    kept.push_back(static_cast<glm::uint>(i));
     points.position.push_back(mesh.vertices.position[i]);
     points.normal.push_back(normals[i]);
     if (!mesh.vertices.color.empty() || mesh.texture) {
@@ -166,11 +263,12 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld) {
       points.radius.push_back(mesh.vertices.radius[i]);
     }
   }
+  if (creases.clip) clip_vertices(mesh, weld, normals, creases.cosine, kept, points);
   return points;
 }
 
 Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
-                      std::uint64_t seed) {
+                      std::uint64_t seed, const MeshCreases& creases) {
   constexpr double GOLDEN_RATIO_PART = 0.6180339887498949;
   if (count == 0) {
     return {};
@@ -180,7 +278,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   double side = static_cast<double>(random() >> 11U) * 0x1p-53;
   const double step = surface_area(mesh) / static_cast<double>(count);
   assert(step > 0.0 && std::isfinite(step));
-  SampleWriter writer(mesh, weld, count);
+  SampleWriter writer(mesh, weld, count, creases.cosine);
   std::uint64_t written = 0;
   double passed = 0.0;
   std::size_t last_proper = 0;
@@ -212,6 +310,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   for (; written < count; ++written) {  // rounding of the summed area may leave the last share over
     writer.add(last_proper, glm::dvec3(1.0 / 3.0));
   }
+  if (creases.clip) writer.clip(weld, creases.cosine, std::sqrt(step));
   return writer.finish();
 }
 

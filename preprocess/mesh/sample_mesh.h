@@ -3,9 +3,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/points.h"
 
 namespace splatray {
+
+/// What points on a mesh know of its creases and borders.
+struct MeshCreases {
+  double cosine = DEFAULT_CREASE_COSINE;  ///< of the angle by which a mesh turns at a crease
+  bool clip = false;                      ///< discs end there: fills Points::clip
+};
 
 /// Sum of the triangles' areas, world units^2.
 [[nodiscard]] double surface_area(const Mesh& mesh);
@@ -17,15 +24,17 @@ namespace splatray {
 /// One point per used vertex with its normal (given, or angle-weighted from the triangles), colour and
 /// radius. Vertices that coincide in position and, within 2 degrees, in normal are one point: the first.
 /// `weld` is weld_positions of the vertices.
-[[nodiscard]] Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld);
+[[nodiscard]] Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld,
+                                   const MeshCreases& creases = {});
 
-/// Exactly `count` points, spread by area. Triangles are ordered along a Morton curve; the i-th point takes
+/// `count` points, spread by area, less those where the texture's alpha cuts the mesh out; where discs end at edges, more by
+/// those that edges lack (edge_sites). Triangles are ordered along a Morton curve; the i-th point takes
 /// the i-th of `count` equal shares of the area on the way (systematic sampling). Its place in the share's
 /// triangle is a Fibonacci lattice: height from the share, side from multiples of the golden ratio (Kronecker
 /// sequence, Niederreiter 1992). Deterministic for a seed. Normals are corner_normals interpolated, at most
 /// 20 degrees from the triangle's; radii are not passed on. The mesh must have a positive, finite area unless
 /// count is 0.
 [[nodiscard]] Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
-                                    std::uint64_t seed);
+                                    std::uint64_t seed, const MeshCreases& creases = {});
 
 }  // namespace splatray

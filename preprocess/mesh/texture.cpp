@@ -45,7 +45,13 @@ glm::vec4 TextureImage::mean() const {
   return glm::vec4(sum / (255.0 * static_cast<double>(texels.size())));
 }
 
-glm::vec3 Texture::color(glm::vec2 texcoord) const {
+glm::vec3 Texture::color(glm::vec2 texcoord) const { return factor * glm::vec3(texel(texcoord)); }
+
+bool Texture::cut_out(glm::vec2 texcoord) const {
+  return alpha_cutoff > 0.0F && alpha_factor * texel(texcoord).w < alpha_cutoff;
+}
+
+glm::vec4 Texture::texel(glm::vec2 texcoord) const {
   static const std::array<float, 256> LINEAR = make_linear_table();
   constexpr float FARTHEST = 1.0e6F;
   glm::vec2 uv(uv_transform * glm::vec3(texcoord, 1.0F));
@@ -55,17 +61,17 @@ glm::vec3 Texture::color(glm::vec2 texcoord) const {
   const glm::dvec2 at = glm::dvec2(uv) * glm::dvec2(image->width, image->height) - 0.5;
   const glm::dvec2 base = glm::floor(at);
   const glm::vec2 weight(at - base);
-  glm::vec3 sum{0.0F};
+  glm::vec4 sum{0.0F};
   for (int corner = 0; corner < 4; ++corner) {
     const int dx = corner & 1;
     const int dy = corner >> 1;
     const std::uint32_t column = wrapped(static_cast<std::int64_t>(base.x) + dx, image->width, wrap_s);
     const std::uint32_t row = wrapped(static_cast<std::int64_t>(base.y) + dy, image->height, wrap_t);
-    const glm::u8vec4 texel = image->texels[std::size_t{row} * image->width + column];
+    const glm::u8vec4 stored = image->texels[std::size_t{row} * image->width + column];
     const float share = (dx == 1 ? weight.x : 1.0F - weight.x) * (dy == 1 ? weight.y : 1.0F - weight.y);
-    sum += share * glm::vec3(LINEAR[texel.x], LINEAR[texel.y], LINEAR[texel.z]);
+    sum += share * glm::vec4(LINEAR[stored.x], LINEAR[stored.y], LINEAR[stored.z], stored.w / 255.0F);
   }
-  return factor * sum;
+  return sum;
 }
 
 }  // namespace splatray

@@ -27,10 +27,18 @@ struct Texture {
   TextureWrap wrap_t = TextureWrap::repeat;
   glm::mat3 uv_transform{1.0F};  ///< applied to (u, v, 1) first (KHR_texture_transform)
   glm::vec3 factor{1.0F};        ///< linear, multiplies the texture
+  float alpha_factor = 1.0F;     ///< multiplies its alpha
+  float alpha_cutoff = 0.0F;     ///< where alpha is below it, there is no surface; 0 = there is everywhere
 
   /// Linear rgb at a texture coordinate, bilinear between texels; (0, 0) is the top left corner.
   /// A coordinate that is not finite is read as 0.
   [[nodiscard]] glm::vec3 color(glm::vec2 texcoord) const;
+  /// Whether there is no surface at a texture coordinate.
+  [[nodiscard]] bool cut_out(glm::vec2 texcoord) const;
+
+ private:
+  /// Linear rgb and alpha, without factors.
+  [[nodiscard]] glm::vec4 texel(glm::vec2 texcoord) const;
 };
 
 }  // namespace splatray

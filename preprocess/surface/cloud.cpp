@@ -45,6 +45,7 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   cloud.station = take(points.station);
   cloud.grid_cell = take(points.grid_cell);
   cloud.radius = take(points.radius);
+  cloud.clip = take(points.clip);
   tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
     cloud.normal[i] = glm::vec3(unit_or_zero(glm::dvec3(cloud.normal[i])));
     if (!color.empty()) cloud.color[i] = pack_color(color[i]);
@@ -74,6 +75,8 @@ void normalise_coordinates(Cloud& cloud) {
   const double longest = std::max({half.x, half.y, half.z});
   cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
   find_coordinates(cloud);
+  const auto unit = static_cast<float>(1.0 / cloud.half_extent_world);
+  for (PointClip& clip : cloud.clip) clip.distance[0] *= unit, clip.distance[1] *= unit, clip.reach *= unit;
   tbb::parallel_for(std::size_t{0}, cloud.radius.size(), [&](std::size_t i) {
     if (cloud.radius[i] > 0.0F) {
       const double radius = cloud.radius[i] / cloud.half_extent_world;
@@ -126,6 +129,7 @@ void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
   reorder(cloud.normal);
   reorder(cloud.color);
   reorder(cloud.radius);
+  reorder(cloud.clip);
   reorder(cloud.station);
   reorder(cloud.grid_cell);
   for (Column& column : cloud.columns) std::visit(reorder, column.values);

@@ -26,6 +26,7 @@ struct Cloud {
   std::vector<float> radius;             ///< in units of half_extent_world; zero = unknown; empty = all are
   std::vector<glm::vec3> field;          ///< normal field: uu, uv, vv of the change of the unit normal per
                                          ///< half_extent_world in TangentFrame(normal); empty = all flat
+  std::vector<PointClip> clip;           ///< in units of half_extent_world; empty = the surface ends nowhere
   std::vector<Column> columns;           ///< further attributes
   std::vector<Station> stations;         ///< where the points were measured from; empty = not known
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first

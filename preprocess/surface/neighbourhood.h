@@ -26,23 +26,34 @@ struct VectorsAround {
   }
 };
 
-/// A point's nearest sites, in cloud coordinates.
+/// A point's nearest sites on its side of its clip lines, in cloud coordinates.
 struct Neighbourhood {
   Neighbourhood(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest)
-      : normal(cloud.normal[point]), oriented(cloud.oriented), count(nearest.size()) {
-    for (std::size_t j = 0; j < count; ++j) {
-      const std::uint32_t other = nearest[j].index();
+      : normal(cloud.normal[point]),
+        oriented(cloud.oriented),
+        ends_known(!cloud.clip.empty()),
+        clip(cloud.clip.empty() ? PointClip{} : cloud.clip[point]),
+        found(nearest.size()),
+        seen_squared(nearest.empty() ? 0.0F : nearest.back().distance_squared()) {
+    for (const Neighbour& neighbour : nearest) {
+      const std::uint32_t other = neighbour.index();
       const glm::vec3 to_other = cloud.coord[other] - cloud.coord[point];
+      if (clip.cuts(glm::dvec3(to_other))) continue;
       const glm::vec3& its_normal = cloud.normal[other];
-      offset.x[j] = to_other.x, offset.y[j] = to_other.y, offset.z[j] = to_other.z;
-      normals.x[j] = its_normal.x, normals.y[j] = its_normal.y, normals.z[j] = its_normal.z;
-      distance_squared[j] = nearest[j].distance_squared();
+      offset.x[count] = to_other.x, offset.y[count] = to_other.y, offset.z[count] = to_other.z;
+      normals.x[count] = its_normal.x, normals.y[count] = its_normal.y, normals.z[count] = its_normal.z;
+      distance_squared[count] = neighbour.distance_squared();
+      ++count;
     }
   }
 
   glm::dvec3 normal;  ///< of the point, as the cloud has it
   bool oriented;      ///< Cloud::oriented
-  std::size_t count;  ///< entries of what follows
+  bool ends_known;    ///< the surface ends, or has a crease, only where clip lines say so
+  PointClip clip;     ///< of the point
+  std::size_t found;  ///< sites looked at, also beyond the clip lines
+  float seen_squared;     ///< squared distance of the farthest of them
+  std::size_t count = 0;  ///< entries of what follows
   VectorsAround offset;
   VectorsAround normals;
   Around distance_squared;

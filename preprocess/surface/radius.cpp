@@ -48,6 +48,10 @@ class Surroundings {
     const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(normal, side));
     const glm::dvec3 v = glm::cross(normal, u);
+    for (std::size_t i = 0; i < around.clip.lines(); ++i) {
+      const glm::dvec3 dir(around.clip.dir[i]);
+      creases_[crease_count_++] = {glm::dvec2(glm::dot(dir, u), glm::dot(dir, v)), around.clip.distance[i]};
+    }
     around.normals.dot(normal, around.count, alignment_);
     around.offset.dot(u, around.count, across_u_);
     around.offset.dot(v, around.count, across_v_);
@@ -102,7 +106,7 @@ class Surroundings {
   const Neighbourhood& around_;
   Around alignment_, across_u_, across_v_, distance_, lateral_, stretch_;
   std::array<TangentNeighbour, MANY> neighbours_;
-  std::array<TangentCrease, MANY> creases_;
+  std::array<TangentCrease, MANY + 2> creases_;
   std::size_t neighbour_count_ = 0;
   std::size_t crease_count_ = 0;
 };
@@ -110,12 +114,12 @@ class Surroundings {
 /// The radius that covers the point's cell, 0 where there is none; nothing when `wanted` neighbours do not settle it.
 SPLATRAY_VECTOR_CLONES std::optional<double> covering_radius(const Neighbourhood& around,
                                                              std::size_t wanted) {
-  const std::size_t found = around.count;
-  if (found == 0) return 0.0;
+  if (around.found == 0) return 0.0;
   const Surroundings surroundings(around);
-  const VoronoiReach reach = voronoi_reach(surroundings.neighbours(), surroundings.creases());
-  const double seen = std::sqrt(static_cast<float>(around.distance_squared[found - 1]));
-  const bool settled = found < wanted || wanted == MANY ||
+  const VoronoiReach reach =
+      voronoi_reach(surroundings.neighbours(), surroundings.creases(), around.ends_known);
+  const double seen = std::sqrt(around.seen_squared);
+  const bool settled = around.found < wanted || wanted == MANY ||
                        (surroundings.neighbours().size() >= RING && reach.decisive_distance <= seen);
   if (!settled || !(reach.radius > 0.0)) return {};
   const double covering = COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * surroundings.noise(CLOSE);
@@ -125,7 +129,7 @@ SPLATRAY_VECTOR_CLONES std::optional<double> covering_radius(const Neighbourhood
 /// Radii that the FEW nearest places settle; of others the squared distance of the last of these, negative.
 float radius_of_few(const Neighbourhood& around) {
   if (const auto radius = covering_radius(around, FEW)) return static_cast<float>(*radius);
-  return -static_cast<float>(around.distance_squared[around.count - 1]);
+  return -around.seen_squared;
 }
 
 /// Settles what radius_of_few has not.

@@ -95,13 +95,13 @@ struct Edges {
   bool gap = false;   ///< the bounding neighbours and creases leave a wide gap
 };
 
-Edges examine(const Cell& cell, std::span<const TangentNeighbour> neighbours) {
+Edges examine(const Cell& cell, std::span<const TangentNeighbour> neighbours, bool ends_known) {
   Edges edges;
   const std::span<const Corner> corners = cell.corners();
   glm::dvec2 previous = corners.back().normal;
   for (const Corner& corner : corners) {
     edges.open = edges.open || corner.edge == OCTAGON_EDGE;
-    edges.gap = edges.gap || glm::dot(previous, corner.normal) < GAP_COSINE;
+    edges.gap = edges.gap || (!ends_known && glm::dot(previous, corner.normal) < GAP_COSINE);
     previous = corner.normal;
     if (corner.edge < 0) continue;
     edges.distance_sum += neighbours[static_cast<std::size_t>(corner.edge)].distance;
@@ -126,7 +126,7 @@ double closed_reach(const Cell& cell) {
 }  // namespace
 
 VoronoiReach voronoi_reach(std::span<const TangentNeighbour> neighbours,
-                           std::span<const TangentCrease> creases) {
+                           std::span<const TangentCrease> creases, bool ends_known) {
   assert(neighbours.size() + creases.size() <= MAX_CUTS);
   if (neighbours.empty()) return {0.0, 0.0};
   const auto ring_distance = [&](std::size_t ring) {
@@ -140,7 +140,7 @@ VoronoiReach voronoi_reach(std::span<const TangentNeighbour> neighbours,
     if (cell.clip(neighbour.place / neighbour.distance, 0.5 * neighbour.distance, static_cast<int>(j)))
       decisive = 2.0 * cell.reach();
   }
-  const Edges edges = examine(cell, neighbours);
+  const Edges edges = examine(cell, neighbours, ends_known);
   double radius = closed_reach(cell);
   if (edges.open && edges.neighbours > 0)
     radius = std::max(radius, OPEN_REACH * edges.distance_sum / static_cast<double>(edges.neighbours));

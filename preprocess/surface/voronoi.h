@@ -12,7 +12,7 @@ struct TangentNeighbour {
 };
 
 /// Where the plane of the point meets that of a neighbour on another sheet: the surface bends here, and the
-/// point's sheet ends.
+/// point's sheet ends. Or a line that clips the point's disc.
 struct TangentCrease {
   glm::dvec2 dir;   ///< unit vector from the point towards the crease, perpendicular to it
   double distance;  ///< from the point to the crease, >= 0
@@ -30,8 +30,9 @@ struct VoronoiReach {
 /// end at 0.65 x the mean distance of the neighbours that bound it. Where the neighbours that bound it leave
 /// a gap of more than 150 degrees, the cell is also taken to end at 0.8 x the distance to the 4th neighbour:
 /// along a border two neighbours and the point are nearly in line and their cells meet far outside; elsewhere
-/// such a corner belongs to an obtuse triangle that the discs of the neighbours cover.
+/// such a corner belongs to an obtuse triangle that the discs of the neighbours cover. Where the surface's ends are known, as
+/// creases that clip the disc, a gap is none of them, and the disc reaches as far as it must.
 [[nodiscard]] VoronoiReach voronoi_reach(std::span<const TangentNeighbour> neighbours,
-                                         std::span<const TangentCrease> creases);
+                                         std::span<const TangentCrease> creases, bool ends_known = false);
 
 }  // namespace splatray

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/empty_box.h"
+#include "engine/scene/leaf/empty_box.h"
 #include "engine/scene/tree.h"
 
 namespace splatray {

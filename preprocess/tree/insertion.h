@@ -19,7 +19,7 @@ struct LeafLists {
 /// Policy `centre`: each splat in the leaf that holds its centre.
 [[nodiscard]] LeafLists insert_centres(const Octree& tree, const SplatList& splats);
 
-/// Policy `overlap`: each splat in every leaf whose cell it comes within LIST_INFLATION of, and in no
+/// Policy `overlap`: each splat in every leaf whose cell it comes within LIST_INFLATION of, before its clip lines, and in no
 /// others. Throws Error (failed) above 2^32 - 1 references.
 [[nodiscard]] LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Stage& stage);
 

@@ -104,7 +104,8 @@ PoolCounts estimate_counts(const SplatList& splats, std::uint32_t leaf_size) {
           sampled == splats.size() ? tree.node_pool.size() : whole(WORDS_PER_LEAF * leaves),
           whole(leaves),
           !splats.color.empty(),
-          !splats.field.empty()};
+          !splats.field.empty(),
+          !splats.clip.empty()};
 }
 
 std::uint32_t choose_leaf_size(const SplatList& splats, Insertion insertion) {

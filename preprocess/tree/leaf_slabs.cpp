@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/scene/halved_cell.h"
-#include "engine/scene/slab.h"
+#include "engine/scene/leaf/halved_cell.h"
+#include "engine/scene/leaf/slab.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/tree.h"
 #include "preprocess/base/vector_clones.h"

@@ -20,7 +20,7 @@ bool splat_less(const SplatList& splats, std::uint32_t a, std::uint32_t b) {
   const auto key = [&splats](std::uint32_t i) {
     const uvec4& w = splats.words[i];
     return std::tuple(w.x, w.y, w.z, w.w, splats.color.empty() ? 0U : splats.color[i],
-                      splats.field.empty() ? 0U : splats.field[i],
+                      splats.field.empty() ? 0U : splats.field[i], splats.clip.empty() ? 0U : splats.clip[i],
                       splats.point.empty() ? 0U : splats.point[i]);
   };
   return key(a) < key(b);
@@ -32,6 +32,7 @@ void take(SplatList& splats, const std::vector<std::uint32_t>& order) {
   splats.words = gather(splats.words, order);
   splats.color = gather(splats.color, order);
   splats.field = gather(splats.field, order);
+  splats.clip = gather(splats.clip, order);
   splats.point = gather(splats.point, order);
 }
 

@@ -9,12 +9,13 @@
 
 namespace splatray {
 
-/// Different splats with their centres' Morton keys. Ascending by key, then words, colour, normal field and point.
+/// Different splats with their centres' Morton keys. Ascending by key, then words, colour, normal field, clip lines and point.
 struct SplatList {
   std::vector<std::uint64_t> key;
   std::vector<uvec4> words;
   std::vector<std::uint32_t> color;  ///< pack_color, or empty: no colours
   std::vector<std::uint32_t> field;  ///< pack_field, or empty: all discs are flat
+  std::vector<std::uint32_t> clip;   ///< pack_clip, or empty: all discs are whole
   std::vector<std::uint32_t> point;  ///< which of the build's points each is, or empty: not asked for
 
   [[nodiscard]] std::size_t size() const { return words.size(); }
@@ -41,8 +42,8 @@ struct Octree {
   std::vector<Leaf> leaves;  ///< in Z-order, empty ones too
 };
 
-/// A node of at most so many times `leaf_size` centres stays a leaf where the root mean square of their splats' radii is more than
-/// WIDEST_SPLATS of the width its children would have: these would list mostly the same splats, each with copies of its own.
+/// A node of at most so many times `leaf_size` centres stays a leaf where the root mean square of their splats' radii is more
+/// than WIDEST_SPLATS of the width its children would have: these would list mostly the same splats, each with copies of its own.
 inline constexpr double CROWDED_MOST = 1.75;
 inline constexpr double WIDEST_SPLATS = 0.36;
 

@@ -71,6 +71,7 @@ struct PlaneHit {
   vec2 t;             ///< ray parameter
   vec2 rho_squared;   ///< squared distance from the centre, lattice units^2
   vec3 from_center;   ///< rounded to float32 from more
+  vec3 from_center_low;  ///< what that left out
   float facing;       ///< n.d: negative = front face
 };
 
@@ -88,7 +89,9 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   precise double t = dot(n, to_center) / denominator;
   precise dvec3 from_center = dvec3(dir) * t - to_center;
   precise double rho_squared = dot(from_center, from_center);
-  return PlaneHit(two_floats(t), two_floats(rho_squared), vec3(from_center), float(denominator));
+  vec3 high = vec3(from_center);
+  vec3 low = vec3(from_center - dvec3(high));
+  return PlaneHit(two_floats(t), two_floats(rho_squared), high, low, float(denominator));
 }
 #else
 /// t = n.(c - o) / (n.d) and |o + t d - c|^2 to about 2^-44 of the distances involved.
@@ -111,10 +114,47 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   vec2 from_z = df_add(df_scale(hit.t, dir.z), -z);
   hit.rho_squared = df_add(df_add(df_square(from_x), df_square(from_y)), df_square(from_z));
   hit.from_center = vec3(from_x.x, from_y.x, from_z.x);
+  hit.from_center_low = vec3(from_x.y, from_y.y, from_z.y);
   hit.facing = denominator.x;
   return hit;
 }
 #endif
+
+/// A clip line's normal, in the disc's plane or leaning to one side; integers, exact.
+vec3 clip_normal(uint line, vec3 normal) {
+  float a = abs(128.0f - float(line & 255u)) - float(CLIP_STEPS);
+  float b = (abs(128.0f - float((line + 192u) & 255u)) - float(CLIP_STEPS)) * float(OCT_SCALE);
+  vec3 size = abs(normal);
+  bool is_x = size.x <= size.y && size.x <= size.z;
+  bool is_y = size.y <= size.z;
+  if (is_x) return vec3(b, -a * normal.z, a * normal.y);
+  return is_y ? vec3(a * normal.z, b, -a * normal.x) : vec3(-a * normal.y, a * normal.x, b);
+}
+
+/// What a clip line lets the product of clip_normal and an offset from the centre be.
+float clip_limit(uint line, uvec4 words) {
+  float bound = uintBitsToFloat((127u + ((3u + (words.w >> 25u)) >> 1u)) << 23u);
+  return (float((line >> 8u) & 255u) - float(CLIP_ZERO)) * (0.5f * float(OCT_SCALE)) * bound;
+}
+
+/// Whether a meeting with the disc's plane is on the clip line's inner side.
+bool line_keeps(uint line, uvec4 words, PlaneHit hit) {
+  vec3 across = clip_normal(line, splat_normal(words));
+#ifdef CPU
+  double along = dot(dvec3(across), dvec3(hit.from_center) + dvec3(hit.from_center_low));
+  return along <= double(clip_limit(line, words));
+#else
+  vec2 x = df_scale(vec2(hit.from_center.x, hit.from_center_low.x), across.x);
+  vec2 y = df_scale(vec2(hit.from_center.y, hit.from_center_low.y), across.y);
+  vec2 z = df_scale(vec2(hit.from_center.z, hit.from_center_low.z), across.z);
+  return !df_less(vec2(clip_limit(line, words), 0.0f), df_add(df_add(x, y), z));
+#endif
+}
+
+/// Whether it is on the part of the plane that the splat's clip lines leave.
+bool clip_keeps(uint clip, uvec4 words, PlaneHit hit) {
+  return line_keeps(clip, words, hit) && line_keeps(clip >> 16u, words, hit);
+}
 
 /// One entry of a normal field, per radius.
 float field_slope(uint bits) {

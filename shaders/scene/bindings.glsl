@@ -25,6 +25,7 @@ const bool REFERENCES = (FEATURES & FEATURE_REFERENCES) != 0u;
 const bool LIGHTS = (FEATURES & FEATURE_LIGHTS) != 0u;
 const bool SHADOWS = (FEATURES & FEATURE_SHADOWS) != 0u;
 const bool ENVIRONMENT = (FEATURES & FEATURE_ENVIRONMENT) != 0u;
+const bool CLIPS = (FEATURES & FEATURE_CLIPS) != 0u;
 const bool COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 #ifdef LIT
 layout(constant_id = SPEC_LOOK) const uint LOOK = LOOK_LIT;
@@ -71,7 +72,7 @@ layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Materia
 layout(std430, binding = BIND_COUNTERS) buffer CounterTable { uint counters[COUNTER_COUNT]; };
 
 #ifdef PAGED
-#define PAGES_OF(slot) (((PAGES >> (4u * (slot - BIND_NODE_POOL))) & 15u) + 1u)
+#define PAGES_OF(slot) (((PAGES >> (3u * (slot - BIND_NODE_POOL))) & 7u) + 1u)
 #define ARRAY(slot) [PAGES_OF(slot)]
 // By constants: not all devices let an array of buffers be indexed by anything else.
 #define READ_PAGE(number, slot, READ, pool) \
@@ -115,6 +116,7 @@ POOL(BIND_REFERENCE_POOL, ReferencePool, reference_pool, uint, reference_word, R
 POOL(BIND_DATA_POOL, DataPool, data_pool, uvec4, splat_words, READ_TEXEL)
 POOL(BIND_COLOR_POOL, ColorPool, color_pool, uint, color_word, READ_WORD)
 POOL(BIND_FIELD_POOL, FieldPool, field_pool, uint, field_word, READ_WORD)
+POOL(BIND_CLIP_POOL, ClipPool, clip_pool, uint, clip_word, READ_WORD)
 POOL(BIND_TOP_TABLE, TopTable, top_table, uint, top_entry, READ_WORD)
 
 /// Where the data pool has the splat that a place in the leaves' lists refers to.

@@ -1,5 +1,6 @@
 // Which splats of a leaf's list a ray hits, decided exactly: each hit counts in one leaf, so what is found depends on the splats
-// alone, not on the tree. Needs, beside walk.glsl: splat_words(splat), material_at(object), and the constants BLEND, SIDE, FACES.
+// alone, not on the tree. Needs, beside walk.glsl: splat_words(splat), clip_word(splat), material_at(object), and the constants
+// BLEND, SIDE, FACES, CLIPS.
 #ifndef SPLATRAY_ACCEPT_GLSL
 #define SPLATRAY_ACCEPT_GLSL
 #include "trace/walk.glsl"
@@ -51,11 +52,13 @@ bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
 }
 
 /// Whether a meeting with a disc's plane is a hit on the disc that counts in the leaf's interval.
-bool hit_accepted(uvec4 words, PlaneHit hit, Ray ray, Walk walk) {
+bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, Walk walk) {
   bool on_disc =
       !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
   bool in_range = hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
-  return on_disc && in_range && hit_allowed(words, hit, ray);
+  bool kept = true;
+  if (CLIPS) kept = clip_keeps(clip_word(splat), words, hit);
+  return on_disc && in_range && kept && hit_allowed(words, hit, ray);
 }
 
 /// The candidates that are hits. `first` is updated while `finding`.
@@ -68,7 +71,7 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
       uint splat = splat_at(chunk + bit);
       uvec4 words = splat_words(splat);
       PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
-      bool accept = hit_accepted(words, hit, ray, walk);
+      bool accept = hit_accepted(words, splat, hit, ray, walk);
       accepted |= (accept ? 1u : 0u) << bit;
       vec2 measure = hit.t;
       if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF)

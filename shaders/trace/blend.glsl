@@ -105,7 +105,7 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       float share = behind * inverse_depth;
       bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
                     dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST &&
-                    hit_accepted(words, hit, ray, walk);
+                    hit_accepted(words, splat, hit, ray, walk);
       float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
       weight = member ? weight * WEIGHT_UNIT : 0.0f;
       share = member ? clamp((behind + facet.behind) * inverse_depth, -1.0f, 1.0f) : 0.0f;

@@ -11,7 +11,7 @@ namespace splatray {
 
 using Bytes = std::string;
 
-constexpr std::size_t HEADER = 1728, TABLE = 288, ENTRY = 32;
+constexpr std::size_t HEADER = 1760, TABLE = 288, ENTRY = 32;
 
 template <typename T>
 T get(const Bytes& bytes, std::size_t offset) {

@@ -140,7 +140,8 @@ TEST(SceneCheck, FindsBadSizesAndLooks) {
   EXPECT_NE(found_after([](Scene& s) { s.field_pool.pop_back(); }), "");
   EXPECT_NE(found_after([](Scene& s) { s.object_names.pop_back(); }), "");
   EXPECT_EQ(found_after([](Scene& s) {
-              s.data_pool.resize(6, s.data_pool[0]), s.color_pool.clear(), s.field_pool.clear();
+              s.data_pool.resize(6, s.data_pool[0]), s.color_pool.clear(), s.field_pool.clear(),
+                  s.clip_pool.clear();
             }),
             "6 splats in 5 references");
   EXPECT_NE(found_after([](Scene& s) { s.camera->fov_y_deg = NAN; }), "");

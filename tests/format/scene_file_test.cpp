@@ -81,9 +81,9 @@ TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(get<double>(bytes, 136), 1.25);
   EXPECT_EQ(get<double>(bytes, 176), 1.0);
   EXPECT_EQ(get<double>(bytes, 232), 12.5);
-  EXPECT_EQ(bytes.substr(section_offset(bytes, 12), 21), Bytes("glass\0\0sky.hdr\0door\0\0", 21));
+  EXPECT_EQ(bytes.substr(section_offset(bytes, 13), 21), Bytes("glass\0\0sky.hdr\0door\0\0", 21));
   EXPECT_EQ(bytes.substr(bytes.size() - 8), "SOCT.END");
-  for (std::size_t id = 1; id <= 45; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
+  for (std::size_t id = 1; id <= 46; ++id) EXPECT_EQ(section_offset(bytes, id) % 16, 0U);
 }
 
 TEST_F(SceneFile, RoundTrip) {
@@ -95,6 +95,7 @@ TEST_F(SceneFile, RoundTrip) {
   EXPECT_EQ(copy.data_pool, scene.data_pool);
   EXPECT_EQ(copy.color_pool, scene.color_pool);
   EXPECT_EQ(copy.field_pool, scene.field_pool);
+  EXPECT_EQ(copy.clip_pool, scene.clip_pool);
   ASSERT_EQ(copy.columns.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(copy.columns[i].name, scene.columns[i].name);
@@ -124,6 +125,7 @@ TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   Scene scene = tiny_scene();
   scene.color_pool.clear();
   scene.field_pool.clear();
+  scene.clip_pool.clear();
   scene.columns.clear();
   scene.stations.clear();
   scene.camera.reset();
@@ -134,6 +136,7 @@ TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   const Scene copy = read_scene(path);
   EXPECT_TRUE(copy.color_pool.empty());
   EXPECT_TRUE(copy.field_pool.empty());
+  EXPECT_TRUE(copy.clip_pool.empty());
   EXPECT_TRUE(copy.columns.empty());
   EXPECT_TRUE(copy.stations.empty());
   EXPECT_FALSE(copy.camera.has_value());
@@ -166,7 +169,7 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
   put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 9");
+  says(other, "found version 2, expected version 10");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");
@@ -190,19 +193,19 @@ TEST_F(SceneFile, RefusesForgedContent) {
   says(4, 8, 4, "a reference to splat 4");
   says(5, 12, 0xFFFF0000, "splat 0 with a radius");
   says(5, 28, 0x20000002, "splat 1 of object 2");
-  says(9, 0, 7, "light 0");
+  says(10, 0, 7, "light 0");
   says(1, 8, 0x40000000, "node 2 that shares filled leaf 0");
   says(1, 8, 0x80000001, "empty leaf 2 whose box reaches over a filled leaf");
   says(1, 32, 0x80000000, "1 filled leaves that are not in the tree");
   says(3, 4, 0x20F803E0, "slab 1 whose halves leave out 1");
-  says(8, 28, std::bit_cast<std::uint32_t>(-1e30F),
+  says(9, 28, std::bit_cast<std::uint32_t>(-1e30F),
        "material 0 with a shininess out of range, expected 1 or more");
-  says(8, 32, std::bit_cast<std::uint32_t>(1e30F), "material 0 with a mirror out of range, expected 0 to 1");
-  says(8, 44, 32, "material 0 with a mask bit");
-  says(9, 32, std::bit_cast<std::uint32_t>(-1.0F), "light 0 with a power");
-  says(11, 24, 2, "a station's flag above 1");
-  says(11, 4, 0x7FF00000, "a station whose place is not finite");
-  says(12, 0, 0, "names, expected 9, of objects, environment, stations and columns");
+  says(9, 32, std::bit_cast<std::uint32_t>(1e30F), "material 0 with a mirror out of range, expected 0 to 1");
+  says(9, 44, 32, "material 0 with a mask bit");
+  says(10, 32, std::bit_cast<std::uint32_t>(-1.0F), "light 0 with a power");
+  says(12, 24, 2, "a station's flag above 1");
+  says(12, 4, 0x7FF00000, "a station whose place is not finite");
+  says(13, 0, 0, "names, expected 9, of objects, environment, stations and columns");
 }
 
 TEST_F(SceneFile, RefusesForgedCounts) {

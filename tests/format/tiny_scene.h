@@ -26,6 +26,7 @@ inline Scene tiny_scene() {
                      tiny_splat(1100000, 1200000, 1300000, 0), tiny_splat(2000000, 2000000, 2000000, 1)};
   scene.color_pool = {0xFF000001, 0xFF000002, 0xFF000004, 0xFF000005};
   scene.field_pool = {FIELD_FLAT, FIELD_FLAT + 1, FIELD_FLAT + 2, FIELD_FLAT - 3};
+  scene.clip_pool = {CLIP_NONE, 0xFF0012A5, 0x7F407FC0, CLIP_NONE};
   scene.columns = {{"intensity", std::vector<std::uint16_t>{7, 300, 0, 65535}},
                    {"class", std::vector<std::uint8_t>{2, 6, 18, 255}},
                    {"confidence", std::vector<float>{0.5F, -1.0F, 0.0F, 1e30F}},

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "engine/file/scene_file.h"
-#include "engine/scene/slab_check.h"
+#include "engine/scene/leaf/slab_check.h"
 #include "engine/scene/splat.h"
 #include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
@@ -59,14 +59,15 @@ std::vector<std::size_t> cut_counts(Bytes& bytes) {
   const std::size_t leaves = cut_count<std::uint64_t>(bytes, 56, 4);
   const std::size_t objects = cut_count<std::uint32_t>(bytes, 64, 48);
   const std::size_t lights = cut_count<std::uint32_t>(bytes, 68, 48);
-  const std::uint32_t attributes = cut_flags(bytes, 72, 3);
+  const std::uint32_t attributes = cut_flags(bytes, 72, 7);
   const std::size_t cameras = cut_flags(bytes, 76, 1);
   const std::size_t strings = cut_count<std::uint64_t>(bytes, 80, 1);
   const std::size_t stations = cut_count<std::uint32_t>(bytes, 240, 40);
   const std::size_t surfaces = cut_count<std::uint32_t>(bytes, 244, 80);
   const std::size_t colors = (attributes & 1U) != 0 ? splats : 0;
   const std::size_t fields = (attributes & 2U) != 0 ? splats : 0;
-  std::vector<std::size_t> counts{nodes,   leaves + 1, leaves,  references, splats,  colors,  fields,
+  const std::size_t clips = (attributes & 4U) != 0 ? splats : 0;
+  std::vector<std::size_t> counts{nodes,   leaves + 1, leaves,  references, splats,  colors,  fields,  clips,
                                   objects, lights,     cameras, stations,   strings, surfaces};
   for (std::size_t i = 0; i < COLUMNS_MOST; ++i) {
     const auto type = get<std::uint8_t>(bytes, COLUMN_TYPES + i) % std::size(COLUMN_BYTES);

@@ -37,12 +37,13 @@ TEST(Features, OnlyWhatTheSceneHasIsOn) {
   const SceneContent everything{.materials = material_content(materials),
                                 .colors = true,
                                 .fields = true,
+                                .clips = true,
                                 .references = true,
                                 .lights = true,
                                 .environment_texture = true};
   EXPECT_EQ(picture_features(everything, {})[SPEC_FEATURES],
-            FEATURE_MIRRORS | FEATURE_GLASS | FEATURE_COLORS | FEATURE_FIELDS | FEATURE_REFERENCES |
-                FEATURE_LIGHTS | FEATURE_SHADOWS | FEATURE_ENVIRONMENT);
+            FEATURE_MIRRORS | FEATURE_GLASS | FEATURE_COLORS | FEATURE_FIELDS | FEATURE_CLIPS |
+                FEATURE_REFERENCES | FEATURE_LIGHTS | FEATURE_SHADOWS | FEATURE_ENVIRONMENT);
 }
 
 TEST(Features, LightsThatNoMaterialScattersAreOff) {

@@ -1,5 +1,5 @@
 // Splats that are hard on arithmetic or on preprocess: seen edge-on, on top of each other, with bad attributes,
-// much larger than leaves, hit at their very rim.
+// much larger than leaves, hit at their very rim or beside the lines where they end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "data/shapes.h"
+#include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
@@ -210,6 +211,55 @@ TEST(Splat, LoneRimHits) {
   }
   DeviceScene device(scene);
   conclude(compare_with_brute_force(device, brute, rays, "rays 2^-1 to 2^-40 r inside and outside a rim"));
+}
+
+/// Some words of clip lines: through the centre, beyond the rim, double, square to each other, random.
+std::uint32_t line_words(std::mt19937_64& random, int i) {
+  const auto direction = static_cast<std::uint32_t>(random() & 0xFFU);
+  const auto line = [](std::uint32_t d, std::uint32_t q) { return q << 8 | (d & 0xFFU); };
+  switch (i % 4) {
+    case 0:
+      return line(direction, CLIP_ZERO) | (CLIP_NONE & 0xFFFF0000U);
+    case 1:
+      return line(direction, 140) | line(direction, 141) << 16;
+    case 2:
+      return line(direction, 150) | line(direction + 64, 254) << 16;
+    default:
+      return static_cast<std::uint32_t>(random());
+  }
+}
+
+TEST(Splat, HitsBesideClipLines) {
+  std::mt19937_64 random(13);
+  CaseRow all{.compared = "rays 2^-1 to 2^-38 r beside clip lines: device, brute force"};
+  for (int i = 0; i < 12; ++i) {
+    const dvec3 normal = i < 3 ? dvec3(i == 0, i == 1, i == 2) : random_unit(random);
+    Scene scene = lattice_scene({{dvec3(MIDDLE), normal, 5e5}}, test_material(MATERIAL_TWO_SIDED));
+    scene.clip_pool.assign(scene.data_pool.size(), CLIP_NONE);
+    const std::size_t large = unpack_radius_squared(scene.data_pool[0]) > 100.0 ? 0 : 1;
+    scene.clip_pool[large] = line_words(random, i);
+    const BruteForce brute(scene);
+    const Splat& splat = brute.splats()[large];
+    std::vector<RayQuery> rays;
+    for (const ClipLine& line : unpack_clip(scene.clip_pool[large], scene.data_pool[large])) {
+      const dvec3 across = line.across - splat.normal * glm::dot(splat.normal, line.across);
+      const double distance = line.limit / glm::length(across);
+      for (int ray = 0; ray < 2000; ++ray) {
+        const double off = std::copysign(std::exp2(-uniform(random, 1.0, 38.0)), double(ray % 2) - 0.5) * 5e5;
+        const dvec3 along = glm::normalize(glm::cross(splat.normal, across)) * uniform(random, -5e5, 5e5);
+        const dvec3 place = splat.center + glm::normalize(across) * (distance + off) + along;
+        const dvec3 dir = random_unit(random);
+        rays.push_back(primary_ray(place - 1e6 * dir, dir));
+      }
+    }
+    DeviceScene device(scene);
+    const CaseRow row = compare_with_brute_force(device, brute, rays, "");
+    all.count += row.count;
+    all.exceptions += row.exceptions;
+    all.lost += row.lost;
+    all.non_finite += row.non_finite;
+  }
+  conclude(all);
 }
 
 }  // namespace

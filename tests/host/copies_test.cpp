@@ -20,6 +20,9 @@ TEST(Copies, FitToTheLastByte) {
   // 64 000 bytes: 3096 copies of 20 bytes, and 4 (1 + 3 + 512) = 2064 of all else, leave 16.
   EXPECT_TRUE(copies_fit({1000, 3096, 1, 1, true, false}));
   EXPECT_FALSE(copies_fit({1000, 3097, 1, 1, true, false}));
+  // 72 000 bytes where there are clip lines: 2914 copies of 24 bytes.
+  EXPECT_TRUE(copies_fit({1000, 2914, 1, 1, true, false, true}));
+  EXPECT_FALSE(copies_fit({1000, 2915, 1, 1, true, false, true}));
 }
 
 TEST(Copies, AreCountedFromTheScene) {
@@ -29,6 +32,7 @@ TEST(Copies, AreCountedFromTheScene) {
   scene.node_pool.resize(17);
   scene.begin_end = {0, 4, 9};
   scene.field_pool.resize(5);
+  scene.clip_pool.resize(5);
   const PoolCounts found = pool_counts(scene);
   EXPECT_EQ(found.splats, 5U);
   EXPECT_EQ(found.references, 9U);
@@ -36,6 +40,7 @@ TEST(Copies, AreCountedFromTheScene) {
   EXPECT_EQ(found.filled_leaves, 2U);
   EXPECT_FALSE(found.colors);
   EXPECT_TRUE(found.fields);
+  EXPECT_TRUE(found.clips);
 }
 
 }  // namespace

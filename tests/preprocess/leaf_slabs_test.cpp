@@ -1,7 +1,7 @@
 /// No leaf's slab or halves cut off anything that the leaf's discs have inside its cell.
 #include "preprocess/tree/leaf_slabs.h"
-#include "engine/scene/slab.h"
-#include "engine/scene/slab_check.h"
+#include "engine/scene/leaf/slab.h"
+#include "engine/scene/leaf/slab_check.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/tree.h"
 

@@ -188,6 +188,23 @@ InputObject object_of(Discs discs, Dice& dice, bool colored) {
   return object;
 }
 
+/// Lets most discs of a scene end at one or two random lines. Of numbers of its own, so that recorded seeds keep their scenes.
+void clip_some(RandomScene& random) {
+  Dice dice(random.leaf_sizes[0]);
+  for (InputObject& object : random.input.objects) {
+    Points& points = object.points;
+    points.clip.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const dvec3 normal(points.normal[i]);
+      points.clip[i].reach = 2.0F * points.radius[i];
+      for (std::uint32_t line = 0, lines = dice.below(3); line < lines; ++line) {
+        points.clip[i].dir[line] = glm::vec3(glm::normalize(glm::cross(normal, dice.direction())));
+        points.clip[i].distance[line] = points.radius[i] * float(dice.between(0.0, 1.1));
+      }
+    }
+  }
+}
+
 InputObject anchor_object() {
   InputObject object;
   object.material = test_material(MATERIAL_TWO_SIDED);
@@ -227,6 +244,10 @@ RandomScene random_scene(Dice& dice) {
     const InputObject& object = random.input.objects.back();
     text << ' ' << object.points.size() << " splats of " << kind.name << " with flags "
          << object.material.flags << (object.points.color.empty() ? "," : " and colours,");
+  }
+  if (random.leaf_sizes[0] % 3 == 0) {
+    clip_some(random);
+    text << " clipped";
   }
   random.description = text.str();
   return random;

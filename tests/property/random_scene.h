@@ -19,7 +19,7 @@ struct RandomScene {
 
 /// One to four objects of a random kind each: soups with radii over six decades, shells, planes on cell boundaries,
 /// coincident and copied splats, clusters far below a leaf's usual size, thin sheets, wedges; one-sided, two-sided, glass or
-/// hidden; with or without colours.
+/// hidden; with or without colours; in a third of the scenes, discs end at lines.
 [[nodiscard]] RandomScene random_scene(Dice& dice);
 
 /// The scene with one of its two leaf sizes.

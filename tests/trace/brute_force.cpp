@@ -31,6 +31,7 @@ double fall_of(double share) {
 }  // namespace
 
 BruteForce::BruteForce(const Scene& scene) : materials_(scene.materials) {
+  clips_ = scene.clip_pool;
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     const uvec4& words = scene.data_pool[i];
     words_.push_back(words);
@@ -84,6 +85,30 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
   return !(in_slab || from_behind);
 }
 
+bool BruteForce::kept(std::size_t index, const dvec3& from_center) const {
+  if (clips_.empty()) return true;
+  const Splat& splat = splats_[index];
+  dvec3 stored = splat.normal;  // of length 1: brought to the stored length, |x| + |y| + |z| = OCT_SCALE
+  stored = glm::round(stored *
+                      (double(OCT_SCALE) / (std::abs(stored.x) + std::abs(stored.y) + std::abs(stored.z))));
+  glm::length_t axis = 0;
+  for (glm::length_t i = 1; i < 3; ++i)
+    if (std::abs(stored[i]) < std::abs(stored[axis])) axis = i;
+  dvec3 unit(0.0);
+  unit[axis] = 1.0;
+  int exponent = 0;
+  std::frexp(splat.radius_squared, &exponent);  // r^2 < 2^exponent
+  const double bound = std::exp2(std::ceil(exponent / 2.0));
+  for (const std::uint32_t line : {clips_[index] & 0xFFFFU, clips_[index] >> 16}) {
+    const int direction = static_cast<int>(line & 0xFFU);
+    const double a = std::abs(128 - direction) - 64, b = std::abs(128 - ((direction + 192) & 255)) - 64;
+    const dvec3 across = a * glm::cross(unit, stored) + b * double(OCT_SCALE) * unit;
+    const double limit = (static_cast<double>(line >> 8) - 127.0) * bound * OCT_SCALE / 2.0;
+    if (glm::dot(across, from_center) > limit) return false;
+  }
+  return true;
+}
+
 void BruteForce::find_near(const RayQuery& query, std::vector<std::uint32_t>& near) const {
   const dvec3 origin(query.origin);
   const dvec3 dir(query.dir);
@@ -118,6 +143,7 @@ std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, con
     const dvec3 from_center = origin + t * dir - splat.center;
     const double rho_squared = glm::dot(from_center, from_center);
     if (!(rho_squared <= splat.radius_squared) || !(t > double(query.t_min)) || !std::isfinite(t)) continue;
+    if (!kept(index, from_center)) continue;
     const Meeting meeting{t, rho_squared / splat.radius_squared, cosine, index};
     if (counts(meeting, query, settings)) found.push_back(meeting);
   }

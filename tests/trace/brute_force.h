@@ -64,6 +64,8 @@ class BruteForce {
     glm::dvec3 normal;  ///< unit, turned against the ray
     double t;
   };
+  /// Whether an offset from a disc's centre is before its clip lines, by the rule in shaders/layout.h.
+  [[nodiscard]] bool kept(std::size_t index, const glm::dvec3& from_center) const;
   [[nodiscard]] Facet facet(const Meeting& meeting, const RayQuery& query) const;
   [[nodiscard]] std::vector<Meeting> meetings(const RayQuery& query, const Settings& settings) const;
   [[nodiscard]] bool counts(const Meeting& meeting, const RayQuery& query, const Settings& settings) const;
@@ -72,6 +74,7 @@ class BruteForce {
   std::vector<Splat> splats_;
   std::vector<glm::dmat3> slopes_;  ///< normal fields; zero for flat discs
   std::vector<std::uint32_t> colors_;
+  std::vector<std::uint32_t> clips_;  ///< clip lines; empty where all discs are whole
   std::vector<Material> materials_;
   std::vector<double> x_, y_, z_, radius_squared_;  ///< the splats again, for the first coarse pass
 };

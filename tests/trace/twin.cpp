@@ -30,6 +30,7 @@ namespace glsl {
 #define COLORS ((features[SPEC_FEATURES] & FEATURE_COLORS) != 0)
 #define COUNTERS ((features[SPEC_FEATURES] & FEATURE_COUNTERS) != 0)
 #define FIELDS ((features[SPEC_FEATURES] & FEATURE_FIELDS) != 0)
+#define CLIPS (!bound->clip_pool.empty())
 
 uint top_entry(uint index) { return top.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
@@ -40,6 +41,7 @@ uvec4 splat_words(uint splat) { return bound->data_pool.at(splat); }
 Material material_at(uint object) { return bound->materials.at(object); }
 vec3 color_at(uint splat) { return unpack_color(bound->color_pool.at(splat)); }
 uint field_word(uint splat) { return bound->field_pool.at(splat); }
+uint clip_word(uint splat) { return bound->clip_pool.at(splat); }
 
 #include "shaders/stage/query.glsl"
 

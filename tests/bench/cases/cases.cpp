@@ -44,6 +44,10 @@ void vary_fields(Case& one) {
   vary(one, "normal_fields", [](Run& run) { run.variant.build.normal_fields = false; });
 }
 
+void vary_clip(Case& one) {
+  vary(one, "clip", [](Run& run) { run.variant.build.clip = false; });
+}
+
 void vary_radius(Case& one) {
   for (const double scale : {0.7, 1.4})
     vary(one, "radius_scale", [=](Run& run) { run.variant.build.radius_scale = scale; });
@@ -166,6 +170,20 @@ std::vector<Case> mesh_cases() {
   return list;
 }
 
+/// What engineers bring: creases, and vertices so far apart that the meshes are sampled in any case.
+std::vector<Case> edged_cases() {
+  std::vector<Case> list;
+  for (const char* model : {"fandisk", "gears"}) {
+    Case fine = mesh_case("1M", model, even(MILLION));
+    vary_clip(fine);
+    list.push_back(fine);
+    Case own = mesh_case("own sampling", model, vertices());
+    vary_clip(own);
+    list.push_back(own);
+  }
+  return list;
+}
+
 void vary_side(Case& one) {
   vary(one, "side", [](Run& run) { run.settings.side = SIDE_DELTA; });
 }
@@ -272,6 +290,7 @@ std::vector<Case> cases(bool quick) {
   std::vector<Case> list{coarse_sphere(), coarse_random_sphere(), coarse_torus()};
   append(list, fine_shapes());
   append(list, mesh_cases());
+  append(list, edged_cases());
   append(list, bounce_cases());
   list.push_back(brute_force_case());
   list.push_back(samples_case());
@@ -298,10 +317,10 @@ std::string folder_name(const Case& one) {
 std::string file_name(const Variant& variant) {
   const BuildParams& build = variant.build;
   char text[160];
-  std::snprintf(text, sizeof(text), "%s-%llu-%s-%.0f-leaf-%u-%s%s.soct", variant.even ? "even" : "random",
+  std::snprintf(text, sizeof(text), "%s-%llu-%s-%.0f-leaf-%u-%s%s%s.soct", variant.even ? "even" : "random",
                 static_cast<unsigned long long>(variant.points), word(build.radius_rule).c_str(),
                 100.0 * build.radius_scale, build.leaf_size, word(build.insertion).c_str(),
-                build.normal_fields ? "" : "-flat");
+                build.normal_fields ? "" : "-flat", build.clip ? "" : "-whole");
   return text;
 }
 

@@ -63,6 +63,7 @@ Input input_of_file(const Case& one, const Variant& variant, const Folders& fold
   ReadOptions options;
   if (one.origin == Origin::mesh) {
     options.samples = variant.points;
+    options.clip = variant.build.clip;
     options.keep_meshes = true;
     return read_input({folders.data / one.source}, options);
   }

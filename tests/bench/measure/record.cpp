@@ -21,6 +21,7 @@ Json settings_json(const Case& one, const Run& run, std::uint64_t splats) {
           {"radius_rule", word(build.radius_rule)},
           {"radius_scale", build.radius_scale},
           {"normal_fields", build.normal_fields},
+          {"clip", build.clip},
           {"leaf_size", build.leaf_size},
           {"insertion", word(build.insertion)},
           {"probes", build.probes},

@@ -1,4 +1,4 @@
-#include "engine/scene/slab.h"
+#include "engine/scene/leaf/slab.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "engine/scene/empty_box.h"
+#include "engine/scene/leaf/empty_box.h"
 
 #include <bit>
 #include <vector>

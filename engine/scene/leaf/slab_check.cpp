@@ -1,7 +1,7 @@
-#include "engine/scene/slab_check.h"
+#include "engine/scene/leaf/slab_check.h"
 
-#include "engine/scene/halved_cell.h"
-#include "engine/scene/slab.h"
+#include "engine/scene/leaf/halved_cell.h"
+#include "engine/scene/leaf/slab.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/tree.h"
 

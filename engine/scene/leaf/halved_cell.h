@@ -1,7 +1,7 @@
 /// What discs have in a cell of the octree, along the axis of its slab and in its halves.
 #pragma once
 #include "engine/scene/disc.h"
-#include "engine/scene/slab.h"
+#include "engine/scene/leaf/slab.h"
 #include "engine/scene/tree.h"
 
 namespace splatray {

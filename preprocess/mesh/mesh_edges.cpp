@@ -1,0 +1,128 @@
+#include "preprocess/mesh/mesh_edges.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace splatray {
+namespace {
+
+constexpr float COS_SAME = 0.985F;  // 10 degrees: normals of corners that are shaded as one surface
+
+/// A side of a triangle, known by the two places that it joins.
+struct Side {
+  std::uint64_t places;
+  std::uint32_t triangle, side;
+
+  bool operator<(const Side& other) const {
+    return std::tie(places, triangle, side) < std::tie(other.places, other.triangle, other.side);
+  }
+};
+
+std::vector<Side> sorted_sides(const Mesh& mesh, const std::vector<glm::uint>& weld) {
+  std::vector<Side> sides(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t side = 0; side < 3; ++side) {
+      const auto index = static_cast<glm::length_t>(side);
+      const std::uint64_t a = weld[mesh.triangles[t][index]], b = weld[mesh.triangles[t][(index + 1) % 3]];
+      sides[3 * std::size_t{t} + side] = {std::min(a, b) << 32 | std::max(a, b), t, side};
+    }
+  }
+  tbb::parallel_sort(sides.begin(), sides.end());
+  return sides;
+}
+
+/// What is asked of pairs of triangles.
+class CreaseTest {
+ public:
+  CreaseTest(const Mesh& mesh, const std::vector<glm::uint>& weld, const std::vector<glm::vec3>& corners,
+             double cosine)
+      : mesh_(mesh), weld_(weld), corners_(corners), cosine_(cosine) {}
+
+  [[nodiscard]] bool smooth(const Side& a, const Side& b) const {
+    const glm::dvec3 normal_a = normal(a.triangle);
+    const glm::dvec3 normal_b = normal(b.triangle) * (start(a) == start(b) ? -1.0 : 1.0);
+    const double lengths = std::sqrt(glm::dot(normal_a, normal_a) * glm::dot(normal_b, normal_b));
+    return !(glm::dot(normal_a, normal_b) < cosine_ * lengths) || shaded_as_one(a, b);
+  }
+
+ private:
+  [[nodiscard]] glm::dvec3 normal(std::uint32_t triangle) const {
+    const auto& p = mesh_.vertices.position;
+    const glm::uvec3& t = mesh_.triangles[triangle];
+    return glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
+  }
+  /// The place where a triangle's side begins.
+  [[nodiscard]] glm::uint start(const Side& side) const {
+    return weld_[mesh_.triangles[side.triangle][static_cast<glm::length_t>(side.side)]];
+  }
+  [[nodiscard]] const glm::vec3& corner(std::uint32_t triangle, std::uint32_t which) const {
+    return corners_[std::size_t{3} * triangle + which % 3];
+  }
+  [[nodiscard]] bool shaded_as_one(const Side& a, const Side& b) const {
+    const bool same_way = start(a) == start(b);
+    const auto same = [](const glm::vec3& m, const glm::vec3& n) {
+      return std::abs(glm::dot(m, n)) > COS_SAME;
+    };
+    return same(corner(a.triangle, a.side), corner(b.triangle, b.side + (same_way ? 0 : 1))) &&
+           same(corner(a.triangle, a.side + 1), corner(b.triangle, b.side + (same_way ? 1 : 0)));
+  }
+
+  const Mesh& mesh_;
+  const std::vector<glm::uint>& weld_;
+  const std::vector<glm::vec3>& corners_;
+  double cosine_;
+};
+
+/// The two sides of a crease.
+struct Crease {
+  Side a, b;
+};
+
+/// Leaves out the creases' last edges where they end in the midst of the surface, one from each end.
+std::vector<Crease> without_ends(const std::vector<Crease>& creases, std::vector<std::uint32_t>& edges_at) {
+  std::vector<Crease> kept, ends;
+  for (const Crease& crease : creases) {
+    const auto from = static_cast<std::uint32_t>(crease.a.places >> 32);
+    const auto to = static_cast<std::uint32_t>(crease.a.places);
+    (edges_at[from] == 1 || edges_at[to] == 1 ? ends : kept).push_back(crease);
+  }
+  for (const Crease& crease : ends) {
+    --edges_at[crease.a.places >> 32];
+    --edges_at[static_cast<std::uint32_t>(crease.a.places)];
+  }
+  return kept;
+}
+
+}  // namespace
+
+MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
+                     const std::vector<glm::vec3>& corners, double crease_cosine)
+    : across_(3 * mesh.triangles.size(), NONE) {
+  const std::vector<Side> sides = sorted_sides(mesh, weld);
+  const CreaseTest test(mesh, weld, corners, crease_cosine);
+  std::vector<Crease> creases;
+  std::vector<std::uint32_t> edges_at(weld.size(), 0);
+  const auto join = [this](const Side& a, const Side& b) {
+    across_[std::size_t{3} * a.triangle + a.side] = b.triangle;
+    across_[std::size_t{3} * b.triangle + b.side] = a.triangle;
+  };
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].places == sides[begin].places) ++end;
+    const bool pair = end - begin == 2;
+    if (pair) join(sides[begin], sides[begin + 1]);
+    if (pair && test.smooth(sides[begin], sides[begin + 1])) continue;
+    if (pair) creases.push_back({sides[begin], sides[begin + 1]});
+    any_ = any_ || !pair;
+    ++edges_at[sides[begin].places >> 32];
+    ++edges_at[static_cast<std::uint32_t>(sides[begin].places)];
+  }
+  for (int cut = 0; cut < TWIG; ++cut) creases = without_ends(creases, edges_at);
+  for (const Crease& crease : creases)
+    for (const Side& side : {crease.a, crease.b}) across_[std::size_t{3} * side.triangle + side.side] = NONE;
+  any_ = any_ || !creases.empty();
+}
+
+}  // namespace splatray
