@@ -54,6 +54,24 @@ void make_dielectric(Material& material, const tinygltf::Material& source, const
   material.tint = surface.base * attenuation(source);
 }
 
+float alpha_of(const tinygltf::Material& from) {
+  const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
+  return factor.size() == 4 ? unit_clamp(factor[3]) : 1.0F;
+}
+
+/// Whether alpha is below one all over: what is behind shows through.
+bool is_veil(const tinygltf::Material& from) {
+  return from.alphaMode == "BLEND" && from.pbrMetallicRoughness.baseColorTexture.index < 0 &&
+         alpha_of(from) < 1.0F;
+}
+
+/// Lets light pass unbent, less by alpha at each crossing.
+void make_veil(Material& material, float alpha) {
+  material.flags |= MATERIAL_DIELECTRIC;
+  material.ior = 1.0F;
+  material.tint = glm::vec3(1.0F - alpha);
+}
+
 void make_opaque(Material& material, const GltfSurface& surface, bool colored) {
   const glm::vec3 base = colored ? glm::vec3(1.0F) : surface.base;
   const float smooth = 1.0F - surface.roughness;
@@ -203,15 +221,16 @@ Material GltfMaterials::material(int index, bool colored) {
   }
   const tinygltf::Value* transmission = find_extension(from.extensions, "KHR_materials_transmission");
   material.shininess = phong_exponent(surface.roughness);
-  if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.5) {
+  if (is_veil(from)) {
+    make_veil(material, alpha_of(from));
+  } else if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.5) {
     make_dielectric(material, from, surface);
   } else {
     make_opaque(material, surface, colored);
   }
   apply_extras(material, from.extras);
-  if (from.alphaMode != "OPAQUE") {
-    note_once(index, "alphaMode " + from.alphaMode.substr(0, 20) + " is not supported, shown opaque");
-  }
+  if (from.alphaMode == "BLEND" && !is_veil(from))
+    note_once(index, "alphaMode BLEND is shown cut out where alpha is below one half");
   return material;
 }
 
@@ -222,7 +241,7 @@ std::optional<glm::vec4> GltfMaterials::texture_mean(int texture) {
 }
 
 std::optional<Surface> GltfMaterials::surface(int index, bool colored) {
-  if (index < 0 || changes_look(source(index).extras)) return {};
+  if (index < 0 || changes_look(source(index).extras) || is_veil(source(index))) return {};
   const tinygltf::Material& from = source(index);
   const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
   Surface surface = extension_surface(from);
@@ -260,6 +279,9 @@ std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
   texture->image = image(info.index);
   texture->uv_transform = uv_transform_of(info);
   texture->factor = base_color(index);
+  texture->alpha_factor = alpha_of(source(index));
+  if (source(index).alphaMode == "MASK") texture->alpha_cutoff = unit_clamp(source(index).alphaCutoff);
+  if (source(index).alphaMode == "BLEND") texture->alpha_cutoff = 0.5F;
   const int sampler = file_.model.textures[static_cast<std::size_t>(info.index)].sampler;
   if (sampler >= 0) {
     const tinygltf::Sampler& found =
