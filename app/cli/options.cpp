@@ -1,6 +1,7 @@
 #include "app/cli/options.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/cli/option_types.h"
 #include "app/cli/reproduce.h"
@@ -39,6 +40,70 @@ std::string aov_text(const RenderOptions& options) {
   for (const AovName& aov : AOV_NAMES)
     if (options.*aov.member) text += (text.empty() ? "" : ",") + std::string(aov.name);
   return text;
+}
+
+/// Whole numbers such as 3 of "1,2,3,4" or "1/4"; empty unless so many.
+std::vector<std::uint32_t> whole_numbers(const std::string& text, char separator, std::size_t count) {
+  std::vector<std::uint32_t> numbers;
+  for (const double number : split_numbers(text, separator, count))
+    if (number >= 0.0 && number <= 32768.0 && number == std::floor(number))
+      numbers.push_back(static_cast<std::uint32_t>(number));
+  return numbers.size() == count ? numbers : std::vector<std::uint32_t>{};
+}
+
+/// Parts of a picture, which splatray-merge joins.
+void add_part_options(OptionList& list, RenderOptions& options) {
+  const auto read_crop = [&options](const std::string& text) {
+    const auto numbers = whole_numbers(text, ',', 4);
+    if (numbers.empty() || numbers[2] == 0 || numbers[3] == 0)
+      refuse_option("--crop", text, "pixels X,Y,WIDTH,HEIGHT from the top left corner, such as 0,0,640,360");
+    options.crop = {numbers[0], numbers[1], numbers[2], numbers[3]};
+  };
+  const auto write_crop = [&options] {
+    const PixelWindow& crop = options.crop;
+    return crop.width == 0 ? std::string()
+                           : std::to_string(crop.x) + ',' + std::to_string(crop.y) + ',' +
+                                 std::to_string(crop.width) + ',' + std::to_string(crop.height);
+  };
+  list.add_value(
+      "--crop", read_crop, write_crop,
+      "only these pixels of the picture, the same as in the whole one; an EXR has them as its data window",
+      "X,Y,WIDTH,HEIGHT");
+  const auto read_tile = [&options](const std::string& text) {
+    const auto numbers = whole_numbers(text, '/', 2);
+    if (numbers.empty() || numbers[0] == 0 || numbers[0] > numbers[1])
+      refuse_option("--tile", text, "a part of so many such as 1/4, the first is 1");
+    options.tile = numbers[0];
+    options.tiles = numbers[1];
+  };
+  const auto write_tile = [&options] {
+    return options.tiles == 0 ? std::string()
+                              : std::to_string(options.tile) + '/' + std::to_string(options.tiles);
+  };
+  list.add_value("--tile", read_tile, write_tile,
+                 "only this one of so many bands of rows; splatray-merge joins them", "I/N");
+}
+
+void check_part(const RenderOptions& options) {
+  const auto fail = [](const std::string& sentence) { throw Error(ExitCode::usage, sentence); };
+  const PixelWindow window = options.window();
+  const PictureOptions& picture = options.picture;
+  if (options.tiles == 0 && window.width == 0) return;
+  if (options.tiles > 0 && options.crop.width > 0) fail("found --crop and --tile, expected one of them");
+  if (options.tiles > picture.height)
+    fail("found --tile of " + std::to_string(options.tiles) + " parts, expected at most the picture's " +
+         std::to_string(picture.height) + " rows");
+  if (window.x + window.width > picture.width || window.y + window.height > picture.height)
+    fail("found --crop beyond the picture's " + std::to_string(picture.width) + "x" +
+         std::to_string(picture.height) + " pixels, expected a part of it (--resolution)");
+  const char* part = options.tiles > 0 ? "--tile" : "--crop";
+  if (options.has_goal()) fail(std::string("found --error or --time with ") + part + ", expected --samples");
+  if (options.denoise)
+    fail(std::string("found --denoise with ") + part + ", expected it for a whole picture");
+  if (!options.reference.empty())
+    fail(std::string("found --reference with ") + part + ", expected a whole picture");
+  if (!options.exposure_ev && lower_extension(options.output) == ".png")
+    fail(std::string("found --exposure auto with ") + part + " and a .png output, expected a number or .exr");
 }
 
 void add_output_options(OptionList& list, RenderOptions& options) {
@@ -84,6 +149,14 @@ void add_output_options(OptionList& list, RenderOptions& options) {
              "no pixel's error may exceed this; default 0.012");
   list.add_switch("--list-devices", options.list_devices, "list the Vulkan devices and end");
   list.add_switch("--quiet", options.quiet, "only errors on stderr");
+  add_choice<ProgressStyle>(
+      list, "--progress", options.progress,
+      {{"line", ProgressStyle::line},
+       {"plain", ProgressStyle::plain},
+       {"json", ProgressStyle::json},
+       {"openjd", ProgressStyle::openjd}},
+      "how progress is told: a line on a terminal; lines; a JSON object a line; as Open Job Description has "
+      "it; default line");
 }
 
 void add_sequence_options(OptionList& list, RenderOptions& options) {
@@ -113,7 +186,7 @@ void add_sequence_options(OptionList& list, RenderOptions& options) {
       "--frames", read_frames, [&sequence] { return frame_list_text(sequence.frames); },
       "only these frames of a sequence, such as 0-47 or 0-3,7,9-12:3; default all", "A-B:STEP,...");
   list.add_switch("--skip-existing", sequence.skip_existing,
-                  "leave out pictures whose file exists and is whole");
+                  "leave out pictures whose file is whole and was made by the same command");
 }
 
 /// What no single option can check of a sequence.
@@ -159,6 +232,7 @@ void check_together(const RenderOptions& options) {
   if (options.denoise && !options.reference.empty())
     fail("found --denoise with --reference, expected pictures compared as they were traced");
   check_sequence(options);
+  check_part(options);
 }
 
 /// Reads the words on top of `options`. The program itself also has --help, --version, and --from, which goes into
@@ -193,9 +267,18 @@ RenderOptions options_from(const std::filesystem::path& picture, const std::file
 
 }  // namespace
 
+PixelWindow RenderOptions::window() const {
+  if (tiles == 0) return crop;
+  const auto row = [this](std::uint32_t part) {
+    return static_cast<std::uint32_t>(std::uint64_t{picture.height} * part / tiles);
+  };
+  return {0, row(tile - 1), picture.width, row(tile) - row(tile - 1)};
+}
+
 void add_render_options(OptionList& list, RenderOptions& options) {
   add_scene_options(list, options.scene);
   add_output_options(list, options);
+  add_part_options(list, options);
   add_sequence_options(list, options);
   add_picture_options(list, options.picture);
 }

@@ -11,6 +11,7 @@
 #include "app/cli/object_options.h"
 #include "app/library/attributes.h"
 #include "app/library/display_image.h"
+#include "engine/base/progress.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 
@@ -90,6 +91,10 @@ struct RenderOptions {
 
   /// Whether a picture is traced until it is good enough, instead of by Settings::samples.
   [[nodiscard]] bool has_goal() const { return error_goal > 0.0 || seconds_goal > 0.0; }
+  PixelWindow crop{};                 ///< what of the picture is made; without pixels: all
+  std::uint32_t tile = 0, tiles = 0;  ///< of so many bands of rows this one, from 1 on; 0 = all
+  /// View::window: that of crop or tile.
+  [[nodiscard]] PixelWindow window() const;
   bool denoise = false;
   std::optional<double> exposure_ev = 0.0;  ///< stops, PNG only; unset = automatic
   bool aov_depth = false, aov_normal = false, aov_id = false, aov_error = false;
@@ -100,6 +105,7 @@ struct RenderOptions {
   double reference_limit = 0.012;      ///< no pixel may be beyond this
   bool list_devices = false;
   bool quiet = false;
+  ProgressStyle progress = ProgressStyle::line;
 
   bool operator==(const RenderOptions&) const = default;
 };

@@ -64,8 +64,14 @@ Metadata picture_metadata(const RenderOptions& options, const Scene& scene, cons
 void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path) {
   if (is_png(path)) return write_png(display_image(image, display_of(options, image)), metadata, path);
-  write_exr(image, {options.aov_depth, options.aov_normal, options.aov_id, options.aov_error}, metadata,
-            path);
+  ExrPicture picture = exr_picture(
+      image, {options.aov_depth, options.aov_normal, options.aov_id, options.aov_error}, metadata);
+  if (const PixelWindow window = options.window(); window.width > 0) {
+    picture.width = options.picture.width;
+    picture.height = options.picture.height;
+    picture.window = window;
+  }
+  write_exr(picture, path);
 }
 
 void require_match(const RenderOptions& options, const Image& image, const DisplayImage& reference) {

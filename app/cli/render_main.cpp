@@ -71,7 +71,7 @@ int render(int argc, char** argv) {
 
   // After the driver is there, as one library is loaded at a time.
   const std::future<void> codec = std::async(std::launch::async, load_image_codec);
-  ProgressLine progress(options.quiet);
+  ProgressLine progress(options.quiet, options.progress);
   LoadedScene loaded = load(options, progress);
   const Environment environment = choose_environment(loaded.environment_name);
 

@@ -1,9 +1,13 @@
 #include "app/cli/render_sequence.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <utility>
 
+#include "app/cli/command_line.h"
 #include "app/cli/denoise.h"
 #include "app/cli/picture.h"
+#include "app/cli/reproduce.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 
@@ -25,7 +29,7 @@ struct Run {
 /// Traces and writes one picture; `stage` names it on the progress line.
 void make_picture(const Run& run, const Camera& camera, const SequenceFrame& frame, const std::string& stage,
                   SequenceRecord& record) {
-  const View view{camera, run.options.picture.width, run.options.picture.height};
+  const View view{camera, run.options.picture.width, run.options.picture.height, run.options.window()};
   const std::vector<SceneLight> lights = choose_lights(run.loaded, run.options.picture, camera);
   run.tracer.set_lights(lights);
   const auto progress = [&](double share) {
@@ -58,6 +62,15 @@ void make_picture(const Run& run, const Camera& camera, const SequenceFrame& fra
   record.made.push_back({frame, lights.size(), stats, watch.lap_ms(), denoise_ms});
 }
 
+/// Whether the picture is there, whole, and made by the command that would make it now.
+bool is_made(const RenderOptions& options, const Camera& camera, const std::filesystem::path& path) {
+  if (!is_whole_picture(path)) return false;
+  const std::pair<std::string, std::string> command{"command_line",
+                                                    command_line(still_options(options, camera))};
+  const Metadata kept = read_metadata(path);
+  return std::find(kept.begin(), kept.end(), command) != kept.end();
+}
+
 }  // namespace
 
 SequenceRecord render_sequence(const RenderOptions& options, const Sequence& sequence,
@@ -69,7 +82,9 @@ SequenceRecord render_sequence(const RenderOptions& options, const Sequence& seq
     stop_if_interrupted();
     const std::string stage = options.sequence.many() ? "frame " + std::to_string(frame.number) : "tracing";
     try {
-      make_picture(run, frame_camera(sequence, frame.number, still, loaded.scene.up), frame, stage, record);
+      const Camera camera = frame_camera(sequence, frame.number, still, loaded.scene.up);
+      if (options.sequence.skip_existing && is_made(options, camera, frame.output)) continue;
+      make_picture(run, camera, frame, stage, record);
     } catch (const Error& error) {
       if (!options.sequence.many() || error.code() == ExitCode::interrupted) throw;
       progress.clear();

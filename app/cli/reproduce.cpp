@@ -25,6 +25,9 @@ RenderOptions looks_only(const RenderOptions& options) {
   looks.error_goal = options.error_goal;
   looks.seconds_goal = options.seconds_goal;
   looks.denoise = options.denoise;
+  looks.crop = options.crop;
+  looks.tile = options.tile;
+  looks.tiles = options.tiles;
   return looks;
 }
 

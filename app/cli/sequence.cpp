@@ -52,8 +52,6 @@ Sequence plan_sequence(const RenderOptions& options) {
   } else {
     sequence.frames.push_back({0, options.output});
   }
-  if (options.sequence.skip_existing)
-    std::erase_if(sequence.frames, [](const SequenceFrame& frame) { return is_whole_picture(frame.output); });
   return sequence;
 }
 

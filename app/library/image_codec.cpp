@@ -45,6 +45,10 @@ bool read_header(const std::string& path, PictureHeader& header) {
   header.width = spec.width;
   header.height = spec.height;
   header.depth = spec.depth;
+  header.x = spec.x - spec.full_x;
+  header.y = spec.y - spec.full_y;
+  header.full_width = spec.full_width;
+  header.full_height = spec.full_height;
   header.channels = spec.channelnames;
   header.integers = spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)
@@ -94,6 +98,12 @@ bool encode(const char* format, const PictureHeader& header, const void* values,
   const auto& channels = header.channels;
   OIIO::ImageSpec spec(header.width, header.height, static_cast<int>(channels.size()), type);
   spec.channelnames = channels;
+  if (header.full_width > 0) {
+    spec.x = header.x;
+    spec.y = header.y;
+    spec.full_width = header.full_width;
+    spec.full_height = header.full_height;
+  }
   const auto alpha = std::find(channels.begin(), channels.end(), "A");
   spec.alpha_channel = alpha == channels.end() ? -1 : static_cast<int>(alpha - channels.begin());
   for (const auto& [name, value] : header.attributes) spec.attribute(name, value);

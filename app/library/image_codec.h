@@ -14,6 +14,8 @@ namespace splatray {
 /// A picture file but for its pixels.
 struct PictureHeader {
   int width = 0, height = 0, depth = 1;
+  int x = 0, y = 0;                     ///< where its pixels begin in the whole picture
+  int full_width = 0, full_height = 0;  ///< of the whole picture; 0: it is the whole one
   std::vector<std::string> channels;  ///< their names
   bool integers = false;              ///< 8 or 16 bits a channel, else floats
   std::vector<std::pair<std::string, std::string>> attributes;

@@ -77,8 +77,9 @@ PictureHeader read_header(const std::filesystem::path& path) {
   return header;
 }
 
-Picture read_picture(const std::filesystem::path& path) {
-  const PictureHeader header = read_header(path);
+/// The header of a picture whose pixels may be read.
+PictureHeader read_flat_header(const std::filesystem::path& path) {
+  PictureHeader header = read_header(path);
   const bool positive = header.width >= 1 && header.height >= 1 && !header.channels.empty();
   const std::uint64_t pixels = positive ? std::uint64_t(header.width) * std::uint64_t(header.height) : 0;
   const auto size_text = [&] {
@@ -88,6 +89,11 @@ Picture read_picture(const std::filesystem::path& path) {
     refuse(path, size_text(), "a flat picture of up to 2^30");
   if (pixels > header.most_pixels)
     refuse(path, size_text(), "at most " + std::to_string(header.most_pixels) + " in a file of its size");
+  return header;
+}
+
+Picture read_picture(const std::filesystem::path& path) {
+  const PictureHeader header = read_flat_header(path);
   Picture picture{static_cast<std::uint32_t>(header.width),
                   static_cast<std::uint32_t>(header.height),
                   {},
@@ -140,12 +146,11 @@ struct PngContents {
 };
 
 PngContents png_contents(const DisplayImage& image) {
-  PngContents contents{{static_cast<int>(image.width),
-                        static_cast<int>(image.height),
-                        1,
-                        {"R", "G", "B"},
-                        true,
-                        {{"oiio:ColorSpace", "sRGB"}}},
+  PngContents contents{{.width = static_cast<int>(image.width),
+                        .height = static_cast<int>(image.height),
+                        .channels = {"R", "G", "B"},
+                        .integers = true,
+                        .attributes = {{"oiio:ColorSpace", "sRGB"}}},
                        {}};
   contents.bytes.reserve(3 * image.rgb.size());
   for (const vec3& pixel : image.rgb)
@@ -168,14 +173,15 @@ std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata&
   return encode(std::move(contents.header), metadata, contents.bytes.data(), "png", "a PNG");
 }
 
-void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
-               const std::filesystem::path& path) {
-  std::vector<std::string> names = {"R", "G", "B", "A"};
+ExrPicture exr_picture(const Image& image, AovChannels aovs, const Metadata& metadata) {
+  ExrPicture picture{image.width,          image.height, {0, 0, image.width, image.height},
+                     {"R", "G", "B", "A"}, {},           metadata};
+  std::vector<std::string>& names = picture.channels;
   if (aovs.depth) names.emplace_back("Z");
   if (aovs.normal) names.insert(names.end(), {"N.X", "N.Y", "N.Z"});
   if (aovs.id) names.emplace_back("id");
   if (aovs.error) names.emplace_back("error");
-  std::vector<float> values;
+  std::vector<float>& values = picture.values;
   values.reserve(image.rgba.size() * names.size());
   for (std::size_t i = 0; i < image.rgba.size(); ++i) {
     for (int channel = 0; channel < 4; ++channel) values.push_back(image.rgba[i][channel]);
@@ -186,14 +192,52 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
       values.push_back(image.aov[i].object == NO_OBJECT ? -1.0F : static_cast<float>(image.aov[i].object));
     if (aovs.error) values.push_back(image.error[i]);
   }
+  return picture;
+}
+
+void write_exr(const ExrPicture& picture, const std::filesystem::path& path) {
   // An empty DateTime: else it is the time of writing, and the same picture would make another file.
-  PictureHeader header{static_cast<int>(image.width),
-                       static_cast<int>(image.height),
-                       1,
-                       std::move(names),
-                       false,
-                       {{"oiio:ColorSpace", "Linear"}, {"compression", "zip"}, {"DateTime", ""}}};
-  write_picture(std::move(header), metadata, values.data(), "openexr", path);
+  PictureHeader header{
+      .width = static_cast<int>(picture.window.width),
+      .height = static_cast<int>(picture.window.height),
+      .x = static_cast<int>(picture.window.x),
+      .y = static_cast<int>(picture.window.y),
+      .full_width = static_cast<int>(picture.width),
+      .full_height = static_cast<int>(picture.height),
+      .channels = picture.channels,
+      .attributes = {{"oiio:ColorSpace", "Linear"}, {"compression", "zip"}, {"DateTime", ""}}};
+  write_picture(std::move(header), picture.metadata, picture.values.data(), "openexr", path);
+}
+
+void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
+               const std::filesystem::path& path) {
+  write_exr(exr_picture(image, aovs, metadata), path);
+}
+
+ExrPicture read_exr(const std::filesystem::path& path) {
+  const PictureHeader header = read_flat_header(path);
+  const bool inside = header.x >= 0 && header.y >= 0 &&
+                      header.x + std::int64_t{header.width} <= header.full_width &&
+                      header.y + std::int64_t{header.height} <= header.full_height &&
+                      std::uint64_t(header.full_width) * std::uint64_t(header.full_height) <= MOST_PIXELS;
+  if (header.integers || !inside)
+    refuse(path, header.integers ? "8 or 16 bits a channel" : "a data window that is not inside the picture",
+           "an EXR of splatray-render");
+  ExrPicture picture{static_cast<std::uint32_t>(header.full_width),
+                     static_cast<std::uint32_t>(header.full_height),
+                     {static_cast<std::uint32_t>(header.x), static_cast<std::uint32_t>(header.y),
+                      static_cast<std::uint32_t>(header.width), static_cast<std::uint32_t>(header.height)},
+                     header.channels,
+                     {},
+                     read_metadata(path)};
+  const std::size_t channels = header.channels.size();
+  const PixelSink append = [&](const float* value, std::size_t count) {
+    picture.values.insert(picture.values.end(), value, value + count * channels);
+  };
+  std::string damage;
+  if (!codec().read_pixels(path.string(), 0, static_cast<int>(channels), append, damage))
+    refuse(path, "damage (" + damage + ")", "a whole image");
+  return picture;
 }
 
 bool is_whole_picture(const std::filesystem::path& path) {

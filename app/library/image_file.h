@@ -7,6 +7,7 @@
 
 #include "app/library/display_image.h"
 #include "engine/image/image.h"
+#include "engine/image/view.h"
 #include "engine/scene/environment.h"
 
 namespace splatray {
@@ -24,9 +25,24 @@ void write_png(const DisplayImage& image, const Metadata& metadata, const std::f
 /// The bytes that write_png writes.
 [[nodiscard]] std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata& metadata);
 
-/// Writes linear float EXR. Throws Error (failed) as write_png does.
+/// The channels of a picture, or of a part of it, as an EXR holds them.
+struct ExrPicture {
+  std::uint32_t width = 0, height = 0;  ///< of the whole picture
+  PixelWindow window;                   ///< the part that is there
+  std::vector<std::string> channels;    ///< their names
+  std::vector<float> values;            ///< of the window's pixels, top row first, channel by channel
+  Metadata metadata;
+};
+
+/// Writes linear float EXR; a part as data window. Throws Error (failed) as write_png does.
+void write_exr(const ExrPicture& picture, const std::filesystem::path& path);
+/// An image as the whole of a picture; who has but a part says which one.
+[[nodiscard]] ExrPicture exr_picture(const Image& image, AovChannels aovs, const Metadata& metadata);
+/// The same of an image that is the whole picture.
 void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
                const std::filesystem::path& path);
+/// Reads what write_exr wrote. Throws Error (input_unreadable) with path, found and expected.
+[[nodiscard]] ExrPicture read_exr(const std::filesystem::path& path);
 
 /// Whether a file is a PNG with its end or another picture whose last row can be read: whether write_png or write_exr came to
 /// their end. Throws Error (failed) when OpenImageIO cannot be loaded, which it is but for PNG.

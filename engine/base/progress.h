@@ -9,10 +9,18 @@ namespace splatray {
 /// work, which then throws Error (interrupted).
 using Progress = std::function<bool(const char* stage, double share)>;
 
-/// Writes to stderr, only when that is a terminal; the line is cleared on destruction.
+/// How progress is told.
+enum class ProgressStyle {
+  line,    ///< on a terminal, a line on stderr that changes
+  plain,   ///< lines on stderr
+  json,    ///< a JSON object a line, on stderr: "stage", "share"
+  openjd,  ///< on stdout as workers of Open Job Description read it (specification 2023-09, "openjd_progress")
+};
+
+/// Tells progress in a style; a line that changes, only on a terminal, is cleared on destruction.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool quiet);
+  explicit ProgressLine(bool quiet, ProgressStyle style = ProgressStyle::line);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -24,6 +32,7 @@ class ProgressLine {
 
  private:
   bool enabled_;
+  ProgressStyle style_;
   std::string shown_;
 };
 

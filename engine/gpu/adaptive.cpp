@@ -202,7 +202,7 @@ Image Tracer::render_until(const View& view, const Settings& settings, const Goa
     trace_ms += adaptive.trace_ms();
     samples += adaptive.samples();
     done += share;
-    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov);
+    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov, image.width);
   }
   impl.finish(start, trace_ms);
   impl.stats.samples = samples / static_cast<double>(pixels);

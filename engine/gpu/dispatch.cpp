@@ -58,12 +58,13 @@ TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& fo
   std::vector<std::uint32_t> empty;
   for (std::uint32_t y = 0; y < groups(tile.height, height); ++y)
     for (std::uint32_t x = 0; x < groups(tile.width, width); ++x) {
-      const bool seen = footprint.meets(tile.x + x * width, tile.y + y * height, width, height);
+      const bool seen = footprint.meets(dispatch.frame.tile_x + tile.x + x * width,
+                                        dispatch.frame.tile_y + tile.y + y * height, width, height);
       (seen ? aimed.group_list : empty).push_back(x | y << 16);
     }
   const auto part = [&tile](Dispatch& one, std::size_t first, std::size_t count) {
-    one.frame.tile_x = tile.x;
-    one.frame.tile_y = tile.y;
+    one.frame.tile_x += tile.x;
+    one.frame.tile_y += tile.y;
     one.frame.tile_width = tile.width;
     one.frame.tile_height = tile.height;
     one.frame.first_group = static_cast<std::uint32_t>(first);

@@ -7,7 +7,9 @@
 
 namespace splatray {
 
-void Tracer::begin(const View& view, const Settings& settings) {
+void Tracer::begin(const View& wanted, const Settings& settings) {
+  View view = wanted;
+  view.window = {};
   Impl& impl = *impl_;
   Runner& runner = impl.runner;
   runner.require_scene("begin()");

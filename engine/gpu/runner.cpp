@@ -185,11 +185,11 @@ double Runner::run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_
 }
 
 void Runner::trace_aov(const Tile& tile, const Dispatch& dispatch, const Footprint& footprint,
-                       std::vector<AovPixel>& image) {
+                       std::vector<AovPixel>& image, std::uint32_t width) {
   run(aim(dispatch, tile, footprint));
   std::vector<AovPixel> pixels(tile.pixels());
   aov.download(queue, std::as_writable_bytes(std::span(pixels)));
-  place(tile, pixels, image, dispatch.frame.width);
+  place(tile, pixels, image, width);
 }
 
 std::uint64_t Runner::buffer_bytes() const {

@@ -32,9 +32,9 @@ class Runner {
   [[nodiscard]] ThreadWork work(const Dispatch& dispatch) const;
   /// Runs samples [begin, end) of a tile, the lights spread over as many dispatches as `work` asks for.
   double run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end, const ThreadWork& work);
-  /// AovPixels of a tile, put into `image` of all pixels, top row first. `dispatch`: aov_dispatch's.
+  /// AovPixels of a tile, put into `image` of `width` columns, top row first. `dispatch`: aov_dispatch's.
   void trace_aov(const Tile& tile, const Dispatch& dispatch, const Footprint& footprint,
-                 std::vector<AovPixel>& image);
+                 std::vector<AovPixel>& image, std::uint32_t width);
 
   /// Throws Error (failed) unless there is a scene: `call` was made before upload().
   void require_scene(const char* call) const;

@@ -6,7 +6,7 @@
 
 namespace splatray {
 
-/// A rectangle of the picture, pixels.
+/// A rectangle of what is made of a picture (View::made), pixels.
 struct Tile {
   std::uint32_t x = 0;
   std::uint32_t y = 0;

@@ -98,12 +98,13 @@ void Tracer::set_environment(const Environment& environment) {
 
 Picture Tracer::Impl::start_picture(const View& view, const Settings& settings, std::uint32_t means) {
   start();
+  const PixelWindow made = view.made();
   Picture picture{runner.picture_dispatch(view, settings),
                   runner.aov_dispatch(view, settings),
                   runner.scene.footprint(view, settings),
-                  cut_into_tiles(view.width, view.height, TILE_PIXELS / means),
-                  {view.width, view.height, {}, {}, {}}};
-  picture.image.rgba.resize(std::size_t{view.width} * view.height);
+                  cut_into_tiles(made.width, made.height, TILE_PIXELS / means),
+                  {made.width, made.height, {}, {}, {}}};
+  picture.image.rgba.resize(std::size_t{made.width} * made.height);
   const std::size_t most_pixels = picture.tiles.front().pixels();
   reserve_storage(runner.context, runner.accumulation, means * most_pixels * sizeof(vec4));
   if (settings.aov) {
@@ -139,7 +140,7 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
       return impl.read_colors(runner.accumulation, tile, image);
     };
     if (!trace(runner.work(picture.dispatch), false) && !trace({}, true)) refuse_cut_loops();
-    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov);
+    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov, image.width);
   }
   impl.finish(start, trace_ms);
   impl.stats.samples = settings.samples;
@@ -159,13 +160,14 @@ std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settin
   impl.start();
   const Dispatch dispatch = runner.aov_dispatch(view, settings);
   const Footprint footprint = runner.scene.footprint(view, settings);
-  const auto tiles = cut_into_tiles(view.width, view.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
+  const PixelWindow made = view.made();
+  const auto tiles = cut_into_tiles(made.width, made.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
   reserve_storage(runner.context, runner.aov, tiles.front().pixels() * sizeof(AovPixel));
   runner.bind(runner.accumulation);
-  std::vector<AovPixel> pixels(std::size_t{view.width} * view.height);
+  std::vector<AovPixel> pixels(std::size_t{made.width} * made.height);
   for (const Tile& tile : tiles) {
-    runner.trace_aov(tile, dispatch, footprint, pixels);
-    report(progress, double(tile.y + tile.height) / view.height);
+    runner.trace_aov(tile, dispatch, footprint, pixels, made.width);
+    report(progress, double(tile.y + tile.height) / made.height);
   }
   impl.finish(start, milliseconds_since(start));
   return pixels;

@@ -63,8 +63,8 @@ class Tracer {
   /// the lights (at most LIGHTS_MOST), or the environment; no pool is touched. Before the first set_environment all is black.
   void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces = {});
   void set_lights(std::span<const SceneLight> lights);
-  /// Where paths look for light that objects send out; upload() sets find_emitters() of the scene. Where surfaces change, others make
-  /// pictures less noisy.
+  /// Where paths look for light that objects send out; upload() sets find_emitters() of the scene. Where surfaces change, others
+  /// make pictures less noisy.
   void set_emitters(std::span<const Emitter> emitters);
   void set_environment(const Environment& environment);
   /// Replaces the scene's up direction, about which the environment stands.
@@ -81,8 +81,8 @@ class Tracer {
   /// their difference.
   [[nodiscard]] Image render_until(const View& view, const Settings& settings, const Goal& goal,
                                    const Progress& progress = {});
-  /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit
-  /// what render() gives, whatever other calls than upload() and set_...() happened between. Settings::aov is not looked at.
+  /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit what render()
+  /// gives, whatever other calls than upload() and set_...() happened between. Settings::aov and View::window are not looked at.
   /// Throws Error (out_of_memory) for more pixels than the device lets a buffer hold.
   void begin(const View& view, const Settings& settings);
   /// Adds one sample to some rows of the picture begun, aiming at `wanted_ms` of work; returns whether all of

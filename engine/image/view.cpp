@@ -124,8 +124,12 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   check_view(view);
   FrameParams frame{};
   set_rays(scene, view, frame);
-  frame.width = frame.tile_width = view.width;
-  frame.height = frame.tile_height = view.height;
+  frame.width = view.width;
+  frame.tile_width = view.made().width;
+  frame.height = view.height;
+  frame.tile_height = view.made().height;
+  frame.tile_x = view.made().x;
+  frame.tile_y = view.made().y;
   frame.root_unit_world = static_cast<float>(scene.root.unit_world);
   frame.sample_end = frame.sample_total = settings.samples;
   frame.seed = settings.seed;

@@ -10,10 +10,24 @@
 
 namespace splatray {
 
+/// A rectangle of a picture's pixels, from its top left corner; without pixels: the whole picture.
+struct PixelWindow {
+  std::uint32_t x = 0, y = 0, width = 0, height = 0;
+
+  bool operator==(const PixelWindow&) const = default;
+};
+
 struct View {
   Camera camera;
   std::uint32_t width = 1920;   ///< pixels, >= 1
   std::uint32_t height = 1080;  ///< pixels, >= 1
+  PixelWindow
+      window{};  ///< what of the picture is made: an image of the window's size, of the same bits as the whole one
+
+  /// The window, or all pixels.
+  [[nodiscard]] PixelWindow made() const {
+    return window.width > 0 ? window : PixelWindow{0, 0, width, height};
+  }
 };
 
 /// The image plane in root space, float64: position of (px, py) = corner + px * dx + py * dy, relative to the

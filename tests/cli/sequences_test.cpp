@@ -77,9 +77,6 @@ TEST_F(CliSequences, WholeFramesAreSkippedAndBrokenOnesMadeAgain) {
       EXPECT_EQ(std::filesystem::last_write_time(file(first)), time);
     }
   }
-  std::filesystem::remove(grid);
-  EXPECT_EQ(render_to("t#.png", {grid, "--turntable=2", "--skip-existing"}).code, 0)
-      << "nothing is left to do";
 }
 
 TEST_F(CliSequences, FullDiskLeavesNoFrame) {

@@ -1,0 +1,74 @@
+/// splatray-merge: parts of a picture in, the picture out.
+#include <algorithm>
+
+#include "app/cli/option_list.h"
+#include "app/cli/option_types.h"
+#include "app/cli/picture.h"
+#include "app/cli/reproduce.h"
+#include "app/farm/join_tiles.h"
+#include "engine/base/error.h"
+#include "engine/base/interrupt.h"
+#include "engine/file/atomic_file.h"
+#include "preprocess/base/file_extension.h"
+
+namespace {
+
+using namespace splatray;
+
+struct Options {
+  std::vector<std::filesystem::path> parts;
+  std::filesystem::path output;
+};
+
+bool parse(int argc, char** argv, Options& options) {
+  OptionList list("Joins the parts of a picture that splatray-render made with --tile or --crop.",
+                  "splatray-merge");
+  list.add_paths("PART", options.parts, "an EXR with a part of the picture; each pixel must be in one",
+                 "FILE");
+  list.require("PART");
+  add_path(
+      list, "-o,--output", options.output,
+      "the picture: .exr, the very file that one splatray-render writes, or .png with its exposure and tone");
+  list.require("--output");
+  list.add_answer(
+      "--version", [] { return SPLATRAY_VERSION; }, "print the version");
+  if (!list.parse(argc, argv)) return false;
+  const std::string extension = lower_extension(options.output);
+  if (extension != ".exr" && extension != ".png")
+    throw Error(ExitCode::usage,
+                "found output '" + options.output.string() + "', expected -o with a .png or .exr file");
+  return true;
+}
+
+/// The colours alone.
+Image image_of(const ExrPicture& picture) {
+  Image image{picture.width, picture.height, {}, {}};
+  image.rgba.resize(std::size_t{picture.width} * picture.height);
+  for (glm::length_t channel = 0; channel < 4; ++channel) {
+    const auto& names = picture.channels;
+    const auto at = static_cast<std::size_t>(
+        std::find(names.begin(), names.end(), std::string(1, "RGBA"[channel])) - names.begin());
+    for (std::size_t i = 0; i < image.rgba.size() && at < names.size(); ++i)
+      image.rgba[i][channel] = picture.values[i * names.size() + at];
+  }
+  return image;
+}
+
+int merge(int argc, char** argv) {
+  Options options;
+  if (!parse(argc, argv, options)) return static_cast<int>(ExitCode::done);
+  require_writable(options.output);
+  catch_interrupts();
+  const ExrPicture picture = join_tiles(options.parts);
+  if (lower_extension(options.output) == ".exr") {
+    write_exr(picture, options.output);
+  } else {
+    write_output(read_picture_options(options.parts.front()), image_of(picture), picture.metadata,
+                 options.output);
+  }
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return splatray::run_main("splatray-merge", merge, argc, argv); }

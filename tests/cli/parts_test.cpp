@@ -1,0 +1,121 @@
+/// Pictures made in parts, and what tells of progress.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "app/library/image_file.h"
+#include "tests/cli/child_process.h"
+
+namespace splatray {
+namespace {
+
+class CliParts : public CliTest {
+ protected:
+  void SetUp() override { grid = write("grid.ply", grid_ply(true)); }
+
+  /// Renders 40 x 30 pixels of three samples to a file.
+  [[nodiscard]] ChildResult make(const std::string& name, std::vector<std::string> more) const {
+    more.insert(more.begin(), {RENDER, grid, "-o", file(name), "--resolution=40x30", "--samples=3",
+                               "--look=lit", "--quiet"});
+    return run_program(more);
+  }
+  [[nodiscard]] ChildResult merge(std::vector<std::string> words) const {
+    words.insert(words.begin(), MERGE);
+    return run_program(words);
+  }
+  [[nodiscard]] std::string bytes(const std::string& name) const { return read_file(file(name)); }
+  static std::string read_file(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  std::string grid;
+};
+
+TEST_F(CliParts, MergedTilesAreTheWholePictureByteForByte) {
+  const std::string aov = "--aov=depth,normal,id,error";
+  ASSERT_EQ(make("whole.exr", {aov}).code, 0);
+  for (const std::string i : {"1", "2", "3"})
+    ASSERT_EQ(make("part" + i + ".exr", {aov, "--tile=" + i + "/3"}).code, 0);
+  const std::vector<std::string> parts{file("part2.exr"), file("part1.exr"), file("part3.exr")};
+  ASSERT_EQ(merge({parts[0], parts[1], parts[2], "-o", file("merged.exr")}).code, 0);
+  EXPECT_TRUE(bytes("merged.exr") == bytes("whole.exr"));
+  ASSERT_EQ(make("whole.png", {}).code, 0);
+  ASSERT_EQ(merge({parts[0], parts[1], parts[2], "-o", file("merged.png")}).code, 0);
+  EXPECT_EQ(read_display_image(file("merged.png"), {}).rgb, read_display_image(file("whole.png"), {}).rgb);
+  EXPECT_FALSE(bytes("part1.exr") == bytes("part2.exr"));
+}
+
+TEST_F(CliParts, ACropIsThatPartOfThePicture) {
+  ASSERT_EQ(make("whole.exr", {}).code, 0);
+  ASSERT_EQ(make("crop.exr", {"--crop=13,7,11,9"}).code, 0);
+  const ExrPicture whole = read_exr(file("whole.exr")), crop = read_exr(file("crop.exr"));
+  EXPECT_EQ(crop.width, 40U);
+  EXPECT_EQ(crop.window, (PixelWindow{13, 7, 11, 9}));
+  ASSERT_EQ(crop.values.size(), 4U * 11 * 9);
+  for (std::size_t y = 0; y < 9; ++y)
+    for (std::size_t x = 0; x < 44; ++x)
+      ASSERT_EQ(crop.values[44 * y + x], whole.values[4 * (40 * (7 + y) + 13) + x]) << x / 4 << ' ' << y;
+  ASSERT_EQ(make("crop.png", {"--crop=13,7,11,9"}).code, 0);
+  EXPECT_EQ(read_display_image(file("crop.png"), {}).width, 11U);
+}
+
+TEST_F(CliParts, PartsThatDoNotMakeAPictureAreRefused) {
+  ASSERT_EQ(make("a.exr", {"--tile=1/2"}).code, 0);
+  ASSERT_EQ(make("b.exr", {"--tile=2/2"}).code, 0);
+  ASSERT_EQ(make("seed.exr", {"--tile=2/2", "--seed=7"}).code, 0);
+  const std::string a = file("a.exr"), b = file("b.exr"), out = file("out.exr");
+  const auto refused = [&](std::vector<std::string> words, const std::string& found) {
+    words.insert(words.end(), {"-o", out});
+    expect_refused([&] { return merge(words); }, 3, found);
+  };
+  refused({a}, "found 600 pixels in none of the 1 parts, the first is 0,15");
+  refused({a, a, b}, "the pixel 0,0, which another part has too");
+  refused({a, file("seed.exr")}, "command_line");
+  refused({a, grid}, "no picture");
+  refused({a, file("missing.exr")}, "no such file");
+  expect_refused(
+      [&] {
+        return merge({a, b, "-o", file("out.jpg")});
+      },
+      2, "expected -o with a .png or .exr file");
+}
+
+TEST_F(CliParts, OptionsThatNeedTheWholePictureAreRefused) {
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& found) {
+    expect_refused([&] { return make("x.exr", words); }, 2, found);
+  };
+  refused({"--crop=0,0,41,2"}, "beyond the picture's 40x30 pixels");
+  refused({"--crop=1,2,3"}, "X,Y,WIDTH,HEIGHT");
+  refused({"--tile=0/4"}, "1/4");
+  refused({"--tile=5/4"}, "1/4");
+  refused({"--tile=1/31"}, "30 rows");
+  refused({"--tile=1/4", "--crop=0,0,1,1"}, "one of them");
+  refused({"--tile=1/4", "--denoise"}, "a whole picture");
+  refused({"--tile=1/4", "--error=0.1"}, "--samples");
+}
+
+TEST_F(CliParts, SkipExistingSkipsWhatTheSameCommandMade) {
+  const auto time_of = [&] { return std::filesystem::last_write_time(file("p.exr")); };
+  ASSERT_EQ(make("p.exr", {"--skip-existing"}).code, 0);
+  const auto first = time_of();
+  ASSERT_EQ(make("p.exr", {"--skip-existing"}).code, 0);
+  EXPECT_EQ(time_of(), first);
+  ASSERT_EQ(make("p.exr", {"--skip-existing", "--seed=9"}).code, 0);
+  EXPECT_NE(time_of(), first) << "made by another command";
+}
+
+TEST_F(CliParts, ProgressIsToldAsAsked) {
+  const auto told = [&](const std::string& style) {
+    return run_program({RENDER, grid, "-o", file("p.png"), "--resolution=40x30", "--progress=" + style});
+  };
+  EXPECT_NE(told("json").err.find("{\"stage\": \"tracing\", \"share\": 1.00}"), std::string::npos);
+  EXPECT_NE(told("plain").err.find("tracing 100 %\n"), std::string::npos);
+  EXPECT_NE(told("openjd").out.find("openjd_status: tracing\nopenjd_progress: 100\n"), std::string::npos);
+  EXPECT_EQ(told("line").err.find("100 %"), std::string::npos) << "no terminal";
+}
+
+}  // namespace
+}  // namespace splatray
