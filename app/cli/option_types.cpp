@@ -21,6 +21,15 @@ std::vector<double> split_numbers(const std::string& text, char separator, std::
   return numbers.size() == count && text.back() != separator ? numbers : std::vector<double>{};
 }
 
+std::vector<std::uint32_t> split_whole_numbers(const std::string& text, char separator, std::size_t count) {
+  std::vector<std::uint32_t> whole;
+  for (const double number : split_numbers(text, separator, count)) {
+    if (!(number >= 0.0 && number <= SPLIT_MOST && number == std::floor(number))) return {};
+    whole.push_back(static_cast<std::uint32_t>(number));
+  }
+  return whole;
+}
+
 glm::dvec3 read_vector(const std::string& name, const std::string& text) {
   const auto numbers = split_numbers(text, ',', 3);
   if (numbers.empty()) refuse_option(name, text, "three numbers such as 1,-2,0.5");

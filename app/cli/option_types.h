@@ -2,6 +2,7 @@
 /// overflow and a wrong choice get the same sentence: the option, what was found, what was expected.
 #pragma once
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
@@ -21,6 +22,11 @@ namespace splatray {
 
 /// Finite numbers separated by `separator`, exactly `count` of them; empty when the text is anything else.
 [[nodiscard]] std::vector<double> split_numbers(const std::string& text, char separator, std::size_t count);
+
+/// Whole numbers from 0 to SPLIT_MOST, such as pixels of a side, as split_numbers has them; empty when the text is anything else.
+inline constexpr double SPLIT_MOST = 32768.0;
+[[nodiscard]] std::vector<std::uint32_t> split_whole_numbers(const std::string& text, char separator,
+                                                             std::size_t count);
 
 /// The three numbers that `text` given to option `name` is; else refuses it.
 [[nodiscard]] glm::dvec3 read_vector(const std::string& name, const std::string& text);

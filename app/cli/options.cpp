@@ -1,7 +1,6 @@
 #include "app/cli/options.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/cli/option_types.h"
 #include "app/cli/reproduce.h"
@@ -42,19 +41,10 @@ std::string aov_text(const RenderOptions& options) {
   return text;
 }
 
-/// Whole numbers such as 3 of "1,2,3,4" or "1/4"; empty unless so many.
-std::vector<std::uint32_t> whole_numbers(const std::string& text, char separator, std::size_t count) {
-  std::vector<std::uint32_t> numbers;
-  for (const double number : split_numbers(text, separator, count))
-    if (number >= 0.0 && number <= 32768.0 && number == std::floor(number))
-      numbers.push_back(static_cast<std::uint32_t>(number));
-  return numbers.size() == count ? numbers : std::vector<std::uint32_t>{};
-}
-
 /// Parts of a picture, which splatray-merge joins.
 void add_part_options(OptionList& list, RenderOptions& options) {
   const auto read_crop = [&options](const std::string& text) {
-    const auto numbers = whole_numbers(text, ',', 4);
+    const auto numbers = split_whole_numbers(text, ',', 4);
     if (numbers.empty() || numbers[2] == 0 || numbers[3] == 0)
       refuse_option("--crop", text, "pixels X,Y,WIDTH,HEIGHT from the top left corner, such as 0,0,640,360");
     options.crop = {numbers[0], numbers[1], numbers[2], numbers[3]};
@@ -70,7 +60,7 @@ void add_part_options(OptionList& list, RenderOptions& options) {
       "only these pixels of the picture, the same as in the whole one; an EXR has them as its data window",
       "X,Y,WIDTH,HEIGHT");
   const auto read_tile = [&options](const std::string& text) {
-    const auto numbers = whole_numbers(text, '/', 2);
+    const auto numbers = split_whole_numbers(text, '/', 2);
     if (numbers.empty() || numbers[0] == 0 || numbers[0] > numbers[1])
       refuse_option("--tile", text, "a part of so many such as 1/4, the first is 1");
     options.tile = numbers[0];

@@ -13,14 +13,11 @@ namespace {
 
 void add_resolution(OptionList& list, PictureOptions& picture) {
   const auto read = [&picture](const std::string& text) {
-    constexpr double MOST = 32768.0;
-    const auto numbers = split_numbers(text, 'x', 2);
-    const bool good = !numbers.empty() && numbers[0] >= 1.0 && numbers[0] <= MOST && numbers[1] >= 1.0 &&
-                      numbers[1] <= MOST && numbers[0] == std::floor(numbers[0]) &&
-                      numbers[1] == std::floor(numbers[1]);
-    if (!good) refuse_option("--resolution", text, "width x height such as 1920x1080, each 1 to 32768");
-    picture.width = static_cast<std::uint32_t>(numbers[0]);
-    picture.height = static_cast<std::uint32_t>(numbers[1]);
+    const auto numbers = split_whole_numbers(text, 'x', 2);
+    if (numbers.empty() || numbers[0] == 0 || numbers[1] == 0)
+      refuse_option("--resolution", text, "width x height such as 1920x1080, each 1 to 32768");
+    picture.width = numbers[0];
+    picture.height = numbers[1];
   };
   const auto write = [&picture] {
     return std::to_string(picture.width) + "x" + std::to_string(picture.height);

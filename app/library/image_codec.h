@@ -16,8 +16,8 @@ struct PictureHeader {
   int width = 0, height = 0, depth = 1;
   int x = 0, y = 0;                     ///< where its pixels begin in the whole picture
   int full_width = 0, full_height = 0;  ///< of the whole picture; 0: it is the whole one
-  std::vector<std::string> channels;  ///< their names
-  bool integers = false;              ///< 8 or 16 bits a channel, else floats
+  std::vector<std::string> channels;    ///< their names
+  bool integers = false;                ///< 8 or 16 bits a channel, else floats
   std::vector<std::pair<std::string, std::string>> attributes;
   /// No file of this one's size and format has more, however well it is compressed; for reading only.
   std::uint64_t most_pixels = ~0ULL;

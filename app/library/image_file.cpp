@@ -119,6 +119,13 @@ bool has_bytes(std::ifstream& file, std::streamoff at, const std::string& bytes)
 
 constexpr const char* PREFIX = "splatray.";  ///< of the names of our metadata
 
+Metadata metadata_of(const PictureHeader& header) {
+  Metadata metadata;
+  for (const auto& [name, value] : header.attributes)
+    if (name.starts_with(PREFIX)) metadata.emplace_back(name.substr(std::strlen(PREFIX)), value);
+  return metadata;
+}
+
 /// A picture's file in memory; `name` is what to call it where that fails.
 std::vector<unsigned char> encode(PictureHeader header, const Metadata& metadata, const void* values,
                                   const char* format, const std::string& name) {
@@ -229,7 +236,7 @@ ExrPicture read_exr(const std::filesystem::path& path) {
                       static_cast<std::uint32_t>(header.width), static_cast<std::uint32_t>(header.height)},
                      header.channels,
                      {},
-                     read_metadata(path)};
+                     metadata_of(header)};
   const std::size_t channels = header.channels.size();
   const PixelSink append = [&](const float* value, std::size_t count) {
     picture.values.insert(picture.values.end(), value, value + count * channels);
@@ -253,12 +260,7 @@ bool is_whole_picture(const std::filesystem::path& path) {
          codec().read_pixels(path.string(), header.height - 1, 1, nowhere, damage);
 }
 
-Metadata read_metadata(const std::filesystem::path& path) {
-  Metadata metadata;
-  for (const auto& [name, value] : read_header(path).attributes)
-    if (name.starts_with(PREFIX)) metadata.emplace_back(name.substr(std::strlen(PREFIX)), value);
-  return metadata;
-}
+Metadata read_metadata(const std::filesystem::path& path) { return metadata_of(read_header(path)); }
 
 DisplayImage read_display_image(const std::filesystem::path& path, const Display& display) {
   Picture picture = read_picture(path);

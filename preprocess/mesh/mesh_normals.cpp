@@ -9,7 +9,7 @@
 namespace splatray {
 namespace {
 
-constexpr double LEAST_SUM = 0.4;     ///< of a vertex' weighted normals, in units of its angles' sum
+constexpr double LEAST_SUM = 0.4;  ///< of a vertex' weighted normals, in units of its angles' sum
 
 std::uint64_t hash_position(const glm::dvec3& position) {
   std::uint64_t hash = 0;

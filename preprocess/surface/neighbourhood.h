@@ -47,11 +47,11 @@ struct Neighbourhood {
     }
   }
 
-  glm::dvec3 normal;  ///< of the point, as the cloud has it
-  bool oriented;      ///< Cloud::oriented
-  bool ends_known;    ///< the surface ends, or has a crease, only where clip lines say so
-  PointClip clip;     ///< of the point
-  std::size_t found;  ///< sites looked at, also beyond the clip lines
+  glm::dvec3 normal;      ///< of the point, as the cloud has it
+  bool oriented;          ///< Cloud::oriented
+  bool ends_known;        ///< the surface ends, or has a crease, only where clip lines say so
+  PointClip clip;         ///< of the point
+  std::size_t found;      ///< sites looked at, also beyond the clip lines
   float seen_squared;     ///< squared distance of the farthest of them
   std::size_t count = 0;  ///< entries of what follows
   VectorsAround offset;

@@ -104,8 +104,8 @@ void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_e
   } while (to_lights);
 }
 
-/// A direction in which a path goes on from a hit, in the hit's frame: one that the surface chooses or one towards light, both with the
-/// probability of either.
+/// A direction in which a path goes on from a hit, in the hit's frame: one that the surface chooses or one towards light, both
+/// with the probability of either.
 BsdfSample next_direction(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random) {
   float share = guided_share(bsdf);
   bool guided = random.x < share;
@@ -134,7 +134,8 @@ void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 
   vec3 throughput = path.throughput * chosen.weight;
   float most = max(throughput.x, max(throughput.y, throughput.z));
   path.alive = most > 0.0f;
-  if (COUNTERS && !path.alive && (chosen.event & BSDF_REFLECTED) != 0u && max(bsdf.base.x, max(bsdf.base.y, bsdf.base.z)) > 0.0f) {
+  if (COUNTERS && !path.alive && (chosen.event & BSDF_REFLECTED) != 0u &&
+      max(bsdf.base.x, max(bsdf.base.y, bsdf.base.z)) > 0.0f) {
     path.below = 1u;
     path.energy_below = (path.throughput.x + path.throughput.y + path.throughput.z) / 3.0f;
   }

@@ -67,8 +67,8 @@ std::vector<std::size_t> cut_counts(Bytes& bytes) {
   const std::size_t colors = (attributes & 1U) != 0 ? splats : 0;
   const std::size_t fields = (attributes & 2U) != 0 ? splats : 0;
   const std::size_t clips = (attributes & 4U) != 0 ? splats : 0;
-  std::vector<std::size_t> counts{nodes,   leaves + 1, leaves,  references, splats,  colors,  fields,  clips,
-                                  objects, lights,     cameras, stations,   strings, surfaces};
+  std::vector<std::size_t> counts{nodes, leaves + 1, leaves, references, splats,   colors,  fields,
+                                  clips, objects,    lights, cameras,    stations, strings, surfaces};
   for (std::size_t i = 0; i < COLUMNS_MOST; ++i) {
     const auto type = get<std::uint8_t>(bytes, COLUMN_TYPES + i) % std::size(COLUMN_BYTES);
     put(bytes, COLUMN_TYPES + i, static_cast<std::uint8_t>(type));

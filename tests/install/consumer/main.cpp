@@ -1,5 +1,5 @@
-/// Runs the examples and compares the library with closed forms. Works in the folder named by its argument; exit 1 with a sentence
-/// for each finding. `memory` in place of the folder: what needs none.
+/// Runs the examples and compares the library with closed forms. Works in the folder named by its argument; exit 1 with a
+/// sentence for each finding. `memory` in place of the folder: what needs none.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -54,7 +54,8 @@ struct Plane {
   }
 };
 
-/// Largest |t - expected| of oblique rays on a plane, and whether each names the point next to it; expected for a plane at `height`.
+/// Largest |t - expected| of oblique rays on a plane, and whether each names the point next to it; expected for a plane at
+/// `height`.
 double plane_error(const Plane& plane, double height, double distance) {
   const sr::Scene scene = sr::make_scene(plane.points());
   const sr::Double3 direction{0.3, -0.2, -1.0};
