@@ -1,8 +1,11 @@
 // Pictures from the GPU against pictures by brute force in float64 (reference_path.h), scene by scene. Three
 // numbers each: an error of a pixel that does not count, the share of pixels that may exceed it, and a limit
-// that none may exceed.
+// that none may exceed. Pixels whose truth turns on float32's last bits (nudge of reference_picture) are counted
+// apart, as no renderer in float32 can meet it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 
 #include "app/library/compare.h"
@@ -19,10 +22,11 @@ namespace {
 
 constexpr std::uint64_t SPLATS = 20000;  ///< of each scene, so that brute force takes seconds
 
-/// The two pictures of one scene.
+/// The two pictures of one scene, with the picture of the GPU set to the truth where there is no truth to meet.
 struct Pictures {
   Image gpu;
   Image reference;
+  double unsettled = 0.0;  ///< share of these pixels
 };
 
 Settings small_settings() {
@@ -40,14 +44,39 @@ Image gpu_picture(const Scene& scene, const View& view, const Environment& envir
   return tracer.render(view, small_settings());
 }
 
-Pictures pictures_of(Scene scene) {
+/// Takes the truth for those pixels of `pictures.gpu` whose truth moves by more than half of `threshold` (display
+/// values) in one of the `nudged` pictures.
+void settle(Pictures& pictures, const std::array<Image, 2>& nudged, double threshold) {
+  const std::vector<vec3> truth = display_image(pictures.reference, 0.0).rgb;
+  std::vector<bool> unsettled(truth.size(), false);
+  for (const Image& image : nudged) {
+    const std::vector<vec3> moved = display_image(image, 0.0).rgb;
+    for (std::size_t pixel = 0; pixel < truth.size(); ++pixel) {
+      const vec3 by = glm::abs(moved[pixel] - truth[pixel]);
+      if (std::max({by.x, by.y, by.z}) > float(0.5 * threshold)) unsettled[pixel] = true;
+    }
+  }
+  for (std::size_t pixel = 0; pixel < truth.size(); ++pixel)
+    if (unsettled[pixel]) pictures.gpu.rgba[pixel] = pictures.reference.rgba[pixel];
+  pictures.unsettled = double(std::count(unsettled.begin(), unsettled.end(), true)) / double(truth.size());
+}
+
+/// A few of float32's last bits: what a direction of the GPU is off by after a hit.
+constexpr double NUDGE = 0x1p-21;
+
+Pictures pictures_of(Scene scene, double threshold) {
   View view{default_camera(scene, 4.0 / 3.0), 96, 72};
   if (scene.lights.empty()) scene.lights = default_lights(scene, view.camera);
   const Environment environment =
       scene.environment_path.empty() ? studio_environment() : read_environment(scene.environment_path);
   const BruteForce brute(scene);
-  return {gpu_picture(scene, view, environment),
-          reference_picture(scene, brute, view, small_settings(), environment)};
+  const auto truth = [&](const glm::dvec3& nudge) {
+    return reference_picture(scene, brute, view, small_settings(), environment, nudge);
+  };
+  Pictures pictures{gpu_picture(scene, view, environment), truth(glm::dvec3(0.0))};
+  settle(pictures, {truth(NUDGE * glm::dvec3(1.0, -1.0, 1.0)), truth(NUDGE * glm::dvec3(-1.0, 1.0, 1.0))},
+         threshold);
+  return pictures;
 }
 
 /// Compares; keeps the pictures of a failure beside the test program.
@@ -69,6 +98,7 @@ struct SceneCase {
   const char* name;
   bool needs_data;
   Tolerance tolerance;
+  double unsettled;  ///< share of pixels that may be
   const char* why;
 };
 
@@ -85,7 +115,10 @@ TEST_P(ScenePicture, MatchesBruteForce) {
   if (!scene_case.needs_data) write_model(name, SPLATS, points.path());
   const std::filesystem::path file = std::filesystem::path(SPLATRAY_SCENES) / (name + ".gltf");
   const Pictures pictures =
-      pictures_of(scene_of_file(file, SPLATS, 10, scene_case.needs_data ? *data_folder() : points.path()));
+      pictures_of(scene_of_file(file, SPLATS, 10, scene_case.needs_data ? *data_folder() : points.path()),
+                  scene_case.tolerance.threshold);
+  std::cout << name << ": " << 100.0 * pictures.unsettled << " % of pixels turn on last bits\n";
+  EXPECT_LE(pictures.unsettled, scene_case.unsettled);
   EXPECT_TRUE(compare_pictures(pictures.gpu, pictures.reference, scene_case.tolerance, name).passed)
       << scene_case.why;
 }
@@ -93,19 +126,26 @@ TEST_P(ScenePicture, MatchesBruteForce) {
 INSTANTIATE_TEST_SUITE_P(
     Scenes, ScenePicture,
     ::testing::Values(
-        SceneCase{"table1_dragon", true, {0.004, 0.0005, 0.05}, "matte: nothing but float32 shading differs"},
-        SceneCase{"table1_david", true, {0.004, 0.0005, 0.05}, "matte: nothing but float32 shading differs"},
+        SceneCase{"table1_dragon",
+                  true,
+                  {0.004, 0.0005, 0.05},
+                  0.001,
+                  "matte: nothing but float32 shading differs"},
+        SceneCase{
+            "table1_david", true, {0.004, 0.0005, 0.05}, 0.001, "matte: nothing but float32 shading differs"},
         SceneCase{"reflective_buddha",
                   true,
                   {0.02, 0.001, 0.27},
+                  0.001,
                   "texture units filter with 8-bit weights, and mirrored rays may graze past a disc"},
         SceneCase{"refractive_dragon",
                   true,
-                  {0.02, 0.01, 0.53},
-                  "as the Buddha; glass magnifies last bits, and a choice may tip at Fresnel's share"},
-        SceneCase{"teapot", true, {0.02, 0.0005, 0.1}, "as the dragon, in a part of the picture"},
-        SceneCase{"room", false, {0.004, 0.0005, 0.05}, "smooth mirror and glass, so few paths tip"},
-        SceneCase{"demo", false, {0.004, 0.0005, 0.05}, "smooth mirror and glass, so few paths tip"}),
+                  {0.02, 0.004, 0.25},
+                  0.01,
+                  "as the Buddha; glass magnifies last bits, so that a choice tips at Fresnel's share"},
+        SceneCase{"teapot", true, {0.02, 0.0005, 0.1}, 0.001, "as the dragon, in a part of the picture"},
+        SceneCase{"room", false, {0.004, 0.0005, 0.05}, 0.001, "smooth mirror and glass, so few paths tip"},
+        SceneCase{"demo", false, {0.004, 0.0005, 0.05}, 0.001, "smooth mirror and glass, so few paths tip"}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
 TEST(Picture, AMovedSplatIsNoticed) {

@@ -42,8 +42,8 @@ double reflectance(double ior_here, double ior_behind, double cosine) {
 class Renderer {
  public:
   Renderer(const Scene& scene, const BruteForce& brute, const View& view, const Settings& settings,
-           const Environment& environment)
-      : scene_(scene), brute_(brute), settings_(settings), environment_(environment) {
+           const Environment& environment, const dvec3& nudge)
+      : scene_(scene), brute_(brute), settings_(settings), environment_(environment), nudge_(nudge) {
     const Camera& camera = view.camera;
     forward_ = glm::normalize(camera.target - camera.eye);
     right_ = glm::normalize(glm::cross(forward_, camera.up));
@@ -116,11 +116,11 @@ class Renderer {
     return double(settings_.environment_strength) * glm::max(sum, dvec3(0.0));
   }
 
-  [[nodiscard]] static RayQuery leaving(const RayQuery& ray, const TrueHit& hit, const dvec3& dir,
-                                        std::uint32_t inside) {
+  [[nodiscard]] RayQuery leaving(const RayQuery& ray, const TrueHit& hit, const dvec3& dir,
+                                 std::uint32_t inside) const {
     RayQuery query{};
     query.origin = vec3(dvec3(ray.origin) + hit.t * dvec3(ray.dir));
-    query.dir = vec3(glm::normalize(dir));
+    query.dir = vec3(glm::normalize(dir + nudge_));
     query.inside = inside;
     query.from_normal = vec3(hit.front ? hit.normal : -hit.normal);
     query.from_object = hit.object;
@@ -222,6 +222,7 @@ class Renderer {
   const BruteForce& brute_;
   Settings settings_;
   const Environment& environment_;
+  dvec3 nudge_;
   dvec3 forward_, right_, up_, eye_root_;
   dvec2 size_;
   double half_height_ = 0.0;
@@ -233,9 +234,9 @@ class Renderer {
 }  // namespace
 
 Image reference_picture(const Scene& scene, const BruteForce& brute, const View& view,
-                        const Settings& settings, const Environment& environment) {
+                        const Settings& settings, const Environment& environment, const dvec3& nudge) {
   assert(view.camera.ortho_height == 0.0);
-  const Renderer renderer(scene, brute, view, settings, environment);
+  const Renderer renderer(scene, brute, view, settings, environment, nudge);
   Image image{view.width, view.height, std::vector<vec4>(std::size_t(view.width) * view.height), {}};
   const std::uint32_t workers = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::jthread> threads;
