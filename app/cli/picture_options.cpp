@@ -308,7 +308,9 @@ void add_method_options(OptionList& list, PictureOptions& picture) {
   add_choice<std::uint32_t>(list, "--order", settings.order, {{"z", ORDER_Z}, {"linear", ORDER_LINEAR}},
                             "order of threads over pixels; default z");
   list.add_switch("--counters", settings.counters, "count rays, steps and tests (slower) for --stats-json");
-  add_text(list, "--device", picture.device, "device number or part of its name; default the best", "N|NAME");
+  add_text(list, "--device", picture.device,
+           "device number or part of its name, or cpu: the processors without Vulkan; default the best",
+           "N|NAME");
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ ThreadWork DeviceProfile::work(std::uint32_t path_rays, std::uint32_t lights) co
 }
 
 DeviceProfile device_profile(const Context& context, Kernels requested) {
+  if (context.is_host()) return {.kernels = Kernels::host, .culls = true};
   const bool able = runs_cpu_kernels(context);
   if (requested == Kernels::cpu && !able)
     throw Error(ExitCode::failed,

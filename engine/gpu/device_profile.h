@@ -13,6 +13,7 @@ enum class Kernels {
   automatic,  ///< cpu on CPU devices that have what these need, else gpu
   gpu,        ///< pools in storage buffers, hits in double-float
   cpu,        ///< pools in texel buffers, hits in float64, wavefront stages
+  host,       ///< C++ (engine/cpu), on the host itself, which runs no others
 };
 
 /// Work of one thread in one dispatch.

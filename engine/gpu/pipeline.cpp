@@ -56,6 +56,7 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
 
 BindingSet::BindingSet(const Context& context, const Paging& paging) : context_(context), paging_(paging) {
   assert(paging.access != PoolAccess::automatic);
+  if (context.is_host()) return;
   create_layout();
   create_set();
 }
@@ -112,6 +113,10 @@ void BindingSet::bind(std::uint32_t binding, const PagedBuffer& buffer) {
 }
 
 void BindingSet::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) {
+  if (context_.is_host()) {
+    host_.bound[binding] = buffer.mapped();
+    return;
+  }
   const VkDescriptorBufferInfo buffer_info{buffer.get(), 0, VK_WHOLE_SIZE};
   const VkBufferView view = buffer.view();
   VkWriteDescriptorSet write{};
@@ -127,6 +132,12 @@ void BindingSet::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t
 }
 
 void BindingSet::bind(const EnvironmentTexture& texture) {
+  if (context_.is_host()) {
+    bind(BIND_ENVIRONMENT, texture.texels());
+    host_.environment_width = texture.width();
+    host_.environment_height = texture.height();
+    return;
+  }
   const VkDescriptorImageInfo image_info{texture.sampler(), texture.view(),
                                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   VkWriteDescriptorSet write{};

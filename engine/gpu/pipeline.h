@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "engine/cpu/kernel.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pools.h"
 #include "engine/gpu/program.h"
@@ -14,7 +15,8 @@
 
 namespace splatray {
 
-/// The descriptor set (set 0, bindings BIND_*) shared by all programs of one paging, and its pipeline layout.
+/// The descriptor set (set 0, bindings BIND_*) shared by all programs of one paging, and its pipeline layout. Where the context is
+/// the host, the arrays that kernels read and write.
 class BindingSet {
  public:
   /// The context must outlive it.
@@ -27,6 +29,8 @@ class BindingSet {
   void bind(std::uint32_t binding, const PagedBuffer& buffer);
   void bind(const EnvironmentTexture& texture);
 
+  /// Kernels' arrays by binding; constants and parameters are left.
+  [[nodiscard]] const KernelWork& host() const { return host_; }
   [[nodiscard]] VkDescriptorSet set() const { return set_; }
   [[nodiscard]] VkPipelineLayout layout() const { return pipeline_layout_.get(); }
 
@@ -40,6 +44,7 @@ class BindingSet {
   Handle<VkPipelineLayout, vkDestroyPipelineLayout> pipeline_layout_;
   Handle<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
+  KernelWork host_;
 };
 
 /// What a pipeline is made of, and so its name in the cache.

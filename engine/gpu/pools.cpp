@@ -116,6 +116,7 @@ std::uint64_t total_bytes(const PoolBytes& bytes) {
 }
 
 PoolLimits pool_limits(const Context& context) {
+  if (context.is_host()) return {0, UINT64_MAX, UINT64_MAX, 0, POOLS};
   const VkPhysicalDeviceLimits& device = context.properties.limits;
   const bool texel_formats = texel_format_supported(context, VK_FORMAT_R32_UINT) &&
                              texel_format_supported(context, VK_FORMAT_R32G32B32A32_UINT);

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
+#include "engine/cpu/run_groups.h"
 
 namespace splatray {
 namespace {
@@ -22,6 +24,21 @@ bool counts_work(const Dispatch& dispatch) { return has(dispatch.constants, FEAT
 std::uint32_t lights_at_hit(const Dispatch& dispatch) {
   if (dispatch.program == Program::light) return 2;
   return has(dispatch.constants, FEATURE_LIGHTS) ? dispatch.frame.light_end : 0;
+}
+
+Kernel kernel_of(Program program) {
+  switch (program) {
+    case Program::empty:
+      return run_empty_kernel;
+    case Program::empty_light:
+      return run_empty_light_kernel;
+    case Program::light:
+      return run_light_kernel;
+    case Program::rays:
+      return run_rays_kernel;
+    default:
+      return run_trace_kernel;
+  }
 }
 
 bool is_staged(const Dispatch& dispatch) {
@@ -67,6 +84,7 @@ double Runner::run(const Dispatch& dispatch) {
     bindings.bind(BIND_RAYS, rays);
     bindings.bind(BIND_HITS, hits);
   }
+  if (context.is_host()) return run_on_host(dispatch);
   const bool reads_counters = counts_work(dispatch) || is_staged(dispatch);
   const VkPipeline pipeline = pipelines.get({dispatch.program, dispatch.constants}, bindings.layout());
   const double ms = queue.run([&](VkCommandBuffer commands) {
@@ -83,6 +101,15 @@ double Runner::run(const Dispatch& dispatch) {
   if (counts_work(dispatch))
     for (std::size_t i = 0; i < counted_.size(); ++i) counts[i] += counted_[i];
   return ms;
+}
+
+double Runner::run_on_host(const Dispatch& dispatch) {
+  const auto start = std::chrono::steady_clock::now();
+  KernelWork work = scene.bindings().host();
+  work.constants = dispatch.constants;
+  work.frame = dispatch.frame;
+  run_groups(kernel_of(dispatch.program), work, dispatch.groups_x * dispatch.groups_y, counts);
+  return milliseconds_since(start);
 }
 
 void Runner::reserve_queues(std::uint32_t pixel_groups) {

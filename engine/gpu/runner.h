@@ -53,6 +53,7 @@ class Runner {
 
  private:
   double run_in_stages(const Dispatch& dispatch);
+  double run_on_host(const Dispatch& dispatch);
   void reserve_queues(std::uint32_t pixel_groups);
 
   Buffer frame_buffer_, counters_, groups_, paths_, queued_paths_;

@@ -53,6 +53,11 @@ Memory allocate_memory(const Context& context, const VkMemoryRequirements& needs
 Buffer::Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, VkFormat texel_format,
                Residence residence)
     : size_(std::max(bytes, LEAST_BYTES)) {
+  if (context.is_host()) {
+    host_ = std::make_unique_for_overwrite<std::byte[]>(size_);
+    mapped_ = host_.get();
+    return;
+  }
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = size_;
@@ -119,7 +124,7 @@ void Buffer::download(CommandQueue& queue, std::span<std::byte> bytes) const {
 }
 
 void reserve_storage(const Context& context, Buffer& buffer, VkDeviceSize bytes) {
-  if (buffer.size() < bytes || buffer.get() == VK_NULL_HANDLE)
+  if (buffer.size() < std::max(bytes, LEAST_BYTES))
     buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 

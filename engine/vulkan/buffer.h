@@ -1,6 +1,7 @@
 /// Memory on the device: buffers, with a texel view where asked.
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <span>
 
 #include "engine/vulkan/context.h"
@@ -49,6 +50,7 @@ class Buffer {
 
  private:
   Memory memory_;
+  std::unique_ptr<std::byte[]> host_;  ///< of a context that is the host, in place of all else
   Handle<VkBuffer, vkDestroyBuffer> buffer_;
   Handle<VkBufferView, vkDestroyBufferView> view_;
   VkDeviceSize size_ = 0;

@@ -45,6 +45,7 @@ void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, 
 }
 
 CommandQueue::CommandQueue(const Context& context) : context_(context) {
+  if (context.is_host()) return;
   VkFenceCreateInfo fence_info{};
   fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
   VkFence fence = VK_NULL_HANDLE;
@@ -70,7 +71,9 @@ CommandQueue::CommandQueue(const Context& context) : context_(context) {
   check(vkAllocateCommandBuffers(context.device, &info, &commands_), "making a command buffer");
 }
 
-CommandQueue::~CommandQueue() { vkFreeCommandBuffers(context_.device, context_.command_pool, 1, &commands_); }
+CommandQueue::~CommandQueue() {
+  if (!context_.is_host()) vkFreeCommandBuffers(context_.device, context_.command_pool, 1, &commands_);
+}
 
 double CommandQueue::run(const std::function<void(VkCommandBuffer)>& record) {
   VkCommandBufferBeginInfo begin{};

@@ -14,7 +14,7 @@ void record_barrier(VkCommandBuffer commands);
 /// Likewise for a colour image of one level and layer, and moves it from one layout to another.
 void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
 
-/// Records, submits and waits. One thread at a time. The context must outlive it.
+/// Records, submits and waits. One thread at a time. The context must outlive it; one of the host has no commands to run.
 class CommandQueue {
  public:
   explicit CommandQueue(const Context& context);

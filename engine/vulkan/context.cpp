@@ -125,7 +125,20 @@ std::vector<DeviceInfo> list_devices() {
   return infos;
 }
 
+DeviceInfo host_device_info() {
+#ifdef __clang__
+  constexpr const char* COMPILER = "C++ by " __VERSION__;
+#else
+  constexpr const char* COMPILER = "C++ by GCC " __VERSION__;
+#endif
+  return {"the host's processors, without Vulkan", "CPU", COMPILER, "", ""};
+}
+
 Context::Context(const std::string& wanted, bool validation, const WindowNeeds& needs) {
+  if (wanted == HOST_DEVICE) {
+    become_host();
+    return;
+  }
   try {
     create_instance(validation || validation_in_environment(), needs);
     choose_device(wanted, needs);
@@ -137,6 +150,15 @@ Context::Context(const std::string& wanted, bool validation, const WindowNeeds& 
 }
 
 Context::~Context() { destroy(); }
+
+void Context::become_host() {
+  info_ = host_device_info();
+  properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_CPU;
+  properties.limits.maxImageDimension2D = UINT16_MAX;
+  properties.limits.maxStorageBufferRange = UINT32_MAX;
+  properties.limits.maxTexelBufferElements = UINT32_MAX;
+  max_allocation_bytes = UINT64_MAX;
+}
 
 void Context::create_instance(bool validation, const WindowNeeds& needs) {
   if (validation && !validation_layer_present())

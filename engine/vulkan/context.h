@@ -1,4 +1,5 @@
-/// Instance, device and queue; headless unless told what a window needs. No extension is required; Vulkan 1.2.
+/// Instance, device and queue; headless unless told what a window needs. No extension is required; Vulkan 1.2. Or, without Vulkan,
+/// the host itself.
 #pragma once
 #include <atomic>
 #include <cstddef>
@@ -28,10 +29,13 @@ struct WindowNeeds {
   std::function<std::string(VkInstance, VkPhysicalDevice)> refusal;
 };
 
+/// What a user asks for who wants no Vulkan device but the host's processors (engine/cpu).
+inline constexpr const char* HOST_DEVICE = "cpu";
+
 class Context {
  public:
   /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
-  /// part of a name (case-insensitive). Throws Error (no_device) with every device's reason when none fits.
+  /// part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not even loaded. Throws Error (no_device) with every device's reason when none fits.
   /// Validation layers and their messages are on when `validation` (or the environment variable
   /// SPLATRAY_VALIDATION=1) is set; each validation warning or error is counted and printed on stderr. Throws
   /// Error (failed) when they are asked for but not installed.
@@ -46,6 +50,9 @@ class Context {
   /// Whether the device is a software driver on the CPU.
   [[nodiscard]] bool is_cpu() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
 
+  /// Whether it is the host itself: buffers are host memory, programs C++, and there are no Vulkan objects.
+  [[nodiscard]] bool is_host() const { return device == VK_NULL_HANDLE; }
+
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
@@ -59,6 +66,7 @@ class Context {
   bool ballot = false;                     ///< compute shaders may use ballots of their subgroups
 
  private:
+  void become_host();
   void create_instance(bool validation, const WindowNeeds& needs);
   void create_messenger();
   void choose_device(const std::string& wanted, const WindowNeeds& needs);
@@ -70,7 +78,10 @@ class Context {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-/// All devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver
+/// The host as a device.
+[[nodiscard]] DeviceInfo host_device_info();
+
+/// All Vulkan devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver
 /// at all.
 [[nodiscard]] std::vector<DeviceInfo> list_devices();
 

@@ -71,7 +71,7 @@ Error no_device_error(const std::vector<DeviceInfo>& devices, const std::string&
     return {ExitCode::no_device,
             "no Vulkan device found, at least one driver expected (Debian's package mesa-vulkan-drivers has "
             "drivers for "
-            "most GPUs and one for the CPU)"};
+            "most GPUs and one for the CPU; the device 'cpu' needs none)"};
   std::string sentence =
       wanted.empty() ? "no usable Vulkan device found" : "no usable Vulkan device matches '" + wanted + "'";
   for (std::size_t i = 0; i < devices.size(); ++i) {

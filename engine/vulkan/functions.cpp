@@ -44,9 +44,10 @@ bool vulkan_is_installed() {
 PFN_vkVoidFunction vulkan_function(VulkanFunctionNumber number) {
   const PFN_vkVoidFunction function = functions()[static_cast<std::size_t>(number)];
   if (function == nullptr)
-    throw Error(ExitCode::no_device, std::string("found no Vulkan loader with ") +
-                                         NAMES[static_cast<std::size_t>(number)] + ", expected " + LOADER +
-                                         " (Debian's packages libvulkan1 and mesa-vulkan-drivers)");
+    throw Error(ExitCode::no_device,
+                std::string("found no Vulkan loader with ") + NAMES[static_cast<std::size_t>(number)] +
+                    ", expected " + LOADER +
+                    " (Debian's packages libvulkan1 and mesa-vulkan-drivers; the device 'cpu' needs none)");
   return function;
 }
 

@@ -53,6 +53,7 @@ std::filesystem::path pipeline_file(const std::filesystem::path& folder,
 
 PipelineStore::PipelineStore(const Context& context, const std::filesystem::path& folder)
     : context_(context) {
+  if (context.is_host()) return;
   std::vector<char> kept;
   if (!folder.empty()) {
     file_ = pipeline_file(folder, context.properties);

@@ -73,6 +73,14 @@ EnvironmentTexture::EnvironmentTexture(const Context& context, CommandQueue& que
                                              std::to_string(source.height) +
                                              " pixels, the device takes at most " + std::to_string(limit) +
                                              "x" + std::to_string(limit));
+  width_ = source.width;
+  height_ = source.height;
+  if (context.is_host()) {
+    texels_ = Buffer(context, source.texels.size() * sizeof(glm::vec4), 0);
+    write_texels(source.texels, true, texels_.mapped());
+    size_ = texels_.size();
+    return;
+  }
   const bool as_32_bit = filters_32_bit(context);
   const VkFormat format = as_32_bit ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R16G16B16A16_SFLOAT;
   create_image(context, format, {source.width, source.height, 1});

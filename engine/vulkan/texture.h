@@ -13,6 +13,10 @@ class EnvironmentTexture {
   /// device's images are not large enough.
   EnvironmentTexture(const Context& context, CommandQueue& queue, const Environment& environment);
 
+  [[nodiscard]] std::uint32_t width() const { return width_; }    ///< texels
+  [[nodiscard]] std::uint32_t height() const { return height_; }  ///< texels
+  /// The texels of a context that is the host, vec4.
+  [[nodiscard]] const Buffer& texels() const { return texels_; }
   [[nodiscard]] VkImageView view() const { return view_.get(); }
   [[nodiscard]] VkSampler sampler() const { return sampler_.get(); }
   /// Bytes of the texels.
@@ -26,6 +30,8 @@ class EnvironmentTexture {
   Handle<VkImage, vkDestroyImage> image_;
   Handle<VkImageView, vkDestroyImageView> view_;
   Handle<VkSampler, vkDestroySampler> sampler_;
+  Buffer texels_;
+  std::uint32_t width_ = 0, height_ = 0;
   VkDeviceSize size_ = 0;
 };
 

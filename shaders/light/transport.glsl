@@ -90,9 +90,9 @@ void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_e
     Probe probe;
     if (sky) {
       vec4 random_sky = sobol_sample(pixel, sample_index, 2u, frame.seed);
-      probe = sky_probe(hit, bsdf, basis, random_sky.xy, path.ray.inside);
+      probe = sky_probe(hit, bsdf, basis, vec2(random_sky), path.ray.inside);
     } else {
-      probe = light_probe(hit, bsdf, basis, to_eye, random.xy, path.ray.inside);
+      probe = light_probe(hit, bsdf, basis, to_eye, vec2(random), path.ray.inside);
       to_lights = false;
     }
     if (SHADOWS || sky) {
@@ -112,7 +112,7 @@ BsdfSample next_direction(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 ran
   if (EMISSION) random.x = used_again(random.x, share, guided);
   BsdfSample chosen = bsdf_direction(bsdf, to_eye, random);
   if (EMISSION && guided) {
-    vec3 dir = guide_sample(hit.position, random.z, random.xy);
+    vec3 dir = guide_sample(hit.position, random.z, vec2(random));
     chosen.dir = vec3(dot(dir, basis.u), dot(dir, basis.v), dot(dir, hit.normal));
     chosen.event = chosen.dir.z > 0.0f ? BSDF_REFLECTED : BSDF_TRANSMITTED;
   }
@@ -130,7 +130,7 @@ BsdfSample next_direction(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 ran
 
 /// Has the path go on from a hit.
 void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
-  BsdfSample chosen = next_direction(hit, bsdf, basis, to_eye, random.xyz);
+  BsdfSample chosen = next_direction(hit, bsdf, basis, to_eye, vec3(random));
   vec3 throughput = path.throughput * chosen.weight;
   float most = max(throughput.x, max(throughput.y, throughput.z));
   path.alive = most > 0.0f;

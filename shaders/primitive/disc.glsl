@@ -83,12 +83,12 @@ vec2 two_floats(double x) {
 
 /// As below, by float64 of the device: to about 2^-50.
 PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
-  precise dvec3 to_center = (dvec3(splat_center(words)) - dvec3(origin)) - dvec3(origin_low);
+  PRECISE dvec3 to_center = (dvec3(splat_center(words)) - dvec3(origin)) - dvec3(origin_low);
   dvec3 n = dvec3(splat_normal(words));
-  precise double denominator = dot(n, dvec3(dir));
-  precise double t = dot(n, to_center) / denominator;
-  precise dvec3 from_center = dvec3(dir) * t - to_center;
-  precise double rho_squared = dot(from_center, from_center);
+  PRECISE double denominator = dot(n, dvec3(dir));
+  PRECISE double t = dot(n, to_center) / denominator;
+  PRECISE dvec3 from_center = dvec3(dir) * t - to_center;
+  PRECISE double rho_squared = dot(from_center, from_center);
   vec3 high = vec3(from_center);
   vec3 low = vec3(from_center - dvec3(high));
   return PlaneHit(two_floats(t), two_floats(rho_squared), high, low, float(denominator));

@@ -1,8 +1,14 @@
-// The GPU's side of what the other .glsl files need: specialization constants, pools, tables. CPU: for CPU devices, see
-// variants.cmake. PAGED: some pool is in several buffers. LIT: path tracing.
+// The GPU's side of what the other .glsl files need: specialization constants, pools, tables; engine/cpu/bindings_as_cpp.h is the
+// C++ side. CPU: for CPU devices, see variants.cmake. PAGED: some pool is in several buffers. LIT: path tracing.
 #ifndef SPLATRAY_BINDINGS_GLSL
 #define SPLATRAY_BINDINGS_GLSL
 #include "layout.h"
+#ifdef LIT
+#include "light/albedo_layout.h"
+#endif
+#ifdef CPU
+#define STAGED
+#endif
 
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = 0u;
 layout(constant_id = SPEC_BLEND) const uint BLEND = BLEND_WINDOW;
@@ -69,7 +75,19 @@ vec3 absorption_at(uint bit) { return frame.absorption[bit].xyz; }
 #endif
 
 layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
+layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterTable { uint counters[COUNTER_COUNT]; };
+layout(std430, binding = BIND_ACCUMULATION) buffer Accumulation { vec4 accumulation[]; };
+layout(std430, binding = BIND_GROUPS) readonly buffer GroupList { uint group_list[]; };
+layout(std430, binding = BIND_AOV) writeonly buffer AovTable { AovPixel aov[]; };
+layout(binding = BIND_ENVIRONMENT) uniform sampler2D environment_map;
+#ifdef LIT
+layout(std430, binding = BIND_SURFACES) readonly buffer SurfaceTable { Surface surfaces[]; };
+layout(std430, binding = BIND_LIGHT_TABLES) readonly buffer LightTables { uint light_tables[]; };
+#else
+layout(std430, binding = BIND_RAYS) readonly buffer RayTable { RayQuery rays[]; };
+layout(std430, binding = BIND_HITS) writeonly buffer HitTable { RayHit hits[]; };
+#endif
 
 #ifdef PAGED
 #define PAGES_OF(slot) (((PAGES >> (3u * (slot - BIND_NODE_POOL))) & 7u) + 1u)
@@ -123,12 +141,22 @@ POOL(BIND_TOP_TABLE, TopTable, top_table, uint, top_entry, READ_WORD)
 uint splat_at(uint place) { return REFERENCES ? reference_word(place) : place; }
 
 Material material_at(uint object) { return materials[object]; }
+Light light_at(uint index) { return lights[index]; }
+#ifdef LIT
+Surface surface_at(uint object) { return surfaces[object]; }
+float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
+uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
+#endif
+
+vec3 environment_texel(vec2 position) { return textureLod(environment_map, position, 0.0f).xyz; }
 
 /// Linear colour of a splat; square-root encoded in the pool.
 vec3 color_at(uint index) {
   vec3 root = unpackUnorm4x8(color_word(index)).xyz;
   return root * root;
 }
+
+uint group_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
 void count(uint counter, uint amount) {
   if (amount != 0u) atomicAdd(counters[counter], amount);

@@ -3,38 +3,11 @@
 // Pixels that no leaf projects to (engine/image/footprint.h): all their rays meet the environment. A program of its own, as drivers
 // take as long to read one with the walk in it whether the walk is used or not.
 #include "scene/bindings.glsl"
-#include "stage/pixels.glsl"
-
-void write_miss(uint index) {
-  aov[index].normal = vec3(0.0f);
-  aov[index].z = INFINITY_F;
-  aov[index].object = NO_OBJECT;
-  aov[index].splat = 1u;
-  aov[index].tests = 0u;
-  aov[index].steps = 0u;
-}
-
-void add_misses(uvec2 pixel, uint index) {
-  uint place = frame.tile_first + index;
-  vec4 mean = mean_before(place);
-  uint sample_index = frame.sample_begin;
-  do {
-    vec3 radiance = environment_radiance(sample_ray(pixel, sample_index).dir);
-    mean = add_to_mean(mean, radiance, 0.0f, sample_index);
-    if (COUNTERS) count(COUNT_PRIMARY, 1u);
-    sample_index += 1u;
-  } while (sample_index < frame.sample_end);
-  accumulation[place] = mean;
-}
+#include "stage/empty.glsl"
 
 void main() {
   read_frame();
   uvec2 in_tile = uvec2(0u);
   if (!find_pixel(in_tile)) return;
-  uint index = in_tile.y * frame.tile_width + in_tile.x;
-  if (STAGE == STAGE_AOV) {
-    write_miss(index);
-  } else {
-    add_misses(in_tile + uvec2(frame.tile_x, frame.tile_y), index);
-  }
+  miss_all(in_tile);
 }

@@ -1,31 +1,18 @@
 // Paths through the pixels of a dispatch: for each pixel and sample, camera -> path -> accumulation. On CPU devices
-// also in wavefront stages (Laine, Karras and Aila 2013, "Megakernels Considered Harmful"), one ray of each path in
+// (STAGED) also in wavefront stages (Laine, Karras and Aila 2013, "Megakernels Considered Harmful"), one ray of each path in
 // each: lanes of CPU devices, which wait for each other's branches and loops, otherwise stay idle once their path has
 // ended.
 #ifndef SPLATRAY_PATHS_GLSL
 #define SPLATRAY_PATHS_GLSL
 #include "stage/pixels.glsl"
 
-layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };
-
-Light light_at(uint index) { return lights[index]; }
-
 #ifdef LIT
-layout(std430, binding = BIND_SURFACES) readonly buffer SurfaceTable { Surface surfaces[]; };
-layout(std430, binding = BIND_LIGHT_TABLES) readonly buffer LightTables { uint light_tables[]; };
-
-Surface surface_at(uint object) { return surfaces[object]; }
-float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
-
-#include "light/bsdf.glsl"
-
-uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
 #include "light/transport.glsl"
 #else
 #include "light/phong.glsl"
 #endif
 
-#ifdef CPU
+#ifdef STAGED
 #include "stage/queue.glsl"
 #endif
 
@@ -66,7 +53,7 @@ bool loops_were_cut() {
 
 /// Keeps a pixel's mean. A coverage that is not finite, and stays so, tells the host that it is wrong.
 void keep_mean(uint place, vec4 mean) {
-  accumulation[place] = loops_were_cut() ? vec4(mean.xyz, -INFINITY_F) : mean;
+  accumulation[place] = loops_were_cut() ? vec4(vec3(mean), -INFINITY_F) : mean;
 }
 
 /// What a thread traces: a pixel and, in STAGE_NEXT, its queued path.
@@ -80,7 +67,7 @@ struct Work {
 bool find_work(OUT(Work) work) {
   uvec2 in_tile = uvec2(0u);
   bool found = false;
-#ifdef CPU
+#ifdef STAGED
   if (STAGE == STAGE_NEXT) {
     uint queued = group_number() * GROUP_SIZE + gl_LocalInvocationIndex;
     found = queued < frame.path_count;
@@ -108,7 +95,7 @@ void add_samples(INOUT(Work) work) {
     Tally tally = Tally(0u, 0u, 0u, 0u);
     if (STAGE != STAGE_NEXT) work.path = path_start(sample_ray(work.pixel, sample_index));
     follow_path(work.path, pixel_number, sample_index, tally);
-#ifdef CPU
+#ifdef STAGED
     if (STAGE != STAGE_ALL && work.path.alive) queue_path(work.path, work.place);
 #endif
     if (!work.path.alive) {

@@ -6,15 +6,8 @@
 #include "lang/sobol.glsl"
 #endif
 #include "light/camera.glsl"
-
-layout(std430, binding = BIND_ACCUMULATION) buffer Accumulation { vec4 accumulation[]; };
-layout(std430, binding = BIND_GROUPS) readonly buffer GroupList { uint group_list[]; };
-layout(std430, binding = BIND_AOV) writeonly buffer AovTable { AovPixel aov[]; };
-layout(binding = BIND_ENVIRONMENT) uniform sampler2D environment_map;
-
-vec3 environment_texel(vec2 position) { return textureLod(environment_map, position, 0.0f).xyz; }
-
 #include "light/environment.glsl"
+
 
 /// Even bits of a Z-order index.
 uint even_bits(uint x) {
@@ -31,8 +24,6 @@ uvec2 tile_pixel(uint group_word) {
   return group * 8u + uvec2(even_bits(thread), even_bits(thread >> 1u));
 }
 
-uint group_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
-
 /// Whether this thread has a pixel; which, in the tile.
 bool find_pixel(OUT(uvec2) in_tile) {
   uint group = group_number();
@@ -47,10 +38,10 @@ Ray center_ray(uvec2 pixel, OUT(float) eye_distance) {
 #ifdef LIT
 Ray sample_ray(uvec2 pixel, uint sample_index) {
   vec4 random = sobol_sample(pixel.y * frame.width + pixel.x, sample_index, 0u, frame.seed);
-  vec2 at = vec2(pixel) + random.xy;
+  vec2 at = vec2(pixel) + vec2(random);
   float eye_distance = 0.0f;
   Ray ray = primary_ray(at.x, at.y, eye_distance);
-  if (LENS) ray = through_lens(ray, eye_distance, random.zw);
+  if (LENS) ray = through_lens(ray, eye_distance, vec2(random.z, random.w));
   return ray;
 }
 #else
@@ -74,7 +65,7 @@ vec4 add_to_mean(vec4 mean, vec3 radiance, float coverage, uint sample_index) {
   if (COUNTERS) count(COUNT_NON_FINITE, finite ? 0u : 1u);
   vec4 value = vec4(finite ? radiance : vec3(1.0f, 0.0f, 1.0f), coverage);
   // A mean, not a sum: float32 would lose small samples beside a large sum.
-  vec4 change = frame.light_begin == 0u ? value - mean : vec4(value.xyz, 0.0f);
+  vec4 change = frame.light_begin == 0u ? value - mean : vec4(vec3(value), 0.0f);
   return mean + change / float(sample_index + 1u);
 }
 

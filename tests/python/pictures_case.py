@@ -40,6 +40,24 @@ class Pictures(unittest.TestCase):
         hits = self.scene.trace([[3.0, 0.0, 0.0]], [[-1.0, 0.0, 0.0]])
         self.assertAlmostEqual(hits.t[0], 2.0, delta=1e-3)
 
+    def test_the_cpu_without_vulkan(self):
+        program = (
+            "import numpy as np, splatray as sr\n"
+            "from shapes import sphere\n"
+            "points, normals = sphere()\n"
+            "scene = sr.points(points, normals=normals, device='cpu')\n"
+            "np.save('pixels.npy', scene.render(sr.frame(scene, azimuth=30, fov=35), (160, 90), samples=4).pixels)\n"
+            "np.save('t.npy', scene.trace([[3.0, 0.0, 0.0]], [[-1.0, 0.0, 0.0]]).t)\n")
+        with tempfile.TemporaryDirectory() as folder:
+            tests = os.path.dirname(os.path.abspath(__file__))
+            environment = os.environ | {"VK_DRIVER_FILES": "/nonexistent.json", "VK_ICD_FILENAMES": "/nonexistent.json",
+                                        "PYTHONPATH": os.pathsep.join([tests, os.environ.get("PYTHONPATH", "")])}
+            subprocess.run([sys.executable, "-c", program], cwd=folder, env=environment, check=True)
+            pixels, t = np.load(os.path.join(folder, "pixels.npy")), np.load(os.path.join(folder, "t.npy"))
+        image = self.scene.render(sr.frame(self.scene, azimuth=30, fov=35), (160, 90), samples=4)
+        self.assertLess(np.abs(pixels - image.pixels).mean(), 1e-4)
+        self.assertEqual(t[0], self.scene.trace([[3.0, 0.0, 0.0]], [[-1.0, 0.0, 0.0]]).t[0])
+
     def test_pixels_are_views(self):
         image = self.scene.render(size=(32, 18), samples=1, channels=True)
         self.assertTrue(np.shares_memory(image.pixels, image.pixels))

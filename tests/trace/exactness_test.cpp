@@ -58,11 +58,17 @@ void expect_exact(const Agreement& agreement, const std::string& what) {
   EXPECT_GT(agreement.hits, agreement.rays / 10) << what << ": too few hits to mean anything";
 }
 
-std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery>& rays,
-                                  const Settings& settings, const TracerOptions& options = {}) {
-  Tracer tracer(shared_context(), options);
+std::vector<RayHit> intersect_on(const Context& context, const Scene& scene,
+                                 const std::vector<RayQuery>& rays, const Settings& settings,
+                                 const TracerOptions& options = {}) {
+  Tracer tracer(context, options);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
+}
+
+std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery>& rays,
+                                  const Settings& settings, const TracerOptions& options = {}) {
+  return intersect_on(shared_context(), scene, rays, settings, options);
 }
 
 /// Compares the GPU with brute force for each scene; the scenes differ in leaf size only.
@@ -72,6 +78,10 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
   const Truth truth(scenes.front(), brute, count, settings);
   const auto gpu_kernels = gpu_intersect(scenes.front(), truth.rays, settings, {.kernels = Kernels::gpu});
   expect_exact(agreement_of(brute, truth.hits, gpu_kernels), "kernels of GPUs");
+  const auto host = intersect_on(Context(HOST_DEVICE), scenes.front(), truth.rays, settings);
+  EXPECT_EQ(different_bits(host, gpu_kernels), 0U) << "other bits from the host";
+  EXPECT_EQ(different_bits(host, twin_intersect(scenes.front(), truth.rays, settings)), 0U)
+      << "other bits from the twin";
   std::vector<RayHit> first_answers;
   for (const Scene& scene : scenes) {
     const std::vector<RayHit> answers = gpu_intersect(scene, truth.rays, settings);

@@ -148,6 +148,54 @@ INSTANTIATE_TEST_SUITE_P(
         SceneCase{"demo", false, {0.004, 0.0005, 0.05}, 0.001, "smooth mirror and glass, so few paths tip"}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
+/// The picture of a look on a device, and what it counted.
+struct Made {
+  Image image;
+  RenderStats stats;
+};
+Made made_on(const Context& context, const Scene& scene, const View& view, std::uint32_t look) {
+  Tracer tracer(context);
+  tracer.upload(scene);
+  tracer.set_environment(studio_environment());
+  Settings settings = small_settings();
+  settings.look = look;
+  settings.counters = true;
+  settings.aov = true;
+  Made made{tracer.render(view, settings), {}};
+  made.stats = tracer.stats();
+  return made;
+}
+
+/// A ball of glass on a floor that is half a mirror.
+Scene ball_on_mirror() {
+  Material mirror = test_material(MATERIAL_TWO_SIDED);
+  mirror.mirror = 0.5F;
+  return scene_of(
+      {{sphere({.count = 4000}, 1.0), test_material(MATERIAL_DIELECTRIC)},
+       {rectangle({.count = 4000}, {-3.0, -1.0, -3.0}, {0.0, 0.0, 6.0}, {6.0, 0.0, 0.0}), mirror}});
+}
+
+TEST(Picture, TheHostMakesThatOfTheDevice) {
+  Scene scene = ball_on_mirror();
+  const View view{default_camera(scene, 4.0 / 3.0), 96, 72};
+  scene.lights = default_lights(scene, view.camera);
+  const Context device, host(HOST_DEVICE);
+  for (const std::uint32_t look : {LOOK_PAPER, LOOK_LIT, LOOK_AO, LOOK_SCAN}) {
+    const Made expected = made_on(device, scene, view, look), made = made_on(host, scene, view, look);
+    const Tolerance tolerance{0.004, 0.0005, 0.05};
+    EXPECT_TRUE(
+        compare_pictures(made.image, expected.image, tolerance, "host_" + std::to_string(look)).passed);
+    for (const std::uint32_t counter : {COUNT_PRIMARY, COUNT_HITS})
+      EXPECT_EQ(made.stats.counters[counter], expected.stats.counters[counter]);
+    const auto tests = double(expected.stats.counters[COUNT_TESTS]);
+    EXPECT_NEAR(double(made.stats.counters[COUNT_TESTS]), tests, 1e-3 * tests);
+    for (std::size_t i = 0; i < made.image.aov.size(); ++i) {
+      EXPECT_EQ(made.image.aov[i].splat, expected.image.aov[i].splat);
+      EXPECT_EQ(made.image.aov[i].object, expected.image.aov[i].object);
+    }
+  }
+}
+
 TEST(Picture, AMovedSplatIsNoticed) {
   Scene scene = scene_of({{sphere({.count = 500}, 1.0), test_material(0)}});
   const View view{default_camera(scene, 4.0 / 3.0), 96, 72};

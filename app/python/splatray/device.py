@@ -17,5 +17,6 @@ class Device(NamedTuple):
 
 
 def devices() -> List[Device]:
-    """All devices, by number; none without Vulkan (Debian's packages libvulkan1 and mesa-vulkan-drivers)."""
+    """All devices, by number; none without Vulkan (Debian's packages libvulkan1 and mesa-vulkan-drivers).
+    The device "cpu" needs none."""
     return [Device(*device) for device in _core.devices()]

@@ -206,7 +206,7 @@ def open(files: Union[Path, Sequence[Path]], *, radius_scale: float = 1.0, mesh_
     radius_scale: factor on every disc's radius. mesh_points: sampled on meshes by area; 0 for their vertices where fine enough. data:
     folders searched for models that a scene names. color_by: an attribute shown as colours, such as height, intensity or class. up: up
     direction, None for the file's own. threads: of reading and preprocess, 0 for all cores. device: number or part of a name of devices(),
-    empty for the best. cache: folder that compiled pipelines are kept in between runs.
+    empty for the best, "cpu" for the processors without Vulkan. cache: folder that compiled pipelines are kept in between runs.
     """
     paths = [os.fspath(path) for path in ([files] if isinstance(files, (str, os.PathLike)) else files)]
     for path in paths:

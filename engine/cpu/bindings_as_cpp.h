@@ -1,0 +1,121 @@
+/// The C++ side of shaders/scene/bindings.glsl, after shaders/lang/glsl_as_cpp.h in the same namespace. Hits are decided in
+/// float64; paths are followed to their end by one thread. LIT as there.
+#define CPU
+
+/// What the thread of the host works at. One word each, so that a library that is loaded late has room for them.
+__attribute__((tls_model("initial-exec"))) thread_local const KernelWork* bound = nullptr;
+__attribute__((tls_model("initial-exec"))) thread_local Counts* counted = nullptr;
+__attribute__((tls_model("initial-exec"))) thread_local uint group_now = 0;
+__attribute__((tls_model("initial-exec"))) thread_local uint lane_now = 0;
+
+#define frame (bound->frame)
+#define gl_LocalInvocationIndex lane_now
+
+#define BLEND (bound->constants[SPEC_BLEND])
+#define KERNEL (bound->constants[SPEC_KERNEL])
+#define SIDE (bound->constants[SPEC_SIDE])
+#define FACES (bound->constants[SPEC_FACES])
+#define ORDER (bound->constants[SPEC_ORDER])
+#define STAGE (bound->constants[SPEC_STAGE])
+#define TOP_LEVELS (bound->constants[SPEC_TOP_LEVELS])
+#define HAS(feature) ((bound->constants[SPEC_FEATURES] & (feature)) != 0U)
+#define MIRRORS HAS(FEATURE_MIRRORS)
+#define GLASS HAS(FEATURE_GLASS)
+#define COLORS HAS(FEATURE_COLORS)
+#define FIELDS HAS(FEATURE_FIELDS)
+#define REFERENCES HAS(FEATURE_REFERENCES)
+#define LIGHTS HAS(FEATURE_LIGHTS)
+#define SHADOWS HAS(FEATURE_SHADOWS)
+#define ENVIRONMENT HAS(FEATURE_ENVIRONMENT)
+#define CLIPS HAS(FEATURE_CLIPS)
+#define COUNTERS HAS(FEATURE_COUNTERS)
+#ifdef LIT
+#define LOOK (bound->constants[SPEC_LOOK])
+#define SKY HAS(FEATURE_SKY)
+#define SIZES HAS(FEATURE_SIZES)
+#define EMISSION HAS(FEATURE_EMISSION)
+#define LENS HAS(FEATURE_LENS)
+#define STRAIGHT HAS(FEATURE_STRAIGHT)
+#define TINTED (STRAIGHT && GLASS)
+#define LOBE_DIFFUSE HAS(FEATURE_DIFFUSE)
+#define LOBE_SPECULAR HAS(FEATURE_SPECULAR)
+#define LOBE_METAL HAS(FEATURE_METAL)
+#define LOBE_TRANSMISSION GLASS
+#define LOBE_COAT HAS(FEATURE_COAT)
+#else
+#define TINTED GLASS
+#endif
+
+/// An array as the shaders index it.
+template <class Value, uint BINDING>
+struct Bound {
+  Value& operator[](uint index) const { return reinterpret_cast<Value*>(bound->bound[BINDING])[index]; }
+};
+constexpr Bound<vec4, BIND_ACCUMULATION> accumulation;
+constexpr Bound<AovPixel, BIND_AOV> aov;
+constexpr Bound<uint, BIND_GROUPS> group_list;
+constexpr Bound<uint, BIND_NODE_POOL> node_pool;
+constexpr Bound<uint, BIND_BEGIN_END> begin_end;
+constexpr Bound<uint, BIND_SLAB_POOL> slab_pool;
+constexpr Bound<uint, BIND_REFERENCE_POOL> reference_pool;
+constexpr Bound<uvec4, BIND_DATA_POOL> data_pool;
+constexpr Bound<uint, BIND_COLOR_POOL> color_pool;
+constexpr Bound<uint, BIND_FIELD_POOL> field_pool;
+constexpr Bound<uint, BIND_CLIP_POOL> clip_pool;
+constexpr Bound<uint, BIND_TOP_TABLE> top_table;
+constexpr Bound<Material, BIND_MATERIALS> materials;
+constexpr Bound<Light, BIND_LIGHTS> lights;
+constexpr Bound<vec4, BIND_ENVIRONMENT> environment_texels;
+#ifdef LIT
+constexpr Bound<Surface, BIND_SURFACES> surfaces;
+constexpr Bound<uint, BIND_LIGHT_TABLES> light_tables;
+#else
+constexpr Bound<RayQuery, BIND_RAYS> rays;
+constexpr Bound<RayHit, BIND_HITS> hits;
+#endif
+
+float medium_at(uint bit) { return frame.media[bit >> 2U][static_cast<int>(bit & 3U)]; }
+vec3 absorption_at(uint bit) { return vec3(frame.absorption[bit]); }
+uint node_word(uint index) { return node_pool[index]; }
+uint begin_end_at(uint index) { return begin_end[index]; }
+uint slab_word(uint index) { return slab_pool[index]; }
+uint splat_at(uint place) { return REFERENCES ? reference_pool[place] : place; }
+uvec4 splat_words(uint index) { return data_pool[index]; }
+uint field_word(uint index) { return field_pool[index]; }
+uint clip_word(uint index) { return clip_pool[index]; }
+uint top_entry(uint index) { return top_table[index]; }
+Material material_at(uint object) { return materials[object]; }
+Light light_at(uint index) { return lights[index]; }
+vec3 color_at(uint index) { return unpack_color(color_pool[index]); }
+#ifdef LIT
+Surface surface_at(uint object) { return surfaces[object]; }
+float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
+uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
+#endif
+
+/// Bilinear; columns repeat, rows are clamped (engine/vulkan/texture.h).
+vec3 environment_texel(vec2 position) {
+  const int width = static_cast<int>(bound->environment_width);
+  const int height = static_cast<int>(bound->environment_height);
+  const vec2 at = position * vec2(width, height) - 0.5F;
+  const vec2 corner = floor(at), share = at - corner;
+  const auto texel = [&](int x, int y) {
+    const int column = ((static_cast<int>(corner.x) + x) % width + width) % width;
+    const int row = clamp(static_cast<int>(corner.y) + y, 0, height - 1);
+    return vec3(environment_texels[static_cast<uint>(row * width + column)]);
+  };
+  return mix(mix(texel(0, 0), texel(1, 0), share.x), mix(texel(0, 1), texel(1, 1), share.x), share.y);
+}
+
+void count(uint counter, uint amount) { (*counted)[counter] += amount; }
+
+uint group_number() { return group_now; }
+
+/// Runs `thread` for each thread of a group.
+template <class Thread>
+void run_group(const KernelWork& work, uint group, Counts& counts, const Thread& thread) {
+  bound = &work;
+  counted = &counts;
+  group_now = group;
+  for (lane_now = 0; lane_now < GROUP_SIZE; ++lane_now) thread();
+}

@@ -1,0 +1,38 @@
+// A thread of trace.comp.glsl. Needs what bindings.glsl declares.
+#ifndef SPLATRAY_TRACE_GLSL
+#define SPLATRAY_TRACE_GLSL
+#include "stage/paths.glsl"
+
+#ifndef LIT
+/// A number that tells splats apart.
+uint hash_words(uvec4 words) {
+  return hash_uint(words.x ^ hash_uint(words.y ^ hash_uint(words.z ^ hash_uint(words.w))));
+}
+
+void write_aov(uvec2 pixel, uint index) {
+  Tally tally = Tally(0u, 0u, 0u, 0u);
+  float eye_distance = 0.0f;
+  Ray ray = center_ray(pixel, eye_distance);
+  Hit hit = trace_nearest(ray, frame.kappa, tally);
+  aov[index].normal = hit.found ? hit.normal : vec3(0.0f);
+  aov[index].z = hit.found ? (hit.t + eye_distance) * frame.root_unit_world : INFINITY_F;
+  aov[index].object = hit.object;
+  aov[index].splat = (hash_words(hit.first) & ~1u) | (hit.front ? 1u : 0u);
+  aov[index].tests = tally.tests;
+  aov[index].steps = tally.node_steps;
+}
+#endif
+
+/// Traces what find_work has found.
+void trace_work(INOUT(Work) work) {
+#ifndef LIT
+  if (STAGE == STAGE_AOV) {
+    write_aov(work.pixel, work.place - frame.tile_first);
+  } else
+#endif
+  {
+    add_samples(work);
+  }
+}
+
+#endif
