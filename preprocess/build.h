@@ -32,6 +32,9 @@ struct BuildStats {
       0;  ///< no neighbour to take a radius from: 1/100 of the scene's diagonal instead
   std::uint64_t splats = 0;
   std::uint64_t clipped = 0;     ///< splats that end at a border or a crease
+  std::uint64_t creased = 0;     ///< points of scans at which a crease was found
+  std::uint64_t bordered = 0;    ///< points of scans at which a border was found
+  std::uint64_t crease_copies = 0;  ///< points added, as a crease's points lie on several planes
   std::uint64_t references = 0;  ///< data pool entries
   std::uint64_t nodes = 0;
   std::uint64_t filled_leaves = 0;

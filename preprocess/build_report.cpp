@@ -26,6 +26,10 @@ void tell_scans(const BuildStats& stats, std::ostringstream& text) {
     text << "  " << stats.smoothed << " points smoothed (noise " << stats.noise
          << " of the spacing), moved by " << stats.moved_median_world << " (median)\n";
   }
+  if (stats.creased + stats.bordered > 0) {
+    text << "  found among points: " << stats.creased << " at creases (" << stats.crease_copies
+         << " on several planes), " << stats.bordered << " at borders\n";
+  }
   for (std::size_t rung = 0; rung < SIDE_RUNGS; ++rung) {
     if (stats.sides_by[rung] == 0) continue;
     text << "  sides of normals told by: " << name_of(static_cast<SideRung>(rung));
@@ -55,6 +59,9 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"radii_isolated", stats.radii_isolated},
                                        {"splats", stats.splats},
                                        {"clipped", stats.clipped},
+                                       {"creased", stats.creased},
+                                       {"bordered", stats.bordered},
+                                       {"crease_copies", stats.crease_copies},
                                        {"references", stats.references},
                                        {"nodes", stats.nodes},
                                        {"filled_leaves", stats.filled_leaves},

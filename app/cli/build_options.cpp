@@ -91,9 +91,9 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_choice<bool>(list, "--normal-fields", params.normal_fields, {{"on", true}, {"off", false}},
                    "how normals change across each disc, where the scene curves; default on");
   add_choice<bool>(list, "--clip", params.clip, {{"on", true}, {"off", false}},
-                   "discs on meshes end at borders and creases; default on");
+                   "discs end at borders and creases, of points alone where those are clear; default on");
   add_number(list, "--crease", params.crease_degrees, 0, 180,
-             "degrees by which a mesh turns at a crease, where it is not shaded smoothly; default 30");
+             "degrees by which a surface turns at a crease, where a mesh is not shaded smoothly; default 30");
   add_scan_options(list, options.scans);
   add_smoothing(list, params.smooth_world);
   add_number(list, "--threads", options.threads, 0, 4096,

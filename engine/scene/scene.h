@@ -40,7 +40,7 @@ struct BuildParams {
   bool normal_fields =
       true;  ///< fit a normal field to every splat of a curved scene; read from a file: it has them
 
-  /// Discs of meshes end at borders and creases. Files do not tell.
+  /// Discs end at borders and creases of meshes, of points where those are clear. Files do not tell.
   bool clip = true;
   double crease_degrees = 30.0;  ///< edges that turn by more, and are not shaded smoothly, are creases
 

@@ -7,11 +7,14 @@
 #include "preprocess/scan/smooth.h"
 #include "preprocess/scan/strays.h"
 #include "preprocess/scan/survey.h"
+#include "preprocess/surface/sharp.h"
 
 namespace splatray {
 namespace {
 
 constexpr double NOISY = 0.05;        // noise (measure_noise) from which points are moved
+constexpr double SHARP =
+    0.05;  // share of points at creases that noise would have hidden: edges are what looks like it
 constexpr std::size_t FEWEST = 1000;  // points that tell noise from shape
 
 /// Leaves out what find_strays finds, in the survey too.
@@ -31,6 +34,24 @@ void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
   survey.keep(kept, number);
 }
 
+/// Creases and borders among the points, as `params` ask for.
+std::vector<SharpSide> find_sharp_sides(const Cloud& cloud, const Survey& survey, const BuildParams& params,
+                                        const Stage& stage) {
+  if (!params.clip) return {};
+  std::vector<bool> given(cloud.size());
+  for (std::size_t i = 0; i < given.size(); ++i) given[i] = survey.estimated[i] == 0;
+  return find_sharp(cloud, params.crease_degrees, given, stage);
+}
+
+void count_sharp(const std::vector<SharpSide>& sharp, BuildStats& stats) {
+  for (const SharpSide& side : sharp) {
+    if (side.number > 0)
+      ++stats.crease_copies;
+    else
+      ++(side.crease ? stats.creased : stats.bordered);
+  }
+}
+
 }  // namespace
 
 std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildParams& params,
@@ -41,9 +62,12 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   const SidesFound sides = turn_to_sides(cloud, survey, estimated, up, stage);
   if (!estimated.empty()) ++stats.sides_by[static_cast<std::size_t>(sides.rung)];
   stats.sides_unsure += sides.unsure;
+  const std::vector<SharpSide> sharp = find_sharp_sides(cloud, survey, params, stage);
+  take_normals(cloud, sharp);
   const double noise = measure_noise(cloud, survey);
   stats.noise = std::max(stats.noise, noise);
-  const bool noisy = noise > NOISY && cloud.size() >= FEWEST;
+  const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
+  const bool noisy = noise > NOISY && cloud.size() >= FEWEST && !sharply;
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
     const double radius = std::max(params.smooth_world, 0.0) / cloud.half_extent_world;
     survey.listed = {};
@@ -52,6 +76,9 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
     stats.smoothed += smoothed.moved;
     stats.dropped_unsupported += smoothed.dropped;
     stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);
+  } else {
+    take_sides(cloud, sharp);
+    count_sharp(sharp, stats);
   }
   return estimated.size();
 }

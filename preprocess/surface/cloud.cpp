@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include "engine/scene/splat.h"
@@ -46,6 +47,7 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   cloud.grid_cell = take(points.grid_cell);
   cloud.radius = take(points.radius);
   cloud.clip = take(points.clip);
+  cloud.ends_known = !cloud.clip.empty();
   tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
     cloud.normal[i] = glm::vec3(unit_or_zero(glm::dvec3(cloud.normal[i])));
     if (!color.empty()) cloud.color[i] = pack_color(color[i]);
@@ -164,12 +166,21 @@ Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
   cloud.oriented = oriented;
   if (usable.empty()) return cloud;
   normalise_coordinates(cloud);
-  rearrange(cloud, canonical_order(cloud));
+  put_in_order(cloud);
   count_given(cloud, stats);
   return cloud;
 }
 
 void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) { rearrange(cloud, kept); }
+
+void add_copies(Cloud& cloud, const std::vector<std::uint32_t>& of) {
+  std::vector<std::uint32_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), 0U);
+  order.insert(order.end(), of.begin(), of.end());
+  rearrange(cloud, order);
+}
+
+void put_in_order(Cloud& cloud) { rearrange(cloud, canonical_order(cloud)); }
 
 void move_points(Cloud& cloud, const std::vector<float>& lift) {
   if (cloud.position.empty()) {
@@ -182,7 +193,7 @@ void move_points(Cloud& cloud, const std::vector<float>& lift) {
     });
     find_coordinates(cloud);
   }
-  rearrange(cloud, canonical_order(cloud));
+  put_in_order(cloud);
 }
 
 }  // namespace splatray

@@ -31,6 +31,7 @@ struct Cloud {
   std::vector<Station> stations;         ///< where the points were measured from; empty = not known
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< Points::grid_cell
+  bool ends_known = false;               ///< the surface ends, or has a crease, only where `clip` says so
   bool measured = false;                 ///< by a scanner: neither a mesh's nor made
   bool oriented = false;                 ///< normals point outwards: opposite normals are opposite sheets
 
@@ -54,6 +55,12 @@ struct Cloud {
 
 /// Leaves the points of these ascending numbers in the cloud; its frame stays.
 void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept);
+
+/// Adds copies of the points of these numbers behind the others; the cloud is then out of order.
+void add_copies(Cloud& cloud, const std::vector<std::uint32_t>& of);
+
+/// Puts points whose normals or places were changed in order again.
+void put_in_order(Cloud& cloud);
 
 /// Moves points by this much along their normals (cloud coordinates) and puts the cloud in order; its frame stays.
 void move_points(Cloud& cloud, const std::vector<float>& lift);

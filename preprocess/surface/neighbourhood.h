@@ -31,7 +31,8 @@ struct Neighbourhood {
   Neighbourhood(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest)
       : normal(cloud.normal[point]),
         oriented(cloud.oriented),
-        ends_known(!cloud.clip.empty()),
+        ends_known(cloud.ends_known || (!cloud.clip.empty() && cloud.clip[point].lines() > 0)),
+        creases_known(ends_known && !cloud.ends_known),
         clip(cloud.clip.empty() ? PointClip{} : cloud.clip[point]),
         found(nearest.size()),
         seen_squared(nearest.empty() ? 0.0F : nearest.back().distance_squared()) {
@@ -50,6 +51,8 @@ struct Neighbourhood {
   glm::dvec3 normal;      ///< of the point, as the cloud has it
   bool oriented;          ///< Cloud::oriented
   bool ends_known;        ///< the surface ends, or has a crease, only where clip lines say so
+  bool
+      creases_known;  ///< of this point: its clip lines were found among points, and neighbours tell of no others
   PointClip clip;         ///< of the point
   std::size_t found;      ///< sites looked at, also beyond the clip lines
   float seen_squared;     ///< squared distance of the farthest of them

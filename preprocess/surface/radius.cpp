@@ -62,7 +62,7 @@ class Surroundings {
     }
     for (std::size_t j = 0; j < around.count; ++j) {
       if ((around.oriented ? alignment_[j] : std::abs(alignment_[j])) < SHEET_COSINE) {
-        add_crease(j, u, v);
+        if (!around.creases_known) add_crease(j, u, v);
       } else if (!(lateral_[j] < SHEET_LATERAL * distance_[j])) {
         neighbours_[neighbour_count_++] = {glm::dvec2(across_u_[j], across_v_[j]) * stretch_[j],
                                            distance_[j]};

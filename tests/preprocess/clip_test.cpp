@@ -13,11 +13,13 @@
 #include "preprocess/build.h"
 #include "preprocess/mesh/sample_mesh.h"
 #include "preprocess/mesh/texture.h"
+#include "tests/preprocess/discs.h"
 
 namespace splatray {
 namespace {
 
 using glm::dvec3;
+using test::Discs;
 
 constexpr double OUTWARDS = 0.08;  // radii by which packed lines may lie further out than asked for
 
@@ -57,62 +59,6 @@ Scene scene_of(const Mesh& mesh, std::uint64_t points, const MeshCreases& crease
   BuildStats stats;
   return build_scene(std::move(input), {}, 1, stats);
 }
-
-/// A scene's discs, in world units.
-class Discs {
- public:
-  explicit Discs(const Scene& scene) : scene_(scene) {}
-
-  /// Whether some disc, where it has not ended, holds a point of a surface that has this normal there.
-  [[nodiscard]] bool cover(const dvec3& place, const dvec3& normal) const {
-    const dvec3 point = scene_.root.to_root(place);
-    for (std::size_t i = 0; i < scene_.data_pool.size(); ++i) {
-      const Splat splat = unpack_splat(scene_.data_pool[i]);
-      const double cosine = glm::dot(splat.normal, normal);
-      if (std::abs(cosine) < 0.9) continue;
-      // Where a ray against the normal meets the disc's plane.
-      const dvec3 offset =
-          point - splat.center - normal * (glm::dot(splat.normal, point - splat.center) / cosine);
-      const double height = glm::length(offset - (point - splat.center));
-      if (height < 0.2 * std::sqrt(splat.radius_squared) && holds(i, splat, offset)) return true;
-    }
-    return false;
-  }
-
-  /// How far the discs reach at most beyond what `outside` says, in their radii: that is how far a point lies outside, world
-  /// units.
-  template <typename Outside>
-  [[nodiscard]] double overhang(const Outside& outside) const {
-    double most = 0.0;
-    for (std::size_t i = 0; i < scene_.data_pool.size(); ++i) {
-      const Splat splat = unpack_splat(scene_.data_pool[i]);
-      const TangentFrame frame(splat.normal);
-      const double radius = std::sqrt(splat.radius_squared);
-      for (int turn = 0; turn < 48; ++turn) {
-        const double angle = 2.0 * M_PI * turn / 48.0;
-        const dvec3 dir = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
-        for (double share = 1.0; share > 0.0; share -= 0.01) {
-          if (!holds(i, splat, share * 0.999 * radius * dir)) continue;
-          const dvec3 place = scene_.root.to_world(splat.center + share * 0.999 * radius * dir);
-          most = std::max(most, outside(place) / (radius * scene_.root.unit_world));
-          break;
-        }
-      }
-    }
-    return most;
-  }
-
- private:
-  [[nodiscard]] bool holds(std::size_t i, const Splat& splat, const dvec3& offset) const {
-    if (glm::dot(offset, offset) > splat.radius_squared) return false;
-    if (scene_.clip_pool.empty()) return true;
-    for (const ClipLine& line : unpack_clip(scene_.clip_pool[i], scene_.data_pool[i]))
-      if (glm::dot(line.across, offset) > line.limit) return false;
-    return true;
-  }
-
-  const Scene& scene_;
-};
 
 /// Points of a mesh that no disc covers, of `count`.
 std::size_t holes(const Mesh& mesh, const Discs& discs, std::size_t count) {

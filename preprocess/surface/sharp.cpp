@@ -1,0 +1,292 @@
+#include "preprocess/surface/sharp.h"
+
+#include <tbb/concurrent_vector.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "engine/scene/splat.h"
+#include "preprocess/surface/edge_planes.h"
+#include "preprocess/surface/neighbours.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::array<std::size_t, 3> COUNTS = {24, 16, 12};  // of which the first that shows planes is taken
+constexpr std::size_t SPACING_RANK = 5;                      // the sixth neighbour is one spacing away
+constexpr std::size_t CLOSE = 12;                            // neighbours that may agree
+constexpr double GIVEN_COSINE = 0.95;  // 18 degrees: a given normal agrees with its plane
+constexpr double SMOOTH_SHARE =
+    1.0 / 3.0;                     // of the crease's angle: normals that differ less have none among them
+constexpr std::size_t AGREED = 2;  // of the close neighbours, that must tell of the same
+constexpr double ALIKE_COSINE = 0.978;       // 12 degrees: two planes agree
+constexpr double BORDER_COSINE = 0.9;        // 26 degrees: two borders do
+constexpr std::size_t TRIALS = 2000;         // points that tell whether there is anything to find
+constexpr std::size_t TRIAL_NEIGHBOURS = 4;  // beside each of them
+constexpr std::size_t TRIAL_AGREED = 2;      // of which so many must agree
+constexpr double PROMISE = 0.06;             // of those that lie where the surface bends
+constexpr double STRAIGHT_GAP = 160.0 * std::numbers::pi / 180.0;
+constexpr double CORNER_GAP = 200.0 * std::numbers::pi / 180.0;
+constexpr double ROUND_LEAST =
+    0.1;  // least variance in the plane / largest: neighbours on a line tell no border
+constexpr double EMPTY_REACH = 3.0;  // of the neighbourhood's radius: how far it is empty behind a border
+
+/// The direction into the widest gap between a point's neighbours, seen in a plane.
+struct Gap {
+  double width;   ///< radians
+  double middle;  ///< angle
+  double begin, end;
+};
+std::optional<Gap> widest_gap(const Around& around, const TangentFrame& frame) {
+  std::array<double, Around::MOST> angles;
+  glm::dvec3 squares(0.0);
+  for (std::size_t j = 0; j < around.count; ++j) {
+    const double x = glm::dot(around.offset[j], frame.u), y = glm::dot(around.offset[j], frame.v);
+    angles[j] = std::atan2(y, x);
+    squares += glm::dvec3(x * x, x * y, y * y);
+  }
+  const double mean = 0.5 * (squares.x + squares.z);
+  const double apart = std::hypot(0.5 * (squares.x - squares.z), squares.y);
+  if (mean - apart < ROUND_LEAST * (mean + apart)) return {};
+  const auto end = angles.begin() + static_cast<std::ptrdiff_t>(around.count);
+  std::sort(angles.begin(), end);
+  Gap gap{};
+  for (std::size_t j = 0; j < around.count; ++j) {
+    const double from = angles[j];
+    const double to = j + 1 < around.count ? angles[j + 1] : angles[0] + 2.0 * std::numbers::pi;
+    if (to - from > gap.width) gap = {to - from, 0.5 * (from + to), from, to};
+  }
+  return gap;
+}
+
+/// What was found at a point.
+struct Found {
+  std::uint32_t point = 0;
+  bool crease = false;        ///< else a border
+  double spacing = 0.0;       ///< cloud coordinates
+  double reach = 0.0;         ///< of the neighbourhood, spacings
+  std::vector<Side> sides{};  ///< none where nothing is clear
+};
+
+bool alike(const glm::dvec3& a, const glm::dvec3& b) { return std::abs(glm::dot(a, b)) > ALIKE_COSINE; }
+
+/// Whether two lines, each with the normal of its plane, are of one crease or border.
+bool agree(const glm::dvec3& normal_a, const Line& a, const glm::dvec3& normal_b, const Line& b) {
+  if (a.other == glm::dvec3(0.0)) return glm::dot(a.out, b.out) > BORDER_COSINE;
+  return (alike(normal_a, normal_b) && alike(a.other, b.other)) ||
+         (alike(normal_a, b.other) && alike(a.other, normal_b));
+}
+
+/// Whether two points tell of the same crease or border.
+bool agree(const Found& a, const Found& b) {
+  if (a.crease != b.crease) return false;
+  for (const Side& one : a.sides)
+    for (const Side& two : b.sides)
+      for (std::size_t i = 0; i < one.count; ++i)
+        for (std::size_t k = 0; k < two.count; ++k)
+          if (agree(one.normal, one.lines[i], two.normal, two.lines[k])) return true;
+  return false;
+}
+
+/// Finds creases and borders around the points of one cloud.
+class SharpSearch {
+ public:
+  SharpSearch(const Cloud& cloud, double crease_degrees, const std::vector<bool>& given)
+      : cloud_(cloud),
+        given_(given),
+        crease_(crease_degrees * std::numbers::pi / 180.0),
+        cos_smooth_(std::cos(SMOOTH_SHARE * crease_)),
+        search_(cloud, Sites::positions) {}
+
+  /// Whether a few points, spread over the cloud, tell that there is something to find: noise bends surfaces everywhere.
+  [[nodiscard]] bool promises() const {
+    const std::size_t step = cloud_.size() / TRIALS + 1;
+    std::atomic<std::size_t> bent = 0, agreed = 0;
+    tbb::parallel_for(std::size_t{0}, cloud_.size() / step, [&](std::size_t trial) {
+      std::array<Neighbour, Around::MOST> nearest;
+      const auto point = static_cast<std::uint32_t>(trial * step);
+      const Found found = look_at(point, nearest);
+      if (!found.crease) return;
+      ++bent;
+      if (found.sides.empty()) return;
+      std::size_t alike = 0;
+      for (std::size_t j = 0; j < TRIAL_NEIGHBOURS; ++j) {
+        std::array<Neighbour, Around::MOST> its;
+        alike += agree(found, look_at(nearest[j].index(), its)) ? 1 : 0;
+      }
+      agreed += alike >= TRIAL_AGREED ? 1 : 0;
+    });
+    return static_cast<double>(agreed) >= PROMISE * static_cast<double>(bent);
+  }
+
+  /// All sides of all points that enough of their neighbours agree with.
+  [[nodiscard]] std::vector<SharpSide> run(const Stage& stage) const {
+    tbb::concurrent_vector<Found> unordered;
+    search_.find_all(Around::MOST, stage, [&](std::uint32_t point, std::span<Neighbour> nearest) {
+      Found found = look_at(point, nearest);
+      if (!found.sides.empty()) unordered.push_back(std::move(found));
+    });
+    std::vector<Found> all(unordered.begin(), unordered.end());
+    const auto by_point = [](const Found& a, const Found& b) { return a.point < b.point; };
+    std::sort(all.begin(), all.end(), by_point);
+    std::vector<std::uint8_t> agreed(all.size());
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+      std::array<Neighbour, Around::MOST> nearest;
+      const std::size_t count = search_.find(cloud_.coord[all[i].point], std::span(nearest).first(CLOSE));
+      std::size_t alike = 0;
+      for (std::size_t j = 0; j < count; ++j) {
+        const Found key{.point = nearest[j].index()};
+        const auto other = std::lower_bound(all.begin(), all.end(), key, by_point);
+        alike += other != all.end() && other->point == key.point && agree(all[i], *other) ? 1 : 0;
+      }
+      agreed[i] = alike >= AGREED ? 1 : 0;
+    });
+    std::vector<SharpSide> sides;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (agreed[i] != 0) add_sides(all[i], sides);
+    return sides;
+  }
+
+ private:
+  /// `nearest` is sorted.
+  [[nodiscard]] Found look_at(std::uint32_t point, std::array<Neighbour, Around::MOST>& nearest) const {
+    const std::size_t count = search_.find(cloud_.coord[point], nearest);
+    return look_at(point, std::span(nearest).first(count));
+  }
+  [[nodiscard]] Found look_at(std::uint32_t point, std::span<Neighbour> nearest) const {
+    Found found{.point = point};
+    if (nearest.size() < Around::MOST) return found;
+    std::sort(nearest.begin(), nearest.end());
+    Around around;
+    around.count = nearest.size();
+    found.spacing = std::sqrt(double(nearest[SPACING_RANK].distance_squared()));
+    const glm::dvec3 place(cloud_.coord[point]), normal(cloud_.normal[point]);
+    for (std::size_t j = 0; j < around.count; ++j) {
+      const std::uint32_t other = nearest[j].index();
+      around.offset[j] = (glm::dvec3(cloud_.coord[other]) - place) / found.spacing;
+      found.crease =
+          found.crease || !(std::abs(glm::dot(glm::dvec3(cloud_.normal[other]), normal)) > cos_smooth_);
+    }
+    around.reach = glm::length(around.offset[around.count - 1]);
+    if (!found.crease) found.sides = border_at(around, found.spacing, place, normal);
+    for (const std::size_t count : COUNTS) {
+      if (!found.crease || !found.sides.empty()) break;
+      around.count = count;
+      around.reach = glm::length(around.offset[count - 1]);
+      found.sides = find_sides(around, crease_);
+    }
+    found.reach = around.reach;
+    if (given_[point]) keep_given(found.sides, normal);
+    return found;
+  }
+
+  void add_sides(const Found& found, std::vector<SharpSide>& sides) const {
+    const glm::dvec3 normal(cloud_.normal[found.point]);
+    std::uint32_t number = 0;
+    for (const Side& side : found.sides) {
+      const glm::dvec3 facing = glm::dot(side.normal, normal) < 0.0 ? -side.normal : side.normal;
+      SharpSide& sharp =
+          sides.emplace_back(SharpSide{found.point, number++, found.crease, glm::vec3(facing), {}});
+      sharp.clip.reach = static_cast<float>(found.reach * found.spacing);
+      for (std::size_t i = 0; i < side.count; ++i) {
+        sharp.clip.dir[i] = glm::vec3(side.lines[i].out);
+        sharp.clip.distance[i] = static_cast<float>(side.lines[i].distance * found.spacing);
+      }
+    }
+  }
+
+  /// The side that a given normal belongs to, with that normal.
+  static void keep_given(std::vector<Side>& sides, const glm::dvec3& normal) {
+    const auto agrees = [&](const Side& side) {
+      return std::abs(glm::dot(side.normal, normal)) > GIVEN_COSINE;
+    };
+    const auto found = std::find_if(sides.begin(), sides.end(), agrees);
+    if (found == sides.end()) {
+      sides.clear();
+      return;
+    }
+    Side side = *found;
+    for (std::size_t i = 0; i < side.count; ++i) {
+      glm::dvec3& out = side.lines[i].out;
+      out = glm::normalize(out - normal * glm::dot(out, normal));
+    }
+    side.normal = normal;
+    sides = {side};
+  }
+
+  [[nodiscard]] std::vector<Side> border_at(const Around& around, double spacing, const glm::dvec3& place,
+                                            const glm::dvec3& normal) const {
+    const TangentFrame frame(normal);
+    const auto gap = widest_gap(around, frame);
+    if (!gap || gap->width < STRAIGHT_GAP) return {};
+    const auto direction = [&](double angle) {
+      return std::cos(angle) * frame.u + std::sin(angle) * frame.v;
+    };
+    if (!empty_towards(around.reach * spacing, place, direction(gap->middle))) return {};
+    Side side{normal, {}, 0};
+    const bool corner = gap->width > CORNER_GAP;
+    const double quarter = 0.5 * std::numbers::pi;
+    if (corner) {
+      side.lines[side.count++].out = direction(gap->begin + quarter);
+      side.lines[side.count++].out = direction(gap->end - quarter);
+    } else {
+      side.lines[side.count++].out = direction(gap->middle);
+    }
+    for (std::size_t i = 0; i < side.count; ++i) {
+      Line& line = side.lines[i];
+      line.distance = 0.0;
+      for (std::size_t j = 0; j < around.count; ++j)
+        line.distance = std::max(line.distance, glm::dot(around.offset[j], line.out));
+    }
+    return {side};
+  }
+
+  /// Whether no site is in a large ball behind the border.
+  [[nodiscard]] bool empty_towards(double around, const glm::dvec3& place, const glm::dvec3& out) const {
+    const double reach = EMPTY_REACH * around;
+    std::array<Neighbour, 1> nearest;
+    if (search_.find(glm::vec3(place + reach * out), nearest) == 0) return true;
+    return std::sqrt(double(nearest[0].distance_squared())) > 0.9 * reach;
+  }
+
+  const Cloud& cloud_;
+  const std::vector<bool>& given_;
+  const double crease_, cos_smooth_;
+  NeighbourSearch search_;
+};
+
+}  // namespace
+
+std::vector<SharpSide> find_sharp(const Cloud& cloud, double crease_degrees, const std::vector<bool>& given,
+                                  const Stage& stage) {
+  const SharpSearch search(cloud, crease_degrees, given);
+  return search.promises() ? search.run(stage) : std::vector<SharpSide>{};
+}
+
+void take_normals(Cloud& cloud, std::span<const SharpSide> sides) {
+  for (const SharpSide& side : sides)
+    if (side.number == 0) cloud.normal[side.point] = side.normal;
+}
+
+void take_sides(Cloud& cloud, std::span<const SharpSide> sides) {
+  if (sides.empty()) return;
+  std::vector<std::uint32_t> copied;
+  for (const SharpSide& side : sides)
+    if (side.number > 0) copied.push_back(side.point);
+  std::size_t next = cloud.size();
+  add_copies(cloud, copied);
+  cloud.clip.resize(cloud.size());
+  for (const SharpSide& side : sides) {
+    const std::size_t point = side.number > 0 ? next++ : side.point;
+    cloud.normal[point] = side.normal;
+    cloud.clip[point] = side.clip;
+  }
+  put_in_order(cloud);
+}
+
+}  // namespace splatray

@@ -1,0 +1,36 @@
+/// Creases and borders of a surface that is known by its points alone.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "preprocess/base/parallel.h"
+#include "preprocess/surface/cloud.h"
+
+namespace splatray {
+
+/// A plane on which a point lies, and where the surface in it ends.
+struct SharpSide {
+  std::uint32_t point;
+  std::uint32_t number;  ///< of the point's sides, which follow each other, from 0 on
+  bool crease;           ///< ends at creases, else at borders
+  glm::vec3 normal;      ///< unit, on the side of the point's
+  PointClip clip;        ///< cloud coordinates
+};
+
+/// Where the evidence is clear, what a mesh would tell of the points' planes and lines; by point.
+/// Creases: the neighbourhood is two or three planes to within a twentieth of the spacing, each has points of its own, on one
+/// side of the line that two share, and they turn by more than `crease_degrees` there. A point has a side for each plane that
+/// it is on. Where `given` tells that a point's normal is the file's, it has but the one that agrees.
+/// Borders: half of a point's surroundings, or three quarters at a corner, has no neighbours, those at the ends of the gap lie on
+/// its line, and far more room behind it is empty: where sampling is denser on one side nothing ends.
+[[nodiscard]] std::vector<SharpSide> find_sharp(const Cloud& cloud, double crease_degrees,
+                                                const std::vector<bool>& given, const Stage& stage);
+
+/// Gives points the normals of their first sides; the cloud is then out of order.
+void take_normals(Cloud& cloud, std::span<const SharpSide> sides);
+
+/// Gives points their first sides' clip lines, adds a point for each further side, and puts the cloud in order.
+void take_sides(Cloud& cloud, std::span<const SharpSide> sides);
+
+}  // namespace splatray
