@@ -34,10 +34,10 @@ void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
   survey.keep(kept, number);
 }
 
-/// Creases and borders among the points, as `params` ask for.
+/// Creases and borders among the points, as `params` ask for; of points without radii, as others are discs already.
 std::vector<SharpSide> find_sharp_sides(const Cloud& cloud, const Survey& survey, const BuildParams& params,
                                         const Stage& stage) {
-  if (!params.clip) return {};
+  if (!params.clip || !cloud.radius.empty()) return {};
   std::vector<bool> given(cloud.size());
   for (std::size_t i = 0; i < given.size(); ++i) given[i] = survey.estimated[i] == 0;
   return find_sharp(cloud, params.crease_degrees, given, stage);

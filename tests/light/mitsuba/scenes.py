@@ -153,7 +153,7 @@ def build(scene, programs, folder):
         files.append(f"{folder}/{name}.ply")
         write_points(files[-1], part)
     soct = f"{folder}/scene.soct"
-    subprocess.run([f"{programs}/splatray-preprocess", *files, "-o", soct, "--normal-fields=off"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run([f"{programs}/splatray-preprocess", *files, "-o", soct, "--normal-fields=off", "--clip=off"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     options = ["--look=lit", "--max-bounces=64", "--tone=none", f"--fov={scene.fov_deg}"]
     for name, value in (("eye", scene.eye), ("target", scene.target)):
         options.append(f"--{name}=" + ",".join(map(str, value)))
