@@ -126,6 +126,10 @@ struct ScanOptions {
   std::vector<std::string>
       attributes;  ///< further ones to keep, by name (LAS's extra bytes, columns of text, PCD, PLY)
 
+  /// Where the scanner stood, world units after z_scale, for points whose file does not say; it tells the sides of their normals.
+  std::optional<glm::dvec3> sensor_world;
+  double z_scale = 1.0;  ///< factor on heights, > 0: 0.3048 where they are in feet beside metres
+
   bool operator==(const ScanOptions&) const = default;
 };
 

@@ -34,6 +34,9 @@ void add_smoothing(OptionList& list, double& smooth_world) {
 
 void add_scan_options(OptionList& list, ScanOptions& scans) {
   list.add_switch("--strict", scans.strict, "refuse a scan that holds less than it says");
+  add_vector(list, "--sensor", scans.sensor_world,
+             "where the scanner stood, for points whose file does not say; tells the sides of their normals");
+  add_number(list, "--z-scale", scans.z_scale, 1e-6, 1e6, "factor on the heights of points; default 1");
   list.add_switch("--ignore-checksums", scans.ignore_checksums, "read an E57 with damaged pages");
   list.add_switch("--keep-withheld", scans.keep_withheld,
                   "keep points that are marked as deleted or as noise (classes 7 and 18)");

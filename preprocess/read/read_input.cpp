@@ -7,6 +7,7 @@
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/points.h"
+#include "preprocess/read/adjust_points.h"
 #include "preprocess/read/formats.h"
 #include "preprocess/read/join_scans.h"
 #include "preprocess/read/read_mesh.h"
@@ -162,6 +163,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
     merge(input, std::move(more));
   }
   if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
+  for (InputObject& object : input.objects) adjust_points(object, options.scans);
   points_from_meshes(input, options);
   drop_empty_objects(input);
   if (input.objects.empty()) {

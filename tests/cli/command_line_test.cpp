@@ -67,6 +67,8 @@ SceneOptions random_scene(Dice& dice) {
   scene.scans.strict = dice.chance(0.5);
   scene.scans.ignore_checksums = dice.chance(0.5);
   scene.scans.keep_withheld = dice.chance(0.5);
+  if (dice.chance(0.5)) scene.scans.sensor_world = vector(dice);
+  scene.scans.z_scale = dice.chance(0.5) ? 0.3048 : 1.0;
   if (dice.chance(0.5)) scene.scans.columns = odd_text(dice);
   for (std::uint32_t i = dice.below(3); i > 0; --i)
     scene.scans.attributes.push_back("name " + std::to_string(i));
