@@ -16,7 +16,9 @@ InputObject slope() {
 TEST(AdjustPoints, HeightsAreScaledAndNormalsStaySquareToTheSurface) {
   InputObject object = slope();
   object.points.stations = {{"a", glm::dvec3(0.0, 0.0, 50.0), 0, 0}};
-  adjust_points(object, {.z_scale = 0.1});
+  ScanOptions options;
+  options.z_scale = 0.1;
+  adjust_points(object, options);
   EXPECT_EQ(object.points.position[1], glm::dvec3(1.0, 0.0, 1.0));
   const glm::dvec3 along = object.points.position[1] - object.points.position[0];
   EXPECT_NEAR(glm::dot(along, glm::dvec3(object.points.normal[0])), 0.0, 1e-6);
@@ -24,7 +26,8 @@ TEST(AdjustPoints, HeightsAreScaledAndNormalsStaySquareToTheSurface) {
 }
 
 TEST(AdjustPoints, TheScannersPlaceIsForThoseThatDoNotSay) {
-  const ScanOptions options{.sensor_world = glm::dvec3(1.0, 2.0, 3.0)};
+  ScanOptions options;
+  options.sensor_world = glm::dvec3(1.0, 2.0, 3.0);
   InputObject without = slope(), with = slope();
   with.points.stations = {{"a", glm::dvec3(9.0), 0, 0}, {"b", {}, 0, 0}};
   adjust_points(without, options);
