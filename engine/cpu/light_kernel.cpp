@@ -1,39 +1,14 @@
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <glm/glm.hpp>
-#include <limits>
-
-#include "engine/cpu/kernel.h"
-#include "engine/scene/splat.h"
-#include "shaders/light/albedo_layout.h"
-
 #define LIT
+#include "engine/cpu/picture_kernel.h"
 
 namespace splatray {
-namespace {
-
-#include "shaders/lang/glsl_as_cpp.h"
-//
-#include "engine/cpu/bindings_as_cpp.h"
-//
-#include "stage/empty.glsl"
-#include "stage/trace.glsl"
-
-}  // namespace
 
 void run_light_kernel(const KernelWork& work, std::uint32_t group, Counts& counts) {
-  run_group(work, group, counts, [] {
-    Work found{};
-    if (find_work(found)) trace_work(found);
-  });
+  run_pictures(work, group, counts);
 }
 
 void run_empty_light_kernel(const KernelWork& work, std::uint32_t group, Counts& counts) {
-  run_group(work, group, counts, [] {
-    uvec2 in_tile(0);
-    if (find_pixel(in_tile)) miss_all(in_tile);
-  });
+  run_misses(work, group, counts);
 }
 
 }  // namespace splatray

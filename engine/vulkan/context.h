@@ -1,5 +1,5 @@
-/// Instance, device and queue; headless unless told what a window needs. No extension is required; Vulkan 1.2. Or, without Vulkan,
-/// the host itself.
+/// Instance, device and queue; headless unless told what a window needs. No extension is required; Vulkan 1.2.
+/// Or, without Vulkan, the host itself.
 #pragma once
 #include <atomic>
 #include <cstddef>
@@ -35,7 +35,8 @@ inline constexpr const char* HOST_DEVICE = "cpu";
 class Context {
  public:
   /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
-  /// part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not even loaded. Throws Error (no_device) with every device's reason when none fits.
+  /// part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not even loaded. Throws
+  /// Error (no_device) with every device's reason when none fits.
   /// Validation layers and their messages are on when `validation` (or the environment variable
   /// SPLATRAY_VALIDATION=1) is set; each validation warning or error is counted and printed on stderr. Throws
   /// Error (failed) when they are asked for but not installed.

@@ -38,9 +38,7 @@ void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
 std::vector<SharpSide> find_sharp_sides(const Cloud& cloud, const Survey& survey, const BuildParams& params,
                                         const Stage& stage) {
   if (!params.clip || !cloud.radius.empty()) return {};
-  std::vector<bool> given(cloud.size());
-  for (std::size_t i = 0; i < given.size(); ++i) given[i] = survey.estimated[i] == 0;
-  return find_sharp(cloud, params.crease_degrees, given, stage);
+  return find_sharp(cloud, params.crease_degrees, survey.estimated, stage);
 }
 
 void count_sharp(const std::vector<SharpSide>& sharp, BuildStats& stats) {

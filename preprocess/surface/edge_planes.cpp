@@ -156,7 +156,7 @@ std::vector<Side> find_sides(const Around& around, double crease) {
       if (k == i || side.count == side.lines.size()) continue;
       const auto line = line_between(around, own, edges->planes[k]);
       const auto back = line_between(around, edges->planes[k], own);
-      if (!line || !back || turn_of(*line, *back) < crease || line->distance > around.reach) continue;
+      if (!line || !back || turn_of(*line, *back) < crease || line->distance > around.reach()) continue;
       side.lines[side.count++] = *line;
     }
     if (side.count > 0) sides.push_back(side);

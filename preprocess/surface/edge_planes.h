@@ -13,14 +13,16 @@ struct Around {
 
   std::array<glm::dvec3, MOST> offset;
   std::size_t count = 0;
-  double reach = 0.0;  ///< of the farthest neighbour
+
+  /// Of the farthest neighbour.
+  [[nodiscard]] double reach() const { return glm::length(offset[count - 1]); }
 };
 
 /// The line that a plane shares with another, seen from the point.
 struct Line {
-  glm::dvec3 out;    ///< unit, in the plane, square to the line, away from the plane's own points
-  glm::dvec3 other;  ///< normal of the plane behind it; zero at a border
-  double distance;   ///< from the point
+  glm::dvec3 out;         ///< unit, in the plane, square to the line, away from the plane's own points
+  glm::dvec3 other{0.0};  ///< normal of the plane behind it; zero at a border
+  double distance;        ///< from the point
 };
 
 /// One plane of a point, and the lines that its disc ends at.

@@ -96,9 +96,9 @@ bool agree(const Found& a, const Found& b) {
 /// Finds creases and borders around the points of one cloud.
 class SharpSearch {
  public:
-  SharpSearch(const Cloud& cloud, double crease_degrees, const std::vector<bool>& given)
+  SharpSearch(const Cloud& cloud, double crease_degrees, std::span<const std::uint8_t> estimated)
       : cloud_(cloud),
-        given_(given),
+        estimated_(estimated),
         crease_(crease_degrees * std::numbers::pi / 180.0),
         cos_smooth_(std::cos(SMOOTH_SHARE * crease_)),
         search_(cloud, Sites::positions) {}
@@ -153,15 +153,14 @@ class SharpSearch {
   }
 
  private:
-  /// `nearest` is sorted.
+  /// What a point's nearest sites, ascending, tell; `nearest` has them then.
   [[nodiscard]] Found look_at(std::uint32_t point, std::array<Neighbour, Around::MOST>& nearest) const {
     const std::size_t count = search_.find(cloud_.coord[point], nearest);
     return look_at(point, std::span(nearest).first(count));
   }
-  [[nodiscard]] Found look_at(std::uint32_t point, std::span<Neighbour> nearest) const {
+  [[nodiscard]] Found look_at(std::uint32_t point, std::span<const Neighbour> nearest) const {
     Found found{.point = point};
     if (nearest.size() < Around::MOST) return found;
-    std::sort(nearest.begin(), nearest.end());
     Around around;
     around.count = nearest.size();
     found.spacing = std::sqrt(double(nearest[SPACING_RANK].distance_squared()));
@@ -172,16 +171,14 @@ class SharpSearch {
       found.crease =
           found.crease || !(std::abs(glm::dot(glm::dvec3(cloud_.normal[other]), normal)) > cos_smooth_);
     }
-    around.reach = glm::length(around.offset[around.count - 1]);
     if (!found.crease) found.sides = border_at(around, found.spacing, place, normal);
     for (const std::size_t count : COUNTS) {
       if (!found.crease || !found.sides.empty()) break;
       around.count = count;
-      around.reach = glm::length(around.offset[count - 1]);
       found.sides = find_sides(around, crease_);
     }
-    found.reach = around.reach;
-    if (given_[point]) keep_given(found.sides, normal);
+    found.reach = around.reach();
+    if (estimated_[point] == 0) keep_given(found.sides, normal);
     return found;
   }
 
@@ -227,7 +224,7 @@ class SharpSearch {
     const auto direction = [&](double angle) {
       return std::cos(angle) * frame.u + std::sin(angle) * frame.v;
     };
-    if (!empty_towards(around.reach * spacing, place, direction(gap->middle))) return {};
+    if (!empty_towards(around.reach() * spacing, place, direction(gap->middle))) return {};
     Side side{normal, {}, 0};
     const bool corner = gap->width > CORNER_GAP;
     const double quarter = 0.5 * std::numbers::pi;
@@ -255,16 +252,16 @@ class SharpSearch {
   }
 
   const Cloud& cloud_;
-  const std::vector<bool>& given_;
+  std::span<const std::uint8_t> estimated_;
   const double crease_, cos_smooth_;
   NeighbourSearch search_;
 };
 
 }  // namespace
 
-std::vector<SharpSide> find_sharp(const Cloud& cloud, double crease_degrees, const std::vector<bool>& given,
-                                  const Stage& stage) {
-  const SharpSearch search(cloud, crease_degrees, given);
+std::vector<SharpSide> find_sharp(const Cloud& cloud, double crease_degrees,
+                                  std::span<const std::uint8_t> estimated, const Stage& stage) {
+  const SharpSearch search(cloud, crease_degrees, estimated);
   return search.promises() ? search.run(stage) : std::vector<SharpSide>{};
 }
 

@@ -8,7 +8,6 @@
 #include "light/camera.glsl"
 #include "light/environment.glsl"
 
-
 /// Even bits of a Z-order index.
 uint even_bits(uint x) {
   x &= 0x55u;

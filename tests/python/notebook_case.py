@@ -40,12 +40,16 @@ def run_notebook():
     return notebook
 
 
+def kinds_of(notebook):
+    """What each cell shows: output types."""
+    return [[output["output_type"] for output in cell.get("outputs", [])] for cell in notebook["cells"]]
+
+
 class Notebook(unittest.TestCase):
     def test_all_cells_run_and_show_what_they_did(self):
         kept = json.loads(NOTEBOOK.read_text())
         shown = run_notebook()
-        kinds = lambda notebook: [[output["output_type"] for output in cell.get("outputs", [])] for cell in notebook["cells"]]
-        self.assertEqual(kinds(kept), kinds(shown))
+        self.assertEqual(kinds_of(kept), kinds_of(shown))
         self.assertGreaterEqual(sum("image/png" in str(cell.get("outputs")) for cell in shown["cells"]), 2)
 
 

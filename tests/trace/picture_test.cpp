@@ -36,12 +36,24 @@ Settings small_settings() {
   return settings;
 }
 
-Image gpu_picture(const Scene& scene, const View& view, const Environment& environment) {
-  static Context context;
+/// A picture, and what was counted.
+struct Made {
+  Image image;
+  RenderStats stats;
+};
+Made made_on(const Context& context, const Scene& scene, const View& view, const Settings& settings,
+             const Environment& environment) {
   Tracer tracer(context);
   tracer.upload(scene);
   tracer.set_environment(environment);
-  return tracer.render(view, small_settings());
+  Made made{tracer.render(view, settings), {}};
+  made.stats = tracer.stats();
+  return made;
+}
+
+Image gpu_picture(const Scene& scene, const View& view, const Environment& environment) {
+  static Context context;
+  return made_on(context, scene, view, small_settings(), environment).image;
 }
 
 /// Takes the truth for those pixels of `pictures.gpu` whose truth moves by more than half of `threshold` (display
@@ -148,24 +160,6 @@ INSTANTIATE_TEST_SUITE_P(
         SceneCase{"demo", false, {0.004, 0.0005, 0.05}, 0.001, "smooth mirror and glass, so few paths tip"}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
-/// The picture of a look on a device, and what it counted.
-struct Made {
-  Image image;
-  RenderStats stats;
-};
-Made made_on(const Context& context, const Scene& scene, const View& view, std::uint32_t look) {
-  Tracer tracer(context);
-  tracer.upload(scene);
-  tracer.set_environment(studio_environment());
-  Settings settings = small_settings();
-  settings.look = look;
-  settings.counters = true;
-  settings.aov = true;
-  Made made{tracer.render(view, settings), {}};
-  made.stats = tracer.stats();
-  return made;
-}
-
 /// A ball of glass on a floor that is half a mirror.
 Scene ball_on_mirror() {
   Material mirror = test_material(MATERIAL_TWO_SIDED);
@@ -181,7 +175,12 @@ TEST(Picture, TheHostMakesThatOfTheDevice) {
   scene.lights = default_lights(scene, view.camera);
   const Context device, host(HOST_DEVICE);
   for (const std::uint32_t look : {LOOK_PAPER, LOOK_LIT, LOOK_AO, LOOK_SCAN}) {
-    const Made expected = made_on(device, scene, view, look), made = made_on(host, scene, view, look);
+    Settings settings = small_settings();
+    settings.look = look;
+    settings.counters = true;
+    settings.aov = true;
+    const Made expected = made_on(device, scene, view, settings, studio_environment());
+    const Made made = made_on(host, scene, view, settings, studio_environment());
     const Tolerance tolerance{0.004, 0.0005, 0.05};
     EXPECT_TRUE(
         compare_pictures(made.image, expected.image, tolerance, "host_" + std::to_string(look)).passed);
