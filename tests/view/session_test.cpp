@@ -36,14 +36,8 @@ class ViewSession : public CliTest {
     second = write("second.ply", grid_ply(true, 100.0));
   }
 
-  /// Lavapipe stays loaded to the end: its 112 bytes for a window's surface are reachable only from its own variables, and
-  /// the leak checker would take them for a leak once the loader has unloaded it.
   std::vector<std::string> viewer_environment() {
-    std::vector<std::string> variables = {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")};
-    const char* const drivers = std::getenv("VK_LOADER_DRIVERS_SELECT");
-    if (drivers != nullptr && std::string(drivers).find("lvp") != std::string::npos)
-      variables.emplace_back("LD_PRELOAD=libvulkan_lvp.so");
-    return variables;
+    return {"DISPLAY=" + desktop.display(), "XDG_STATE_HOME=" + file("state")};
   }
 
   /// Starts the viewer with a window of 960 x 600; `more`: further environment variables.
