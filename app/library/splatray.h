@@ -7,7 +7,9 @@
 ///
 /// World space is right-handed, in the units of the input, float64. Colours and radiances are linear sRGB. Lengths are world
 /// units, angles degrees. Nothing is printed, and no file is written but those that are named. Every failure is an Error. All
-/// functions may be called from several threads at once, with the same scene too: what needs the device waits its turn.
+/// functions may be called from several threads at once, with the same scene too: what needs the device waits its turn. A process
+/// that is forked off after the first use of a Vulkan device gets an Error (no_device) where it uses one; all else works there, the
+/// device "cpu" too.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -50,7 +52,8 @@ class SPLATRAY_API Error : public std::runtime_error {
 };
 
 /// Hears the name of a stage and the share of it done, 0..1, on the thread that called, some times a second; returns false to
-/// cancel. What it throws ends the call likewise and reaches the caller.
+/// cancel. What it throws ends the call likewise and reaches the caller. It may make, use and end scenes; where it uses the one
+/// whose picture or rays it hears of, that is an Error (usage).
 using Progress = std::function<bool(const char* stage, double share)>;
 
 /// What an object is made of.
@@ -133,15 +136,15 @@ class SPLATRAY_API Scene {
     std::uint32_t object;
   };
   [[nodiscard]] Splat splat(std::size_t index) const;
-  /// Writes splatray's scene file (.soct), which opens without preprocess. Throws Error (failed); then there is no file.
-  void save(const std::filesystem::path& file) const;
+  /// Writes splatray's scene file (.soct), which opens without preprocess. Throws Error (failed, cancelled); then there is no file.
+  void save(const std::filesystem::path& file, const Progress& progress = {}) const;
 
   struct Impl;  ///< not for users
 
  private:
-  explicit Scene(std::unique_ptr<Impl> impl);
+  explicit Scene(std::shared_ptr<Impl> impl);
   friend struct SceneAccess;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<Impl> impl_;
 };
 
 /// A camera. The picture's top is towards `up`.

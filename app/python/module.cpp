@@ -29,17 +29,6 @@ std::span<const std::array<Value, 3>> rows(const std::optional<Rows<Value>>& arr
   return array ? rows(*array) : std::span<const std::array<Value, 3>>{};
 }
 
-/// A scene that ends without the interpreter's lock: it waits for its device, whose user may wait for the lock.
-struct Scene {
-  explicit Scene(api::Scene opened) : scene(std::in_place, std::move(opened)) {}
-  Scene(Scene&&) = default;
-  ~Scene() {
-    const nb::gil_scoped_release unlocked;
-    scene.reset();
-  }
-  std::optional<api::Scene> scene;
-};
-
 /// Runs body() without the interpreter's lock.
 template <typename Body>
 auto unlocked(const Body& body) {
@@ -47,16 +36,16 @@ auto unlocked(const Body& body) {
   return body();
 }
 
-Scene* open(const std::vector<std::filesystem::path>& files, api::OpenOptions options,
-            const nb::object& progress) {
+api::Scene* open(const std::vector<std::filesystem::path>& files, api::OpenOptions options,
+                 const nb::object& progress) {
   options.progress = progress_of(progress);
-  return unlocked([&] { return new Scene(api::open(files, options)); });
+  return unlocked([&] { return new api::Scene(api::open(files, options)); });
 }
 
-Scene* make_scene(const Rows<double>& positions, const std::optional<Rows<float>>& normals,
-                  const std::optional<Rows<float>>& colors, const std::optional<Column>& radii,
-                  const std::string& name, const std::optional<api::Material>& material,
-                  std::optional<bool> scanned, api::OpenOptions options, const nb::object& progress) {
+api::Scene* make_scene(const Rows<double>& positions, const std::optional<Rows<float>>& normals,
+                       const std::optional<Rows<float>>& colors, const std::optional<Column>& radii,
+                       const std::string& name, const std::optional<api::Material>& material,
+                       std::optional<bool> scanned, api::OpenOptions options, const nb::object& progress) {
   api::Points points;
   points.positions = rows(positions);
   points.normals = rows(normals);
@@ -66,26 +55,27 @@ Scene* make_scene(const Rows<double>& positions, const std::optional<Rows<float>
   points.material = material;
   points.scanned = scanned;
   options.progress = progress_of(progress);
-  return unlocked([&] { return new Scene(api::make_scene(points, options)); });
+  return unlocked([&] { return new api::Scene(api::make_scene(points, options)); });
 }
 
-api::Camera frame(const Scene& scene, std::optional<double> azimuth, std::optional<double> elevation,
+api::Camera frame(const api::Scene& scene, std::optional<double> azimuth, std::optional<double> elevation,
                   std::optional<double> fov, double aspect) {
-  return unlocked([&] { return api::frame(*scene.scene, {azimuth, elevation, fov, aspect}); });
+  return unlocked([&] { return api::frame(scene, {azimuth, elevation, fov, aspect}); });
 }
 
-api::Image* render(const Scene& scene, const api::Camera& camera, std::uint32_t width, std::uint32_t height,
-                   const api::Look& look, const api::Settings& settings, const nb::object& progress) {
+api::Image* render(const api::Scene& scene, const api::Camera& camera, std::uint32_t width,
+                   std::uint32_t height, const api::Look& look, const api::Settings& settings,
+                   const nb::object& progress) {
   const api::Progress relay = progress_of(progress);
   return unlocked([&] {
-    return new api::Image(api::render(*scene.scene, {camera, width, height}, look, settings, relay));
+    return new api::Image(api::render(scene, {camera, width, height}, look, settings, relay));
   });
 }
 
-nb::tuple trace(const Scene& scene, const Rows<double>& origins, const Rows<double>& directions,
+nb::tuple trace(const api::Scene& scene, const Rows<double>& origins, const Rows<double>& directions,
                 const nb::object& progress) {
   const api::Progress relay = progress_of(progress);
-  api::Hits hits = unlocked([&] { return api::trace(*scene.scene, rows(origins), rows(directions), relay); });
+  api::Hits hits = unlocked([&] { return api::trace(scene, rows(origins), rows(directions), relay); });
   const std::size_t count = hits.t.size();
   return nb::make_tuple(owning_array<double>(std::move(hits.t), {count}),
                         owning_array<float>(std::move(hits.normal), {count, 3}),
@@ -94,13 +84,13 @@ nb::tuple trace(const Scene& scene, const Rows<double>& origins, const Rows<doub
                         owning_array<std::int64_t>(std::move(hits.point), {count}));
 }
 
-nb::tuple splats(const Scene& scene) {
-  const std::size_t count = scene.scene->splats();
+nb::tuple splats(const api::Scene& scene) {
+  const std::size_t count = scene.splats();
   std::vector<api::Double3> centers, normals;
   std::vector<double> radii;
   std::vector<std::int32_t> objects;
   for (std::size_t i = 0; i < count; ++i) {
-    const api::Scene::Splat splat = scene.scene->splat(i);
+    const api::Scene::Splat splat = scene.splat(i);
     centers.push_back(splat.center);
     normals.push_back(splat.normal);
     radii.push_back(splat.radius);
@@ -128,21 +118,23 @@ nb::bytes png(const api::Image& image, double exposure, int tone) {
 }
 
 void add_scene(nb::module_& module) {
-  nb::class_<Scene>(module, "Scene")
-      .def_prop_ro("splat_count", [](const Scene& scene) { return scene.scene->splats(); })
-      .def_prop_ro("bounds",
-                   [](const Scene& scene) {
-                     return std::make_tuple(scene.scene->bounds_low(), scene.scene->bounds_high());
-                   })
-      .def_prop_ro("up", [](const Scene& scene) { return scene.scene->up(); })
-      .def_prop_ro("objects", [](const Scene& scene) { return scene.scene->objects(); })
-      .def_prop_ro("materials", [](const Scene& scene) { return scene.scene->materials(); })
-      .def_prop_ro("notes", [](const Scene& scene) { return scene.scene->notes(); })
-      .def_prop_ro("device",
-                   [](const Scene& scene) { return unlocked([&] { return scene.scene->device(); }); })
+  nb::class_<api::Scene>(module, "Scene")
+      .def_prop_ro("splat_count", [](const api::Scene& scene) { return scene.splats(); })
+      .def_prop_ro(
+          "bounds",
+          [](const api::Scene& scene) { return std::make_tuple(scene.bounds_low(), scene.bounds_high()); })
+      .def_prop_ro("up", [](const api::Scene& scene) { return scene.up(); })
+      .def_prop_ro("objects", [](const api::Scene& scene) { return scene.objects(); })
+      .def_prop_ro("materials", [](const api::Scene& scene) { return scene.materials(); })
+      .def_prop_ro("notes", [](const api::Scene& scene) { return scene.notes(); })
+      .def_prop_ro("device", [](const api::Scene& scene) { return unlocked([&] { return scene.device(); }); })
       .def("splats", splats)
-      .def("save", [](const Scene& scene,
-                      const std::filesystem::path& file) { unlocked([&] { scene.scene->save(file); }); })
+      .def("save",
+           [](const api::Scene& scene, const std::filesystem::path& file) {
+             const nb::object nobody = nb::none();
+             const api::Progress signals = progress_of(nobody);
+             unlocked([&] { scene.save(file, signals); });
+           })
       .def("frame", frame, nb::arg("azimuth").none(), nb::arg("elevation").none(), nb::arg("fov").none(),
            nb::arg("aspect"))
       .def("render", render, nb::arg("camera"), nb::arg("width"), nb::arg("height"), nb::arg("look"),

@@ -116,6 +116,7 @@ std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
 
 std::vector<DeviceInfo> list_devices() {
   if (!vulkan_is_installed()) return {};
+  refuse_vulkan_of_parent();
   const auto destroy = [](VkInstance instance) { vkDestroyInstance(instance, nullptr); };
   const std::unique_ptr<std::remove_pointer_t<VkInstance>, decltype(destroy)> instance(make_instance(nullptr),
                                                                                        destroy);
@@ -161,6 +162,7 @@ void Context::become_host() {
 }
 
 void Context::create_instance(bool validation, const WindowNeeds& needs) {
+  refuse_vulkan_of_parent();
   if (validation && !validation_layer_present())
     throw Error(ExitCode::failed, std::string("validation was asked for, but the layer ") + VALIDATION_LAYER +
                                       " is not installed (Debian's package vulkan-validationlayers)");

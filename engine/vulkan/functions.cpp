@@ -1,6 +1,7 @@
 #include "engine/vulkan/functions.h"
 
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -30,15 +31,30 @@ Functions find_functions() {
   return functions;
 }
 
-const Functions& functions() {
-  static const Functions found = find_functions();
-  return found;
+struct Loader {
+  Functions functions = find_functions();
+  pid_t process = getpid();  ///< that loaded it
+};
+
+const Loader& loader() {
+  static const Loader loaded;
+  return loaded;
 }
+
+const Functions& functions() { return loader().functions; }
 
 }  // namespace
 
 bool vulkan_is_installed() {
   return std::find(functions().begin(), functions().end(), nullptr) == functions().end();
+}
+
+void refuse_vulkan_of_parent() {
+  if (loader().process != getpid())
+    throw Error(ExitCode::no_device,
+                "found a process that was forked off after Vulkan was used, expected one that started anew "
+                "(in Python: "
+                "multiprocessing's start method 'spawn'), or the device 'cpu'");
 }
 
 PFN_vkVoidFunction vulkan_function(VulkanFunctionNumber number) {

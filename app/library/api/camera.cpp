@@ -34,7 +34,7 @@ splatray::Camera framed(const splatray::Scene& scene, const Framing& framing) {
 Camera frame(const Scene& scene, const Framing& framing) {
   return guarded([&] {
     check(framing);
-    const splatray::Camera camera = framed(SceneAccess::impl(scene).loaded.scene, framing);
+    const splatray::Camera camera = framed(SceneAccess::impl(scene)->loaded.scene, framing);
     return Camera{array(camera.eye), array(camera.target), array(camera.up), camera.fov_y_deg,
                   camera.ortho_height};
   });

@@ -41,8 +41,8 @@ PictureOptions picture_options(const OpenOptions& options) {
   return picture;
 }
 
-std::unique_ptr<Scene::Impl> new_scene(const OpenOptions& options) {
-  auto impl = std::make_unique<Scene::Impl>();
+std::shared_ptr<Scene::Impl> new_scene(const OpenOptions& options) {
+  auto impl = std::make_shared<Scene::Impl>();
   impl->device_wanted = options.device;
   impl->cache = options.cache;
   return impl;

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
+#include "engine/base/memory.h"
+#include "engine/gpu/tiles.h"
 #include "engine/scene/scene_check.h"
 #include "engine/scene/surface.h"
 
@@ -106,15 +109,48 @@ splatray::Scene choose_shown(const LoadedScene& loaded, const Look& look, std::u
   return shown;
 }
 
-Image outer_image(const splatray::Image& inner) {
+/// Puts a band of a picture in its place.
+void keep(const splatray::Image& band, std::uint32_t first_row, Image& image) {
   static_assert(sizeof(vec4) == sizeof(std::array<float, 4>));
-  Image image{inner.width, inner.height, {}, {}, {}, {}};
-  image.pixels.resize(inner.rgba.size());
-  std::memcpy(image.pixels.data(), inner.rgba.data(), inner.rgba.size() * sizeof(vec4));
-  for (const AovPixel& pixel : inner.aov) {
-    image.depth.push_back(pixel.z);
-    image.normal.push_back(array(pixel.normal));
-    image.object.push_back(pixel.object == NO_OBJECT ? -1 : static_cast<std::int32_t>(pixel.object));
+  const std::size_t first = std::size_t{first_row} * image.width;
+  std::memcpy(image.pixels.data() + first, band.rgba.data(), band.rgba.size() * sizeof(vec4));
+  for (std::size_t i = 0; i < band.aov.size(); ++i) {
+    const AovPixel& pixel = band.aov[i];
+    image.depth[first + i] = pixel.z;
+    image.normal[first + i] = array(pixel.normal);
+    image.object[first + i] = pixel.object == NO_OBJECT ? -1 : static_cast<std::int32_t>(pixel.object);
+  }
+}
+
+/// An image with room for all pixels. Throws splatray::Error (out_of_memory) where there is not the memory.
+Image empty_image(const splatray::View& view, bool channels) {
+  const std::size_t pixels = std::size_t{view.width} * view.height;
+  constexpr std::size_t PIXEL_BYTES = sizeof(vec4),
+                        CHANNEL_BYTES = sizeof(float) + sizeof(Float3) + sizeof(std::int32_t);
+  require_memory(
+      pixels * (PIXEL_BYTES + (channels ? CHANNEL_BYTES : 0)),
+      "a picture of " + std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels");
+  Image image{view.width, view.height, {}, {}, {}, {}};
+  image.pixels.resize(pixels);
+  if (!channels) return image;
+  image.depth.resize(pixels);
+  image.normal.resize(pixels);
+  image.object.resize(pixels);
+  return image;
+}
+
+/// Renders in bands, so that no pixel is in memory twice.
+Image render_bands(Tracer& tracer, splatray::View view, const splatray::Settings& settings,
+                   ProgressRelay& relay) {
+  constexpr std::uint32_t BAND_PIXELS = 1U << 24U;
+  const std::uint32_t rows = cut_into_tiles(view.width, view.height, BAND_PIXELS).front().height;
+  Image image = empty_image(view, settings.aov);
+  for (std::uint32_t row = 0; row < view.height; row += rows) {
+    view.window = {0, row, view.width, std::min(rows, view.height - row)};
+    const auto tell = [&](double share) {
+      return relay("tracing", (row + share * view.window.height) / view.height);
+    };
+    keep(tracer.render(view, settings, tell), row, image);
   }
   return image;
 }
@@ -124,17 +160,17 @@ Image outer_image(const splatray::Image& inner) {
 Image render(const Scene& scene, const View& view, const Look& look, const Settings& settings,
              const Progress& progress) {
   return guarded(progress, [&](ProgressRelay& relay) {
-    Scene::Impl& impl = SceneAccess::impl(scene);
+    const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
     const splatray::View inner = inner_view(view);
     splatray::Settings method = inner_settings(look, settings);
-    method.look = inner_look(impl.loaded, look);
-    (void)make_frame_params(impl.loaded.scene, inner, method);  // refuses a camera before a device is opened
-    const splatray::Scene shown = choose_shown(impl.loaded, look, method.look, inner.camera);
-    return impl.with_tracer([&](Tracer& tracer) {
-      impl.show_environment(look.environment.empty() ? impl.loaded.environment_name : look.environment);
-      tracer.set_materials(shown.materials, shown.surfaces);
-      tracer.set_lights(shown.lights);
-      return outer_image(tracer.render(inner, method, [&](double share) { return relay("tracing", share); }));
+    method.look = inner_look(impl->loaded, look);
+    (void)make_frame_params(impl->loaded.scene, inner, method);  // refuses a camera before a device is opened
+    const splatray::Scene shown = choose_shown(impl->loaded, look, method.look, inner.camera);
+    return impl->on_device(relay, [&](SceneOnDevice& there) {
+      there.show_environment(look.environment.empty() ? impl->loaded.environment_name : look.environment);
+      there.tracer->set_materials(shown.materials, shown.surfaces);
+      there.tracer->set_lights(shown.lights);
+      return render_bands(*there.tracer, inner, method, relay);
     });
   });
 }

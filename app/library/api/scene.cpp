@@ -5,67 +5,81 @@
 
 namespace splatray::api {
 
-Scene::Scene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Scene::Scene(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
-Scene::Impl& SceneAccess::impl(const Scene& scene) {
+const std::shared_ptr<Scene::Impl>& SceneAccess::impl(const Scene& scene) {
   if (!scene.impl_) refuse("a scene that was moved from", "one that holds something");
-  return *scene.impl_;
+  return scene.impl_;
 }
 
 Scene::Impl::~Impl() {
-  if (!device) return;
-  const std::lock_guard lock(device->turn);
-  tracer.reset();
+  const std::shared_ptr<SceneOnDevice> there = there_.load();
+  if (!there || !there->tracer) return;
+  if (there->device->is_of_parent()) {
+    keep_for_good(there);
+  } else {
+    there->device->drop(std::move(there->tracer));
+  }
 }
 
-void Scene::Impl::open_device() {
-  const std::lock_guard lock(opening);
-  if (tracer) return;
-  device = shared_device(device_wanted);
-  const std::lock_guard turn(device->turn);
-  auto opened = std::make_unique<Tracer>(device->context, TracerOptions{.pipeline_folder = cache});
-  opened->upload(loaded.scene);
-  tracer = std::move(opened);
+std::shared_ptr<SceneOnDevice> Scene::Impl::open_device() {
+  std::shared_ptr<SceneOnDevice> there = there_.load();
+  if (there && !there->device->is_of_parent()) return there;
+  auto opened = std::make_shared<SceneOnDevice>(SceneOnDevice{shared_device(device_wanted)});
+  if (there) keep_for_good(there);
+  return there_.compare_exchange_strong(there, opened) ? opened : there;
 }
 
-std::string Scene::Impl::device_name() {
-  open_device();
-  return device->context.device_info().name;
+Scene::Impl::InUse::InUse(const Impl& scene, SceneOnDevice& there) : there_(there) {
+  if (there.in_use)
+    refuse("a progress function that uses the scene whose work it hears of",
+           "other scenes there, or this one afterwards");
+  if (!there.tracer) {
+    auto tracer =
+        std::make_unique<Tracer>(there.device->context, TracerOptions{.pipeline_folder = scene.cache});
+    tracer->upload(scene.loaded.scene);
+    there.tracer = std::move(tracer);
+  }
+  there.in_use = true;
 }
 
-void Scene::Impl::show_environment(const std::string& name) {
+std::string Scene::Impl::device_name() { return open_device()->device->context.device_info().name; }
+
+void SceneOnDevice::show_environment(const std::string& name) {
   if (environment_shown == name) return;
   tracer->set_environment(choose_environment(name));
   environment_shown = name;
 }
 
-std::size_t Scene::splats() const { return SceneAccess::impl(*this).loaded.scene.data_pool.size(); }
+std::size_t Scene::splats() const { return SceneAccess::impl(*this)->loaded.scene.data_pool.size(); }
 
-Double3 Scene::bounds_low() const { return array(SceneAccess::impl(*this).loaded.scene.bounds_min_world); }
-Double3 Scene::bounds_high() const { return array(SceneAccess::impl(*this).loaded.scene.bounds_max_world); }
+Double3 Scene::bounds_low() const { return array(SceneAccess::impl(*this)->loaded.scene.bounds_min_world); }
+Double3 Scene::bounds_high() const { return array(SceneAccess::impl(*this)->loaded.scene.bounds_max_world); }
 
-Double3 Scene::up() const { return array(glm::normalize(SceneAccess::impl(*this).loaded.scene.up)); }
+Double3 Scene::up() const { return array(glm::normalize(SceneAccess::impl(*this)->loaded.scene.up)); }
 
-std::vector<std::string> Scene::objects() const { return SceneAccess::impl(*this).loaded.scene.object_names; }
+std::vector<std::string> Scene::objects() const {
+  return SceneAccess::impl(*this)->loaded.scene.object_names;
+}
 
 std::vector<Material> Scene::materials() const {
   std::vector<Material> materials;
-  for (const splatray::Material& material : SceneAccess::impl(*this).loaded.scene.materials)
+  for (const splatray::Material& material : SceneAccess::impl(*this)->loaded.scene.materials)
     materials.push_back(described(material));
   return materials;
 }
 
-const std::vector<std::string>& Scene::notes() const { return SceneAccess::impl(*this).notes; }
+const std::vector<std::string>& Scene::notes() const { return SceneAccess::impl(*this)->notes; }
 
 std::string Scene::device() const {
-  return guarded([&] { return SceneAccess::impl(*this).device_name(); });
+  return guarded([&] { return SceneAccess::impl(*this)->device_name(); });
 }
 
 Scene::Splat Scene::splat(std::size_t index) const {
-  const splatray::Scene& scene = SceneAccess::impl(*this).loaded.scene;
+  const splatray::Scene& scene = SceneAccess::impl(*this)->loaded.scene;
   if (index >= scene.data_pool.size())
     refuse("splat " + std::to_string(index), "a number below " + std::to_string(scene.data_pool.size()));
   const splatray::Splat splat = unpack_splat(scene.data_pool[index]);
@@ -73,8 +87,11 @@ Scene::Splat Scene::splat(std::size_t index) const {
           std::sqrt(splat.radius_squared) * scene.root.unit_world, splat.object};
 }
 
-void Scene::save(const std::filesystem::path& file) const {
-  guarded([&] { write_scene(SceneAccess::impl(*this).loaded.scene, file); });
+void Scene::save(const std::filesystem::path& file, const Progress& progress) const {
+  guarded(progress, [&](ProgressRelay& relay) {
+    const std::shared_ptr<Impl> impl = SceneAccess::impl(*this);
+    write_scene(impl->loaded.scene, file, std::ref(relay));
+  });
 }
 
 }  // namespace splatray::api

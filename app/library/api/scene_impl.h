@@ -1,7 +1,7 @@
 /// What a Scene of the interface holds.
 #pragma once
+#include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,23 +16,34 @@ namespace splatray::api {
 /// The column that keeps which of an object's Points a splat was.
 inline constexpr std::string_view COLUMN_POINT = "point";
 
+/// A scene on its device. All but `device` belong to whose turn it is.
+struct SceneOnDevice {
+  std::shared_ptr<SharedDevice> device;
+  std::unique_ptr<Tracer> tracer{};
+  std::optional<std::string> environment_shown{};
+  bool in_use = false;
+
+  /// Gives the tracer the environment of this name.
+  void show_environment(const std::string& name);
+};
+
 struct Scene::Impl {
   LoadedScene loaded;
   std::vector<std::string> notes;
   std::string device_wanted;
   std::filesystem::path cache;
 
-  /// Calls use(tracer), with the device to itself.
+  /// Calls use(scene on its device), with the device to itself; asks `relay` while it waits for that. Throws Error (usage) where
+  /// that is what the progress function of such a use does.
   template <typename Use>
-  auto with_tracer(const Use& use) {
-    open_device();
-    const std::lock_guard lock(device->turn);
-    return use(*tracer);
+  auto on_device(ProgressRelay& relay, const Use& use) {
+    const std::shared_ptr<SceneOnDevice> there = open_device();
+    const Turn turn(*there->device, relay);
+    const InUse in_use(*this, *there);
+    return use(*there);
   }
-  /// The device's name.
+  /// The device's name; opens it.
   [[nodiscard]] std::string device_name();
-  /// Gives the tracer the environment of this name; the device must be this thread's.
-  void show_environment(const std::string& name);
 
   Impl() = default;
   ~Impl();
@@ -40,19 +51,28 @@ struct Scene::Impl {
   Impl& operator=(const Impl&) = delete;
 
  private:
-  void open_device();
+  /// Puts the scene on the device where it is not yet, and keeps others from it.
+  class InUse {
+   public:
+    InUse(const Impl& scene, SceneOnDevice& there);
+    ~InUse() { there_.in_use = false; }
+    InUse(const InUse&) = delete;
+    InUse& operator=(const InUse&) = delete;
 
-  std::mutex opening;
-  std::shared_ptr<SharedDevice> device;
-  std::unique_ptr<Tracer> tracer;
-  std::optional<std::string> environment_shown;
+   private:
+    SceneOnDevice& there_;
+  };
+  [[nodiscard]] std::shared_ptr<SceneOnDevice> open_device();
+
+  std::atomic<std::shared_ptr<SceneOnDevice>> there_;  ///< null until it is needed
 };
 
 /// Makes scenes, and looks into them.
 struct SceneAccess {
-  [[nodiscard]] static Scene make(std::unique_ptr<Scene::Impl> impl) { return Scene(std::move(impl)); }
-  /// Throws Error (usage) for a scene that was moved from.
-  [[nodiscard]] static Scene::Impl& impl(const Scene& scene);
+  [[nodiscard]] static Scene make(std::shared_ptr<Scene::Impl> impl) { return Scene(std::move(impl)); }
+  /// What the scene holds; long work keeps it, as its progress function may end the scene. Throws Error (usage) for a scene that
+  /// was moved from.
+  [[nodiscard]] static const std::shared_ptr<Scene::Impl>& impl(const Scene& scene);
 };
 
 [[nodiscard]] inline glm::dvec3 vector(const Double3& v) { return {v[0], v[1], v[2]}; }

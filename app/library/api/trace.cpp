@@ -96,10 +96,10 @@ void keep(const splatray::Scene& scene, const Column* points, const RayHit& hit,
 Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const Double3> directions,
            const Progress& progress) {
   return guarded(progress, [&](ProgressRelay& relay) {
-    Scene::Impl& impl = SceneAccess::impl(scene);
-    const splatray::Scene& inner = impl.loaded.scene;
+    const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
+    const splatray::Scene& inner = impl->loaded.scene;
     check_rays(origins, directions);
-    const Column* points = impl.loaded.build ? find_column(inner.columns, COLUMN_POINT) : nullptr;
+    const Column* points = impl->loaded.build ? find_column(inner.columns, COLUMN_POINT) : nullptr;
     Hits hits;
     reserve(hits, origins.size());
     for (std::size_t begin = 0; begin < origins.size(); begin += RAYS_AT_ONCE) {
@@ -115,8 +115,9 @@ Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const
         queries.push_back(aimed->query);
         starts.push_back(aimed->start);
       }
-      const std::vector<RayHit> found =
-          impl.with_tracer([&](Tracer& tracer) { return tracer.intersect(queries, splatray::Settings{}); });
+      const std::vector<RayHit> found = impl->on_device(relay, [&](SceneOnDevice& there) {
+        return there.tracer->intersect(queries, splatray::Settings{});
+      });
       for (std::size_t i = 0; i < found.size(); ++i) keep(inner, points, found[i], starts[i], rays[i], hits);
     }
     return hits;

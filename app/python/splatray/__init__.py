@@ -8,7 +8,9 @@
 
 World space is right-handed, in the units of the input, float64. Colours and radiances are linear sRGB, angles degrees. Long calls
 run without the interpreter's lock, can be ended by Ctrl-C, and take `progress`, which is called as progress(stage, share) and ends
-the call by returning False.
+the call by returning False. It may make, use and drop scenes, but not use the one that it hears of: that is a ValueError. In a
+process that was forked off after a Vulkan device was used, its use is a NoDeviceError; device="cpu" works there, and so does all in
+processes that were started anew (multiprocessing.set_start_method("spawn")).
 
 Exceptions: ValueError for arguments and files that make no sense, TypeError, FileNotFoundError, OSError where a file cannot be
 written, NoDeviceError without a Vulkan device, Cancelled, MemoryError, RuntimeError for all else.

@@ -1,5 +1,7 @@
 /// Runs the examples and compares the library with closed forms. Works in the folder named by its argument; exit 1 with a
 /// sentence for each finding. `memory` in place of the folder: what needs none.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +10,7 @@
 #include <thread>
 
 #include "examples.h"
+#include "reentrance.h"
 
 namespace {
 
@@ -252,6 +255,9 @@ int main(int argc, char** argv) {
     check_errors(folder);
     check_pictures(folder);
     check_depth_and_ranges();
+    alarm(240);  // a defect may be a call that never ends
+    const std::string defect = find_reentrance_defect();
+    expect(defect.empty(), defect);
   } catch (const sr::Error& error) {
     std::fprintf(stderr, "error of kind %d: %s\n", int(error.kind()), error.what());
     return 1;
