@@ -1,10 +1,15 @@
 #include "engine/file/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <mutex>
 #include <random>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -21,30 +26,81 @@ namespace fs = std::filesystem;
 
 std::string error_text() { return std::generic_category().message(errno); }
 
+constexpr std::string_view LETTERS = "0123456789abcdefghijklmnopqrstuvwxyz";
+constexpr std::string_view NAME_BEGIN = ".splatray-", NAME_END = ".tmp";
+constexpr std::size_t NAME_LETTERS = 16;
+
 /// A name that nobody can foresee, so that nobody can have put a link there; as short for any target, so that it fits where
 /// the target's does.
 std::string temporary_name() {
-  constexpr char LETTERS[] = "0123456789abcdefghijklmnopqrstuvwxyz";
   std::random_device random;
-  std::string name = ".splatray-";
-  for (int i = 0; i < 16; ++i) name += LETTERS[random() % 36];
-  return name + ".tmp";
+  std::string name(NAME_BEGIN);
+  for (std::size_t i = 0; i < NAME_LETTERS; ++i) name += LETTERS[random() % LETTERS.size()];
+  return name.append(NAME_END);
+}
+
+bool is_temporary_name(const std::string& name) {
+  return name.size() == NAME_BEGIN.size() + NAME_LETTERS + NAME_END.size() && name.starts_with(NAME_BEGIN) &&
+         name.ends_with(NAME_END) &&
+         name.find_first_not_of(LETTERS, NAME_BEGIN.size()) == name.size() - NAME_END.size();
+}
+
+/// Removes a temporary file of this user that no writer has locked. Whoever locks one here keeps it from its writer only for as
+/// long as it takes to remove it, and that one then makes another (open_locked).
+void remove_if_left(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat status {};
+  if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid() &&
+      flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    unlink(file.c_str());
+  close(descriptor);
+}
+
+/// Removes what killed programs left in a folder, once for each folder: a long sequence has many files there.
+void remove_left_overs(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> cleaned;
+  const std::lock_guard lock(mutex);
+  if (!cleaned.insert(folder).second) return;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (is_temporary_name(entry->path().filename())) remove_if_left(entry->path());
+}
+
+/// A new file, locked where the file system has locks; its descriptor, negative with errno where it cannot be made.
+int open_locked(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0) return descriptor;
+  while (flock(descriptor, LOCK_EX) != 0 && errno == EINTR) {
+  }
+  return descriptor;
+}
+
+bool is_removed(int descriptor) {
+  struct stat status {};
+  return fstat(descriptor, &status) == 0 && status.st_nlink == 0;
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& target) {
+AtomicFile::AtomicFile(const fs::path& target, Links links) {
   std::error_code error;
+  if (links == Links::refuse && fs::is_symlink(target, error))
+    refuse(target, "it is a link, expected a file of this program's or none");
   target_ = fs::weakly_canonical(target, error);  // a link's target is replaced, not the link
   if (error) refuse(target, error.message());
   if (target.filename().empty() || fs::is_directory(target_, error))
     refuse(target, "it is a folder, expected a file name");
   if (fs::exists(target_, error) && !fs::is_regular_file(target_, error))
     refuse(target, "it exists and is not a regular file");
-  const fs::path temporary = fs::path(target_).replace_filename(temporary_name());
-  descriptor_ = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) refuse(target, error_text());
-  temporary_ = temporary;
+  remove_left_overs(target_.parent_path());
+  do {
+    if (descriptor_ >= 0) close(descriptor_);
+    temporary_ = fs::path(target_).replace_filename(temporary_name());
+    descriptor_ = open_locked(temporary_);
+    if (descriptor_ < 0) refuse(target, error_text());
+  } while (is_removed(descriptor_));
 }
 
 AtomicFile::~AtomicFile() {
@@ -71,8 +127,9 @@ void AtomicFile::commit() {
   // disk only here or in close.
   while (fsync(descriptor_) != 0)
     if (errno != EINTR) refuse(target_, error_text());
-  const int descriptor = std::exchange(descriptor_, -1);
-  if (close(descriptor) != 0 && errno != EINTR) refuse(target_, error_text());
+  const int lock = dup(descriptor_);  // keeps the lock until the file has its name
+  const int closed = close(std::exchange(descriptor_, lock));
+  if (closed != 0 && errno != EINTR) refuse(target_, error_text());
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) refuse(target_, error.message());
@@ -81,8 +138,8 @@ void AtomicFile::commit() {
 
 void require_writable(const fs::path& target) { const AtomicFile probe(target); }
 
-void write_text_file(const std::string& text, const fs::path& target) {
-  AtomicFile output(target);
+void write_text_file(const std::string& text, const fs::path& target, Links links) {
+  AtomicFile output(target, links);
   output.write(text.data(), text.size());
   output.commit();
 }

@@ -1,5 +1,5 @@
-/// Output files that are whole or absent: written under a temporary name beside the target, renamed when
-/// done.
+/// Output files that are whole or absent: written under a temporary name beside the target, renamed when done. What a killed
+/// program left of that goes when the next one writes into the folder: a temporary file is locked (flock) while its writer lives.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -7,12 +7,19 @@
 
 namespace splatray {
 
+/// What is done where the target is a link.
+enum class Links {
+  follow,  ///< its target is replaced: for files that the user named
+  refuse,  ///< an Error: for files that nobody asked for
+};
+
 /// One output file in the making. Goes away without a trace unless committed.
 class AtomicFile {
  public:
-  /// Creates the empty temporary file in the target's folder, under a name that no other writer has. Throws Error (failed)
-  /// when the folder does not exist or cannot be written, or when the target exists and is not a regular file.
-  explicit AtomicFile(const std::filesystem::path& target);
+  /// Creates the empty temporary file in the target's folder, under a name that no other writer has; a process's first one there
+  /// removes those of dead writers. Throws Error (failed) when the folder does not exist or cannot be written, or when the target
+  /// exists and is not a regular file.
+  explicit AtomicFile(const std::filesystem::path& target, Links links = Links::follow);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -35,6 +42,7 @@ class AtomicFile {
 void require_writable(const std::filesystem::path& target);
 
 /// Writes a whole file, or throws Error (failed) and leaves none.
-void write_text_file(const std::string& text, const std::filesystem::path& target);
+void write_text_file(const std::string& text, const std::filesystem::path& target,
+                     Links links = Links::follow);
 
 }  // namespace splatray

@@ -14,6 +14,7 @@
 #include <xxhash.h>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/scene_file_header.h"
 #include "engine/scene/pool_table.h"
@@ -121,6 +122,7 @@ class Reader {
     if (!file_) refuse("a file that cannot be opened", "a readable one");
     size_ = std::filesystem::file_size(path);
     read_header();
+    require_memory(size_, "'" + path.string() + "'");
   }
 
   [[nodiscard]] const Header& header() const { return header_; }

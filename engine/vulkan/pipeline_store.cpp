@@ -1,5 +1,8 @@
 #include "engine/vulkan/pipeline_store.h"
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -27,22 +30,49 @@ bool is_of_device(const std::vector<char>& bytes, const VkPhysicalDeviceProperti
          std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
-std::vector<char> read_kept(const std::filesystem::path& file, const VkPhysicalDeviceProperties& properties) {
+/// How our files begin; the XXH3-64 of what follows and the driver's data come after it. Drivers check no more than their header.
+constexpr std::string_view MAGIC = "splatray's compiled pipelines 1\n";
+constexpr std::size_t BEGIN_BYTES = MAGIC.size() + sizeof(std::uint64_t);
+
+/// The bytes of a file that is no link; empty where there is none, it is too large or cannot be read.
+std::string read_bytes(const std::filesystem::path& file) {
   std::error_code none;
+  if (std::filesystem::is_symlink(file, none)) return {};
   const std::uintmax_t size = std::filesystem::file_size(file, none);
   if (none || size > BYTES_MOST) return {};
-  std::vector<char> bytes(size);
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!stream || !is_of_device(bytes, properties)) return {};
+  std::string bytes(size, '\0');
+  std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(size));
   return bytes;
+}
+
+/// What was kept for this device; empty where that is damaged.
+std::vector<char> read_kept(const std::filesystem::path& file, const VkPhysicalDeviceProperties& properties) {
+  const std::string bytes = read_bytes(file);
+  if (bytes.size() < BEGIN_BYTES || !bytes.starts_with(MAGIC)) return {};
+  std::uint64_t checksum = 0;
+  std::memcpy(&checksum, bytes.data() + MAGIC.size(), sizeof checksum);
+  const std::vector<char> kept(bytes.begin() + BEGIN_BYTES, bytes.end());
+  return checksum == XXH3_64bits(kept.data(), kept.size()) && is_of_device(kept, properties)
+             ? kept
+             : std::vector<char>{};
+}
+
+/// Replaces the file unless somebody else wrote it.
+void keep(const std::string& data, const std::filesystem::path& file) {
+  std::error_code none;
+  if (std::filesystem::exists(file, none) && !read_bytes(file).starts_with(MAGIC)) return;
+  const std::uint64_t checksum = XXH3_64bits(data.data(), data.size());
+  std::string bytes(MAGIC);
+  bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+  std::filesystem::create_directories(file.parent_path());
+  write_text_file(bytes + data, file, Links::refuse);
 }
 
 }  // namespace
 
 std::filesystem::path pipeline_file(const std::filesystem::path& folder,
                                     const VkPhysicalDeviceProperties& properties) {
-  std::string name = "pipelines_";
+  std::string name = "compiled_";
   for (const std::uint8_t byte : properties.pipelineCacheUUID) {
     char text[3];
     std::snprintf(text, sizeof(text), "%02x", unsigned{byte});
@@ -78,8 +108,7 @@ PipelineStore::~PipelineStore() {
     std::string bytes(size, '\0');
     if (vkGetPipelineCacheData(context_.device, cache_.get(), &size, bytes.data()) != VK_SUCCESS) return;
     bytes.resize(size);
-    std::filesystem::create_directories(file_.parent_path());
-    write_text_file(bytes, file_);
+    keep(bytes, file_);
   } catch (const std::exception&) {
     // The cache only saves time.
   }

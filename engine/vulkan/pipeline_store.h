@@ -12,12 +12,15 @@ class PipelineStore {
   /// Reads what was kept for this device and driver in `folder`, which is made when it is missing; empty = none is kept. A file
   /// that is damaged, or another driver's, is not used. The context must outlive it.
   PipelineStore(const Context& context, const std::filesystem::path& folder);
-  /// Writes the file where pipelines were added. One that cannot be written is left out: it only saves time.
+  /// Writes the file where pipelines were added. One that cannot be written is left out, as it only saves time; so is one that would
+  /// follow a link or replace what this class has not written.
   ~PipelineStore();
   PipelineStore(const PipelineStore&) = delete;
   PipelineStore& operator=(const PipelineStore&) = delete;
 
   [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
+  /// Of the driver's data that was kept; 0 = none was used.
+  [[nodiscard]] std::size_t bytes_read() const { return bytes_read_; }
 
  private:
   const Context& context_;

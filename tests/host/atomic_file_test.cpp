@@ -1,9 +1,12 @@
 #include "engine/file/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
+#include <set>
 
 #include "engine/base/error.h"
 #include "tests/temp_folder.h"
@@ -65,11 +68,76 @@ TEST_F(AtomicFileTest, NamesAsLongAsTheFolderTakes) {
   EXPECT_EQ(text_of(name), "text");
 }
 
-TEST_F(AtomicFileTest, FollowsNoLinkOfTheTemporaryFilesName) {
+TEST_F(AtomicFileTest, TemporaryNamesAreNew) {
+  // A link can only be put where a name is known before: and each is another.
+  std::set<std::string> names;
+  for (int i = 0; i < 100; ++i) {
+    const AtomicFile file(folder / "a");
+    names.insert(fs::directory_iterator(folder)->path().filename());
+  }
+  EXPECT_EQ(names.size(), 100U);
+}
+
+TEST_F(AtomicFileTest, FilesThatNobodyNamedReplaceNoLink) {
   std::ofstream(folder / "victim") << "victim";
-  fs::create_symlink("victim", folder / ("a." + std::to_string(getpid()) + ".tmp"));
-  write_text_file("text", folder / "a");
+  fs::create_symlink("victim", folder / "a");
+  fs::create_symlink("nowhere", folder / "b");
+  for (const char* name : {"a", "b"})
+    EXPECT_THROW(write_text_file("text", folder / name, Links::refuse), Error);
   EXPECT_EQ(text_of("victim"), "victim");
+  EXPECT_TRUE(fs::is_symlink(folder / "a") && fs::is_symlink(folder / "b"));
+  EXPECT_FALSE(fs::exists(folder / "nowhere"));
+  EXPECT_EQ(files(), 3);
+}
+
+/// Runs body() in a child that then waits to be killed; returns it once body is done.
+template <typename Body>
+pid_t start_child(const Body& body) {
+  int ends[2];
+  EXPECT_EQ(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    body();
+    (void)!write(ends[1], "x", 1);
+    for (;;) pause();
+  }
+  char done = 0;
+  EXPECT_EQ(read(ends[0], &done, 1), 1);
+  close(ends[0]);
+  close(ends[1]);
+  return child;
+}
+
+void kill_child(pid_t child) {
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+}
+
+TEST_F(AtomicFileTest, TheNextWriterRemovesWhatAKilledOneLeft) {
+  const auto begin_file = [&] { (new AtomicFile(folder / "a"))->write("half", 4); };
+  const pid_t dead = start_child(begin_file), living = start_child(begin_file);
+  EXPECT_EQ(files(), 2);
+  kill_child(dead);
+  std::ofstream(folder / ".splatray-mine.tmp") << "of the user";
+  fs::create_symlink(".splatray-mine.tmp", folder / ".splatray-0123456789abcdef.tmp");
+  write_text_file("text", folder / "b");
+  EXPECT_EQ(files(), 4)
+      << "the dead one's file is gone; the living one's, the user's, the link and b are there";
+  EXPECT_EQ(text_of(".splatray-mine.tmp"), "of the user");
+  kill_child(living);
+}
+
+TEST_F(AtomicFileTest, ALockedFileIsCommittedWhileOthersClean) {
+  const pid_t child = start_child([&] {
+    AtomicFile file(folder / "a");
+    file.write("text", 4);
+    const pid_t other = start_child([&] { write_text_file("text", folder / "b"); });
+    file.commit();
+    kill_child(other);
+  });
+  EXPECT_EQ(text_of("a"), "text");
+  EXPECT_EQ(text_of("b"), "text");
+  kill_child(child);
 }
 
 TEST_F(AtomicFileTest, WritesThroughLinks) {

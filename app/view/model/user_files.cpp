@@ -113,7 +113,7 @@ void write_user_state(const UserState& state, const std::filesystem::path& path)
   for (const std::filesystem::path& file : state.recent_files) all["recent_files"].push_back(file.string());
   all["bookmarks"] = json::object();
   for (const auto& [scene, bookmarks] : state.bookmarks) all["bookmarks"][scene] = to_json(bookmarks);
-  write_text_file(all.dump(2, ' ', false, json::error_handler_t::replace) + "\n", path);
+  write_text_file(all.dump(2, ' ', false, json::error_handler_t::replace) + "\n", path, Links::refuse);
 }
 
 void remember_file(UserState& state, const std::filesystem::path& file) {
