@@ -30,6 +30,7 @@
 #include "preprocess/tree/insertion.h"
 #include "preprocess/tree/leaf_size.h"
 #include "preprocess/tree/leaf_slabs.h"
+#include "preprocess/tree/long_lists.h"
 #include "preprocess/tree/octree.h"
 #include "preprocess/tree/root.h"
 
@@ -271,21 +272,21 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
   return splats;
 }
 
-LeafLists insert(const Octree& tree, const SplatList& splats, const BuildParams& params,
-                 const BuildProgress& progress, BuildStats& stats) {
-  const AddedTime watch(stats.insertion_ms);
-  if (params.insertion == Insertion::centre) return insert_centres(tree, splats);
-  LeafLists lists = insert_overlaps(tree, splats, {"insertion", progress});
-  stats.growth_overlap = static_cast<double>(lists.splat.size()) / static_cast<double>(splats.size()) - 1.0;
-  if (params.insertion == Insertion::overlap) return lists;
-  return keep_probed(tree, splats, lists, params.probes, params.seed, {"probes", progress});
-}
-
 /// An octree and what its leaves list.
 struct ListedOctree {
   Octree tree;
   LeafLists lists;
 };
+
+/// Lists splats by policy `overlap`, and divides leaves whose lists are long.
+void insert_overlaps(ListedOctree& built, const SplatList& splats, std::uint32_t leaf_size,
+                     const Stage& stage) {
+  built.lists = insert_overlaps(built.tree, splats, stage);
+  const std::vector<CellName> divided = find_long_lists(built.tree, built.lists, splats, leaf_size);
+  if (divided.empty()) return;
+  built.tree = build_octree(splats, leaf_size, divided);
+  built.lists = insert_overlaps(built.tree, splats, stage);
+}
 
 ListedOctree build_lists(const SplatList& splats, const BuildParams& params, const BuildProgress& progress,
                          BuildStats& stats) {
@@ -294,7 +295,17 @@ ListedOctree build_lists(const SplatList& splats, const BuildParams& params, con
     const AddedTime watch(stats.octree_ms);
     built.tree = build_octree(splats, params.leaf_size);
   }
-  built.lists = insert(built.tree, splats, params, progress, stats);
+  const AddedTime watch(stats.insertion_ms);
+  if (params.insertion == Insertion::centre) {
+    built.lists = insert_centres(built.tree, splats);
+    return built;
+  }
+  insert_overlaps(built, splats, params.leaf_size, {"insertion", progress});
+  stats.growth_overlap =
+      static_cast<double>(built.lists.splat.size()) / static_cast<double>(splats.size()) - 1.0;
+  if (params.insertion == Insertion::probe)
+    built.lists =
+        keep_probed(built.tree, splats, built.lists, params.probes, params.seed, {"probes", progress});
   return built;
 }
 

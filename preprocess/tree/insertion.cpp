@@ -7,9 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/scene/clip.h"
-#include "engine/scene/disc.h"
-#include "engine/scene/splat.h"
+#include "preprocess/tree/listed_disc.h"
 
 namespace splatray {
 namespace {
@@ -23,12 +21,9 @@ class LeafWalk {
  public:
   LeafWalk(const Octree& tree, std::vector<std::uint32_t>& leaves) : tree_(tree), leaves_(leaves) {}
 
-  /// `clip`: the splat's clip lines.
-  void walk(const uvec4& words, std::uint32_t clip) {
-    const Disc disc(unpack_splat(words));
-    disc_ = &disc;
-    clipped_ = clip != CLIP_NONE;
-    if (clipped_) lines_ = unpack_clip(clip, words);
+  void walk(const ListedDisc& listed) {
+    const Disc& disc = listed.disc;
+    disc_ = &listed;
     const glm::dvec3 center(disc.x.center, disc.y.center, disc.z.center);
     const glm::dvec3 half_box(disc.x.half_box, disc.y.half_box, disc.z.half_box);
     low_ = glm::floor(center - half_box) - (LIST_INFLATION + 1.0);
@@ -74,39 +69,21 @@ class LeafWalk {
       for (std::uint32_t y = first.y; y <= last.y; ++y) {
         for (std::uint32_t x = first.x; x <= last.x; ++x) {
           const glm::uvec3 low = child.low + glm::uvec3(x, y, z) * child.size;
-          if (beyond(*disc_, low, low + child.size) > 0.0 || (clipped_ && cut_off(low, child.size))) continue;
+          if (!disc_->is_in(low, child.size)) continue;
           descend({child.node + x + 2 * y + 4 * z, low, child.size}, /*on_path=*/false);
         }
       }
     }
   }
 
-  /// Whether all of a cell, and LIST_INFLATION around it, is beyond one of the disc's clip lines.
-  [[nodiscard]] bool cut_off(const glm::uvec3& low, std::uint32_t size) const {
-    const double half = 0.5 * size;
-    const glm::dvec3 middle =
-        glm::dvec3(low) + half - glm::dvec3(disc_->x.center, disc_->y.center, disc_->z.center);
-    for (const ClipLine& line : lines_) {
-      const glm::dvec3 extent = glm::abs(line.across) * (half + LIST_INFLATION);
-      if (glm::dot(line.across, middle) - (extent.x + extent.y + extent.z) > line.limit) return true;
-    }
-    return false;
-  }
-
   const Octree& tree_;
-  const Disc* disc_ = nullptr;
-  bool clipped_ = false;
-  std::array<ClipLine, 2> lines_{};
+  const ListedDisc* disc_ = nullptr;
   std::vector<std::uint32_t>& leaves_;
   glm::uvec3 low_{0};  // lattice box around everything the disc may meet
   glm::uvec3 high_{0};
   std::array<Cell, MAX_DEPTH + 1> path_{{{0, glm::uvec3(0), 1U << LATTICE_BITS}}};  // from the root on
   std::size_t path_size_ = 1;
 };
-
-std::uint32_t clip_of(const SplatList& splats, std::size_t i) {
-  return splats.clip.empty() ? CLIP_NONE : splats.clip[i];
-}
 
 /// The leaves of CHUNK consecutive splats, splat by splat; the last one of each is marked LAST_LEAF.
 std::vector<std::uint32_t> leaves_of_chunk(const Octree& tree, const SplatList& splats, std::size_t chunk) {
@@ -115,7 +92,7 @@ std::vector<std::uint32_t> leaves_of_chunk(const Octree& tree, const SplatList& 
   leaves.reserve(4 * CHUNK);
   LeafWalk walk(tree, leaves);
   for (std::size_t i = chunk * CHUNK; i < end; ++i) {
-    walk.walk(splats.words[i], clip_of(splats, i));
+    walk.walk(ListedDisc(splats, i));
     leaves.back() |= LAST_LEAF;
   }
   leaves.shrink_to_fit();
@@ -144,7 +121,7 @@ std::vector<std::uint32_t> leaves_met(const Octree& tree, const SplatList& splat
                                       std::size_t end) {
   std::vector<std::uint32_t> leaves;
   LeafWalk walk(tree, leaves);
-  for (std::size_t i = begin; i < end; ++i) walk.walk(splats.words[i], clip_of(splats, i));
+  for (std::size_t i = begin; i < end; ++i) walk.walk(ListedDisc(splats, i));
   return leaves;
 }
 

@@ -47,16 +47,10 @@ std::uint64_t drop_surplus(SplatList& splats, std::uint32_t copies) {
   return before - kept.size();
 }
 
-/// Root mean square of the radii of splats [begin, end), lattice units.
-double mean_radius(const SplatList& splats, std::uint32_t begin, std::uint32_t end) {
-  double sum_squared = 0.0;
-  for (std::uint32_t i = begin; i < end; ++i) sum_squared += unpack_radius_squared(splats.words[i]);
-  return std::sqrt(sum_squared / (end - begin));
-}
-
 class Builder {
  public:
-  Builder(const SplatList& splats, std::uint32_t leaf_size) : splats_(splats), leaf_size_(leaf_size) {}
+  Builder(const SplatList& splats, std::uint32_t leaf_size, std::span<const CellName> divided)
+      : splats_(splats), leaf_size_(leaf_size), divided_(divided) {}
 
   Octree build() {
     tree_.node_pool.push_back(0);
@@ -121,13 +115,17 @@ class Builder {
 
   [[nodiscard]] bool is_divided(const Leaf& node) const {
     const std::uint32_t centers = node.end - node.begin;
-    if (centers <= leaf_size_ || node.level == MAX_DEPTH) return false;
+    if (node.level == MAX_DEPTH) return false;
+    if (std::binary_search(divided_.begin(), divided_.end(), CellName{node.key, node.level})) return true;
+    if (centers <= leaf_size_) return false;
     if (centers > CROWDED_MOST * leaf_size_) return true;
-    return mean_radius(splats_, node.begin, node.end) <= WIDEST_SPLATS * (0.5 * node.cell_size());
+    return !are_wide(
+        splats_, centers, [&](std::size_t i) { return node.begin + i; }, node.cell_size());
   }
 
   const SplatList& splats_;
   std::uint32_t leaf_size_;
+  std::span<const CellName> divided_;
   Octree tree_;
 };
 
@@ -140,13 +138,13 @@ std::uint64_t order_splats(SplatList& splats, std::uint32_t copies) {
   return drop_surplus(splats, copies);
 }
 
-Octree build_octree(const SplatList& splats, std::uint32_t leaf_size) {
-  return Builder(splats, leaf_size).build();
+Octree build_octree(const SplatList& splats, std::uint32_t leaf_size, std::span<const CellName> divided) {
+  return Builder(splats, leaf_size, divided).build();
 }
 
 Octree build_octree_in(const SplatList& splats, std::uint32_t leaf_size,
                        const std::vector<OctreeBox>& boxes) {
-  return Builder(splats, leaf_size).build_in(boxes);
+  return Builder(splats, leaf_size, {}).build_in(boxes);
 }
 
 }  // namespace splatray

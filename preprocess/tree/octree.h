@@ -1,10 +1,14 @@
 /// The full octree over splat centres (Goradia et al. 2010, sec. III).
 #pragma once
+#include <cmath>
+#include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/scene/splat.h"
 #include "engine/scene/tree.h"
 
 namespace splatray {
@@ -47,8 +51,26 @@ struct Octree {
 inline constexpr double CROWDED_MOST = 1.75;
 inline constexpr double WIDEST_SPLATS = 0.36;
 
-/// Divides every node above MAX_DEPTH that holds more than `leaf_size` centres, but for those crowded ones.
-[[nodiscard]] Octree build_octree(const SplatList& splats, std::uint32_t leaf_size);
+/// Whether `count` splats, each number_of(0), number_of(1) ..., are that large for the children of a cell of this size.
+template <typename NumberOf>
+[[nodiscard]] bool are_wide(const SplatList& splats, std::size_t count, const NumberOf& number_of,
+                            std::uint32_t cell_size) {
+  double sum_squared = 0.0;
+  for (std::size_t i = 0; i < count; ++i) sum_squared += unpack_radius_squared(splats.words[number_of(i)]);
+  return std::sqrt(sum_squared / static_cast<double>(count)) > WIDEST_SPLATS * (0.5 * cell_size);
+}
+
+/// A cell of the octree: the Morton key of its lowest lattice point and its level. Ascending: depth first.
+struct CellName {
+  std::uint64_t key;
+  std::uint32_t level;
+  friend auto operator<=>(const CellName&, const CellName&) = default;
+};
+
+/// Divides every node above MAX_DEPTH that holds more than `leaf_size` centres, but for those crowded ones; and those named,
+/// ascending, whose parents must be divided.
+[[nodiscard]] Octree build_octree(const SplatList& splats, std::uint32_t leaf_size,
+                                  std::span<const CellName> divided = {});
 
 /// The same but that nodes which overlap none of the boxes are not divided: the part of that octree in the boxes.
 [[nodiscard]] Octree build_octree_in(const SplatList& splats, std::uint32_t leaf_size,

@@ -11,6 +11,10 @@ constexpr double RADIUS_SLACK = 1.0 + 1.0 / 512.0;
 constexpr double NORMAL_SLACK = 1e-4;
 /// Packing moves centres by half a unit and makes no radius smaller than sqrt(2) units.
 constexpr double LATTICE_SLACK = 3.0;
+/// Along an axis on which all discs take up less of the root than THIN, their middle lies at a third of it: no plane between
+/// cells is nearer there than a third of its cells, where in the middle a sheet would be listed on both sides of all of them.
+constexpr double THIN = 1.0 / 64.0;
+constexpr double BETWEEN_PLANES = 1.0 / 3.0;
 
 }  // namespace
 
@@ -34,7 +38,11 @@ RootTransform fit_root(const DiscBounds& bounds) {
       std::max({extent.x, extent.y, extent.z}) / (root_size - 2.0 * (ROOT_MARGIN + LATTICE_SLACK));
   RootTransform root;
   root.unit_world = std::max(unit, std::max({largest.x, largest.y, largest.z}) * 0x1p-45);
-  root.origin_world = 0.5 * (bounds.low + bounds.high) - 0.5 * root_size * root.unit_world;
+  const double size_world = root_size * root.unit_world;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place = extent[axis] < THIN * size_world ? BETWEEN_PLANES : 0.5;
+    root.origin_world[axis] = 0.5 * (bounds.low[axis] + bounds.high[axis]) - place * size_world;
+  }
   return root;
 }
 

@@ -16,7 +16,8 @@ struct DiscBounds {
   void add(const DiscBounds& other);
 };
 
-/// The cube around the discs: packed, they keep ROOT_MARGIN lattice units from its faces. The lattice unit is
+/// The cube around the discs: packed, they keep ROOT_MARGIN lattice units from its faces. They are in
+/// its middle, but along axes on which they are thin, as flat sheets are, off it. The lattice unit is
 /// not below 2^-45 of the largest coordinate, so that to_root stays exact to a small share of a unit. The
 /// bounds must not be empty.
 [[nodiscard]] RootTransform fit_root(const DiscBounds& bounds);

@@ -11,6 +11,7 @@
 
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
+#include "preprocess/tree/long_lists.h"
 
 namespace splatray {
 namespace {
@@ -172,6 +173,53 @@ TEST(Insertion, ProbesFillALeafThatHoldsNoCentre) {
   for (std::size_t leaf = 0; leaf < tree.leaves.size(); ++leaf)
     filled += list_of(probed, leaf).empty() ? 0 : 1;
   EXPECT_EQ(filled, 5U);
+}
+
+/// A sheet whose discs touch a plane between cells, all centres on one side of it.
+SplatList sheet_below(std::uint32_t height, std::size_t count) {
+  std::mt19937_64 random(3);
+  std::uniform_int_distribution<std::uint32_t> within(300000, 1800000);
+  SplatList splats;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::uvec3 center(within(random), within(random), height);
+    splats.words.push_back(pack_splat({glm::dvec3(center), {0.0, 0.0, 1.0}, 1e8, 0}));
+    splats.key.push_back(morton_key(center));
+  }
+  order_splats(splats, 8);
+  return splats;
+}
+
+std::size_t longest(const LeafLists& lists) {
+  std::size_t most = 0;
+  for (std::size_t leaf = 0; leaf + 1 < lists.begin.size(); ++leaf)
+    most = std::max<std::size_t>(most, list_of(lists, leaf).size());
+  return most;
+}
+
+TEST(LongLists, AreDividedOnTheOtherSideOfASheet) {
+  const SplatList splats = sheet_below((1U << 20) - 2, 20000);
+  const Octree tree = build_octree(splats, 16);
+  const LeafLists lists = insert_overlaps(tree, splats, STAGE);
+  ASSERT_GT(longest(lists), 1000U);
+  const std::vector<CellName> divided = find_long_lists(tree, lists, splats, 16);
+  EXPECT_TRUE(std::is_sorted(divided.begin(), divided.end()));
+  const LeafLists after = insert_overlaps(build_octree(splats, 16, divided), splats, STAGE);
+  EXPECT_LE(longest(after), 64U);
+  EXPECT_LT(after.splat.size(), 2 * lists.splat.size());
+}
+
+TEST(LongLists, AreFewEnoughBesideNoSheet) {
+  const SplatList splats = sheet_below((1U << 20) - 40000, 20000);
+  const Octree tree = build_octree(splats, 16);
+  EXPECT_TRUE(find_long_lists(tree, insert_overlaps(tree, splats, STAGE), splats, 16).empty());
+}
+
+TEST(LongLists, OfSplatsThatAreWideStay) {
+  const SplatList splats = surface_splats(3000, 300000.0, 400000.0);
+  const Octree tree = build_octree(splats, 16);
+  const LeafLists lists = insert_overlaps(tree, splats, STAGE);
+  ASSERT_GT(longest(lists), 128U);
+  EXPECT_TRUE(find_long_lists(tree, lists, splats, 16).empty());
 }
 
 }  // namespace
