@@ -100,7 +100,7 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_scan_options(list, options.scans);
   add_smoothing(list, params.smooth_world);
   add_number(list, "--threads", options.threads, 0, 4096,
-             "threads of reading and preprocess; default 0 = all cores");
+             "threads of reading, preprocess and the device cpu; default 0 = all cores");
 }
 
 std::vector<std::filesystem::path> model_folders(const BuildOptions& options) {

@@ -7,6 +7,7 @@
 #include "app/library/commit.h"
 #include "app/library/compare.h"
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/number_text.h"
 #include "engine/file/atomic_file.h"
 #include "preprocess/base/file_extension.h"
@@ -26,6 +27,18 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
 }
 
 }  // namespace
+
+void require_picture_memory(const RenderOptions& options) {
+  const PixelWindow made = View{{}, options.picture.width, options.picture.height, options.window()}.made();
+  Settings settings = options.picture.settings;
+  settings.aov = settings.aov || options.denoise;
+  settings.estimate_error = settings.estimate_error || options.denoise || options.has_goal();
+  const std::size_t channels = 4 + (options.aov_depth ? 1 : 0) + (options.aov_normal ? 3 : 0) +
+                               (options.aov_id ? 1 : 0) + (options.aov_error ? 1 : 0);
+  const std::uint64_t writing = is_png(options.output) ? PNG_WRITING_BYTES : exr_writing_bytes(channels);
+  require_memory(std::uint64_t{made.width} * made.height * (image_bytes(settings) + writing),
+                 "a picture of " + size_text(made.width, made.height) + " pixels and its file");
+}
 
 void require_outputs_writable(const RenderOptions& options) {
   require_writable(options.output);

@@ -9,6 +9,9 @@
 
 namespace splatray {
 
+/// Throws Error (out_of_memory) where there is less memory than a picture takes until it is written.
+void require_picture_memory(const RenderOptions& options);
+
 /// Throws Error (failed) when the pictures or the statistics have no place to go.
 void require_outputs_writable(const RenderOptions& options);
 

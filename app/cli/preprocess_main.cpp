@@ -8,6 +8,7 @@
 #include "app/cli/option_types.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
+#include "engine/base/memory.h"
 #include "engine/base/progress.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/scene_file.h"
@@ -66,10 +67,10 @@ int run(int argc, char** argv) {
   keep_freed_memory();
 
   ProgressLine line(/*quiet=*/false);
-  const Progress progress = [&](const char* stage, double share) {
+  const Progress progress = watching_memory([&](const char* stage, double share) {
     line.show(stage, share);
     return !interrupted();
-  };
+  });
   BuildStats stats;
   Input input = read(options.build, stats, progress);
   line.clear();

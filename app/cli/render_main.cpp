@@ -63,6 +63,7 @@ int render(int argc, char** argv) {
   const Sequence sequence = plan_sequence(options);
   if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
   require_outputs_writable(options);
+  require_picture_memory(options);
   const std::optional<DisplayImage> reference = read_reference(options);
   catch_interrupts();
   StageTimes times;
@@ -79,7 +80,7 @@ int render(int argc, char** argv) {
   const Environment environment = choose_environment(loaded.environment_name);
 
   watch.lap_ms();
-  Tracer tracer(context, {.pipeline_folder = user_cache_folder()});
+  Tracer tracer(context, {.pipeline_folder = user_cache_folder(), .threads = options.scene.threads});
   // What is asked of the pools, before they go.
   const Camera still = choose_camera(loaded.scene, options.picture);
   tell_viewpoint(options, loaded.scene);

@@ -62,13 +62,35 @@ void make_picture(const Run& run, const Camera& camera, const SequenceFrame& fra
   record.made.push_back({frame, lights.size(), stats, watch.lap_ms(), denoise_ms});
 }
 
+/// The command of these options, its files spelt in one way.
+std::string plain_command(RenderOptions options) {
+  const auto plain = [](const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path found =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+    return error ? file : found;
+  };
+  for (std::filesystem::path& input : options.scene.inputs) input = plain(input);
+  for (std::filesystem::path& folder : options.scene.data_paths) folder = plain(folder);
+  std::string& environment = options.picture.environment;
+  if (!environment.empty() && !built_in_environment(environment)) environment = plain(environment).string();
+  return command_line(options);
+}
+
 /// Whether the picture is there, whole, and made by the command that would make it now.
 bool is_made(const RenderOptions& options, const Camera& camera, const std::filesystem::path& path) {
   if (!is_whole_picture(path)) return false;
-  const std::pair<std::string, std::string> command{"command_line",
-                                                    command_line(still_options(options, camera))};
-  const Metadata kept = read_metadata(path);
-  return std::find(kept.begin(), kept.end(), command) != kept.end();
+  const Metadata metadata = read_metadata(path);
+  const auto kept = std::find_if(metadata.begin(), metadata.end(),
+                                 [](const auto& entry) { return entry.first == "command_line"; });
+  if (kept == metadata.end()) return false;
+  const RenderOptions still = still_options(options, camera);
+  if (kept->second == command_line(still)) return true;
+  try {
+    return plain_command(parse_command_line(kept->second)) == plain_command(still);
+  } catch (const Error&) {
+    return false;  // another version's
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "app/cli/command_line.h"
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 
 namespace splatray {
 namespace {
@@ -25,10 +26,33 @@ void name_whole_picture(ExrPicture& part, const std::filesystem::path& file) {
                                  [](const auto& entry) { return entry.first == "command_line"; });
   if (kept == part.metadata.end())
     refuse(file, "no splatray.command_line in it", "an EXR of splatray-render");
-  RenderOptions options = parse_command_line(kept->second);
+  RenderOptions options;
+  try {
+    options = parse_command_line(kept->second);
+  } catch (const Error& error) {
+    refuse(file, std::string("a command that is none of ours (") + error.what() + ")",
+           "an EXR of splatray-render");
+  }
   options.crop = {};
   options.tile = options.tiles = 0;
   kept->second = command_line(options);
+}
+
+/// Refuses parts that cannot be the whole picture before there is memory for that: a part's header may claim any size.
+void require_all_pixels(const std::vector<std::filesystem::path>& files) {
+  std::uint64_t whole = 0, parts = 0, channels = 0;
+  for (const std::filesystem::path& file : files) {
+    const ExrPicture part = read_exr_header(file);
+    whole = std::uint64_t{part.width} * part.height;
+    parts += std::uint64_t{part.window.width} * part.window.height;
+    channels = part.channels.size();
+  }
+  if (parts < whole || files.empty())
+    throw Error(ExitCode::input_unreadable, "found at least " + std::to_string(whole - parts) +
+                                                " pixels in none of the " + std::to_string(files.size()) +
+                                                " parts, expected each in one");
+  require_memory(whole * (channels * sizeof(float) + exr_writing_bytes(channels)),
+                 "the picture of all parts");
 }
 
 ExrPicture read_part(const std::filesystem::path& file) {
@@ -74,6 +98,7 @@ void put(const ExrPicture& part, const std::filesystem::path& file, ExrPicture& 
 }  // namespace
 
 ExrPicture join_tiles(const std::vector<std::filesystem::path>& files) {
+  require_all_pixels(files);
   ExrPicture whole;
   std::vector<bool> there;
   for (const std::filesystem::path& file : files) {
@@ -87,13 +112,13 @@ ExrPicture join_tiles(const std::vector<std::filesystem::path>& files) {
     put(part, file, whole, there);
   }
   const auto missing = static_cast<std::size_t>(std::count(there.begin(), there.end(), false));
-  if (missing > 0 || files.empty()) {
+  if (missing > 0) {
     const std::size_t first =
         static_cast<std::size_t>(std::find(there.begin(), there.end(), false) - there.begin());
     throw Error(ExitCode::input_unreadable, "found " + std::to_string(missing) + " pixels in none of the " +
                                                 std::to_string(files.size()) + " parts, the first is " +
-                                                std::to_string(first % std::max(1U, whole.width)) + "," +
-                                                std::to_string(first / std::max(1U, whole.width)) +
+                                                std::to_string(first % whole.width) + "," +
+                                                std::to_string(first / whole.width) +
                                                 ", expected each in one");
   }
   return whole;

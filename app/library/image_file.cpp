@@ -11,6 +11,7 @@
 #include "app/library/exr_check.h"
 #include "app/library/image_codec.h"
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/srgb.h"
 #include "engine/file/atomic_file.h"
 
@@ -99,6 +100,9 @@ Picture read_picture(const std::filesystem::path& path) {
                   {},
                   header.integers};
   const std::size_t channels = std::min<std::size_t>(header.channels.size(), 3);
+  const std::size_t pixels = std::size_t{picture.width} * picture.height;
+  require_memory(pixels * sizeof(vec3), "'" + path.string() + "'");
+  picture.rgb.reserve(pixels);
   const PixelSink append = [&](const float* value, std::size_t count) {
     for (const float* end = value + count * channels; value != end; value += channels)
       picture.rgb.push_back(channels == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]));
@@ -129,7 +133,9 @@ Metadata metadata_of(const PictureHeader& header) {
 /// A picture's file in memory; `name` is what to call it where that fails.
 std::vector<unsigned char> encode(PictureHeader header, const Metadata& metadata, const void* values,
                                   const char* format, const std::string& name) {
-  for (const auto& [key, value] : metadata) header.attributes.emplace_back(PREFIX + key, value);
+  Metadata sorted = metadata;  // as an EXR keeps it: a picture that went through parts is the same file
+  std::sort(sorted.begin(), sorted.end());
+  for (const auto& [key, value] : sorted) header.attributes.emplace_back(PREFIX + key, value);
   std::vector<unsigned char> bytes;
   std::string reason;
   if (!codec().encode(format, header, values, bytes, reason))
@@ -221,7 +227,7 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
   write_exr(exr_picture(image, aovs, metadata), path);
 }
 
-ExrPicture read_exr(const std::filesystem::path& path) {
+ExrPicture read_exr_header(const std::filesystem::path& path) {
   const PictureHeader header = read_flat_header(path);
   const bool inside = header.x >= 0 && header.y >= 0 &&
                       header.x + std::int64_t{header.width} <= header.full_width &&
@@ -230,14 +236,21 @@ ExrPicture read_exr(const std::filesystem::path& path) {
   if (header.integers || !inside)
     refuse(path, header.integers ? "8 or 16 bits a channel" : "a data window that is not inside the picture",
            "an EXR of splatray-render");
-  ExrPicture picture{static_cast<std::uint32_t>(header.full_width),
-                     static_cast<std::uint32_t>(header.full_height),
-                     {static_cast<std::uint32_t>(header.x), static_cast<std::uint32_t>(header.y),
-                      static_cast<std::uint32_t>(header.width), static_cast<std::uint32_t>(header.height)},
-                     header.channels,
-                     {},
-                     metadata_of(header)};
-  const std::size_t channels = header.channels.size();
+  return {static_cast<std::uint32_t>(header.full_width),
+          static_cast<std::uint32_t>(header.full_height),
+          {static_cast<std::uint32_t>(header.x), static_cast<std::uint32_t>(header.y),
+           static_cast<std::uint32_t>(header.width), static_cast<std::uint32_t>(header.height)},
+          header.channels,
+          {},
+          metadata_of(header)};
+}
+
+ExrPicture read_exr(const std::filesystem::path& path) {
+  ExrPicture picture = read_exr_header(path);
+  const std::size_t channels = picture.channels.size();
+  const std::size_t values = std::size_t{picture.window.width} * picture.window.height * channels;
+  require_memory(values * sizeof(float), "'" + path.string() + "'");
+  picture.values.reserve(values);
   const PixelSink append = [&](const float* value, std::size_t count) {
     picture.values.insert(picture.values.end(), value, value + count * channels);
   };

@@ -19,6 +19,12 @@ struct AovChannels {
 /// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, their names after "splatray.".
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
+/// Bytes a pixel that writing a picture takes beside it, at most: a PNG, or an EXR of so many channels.
+inline constexpr std::uint64_t PNG_WRITING_BYTES = sizeof(vec3) + 3 * 3;
+[[nodiscard]] constexpr std::uint64_t exr_writing_bytes(std::size_t channels) {
+  return 2 * sizeof(float) * channels;
+}
+
 /// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); then an older file of that name is as it was.
 void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path);
 
@@ -41,7 +47,9 @@ void write_exr(const ExrPicture& picture, const std::filesystem::path& path);
 /// The same of an image that is the whole picture.
 void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
                const std::filesystem::path& path);
-/// Reads what write_exr wrote. Throws Error (input_unreadable) with path, found and expected.
+/// What write_exr wrote, without its values. Throws Error (input_unreadable) with path, found and expected.
+[[nodiscard]] ExrPicture read_exr_header(const std::filesystem::path& path);
+/// Reads it whole; Error (out_of_memory), too, where that would take more memory than there is.
 [[nodiscard]] ExrPicture read_exr(const std::filesystem::path& path);
 
 /// Whether a file is a PNG with its end or another picture whose last row can be read: whether write_png or write_exr came to

@@ -8,6 +8,7 @@
 #include "app/library/image_file.h"
 #include "app/library/materials.h"
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/surface.h"
 #include "preprocess/base/file_extension.h"
@@ -20,16 +21,19 @@ glm::dvec3 bounds_center(const Scene& scene) {
 }
 
 void tell(const LoadListener& listener, const char* stage, double share) {
-  if (!listener.progress(stage, share)) throw Error(ExitCode::interrupted, "loading was interrupted");
+  if (listener.progress && !listener.progress(stage, share))
+    throw Error(ExitCode::interrupted, "loading was interrupted");
 }
 
 Scene preprocess(const SceneOptions& options, const LoadListener& listener, BuildStats& stats) {
-  ReadOptions reading = read_options(options, listener.progress);
+  const Progress progress = watching_memory(listener.progress);
+  ReadOptions reading = read_options(options, progress);
   reading.turn_outwards =
       !options.material.empty() && (named_material(options.material).flags & MATERIAL_DIELECTRIC) != 0;
   Input input = read_input(options.inputs, reading);
-  for (const std::string& note : input.notes) listener.note(note);
-  return build_scene(std::move(input), options.params, options.threads, stats, listener.progress);
+  if (listener.note)
+    for (const std::string& note : input.notes) listener.note(note);
+  return build_scene(std::move(input), options.params, options.threads, stats, progress);
 }
 
 void apply_material(Scene& scene, const std::string& name) {

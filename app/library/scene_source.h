@@ -18,7 +18,7 @@ struct LoadedScene {
   ColorLegend legend{};             ///< of PictureOptions::attributes
 };
 
-/// Who hears of loading, on its thread.
+/// Who hears of loading, on its thread; each may be empty.
 struct LoadListener {
   BuildProgress progress;  ///< returns false to stop: load_scene then throws Error (interrupted)
   std::function<void(const std::string&)> note;  ///< a sentence about something odd in the files

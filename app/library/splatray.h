@@ -95,7 +95,7 @@ struct OpenOptions {
   /// Colours by an attribute: height, normal, distance, intensity ...; empty = the scene's own.
   std::string color_by{};
   std::optional<Double3> up{};  ///< up direction; unset = the file's own, z for arrays
-  unsigned threads = 0;         ///< of reading and preprocess; 0 = all cores
+  unsigned threads = 0;         ///< of reading, preprocess and the device "cpu"; 0 = all cores
   /// Vulkan device: number or part of a name as in devices(); empty = best. "cpu" = the processors without Vulkan: the same
   /// hits, in two to three times the time of Mesa's Vulkan driver for them.
   std::string device{};

@@ -3,7 +3,8 @@
 
 namespace splatray {
 
-/// From now on the first SIGINT, SIGTERM or SIGHUP only sets a flag; a second one of the same kind ends the program at once.
+/// From now on the first SIGINT, SIGTERM or SIGHUP only sets a flag; a second one of the same kind ends the program at once. Work that
+/// has not ended 2 s after the first ends there with a sentence and ExitCode::interrupted: its files are whole or absent all the same.
 /// A SIGHUP that is ignored, as nohup has it, stays ignored.
 void catch_interrupts();
 /// Whether a signal has come.

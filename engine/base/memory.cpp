@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
@@ -90,6 +92,23 @@ std::uint64_t left_of_address_space(const fs::path& root) {
 
 std::uint64_t available_memory(const fs::path& root) {
   return std::min({left_of_machine(root), left_of_groups(root), left_of_address_space(root)});
+}
+
+Progress watching_memory(Progress progress, const fs::path& root) {
+  using Clock = std::chrono::steady_clock;
+  return [progress = std::move(progress), root, last = Clock::time_point()](const char* stage,
+                                                                            double share) mutable {
+    constexpr auto PAUSE = std::chrono::milliseconds(20);
+    constexpr std::uint64_t LEAST = std::uint64_t{48} << 20U;
+    if (Clock::now() - last > PAUSE) {
+      last = Clock::now();
+      if (const std::uint64_t available = available_memory(root); available < LEAST)
+        throw Error(ExitCode::out_of_memory, "found " + bytes_text(available) +
+                                                 " of memory left at the stage '" + stage +
+                                                 "', expected room for a scene of this size");
+    }
+    return !progress || progress(stage, share);
+  };
 }
 
 void require_memory(std::uint64_t bytes, const std::string& what) {

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/base/progress.h"
+
 namespace splatray {
 
 /// Bytes that this process may still use: the least of what the machine has (MemAvailable and free swap), what its control
@@ -14,5 +16,9 @@ namespace splatray {
 /// Throws Error (out_of_memory), a sentence with the two sizes, unless so many bytes are available; `what` needs them, such as
 /// "a picture of 640x480 pixels".
 void require_memory(std::uint64_t bytes, const std::string& what);
+
+/// `progress`, which may be empty, as one that also looks some times a second how much memory there is, and throws Error
+/// (out_of_memory) where that comes to an end: for work whose needs nobody can tell before.
+[[nodiscard]] Progress watching_memory(Progress progress, const std::filesystem::path& root = "/");
 
 }  // namespace splatray

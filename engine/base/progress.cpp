@@ -2,12 +2,28 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 
 namespace splatray {
+namespace {
 
-ProgressLine::ProgressLine(bool quiet, ProgressStyle style)
-    : enabled_(!quiet && (style != ProgressStyle::line || isatty(STDERR_FILENO) != 0)), style_(style) {}
+using Clock = std::chrono::steady_clock;
+
+bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
+
+/// Whether it is time for another line on a stderr that is no terminal: one in some seconds, and none of work that is short.
+bool is_time_for_a_line() {
+  constexpr auto PAUSE = std::chrono::seconds(10);
+  static Clock::time_point last = Clock::now();  // of the process, as stderr is
+  if (Clock::now() - last < PAUSE) return false;
+  last = Clock::now();
+  return true;
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool quiet, ProgressStyle style) : enabled_(!quiet), style_(style) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
@@ -16,6 +32,12 @@ void ProgressLine::show(const std::string& stage, double share) {
   const int percent = static_cast<int>(100.0 * share);
   const std::string line = stage + " " + std::to_string(percent) + " %";
   if (line == shown_) return;
+  if (style_ == ProgressStyle::line && !is_terminal()) {
+    if (!is_time_for_a_line()) return;
+    std::fprintf(stderr, "%s\n", line.c_str());
+    shown_ = line;
+    return;
+  }
   shown_ = line;
   switch (style_) {
     case ProgressStyle::line:
@@ -38,7 +60,7 @@ void ProgressLine::show(const std::string& stage, double share) {
 void ProgressLine::clear() {
   if (shown_.empty()) return;
   shown_.clear();
-  if (style_ == ProgressStyle::line) std::fputs("\r\033[K", stderr);
+  if (style_ == ProgressStyle::line && is_terminal()) std::fputs("\r\033[K", stderr);
 }
 
 }  // namespace splatray

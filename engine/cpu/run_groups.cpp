@@ -8,7 +8,7 @@
 
 namespace splatray {
 
-void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count,
+void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count, unsigned threads,
                 std::array<std::uint64_t, COUNTER_COUNT>& counts) {
   std::atomic<std::uint32_t> next = 0;
   std::mutex mutex;
@@ -18,8 +18,8 @@ void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count,
     const std::lock_guard lock(mutex);
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += counted[i];
   };
-  std::vector<std::jthread> others(std::min(std::max(std::thread::hardware_concurrency(), 1U), count) -
-                                   (count > 0));
+  if (threads == 0) threads = std::max(std::thread::hardware_concurrency(), 1U);
+  std::vector<std::jthread> others(std::min(threads, count) - (count > 0));
   for (std::jthread& other : others) other = std::jthread(run);
   run();
 }

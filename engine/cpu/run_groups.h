@@ -7,8 +7,8 @@
 
 namespace splatray {
 
-/// Runs groups 0 .. count - 1 on all cores, each group on one, and adds what they count to `counts`.
-void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count,
+/// Runs groups 0 .. count - 1 on so many threads, 0 = one a core, each group on one, and adds what they count to `counts`.
+void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count, unsigned threads,
                 std::array<std::uint64_t, COUNTER_COUNT>& counts);
 
 }  // namespace splatray

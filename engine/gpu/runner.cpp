@@ -52,7 +52,8 @@ Runner::Runner(const Context& device, const TracerOptions& options)
       profile(device_profile(device, options.kernels)),
       queue(device),
       pipelines(device, profile.kernels, options.pipeline_folder),
-      scene(device, queue, pool_request(options, profile), profile.culls) {
+      scene(device, queue, pool_request(options, profile), profile.culls),
+      threads_(options.threads) {
   reserve_storage(device, frame_buffer_, sizeof(FrameParams));
   for (Buffer* buffer : {&accumulation, &aov, &rays, &hits, &groups_}) reserve_storage(device, *buffer, 0);
   reserve_storage(device, counters_, COUNTER_COUNT * sizeof(std::uint32_t));
@@ -108,7 +109,7 @@ double Runner::run_on_host(const Dispatch& dispatch) {
   KernelWork work = scene.bindings().host();
   work.constants = dispatch.constants;
   work.frame = dispatch.frame;
-  run_groups(kernel_of(dispatch.program), work, dispatch.groups_x * dispatch.groups_y, counts);
+  run_groups(kernel_of(dispatch.program), work, dispatch.groups_x * dispatch.groups_y, threads_, counts);
   return milliseconds_since(start);
 }
 

@@ -56,6 +56,7 @@ class Runner {
   double run_on_host(const Dispatch& dispatch);
   void reserve_queues(std::uint32_t pixel_groups);
 
+  const unsigned threads_;  ///< of the host
   Buffer frame_buffer_, counters_, groups_, paths_, queued_paths_;
   std::vector<std::uint32_t> group_list_;               ///< what groups_ holds
   std::array<std::uint32_t, COUNTER_COUNT> counted_{};  ///< by the last dispatch, if it counts

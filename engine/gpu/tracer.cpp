@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/gpu/tracer_parts.h"
 #include "engine/image/picture_error.h"
 
@@ -99,12 +100,15 @@ void Tracer::set_environment(const Environment& environment) {
 Picture Tracer::Impl::start_picture(const View& view, const Settings& settings, std::uint32_t means) {
   start();
   const PixelWindow made = view.made();
+  const std::uint64_t pixels = std::uint64_t{made.width} * made.height;
+  require_memory(pixels * image_bytes(settings), "a picture of " + std::to_string(made.width) + "x" +
+                                                     std::to_string(made.height) + " pixels");
   Picture picture{runner.picture_dispatch(view, settings),
                   runner.aov_dispatch(view, settings),
                   runner.scene.footprint(view, settings),
                   cut_into_tiles(made.width, made.height, TILE_PIXELS / means),
                   {made.width, made.height, {}, {}, {}}};
-  picture.image.rgba.resize(std::size_t{made.width} * made.height);
+  picture.image.rgba.resize(pixels);
   const std::size_t most_pixels = picture.tiles.front().pixels();
   reserve_storage(runner.context, runner.accumulation, means * most_pixels * sizeof(vec4));
   if (settings.aov) {
@@ -123,7 +127,8 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   Picture picture = impl.start_picture(view, settings, 1);
   Image& image = picture.image;
   const std::size_t pixels = image.rgba.size();
-  Image first_half = image;
+  Image first_half{image.width, image.height, {}, {}};
+  if (settings.estimate_error) first_half.rgba.resize(pixels);
   std::uint64_t done = 0;
   double trace_ms = 0.0;
   for (const Tile& tile : picture.tiles) {

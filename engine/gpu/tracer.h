@@ -42,6 +42,7 @@ struct TracerOptions {
       pipeline_folder{};                 ///< where compiled pipelines are kept between runs; empty = nowhere
   PoolWish pools{};                      ///< for tests and benchmarks
   Kernels kernels = Kernels::automatic;  ///< for tests and benchmarks
+  unsigned threads = 0;                  ///< of a context that is the host; 0 = one a core
 };
 
 /// Calls that make no sense, such as images of no scene, throw Error (failed) with a sentence that says so.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "shaders/layout.h"
+#include "engine/image/view.h"
 
 namespace splatray {
 
@@ -16,5 +16,11 @@ struct Image {
   /// Goal.
   std::vector<float> error{};
 };
+
+/// Bytes a pixel of the picture that is made with these settings, at most.
+[[nodiscard]] inline std::uint64_t image_bytes(const Settings& settings) {
+  return sizeof(vec4) + (settings.aov ? sizeof(AovPixel) : 0) +
+         (settings.estimate_error ? sizeof(vec4) + sizeof(float) : 0);
+}
 
 }  // namespace splatray

@@ -73,9 +73,9 @@ Error no_device_error(const std::vector<DeviceInfo>& devices, const std::string&
             "drivers for "
             "most GPUs and one for the CPU; the device 'cpu' needs none)"};
   std::string sentence =
-      wanted.empty() ? "no usable Vulkan device found" : "no usable Vulkan device matches '" + wanted + "'";
+      wanted.empty() ? "no Vulkan device is usable" : "no usable Vulkan device matches '" + wanted + "'";
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    sentence += (i == 0 ? ", of " : "; ") + std::to_string(i) + ": " + devices[i].name + " (" +
+    sentence += (i == 0 ? ", found " : "; ") + std::to_string(i) + ": " + devices[i].name + " (" +
                 (devices[i].refused.empty() ? "usable" : "refused: " + devices[i].refused) + ")";
   }
   return {ExitCode::no_device, sentence};

@@ -44,6 +44,9 @@ TEST_F(CliParts, MergedTilesAreTheWholePictureByteForByte) {
   EXPECT_TRUE(bytes("merged.exr") == bytes("whole.exr"));
   ASSERT_EQ(make("whole.png", {}).code, 0);
   ASSERT_EQ(merge({parts[0], parts[1], parts[2], "-o", file("merged.png")}).code, 0);
+  ASSERT_EQ(make("plain.exr", {"--tile=1/2"}).code + make("plain2.exr", {"--tile=2/2"}).code, 0);
+  ASSERT_EQ(merge({file("plain.exr"), file("plain2.exr"), "-o", file("plain.png")}).code, 0);
+  EXPECT_TRUE(bytes("plain.png") == bytes("whole.png"));
   EXPECT_EQ(read_display_image(file("merged.png"), {}).rgb, read_display_image(file("whole.png"), {}).rgb);
   EXPECT_FALSE(bytes("part1.exr") == bytes("part2.exr"));
 }
@@ -71,7 +74,15 @@ TEST_F(CliParts, PartsThatDoNotMakeAPictureAreRefused) {
     words.insert(words.end(), {"-o", out});
     expect_refused([&] { return merge(words); }, 3, found);
   };
-  refused({a}, "found 600 pixels in none of the 1 parts, the first is 0,15");
+  refused({a}, "found at least 600 pixels in none of the 1 parts");
+  ExrPicture claims{16384, 8192, {0, 0, 1, 1}, {"R", "G", "B", "A"}, {1, 1, 1, 1}, read_exr(a).metadata};
+  write_exr(claims, file("claims.exr"));
+  refused({file("claims.exr")}, "found at least 134217727 pixels in none of the 1 parts");
+  claims = read_exr(a);
+  for (auto& [name, value] : claims.metadata)
+    if (name == "command_line") value += " --no-such-option";
+  write_exr(claims, file("command.exr"));
+  refused({file("command.exr"), b}, "command.exr': found a command that is none of ours");
   refused({a, a, b}, "the pixel 0,0, which another part has too");
   refused({a, file("seed.exr")}, "command_line");
   refused({a, grid}, "no picture");

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "engine/file/scene_file.h"
 #include "engine/scene/splat.h"
 
 namespace splatray {
@@ -27,6 +28,19 @@ double outward_share(const std::string& material) {
     outward += glm::dot(center - 0.25, splat.normal) > 0.0 ? 1.0 : 0.0;
   }
   return outward / static_cast<double>(scene.data_pool.size());
+}
+
+TEST(LoadScene, NobodyNeedsToListen) {
+  const std::string path = ::testing::TempDir() + "quiet.obj",
+                    scene_path = ::testing::TempDir() + "quiet.soct";
+  std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 1\n";
+  SceneOptions options;
+  options.inputs = {path};
+  const LoadedScene loaded = load_scene(options, {}, {});
+  EXPECT_GT(loaded.scene.data_pool.size(), 0U);
+  write_scene(loaded.scene, scene_path);
+  options.inputs = {scene_path};
+  EXPECT_EQ(load_scene(options, {}, {}).scene.data_pool, loaded.scene.data_pool);
 }
 
 TEST(LoadScene, GlassOfAMeshWoundInwardsIsTurnedOutwards) {

@@ -79,6 +79,19 @@ TEST_F(CliSequences, WholeFramesAreSkippedAndBrokenOnesMadeAgain) {
   }
 }
 
+TEST_F(CliSequences, FramesOfTheSameFileSpeltOtherwiseAreSkipped) {
+  ASSERT_EQ(render_to("t#.png", {grid, "--turntable=2", "--skip-existing"}).code, 0);
+  const auto time = std::filesystem::last_write_time(file("t0.png"));
+  const std::filesystem::path path = grid;
+  const std::string spelt =
+      (path.parent_path() / "." / ".." / path.parent_path().filename() / path.filename()).string();
+  ASSERT_EQ(render_to("t#.png", {spelt, "--turntable=2", "--skip-existing"}).code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(file("t0.png")), time);
+  std::filesystem::copy_file(grid, file("other.ply"));
+  ASSERT_EQ(render_to("t#.png", {file("other.ply"), "--turntable=2", "--skip-existing"}).code, 0);
+  EXPECT_NE(std::filesystem::last_write_time(file("t0.png")), time) << "another file's frames are made again";
+}
+
 TEST_F(CliSequences, FullDiskLeavesNoFrame) {
   const std::vector<std::string> command = {RENDER,           "--quiet",       grid, "--resolution=128x128",
                                             "--samples=1",    "--turntable=2", "-o", file("t#.png"),

@@ -58,6 +58,12 @@ std::string refusal(const std::vector<DeviceInfo>& devices, const std::string& w
   return error.what();
 }
 
+TEST(DeviceChoice, ARefusalListsWhatWasFound) {
+  const std::string text = error_of([] { (void)choose_device(MACHINE, "x"); }).what();
+  EXPECT_EQ(text.find("no usable Vulkan device matches 'x', found 0: llvmpipe (usable); 1: Old Card"), 0U)
+      << text;
+}
+
 TEST(DeviceChoice, TakesTheFirstBestUsableDevice) { EXPECT_EQ(choose_device(MACHINE, ""), 3U); }
 
 TEST(DeviceChoice, SoftwareDeviceWinsOnlyAlone) {

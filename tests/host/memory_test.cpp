@@ -54,6 +54,23 @@ TEST_F(MemoryTest, OfTheFirstVersionAndInContainers) {
   EXPECT_EQ(available_memory(root.path()), 25000U);
 }
 
+TEST_F(MemoryTest, IsWatched) {
+  int heard = 0;
+  const auto hear = [&](const char*, double) { return ++heard < 2; };
+  write("proc/meminfo", "MemAvailable: 100000 kB\n");
+  const Progress plenty = watching_memory(hear, root.path());
+  EXPECT_TRUE(plenty("a", 0.0));
+  EXPECT_FALSE(plenty("a", 0.5));
+  EXPECT_TRUE(watching_memory({}, root.path())("a", 0.0));
+  write("proc/meminfo", "MemAvailable: 40000 kB\n");
+  try {
+    (void)watching_memory(hear, root.path())("a", 0.0);
+    FAIL() << "nobody looked";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::out_of_memory);
+  }
+}
+
 TEST(Memory, IsAskedFor) {
   EXPECT_NO_THROW(require_memory(1, "a byte"));
   try {

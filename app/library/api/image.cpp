@@ -3,6 +3,7 @@
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
 #include "app/library/image_file.h"
+#include "engine/base/memory.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray::api {
@@ -16,9 +17,10 @@ splatray::Display inner_display(const Display& display) {
       return {display.exposure, splatray::Tone::agx};
     case Tone::none:
       return {display.exposure, splatray::Tone::none};
-    default:
+    case Tone::neutral:
       return {display.exposure, splatray::Tone::neutral};
   }
+  refuse("tone " + std::to_string(static_cast<int>(display.tone)), "one of Tone's");
 }
 
 void check(const Image& image, double exposure) {
@@ -32,6 +34,13 @@ void check(const Image& image, double exposure) {
            "as many elements as pixels");
   if (!(exposure >= -MOST_STOPS && exposure <= MOST_STOPS))
     refuse("an exposure of " + std::to_string(exposure) + " stops", "-60 to 60");
+}
+
+/// Throws splatray::Error (out_of_memory) where there is not so much memory a pixel for writing the picture.
+void require_pixel_memory(const Image& image, std::uint64_t bytes) {
+  const std::uint64_t copy = sizeof(vec4) + (image.depth.empty() ? 0 : sizeof(AovPixel));
+  require_memory(image.pixels.size() * (copy + bytes), "writing a picture of " + std::to_string(image.width) +
+                                                           "x" + std::to_string(image.height) + " pixels");
 }
 
 splatray::Image inner_image(const Image& image) {
@@ -53,10 +62,12 @@ void Image::save(const std::filesystem::path& file, const Display& display) cons
   guarded([&] {
     check(*this, display.exposure);
     const std::string extension = lower_extension(file);
+    const bool png = extension == ".png", channels = !depth.empty();
+    if (!png && extension != ".exr")
+      refuse("output '" + file.string() + "'", "a name ending in .png or .exr");
+    require_pixel_memory(*this, png ? PNG_WRITING_BYTES : exr_writing_bytes(channels ? 9 : 4));
     const splatray::Image inner = inner_image(*this);
-    if (extension == ".png") return write_png(display_image(inner, inner_display(display)), {}, file);
-    if (extension != ".exr") refuse("output '" + file.string() + "'", "a name ending in .png or .exr");
-    const bool channels = !depth.empty();
+    if (png) return write_png(display_image(inner, inner_display(display)), {}, file);
     write_exr(inner, {channels, channels, channels}, {}, file);
   });
 }
@@ -64,6 +75,7 @@ void Image::save(const std::filesystem::path& file, const Display& display) cons
 std::vector<unsigned char> Image::png(const Display& display) const {
   return guarded([&] {
     check(*this, display.exposure);
+    require_pixel_memory(*this, PNG_WRITING_BYTES);
     return encode_png(display_image(inner_image(*this), inner_display(display)), {});
   });
 }

@@ -4,6 +4,7 @@
 
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
+#include "engine/base/memory.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray::api {
@@ -45,6 +46,7 @@ std::shared_ptr<Scene::Impl> new_scene(const OpenOptions& options) {
   auto impl = std::make_shared<Scene::Impl>();
   impl->device_wanted = options.device;
   impl->cache = options.cache;
+  impl->threads = options.threads;
   return impl;
 }
 
@@ -118,7 +120,8 @@ Scene make_scene(std::span<const Points> objects, const OpenOptions& options) {
     auto impl = new_scene(options);
     const SceneOptions scene = scene_options(options);
     BuildStats& stats = impl->loaded.build.emplace();
-    impl->loaded.scene = build_scene(std::move(input), scene.params, scene.threads, stats, std::ref(relay));
+    impl->loaded.scene =
+        build_scene(std::move(input), scene.params, scene.threads, stats, watching_memory(std::ref(relay)));
     impl->loaded.legend = show_attributes(impl->loaded.scene, picture_options(options).attributes);
     if (stats.dropped_non_finite > 0)
       impl->notes.push_back(std::to_string(stats.dropped_non_finite) +

@@ -38,12 +38,14 @@ std::uint32_t inner_look(const LoadedScene& loaded, const Look& look) {
       return LOOK_AO;
     case Style::scan:
       return LOOK_SCAN;
-    default:
+    case Style::automatic: {
       PictureOptions picture;
       picture.environment = look.environment;
       if (look.lights) picture.lights.emplace();
       return choose_look(loaded.scene, picture);
+    }
   }
+  refuse("style " + std::to_string(static_cast<int>(look.style)), "one of Style's");
 }
 
 splatray::Settings inner_settings(const Look& look, const Settings& settings) {
@@ -87,6 +89,8 @@ splatray::Scene inner_materials(const splatray::Scene& scene, const Look& look) 
 SceneLight inner_light(const Light& light) {
   constexpr double LARGEST = 1e30, WHOLE_SKY_DEG = 180.0;
   const bool point = light.kind == Light::Kind::point;
+  if (!point && light.kind != Light::Kind::directional)
+    refuse("a light of kind " + std::to_string(static_cast<int>(light.kind)), "directional or point");
   if (!(light.size >= 0.0 && light.size <= (point ? LARGEST : WHOLE_SKY_DEG)))
     refuse("a light of size " + std::to_string(light.size),
            "0 or more, of directional ones at most 180 degrees");

@@ -38,8 +38,8 @@ Scene::Impl::InUse::InUse(const Impl& scene, SceneOnDevice& there) : there_(ther
     refuse("a progress function that uses the scene whose work it hears of",
            "other scenes there, or this one afterwards");
   if (!there.tracer) {
-    auto tracer =
-        std::make_unique<Tracer>(there.device->context, TracerOptions{.pipeline_folder = scene.cache});
+    auto tracer = std::make_unique<Tracer>(
+        there.device->context, TracerOptions{.pipeline_folder = scene.cache, .threads = scene.threads});
     tracer->upload(scene.loaded.scene);
     there.tracer = std::move(tracer);
   }

@@ -32,6 +32,7 @@ struct Scene::Impl {
   std::vector<std::string> notes;
   std::string device_wanted;
   std::filesystem::path cache;
+  unsigned threads = 0;  ///< of the device "cpu"
 
   /// Calls use(scene on its device), with the device to itself; asks `relay` while it waits for that. Throws Error (usage) where
   /// that is what the progress function of such a use does.
