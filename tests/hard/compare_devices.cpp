@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "app/library/commit.h"
 #include "data/shapes.h"
 #include "engine/base/error.h"
 #include "tests/hard/support/clouds.h"
@@ -86,8 +87,8 @@ int run(int argc, char** argv) {
   const Context a(argv[1]);
   const Context b(argv[2]);
   std::cout << "Devices: " << a.device_info().name << " (" << a.device_info().driver << "), "
-            << b.device_info().name << " (" << b.device_info().driver
-            << ").\n\n| scene | what | of | differ in some bit | of them |\n"
+            << b.device_info().name << " (" << b.device_info().driver << "), of commit " << COMMIT
+            << ".\n\n| scene | what | of | differ in some bit | of them |\n"
             << "| --- | --- | --- | --- | --- |\n";
   for (const NamedScene& named : all_scenes()) {
     DeviceScene on_a(named.scene, a);

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "app/library/commit.h"
 #include "engine/base/error.h"
 #include "tests/hard/support/case_table.h"
 #include "tests/hard/support/device_scene.h"
@@ -20,8 +21,8 @@ class NoValidationMessages : public ::testing::Environment {
 std::string heading() {
   return "# Hard cases\n\nMade by `SPLATRAY_HARD_RAYS=" + std::to_string(hard_rays()) +
          " hard_test --table FILE` on " + shared_context().device_info().name + " (" +
-         shared_context().device_info().driver +
-         ").\nEach row is one comparison of a test of `tests/hard`; exceptions, lost rays and non-finite "
+         shared_context().device_info().driver + "), of commit " + COMMIT +
+         ".\nEach row is one comparison of a test of `tests/hard`; exceptions, lost rays and non-finite "
          "answers "
          "must be 0 but where the row says that it shows a failure.\n";
 }
