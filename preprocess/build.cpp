@@ -22,6 +22,7 @@
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
 #include "preprocess/base/thread_limit.h"
+#include "preprocess/clouds.h"
 #include "preprocess/scan/scan_surface.h"
 #include "preprocess/surface/cloud.h"
 #include "preprocess/surface/normals.h"
@@ -86,21 +87,6 @@ Scene describe_scene(Input& input, const BuildParams& params) {
     throw Error(ExitCode::input_unreadable,
                 "the input has " + defect->found + ", expected " + defect->expected);
   return scene;
-}
-
-std::vector<Cloud> make_clouds(Input& input, BuildStats& stats) {
-  std::vector<Cloud> clouds;
-  for (InputObject& object : input.objects) {
-    const bool measured = object.measured && !object.oriented && !(object.surface_area > 0.0);
-    clouds.push_back(make_cloud(std::move(object.points), object.oriented, stats));
-    clouds.back().measured = measured;
-  }
-  if (stats.points_read == stats.dropped_non_finite) {
-    throw Error(ExitCode::input_unreadable,
-                "the input has no usable point: found " + std::to_string(stats.points_read) +
-                    " points with positions that are not finite, expected at least one that is");
-  }
-  return clouds;
 }
 
 /// Gives each object its bit of a ray's mask, the larger ones first: what lies inside another object is smaller, and light
@@ -357,8 +343,9 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   const ThreadLimit limit(threads);
   check_counts(input);
   Scene scene = describe_scene(input, params);
-  std::vector<Cloud> clouds = make_clouds(input, stats);
+  std::vector<Cloud> clouds = make_clouds(input, scene.object_names, stats);
   find_all_surfaces(clouds, scene, progress, stats);
+  require_points(clouds, stats);
   find_bounds(clouds, scene);
   number_objects(clouds, scene.materials);
   find_all_radii(clouds, scene, progress, stats);
@@ -367,6 +354,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   {
     const AddedTime octree_watch(stats.octree_ms);
     scene.root = fit_root(clouds);
+    note_coarse_objects(clouds, scene.object_names, scene.root.unit_world, stats);
     splats = pack_clouds(std::move(clouds), scene.root, !columns.empty(), {"packing", progress});
     stats.dropped_duplicates =
         order_splats(splats, params.leaf_size > 0 ? std::min(params.leaf_size, MOST_EQUAL) : MOST_EQUAL);

@@ -43,6 +43,7 @@ void tell_scans(const BuildStats& stats, std::ostringstream& text) {
 std::string build_stats_json(const BuildStats& stats) {
   const nlohmann::ordered_json json = {{"points_read", stats.points_read},
                                        {"dropped_non_finite", stats.dropped_non_finite},
+                                       {"dropped_far", stats.dropped_far},
                                        {"dropped_duplicates", stats.dropped_duplicates},
                                        {"dropped_isolated", stats.dropped_isolated},
                                        {"dropped_mixed", stats.dropped_mixed},
@@ -89,7 +90,8 @@ std::string build_summary(const BuildStats& stats, const std::filesystem::path& 
   const auto repair = [&](std::uint64_t count, const char* what) {
     if (count > 0) text << "  " << count << ' ' << what << '\n';
   };
-  repair(stats.dropped_non_finite, "points dropped: position not finite");
+  repair(stats.dropped_non_finite, "points dropped: position not finite or beyond 1e100");
+  repair(stats.dropped_far, "points dropped: far from all others");
   repair(stats.dropped_duplicates, "points dropped: copies of one splat beyond the most that are kept");
   repair(stats.normals_estimated, "normals estimated");
   tell_scans(stats, text);

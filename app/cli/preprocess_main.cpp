@@ -58,6 +58,10 @@ Input read(const BuildOptions& options, BuildStats& stats, const Progress& progr
   return input;
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
+}
+
 int run(int argc, char** argv) {
   Options options;
   if (!parse(argc, argv, options)) return static_cast<int>(ExitCode::done);
@@ -74,12 +78,12 @@ int run(int argc, char** argv) {
   BuildStats stats;
   Input input = read(options.build, stats, progress);
   line.clear();
-  for (const std::string& note : input.notes)
-    std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
+  print_notes(input.notes);
   const Scene scene =
       build_scene(std::move(input), options.build.params, options.build.threads, stats, progress);
   write_scene(scene, options.output, progress);
   line.clear();
+  print_notes(stats.notes);
   if (!options.stats_json.empty()) write_text_file(build_stats_json(stats) + '\n', options.stats_json);
   std::fputs(build_summary(stats, options.output).c_str(), stdout);
   return static_cast<int>(ExitCode::done);

@@ -1,5 +1,6 @@
 #include "app/library/scene_source.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -31,9 +32,13 @@ Scene preprocess(const SceneOptions& options, const LoadListener& listener, Buil
   reading.turn_outwards =
       !options.material.empty() && (named_material(options.material).flags & MATERIAL_DIELECTRIC) != 0;
   Input input = read_input(options.inputs, reading);
-  if (listener.note)
-    for (const std::string& note : input.notes) listener.note(note);
-  return build_scene(std::move(input), options.params, options.threads, stats, progress);
+  const auto tell_notes = [&](const std::vector<std::string>& notes) {
+    if (listener.note) std::for_each(notes.begin(), notes.end(), listener.note);
+  };
+  tell_notes(input.notes);
+  Scene scene = build_scene(std::move(input), options.params, options.threads, stats, progress);
+  tell_notes(stats.notes);
+  return scene;
 }
 
 void apply_material(Scene& scene, const std::string& name) {

@@ -74,7 +74,8 @@ FlightTrack::FlightTrack(const Cloud& cloud, const glm::dvec3& up) {
     std::size_t end = begin;
     Bounds bounds;
     double times = 0.0;
-    for (; end < pulses.size() && pulses[end].time < pulses[begin].time + BIN; ++end) {
+    // The first belongs to the bin even where half a second is less than the time's last bit.
+    for (; end < pulses.size() && (end == begin || pulses[end].time < pulses[begin].time + BIN); ++end) {
       bounds.add(pulses[end].first);
       times += pulses[end].time;
     }

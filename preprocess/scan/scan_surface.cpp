@@ -1,6 +1,8 @@
 #include "preprocess/scan/scan_surface.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include "preprocess/scan/noise.h"
 #include "preprocess/scan/sides.h"
@@ -12,10 +14,11 @@
 namespace splatray {
 namespace {
 
-constexpr double NOISY = 0.05;        // noise (measure_noise) from which points are moved
+constexpr double NOISY = 0.05;  // noise (measure_noise) from which points are moved
 constexpr double SHARP =
     0.05;  // share of points at creases that noise would have hidden: edges are what looks like it
 constexpr std::size_t FEWEST = 1000;  // points that tell noise from shape
+constexpr double SHORT = 0.95;        // of a smoothing radius, from which it is not reached
 
 /// Leaves out what find_strays finds, in the survey too.
 void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
@@ -39,6 +42,17 @@ std::vector<SharpSide> find_sharp_sides(const Cloud& cloud, const Survey& survey
                                         const Stage& stage) {
   if (!params.clip || !cloud.radius.empty()) return {};
   return find_sharp(cloud, params.crease_degrees, survey.estimated, stage);
+}
+
+/// Where there are so many points that a radius which was asked for is not reached.
+void note_reach(const Smoothed& smoothed, double asked_world, BuildStats& stats) {
+  if (!(smoothed.reach_median_world < SHORT * asked_world)) return;
+  std::array<char, 160> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "smoothing by %.3g reaches %.3g (median), where there are about 64 neighbours; it takes no more",
+      asked_world, smoothed.reach_median_world);
+  stats.notes.emplace_back(text.data());
 }
 
 void count_sharp(const std::vector<SharpSide>& sharp, BuildStats& stats) {
@@ -71,6 +85,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
     survey.listed = {};
     const bool sided = estimated.empty() || sides.rung == SideRung::sensor;
     const Smoothed smoothed = smooth_points(cloud, survey, radius, sided, stage);
+    if (smoothed.moved > 0) note_reach(smoothed, params.smooth_world, stats);
     stats.smoothed += smoothed.moved;
     stats.dropped_unsupported += smoothed.dropped;
     stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);

@@ -150,6 +150,15 @@ class Projection {
     return {cloud_.coord[i], squared, squared};
   }
 
+  /// The median of what queries are limited to, cloud coordinates.
+  [[nodiscard]] double usual_limit() const {
+    std::vector<float> limits(survey_.reach.size());
+    tbb::parallel_for(std::size_t{0}, limits.size(),
+                      [&](std::size_t i) { limits[i] = query(static_cast<std::uint32_t>(i)).limit_squared; });
+    select_nth(std::span(limits), limits.size() / 2, std::identity());
+    return std::sqrt(double{limits[limits.size() / 2]});
+  }
+
   void move(std::uint32_t i, std::span<const Neighbour> nearest, Moved& moved) const {
     Around around;
     float distance_squared[Around::ROOM];
@@ -201,9 +210,11 @@ Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool s
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
   Moved moved{std::vector<float>(size), std::vector<glm::vec3>(size), std::vector<std::uint8_t>(size)};
+  double reach = 0.0;
   {
     const NeighbourSearch search(cloud, Sites::oriented_positions);
     const Projection projection(cloud, survey, radius, sided);
+    reach = projection.usual_limit();
     search.find_each(
         size, [&](std::uint32_t i) { return projection.query(i); }, MOST, stage,
         [&](std::uint32_t i, std::span<const Neighbour> nearest) { projection.move(i, nearest, moved); });
@@ -214,7 +225,7 @@ Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool s
   moved.lift = gather(moved.lift, kept);
   keep_points(cloud, kept);
   move_points(cloud, moved.lift);
-  Smoothed smoothed{kept.size(), size - kept.size(), 0.0};
+  Smoothed smoothed{kept.size(), size - kept.size(), 0.0, reach * cloud.half_extent_world};
   for (float& lift : moved.lift) lift = std::abs(lift);
   select_nth(std::span(moved.lift), moved.lift.size() / 2, std::identity());
   smoothed.moved_median_world = moved.lift[moved.lift.size() / 2] * cloud.half_extent_world;

@@ -13,6 +13,7 @@ struct Smoothed {
   std::uint64_t moved = 0;
   std::uint64_t dropped = 0;        ///< had fewer than 6 neighbours on their surface
   double moved_median_world = 0.0;  ///< how far the points moved
+  double reach_median_world = 0.0;  ///< within which the neighbours were that moved them
 };
 
 /// Projects every point and its normal once onto the plane of its surroundings, by moving least squares (Levin 2003; Alexa et al.

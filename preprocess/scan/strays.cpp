@@ -106,8 +106,10 @@ void mark_seen_from(const Cloud& cloud, const Survey& survey, const Station& sta
     const std::uint32_t i = points[n];
     if (steps[n] > FAR_STEPS * step) strays[i] = Stray::isolated;
     if (grid.empty() || strays[i] != Stray::no) return;
-    const auto on_lines = std::count_if(off[n].begin(), off[n].end(),
-                                        [&](float distance) { return distance < LINE_NOISES * noise; });
+    // Without noise, as of generated grids, points are on lines exactly.
+    const auto on_lines = std::count_if(off[n].begin(), off[n].end(), [&](float distance) {
+      return distance < LINE_NOISES * noise || distance == 0.0F;
+    });
     const glm::dvec3 dir = glm::normalize(glm::dvec3(cloud.coord[i]) - sensor);
     const bool slanted = std::abs(glm::dot(dir, glm::dvec3(cloud.normal[i]))) < SLANTED;
     if (on_lines < (slanted ? 2 : 1)) strays[i] = Stray::mixed;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numeric>
 #include <tuple>
 
@@ -70,8 +71,7 @@ void find_coordinates(Cloud& cloud) {
   });
 }
 
-void normalise_coordinates(Cloud& cloud) {
-  const Bounds bounds = bounds_of(cloud.position);
+void normalise_coordinates(Cloud& cloud, const Bounds& bounds) {
   cloud.center_world = 0.5 * (bounds.low + bounds.high);
   const glm::dvec3 half = 0.5 * (bounds.high - bounds.low);
   const double longest = std::max({half.x, half.y, half.z});
@@ -102,7 +102,8 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
   const auto key_a = key(a), key_b = key(b);
   if (key_a != key_b) return key_a < key_b;
   for (const Column& column : cloud.columns)
-    if (column.number(a) != column.number(b)) return column.number(a) < column.number(b);
+    if (const auto order = std::strong_order(column.number(a), column.number(b)); order != 0)
+      return order < 0;
   return false;
 }
 
@@ -137,35 +138,39 @@ void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
   for (Column& column : cloud.columns) std::visit(reorder, column.values);
 }
 
-template <typename PlaceOf>
-Bounds bounds_of(std::size_t count, const PlaceOf& place_of) {
-  using Range = tbb::blocked_range<std::size_t>;
-  const auto add = [&](const Range& range, Bounds bounds) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) bounds.add({place_of(i), place_of(i)});
-    return bounds;
-  };
-  const auto join = [](Bounds a, const Bounds& b) { return a.add(b), a; };
-  return tbb::parallel_reduce(Range(0, count), Bounds{}, add, join);
+/// Finds far points and drops them where they were measured; the box of those that stay.
+Bounds drop_far_points(Cloud& cloud, BuildStats& stats) {
+  cloud.far = find_far_points(cloud.position);
+  if (cloud.far.numbers.empty() || !cloud.measured)
+    return cloud.far.numbers.empty() ? cloud.far.others : bounds_of(cloud.position);
+  std::vector<bool> is_far(cloud.position.size(), false);
+  for (const std::uint32_t i : cloud.far.numbers) is_far[i] = true;
+  rearrange(cloud, numbers_where(is_far.size(), [&](std::size_t i) { return !is_far[i]; }));
+  stats.dropped_far += cloud.far.numbers.size();
+  return cloud.far.others;
 }
 
 }  // namespace
 
-Bounds bounds_of(const std::vector<glm::dvec3>& points) {
-  return bounds_of(points.size(), [&](std::size_t i) -> const glm::dvec3& { return points[i]; });
-}
-
 Bounds bounds_of(const Cloud& cloud) {
-  return bounds_of(cloud.size(), [&](std::size_t i) { return cloud.place_world(i); });
+  using Range = tbb::blocked_range<std::size_t>;
+  const auto add = [&](const Range& range, Bounds bounds) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) bounds.add(cloud.place_world(i));
+    return bounds;
+  };
+  const auto join = [](Bounds a, const Bounds& b) { return a.add(b), a; };
+  return tbb::parallel_reduce(Range(0, cloud.size()), Bounds{}, add, join);
 }
 
-Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats) {
+Cloud make_cloud(Points&& points, bool oriented, bool measured, BuildStats& stats) {
   const std::vector<std::uint32_t> usable = usable_points(points);
   stats.points_read += points.size();
   stats.dropped_non_finite += points.size() - usable.size();
   Cloud cloud = take_points(std::move(points), usable);
   cloud.oriented = oriented;
+  cloud.measured = measured;
   if (usable.empty()) return cloud;
-  normalise_coordinates(cloud);
+  normalise_coordinates(cloud, drop_far_points(cloud, stats));
   put_in_order(cloud);
   count_given(cloud, stats);
   return cloud;

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "preprocess/base/bounds.h"
+#include "preprocess/base/far_points.h"
 #include "preprocess/build.h"
 #include "preprocess/points.h"
 
@@ -34,6 +34,7 @@ struct Cloud {
   bool ends_known = false;               ///< the surface ends, or has a crease, only where `clip` says so
   bool measured = false;                 ///< by a scanner: neither a mesh's nor made
   bool oriented = false;                 ///< normals point outwards: opposite normals are opposite sheets
+  FarPoints far;                         ///< as they were found; in the cloud only where it is not measured
 
   [[nodiscard]] std::size_t size() const { return coord.size(); }
   /// Where a point is, world units.
@@ -44,14 +45,13 @@ struct Cloud {
   [[nodiscard]] std::size_t station_of(std::size_t i) const { return station.empty() ? 0 : station[i]; }
 };
 
-[[nodiscard]] Bounds bounds_of(const std::vector<glm::dvec3>& points);
 /// Of the places, world units.
 [[nodiscard]] Bounds bounds_of(const Cloud& cloud);
 
-/// Takes an object's points: drops positions that are not finite (or beyond 1e100), normalises normals in
-/// float64, turns normals and radii that cannot be used into "unknown" and orders the points. Adds to the
-/// counts of `stats`.
-[[nodiscard]] Cloud make_cloud(Points&& points, bool oriented, BuildStats& stats);
+/// Takes an object's points: drops positions that are not finite (or beyond 1e100) and, of points that were measured, those
+/// that lie far from all others, before anything depends on the box of the points; normalises normals in float64, turns normals
+/// and radii that cannot be used into "unknown" and orders the points. Adds to the counts of `stats`.
+[[nodiscard]] Cloud make_cloud(Points&& points, bool oriented, bool measured, BuildStats& stats);
 
 /// Leaves the points of these ascending numbers in the cloud; its frame stays.
 void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept);

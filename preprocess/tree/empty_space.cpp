@@ -1,7 +1,6 @@
 #include "preprocess/tree/empty_space.h"
 
 #include <array>
-#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -31,7 +30,7 @@ OctreeBox layer_of(const OctreeBox& box, int side, int step) {
 /// The address bits of an empty leaf with this cell. `path` leads from the root to its parent.
 std::uint32_t grown_word(const std::vector<std::uint32_t>& nodes, const OctreeCell& cell,
                          const std::vector<InnerNode>& path) {
-  assert(!path.empty());  // the root is never empty
+  if (path.empty()) return 0;  // the root is empty itself: there is nothing to reach
   const auto step = static_cast<int>(cell.size);
   OctreeBox box{glm::ivec3(cell.low), glm::ivec3(cell.low) + step};
   std::array<std::uint32_t, 6> steps{};

@@ -91,5 +91,13 @@ TEST(EmptySpace, WordsAreDecodedSideBySide) {
   EXPECT_EQ(box.high, glm::ivec3(80 + 32, 144 + 16, 208 + 48));
 }
 
+TEST(EmptySpace, ARootWithoutLeavesIsLeftAsItIs) {
+  Scene scene;
+  scene.node_pool = {NODE_EMPTY << NODE_TAG_SHIFT};
+  const BuildProgress nobody;
+  grow_empty_leaves(scene, {"empty space", nobody});
+  EXPECT_EQ(scene.node_pool, (std::vector<std::uint32_t>{NODE_EMPTY << NODE_TAG_SHIFT}));
+}
+
 }  // namespace
 }  // namespace splatray

@@ -49,7 +49,7 @@ TEST(Normals, OnlyUnusableOnesAreEstimated) {
   object.points.normal[50] = glm::vec3(nan, 0.0F, 1.0F);
   object.points.normal[60] = glm::vec3(0.0F, 0.0F, 1e-30F);
   BuildStats stats;
-  Cloud cloud = make_cloud(std::move(object.points), false, stats);
+  Cloud cloud = make_cloud(std::move(object.points), false, false, stats);
   EXPECT_EQ(stats.normals_given, 98U);
   EXPECT_EQ(estimate_normals(cloud, UP, {"normals", SILENT}), 2U);
   int along_z = 0;

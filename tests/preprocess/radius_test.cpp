@@ -124,7 +124,7 @@ TEST(Radius, GivenRadiiAreHonouredAndBadOnesComputed) {
   lattice.points.radius[60] = -1.0F;
   lattice.points.radius[61] = std::numeric_limits<float>::quiet_NaN();
   BuildStats stats;
-  Cloud cloud = make_cloud(std::move(lattice.points), false, stats);
+  Cloud cloud = make_cloud(std::move(lattice.points), false, false, stats);
   EXPECT_EQ(stats.radii_given, 118U);
   EXPECT_EQ(stats.radii_repaired, 3U);
   find_radii(cloud, RadiusRule::coverage, 2.0, false, {"radii", SILENT});

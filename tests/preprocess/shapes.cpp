@@ -95,7 +95,7 @@ InputObject shuffled(const InputObject& object, std::uint64_t seed) {
 
 Cloud cloud_of(InputObject object) {
   BuildStats stats;
-  return make_cloud(std::move(object.points), object.oriented, stats);
+  return make_cloud(std::move(object.points), object.oriented, false, stats);
 }
 
 }  // namespace splatray::test

@@ -126,6 +126,7 @@ Scene make_scene(std::span<const Points> objects, const OpenOptions& options) {
     if (stats.dropped_non_finite > 0)
       impl->notes.push_back(std::to_string(stats.dropped_non_finite) +
                             " points that are not finite were left out");
+    impl->notes.insert(impl->notes.end(), stats.notes.begin(), stats.notes.end());
     return SceneAccess::make(std::move(impl));
   });
 }
