@@ -139,12 +139,14 @@ class Point14Item final : public LayeredItem {
                              nullptr,    nullptr, &source_,         &time_};
     for (std::size_t i = 0; i < std::size(wanted); ++i)
       if (wanted[i] != nullptr) wanted[i]->start(layers[i]);
+    has_no_positions_ = false;
     for (Channel& one : channels_) one.is_met = false;
     current_ = channel;
     channels_[channel].start(load_point(first));
   }
 
   void read(unsigned char* bytes, std::size_t stride, std::span<unsigned char> channels) override {
+    has_no_positions_ = has_no_positions_ || (!channels.empty() && !position_.changes);
     for (unsigned char& channel : channels) {
       channel = static_cast<unsigned char>(read_point());
       store_point(bytes, channels_[current_].last, current_);
@@ -154,7 +156,8 @@ class Point14Item final : public LayeredItem {
 
   [[nodiscard]] bool is_damaged() const override {
     const auto layers = all();
-    return std::any_of(layers.begin(), layers.end(), [](const Layer* layer) { return layer->is_damaged(); });
+    return has_no_positions_ ||
+           std::any_of(layers.begin(), layers.end(), [](const Layer* layer) { return layer->is_damaged(); });
   }
   [[nodiscard]] bool is_complete() const override {
     const auto layers = all();
@@ -254,6 +257,8 @@ class Point14Item final : public LayeredItem {
   }
 
   bool names_channel_always_;
+  bool has_no_positions_ =
+      false;  ///< points were read, though their layer, which none goes without, is not there
   unsigned current_ = 0;
   Layer position_;
   Layer z_;

@@ -16,9 +16,8 @@
 namespace splatray {
 namespace {
 
-/// More points for each byte than files have that mean something. Chunks that claim more get memory only as they turn out
-/// to hold them.
-constexpr std::uint64_t MOST_POINTS_PER_BYTE = 64;
+/// More points for each byte than scans have. Chunks that claim more get memory only as they turn out to hold them.
+constexpr std::uint64_t MOST_POINTS_PER_BYTE = 1;
 
 bool is_plausible(const LazChunk& chunk) { return chunk.points / MOST_POINTS_PER_BYTE <= chunk.bytes; }
 
