@@ -88,7 +88,8 @@ struct ScanCounts {
 struct ScanFile {
   Points points;
   ScanCounts counts;
-  glm::dvec3 up{0.0, 0.0, 1.0};  ///< the format's own: z for what surveyors use
+  glm::dvec3 up{0.0, 0.0, 1.0};      ///< the format's own: z for what surveyors use
+  std::optional<bool> in_degrees{};  ///< x and y: degrees, or lengths; unset where the file does not say
 };
 
 /// One object of the input: points, and what they are made of.
@@ -150,7 +151,8 @@ struct ReadOptions {
 };
 
 /// Reads one or more files into one Input (several files: one object each, but all scans together one; glTF: its own objects), by
-/// their extensions (read/formats.h). A folder stands for the scans in it, by name. Throws Error (input_unreadable), one sentence
+/// their extensions (read/formats.h). A folder stands for the scans in it, by name, .ply among them; text and .bin that turn out
+/// to be something else are left out there, with a note. Throws Error (input_unreadable), one sentence
 /// with path, found and expected, or (interrupted) when `options.progress` says so.
 [[nodiscard]] Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options);
 

@@ -48,7 +48,7 @@ constexpr Format FORMATS[] = {
     {".pts", "points as text, counted or not; intensity, colours, normals", nullptr, nullptr, read_pts},
     {".xyz .csv .txt .asc", "points as text, columns by header, `--columns` or their values", nullptr,
      nullptr, read_xyz},
-    {".bin", "sweeps of KITTI: float32 x y z reflectance", nullptr, nullptr, read_kitti},
+    {".bin", "sweeps of KITTI or nuScenes: float32 x y z reflectance, ring", nullptr, nullptr, read_kitti},
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 /// Many files of one survey are one object.
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace splatray {
 struct NamedScan {
   std::string name;
   ScanFile file;
+  std::filesystem::path path{};  ///< for messages
 };
 
 /// The object of all scans, in their order: stations follow one another, attributes that a file lacks are 0 there, and the

@@ -4,16 +4,24 @@
 
 #include "engine/base/error.h"
 #include "engine/base/one_line.h"
+#include "preprocess/base/file_extension.h"
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/points.h"
 #include "preprocess/read/adjust_points.h"
 #include "preprocess/read/formats.h"
 #include "preprocess/read/join_scans.h"
+#include "preprocess/read/one_system.h"
 #include "preprocess/read/read_mesh.h"
 
 namespace splatray {
 namespace {
+
+/// A file to read.
+struct NamedFile {
+  std::filesystem::path path;
+  bool may_be_left_out;  ///< nobody named it, and it need not be a scan
+};
 
 Input read_geometry(const std::filesystem::path& path, const ReadOptions& options,
                     const ReadListener& listener) {
@@ -34,7 +42,7 @@ Input add_scan(const std::filesystem::path& path, ScanFile file, std::vector<Nam
   Input input;
   input.up = file.up;
   input.scan_counts = file.counts;
-  scans.push_back({path.stem().string(), std::move(file)});
+  scans.push_back({path.stem().string(), std::move(file), path});
   return input;
 }
 
@@ -92,36 +100,79 @@ void drop_empty_objects(Input& input) {
   });
 }
 
-std::string join(const std::vector<std::filesystem::path>& paths) {
+std::string join(const std::vector<NamedFile>& files) {
   std::string text;
-  for (const std::filesystem::path& path : paths) {
-    text += (text.empty() ? "" : ", ") + path.string();
-  }
+  for (const NamedFile& file : files) text += (text.empty() ? "" : ", ") + file.path.string();
   return text;
 }
 
+/// Whether a file in a folder is taken for a scan.
+bool is_scan(const std::filesystem::path& path) {
+  const Format* format = find_format(path);
+  return (format != nullptr && format->read_scan != nullptr) || lower_extension(path) == ".ply";
+}
+
+/// Whether the extension is one that all kinds of files have.
+bool may_be_anything(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".txt" || extension == ".csv" || extension == ".asc" || extension == ".bin";
+}
+
 /// The paths, a folder being those of its scans, by name.
-std::vector<std::filesystem::path> with_folders_opened(const std::vector<std::filesystem::path>& paths) {
-  std::vector<std::filesystem::path> files;
+std::vector<NamedFile> with_folders_opened(const std::vector<std::filesystem::path>& paths) {
+  std::vector<NamedFile> files;
   for (const std::filesystem::path& path : paths) {
     std::error_code error;
     if (!std::filesystem::is_directory(path, error)) {
-      files.push_back(path);
+      files.push_back({path, false});
       continue;
     }
     const std::size_t before = files.size();
-    for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
-      const Format* format = find_format(entry.path());
-      if (format != nullptr && format->read_scan != nullptr) files.push_back(entry.path());
-    }
+    for (const auto& entry : std::filesystem::directory_iterator(path, error))
+      if (is_scan(entry.path())) files.push_back({entry.path(), may_be_anything(entry.path())});
     if (error) throw Error(ExitCode::input_unreadable, path.string() + ": " + error.message());
     if (files.size() == before)
       throw Error(
           ExitCode::input_unreadable,
           path.string() + ": found a folder without scans, expected files such as .laz or .e57 in it");
-    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end(),
+              [](const NamedFile& a, const NamedFile& b) { return a.path < b.path; });
   }
   return files;
+}
+
+Input read_file(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener,
+                std::vector<NamedScan>& scans) {
+  const Format* format = find_format(path);
+  if (format != nullptr && format->read_scan != nullptr)
+    return add_scan(path, format->read_scan(path, options, listener), scans);
+  if (format != nullptr && format->read_scene != nullptr) return format->read_scene(path, options, listener);
+  return read_geometry(path, options, listener);
+}
+
+/// What became of the points where none is left; empty where there were none.
+std::string fate_of(const ScanCounts& counts) {
+  const std::pair<std::uint64_t, const char*> lost[] = {{counts.withheld, "withheld"},
+                                                        {counts.noise, "of the classes of noise"},
+                                                        {counts.no_return, "without a finite position"},
+                                                        {counts.missing, "missing or damaged"}};
+  std::string text;
+  for (const auto& [count, fate] : lost)
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + fate;
+  return text;
+}
+
+[[noreturn]] void refuse_no_points(const std::vector<NamedFile>& files, const ScanCounts& counts) {
+  const std::string fate = fate_of(counts);
+  std::string found = join(files) + ": found no points";
+  if (fate.empty()) {
+    found += " and no triangles";
+  } else {
+    found += " to keep: of " + std::to_string(counts.stored) + " points, " + fate +
+             "; expected at least one other";
+  }
+  if (counts.withheld + counts.noise > 0) found += " (--keep-withheld keeps those withheld or of noise)";
+  throw Error(ExitCode::input_unreadable, found);
 }
 
 }  // namespace
@@ -141,33 +192,35 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   if (named.empty()) {
     throw Error(ExitCode::usage, "no input file was named");
   }
-  const std::vector<std::filesystem::path> paths = with_folders_opened(named);
+  const std::vector<NamedFile> files = with_folders_opened(named);
   const ThreadLimit limit(options.threads);
   Input input;
   std::vector<NamedScan> scans;
-  const double files = static_cast<double>(paths.size());
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const double done = static_cast<double>(i);
+  std::optional<Error> left_out;  // the first of a folder's files that are something else
+  const auto share = [&](std::size_t i) {
+    return static_cast<double>(i) / static_cast<double>(files.size());
+  };
+  for (std::size_t i = 0; i < files.size(); ++i) {
     std::vector<std::string> notes;
-    const ReadListener listener{notes, options.progress, done / files, (done + 1.0) / files};
-    const Format* format = find_format(paths[i]);
-    Input more;
-    if (format != nullptr && format->read_scan != nullptr) {
-      more = add_scan(paths[i], format->read_scan(paths[i], options, listener), scans);
-    } else if (format != nullptr && format->read_scene != nullptr) {
-      more = format->read_scene(paths[i], options, listener);
-    } else {
-      more = read_geometry(paths[i], options, listener);
+    const ReadListener listener{notes, options.progress, share(i), share(i + 1)};
+    try {
+      Input more = read_file(files[i].path, options, listener, scans);
+      more.notes = std::move(notes);
+      merge(input, std::move(more));
+    } catch (const Error& error) {
+      if (!files[i].may_be_left_out || error.code() != ExitCode::input_unreadable) throw;
+      input.notes.push_back(std::string(error.what()) + "; it was left out");
+      if (!left_out) left_out = error;
     }
-    more.notes = std::move(notes);
-    merge(input, std::move(more));
   }
+  if (left_out && scans.empty() && input.objects.empty()) throw Error(*left_out);
+  require_one_system(scans);
   if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
   for (InputObject& object : input.objects) adjust_points(object, options.scans);
   points_from_meshes(input, options);
   drop_empty_objects(input);
   if (input.objects.empty()) {
-    throw Error(ExitCode::input_unreadable, join(paths) + ": found no points and no triangles");
+    refuse_no_points(files, input.scan_counts);
   }
   note_many_dielectrics(input);
   aim_camera(input);

@@ -14,6 +14,7 @@ constexpr double FOOT = 0.3048;
 /// What a file says; lengths of 0 metres are unknown.
 struct Units {
   bool is_degrees = false;
+  bool is_projected = false;
   double horizontal_metres = 0.0;
   double vertical_metres = 0.0;
 };
@@ -30,6 +31,7 @@ double epsg_metres(unsigned code) {
 Units units_of_keys(const std::vector<unsigned char>& keys) {
   constexpr std::size_t ENTRY_BYTES = 8;  ///< the head and each key: four 16-bit numbers
   constexpr unsigned MODEL_TYPE = 1024;
+  constexpr unsigned PROJECTED = 1;
   constexpr unsigned GEOGRAPHIC = 2;
   constexpr unsigned LINEAR_UNITS = 3076;
   constexpr unsigned VERTICAL_UNITS = 4099;
@@ -39,7 +41,7 @@ Units units_of_keys(const std::vector<unsigned char>& keys) {
     const unsigned location = load<std::uint16_t>(keys.data() + at + 2);
     const unsigned value = load<std::uint16_t>(keys.data() + at + 6);
     if (location != 0) continue;  // values that stand elsewhere
-    if (key == MODEL_TYPE) units.is_degrees = value == GEOGRAPHIC;
+    if (key == MODEL_TYPE) units.is_degrees = value == GEOGRAPHIC, units.is_projected = value == PROJECTED;
     if (key == LINEAR_UNITS) units.horizontal_metres = epsg_metres(value);
     if (key == VERTICAL_UNITS) units.vertical_metres = epsg_metres(value);
   }
@@ -78,7 +80,8 @@ Units units_of_text(std::string_view text) {
   const bool has_angles = text.find("GEOGCS[") != std::string_view::npos ||
                           text.find("GEOGCRS[") != std::string_view::npos ||
                           text.find("GEODCRS[") != std::string_view::npos;
-  return {projected.empty() && has_angles, last_unit_metres(projected), last_unit_metres(vertical)};
+  return {projected.empty() && has_angles, !projected.empty(), last_unit_metres(projected),
+          last_unit_metres(vertical)};
 }
 
 std::string unit_name(double metres) {
@@ -88,16 +91,25 @@ std::string unit_name(double metres) {
   return "units of " + std::to_string(metres) + " m";
 }
 
+Units units_of(const LasVlrs& vlrs) {
+  return vlrs.wkt.empty() ? units_of_keys(vlrs.geo_keys) : units_of_text(vlrs.wkt);
+}
+
 }  // namespace
 
 std::optional<std::string> differing_las_units(const LasVlrs& vlrs) {
-  const Units units = vlrs.wkt.empty() ? units_of_keys(vlrs.geo_keys) : units_of_text(vlrs.wkt);
+  const Units units = units_of(vlrs);
   if (units.is_degrees) return "x and y are degrees; the shape is right only in a projected system";
   const std::string horizontal = unit_name(units.horizontal_metres);
   const std::string vertical = unit_name(units.vertical_metres);
   const bool is_known = units.horizontal_metres > 0.0 && units.vertical_metres > 0.0;
   if (!is_known || horizontal == vertical) return std::nullopt;
   return "z is in " + vertical + " while x and y are in " + horizontal;
+}
+
+std::optional<bool> las_in_degrees(const LasVlrs& vlrs) {
+  const Units units = units_of(vlrs);
+  return units.is_degrees || units.is_projected ? std::optional(units.is_degrees) : std::nullopt;
 }
 
 }  // namespace splatray

@@ -11,4 +11,7 @@ namespace splatray {
 /// Reads of GeoTIFF's keys (OGC GeoTIFF Standard 1.1, annex B) and of well-known text (OGC 12-063r5) only what says so.
 [[nodiscard]] std::optional<std::string> differing_las_units(const LasVlrs& vlrs);
 
+/// Whether x and y are degrees, else lengths; nothing where the file's coordinate system does not say.
+[[nodiscard]] std::optional<bool> las_in_degrees(const LasVlrs& vlrs);
+
 }  // namespace splatray

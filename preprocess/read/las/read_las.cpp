@@ -74,6 +74,7 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   count_points(in, header, listener);
   LasColumns columns(header, wanted_extra_bytes(header, vlrs, options.scans.attributes), options.scans);
   ScanFile file;
+  file.in_degrees = las_in_degrees(vlrs);
   file.counts.stored = header.point_count;
   const std::uint64_t found = header.is_compressed
                                   ? read_laz_points(in, header, vlrs.laszip, columns, file.counts, listener)

@@ -14,10 +14,21 @@
 namespace splatray {
 namespace {
 
+/// Commas between the numbers of the first line that has any, else blanks.
+char separator_of(ByteReader& in) {
+  constexpr std::size_t MOST_LINE_BYTES = 65536;
+  std::string_view line;
+  while (in.line(line, MOST_LINE_BYTES))
+    if (line.find_first_not_of(" \t") != std::string_view::npos && line.front() != '#')
+      return line.find(',') == std::string_view::npos ? ' ' : ',';
+  return ' ';
+}
+
 /// How many points there are; the readers append them.
 std::uint64_t read_ascii(ByteReader& in, const PcdHeader& header, PcdPoints& points,
                          const ReadListener& listener) {
-  RowReader rows(in.path(), listener, {}, {in.offset(), header.line_count});
+  const LinePlace start{in.offset(), header.line_count};
+  RowReader rows(in.path(), listener, {separator_of(in), false, {}}, start);
   RowRun run;
   std::uint64_t read = 0;
   while (read < header.points && rows.next(run)) {

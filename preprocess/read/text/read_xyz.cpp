@@ -51,6 +51,7 @@ class XyzReader {
       if (run.open && layout_.count && found_ + 1 < *layout_.count) break;  // it may have lost digits
       append(run);
     }
+    if (layout_.degrees) file_.in_degrees = true;
     count();
     if (layout_.columns.empty()) name_extras();
     take_attributes();

@@ -1,0 +1,159 @@
+/// Files that are read together, and what is left where they hold nothing to read.
+#include "tests/readers/las_file.h"
+#include "tests/readers/read_error.h"
+#include "tests/readers/scan_reading.h"
+
+namespace splatray {
+namespace {
+
+LasFile tile(double x, double y) {
+  LasFile file;
+  file.offset = {x, y, 0.0};
+  file.records.resize(100);
+  for (std::int32_t i = 0; i < 100; ++i)
+    file.records[static_cast<std::size_t>(i)].position = {100 * (i % 10), 100 * (i / 10), i};
+  return file;
+}
+
+LasFile in_system(LasFile file, const std::string& wkt) {
+  file.vlrs = {las_vlr("LASF_Projection", 2112, wkt + std::string(1, '\0'))};
+  return file;
+}
+
+/// The sentence of the Error that reading ends in; empty where it does not.
+std::string refusal(const std::vector<std::filesystem::path>& paths) {
+  try {
+    static_cast<void>(read_input(paths, {}));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Folder, WhatIsNoScanIsLeftOutWithANote) {
+  const TempFolder folder;
+  folder.write("tiles/a.las", tile(0.0, 0.0).bytes());
+  folder.write("tiles/b.las", tile(1.0, 0.0).bytes());
+  folder.write("tiles/readme.txt", "Two tiles of a survey, in metres.\n");
+  folder.write("tiles/firmware.bin",
+               "\x7f"
+               "ELF and more that is no sweep");
+  const Input input = read_input({folder.path() / "tiles"}, {});
+  ASSERT_EQ(input.objects.size(), 1U);
+  EXPECT_EQ(input.objects[0].points.size(), 200U);
+  EXPECT_TRUE(has_note(input, "readme.txt"));
+  EXPECT_TRUE(has_note(input, "firmware.bin"));
+  EXPECT_TRUE(has_note(input, "it was left out"));
+}
+
+TEST(Folder, WhatIsNamedOrCanOnlyBeAScanIsNotLeftOut) {
+  const TempFolder folder;
+  const std::filesystem::path readme = folder.write("tiles/readme.txt", "Nothing but words.\n");
+  EXPECT_NE(refusal({folder.path() / "tiles"}).find("readme.txt"), std::string::npos)
+      << "nothing else is there";
+  folder.write("tiles/a.las", tile(0.0, 0.0).bytes());
+  EXPECT_NE(refusal({folder.path() / "tiles" / "a.las", readme}).find("readme.txt"), std::string::npos);
+  folder.write("tiles/b.las", "no LAS at all");
+  EXPECT_NE(refusal({folder.path() / "tiles"}).find("b.las"), std::string::npos);
+}
+
+TEST(Folder, PlyScansAreScans) {
+  const TempFolder folder;
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n1 2 3\n4 5 6\n";
+  folder.write("scans/a.ply", ply);
+  folder.write("scans/b.ply", ply);
+  EXPECT_EQ(read_input({folder.path() / "scans"}, {}).objects.size(), 2U);
+}
+
+TEST(NoPoints, WhatBecameOfThemIsTold) {
+  const TempFolder folder;
+  LasFile file = tile(0.0, 0.0);
+  for (std::size_t i = 0; i < file.records.size(); ++i) {
+    file.records[i].is_withheld = i < 97;
+    file.records[i].classification = i < 97 ? 2 : 7;
+  }
+  const std::filesystem::path las = folder.write("a.las", file.bytes());
+  EXPECT_NE(read_error(las).find("found no points to keep: of 100 points, 97 withheld, 3 of the classes of "
+                                 "noise; expected at least one other (--keep-withheld"),
+            std::string::npos)
+      << read_error(las);
+  ReadOptions options;
+  options.scans.keep_withheld = true;
+  EXPECT_EQ(read_input({las}, options).objects[0].points.size(), 100U);
+  EXPECT_NE(read_error(folder.write("a.xyz", "1 2 nan\n1 2 nan\n")).find("2 without a finite position"),
+            std::string::npos);
+}
+
+const char* const UTM = "PROJCS[\"WGS 84 / UTM zone 32N\",UNIT[\"metre\",1]]";
+const char* const DEGREES = "GEOGCS[\"WGS 84\",UNIT[\"degree\",0.0174532925199433]]";
+
+TEST(OneSystem, DegreesAndLengthsAreRefused) {
+  const TempFolder folder;
+  const auto a = folder.write("utm.las", in_system(tile(9.0, 47.0), UTM).bytes());
+  const auto b = folder.write("degrees.las", in_system(tile(9.0, 47.0), DEGREES).bytes());
+  const auto c = folder.write("unknown.las", tile(9.0, 47.0).bytes());
+  const std::string sentence = refusal({a, c, b});
+  EXPECT_NE(sentence.find("utm.las"), std::string::npos);
+  EXPECT_NE(sentence.find("degrees.las"), std::string::npos);
+  EXPECT_NE(sentence.find("expected scans in one coordinate system"), std::string::npos);
+  EXPECT_EQ(refusal({b, b, c}), "");
+  EXPECT_EQ(refusal({a, c}), "");
+}
+
+TEST(OneSystem, ScansThatNoSceneHoldsTogetherAreRefused) {
+  const TempFolder folder;
+  const auto here = folder.write("here.las", tile(0.0, 0.0).bytes());
+  const auto there = folder.write("there.las", tile(5e5, 5.2e6).bytes());
+  const auto beside = folder.write("beside.las", tile(5e5 + 1.0, 5.2e6).bytes());
+  const std::string sentence = refusal({there, here, beside});
+  EXPECT_NE(sentence.find("here.las"), std::string::npos);
+  EXPECT_NE(sentence.find("apart, which are"), std::string::npos) << sentence;
+  EXPECT_EQ(refusal({there, beside}), "");
+}
+
+/// One a metre across beside the other 200 metres away: stations of one survey.
+TEST(OneSystem, StationsFarApartStay) {
+  const TempFolder folder;
+  const auto here = folder.write("here.las", tile(0.0, 0.0).bytes());
+  const auto there = folder.write("there.las", tile(200.0, 0.0).bytes());
+  EXPECT_EQ(refusal({here, there}), "");
+}
+
+TEST(Pcd, NumbersMayHaveCommasBetween) {
+  const TempFolder folder;
+  const std::string head = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
+  for (const char* rows : {"1,2,3\n4,5.5,6\n", "1, 2, 3\n4, 5.5, 6\n", "\n# points\n1 2 3\n4 5.5 6\n"}) {
+    const ReadScan scan = read_scan(folder.write("a.pcd", head + rows));
+    ASSERT_EQ(scan.file.points.size(), 2U) << rows;
+    EXPECT_EQ(scan.file.points.position[1], glm::dvec3(4.0, 5.5, 6.0)) << rows;
+  }
+}
+
+std::string floats(const std::vector<float>& values) {
+  std::string bytes;
+  for (const float value : values) bytes += bytes_of(value);
+  return bytes;
+}
+
+TEST(Kitti, PointsMayHaveARing) {
+  const TempFolder folder;
+  std::string bytes;
+  for (int i = 0; i < 40; ++i)  // as many bytes as 50 points of four floats have
+    bytes += floats({10.0F + float(i), 3.0F, 2.0F, 7.0F, float(i % 32)});
+  ScanOptions options;
+  options.attributes = {"ring"};
+  const ReadScan scan = read_scan(folder.write("a.pcd.bin", bytes), options);
+  ASSERT_EQ(scan.file.points.size(), 40U);
+  EXPECT_EQ(scan.file.points.position[39], glm::dvec3(49.0, 3.0, 2.0));
+  ASSERT_NE(find_column(scan.file.points.columns, "ring"), nullptr);
+  EXPECT_EQ(find_column(scan.file.points.columns, "ring")->number(39), 7.0);
+  std::string four;
+  for (int i = 0; i < 50; ++i) four += floats({10.5F + float(i), 3.25F, 2.125F, 0.5F});
+  EXPECT_EQ(read_scan(folder.write("b.bin", four)).file.points.size(), 50U);
+}
+
+}  // namespace
+}  // namespace splatray
