@@ -45,9 +45,27 @@ def by_slurm_script(farm, folder, scene, environment, options=" ".join(PICTURE))
     folder.mkdir(exist_ok=True)
     job = environment | {"SCENE": str(scene), "OUTPUT": str(folder / "f##.png"), "CAMERA": CAMERA, "FRAMES": str(FRAMES),
                          "CHUNK": str(CHUNK), "OPTIONS": options}
-    for task in range((FRAMES + CHUNK - 1) // CHUNK):
+    for task in range((FRAMES + CHUNK - 1) // CHUNK + 2):  # the last ones have no frames
         run("bash", farm / "frames.slurm", env=job | {"SLURM_ARRAY_TASK_ID": str(task)})
     return pictures(folder)
+
+
+def end_slurm_script(farm, folder, scene, environment):
+    """A job that Slurm signals at the end of its time leaves whole frames and asks to be queued again."""
+    folder.mkdir()
+    asked = folder / "asked"
+    (folder / "scontrol").write_text(f'#!/bin/sh\necho "$*" >>{asked}\n')
+    (folder / "scontrol").chmod(0o755)
+    job = environment | {"SCENE": str(scene), "OUTPUT": str(folder / "f####.png"), "CAMERA": "--turntable=9000", "FRAMES": "9000", "CHUNK": "9000",
+                         "OPTIONS": " ".join(PICTURE), "SLURM_ARRAY_TASK_ID": "0", "SLURM_JOB_ID": "77",
+                         "PATH": f"{folder}:{environment['PATH']}"}
+    script = subprocess.Popen(["bash", farm / "frames.slurm"], env=job)
+    while not list(folder.glob("*.png")) and script.poll() is None:
+        time.sleep(0.005)
+    script.send_signal(signal.SIGTERM)
+    code = script.wait(timeout=60)
+    if code != 130 or not asked.exists() or asked.read_text() != "requeue 77\n":
+        sys.exit(f"Slurm's script at the end of its time: found exit code {code} and {asked.exists()}, expected 130 and one 'scontrol requeue 77'")
 
 
 def end_in_the_middle(render, folder, scene, environment):
@@ -83,6 +101,7 @@ def main():
         expect_same(by_slurm_script(farm, work / "ended", scene, environment), whole, "Slurm's script after that")
         if by_slurm_script(farm, work / "other", scene, environment, "--resolution=64x36 --samples=3") == whole:
             sys.exit("pictures of 3 samples are those of 2: the comparison is blind")
+        end_slurm_script(farm, work / "slurm_end", scene, environment)
         made = by_openjd(farm, work, scene, environment)
         if made is not None:
             expect_same(made, whole, "Open Job Description")
