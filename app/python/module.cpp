@@ -112,6 +112,36 @@ nb::object channel(api::Image& image, std::vector<Element>& values, std::size_t 
   return nb::cast(nb::ndarray<nb::numpy, Value>(data, {image.height, image.width, depth}, owner));
 }
 
+/// The elements of an array, as many as pixels; none where there is no array.
+template <typename Element, typename Array>
+std::vector<Element> elements(const std::optional<Array>& array, const api::Image& image) {
+  if (!array) return {};
+  if (array->shape(0) != image.height || array->shape(1) != image.width)
+    throw nb::value_error(
+        "found a channel of another size than the pixels, expected as many rows and columns");
+  const auto* first = reinterpret_cast<const Element*>(array->data());
+  return {first, first + std::size_t{image.width} * image.height};
+}
+
+template <typename Value>
+using Channel = nb::ndarray<const Value, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+template <std::int64_t DEPTH>
+using Vectors = nb::ndarray<const float, nb::shape<-1, -1, DEPTH>, nb::c_contig, nb::device::cpu>;
+
+/// The image of its channels, which are copied.
+api::Image* image_of(const Vectors<4>& pixels, const std::optional<Channel<float>>& depth,
+                     const std::optional<Vectors<3>>& normal,
+                     const std::optional<Channel<std::int32_t>>& object) {
+  auto image = std::make_unique<api::Image>();
+  image->height = static_cast<std::uint32_t>(pixels.shape(0));
+  image->width = static_cast<std::uint32_t>(pixels.shape(1));
+  image->pixels = elements<std::array<float, 4>>(std::optional(pixels), *image);
+  image->depth = elements<float>(depth, *image);
+  image->normal = elements<api::Float3>(normal, *image);
+  image->object = elements<std::int32_t>(object, *image);
+  return image.release();
+}
+
 nb::bytes png(const api::Image& image, double exposure, int tone) {
   const auto bytes = unlocked([&] { return image.png({exposure, static_cast<api::Tone>(tone)}); });
   return nb::bytes(bytes.data(), bytes.size());
@@ -147,6 +177,8 @@ void add_scene(nb::module_& module) {
 }
 
 void add_image(nb::module_& module) {
+  module.def("image_of", image_of, nb::arg("pixels"), nb::arg("depth").none(), nb::arg("normal").none(),
+             nb::arg("object").none());
   nb::class_<api::Image>(module, "Image")
       .def_ro("width", &api::Image::width)
       .def_ro("height", &api::Image::height)

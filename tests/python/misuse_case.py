@@ -1,6 +1,7 @@
 """What makes no sense raises the right exception; random arguments never end the interpreter. SPLATRAY_FUZZ_SECONDS: how long, 10."""
 
 import os
+import resource
 import time
 import unittest
 
@@ -35,11 +36,42 @@ class Misuse(unittest.TestCase):
         for name, bad in (("normals", "a"), ("threads", 1.5), ("material", "gold"), ("progress", 3), ("name", 4), ("up", "z")):
             self.refused(TypeError, sr.points, xyz, **{name: bad})
 
+    def test_colors_of_other_kinds(self):
+        points, normals = plane()
+        for bad in (np.full(points.shape, 200), np.full(points.shape, 200.0), np.full(points.shape, 2, np.int8), np.ma.masked_less(points * 0, 1)):
+            self.refused(ValueError, sr.points, points, normals=normals, colors=bad)
+        for good in (np.ones(points.shape, int), np.full(points.shape, 1.001), np.zeros(points.shape, bool), np.ma.asarray(points * 0)):
+            sr.points(points, normals=normals, colors=good)
+
+    def test_masked_points_are_left_out(self):
+        points, normals = plane()
+        masked = np.ma.masked_where(np.repeat(np.arange(len(points))[:, None] % 10 == 0, 3, axis=1), points)
+        scene = sr.points(masked, normals=normals)
+        self.assertEqual(len(scene), len(points) - masked.mask[:, 0].sum())
+        self.assertIn("not finite", scene.notes[0])
+        self.assertEqual(len(sr.points(points, normals=np.ma.masked_less(normals, 2), radii=np.ma.masked_less(np.ones(len(points)), 2))), len(points))
+
+    def test_more_memory_than_there_is(self):
+        with open("/proc/self/status") as status:
+            used = next(int(line.split()[1]) << 10 for line in status if line.startswith("VmSize:"))
+        old = resource.getrlimit(resource.RLIMIT_AS)
+        self.scene.render(size=(8, 8))
+        resource.setrlimit(resource.RLIMIT_AS, (used + (3 << 30), old[1]))
+        try:
+            self.refused(MemoryError, self.scene.render, size=(32768, 32768))
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, old)
+        self.scene.render(size=(8, 8))
+
     def test_files(self):
         self.refused(FileNotFoundError, sr.open, "missing.ply")
         self.refused(ValueError, sr.open, [])
         self.refused(ValueError, sr.open, __file__)
-        self.refused(TypeError, sr.open, 5)
+        for bad in (5, b"x", None, [5], ["a", b"x"]):
+            self.refused(TypeError, sr.open, bad)
+        self.refused(ValueError, sr.open, "a\0.ply")
+        self.refused(ValueError, self.scene.save, "a\0.soct")
+        self.refused(ValueError, self.scene.render(size=(9, 9)).save, "a\0.png")
         self.refused(OSError, self.scene.save, "/no/such/folder/a.soct")
         image = self.scene.render(size=(8, 8), samples=1)
         self.refused(OSError, image.save, "/no/such/folder/a.png")

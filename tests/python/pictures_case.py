@@ -1,7 +1,9 @@
 """Pictures: arrays without copies, files, threads, interrupts."""
 
+import copy
 import os
 import pathlib
+import pickle
 import signal
 import struct
 import subprocess
@@ -66,6 +68,15 @@ class Pictures(unittest.TestCase):
         copy = kept.copy()
         del image
         np.testing.assert_array_equal(kept, copy)
+
+    def test_pictures_are_pickled_and_copied(self):
+        for channels in (False, True):
+            image = self.scene.render(size=(32, 18), samples=1, channels=channels)
+            for again in (pickle.loads(pickle.dumps(image)), copy.deepcopy(image)):
+                for name in ("pixels", "depth", "normal", "object"):
+                    np.testing.assert_array_equal(getattr(again, name), getattr(image, name))
+                self.assertEqual(again.png(), image.png())
+                self.assertFalse(np.shares_memory(again.pixels, image.pixels))
 
     def test_channels_agree_with_the_sphere(self):
         camera = sr.Camera((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), fov=40)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+import os
 from typing import Any, Callable, Optional, Tuple
 
 import numpy as np
@@ -39,12 +40,24 @@ def text(name: str, value: Any) -> str:
     return value
 
 
+def path(name: str, value: Any) -> str:
+    """The path of a file or folder."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{name}: found {value!r}, expected a path, a str or an os.PathLike")
+    found = os.fsdecode(value)
+    if "\0" in found:
+        raise ValueError(f"{name}: found {found!r}, expected a path without a zero character")
+    return found
+
+
 def array(name: str, value: Any, dtype: type) -> np.ndarray:
-    """Numbers as a contiguous array of this type, copied only where they are not that yet."""
+    """Numbers as a contiguous array of this type, copied only where they are not that yet; masked ones are NaN."""
     try:
         found = np.asarray(value)
         if found.dtype.kind not in "fiub":
             raise TypeError
+        if np.ma.is_masked(value):
+            found = np.ma.filled(value.astype(np.float64), np.nan)
         with np.errstate(over="ignore", invalid="ignore"):
             return np.ascontiguousarray(found, dtype=dtype)
     except (TypeError, ValueError):

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from typing import Any, Optional
+from typing import Any, Optional, Tuple
 
 import numpy as np
 
@@ -58,13 +57,16 @@ class Image:
         """
         stops, curve = _check.number("exposure", exposure), _check.choice("tone", tone, TONES)
         try:
-            self._core.save(os.fspath(path), stops, curve)
+            self._core.save(_check.path("path", path), stops, curve)
         except RuntimeError as error:
             raise OSError(str(error)) from None
 
     def png(self, exposure: float = 0.0, tone: str = "neutral") -> bytes:
         """The bytes of the .png."""
         return self._core.png(_check.number("exposure", exposure), _check.choice("tone", tone, TONES))
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _image_of, (self.pixels, self.depth, self.normal, self.object)
 
     def _repr_png_(self) -> bytes:
         return self.png()
@@ -75,3 +77,8 @@ class Image:
 
     def __repr__(self) -> str:
         return f"<splatray.Image {self.width} x {self.height}>"
+
+
+def _image_of(pixels: np.ndarray, depth: Optional[np.ndarray], normal: Optional[np.ndarray], object: Optional[np.ndarray]) -> Image:
+    """The image of its arrays, for pickle and copy."""
+    return Image(_core.image_of(*(None if array is None else np.ascontiguousarray(array) for array in (pixels, depth, normal, object))))

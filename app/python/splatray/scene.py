@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Iterable
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -15,6 +16,7 @@ from .look import Light, Material
 
 Path = Union[str, "os.PathLike[str]"]
 
+MOST_COLOR = 1.01  # more than rounding makes of 1
 STYLES = ("auto", "paper", "lit", "clay", "ao", "scan")
 
 
@@ -113,7 +115,7 @@ class Scene:
         """Writes splatray's scene file (.soct), which opens without preprocess."""
         core = self._open_core()
         try:
-            core.save(os.fspath(path))
+            core.save(_check.path("path", path))
         except RuntimeError as error:
             raise OSError(str(error)) from None
 
@@ -138,7 +140,7 @@ class Scene:
         shown = _core.Look()
         shown.style = style
         shown.lights = None if lights is None else [_to_core(Light, "lights", light) for light in lights]
-        shown.environment = _check.text("environment", os.fspath(environment))
+        shown.environment = _check.path("environment", environment)
         shown.environment_strength = _check.number("environment_strength", environment_strength)
         shown.environment_turn = _check.number("environment_turn", environment_turn)
         shown.materials = _materials(core, materials)
@@ -193,7 +195,7 @@ def _options(radius_scale: float, up: Optional[Vector], threads: int, device: st
     options.up = None if up is None else _check.vector("up", up)
     options.threads = _check.whole("threads", threads, 0, 4096)
     options.device = _check.text("device", device)
-    options.cache = "" if cache is None else os.fspath(cache)
+    options.cache = "" if cache is None else _check.path("cache", cache)
     options.color_by = _check.text("color_by", color_by)
     return options
 
@@ -205,28 +207,32 @@ def open(files: Union[Path, Sequence[Path]], *, radius_scale: float = 1.0, mesh_
 
     radius_scale: factor on every disc's radius. mesh_points: sampled on meshes by area; 0 for their vertices where fine enough. data:
     folders searched for models that a scene names. color_by: an attribute shown as colours, such as height, intensity or class. up: up
-    direction, None for the file's own. threads: of reading and preprocess, 0 for all cores. device: number or part of a name of devices(),
+    direction, None for the file's own. threads: of reading, preprocess and device="cpu", 0 for all cores. device: number or part of a name of devices(),
     empty for the best, "cpu" for the processors without Vulkan. cache: folder that compiled pipelines are kept in between runs.
     """
-    paths = [os.fspath(path) for path in ([files] if isinstance(files, (str, os.PathLike)) else files)]
+    if isinstance(files, (str, bytes, os.PathLike)) or not isinstance(files, Iterable):
+        files = [files]
+    paths = [_check.path("files", path) for path in files]
     for path in paths:
         if not os.path.exists(path):
             raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
     options = _options(radius_scale, up, threads, device, cache, color_by)
     options.mesh_points = _check.whole("mesh_points", mesh_points, 0, 2**32 - 1)
-    options.data = [os.fspath(folder) for folder in data]
+    options.data = [_check.path("data", folder) for folder in data]
     return Scene(_core.open(paths, options, _check.progress(progress)))
 
 
 def _linear_colors(colors: Any) -> np.ndarray:
     """float32 (n, 3), linear; uint8 and uint16 are sRGB, as files have them."""
     given = np.asarray(colors)
-    linear = _check.rows("colors", given, np.float32)
+    linear = _check.rows("colors", colors, np.float32)
     if given.dtype in (np.uint8, np.uint16):
         encoded = linear / np.float32(np.iinfo(given.dtype).max)
         linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
     if not np.isfinite(linear).all():
-        raise ValueError("colors: found some that are not finite, expected 0 to 1")
+        raise ValueError("colors: found some that are masked or not finite, expected 0 to 1")
+    if linear.size and linear.max() > MOST_COLOR:
+        raise ValueError(f"colors: found {given.dtype} up to {linear.max():g}, expected linear values of 0 to 1, or uint8 or uint16, which are sRGB")
     return np.ascontiguousarray(linear, dtype=np.float32)
 
 
@@ -235,8 +241,8 @@ def points(xyz: Any, *, normals: Any = None, colors: Any = None, radii: Any = No
            threads: int = 0, device: str = "", cache: Optional[Path] = None, progress: Optional[_check.Progress] = None) -> Scene:
     """A scene of arrays, which are copied.
 
-    xyz: (n, 3), world units; points that are not finite are left out, and Scene.notes says so. normals: (n, 3), of any length; zero or NaN:
-    estimated. colors: (n, 3), floats linear in 0..1, uint8 and uint16 sRGB. radii: (n,), world units; zero, negative or NaN: chosen.
+    xyz: (n, 3), world units; points that are masked or not finite are left out, and Scene.notes says so. normals: (n, 3), of any length; zero, masked or NaN:
+    estimated. colors: (n, 3), linear in 0..1, or uint8 and uint16, which are sRGB. radii: (n,), world units; zero, negative or NaN: chosen.
     scanned: whether they come from a scanner, whose strays are left out and noise is smoothed; None where there are no normals. up: z unless
     given. The others are those of open().
     """
