@@ -162,6 +162,20 @@ TEST(Gltf, MaterialsBecomeGlassMirrorsAndPlastic) {
   EXPECT_NEAR(plastic.specular, 0.105F, 1e-4F);
 }
 
+TEST(Gltf, AnyShareOfTransmissionIsKept) {
+  const TempFolder folder;
+  for (const std::string share : {"0.2", "0.5", "0.9"}) {
+    const std::string more =
+        R"(,"materials":[{"extensions":{"KHR_materials_transmission":{"transmissionFactor":)" + share +
+        "}}}]";
+    const Input input =
+        read_input({folder.write("t.gltf", embedded(R"({"mesh":0})", more, R"(,"material":0)"))}, {});
+    EXPECT_EQ(input.objects[0].material.flags, MATERIAL_DIELECTRIC);
+    ASSERT_TRUE(input.objects[0].surface.has_value());
+    EXPECT_FLOAT_EQ(input.objects[0].surface->transmission, std::stof(share));
+  }
+}
+
 TEST(Gltf, WhatIsBlendedAllOverLetsLightThrough) {
   const TempFolder folder;
   const std::string veil =

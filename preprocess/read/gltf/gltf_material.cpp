@@ -135,7 +135,6 @@ Surface extension_surface(const tinygltf::Material& from) {
   surface.coat_roughness = unit_clamp(number_of(coat, "clearcoatRoughnessFactor", 0.0));
   surface.transmission =
       unit_clamp(number_of(extension("KHR_materials_transmission"), "transmissionFactor", 0.0));
-  if (surface.transmission <= 0.5F) surface.transmission = 0.0F;
   surface.absorption = volume_absorption(extension("KHR_materials_volume"));
   const float strength =
       std::max(number_of(extension("KHR_materials_emissive_strength"), "emissiveStrength", 1.0), 0.0F);
@@ -223,7 +222,7 @@ Material GltfMaterials::material(int index, bool colored) {
   material.shininess = phong_exponent(surface.roughness);
   if (is_veil(from)) {
     make_veil(material, alpha_of(from));
-  } else if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.5) {
+  } else if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.0) {
     make_dielectric(material, from, surface);
   } else {
     make_opaque(material, surface, colored);
