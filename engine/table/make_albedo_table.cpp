@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <future>
 #include <glm/glm.hpp>
 #include <limits>
 #include <vector>
@@ -41,20 +42,30 @@ float alpha_of(std::uint32_t row) {
   return std::max(roughness * roughness, glsl::ALPHA_LEAST);
 }
 
-/// The mean of what measure(facet) gives for facets as often as they are seen, of one half: the other is its mirror image. The
-/// few that are steep count most for what is lost, so points are dense there.
-template <class Measure>
-glm::dvec2 mean_over_facets(const glm::vec3& to_eye, float alpha, Lattice lattice, const Measure& measure) {
-  const auto count = static_cast<float>(lattice.points);
-  glm::dvec2 sum(0.0);
-  for (std::uint64_t i = 0; i < lattice.points; ++i) {
-    const float t = (static_cast<float>(i) + 0.5F) / count;
-    const float turn = 0.5F * (static_cast<float>(i * lattice.step % lattice.points) + 0.5F) / count;
-    sum += measure(glsl::ggx_facet(to_eye, alpha, 1.0F, {turn, 1.0F - t * t * t * t})) *
-           (4.0 * double(t) * double(t) * double(t));
+/// Facets as often as an eye sees them, of one half: the other is its mirror image. The few that are steep count most for what is
+/// lost, so points are dense there, and weigh less.
+struct Facets {
+  std::vector<glm::vec3> normals;
+  std::vector<double> weights;
+
+  Facets(const glm::vec3& to_eye, float alpha, Lattice lattice) {
+    const auto count = static_cast<float>(lattice.points);
+    for (std::uint64_t i = 0; i < lattice.points; ++i) {
+      const float t = (static_cast<float>(i) + 0.5F) / count;
+      const float turn = 0.5F * (static_cast<float>(i * lattice.step % lattice.points) + 0.5F) / count;
+      normals.push_back(glsl::ggx_facet(to_eye, alpha, 1.0F, {turn, 1.0F - t * t * t * t}));
+      weights.push_back(4.0 * double(t) * double(t) * double(t));
+    }
   }
-  return sum / double(lattice.points);
-}
+
+  /// The mean of what measure(facet) gives.
+  template <class Measure>
+  [[nodiscard]] auto mean(const Measure& measure) const {
+    auto sum = measure(normals[0]) * weights[0];
+    for (std::size_t i = 1; i < normals.size(); ++i) sum += measure(normals[i]) * weights[i];
+    return sum / double(normals.size());
+  }
+};
 
 /// Of light mirrored by facets that the eye sees, the share that no others hide.
 float mirrored_share(const glm::vec3& to_eye, const glm::vec3& to_light, float alpha) {
@@ -64,28 +75,24 @@ float mirrored_share(const glm::vec3& to_eye, const glm::vec3& to_light, float a
 }
 
 glm::dvec2 reflectance_factors(const glm::vec3& to_eye, float alpha) {
-  return mean_over_facets(to_eye, alpha, FINE, [&](const glm::vec3& facet) {
+  return Facets(to_eye, alpha, FINE).mean([&](const glm::vec3& facet) {
     const float cosine = glm::dot(to_eye, facet), edge = glsl::schlick(cosine);
     const float share = mirrored_share(to_eye, facet * (2.0F * cosine) - to_eye, alpha);
     return glm::dvec2(share * (1.0F - edge), share * edge);
   });
 }
 
-/// Many points where total internal reflection cuts lobes: with FINE 0.2 % at worst, 0.02 % rms.
-double glass_albedo(const glm::vec3& to_eye, float alpha, float eta) {
-  return mean_over_facets(
-             to_eye, alpha, eta > 1.0F && alpha > 0.1F ? FINE : COARSE,
-             [&](const glm::vec3& facet) {
-               const float cosine = std::max(glm::dot(to_eye, facet), 1e-6F);
-               float behind = 0.0F;
-               const float share = glsl::fresnel(eta, cosine, behind);
-               const glm::vec3 through = facet * (eta * cosine - behind) - to_eye * eta;
-               const float mirrored = share * mirrored_share(to_eye, facet * (2.0F * cosine) - to_eye, alpha);
-               const bool passes = through.z < 0.0F && share < 1.0F;
-               return glm::dvec2(
-                   mirrored + (passes ? (1.0F - share) * glsl::ggx_seen(-through.z, alpha) : 0.0F), 0.0);
-             })
-      .x;
+/// What both sides of a dielectric give to the eye.
+double glass_albedo(const glm::vec3& to_eye, float alpha, float eta, const Facets& facets) {
+  return facets.mean([&](const glm::vec3& facet) {
+    const float cosine = std::max(glm::dot(to_eye, facet), 1e-6F);
+    float behind = 0.0F;
+    const float share = glsl::fresnel(eta, cosine, behind);
+    const glm::vec3 through = facet * (eta * cosine - behind) - to_eye * eta;
+    const float mirrored = share * mirrored_share(to_eye, facet * (2.0F * cosine) - to_eye, alpha);
+    const bool passes = through.z < 0.0F && share < 1.0F;
+    return double(mirrored + (passes ? (1.0F - share) * glsl::ggx_seen(-through.z, alpha) : 0.0F));
+  });
 }
 
 float column_cosine(std::uint32_t column, std::uint32_t row) {
@@ -115,15 +122,28 @@ void add_reflectances() {
   }
 }
 
-void add_glass() {
-  for (std::uint32_t k = 0; k < ALBEDO_ETAS; ++k) {
-    const float root = 2.0F * static_cast<float>(k) / static_cast<float>(ALBEDO_ETAS - 1) - 1.0F;
-    const float z = glsl::ALBEDO_ETA_MOST * root * std::abs(root);
-    for (std::uint32_t row = 0; row < ALBEDO_ROWS; ++row)
-      for (std::uint32_t column = 0; column < ALBEDO_COLUMNS; ++column)
-        table.push_back(static_cast<float>(
-            glass_albedo(eye_of(column_cosine(column, row)), alpha_of(row), (1.0F + z) / (1.0F - z))));
+/// One row of all dielectrics. Many facets where total internal reflection cuts lobes: with FINE 0.2 % at worst, 0.02 % rms.
+void fill_glass_row(std::uint32_t row) {
+  const float alpha = alpha_of(row);
+  for (std::uint32_t column = 0; column < ALBEDO_COLUMNS; ++column) {
+    const glm::vec3 to_eye = eye_of(column_cosine(column, row));
+    const Facets coarse(to_eye, alpha, COARSE), fine(to_eye, alpha, FINE);
+    for (std::uint32_t k = 0; k < ALBEDO_ETAS; ++k) {
+      const float root = 2.0F * static_cast<float>(k) / static_cast<float>(ALBEDO_ETAS - 1) - 1.0F;
+      const float z = glsl::ALBEDO_ETA_MOST * root * std::abs(root);
+      const float eta = (1.0F + z) / (1.0F - z);
+      table[ALBEDO_GLASS + (k * ALBEDO_ROWS + row) * ALBEDO_COLUMNS + column] =
+          static_cast<float>(glass_albedo(to_eye, alpha, eta, eta > 1.0F && alpha > 0.1F ? fine : coarse));
+    }
   }
+}
+
+void add_glass() {
+  table.resize(ALBEDO_WORDS);
+  std::vector<std::future<void>> rows;
+  for (std::uint32_t row = 0; row < ALBEDO_ROWS; ++row)
+    rows.push_back(std::async(std::launch::async, fill_glass_row, row));
+  for (std::future<void>& row : rows) row.get();
 }
 
 bool write(const char* path) {
@@ -143,8 +163,9 @@ bool write(const char* path) {
 static bool make_table(const char* path) {
   table.reserve(ALBEDO_WORDS);
   add_reflectances();
+  if (table.size() != ALBEDO_GLASS) return false;
   add_glass();
-  return table.size() == ALBEDO_WORDS && write(path);
+  return write(path);
 }
 
 }  // namespace splatray

@@ -28,7 +28,7 @@ def expect_same(made, whole, name):
 
 def by_openjd(farm, work, scene, environment):
     if shutil.which("openjd", path=environment["PATH"]) is None:
-        print("openjd-cli is not installed (PyPI): the Open Job Description is not run")
+        print("skipped: the Open Job Description is not run, openjd-cli (PyPI) is not installed")
         return None
     run("openjd", "check", farm / "frames.yaml", env=environment)
     folder = work / "openjd"

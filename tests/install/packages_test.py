@@ -28,7 +28,7 @@ def make_packages(build, work):
 
 def check_with_lintian(packages):
     if shutil.which("lintian") is None:
-        print("lintian is not installed: the packages' form is not looked at")
+        print("skipped: the packages' form is not looked at (Debian's package lintian)")
         return
     report = subprocess.run(["lintian", "--allow-root", *packages], capture_output=True, text=True).stdout
     errors = [line for line in report.split("\n") if line.startswith("E:")]
@@ -44,7 +44,9 @@ def check_programs(root, work):
     run(render, work / "cloud.soct", "-o", work / "a.png", "--resolution", "64x36", "--samples", "1", "--quiet")
     for program in ("splatray-render", "splatray-view"):
         run(root / "usr/bin" / program, "--version")
-    if shutil.which("man"):
+    if shutil.which("man") is None:
+        print("skipped: the man page is not read, there is no man")
+    else:
         page = run("man", "-l", root / "usr/share/man/man1/splatray-render.1.gz")
         if "--turntable" not in page.replace("\u2010", "-") or "EXIT STATUS" not in page:
             sys.exit("the man page says nothing of --turntable or the exit status")

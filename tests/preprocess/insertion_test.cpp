@@ -12,12 +12,12 @@
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/tree/long_lists.h"
+#include "tests/preprocess/shapes.h"
 
 namespace splatray {
 namespace {
 
-const BuildProgress SILENT;
-const Stage STAGE{"insertion", SILENT};
+const Stage STAGE{"insertion", test::SILENT};
 
 /// Keeps the part of a convex polygon where sign * p[axis] <= limit.
 std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, int axis, double sign, double limit) {

@@ -14,11 +14,9 @@
 namespace splatray {
 namespace {
 
-const BuildProgress SILENT;
-
 Cloud fitted(InputObject object) {
   Cloud cloud = test::cloud_of(std::move(object));
-  find_radii(cloud, RadiusRule::coverage, 1.0, true, {"radii", SILENT});
+  find_radii(cloud, RadiusRule::coverage, 1.0, true, {"radii", test::SILENT});
   return cloud;
 }
 

@@ -13,9 +13,8 @@ namespace splatray {
 namespace {
 
 constexpr glm::dvec3 UP(0.0, 1.0, 0.0);
-const BuildProgress SILENT;
 
-void estimate(Cloud& cloud) { estimate_normals(cloud, UP, {"normals", SILENT}); }
+void estimate(Cloud& cloud) { estimate_normals(cloud, UP, {"normals", test::SILENT}); }
 
 TEST(Normals, PlaneIsExactAndAllOnOneSide) {
   InputObject object = test::square_lattice(20, 0.5);
@@ -51,7 +50,7 @@ TEST(Normals, OnlyUnusableOnesAreEstimated) {
   BuildStats stats;
   Cloud cloud = make_cloud(std::move(object.points), false, false, stats);
   EXPECT_EQ(stats.normals_given, 98U);
-  EXPECT_EQ(estimate_normals(cloud, UP, {"normals", SILENT}), 2U);
+  EXPECT_EQ(estimate_normals(cloud, UP, {"normals", test::SILENT}), 2U);
   int along_z = 0;
   for (const glm::vec3& normal : cloud.normal) {
     EXPECT_NEAR(glm::length(normal), 1.0F, 1e-6F);

@@ -14,12 +14,10 @@
 namespace splatray {
 namespace {
 
-const BuildProgress SILENT;
-
 /// Radii of an object in world units, in canonical order.
 std::vector<double> radii_world(const InputObject& object, RadiusRule rule, Cloud* cloud_out = nullptr) {
   Cloud cloud = test::cloud_of(object);
-  find_radii(cloud, rule, 1.0, false, {"radii", SILENT});
+  find_radii(cloud, rule, 1.0, false, {"radii", test::SILENT});
   std::vector<double> radii;
   for (const float radius : cloud.radius) radii.push_back(radius * cloud.half_extent_world);
   if (cloud_out != nullptr) *cloud_out = std::move(cloud);
@@ -127,7 +125,7 @@ TEST(Radius, GivenRadiiAreHonouredAndBadOnesComputed) {
   Cloud cloud = make_cloud(std::move(lattice.points), false, false, stats);
   EXPECT_EQ(stats.radii_given, 118U);
   EXPECT_EQ(stats.radii_repaired, 3U);
-  find_radii(cloud, RadiusRule::coverage, 2.0, false, {"radii", SILENT});
+  find_radii(cloud, RadiusRule::coverage, 2.0, false, {"radii", test::SILENT});
   int given = 0;
   for (const float radius : cloud.radius) {
     EXPECT_GT(radius, 0.0F);

@@ -7,6 +7,9 @@
 
 namespace splatray::test {
 
+/// Nobody is told of the progress.
+inline const BuildProgress SILENT;
+
 /// `count` points on the unit sphere at `center`, with outward normals and its area. Even: a Fibonacci
 /// spiral.
 [[nodiscard]] InputObject even_sphere(std::size_t count, glm::dvec3 center = glm::dvec3(0.0));

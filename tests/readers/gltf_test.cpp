@@ -64,14 +64,6 @@ std::string glb(const std::string& nodes) {
          bytes_of(static_cast<std::uint32_t>(data.size())) + std::string("BIN\0", 4) + data;
 }
 
-ReadOptions keeping_meshes() {
-  ReadOptions options;
-  options.keep_meshes = true;
-  options.samples = 1000;
-  options.clip = false;  // which may add samples
-  return options;
-}
-
 double signed_volume(const Mesh& mesh) {
   double volume = 0.0;
   for (const glm::uvec3& t : mesh.triangles) {
@@ -134,7 +126,8 @@ TEST(Gltf, MaterialsBecomeGlassMirrorsAndPlastic) {
   const TempFolder folder;
   const auto material = [&](const std::string& json) {
     const std::string more = R"(,"materials":[)" + json + "]";
-    return read_input({folder.write("m.gltf", embedded(R"({"mesh":0})", more, R"(,"material":0)"))}, {})
+    return read_input({folder.write("m.gltf", embedded(R"({"mesh":0})", more, R"(,"material":0)"))},
+                      keeping_meshes())
         .objects[0]
         .material;
   };
@@ -180,8 +173,8 @@ TEST(Gltf, WhatIsBlendedAllOverLetsLightThrough) {
   const TempFolder folder;
   const std::string veil =
       R"(,"materials":[{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25]}}])";
-  const Input input =
-      read_input({folder.write("v.gltf", embedded(R"({"mesh":0})", veil, R"(,"material":0)"))}, {});
+  const Input input = read_input(
+      {folder.write("v.gltf", embedded(R"({"mesh":0})", veil, R"(,"material":0)"))}, keeping_meshes());
   EXPECT_EQ(input.objects[0].material.flags, MATERIAL_DIELECTRIC);
   EXPECT_FLOAT_EQ(input.objects[0].material.ior, 1.0F);
   EXPECT_FLOAT_EQ(input.objects[0].material.tint.y, 0.75F);
@@ -221,7 +214,7 @@ TEST(Gltf, CamerasAndLights) {
       R"({"mesh":0,"children":[1,2,3]},{"camera":0,"translation":[0,0,5]},)"
       R"({"rotation":[-0.70710678118654752,0,0,0.70710678118654752],"extensions":{"KHR_lights_punctual":{"light":0}}},)"
       R"({"translation":[1,2,3],"camera":1,"extensions":{"KHR_lights_punctual":{"light":1}}})";
-  const Input input = read_input({folder.write("c.gltf", embedded(nodes, more))}, {});
+  const Input input = read_input({folder.write("c.gltf", embedded(nodes, more))}, keeping_meshes());
   ASSERT_TRUE(input.camera);
   EXPECT_DOUBLE_EQ(input.camera->ortho_height, 4.0);
   EXPECT_DOUBLE_EQ(input.camera->eye.z, 5.0);
@@ -317,7 +310,8 @@ TEST(Gltf, RequiredExtensionsThatAreUnknownAreErrorsUsedOnesNotes) {
             std::string::npos);
   EXPECT_NE(read_error(scene(R"(,"extensionsRequired":["KHR_draco_mesh_compression"])")).find("compressed"),
             std::string::npos);
-  EXPECT_TRUE(has_note(read_input({scene(R"(,"extensionsUsed":["EXT_strange"])")}, {}), "EXT_strange"));
+  EXPECT_TRUE(
+      has_note(read_input({scene(R"(,"extensionsUsed":["EXT_strange"])")}, keeping_meshes()), "EXT_strange"));
 }
 
 TEST(Gltf, WhatTheFileSaysDoesNotBreakTheLine) {
@@ -327,7 +321,8 @@ TEST(Gltf, WhatTheFileSaysDoesNotBreakTheLine) {
   };
   EXPECT_NE(read_error(scene(R"(,"extensionsRequired":["EXT\n\u001b[2J"])")).find("EXT??[2J"),
             std::string::npos);
-  EXPECT_TRUE(has_note(read_input({scene(R"(,"extensionsUsed":["EXT\n\u001b[2J"])")}, {}), "EXT??[2J"));
+  EXPECT_TRUE(
+      has_note(read_input({scene(R"(,"extensionsUsed":["EXT\n\u001b[2J"])")}, keeping_meshes()), "EXT??[2J"));
 }
 
 TEST(Gltf, ABufferThatIsAFolderIsAnError) {

@@ -15,12 +15,6 @@ const char* const CUBE_OBJ =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
-ReadOptions keeping_meshes() {
-  ReadOptions options;
-  options.keep_meshes = true;
-  return options;
-}
-
 TEST(Obj, ACubeIsSampledAndItsNormalsAreSharp) {
   const TempFolder folder;
   const Input input = read_input({folder.write("cube.obj", CUBE_OBJ)}, {});

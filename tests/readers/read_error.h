@@ -39,6 +39,15 @@ inline void read_every_prefix(const TempFolder& folder, const std::string& name,
   }
 }
 
+/// Options that keep meshes and sample few points, so that reading takes no time.
+inline ReadOptions keeping_meshes() {
+  ReadOptions options;
+  options.keep_meshes = true;
+  options.samples = 1000;
+  options.clip = false;  // which may add samples
+  return options;
+}
+
 /// Whether some note holds the text.
 inline bool has_note(const Input& input, const std::string& text) {
   for (const std::string& note : input.notes) {

@@ -16,7 +16,7 @@
 namespace splatray::testing {
 namespace {
 
-constexpr std::size_t ROUNDS = 25;
+constexpr std::size_t FEATURE_ROUNDS = 25;
 constexpr vec3 RADIANCE(0.5F);      // of the environment
 constexpr double CLOSER = 1.45;     // the sphere then fills the picture's corners
 constexpr double CAP_HEIGHT = 0.8;  // of the far side's object: farther than this from the centre, radii
@@ -199,7 +199,7 @@ std::vector<Json> measure_features(const Context& context, const Case& one,
   Stage stage(context, one, folder);
   const std::vector<Entry> entries = stage.entries();
   std::vector<std::vector<double>> times(entries.size());
-  for (std::size_t round = 0; round < 1 + ROUNDS; ++round)
+  for (std::size_t round = 0; round < 1 + FEATURE_ROUNDS; ++round)
     for (std::size_t i = 0; i < entries.size(); ++i) {
       static_cast<void>(stage.render(entries[i], false));
       if (round > 0) times[i].push_back(stage.stats().trace_ms);
