@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "preprocess/base/parallel.h"
+#include "preprocess/base/usable_position.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/sample_mesh.h"
@@ -20,17 +21,14 @@ struct Part {
   std::uint64_t samples = 0;
 };
 
-void drop_non_finite_triangles(Mesh& mesh, const std::string& name, std::vector<std::string>& notes) {
-  const auto finite = [&](glm::uint vertex) {
-    const glm::dvec3& p = mesh.vertices.position[vertex];
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-  };
+void drop_unusable_triangles(Mesh& mesh, const std::string& name, std::vector<std::string>& notes) {
+  const auto usable = [&](glm::uint vertex) { return is_usable_position(mesh.vertices.position[vertex]); };
   const std::size_t dropped = std::erase_if(mesh.triangles, [&](const glm::uvec3& triangle) {
-    return !finite(triangle.x) || !finite(triangle.y) || !finite(triangle.z);
+    return !usable(triangle.x) || !usable(triangle.y) || !usable(triangle.z);
   });
   if (dropped > 0) {
     notes.push_back(name + ": dropped " + std::to_string(dropped) +
-                    " triangles with vertices that are not finite");
+                    " triangles with vertices that are not finite or beyond 1e100");
   }
 }
 
@@ -109,7 +107,7 @@ std::vector<Part> list_parts(Input& input, const ReadOptions& options) {
   std::vector<Part> parts;
   for (InputObject& object : input.objects) {
     for (Mesh& mesh : object.meshes) {
-      drop_non_finite_triangles(mesh, object.name, input.notes);
+      drop_unusable_triangles(mesh, object.name, input.notes);
       Part part{&object, &mesh};
       part.area = surface_area(mesh);
       part.sampled = part.area > 0.0 && std::isfinite(part.area) &&

@@ -13,19 +13,13 @@
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/sorted_order.h"
 #include "preprocess/base/unit_or_zero.h"
+#include "preprocess/base/usable_position.h"
 
 namespace splatray {
 namespace {
 
-constexpr double LARGEST_COORDINATE = 1e100;  // squares and sums of such stay finite in float64
-
-bool is_usable(const glm::dvec3& position) {
-  const auto in_range = [](double value) { return std::abs(value) <= LARGEST_COORDINATE; };  // false on NaN
-  return in_range(position.x) && in_range(position.y) && in_range(position.z);
-}
-
 std::vector<std::uint32_t> usable_points(const Points& points) {
-  return numbers_where(points.size(), [&](std::size_t i) { return is_usable(points.position[i]); });
+  return numbers_where(points.size(), [&](std::size_t i) { return is_usable_position(points.position[i]); });
 }
 
 /// The points named by `usable`; frees the source arrays one by one.

@@ -177,5 +177,19 @@ TEST(Hostile, NamesThatLeaveTheScenesFolder) {
                          "expected a file in the scene's folder or in a data path");
 }
 
+TEST(Hostile, TrianglesWithVerticesBeyondAllUseAreDropped) {
+  const TempFolder folder;
+  const auto ply = folder.write(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1e200 0\n"
+      "3 0 1 2\n3 0 2 3\n");
+  ReadOptions options;
+  options.samples = 50;
+  const Input input = read_input({ply}, options);
+  EXPECT_TRUE(has_note(input, "dropped 1 triangles with vertices that are not finite or beyond 1e100"));
+  EXPECT_NEAR(input.objects.at(0).surface_area, 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace splatray
