@@ -1,17 +1,16 @@
 #include "app/library/image_file.h"
 
-#include <dlfcn.h>
-#include <sys/auxv.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
+#include "app/library/codec/image_codec.h"
 #include "app/library/exr_check.h"
-#include "app/library/image_codec.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "engine/base/module.h"
 #include "engine/base/srgb.h"
 #include "engine/file/atomic_file.h"
 
@@ -36,33 +35,32 @@ struct Picture {
 
 constexpr const char* EXPECTED = "an image such as HDR, EXR or PNG";
 
-/// The folder of the program, library or module of another language that holds this code.
-std::filesystem::path own_folder() {
-  Dl_info own{}, program{};
-  const auto within_program = getauxval(AT_PHDR);
-  // The loader knows a program only by the name it was started with.
-  const bool in_program =
-      dladdr(reinterpret_cast<void*>(&own_folder), &own) == 0 ||
-      (dladdr(reinterpret_cast<void*>(within_program), &program) != 0 && own.dli_fbase == program.dli_fbase);
-  if (in_program) return std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  return std::filesystem::absolute(own.dli_fname).parent_path();
+const ImageCodec& load_codec(const char* module, ExitCode code, const std::string& purpose,
+                             const std::string& remedy) {
+  void* function = module_function(module, "splatray_image_codec", code, purpose, remedy);
+  return *reinterpret_cast<decltype(&splatray_image_codec)>(function)();
 }
 
-/// The library image_codec.h describes: beside this code, where it is installed to from a library or a program, or where the
-/// system looks.
+/// What writes pictures, and reads those of the formats that it writes.
 const ImageCodec& codec() {
-  static const ImageCodec& loaded = []() -> const ImageCodec& {
-    const std::filesystem::path folder = own_folder();
-    void* library = nullptr;
-    for (const auto& place : {folder / IMAGE_CODEC, folder / "splatray" / IMAGE_CODEC,
-                              folder / IMAGE_CODEC_FOLDER / IMAGE_CODEC, std::filesystem::path(IMAGE_CODEC)})
-      if (library == nullptr) library = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
-    void* symbol = library == nullptr ? nullptr : dlsym(library, "splatray_image_codec");
-    if (symbol == nullptr)
-      throw Error(ExitCode::failed, std::string("cannot load what reads and writes pictures: ") + dlerror() +
-                                        ", expected it in '" + folder.string() + "' or installed");
-    return *reinterpret_cast<decltype(&splatray_image_codec)>(symbol)();
-  }();
+  static const ImageCodec& loaded =
+      load_codec("splatray_image_codec", ExitCode::failed, "cannot load what reads and writes pictures", "");
+  return loaded;
+}
+
+/// What reads a picture: for formats that are not ours, OpenImageIO.
+const ImageCodec& codec_of(const std::filesystem::path& path) {
+  char start[8]{};
+  std::ifstream(path, std::ios::binary).read(start, sizeof start);
+  const std::string_view bytes(start, sizeof start);
+  for (const std::string_view ours : {"\x89PNG", "\x76\x2f\x31\x01", "#?", "\xff\xd8\xff"})
+    if (bytes.starts_with(ours)) return codec();
+  const std::string extension = path.extension().string();
+  const std::string format =
+      extension.empty() ? "no EXR, PNG, HDR or JPEG" : "of the format '" + extension + "'";
+  static const ImageCodec& loaded = load_codec(
+      "splatray_oiio", ExitCode::input_unreadable,
+      "cannot read picture '" + path.string() + "', which is " + format, ": the package splatray-oiio");
   return loaded;
 }
 
@@ -74,7 +72,8 @@ PictureHeader read_header(const std::filesystem::path& path) {
     refuse(path, *defect,
            "what fits the file's " + std::to_string(std::filesystem::file_size(path)) + " bytes");
   PictureHeader header;
-  if (!codec().read_header(path.string(), header)) refuse(path, "no picture OpenImageIO can open", EXPECTED);
+  if (!codec_of(path).read_header(path.string(), header))
+    refuse(path, "no picture that can be opened", EXPECTED);
   return header;
 }
 
@@ -108,7 +107,7 @@ Picture read_picture(const std::filesystem::path& path) {
       picture.rgb.push_back(channels == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]));
   };
   std::string damage;
-  if (!codec().read_pixels(path.string(), 0, static_cast<int>(channels), append, damage))
+  if (!codec_of(path).read_pixels(path.string(), 0, static_cast<int>(channels), append, damage))
     refuse(path, "damage (" + damage + ")", "a whole image");
   return picture;
 }
@@ -143,7 +142,7 @@ std::vector<unsigned char> encode(PictureHeader header, const Metadata& metadata
   return bytes;
 }
 
-/// Encodes in memory, as OpenImageIO does not report every failed write to a file.
+/// Encodes in memory, so that AtomicFile hears of every failed write.
 void write_picture(PictureHeader header, const Metadata& metadata, const void* values, const char* format,
                    const std::filesystem::path& path) {
   AtomicFile file(path);
@@ -255,7 +254,7 @@ ExrPicture read_exr(const std::filesystem::path& path) {
     picture.values.insert(picture.values.end(), value, value + count * channels);
   };
   std::string damage;
-  if (!codec().read_pixels(path.string(), 0, static_cast<int>(channels), append, damage))
+  if (!codec_of(path).read_pixels(path.string(), 0, static_cast<int>(channels), append, damage))
     refuse(path, "damage (" + damage + ")", "a whole image");
   return picture;
 }
@@ -269,8 +268,8 @@ bool is_whole_picture(const std::filesystem::path& path) {
   PictureHeader header;
   std::string damage;
   const PixelSink nowhere = [](const float*, std::size_t) {};
-  return codec().read_header(path.string(), header) && header.height >= 1 &&
-         codec().read_pixels(path.string(), header.height - 1, 1, nowhere, damage);
+  return codec_of(path).read_header(path.string(), header) && header.height >= 1 &&
+         codec_of(path).read_pixels(path.string(), header.height - 1, 1, nowhere, damage);
 }
 
 Metadata read_metadata(const std::filesystem::path& path) { return metadata_of(read_header(path)); }

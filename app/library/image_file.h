@@ -1,4 +1,4 @@
-/// Pictures in files (OpenImageIO): PNG and EXR out, pictures and environment maps in.
+/// Pictures in files: PNG and EXR out, pictures and environment maps in.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -53,7 +53,7 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
 [[nodiscard]] ExrPicture read_exr(const std::filesystem::path& path);
 
 /// Whether a file is a PNG with its end or another picture whose last row can be read: whether write_png or write_exr came to
-/// their end. Throws Error (failed) when OpenImageIO cannot be loaded, which it is but for PNG.
+/// their end. Throws Error (failed) when the library for pictures cannot be loaded, which it is but for PNG.
 [[nodiscard]] bool is_whole_picture(const std::filesystem::path& path);
 
 /// Reads what write_png or write_exr kept; empty for pictures of others. Throws Error (input_unreadable) with path,
@@ -64,12 +64,13 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
 /// display_value. Throws Error (input_unreadable) with path, found and expected.
 [[nodiscard]] DisplayImage read_display_image(const std::filesystem::path& path, const Display& display);
 
-/// Reads a latitude-longitude environment, any format OpenImageIO reads; 8 and 16 bit files are taken as
+/// Reads a latitude-longitude environment, any format: EXR, PNG, HDR and JPEG by
+/// ourselves, others by OpenImageIO; 8 and 16 bit files are taken as
 /// sRGB. Values that are negative or not finite become 0. Throws Error (input_unreadable) with path, found
 /// and expected.
 [[nodiscard]] Environment read_environment(const std::filesystem::path& path);
 
-/// Loads OpenImageIO (0.2 s), as the first of the functions above would; any thread. Throws Error (failed) where that
+/// Loads what writes pictures, as the first of the functions above would; any thread. Throws Error (failed) where that
 /// fails.
 void load_image_codec();
 

@@ -1,7 +1,6 @@
-/// What OpenImageIO does for image_file.cpp, as a library of its own that is loaded with the first picture: OpenImageIO and
-/// the 200 libraries it needs take 0.2 s to load, for which programs do not wait that need no picture file, or not yet.
-/// Strings and vectors cross its border as between any two C++ libraries of one compiler; its file's name has the project's
-/// version, so that no other version is loaded.
+/// What image_file.cpp loads as libraries of their own, by engine/base/module.h: splatray_image_codec (EXR by OpenEXR; PNG, HDR and
+/// JPEG by stb), which writes and reads, and splatray_oiio (OpenImageIO and the 200 libraries it needs) for files of other formats.
+/// Strings and vectors cross the border as between any two C++ libraries of one compiler.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -26,7 +25,7 @@ struct PictureHeader {
 /// Takes the values of further pixels, in the order of rows from the top.
 using PixelSink = std::function<void(const float* values, std::size_t pixels)>;
 
-/// The library's functions. They return whether all went well; `error` receives OpenImageIO's message on failure.
+/// The library's functions. They return whether all went well; `error` receives a message on failure.
 struct ImageCodec {
   /// Whether it is a picture file.
   bool (*read_header)(const std::string& path, PictureHeader& header);
@@ -34,13 +33,12 @@ struct ImageCodec {
   /// grows with what the file holds and not with what its header says.
   bool (*read_pixels)(const std::string& path, int first_row, int channels, const PixelSink& sink,
                       std::string& error);
-  /// The bytes of a picture's file. `format` is the name OpenImageIO has for it; `values` are bytes where header.integers,
-  /// else floats.
+  /// The bytes of a picture's file, "png" of bytes or "openexr" of floats; nullptr in a library that only reads.
   bool (*encode)(const char* format, const PictureHeader& header, const void* values,
                  std::vector<unsigned char>& bytes, std::string& error);
 };
 
 }  // namespace splatray
 
-/// The library's only symbol.
+/// A library's only symbol.
 extern "C" const splatray::ImageCodec* splatray_image_codec();

@@ -1,5 +1,5 @@
-// The library of image_codec.h for Python's wheel, which carries all it needs: PNG, JPEG and Radiance HDR by stb, EXR by OpenEXR, in
-// place of OpenImageIO and its 200 libraries. PNG is written without metadata.
+// The library of image_codec.h that writes pictures: EXR by OpenEXR, PNG by stb, which also reads JPEG and Radiance HDR. What
+// metadata a PNG has are its text chunks.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -17,7 +17,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/library/image_codec.h"
+#include "app/library/codec/image_codec.h"
+#include "app/library/codec/png_text.h"
 
 namespace splatray {
 namespace {
@@ -26,11 +27,15 @@ constexpr std::uint64_t DEFLATE = 1032;  ///< most bytes that one compressed byt
 
 bool is_exr(const std::string& path) { return Imf::isOpenExrFile(path.c_str()); }
 
-/// What is read of an EXR: R, G, B where it has them, else its first channel.
-std::vector<std::string> color_channels(const Imf::ChannelList& all) {
-  if (all.findChannel("R") != nullptr && all.findChannel("G") != nullptr && all.findChannel("B") != nullptr)
-    return {"R", "G", "B"};
-  return all.begin() == all.end() ? std::vector<std::string>{} : std::vector<std::string>{all.begin().name()};
+/// An EXR's channels, colours first: a file has them by their names' order.
+std::vector<std::string> ordered_channels(const Imf::ChannelList& all) {
+  std::vector<std::string> names;
+  for (const char* first : {"R", "G", "B", "A", "Z"})
+    if (all.findChannel(first) != nullptr) names.emplace_back(first);
+  for (auto channel = all.begin(); channel != all.end(); ++channel)
+    if (std::find(names.begin(), names.end(), channel.name()) == names.end())
+      names.emplace_back(channel.name());
+  return names;
 }
 
 std::uint64_t pixel_bytes(const Imf::ChannelList& channels) {
@@ -45,7 +50,12 @@ void read_exr_header(const std::string& path, std::uint64_t file_bytes, PictureH
   const Imath::Box2i window = file.header().dataWindow();
   header.width = window.max.x - window.min.x + 1;
   header.height = window.max.y - window.min.y + 1;
-  header.channels = color_channels(file.header().channels());
+  const Imath::Box2i whole = file.header().displayWindow();
+  header.x = window.min.x - whole.min.x;
+  header.y = window.min.y - whole.min.y;
+  header.full_width = whole.max.x - whole.min.x + 1;
+  header.full_height = whole.max.y - whole.min.y + 1;
+  header.channels = ordered_channels(file.header().channels());
   for (auto attribute = file.header().begin(); attribute != file.header().end(); ++attribute)
     if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
       header.attributes.emplace_back(attribute.name(), text->value());
@@ -59,8 +69,9 @@ bool read_stb_header(const std::string& path, std::uint64_t file_bytes, PictureH
   if (stbi_info(path.c_str(), &header.width, &header.height, &channels) == 0) return false;
   header.channels = channels < 3 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
   header.integers = stbi_is_hdr(path.c_str()) == 0;
-  // A run of up to 127 takes two bytes in each of an HDR's four channels; a PNG's pixel may be one bit.
-  header.most_pixels = header.integers ? file_bytes * DEFLATE * 8 : file_bytes * 127 / 8;
+  // A run of up to 127 takes two bytes in each of an HDR's four channels.
+  header.most_pixels = header.integers ? file_bytes * DEFLATE * 8 / png_bits(path) : file_bytes * 127 / 8;
+  header.attributes = read_png_text(path);
   return true;
 }
 
@@ -82,7 +93,7 @@ void read_exr(const std::string& path, int first_row, int channels, const PixelS
   const Imath::Box2i window = file.header().dataWindow();
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
   const auto count = static_cast<std::size_t>(channels);
-  const std::vector<std::string> names = color_channels(file.header().channels());
+  const std::vector<std::string> names = ordered_channels(file.header().channels());
   std::vector<float> row(width * count);
   for (int y = window.min.y + first_row; y <= window.max.y; ++y) {
     Imf::FrameBuffer buffer;
@@ -155,7 +166,9 @@ class MemoryStream : public Imf::OStream {
 };
 
 void encode_exr(const PictureHeader& header, const float* values, std::vector<unsigned char>& bytes) {
-  Imf::Header file_header(header.width, header.height);
+  const Imath::V2i corner(header.x, header.y), size(header.width, header.height);
+  const Imath::V2i whole = header.full_width > 0 ? Imath::V2i(header.full_width, header.full_height) : size;
+  Imf::Header file_header({Imath::V2i(0), whole - Imath::V2i(1)}, {corner, corner + size - Imath::V2i(1)});
   file_header.compression() = Imf::ZIP_COMPRESSION;
   for (const auto& [name, value] : header.attributes)
     if (name.starts_with("splatray.")) file_header.insert(name, Imf::StringAttribute(value));
@@ -164,8 +177,8 @@ void encode_exr(const PictureHeader& header, const float* values, std::vector<un
   for (std::size_t i = 0; i < header.channels.size(); ++i) {
     file_header.channels().insert(header.channels[i], Imf::Channel(Imf::FLOAT));
     buffer.insert(header.channels[i],
-                  Imf::Slice(Imf::FLOAT, const_cast<char*>(reinterpret_cast<const char*>(values + i)), step,
-                             step * static_cast<std::size_t>(header.width)));
+                  Imf::Slice::Make(Imf::FLOAT, values + i, corner, header.width, header.height, step,
+                                   step * static_cast<std::size_t>(header.width)));
   }
   MemoryStream stream(bytes);
   Imf::OutputFile file(stream, file_header);
@@ -180,8 +193,10 @@ bool encode_png(const PictureHeader& header, const void* values, std::vector<uns
     list.insert(list.end(), from, from + size);
   };
   const auto channels = static_cast<int>(header.channels.size());
-  return stbi_write_png_to_func(append, &bytes, header.width, header.height, channels, values,
-                                header.width * channels) != 0;
+  const bool made = stbi_write_png_to_func(append, &bytes, header.width, header.height, channels, values,
+                                           header.width * channels) != 0;
+  if (made) add_png_text(bytes, header.attributes);
+  return made;
 }
 
 bool encode(const char* format, const PictureHeader& header, const void* values,
