@@ -91,7 +91,7 @@ std::string binary_stl(std::uint32_t declared) {
 
 TEST(Stl, IsReadAndItsCountIsChecked) {
   const TempFolder folder;
-  const Input input = read_input({folder.write("a.STL", binary_stl(1))}, {});
+  const Input input = read_input({folder.write("a.STL", binary_stl(1))}, keeping_meshes());
   EXPECT_NEAR(input.objects[0].surface_area, 0.5, 1e-6);
   EXPECT_NE(read_error(folder.write("b.stl", binary_stl(2000000000))).find("found 134 bytes"),
             std::string::npos);
@@ -162,8 +162,9 @@ TEST(Obj, IndicesAreChecked) {
   }
   EXPECT_NE(read_error(folder.write("v.obj", "v 0 0 a\n")).find("line 1: found a vertex of 2 numbers"),
             std::string::npos);
-  EXPECT_EQ(
-      read_input({folder.write("g.obj", vertices + "f -3/-1/-1 \\\n-2/1/1 3/1/1\n")}, {}).objects.size(), 1U);
+  EXPECT_EQ(read_input({folder.write("g.obj", vertices + "f -3/-1/-1 \\\n-2/1/1 3/1/1\n")}, keeping_meshes())
+                .objects.size(),
+            1U);
 }
 
 /// A square of two triangles in the xy plane, side 1, with a colour ramp along x.
