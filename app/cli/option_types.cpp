@@ -9,18 +9,6 @@ void refuse_option(const std::string& option, const std::string& value, const st
               option + ": found '" + value + "', expected " + expected + " (--help lists the options)");
 }
 
-std::vector<double> split_numbers(const std::string& text, char separator, std::size_t count) {
-  std::vector<double> numbers;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, separator);) {
-    char* end = nullptr;
-    const double number = std::strtod(part.c_str(), &end);
-    if (part.empty() || *end != '\0' || !std::isfinite(number)) return {};
-    numbers.push_back(number);
-  }
-  return numbers.size() == count && text.back() != separator ? numbers : std::vector<double>{};
-}
-
 std::vector<std::uint32_t> split_whole_numbers(const std::string& text, char separator, std::size_t count) {
   std::vector<std::uint32_t> whole;
   for (const double number : split_numbers(text, separator, count)) {

@@ -20,9 +20,6 @@ namespace splatray {
 [[noreturn]] void refuse_option(const std::string& option, const std::string& value,
                                 const std::string& expected);
 
-/// Finite numbers separated by `separator`, exactly `count` of them; empty when the text is anything else.
-[[nodiscard]] std::vector<double> split_numbers(const std::string& text, char separator, std::size_t count);
-
 /// Whole numbers from 0 to SPLIT_MOST, such as pixels of a side, as split_numbers has them; empty when the text is anything else.
 inline constexpr double SPLIT_MOST = 32768.0;
 [[nodiscard]] std::vector<std::uint32_t> split_whole_numbers(const std::string& text, char separator,

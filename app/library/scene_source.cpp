@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "app/library/image_file.h"
 #include "app/library/materials.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "engine/base/number_text.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/surface.h"
 #include "preprocess/base/file_extension.h"
@@ -173,16 +173,13 @@ std::optional<Environment> built_in_environment(const std::string& name) {
   if (name.empty() || name == "studio") return studio_environment();
   if (name == "white") return Environment{0, 0, {}, vec3(1.0F)};
   if (name == "black") return Environment{0, 0, {}, vec3(0.0F)};
-  vec3 radiance;
-  int length = 0;
-  const int read = std::sscanf(name.c_str(), "%f,%f,%f%n", &radiance.x, &radiance.y, &radiance.z, &length);
-  if (read == 3 && static_cast<std::size_t>(length) == name.size()) {
-    if (glm::all(glm::greaterThanEqual(radiance, vec3(0.0F))) &&
-        std::isfinite(radiance.x + radiance.y + radiance.z))
-      return Environment{0, 0, {}, radiance};
+  const std::vector<double> numbers = split_numbers(name, ',', 3);
+  if (numbers.empty()) return {};
+  const vec3 radiance(numbers[0], numbers[1], numbers[2]);
+  if (!(glm::all(glm::greaterThanEqual(radiance, vec3(0.0F))) &&
+        std::isfinite(radiance.x + radiance.y + radiance.z)))
     throw Error(ExitCode::usage, "--env: found '" + name + "', expected a radiance of finite numbers >= 0");
-  }
-  return {};
+  return Environment{0, 0, {}, radiance};
 }
 
 Environment choose_environment(const std::string& name) {

@@ -1,4 +1,6 @@
 /// What PLY says of scans, and captures of 3D Gaussians.
+#include <locale>
+
 #include "tests/readers/read_error.h"
 
 namespace splatray {
@@ -90,6 +92,26 @@ TEST(PlyScan, SensorsStandInRemarks) {
   ASSERT_EQ(two.size(), 2U);
   EXPECT_EQ(two[0].sensor_world, glm::dvec3(0.0, 1.0, 0.0));
   EXPECT_EQ(two[1].sensor_world, glm::dvec3(0.0, 0.0, 1.0));
+}
+
+/// Numbers with a comma and points between thousands, as a program may ask for that embeds the library.
+struct Commas : std::numpunct<char> {
+  [[nodiscard]] char do_decimal_point() const override { return ','; }
+  [[nodiscard]] char do_thousands_sep() const override { return '.'; }
+  [[nodiscard]] std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(PlyScan, TheLocaleOfTheProgramDoesNotMatter) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.write(
+      "l.ply",
+      ply("comment sensor 0.25 -0.5 1\n", "property uchar ring\n", "", "0 0.5 0 4\n1000 0 0 9\n2 0 1.5 4\n"));
+  const std::locale before = std::locale::global(std::locale(std::locale(), new Commas));
+  const Points points = read_input({file}, {}).objects.at(0).points;
+  std::locale::global(before);
+  EXPECT_EQ(points.stations.at(0).sensor_world, glm::dvec3(0.25, -0.5, 1.0));
+  EXPECT_EQ(points.position.at(1), glm::dvec3(1000.0, 0.0, 0.0));
+  EXPECT_EQ(points.position.at(2), glm::dvec3(2.0, 0.0, 1.5));
 }
 
 TEST(Gaussians, CapturesAreRefusedInOneSentence) {

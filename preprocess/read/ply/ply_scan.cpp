@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "engine/base/number_text.h"
 #include "preprocess/read/scan/sensor_place.h"
 
 namespace splatray {
@@ -32,10 +33,10 @@ std::vector<Sensor> remarked_sensors(const PlyHeader& header) {
     std::istringstream stream(remark);
     std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
     if (words.size() < 4 || words.size() > 5 || words[0] != "sensor") continue;
-    Sensor sensor;
-    if (words.size() == 5) sensor.number = words[1];
-    std::istringstream place(words[words.size() - 3] + " " + words[words.size() - 2] + " " + words.back());
-    if (place >> sensor.place.x >> sensor.place.y >> sensor.place.z) sensors.push_back(std::move(sensor));
+    const auto place =
+        split_numbers(words[words.size() - 3] + ' ' + words[words.size() - 2] + ' ' + words.back(), ' ', 3);
+    if (place.empty()) continue;
+    sensors.push_back({words.size() == 5 ? words[1] : "", {place[0], place[1], place[2]}});
   }
   return sensors;
 }
