@@ -70,11 +70,11 @@ TEST(Laz, EveryKindOfItemGivesThePointsOfTheLasFile) {
     SCOPED_TRACE(entry.path());
     const ScanFile expected = read_file(las, everything());
     EXPECT_EQ(expected.points.size(), 40U);
-    EXPECT_GE(expected.points.columns.size(), 4U);
+    EXPECT_GE(expected.points.columns.size(), 5U);
     expect_equal(read_file(entry.path(), everything()).points, expected.points);
     ++files;
   }
-  EXPECT_GE(files, 8U);
+  EXPECT_EQ(files, 8U);
 }
 
 TEST(Laz, ThreadsDoNotMatter) {
@@ -164,7 +164,7 @@ TEST(Laz, DamagedBytesDoNoHarm) {
   const TempFolder folder;
   for (const char* name : {POINTWISE, LAYERED}) {
     const std::string bytes = bytes_of_file(corpus(name));
-    for (std::size_t i = 0; i < bytes.size(); i += 29) {
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
       std::string damaged = bytes;
       damaged[i] = static_cast<char>(damaged[i] ^ (i % 2 == 0 ? 0xFF : 0x10));
       try {
