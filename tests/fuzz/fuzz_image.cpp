@@ -1,8 +1,9 @@
-// The target that reads pictures and environments. OpenImageIO is not instrumented: the fuzzer sees our part alone, and
+// The targets that read pictures, parts of them and environments. OpenImageIO is not instrumented: the fuzzer sees our part alone, and
 // crashes of either.
 #include <cmath>
 #include <string_view>
 
+#include "app/farm/join_tiles.h"
 #include "app/library/image_file.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/require.h"
@@ -23,6 +24,16 @@ void fuzz_image(FuzzBytes bytes) {
         require(texel[channel] >= 0.0F && std::isfinite(texel[channel]), "light is finite and not negative");
   });
   read_or_refuse([&] { (void)read_metadata(path); });
+}
+
+void fuzz_part(FuzzBytes bytes) {
+  static const MemoryFolder folder;
+  const std::filesystem::path path = folder.write("part.exr", bytes);
+  read_or_refuse([&] {
+    const ExrPicture whole = join_tiles({path});
+    require(whole.values.size() == std::size_t{whole.width} * whole.height * whole.channels.size(),
+            "a joined picture has all its values");
+  });
 }
 
 }  // namespace splatray::testing

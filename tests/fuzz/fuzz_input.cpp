@@ -1,9 +1,14 @@
 // The targets that read points and meshes.
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "preprocess/points.h"
 #include "preprocess/read/e57/crc32c.h"
+#include "tests/fuzz/build_and_show.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/targets.h"
@@ -61,18 +66,24 @@ void check_input(const Input& input) {
   }
 }
 
-void read_and_check(const std::filesystem::path& path, const ScanOptions& scans = {}) {
+/// Reads the file, then builds and shows what it holds, by parameters that follow from its bytes.
+void read_and_check(const std::filesystem::path& path, FuzzBytes bytes, const ScanOptions& scans = {}) {
   ReadOptions options;
   options.scans = scans;
   options.samples = 64;  // or a coarse mesh would get a hundred thousand
   options.keep_meshes = true;
   options.scans.attributes = {"a", "b", "c", "v"};
-  read_or_refuse([&] { check_input(read_input({path}, options)); });
+  options.threads = 1;
+  read_or_refuse([&] {
+    Input input = read_input({path}, options);
+    check_input(input);
+    build_and_show(std::move(input), XXH3_64bits(bytes.data(), bytes.size()));
+  });
 }
 
 void read_as(const char* name, FuzzBytes bytes) {
   static const MemoryFolder folder;
-  read_and_check(folder.write(name, bytes));
+  read_and_check(folder.write(name, bytes), bytes);
 }
 
 }  // namespace
@@ -105,8 +116,11 @@ void fuzz_text(FuzzBytes bytes) {
   const char kind = static_cast<char>(bytes[0]);
   ScanOptions scans;
   if (kind == 'c') scans.columns = "y,x,-,z,echo,r,g,b";
-  const char* const name = kind == 't' ? "fuzzed.ptx" : kind == 's' ? "fuzzed.pts" : "fuzzed.txt";
-  read_and_check(folder.write(name, bytes.subspan(1)), scans);
+  const char* const name = kind == 't'   ? "fuzzed.ptx"
+                           : kind == 's' ? "fuzzed.pts"
+                           : kind == 'b' ? "fuzzed.bin"
+                                         : "fuzzed.txt";
+  read_and_check(folder.write(name, bytes.subspan(1)), bytes, scans);
 }
 
 void fuzz_gltf(FuzzBytes bytes) {
@@ -116,7 +130,7 @@ void fuzz_gltf(FuzzBytes bytes) {
   static const MemoryFolder folder;
   static const auto points =
       folder.write("points.ply", {reinterpret_cast<const std::uint8_t*>(POINTS.data()), POINTS.size()});
-  read_and_check(folder.write("fuzzed.gltf", bytes));
+  read_and_check(folder.write("fuzzed.gltf", bytes), bytes);
 }
 
 }  // namespace splatray::testing

@@ -12,7 +12,7 @@ using FuzzBytes = std::span<const std::uint8_t>;
 /// read_scene on the bytes as they are, then on the same with the file's form and checksums put right, so that the
 /// checks behind those are reached. What is read must unpack to finite splats and let rays walk it.
 void fuzz_scene_file(FuzzBytes bytes);
-/// read_input on a file with this extension; the points and triangles must be as preprocess/points.h says.
+/// read_input on a file with this extension; the points and triangles must be as preprocess/points.h says. Then build_and_show.
 void fuzz_ply(FuzzBytes bytes);
 void fuzz_obj(FuzzBytes bytes);
 void fuzz_stl(FuzzBytes bytes);
@@ -22,8 +22,8 @@ void fuzz_las(FuzzBytes bytes);
 /// The same as the bytes are, and once more with the pages' checksums put right.
 void fuzz_e57(FuzzBytes bytes);
 void fuzz_pcd(FuzzBytes bytes);
-/// The same on all bytes but the first, which says what file they are: `t` a .ptx, `s` a .pts, `c` a .txt whose columns are
-/// asked for, anything else a .txt.
+/// The same on all bytes but the first, which says what file they are: `t` a .ptx, `s` a .pts, `b` a .bin, `c` a .txt
+/// whose columns are asked for, anything else a .txt.
 void fuzz_text(FuzzBytes bytes);
 /// The same as for the others; .glb where the bytes begin like one, with a file points.ply beside it.
 void fuzz_gltf(FuzzBytes bytes);
@@ -35,10 +35,12 @@ void fuzz_user_state(FuzzBytes bytes);
 void fuzz_command_line(FuzzBytes bytes);
 /// read_environment and read_metadata on a .exr, .hdr or .png, by how the bytes begin.
 void fuzz_image(FuzzBytes bytes);
+/// join_tiles on one part of a picture, an EXR.
+void fuzz_part(FuzzBytes bytes);
 
 struct FuzzTarget {
-  std::string_view
-      name;  ///< of its folder in corpus/, its dictionary NAME.dict, and the argument of tests/fuzz/run
+  /// Of its folder in corpus/, its dictionary NAME.dict, and the argument of tests/fuzz/run.
+  std::string_view name;
   void (*run)(FuzzBytes);
 };
 
@@ -57,6 +59,7 @@ inline constexpr FuzzTarget FUZZ_TARGETS[] = {
     {"user_state", fuzz_user_state},
     {"command_line", fuzz_command_line},
     {"image", fuzz_image},
+    {"part", fuzz_part},
 };
 
 }  // namespace splatray::testing
