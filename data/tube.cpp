@@ -8,8 +8,8 @@ namespace splatray {
 namespace {
 
 constexpr double PI = std::numbers::pi;
-constexpr int STEPS =
-    4096;  ///< of the arc-length table; chords of a knot then differ from arcs by less than 1e-6
+/// Of the arc-length table; chords of a knot then differ from arcs by less than 1e-6.
+constexpr int STEPS = 4096;
 
 /// Arc length from parameter 0 to i / STEPS.
 std::vector<double> arc_lengths(const Curve& curve) {

@@ -109,7 +109,7 @@ void number_objects(const std::vector<Cloud>& clouds, std::vector<Material>& mat
 }
 
 /// Estimates unknown normals; scans are freed of strays and noise, too.
-void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const BuildProgress& progress,
+void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const Progress& progress,
                        BuildStats& stats) {
   const AddedTime watch(stats.normals_ms);
   for (std::size_t object = 0; object < clouds.size(); ++object) {
@@ -132,7 +132,7 @@ void find_bounds(const std::vector<Cloud>& clouds, Scene& scene) {
   scene.bounds_max_world = bounds.high;
 }
 
-void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const BuildProgress& progress,
+void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const Progress& progress,
                     BuildStats& stats) {
   const AddedTime watch(stats.radii_ms);
   const double diagonal = scene.diagonal_world();
@@ -275,7 +275,7 @@ void insert_overlaps(ListedOctree& built, const SplatList& splats, std::uint32_t
   built.lists = insert_overlaps(built.tree, splats, stage);
 }
 
-ListedOctree build_lists(const SplatList& splats, const BuildParams& params, const BuildProgress& progress,
+ListedOctree build_lists(const SplatList& splats, const BuildParams& params, const Progress& progress,
                          BuildStats& stats) {
   ListedOctree built;
   {
@@ -347,7 +347,7 @@ void require_build_memory(const Input& input) {
 }  // namespace
 
 Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
-                  const BuildProgress& progress) {
+                  const Progress& progress) {
   const AddedTime watch(stats.total_ms);
   const ThreadLimit limit(threads);
   check_counts(input);

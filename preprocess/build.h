@@ -1,56 +1,12 @@
 /// Input -> Scene: repair, normals, radii, octree, insertion. The whole preprocess but for reading and
 /// writing files.
 #pragma once
-#include <array>
-#include <string>
-#include <vector>
-
 #include "engine/base/progress.h"
 #include "engine/scene/scene.h"
+#include "preprocess/build_stats.h"
 #include "preprocess/points.h"
 
 namespace splatray {
-
-/// Counts and times of a build; what --stats-json writes and the last lines of splatray-preprocess print.
-struct BuildStats {
-  std::uint64_t points_read = 0;
-  std::uint64_t dropped_non_finite = 0;  ///< position not finite, or beyond 1e100
-  std::uint64_t dropped_far = 0;         ///< of scans: a handful far from all others (find_far_points)
-  std::uint64_t dropped_duplicates = 0;  ///< copies of a splat (same 128 bits) beyond 8, or leaf_size if less
-  std::uint64_t dropped_isolated = 0;    ///< strays of scans: far from all others
-  std::uint64_t dropped_mixed = 0;       ///< of scans with grids: between the two surfaces that a beam met
-  std::uint64_t dropped_unsupported = 0;  ///< of noisy scans: fewer than 6 neighbours on their surface
-  std::uint64_t smoothed = 0;             ///< points of noisy scans, moved onto their surface
-  double noise = 0.0;  ///< of the noisiest scan: heights off the surface over the distance to the 8th place
-  double moved_median_world = 0.0;          ///< how far smoothing moved points
-  std::array<std::uint64_t, 5> sides_by{};  ///< scans without normals by what told their sides (SideRung)
-  std::uint64_t sides_unsure = 0;           ///< points whose side is a guess
-  std::uint64_t normals_given = 0;
-  std::uint64_t normals_estimated = 0;  ///< of points without a usable normal
-  std::uint64_t radii_given = 0;
-  std::uint64_t radii_repaired = 0;  ///< given radius zero, negative or not finite: computed instead
-  std::uint64_t radii_isolated =
-      0;  ///< no neighbour to take a radius from: 1/100 of the scene's diagonal instead
-  std::uint64_t splats = 0;
-  std::uint64_t clipped = 0;        ///< splats that end at a border or a crease
-  std::uint64_t creased = 0;        ///< points of scans at which a crease was found
-  std::uint64_t bordered = 0;       ///< points of scans at which a border was found
-  std::uint64_t crease_copies = 0;  ///< points added, as a crease's points lie on several planes
-  std::uint64_t references = 0;     ///< data pool entries
-  std::uint64_t nodes = 0;
-  std::uint64_t filled_leaves = 0;
-  std::uint64_t depth = 0;      ///< deepest leaf level
-  double growth = 0.0;          ///< references / splats - 1
-  double growth_overlap = 0.0;  ///< what policy overlap would give; 0 unless known
-  double overlap = 0.0;         ///< sum(pi r^2) / surface area; 0 = area unknown
-  double radius_median_world = 0.0;
-  double read_ms = 0.0, normals_ms = 0.0, radii_ms = 0.0, octree_ms = 0.0, insertion_ms = 0.0, slabs_ms = 0.0,
-         empty_ms = 0.0, total_ms = 0.0;
-  std::vector<std::string>
-      notes;  ///< a sentence each: points far from all others, objects that are too small
-};
-
-using BuildProgress = Progress;
 
 /// Builds the scene. A point without a neighbour at another place gets a radius of 1/100 of the diagonal of all centres, 1 world
 /// unit where that is zero. An object none of whose normals is given becomes two-sided unless it is a dielectric. Dielectrics get
@@ -58,6 +14,6 @@ using BuildProgress = Progress;
 /// on threads: `threads` 0 = all cores; Throws Error (input_unreadable) when no point is left, there are more than 65536 objects,
 /// or a material or light is out of range, (interrupted) when `progress` says so, (failed) when 32-bit addresses do not suffice.
 [[nodiscard]] Scene build_scene(Input input, const BuildParams& params, unsigned threads, BuildStats& stats,
-                                const BuildProgress& progress = {});
+                                const Progress& progress = {});
 
 }  // namespace splatray

@@ -25,8 +25,8 @@ struct PointClip {
   glm::vec3 dir[2]{glm::vec3(0.0F),
                    glm::vec3(0.0F)};  ///< unit, square to the normal, out of the surface; zero = no line
   float distance[2]{};                ///< from the point to the line, >= 0
-  float reach =
-      0.0F;  ///< discs of larger radius are not clipped, as nobody looked so far for what they cover
+  /// Discs of larger radius are not clipped, as nobody looked so far for what they cover.
+  float reach = 0.0F;
 
   [[nodiscard]] std::size_t lines() const {
     return dir[0] == glm::vec3(0.0F) ? 0 : (dir[1] == glm::vec3(0.0F) ? 1 : 2);
@@ -98,8 +98,8 @@ struct InputObject {
   Points points;
   Material material{vec3(0.0F), 0.0F, vec3(0.0F), 1.0F, 0.0F, 1.0F, 0, 0};  ///< black
   std::optional<Surface> surface{};  ///< what path tracing sees; unset: surface_of(material)
-  bool oriented =
-      false;  ///< normals are known to point outwards (closed mesh); else they may be turned either way
+  /// Normals are known to point outwards (closed mesh); else they may be turned either way.
+  bool oriented = false;
   bool measured = true;  ///< points without a surface and sides known are a scanner's, with strays and noise
   double surface_area = 0.0;  ///< of the source mesh, world units^2; 0 = unknown
   std::uint64_t samples = 0;  ///< points the scene asks for on this object's meshes; 0 = it does not say
@@ -114,8 +114,8 @@ struct Input {
   std::optional<glm::dvec3> up;  ///< the format's own up axis (glTF: +y, scans: +z)
   ScanCounts scan_counts;        ///< of all files of scans
   std::string environment_path;  ///< resolved path of the environment map the scene names; empty = none
-  std::vector<std::string>
-      notes;  ///< one sentence each: unknown properties, skipped parts, ignored extensions
+  /// One sentence each: unknown properties, skipped parts, ignored extensions.
+  std::vector<std::string> notes;
 };
 
 /// How scans are read.
@@ -124,8 +124,8 @@ struct ScanOptions {
   bool ignore_checksums = false;  ///< pages whose checksum is wrong are read (E57)
   bool keep_withheld = false;     ///< points that are marked as deleted or as noise are kept
   std::string columns;  ///< of text files: names by comma, such as "x,y,z,intensity,-,r,g,b"; empty = found
-  std::vector<std::string>
-      attributes;  ///< further ones to keep, by name (LAS's extra bytes, columns of text, PCD, PLY)
+  /// Further ones to keep, by name (LAS's extra bytes, columns of text, PCD, PLY).
+  std::vector<std::string> attributes;
 
   /// Where the scanner stood, world units after z_scale, for points whose file does not say; it tells the sides of their normals.
   std::optional<glm::dvec3> sensor_world;
@@ -135,15 +135,15 @@ struct ScanOptions {
 };
 
 struct ReadOptions {
-  std::uint64_t samples =
-      0;  ///< points to sample on all meshes together, by area; 0 = one point per used vertex
+  /// Points to sample on all meshes together, by area; 0 = one point per used vertex.
+  std::uint64_t samples = 0;
   std::uint64_t seed = 1;
-  std::vector<std::filesystem::path>
-      data_paths;  ///< folders searched for models a scene names, after the scene's own folder
+  /// Folders searched for models a scene names, after the scene's own folder.
+  std::vector<std::filesystem::path> data_paths;
   bool keep_meshes = false;
   bool clip = true;  ///< points on meshes know where the surface ends or has a crease
-  double crease_degrees =
-      BuildParams{}.crease_degrees;  ///< edges that turn by more, and are not shaded smoothly, are creases
+  /// Edges that turn by more, and are not shaded smoothly, are creases.
+  double crease_degrees = BuildParams{}.crease_degrees;
   bool turn_outwards = false;  ///< closed meshes of all objects, not only of dielectrics, are turned outwards
   ScanOptions scans;
   unsigned threads = 0;  ///< 0 = all cores

@@ -99,8 +99,8 @@ SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
 SPLATRAY_CONST CLIP_NONE = 0xFF00FF00u;   ///< clip lines that cut nothing off
 SPLATRAY_CONST CLIP_STEPS = 64u;          ///< directions of clip lines: |a| + |b| = CLIP_STEPS
 SPLATRAY_CONST CLIP_ZERO = 127u;          ///< q of a line through the centre
-SPLATRAY_CONST SLAB_FULL =
-    0x0FF803E0u;  ///< a slab that holds the whole cell, and halves that hold the whole list
+/// A slab that holds the whole cell, and halves that hold the whole list.
+SPLATRAY_CONST SLAB_FULL = 0x0FF803E0u;
 SPLATRAY_CONST SLAB_AXIS_SCALE = 31u;  ///< slab axes: |u| + |v| + |w| = SLAB_AXIS_SCALE
 SPLATRAY_CONST SLAB_SCALE = 128u;      ///< q of the cell's half size
 SPLATRAY_CONST SLAB_THINNEST = 112u;   ///< thinnest slabs in a cell's half size
@@ -120,9 +120,9 @@ struct Material {
   float mirror;     ///< share of light mirrored, 0..1; the rest is shaded
   float ior;        ///< index of refraction inside, > 0; dielectrics only
   uint flags;       ///< MATERIAL_*
-  uint
-      mask_bit;  ///< the object's bit, 0..31, in a ray's mask of the dielectrics it is inside of; where they overlap,
-                 ///< light runs in the one with the highest bit
+  /// The object's bit, 0..31, in a ray's mask of the dielectrics it is inside of; where they overlap, light runs in the one with
+  /// the highest bit.
+  uint mask_bit;
 };
 
 /// What LOOK_LIT and its like see of an object, beside its Material: glTF 2.0's metallic-roughness material with the extensions
@@ -257,8 +257,8 @@ struct AovPixel {
   vec3 normal;  ///< blended unit normal, world space; 0 on a miss
   float z;      ///< distance from the eye, world units; +inf on a miss
   uint object;  ///< NO_OBJECT on a miss
-  uint
-      splat;  ///< bit 0: the first splat's front face was hit; bits 31..1 tell splats apart (a hash of its words)
+  /// Bit 0: the first splat's front face was hit; bits 31..1 tell splats apart (a hash of its words).
+  uint splat;
   uint tests;  ///< splat tests of this ray; 0 without COUNTERS
   uint steps;  ///< node words read by this ray; 0 without COUNTERS
 };

@@ -31,8 +31,8 @@ struct LightOptions {
   std::uint32_t kind = LIGHT_POINT;  ///< LIGHT_*
   glm::dvec3 position{
       0.0};  ///< point: position; directional: towards the light, any length > 0; rectangle: its centre
-  std::optional<glm::vec3>
-      power;  ///< as SceneLight's; unset = irradiance pi, of a point light at the scene's centre, of a rectangle at its target
+  /// As SceneLight's; unset = irradiance pi, of a point light at the scene's centre, of a rectangle at its target.
+  std::optional<glm::vec3> power;
   double size = 0.0;       ///< point: radius; directional: angular diameter, degrees; 0 = none
   glm::dvec3 target{0.0};  ///< rectangle: what it shines at
   glm::dvec2 edges{0.0};   ///< rectangle: width and height; the width is level

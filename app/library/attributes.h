@@ -14,8 +14,8 @@ namespace splatray {
 struct AttributeOptions {
   /// rgb, height, normal, distance, or a column's name; empty = rgb, what the scene has.
   std::string color_by;
-  std::optional<std::array<double, 2>>
-      color_range;                            ///< unset = from the 2nd to the 98th of 100 parts of all values
+  /// Unset = from the 2nd to the 98th of 100 parts of all values.
+  std::optional<std::array<double, 2>> color_range;
   std::vector<std::uint32_t> hidden_classes;  ///< of the column COLUMN_CLASS
   std::vector<std::uint32_t> hidden_scans;    ///< of the column COLUMN_SCAN
 

@@ -20,7 +20,7 @@ struct LoadedScene {
 
 /// Who hears of loading, on its thread; each may be empty.
 struct LoadListener {
-  BuildProgress progress;  ///< returns false to stop: load_scene then throws Error (interrupted)
+  Progress progress;  ///< returns false to stop: load_scene then throws Error (interrupted)
   std::function<void(const std::string&)> note;  ///< a sentence about something odd in the files
 };
 

@@ -179,8 +179,8 @@ struct Light {
   /// Point: its place; directional: direction towards the light, any length > 0.
   Double3 position{0.0, 1.0, 0.0};
   Float3 power{3.14F, 3.14F, 3.14F};  ///< directional: irradiance facing it; point: irradiance * distance^2
-  double size =
-      0.0;  ///< makes shadows soft. point: radius, world units; directional: angular diameter, degrees
+  /// Makes shadows soft. point: radius, world units; directional: angular diameter, degrees.
+  double size = 0.0;
 };
 /// How light is followed.
 enum class Style {

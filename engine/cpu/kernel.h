@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "engine/gpu/features.h"
 #include "engine/vulkan/bindings.h"
+#include "engine/vulkan/spec_constants.h"
 #include "shaders/layout.h"
 
 namespace splatray {

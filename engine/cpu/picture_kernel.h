@@ -8,7 +8,7 @@
 
 #include "engine/cpu/kernel.h"
 #include "engine/scene/splat.h"
-#include "shaders/light/albedo_layout.h"
+#include "shaders/lang/albedo_layout.h"
 
 namespace splatray {
 namespace {

@@ -13,10 +13,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t REGION = 32;  ///< edge of a region, pixels
-constexpr std::uint32_t FIRST_SAMPLES =
-    4;  ///< of each half, in every pixel; each later round doubles a region's
-constexpr double DARK_SHARE =
-    0.02;                       ///< of the picture's mean radiance: darker regions count as if they had it
+/// Of each half, in every pixel; each later round doubles a region's.
+constexpr std::uint32_t FIRST_SAMPLES = 4;
+/// Of the picture's mean radiance: darker regions count as if they had it.
+constexpr double DARK_SHARE = 0.02;
 constexpr double NOISE = 1e-6;  ///< a relative error that is float32's
 constexpr std::uint32_t SEED_STEP = 0x9E3779B9U;
 

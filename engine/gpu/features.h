@@ -1,21 +1,13 @@
 /// Which features a pipeline needs, from the content of the scene and the settings: what a scene does not use costs nothing.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <span>
 
 #include "engine/image/view.h"
+#include "engine/vulkan/spec_constants.h"
 #include "shaders/layout.h"
 
 namespace splatray {
-
-/// Values of the specialization constants; index = SPEC_*.
-using SpecConstants = std::array<std::uint32_t, SPEC_COUNT>;
-
-/// Whether constants have a feature, FEATURE_*.
-[[nodiscard]] inline bool has(const SpecConstants& constants, std::uint32_t feature) {
-  return (constants[SPEC_FEATURES] & feature) != 0;
-}
 
 /// What the features depend on in a scene's materials.
 struct MaterialContent {

@@ -21,14 +21,14 @@ namespace splatray {
 
 /// What a render call, or all of a picture begun, did. Times in milliseconds.
 struct RenderStats {
-  double trace_ms =
-      0.0;  ///< device time where it has timestamps, else wall time of the dispatches; without those for AOVs
+  /// Device time where it has timestamps, else wall time of the dispatches; without those for AOVs.
+  double trace_ms = 0.0;
   double wall_ms = 0.0;  ///< the whole call, read-back included
-  double error =
-      0.0;  ///< relative error of the whole picture (picture_error.h); 0 where it was not estimated
+  /// Relative error of the whole picture (picture_error.h); 0 where it was not estimated.
+  double error = 0.0;
   double samples = 0.0;  ///< per pixel, on the mean
-  std::array<std::uint64_t, COUNTER_COUNT>
-      counters{};  ///< zero unless Settings::counters; without the AOVs' rays
+  /// Zero unless Settings::counters; without the AOVs' rays.
+  std::array<std::uint64_t, COUNTER_COUNT> counters{};
 
   /// Rays of all kinds, as counted.
   [[nodiscard]] std::uint64_t rays() const {
@@ -38,8 +38,8 @@ struct RenderStats {
 };
 
 struct TracerOptions {
-  std::filesystem::path
-      pipeline_folder{};                 ///< where compiled pipelines are kept between runs; empty = nowhere
+  /// Where compiled pipelines are kept between runs; empty = nowhere.
+  std::filesystem::path pipeline_folder{};
   PoolWish pools{};                      ///< for tests and benchmarks
   Kernels kernels = Kernels::automatic;  ///< for tests and benchmarks
   unsigned threads = 0;                  ///< of a context that is the host; 0 = one a core
@@ -100,8 +100,8 @@ class Tracer {
   /// Hits of arbitrary rays, one RayHit per query. Root space.
   [[nodiscard]] std::vector<RayHit> intersect(std::span<const RayQuery> rays, const Settings& settings);
 
-  [[nodiscard]] const RenderStats& stats()
-      const;  ///< of the last call of begin and advance, render, trace_aov or intersect
+  /// Of the last call of begin and advance, render, trace_aov or intersect.
+  [[nodiscard]] const RenderStats& stats() const;
   [[nodiscard]] PoolBytes pool_bytes() const;           ///< device memory as of now
   [[nodiscard]] std::uint32_t pipelines_built() const;  ///< since construction
   [[nodiscard]] std::uint32_t pools_uploaded() const;   ///< upload() calls since construction

@@ -59,8 +59,8 @@ class Projection {
 
  private:
   bool ortho_;
-  glm::dmat3
-      to_picture_{};  ///< pixels right and down, on the plane at distance 1 where there is perspective, and depth
+  /// Pixels right and down, on the plane at distance 1 where there is perspective, and depth.
+  glm::dmat3 to_picture_{};
   glm::dvec3 eye_{}, corner_{};
   double margin_ = 0.0;
 };

@@ -17,8 +17,8 @@ constexpr double STEEPEST_DEG = 89.9;  ///< beyond it the scene's up tells no pi
 constexpr double OUTERMOST = 0.01;     ///< share of the points that a robust size leaves out at each end
 constexpr double FLAT = 0.3;        ///< height over width below which a scan is looked at from further above
 constexpr double EYE_SHARE = 0.45;  ///< height of the eye inside, over the scan's height
-constexpr double CENTRAL =
-    0.05;  ///< of the diagonal: an eye that near the middle looks along the longer side
+/// Of the diagonal: an eye that near the middle looks along the longer side.
+constexpr double CENTRAL = 0.05;
 constexpr std::size_t SECTORS = 36;      ///< of directions around a scanner
 constexpr double OVERHEAD_SHARE = 0.05;  ///< of points more than 45 degrees above a scanner that is indoors
 constexpr double MARGIN = 1.06;          ///< picture size / size of the scene in it

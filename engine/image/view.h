@@ -21,8 +21,8 @@ struct View {
   Camera camera;
   std::uint32_t width = 1920;   ///< pixels, >= 1
   std::uint32_t height = 1080;  ///< pixels, >= 1
-  PixelWindow
-      window{};  ///< what of the picture is made: an image of the window's size, of the same bits as the whole one
+  /// What of the picture is made: an image of the window's size, of the same bits as the whole one.
+  PixelWindow window{};
 
   /// The window, or all pixels.
   [[nodiscard]] PixelWindow made() const {
@@ -41,8 +41,8 @@ struct ImagePlane {
 /// The method of a picture. Enumerators are the BLEND_*, KERNEL_*, SIDE_*, ORDER_*, LOOK_* numbers of
 /// shaders/layout.h.
 struct Settings {
-  std::uint32_t samples =
-      16;  ///< per pixel, >= 1; with LOOK_PAPER one sample goes through the pixel's centre
+  /// Per pixel, >= 1; with LOOK_PAPER one sample goes through the pixel's centre.
+  std::uint32_t samples = 16;
   std::uint32_t look = LOOK_PAPER;  ///< LOOK_*
   std::uint32_t seed = 1;
   std::uint32_t max_bounces = 8;  ///< secondary rays in a path, 0..64
@@ -53,10 +53,10 @@ struct Settings {
   std::uint32_t side = SIDE_SIDE;
   double delta_world = 0.0;  ///< SIDE_DELTA: minimum distance, world units
   std::uint32_t order = ORDER_Z;
-  bool cull =
-      true;  ///< on processors: do not trace outside the footprint (footprint.h); pictures are the same
-  bool stages =
-      true;  ///< on processors: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same
+  /// On processors: do not trace outside the footprint (footprint.h); pictures are the same.
+  bool cull = true;
+  /// On processors: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same.
+  bool stages = true;
   bool counters = false;  ///< compile the counters in
   /// Also estimate the picture's error, by how much the second half of its samples changes what the first half showed: too high
   /// rather than too low, as samples of both halves complete each other. Needs two samples.
@@ -64,22 +64,22 @@ struct Settings {
   bool aov = false;  ///< also trace the centre rays' normal, depth, object
   float environment_strength = 1.0F;
   // Of the other looks than LOOK_PAPER alone:
-  double reach_world =
-      0.0;  ///< LOOK_AO, LOOK_SCAN: how far away something darkens a point; 0 = a tenth of the scene's diagonal
-  bool straight_shadows =
-      false;  ///< light of lights passes dielectrics unbent, tinted; else only where paths find it
+  /// LOOK_AO, LOOK_SCAN: how far away something darkens a point; 0 = a tenth of the scene's diagonal.
+  double reach_world = 0.0;
+  /// Light of lights passes dielectrics unbent, tinted; else only where paths find it.
+  bool straight_shadows = false;
   double lens_radius_world = 0.0;  ///< 0: all is sharp
   double focus_world = 0.0;        ///< distance of the sharp plane from the eye; 0 = the camera's target
-  float environment_turn =
-      0.0F;  ///< turns (1 = a full one) about the up axis, counter-clockwise seen from above
+  /// Turns (1 = a full one) about the up axis, counter-clockwise seen from above.
+  float environment_turn = 0.0F;
 
   bool operator==(const Settings&) const = default;
 };
 
 /// When a picture is good enough.
 struct Goal {
-  double error =
-      0.0;  ///< relative error that no region of 32 x 32 pixels shall have more of (picture_error.h); 0: as small as time allows
+  /// Relative error that no region of 32 x 32 pixels shall have more of (picture_error.h); 0: as small as time allows.
+  double error = 0.0;
   double seconds = std::numeric_limits<double>::infinity();  ///< to trace in
 };
 

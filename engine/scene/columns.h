@@ -14,8 +14,8 @@ inline constexpr std::string_view COLUMN_INTENSITY = "intensity";  ///< as store
 inline constexpr std::string_view COLUMN_CLASS = "class";          ///< ASPRS's codes (LAS 1.4 R15, table 17)
 inline constexpr std::string_view COLUMN_RETURN = "return";        ///< of its pulse, 1 = first
 inline constexpr std::string_view COLUMN_RETURNS = "returns";      ///< of its pulse
-inline constexpr std::string_view COLUMN_SOURCE =
-    "source";                                            ///< point source id: by convention the flight line
+/// Point source id: by convention the flight line.
+inline constexpr std::string_view COLUMN_SOURCE = "source";
 inline constexpr std::string_view COLUMN_SCAN = "scan";  ///< the station's number, from 0
 inline constexpr std::string_view COLUMN_TIME = "time";  ///< GPS time, seconds
 

@@ -13,8 +13,8 @@ struct SceneLight {
   glm::dvec3 position{0.0, 1.0, 0.0};      ///< point: position; directional: unit vector towards the light
   glm::vec3 power{
       1.0F};  ///< directional: irradiance facing it; point: intensity (irradiance * distance^2); rectangle: radiance
-  double size =
-      0.0;  ///< point: radius, world units; directional: angular radius, radians; 0 = none. LOOK_PAPER knows none
+  /// point: radius, world units; directional: angular radius, radians; 0 = none. LOOK_PAPER knows none.
+  double size = 0.0;
   glm::dvec3 edge_u{0.0},
       edge_v{0.0};  ///< rectangle: half its edges, perpendicular; it shines towards cross(u, v)
   bool operator==(const SceneLight&) const = default;

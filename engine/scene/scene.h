@@ -37,8 +37,8 @@ struct BuildParams {
   double radius_scale = 1.0;                      ///< factor on every radius, > 0
   std::uint64_t samples = 0;                      ///< points sampled on meshes in all; 0 = mesh vertices
   std::uint64_t seed = 1;
-  bool normal_fields =
-      true;  ///< fit a normal field to every splat of a curved scene; read from a file: it has them
+  /// Fit a normal field to every splat of a curved scene; read from a file: it has them.
+  bool normal_fields = true;
 
   /// Discs end at borders and creases of meshes, of points where those are clear. Files do not tell.
   bool clip = true;
@@ -55,12 +55,12 @@ struct Scene {
   RootTransform root;
   BuildParams build;
   std::vector<std::uint32_t> node_pool;  ///< node words; the root is word 0, never empty
-  std::vector<std::uint32_t>
-      begin_end;  ///< filled leaves + 1 entries, ascending, last = reference_pool.size()
+  /// Filled leaves + 1 entries, ascending, last = reference_pool.size().
+  std::vector<std::uint32_t> begin_end;
   std::vector<std::uint32_t> slab_pool;  ///< one slab per filled leaf
-  std::vector<std::uint32_t>
-      reference_pool;            ///< indices into data_pool, leaf by leaf, in the order of its halves
-  std::vector<uvec4> data_pool;  ///< the splats, in Z-order of their centres
+  /// Indices into data_pool, leaf by leaf, in the order of its halves.
+  std::vector<std::uint32_t> reference_pool;
+  std::vector<uvec4> data_pool;           ///< the splats, in Z-order of their centres
   std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
   std::vector<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
   std::vector<std::uint32_t> clip_pool;   ///< clip lines beside data_pool, or empty (all discs are whole)

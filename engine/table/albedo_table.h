@@ -1,4 +1,4 @@
-/// What rough surfaces reflect in all: shaders/light/albedo_layout.h. Made when the project is built (engine/table).
+/// What rough surfaces reflect in all: shaders/lang/albedo_layout.h. Made when the project is built (engine/table).
 #pragma once
 #include <span>
 

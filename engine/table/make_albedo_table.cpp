@@ -1,4 +1,4 @@
-// make_albedo_table OUT.cpp: the albedo table (shaders/light/albedo_layout.h) as C++, made by quadrature over the facets that the
+// make_albedo_table OUT.cpp: the albedo table (shaders/lang/albedo_layout.h) as C++, made by quadrature over the facets that the
 // shaders choose. Run when the project is built.
 #include <bit>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "shaders/light/albedo_layout.h"
+#include "shaders/lang/albedo_layout.h"
 
 namespace splatray {
 namespace {

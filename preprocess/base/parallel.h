@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "preprocess/build.h"
+#include "engine/base/progress.h"
 
 namespace splatray {
 
 /// A stage of the build: its name and who is told about its progress.
 struct Stage {
   const char* name;
-  const BuildProgress& progress;  ///< may be empty
+  const Progress& progress;  ///< may be empty
 
   /// Reports the share done; throws Error (interrupted) when the receiver asks to stop.
   void report(double share) const {

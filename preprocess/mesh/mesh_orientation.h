@@ -11,8 +11,8 @@ namespace splatray {
 struct MeshOrientation {
   double open_share = 1.0;     ///< share of edges whose two directions are not used equally often: 0 = closed
   double signed_volume = 0.0;  ///< > 0: triangles are wound counter-clockwise seen from outside
-  double agreeing_share =
-      1.0;  ///< share of triangles whose given normals agree with their winding; 1 without normals
+  /// Share of triangles whose given normals agree with their winding; 1 without normals.
+  double agreeing_share = 1.0;
 
   /// Few enough open edges that the volume's sign can be trusted.
   [[nodiscard]] bool is_closed() const { return open_share <= 0.01 && signed_volume != 0.0; }

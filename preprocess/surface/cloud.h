@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "preprocess/base/far_points.h"
-#include "preprocess/build.h"
+#include "preprocess/build_stats.h"
 #include "preprocess/points.h"
 
 namespace splatray {

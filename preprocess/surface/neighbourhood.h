@@ -48,11 +48,11 @@ struct Neighbourhood {
     }
   }
 
-  glm::dvec3 normal;      ///< of the point, as the cloud has it
-  bool oriented;          ///< Cloud::oriented
-  bool ends_known;        ///< the surface ends, or has a crease, only where clip lines say so
-  bool
-      creases_known;  ///< of this point: its clip lines were found among points, and neighbours tell of no others
+  glm::dvec3 normal;  ///< of the point, as the cloud has it
+  bool oriented;      ///< Cloud::oriented
+  bool ends_known;    ///< the surface ends, or has a crease, only where clip lines say so
+  /// Of this point: its clip lines were found among points, and neighbours tell of no others.
+  bool creases_known;
   PointClip clip;         ///< of the point
   std::size_t found;      ///< sites looked at, also beyond the clip lines
   float seen_squared;     ///< squared distance of the farthest of them

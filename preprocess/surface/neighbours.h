@@ -61,8 +61,8 @@ class NeighbourSearch {
   /// What is looked for around a place, in cloud coordinates.
   struct Query {
     glm::vec3 place;
-    float
-        guess_squared;  ///< distance within which few more sites than asked for are expected; > 0, at most the limit
+    /// Distance within which few more sites than asked for are expected; > 0, at most the limit.
+    float guess_squared;
     float limit_squared;  ///< of the distance of what counts; may be infinite
   };
   using QueryOf = std::function<Query(std::uint32_t number)>;

@@ -1,7 +1,7 @@
 // Reads the albedo table. Needs albedo_at(index).
 #ifndef SPLATRAY_ALBEDO_GLSL
 #define SPLATRAY_ALBEDO_GLSL
-#include "light/albedo_layout.h"
+#include "lang/albedo_layout.h"
 #include "light/microfacet.glsl"
 
 const float ALBEDO_ETA_MOST = 0.4285715f;  ///< eta 0.4 to 2.5

@@ -4,7 +4,7 @@
 #define SPLATRAY_BINDINGS_GLSL
 #include "layout.h"
 #ifdef LIT
-#include "light/albedo_layout.h"
+#include "lang/albedo_layout.h"
 #endif
 #ifdef CPU
 #define STAGED

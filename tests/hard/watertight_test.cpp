@@ -15,8 +15,8 @@ using glm::dvec3;
 using std::numbers::pi;
 
 constexpr std::uint64_t SPLATS = 20000;
-constexpr double INNER =
-    0.98;  ///< the shape's core: the same shape of this part of its radius, or its tube's
+/// The shape's core: the same shape of this part of its radius, or its tube's.
+constexpr double INNER = 0.98;
 constexpr double RING = 0.7;
 constexpr double TUBE = 0.3;
 

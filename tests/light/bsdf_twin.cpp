@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/table/albedo_table.h"
-#include "shaders/light/albedo_layout.h"
+#include "shaders/lang/albedo_layout.h"
 
 namespace splatray::testing {
 namespace {

@@ -94,7 +94,7 @@ TEST(EmptySpace, WordsAreDecodedSideBySide) {
 TEST(EmptySpace, ARootWithoutLeavesIsLeftAsItIs) {
   Scene scene;
   scene.node_pool = {NODE_EMPTY << NODE_TAG_SHIFT};
-  const BuildProgress nobody;
+  const Progress nobody;
   grow_empty_leaves(scene, {"empty space", nobody});
   EXPECT_EQ(scene.node_pool, (std::vector<std::uint32_t>{NODE_EMPTY << NODE_TAG_SHIFT}));
 }

@@ -25,7 +25,7 @@ std::vector<Neighbour> brute_force(const Cloud& cloud, const glm::vec3& query, s
 }
 
 void expect_same_for_all(const Cloud& cloud, const NeighbourSearch& search, std::size_t wanted) {
-  const BuildProgress silent;
+  const Progress silent;
   std::vector<std::vector<Neighbour>> all(cloud.size());
   search.find_all(wanted, {"neighbours", silent},
                   [&](std::uint32_t point, std::span<const Neighbour> nearest) {
@@ -55,7 +55,7 @@ void expect_same_as_brute_force(const Cloud& cloud, std::size_t stride) {
 void expect_each_as_brute_force(const Cloud& cloud, std::size_t count, float limit_squared,
                                 float guess_share) {
   const NeighbourSearch search(cloud, Sites::positions);
-  const BuildProgress silent;
+  const Progress silent;
   std::vector<std::vector<Neighbour>> all(cloud.size());
   search.find_each(
       cloud.size(),
@@ -117,7 +117,7 @@ TEST(Neighbours, FewerPointsThanWanted) {
   std::vector<Neighbour> found(8);
   EXPECT_EQ(NeighbourSearch(cloud, Sites::positions).find(cloud.coord[0], found), 2U);
   EXPECT_EQ(NeighbourSearch(Cloud(), Sites::positions).find(glm::vec3(0.0F), found), 0U);
-  const BuildProgress silent;
+  const Progress silent;
   const auto query = [](std::uint32_t) -> NeighbourSearch::Query { return {glm::vec3(0.0F), 0.25F, 1.0F}; };
   const auto visit = [](std::uint32_t, std::span<Neighbour> nearest) { EXPECT_TRUE(nearest.empty()); };
   const Cloud empty;

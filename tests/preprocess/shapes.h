@@ -8,7 +8,7 @@
 namespace splatray::test {
 
 /// Nobody is told of the progress.
-inline const BuildProgress SILENT;
+inline const Progress SILENT;
 
 /// `count` points on the unit sphere at `center`, with outward normals and its area. Even: a Fibonacci
 /// spiral.

@@ -9,8 +9,8 @@ namespace splatray::testing {
 
 struct RoundCounts {
   std::uint64_t rounds = 0;
-  std::uint64_t rays =
-      0;  ///< primary and secondary; each is asked of the GPU with two leaf sizes and of the twin
+  /// Primary and secondary; each is asked of the GPU with two leaf sizes and of the twin.
+  std::uint64_t rays = 0;
   std::uint64_t hits = 0;
   std::uint64_t ties = 0;     ///< answers that are right but for rounding (judge.h)
   std::uint64_t edge_on = 0;  ///< other clusters, where the ray lies nearly in the plane of a disc (judge.h)

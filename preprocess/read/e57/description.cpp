@@ -127,8 +127,8 @@ class DescriptionReader : public XmlReceiver {
   const std::filesystem::path& path_;
   std::vector<E57Scan> scans_;
   E57Field number_type_;  ///< of the innermost element that began: its scale and offset
-  std::array<double, 4>
-      quaternion_{};  ///< x, y, z, w of the scan that is being read; all zero where there is none
+  /// x, y, z, w of the scan that is being read; all zero where there is none.
+  std::array<double, 4> quaternion_{};
 };
 
 }  // namespace

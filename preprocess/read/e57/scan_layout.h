@@ -23,8 +23,8 @@ struct ColumnSource {
 };
 
 struct ScanLayout {
-  std::array<FieldIndex, 3>
-      coordinates{};  ///< x, y, z; spherical: range, azimuth, elevation (metres, radians)
+  /// x, y, z; spherical: range, azimuth, elevation (metres, radians).
+  std::array<FieldIndex, 3> coordinates{};
   bool is_spherical = false;
   std::optional<FieldIndex> invalid_state;  ///< not 0: no position
   std::optional<std::array<FieldIndex, 3>> colors;

@@ -31,8 +31,8 @@ namespace splatray {
 class GltfMaterials {
  public:
   static constexpr std::uint64_t MOST_FREE_PIXELS = std::uint64_t{1} << 24U;  ///< one of 4096 x 4096
-  static constexpr std::uint64_t MOST_PIXELS_PER_BYTE =
-      256;  ///< a JPEG of one colour has 340, a photograph 2 to 20
+  /// A JPEG of one colour has 340, a photograph 2 to 20.
+  static constexpr std::uint64_t MOST_PIXELS_PER_BYTE = 256;
 
   GltfMaterials(const GltfFile& file, std::vector<std::string>& notes);
 

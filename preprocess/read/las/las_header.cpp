@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t HEADER_BYTES = 227;      ///< of LAS 1.0 to 1.2
 constexpr std::size_t HEADER_BYTES_1_4 = 375;  ///< with 64-bit counts and the extended records
-constexpr unsigned COMPRESSED_FORMAT_BITS =
-    192;  ///< LASzip sets the highest bit of the format, an early one the next
+/// LASzip sets the highest bit of the format, an early one the next.
+constexpr unsigned COMPRESSED_FORMAT_BITS = 192;
 constexpr unsigned MOST_POINT_FORMAT = 10;
 
 constexpr LasFields FIELDS[] = {

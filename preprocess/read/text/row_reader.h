@@ -21,8 +21,8 @@ struct RowRun {
   std::uint64_t first_line = 0;  ///< from 1, as editors count
   std::size_t width = 0;         ///< cells of a line, at least 1
   std::size_t rows = 0;
-  const double* values =
-      nullptr;        ///< row after row; NaN: empty, skipped or not a number. Valid until the next call
+  /// Row after row; NaN: empty, skipped or not a number. Valid until the next call.
+  const double* values = nullptr;
   bool open = false;  ///< one row without a line's end: all digits of a file, or what a cut has left of them
 
   [[nodiscard]] const double* row(std::size_t i) const { return values + i * width; }

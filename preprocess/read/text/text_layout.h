@@ -13,8 +13,8 @@ namespace splatray {
 struct TextLayout {
   CellForm form;   ///< cells without a meaning are skipped
   LinePlace data;  ///< where the first row begins
-  std::vector<std::string>
-      columns;  ///< by cell: known_columns' names, an attribute's own, "" = not used; empty = not named
+  /// By cell: known_columns' names, an attribute's own, "" = not used; empty = not named.
+  std::vector<std::string> columns;
   std::vector<std::string> unused;     ///< names in the header that are not known
   std::optional<std::uint64_t> count;  ///< of points, where a line before them says it
   bool degrees = false;                ///< x and y are a longitude and a latitude

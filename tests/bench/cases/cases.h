@@ -40,8 +40,8 @@ struct Variant {
 struct Run {
   Variant variant;
   Settings settings;
-  std::string
-      varied;  ///< the knob that is not at its default, as the record's settings name it; empty = none
+  /// The knob that is not at its default, as the record's settings name it; empty = none.
+  std::string varied;
 };
 
 struct Case {
@@ -54,8 +54,8 @@ struct Case {
   double wedge_deg = 90.0;     ///< opening angle; Measure::wedge only
   std::uint32_t width = 512, height = 512;  ///< pixels
   double fill = 0.8;  ///< share of the picture's height that the model fills; 0 = the scene's own camera
-  std::size_t rays =
-      1U << 18U;  ///< that probe an analytic shape, or paths that are followed or compared with brute force
+  /// That probe an analytic shape, or paths that are followed or compared with brute force.
+  std::size_t rays = 1U << 18U;
   std::vector<Run> runs;  ///< the first is the default, whose splats the camera is fitted to
 };
 

@@ -17,8 +17,8 @@ struct ExactCount {
   std::uint64_t hits = 0;         ///< rays that truly hit
   std::uint64_t hit_or_miss = 0;  ///< hit in one, missed in the other
   std::uint64_t first_splat = 0;  ///< another first splat, ties apart
-  std::uint64_t ties =
-      0;  ///< another first splat, whose disc the ray meets too, at the same t to 2^-44 of the distance
+  /// Another first splat, whose disc the ray meets too, at the same t to 2^-44 of the distance.
+  std::uint64_t ties = 0;
   std::uint64_t members = 0;  ///< another number of splats in the cluster
   std::uint64_t normals = 0;  ///< blended normals that differ by more than 0.01 degree
 

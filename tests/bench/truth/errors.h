@@ -12,8 +12,8 @@ struct Errors {
   double mismatch_ppm = NAN;         ///< pixels that hit in one and miss in the other / all pixels
   double mismatch_edge_ppm = NAN;    ///< of these those on true silhouettes (TruePixel::edge) / all pixels
   double mismatch_inside_ppm = NAN;  ///< and the others / all pixels
-  double depth_signed_mean =
-      NAN;  ///< picture - truth, of pixels off silhouettes; in units of the scene's diagonal
+  /// Picture - truth, of pixels off silhouettes; in units of the scene's diagonal.
+  double depth_signed_mean = NAN;
   double depth_abs_median = NAN;  ///< of all pixels compared
   double depth_abs_p99 = NAN;
   double normal_median_deg = NAN;  ///< angle between the normals, degrees

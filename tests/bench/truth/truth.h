@@ -10,10 +10,10 @@ namespace splatray::testing {
 
 /// What the ray through a pixel's centre truly meets first.
 struct TruePixel {
-  double depth_world =
-      std::numeric_limits<double>::infinity();  ///< along the ray from the eye; +inf = a miss
-  glm::dvec3 normal_world{0.0};                 ///< unit, turned against the ray; 0 on a miss
-  bool edge = false;  ///< on a silhouette: within one pixel of a miss or of a depth jump
+  /// Along the ray from the eye; +inf = a miss.
+  double depth_world = std::numeric_limits<double>::infinity();
+  glm::dvec3 normal_world{0.0};  ///< unit, turned against the ray; 0 on a miss
+  bool edge = false;             ///< on a silhouette: within one pixel of a miss or of a depth jump
 
   [[nodiscard]] bool hit() const { return depth_world < std::numeric_limits<double>::infinity(); }
 };

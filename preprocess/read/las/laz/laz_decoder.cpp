@@ -58,8 +58,8 @@ class PointwiseDecoder final : public LazDecoder {
   }
 
   std::size_t record_bytes_;
-  std::vector<std::pair<std::size_t, std::unique_ptr<PointwiseItem>>>
-      items_;  ///< by their place in the record
+  /// By their place in the record.
+  std::vector<std::pair<std::size_t, std::unique_ptr<PointwiseItem>>> items_;
   ArithmeticDecoder in_;
   const unsigned char* first_ = nullptr;
   bool is_first_ = false;

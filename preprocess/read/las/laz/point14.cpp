@@ -257,8 +257,8 @@ class Point14Item final : public LayeredItem {
   }
 
   bool names_channel_always_;
-  bool has_no_positions_ =
-      false;  ///< points were read, though their layer, which none goes without, is not there
+  /// Points were read, though their layer, which none goes without, is not there.
+  bool has_no_positions_ = false;
   unsigned current_ = 0;
   Layer position_;
   Layer z_;
