@@ -17,7 +17,8 @@ struct BuildStats {
   std::uint64_t dropped_mixed = 0;       ///< of scans with grids: between the two surfaces that a beam met
   std::uint64_t dropped_unsupported = 0;  ///< of noisy scans: fewer than 6 neighbours on their surface
   std::uint64_t smoothed = 0;             ///< points of noisy scans, moved onto their surface
-  double noise = 0.0;  ///< of the noisiest scan: heights off the surface over the distance to the 8th place
+  /// Of the noisiest scan without normals: heights off the surface over the distance to the 8th place.
+  double noise = 0.0;
   double moved_median_world = 0.0;          ///< how far smoothing moved points
   std::array<std::uint64_t, 5> sides_by{};  ///< scans without normals by what told their sides (SideRung)
   std::uint64_t sides_unsure = 0;           ///< points whose side is a guess

@@ -79,7 +79,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   const double noise = measure_noise(cloud, survey);
   stats.noise = std::max(stats.noise, noise);
   const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
-  const bool noisy = noise > NOISY && cloud.size() >= FEWEST && !sharply;
+  const bool noisy = noise > NOISY && estimated.size() >= FEWEST && !sharply;
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
     const double radius = std::max(params.smooth_world, 0.0) / cloud.half_extent_world;
     survey.listed = {};

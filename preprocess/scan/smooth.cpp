@@ -159,14 +159,19 @@ class Projection {
     return std::sqrt(double{limits[limits.size() / 2]});
   }
 
+  /// Whether a point may be moved: where nobody asks for a radius, given normals stay with their points.
+  [[nodiscard]] bool moves(std::uint32_t i) const { return radius_ > 0.0F || survey_.estimated[i] != 0; }
+
   void move(std::uint32_t i, std::span<const Neighbour> nearest, Moved& moved) const {
+    moved.supported[i] = 1;
+    moved.normal[i] = cloud_.normal[i];
+    if (!moves(i)) return;
     Around around;
     float distance_squared[Around::ROOM];
     const float widest = nearest.size() == MOST ? farthest(nearest) : query(i).limit_squared;
     gather(i, nearest, around, distance_squared);
     const std::size_t used = weigh(around, distance_squared, widest, cloud_.normal[i], sided_);
     moved.supported[i] = used > LEAST_AROUND;
-    moved.normal[i] = cloud_.normal[i];
     if (moved.supported[i] == 0) return;
     const Plane plane = fit_robust_plane(around);
     moved.lift[i] = glm::dot(plane.normal, plane.mean);
@@ -209,11 +214,11 @@ class Projection {
 Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided, const Stage& stage) {
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
+  const Projection projection(cloud, survey, radius, sided);
   Moved moved{std::vector<float>(size), std::vector<glm::vec3>(size), std::vector<std::uint8_t>(size)};
   double reach = 0.0;
   {
     const NeighbourSearch search(cloud, Sites::oriented_positions);
-    const Projection projection(cloud, survey, radius, sided);
     reach = projection.usual_limit();
     search.find_each(
         size, [&](std::uint32_t i) { return projection.query(i); }, MOST, stage,
@@ -221,14 +226,16 @@ Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool s
   }
   const auto kept = numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
   if (kept.empty()) return {};  // nothing supports anything: the radius is too small for these points
+  std::vector<float> lifts;
+  for (const std::uint32_t i : kept)
+    if (projection.moves(i)) lifts.push_back(std::abs(moved.lift[i]));
   cloud.normal = std::move(moved.normal);
-  moved.lift = gather(moved.lift, kept);
   keep_points(cloud, kept);
-  move_points(cloud, moved.lift);
-  Smoothed smoothed{kept.size(), size - kept.size(), 0.0, reach * cloud.half_extent_world};
-  for (float& lift : moved.lift) lift = std::abs(lift);
-  select_nth(std::span(moved.lift), moved.lift.size() / 2, std::identity());
-  smoothed.moved_median_world = moved.lift[moved.lift.size() / 2] * cloud.half_extent_world;
+  move_points(cloud, gather(moved.lift, kept));
+  Smoothed smoothed{lifts.size(), size - kept.size(), 0.0, reach * cloud.half_extent_world};
+  if (lifts.empty()) return smoothed;
+  select_nth(std::span(lifts), lifts.size() / 2, std::identity());
+  smoothed.moved_median_world = lifts[lifts.size() / 2] * cloud.half_extent_world;
   return smoothed;
 }
 

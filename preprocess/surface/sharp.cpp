@@ -30,6 +30,7 @@ constexpr std::size_t TRIALS = 2000;         // points that tell whether there i
 constexpr std::size_t TRIAL_NEIGHBOURS = 4;  // beside each of them
 constexpr std::size_t TRIAL_AGREED = 2;      // of which so many must agree
 constexpr double PROMISE = 0.06;             // of those that lie where the surface bends
+constexpr double BORDER_TRIALS = 4.0;  // times the root of all points: as many as a square has at its border
 constexpr double STRAIGHT_GAP = 160.0 * std::numbers::pi / 180.0;
 constexpr double CORNER_GAP = 200.0 * std::numbers::pi / 180.0;
 constexpr double ROUND_LEAST =
@@ -103,14 +104,11 @@ class SharpSearch {
         cos_smooth_(std::cos(SMOOTH_SHARE * crease_)),
         search_(cloud, Sites::positions) {}
 
-  /// Whether a few points, spread over the cloud, tell that there is something to find: noise bends surfaces everywhere.
+  /// Whether a few points, spread over the cloud, tell that there is something to find: noise bends surfaces everywhere, and
+  /// where nothing bends there may be borders.
   [[nodiscard]] bool promises() const {
-    const std::size_t step = cloud_.size() / TRIALS + 1;
     std::atomic<std::size_t> bent = 0, agreed = 0;
-    tbb::parallel_for(std::size_t{0}, cloud_.size() / step, [&](std::size_t trial) {
-      std::array<Neighbour, Around::MOST> nearest;
-      const auto point = static_cast<std::uint32_t>(trial * step);
-      const Found found = look_at(point, nearest);
+    try_points(TRIALS, [&](const Found& found, std::span<const Neighbour> nearest) {
       if (!found.crease) return;
       ++bent;
       if (found.sides.empty()) return;
@@ -121,7 +119,14 @@ class SharpSearch {
       }
       agreed += alike >= TRIAL_AGREED ? 1 : 0;
     });
-    return static_cast<double>(agreed) >= PROMISE * static_cast<double>(bent);
+    if (bent > 0) return static_cast<double>(agreed) >= PROMISE * static_cast<double>(bent);
+    std::atomic<bool> ends = false;
+    const auto trials =
+        static_cast<std::size_t>(BORDER_TRIALS * std::sqrt(static_cast<double>(cloud_.size())));
+    try_points(trials, [&](const Found& found, std::span<const Neighbour>) {
+      if (!found.sides.empty()) ends = true;
+    });
+    return ends;
   }
 
   /// All sides of all points that enough of their neighbours agree with.
@@ -153,6 +158,16 @@ class SharpSearch {
   }
 
  private:
+  /// Calls use(what was found at a point, its nearest sites) for about so many points, spread over the cloud.
+  template <typename Use>
+  void try_points(std::size_t trials, const Use& use) const {
+    const std::size_t step = cloud_.size() / trials + 1;
+    tbb::parallel_for(std::size_t{0}, cloud_.size() / step, [&](std::size_t trial) {
+      std::array<Neighbour, Around::MOST> nearest;
+      use(look_at(static_cast<std::uint32_t>(trial * step), nearest), nearest);
+    });
+  }
+
   /// What a point's nearest sites, ascending, tell; `nearest` has them then.
   [[nodiscard]] Found look_at(std::uint32_t point, std::array<Neighbour, Around::MOST>& nearest) const {
     const std::size_t count = search_.find(cloud_.coord[point], nearest);

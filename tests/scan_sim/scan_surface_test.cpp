@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -166,6 +167,95 @@ TEST(ScanSurface, CleanPointsStayBitForBit) {
   }
   EXPECT_EQ(scenes[0].data_pool, scenes[1].data_pool);
   EXPECT_EQ(scenes[0].field_pool, scenes[1].field_pool);
+}
+
+/// Where a surface is at two parameters in [0, 1).
+using SurfaceAt = glm::dvec3 (*)(double u, double v);
+
+double turns(double share) { return 2.0 * std::numbers::pi * share; }
+
+/// A ring whose tube is as thick as the points are apart.
+glm::dvec3 thin_torus(double u, double v) {
+  const double out = 1.0 + 0.02 * std::cos(turns(v));
+  return {out * std::cos(turns(u)), out * std::sin(turns(u)), 0.02 * std::sin(turns(v))};
+}
+
+/// A band of 0.1 that winds about the vertical axis 20 times, like a drill's flute.
+glm::dvec3 screw(double u, double v) {
+  const double radius = 0.02 + 0.1 * v;
+  return {radius * std::cos(turns(20.0 * u)), radius * std::sin(turns(20.0 * u)), 2.0 * u};
+}
+
+/// A cube with round edges, as a superquadric.
+glm::dvec3 superquadric(double u, double v) {
+  const auto bent = [](double w) { return std::copysign(std::pow(std::abs(w), 0.25), w); };
+  const double latitude = std::numbers::pi * (v - 0.5), longitude = turns(u);
+  return {bent(std::cos(latitude)) * bent(std::cos(longitude)),
+          bent(std::cos(latitude)) * bent(std::sin(longitude)), bent(std::sin(latitude))};
+}
+
+/// Exact points of a surface; their normals are those of the form.
+InputObject exact_points(SurfaceAt at) {
+  InputObject object;
+  object.material = default_material();
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0.001, 0.999);
+  constexpr double STEP = 1e-7;
+  for (int i = 0; i < 20000; ++i) {
+    const double u = unit(random), v = unit(random);
+    const glm::dvec3 p = at(u, v);
+    const glm::dvec3 normal = glm::cross(at(u + STEP, v) - p, at(u, v + STEP) - p);
+    object.points.position.push_back(p);
+    object.points.normal.emplace_back(glm::normalize(normal));
+  }
+  return object;
+}
+
+Built built_of(InputObject object, double smooth_world) {
+  Input input;
+  input.objects.push_back(std::move(object));
+  Built built;
+  built.scene = build_scene(std::move(input), {.smooth_world = smooth_world}, 0, built.stats);
+  return built;
+}
+
+TEST(ScanSurface, GivenNormalsStayBitForBitHoweverTheSurfaceBends) {
+  for (const SurfaceAt at : {thin_torus, screw, superquadric}) {
+    const Built by_default = built_of(exact_points(at), -1.0), off = built_of(exact_points(at), 0.0);
+    EXPECT_EQ(by_default.stats.smoothed, 0U);
+    EXPECT_EQ(by_default.scene.data_pool, off.scene.data_pool);
+    EXPECT_EQ(by_default.scene.field_pool, off.scene.field_pool);
+    EXPECT_EQ(by_default.scene.clip_pool, off.scene.clip_pool);
+  }
+}
+
+TEST(ScanSurface, GivenNormalsAreSmoothedWhereThatIsAskedFor) {
+  EXPECT_GT(built_of(exact_points(screw), 0.01).stats.smoothed, 0U);
+}
+
+/// A clean half with normals beside a noisy one without.
+TEST(ScanSurface, GivenNormalsStayBesideNoise) {
+  SimulatedScan scan =
+      range_images(TriangleTree(sphere_mesh(6)), {.views = 6, .pixels = 120, .misplaced = 0.0},
+                   {.noise = 0.005, .stray_share = 0.0});
+  Points& points = scan.points;
+  points.normal.resize(points.size(), glm::vec3(0.0F));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points.position[i].x < 0.0) continue;
+    points.position[i] = glm::normalize(points.position[i]);
+    points.normal[i] = glm::vec3(points.position[i]);
+  }
+  const Built smoothed = build(scan);
+  EXPECT_GT(smoothed.stats.smoothed, scan.size() / 3);
+  EXPECT_LT(smoothed.stats.smoothed, scan.size() * 2 / 3);
+  const Column& number = *find_column(smoothed.scene.columns, NUMBER);
+  for (std::size_t s = 0; s < smoothed.scene.data_pool.size(); ++s) {
+    const auto i = static_cast<std::size_t>(number.number(s));
+    if (points.position[i].x < 0.0) continue;
+    const Splat splat = unpack_splat(smoothed.scene.data_pool[s]);
+    ASSERT_LT(glm::distance(smoothed.scene.root.to_world(splat.center), points.position[i]), 1e-5);
+    ASSERT_GT(glm::dot(splat.normal, points.position[i]), 0.99999);
+  }
 }
 
 TEST(ScanSurface, DoesNotDependOnOrderOrThreads) {
