@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <cstring>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "app/cli/option_types.h"
 #include "app/library/materials.h"
@@ -142,14 +144,12 @@ void set_flag(Material& material, std::uint32_t flag, std::optional<bool> on) {
   if (on) material.flags = *on ? material.flags | flag : material.flags & ~flag;
 }
 
-/// Whether options change what surface_of(material) looks at.
-bool changes_surface(const ObjectOptions& options) {
-  return !options.preset.empty() || options.diffuse || options.specular || options.tint ||
-         options.shininess || options.mirror || options.ior || options.glass;
-}
-
 void apply(const ObjectOptions& options, Material& material, Surface& surface) {
-  if (!options.preset.empty()) change_material(material, options.preset);
+  if (!options.preset.empty()) {
+    change_material(material, options.preset);
+    surface = surface_of(material);
+  }
+  const Material before = material;
   material.diffuse = options.diffuse.value_or(material.diffuse);
   material.specular = options.specular.value_or(material.specular);
   material.tint = options.tint.value_or(material.tint);
@@ -159,12 +159,18 @@ void apply(const ObjectOptions& options, Material& material, Surface& surface) {
   set_flag(material, MATERIAL_DIELECTRIC, options.glass);
   set_flag(material, MATERIAL_TWO_SIDED, options.two_sided);
   set_flag(material, MATERIAL_HIDDEN, options.hidden);
-  if (changes_surface(options)) surface = surface_of(material);
+  surface = surface_after(before, surface, material);
   surface.metallic = options.metallic.value_or(surface.metallic);
   surface.roughness = options.roughness.value_or(surface.roughness);
   surface.coat = options.coat.value_or(surface.coat);
   surface.coat_roughness = options.coat_roughness.value_or(surface.coat_roughness);
   surface.emission = options.emission.value_or(surface.emission);
+}
+
+/// Lays the keys that `change` has over those said before.
+void add(const ObjectOptions& change, ObjectOptions& said) {
+  for (const Key& key : keys())
+    if (const std::string value = key.write(change); !value.empty()) key.read(value, said);
 }
 
 void set_difference(const Surface& from, const Surface& to, ObjectOptions& options) {
@@ -218,12 +224,33 @@ std::string object_text(const ObjectOptions& options) {
   return options.object + text;
 }
 
+Surface surface_after(const Material& before, const Surface& surface, const Material& after) {
+  const Surface from = surface_of(before), to = surface_of(after);
+  if (std::memcmp(&from, &to, sizeof(Surface)) == 0) return surface;
+  Surface next = to;
+  const auto keep = [&](auto Surface::*member) {
+    if (surface.*member != from.*member) next.*member = surface.*member;
+  };
+  for (float Surface::*number :
+       {&Surface::metallic, &Surface::roughness, &Surface::coat, &Surface::coat_roughness})
+    keep(number);
+  keep(&Surface::emission);
+  return next;
+}
+
+bool changes_look(const ObjectOptions& options) {
+  ObjectOptions sides;
+  sides.object = options.object;
+  sides.two_sided = options.two_sided;
+  sides.hidden = options.hidden;
+  return options != sides;
+}
+
 void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
                           ObjectLooks& looks) {
-  for (const ObjectOptions& change : options) {
-    const std::size_t object = find_object(change.object, names);
-    apply(change, looks.materials[object], looks.surfaces[object]);
-  }
+  std::map<std::size_t, ObjectOptions> said;
+  for (const ObjectOptions& change : options) add(change, said[find_object(change.object, names)]);
+  for (const auto& [object, change] : said) apply(change, looks.materials[object], looks.surfaces[object]);
 }
 
 std::vector<ObjectOptions> object_options_between(const ObjectLooks& loaded, const ObjectLooks& shown,
@@ -232,7 +259,7 @@ std::vector<ObjectOptions> object_options_between(const ObjectLooks& loaded, con
   std::vector<ObjectOptions> changes;
   for (std::size_t i = 0; i < shown.materials.size(); ++i) {
     ObjectOptions change = difference(loaded.materials[i], shown.materials[i]);
-    const Surface before = changes_surface(change) ? surface_of(shown.materials[i]) : loaded.surfaces[i];
+    const Surface before = surface_after(loaded.materials[i], loaded.surfaces[i], shown.materials[i]);
     set_difference(before, shown.surfaces[i], change);
     if (change == ObjectOptions{}) continue;
     change.object = object_key(i, names);

@@ -15,7 +15,7 @@ struct ObjectOptions {
   std::optional<glm::vec3> diffuse, tint;
   std::optional<float> specular, shininess, mirror, ior;
   std::optional<bool> glass, two_sided, hidden;
-  // Of the Surface. All but two_sided and hidden above replace it by surface_of(material) first.
+  // Of the Surface, which follows the material above (surface_after) before these change it.
   std::optional<float> metallic, roughness, coat, coat_roughness;
   std::optional<glm::vec3> emission;
 
@@ -34,7 +34,15 @@ struct ObjectLooks {
   std::vector<Surface> surfaces;
 };
 
-/// Changes the looks of the objects named `names`, in the order given; each keeps its mask_bit. Throws Error (usage) for an
+/// What a surface becomes when its material changes: surface_of the material after, but for metallic, roughness, coat and emission
+/// where the surface said something else than its material before. As it is where surface_of does not see the change.
+[[nodiscard]] Surface surface_after(const Material& before, const Surface& surface, const Material& after);
+
+/// Whether options change more of an object than which of its sides are seen.
+[[nodiscard]] bool changes_look(const ObjectOptions& options);
+
+/// Changes the looks of the objects named `names`; each keeps its mask_bit. All that is said of an object is one change, whatever
+/// its order; of a key said twice the last holds. Throws Error (usage) for an
 /// object that does not exist or a name that several have.
 void apply_object_options(const std::vector<ObjectOptions>& options, const std::vector<std::string>& names,
                           ObjectLooks& looks);

@@ -200,11 +200,6 @@ void check_together(const RenderOptions& options) {
   const PictureOptions& picture = options.picture;
   if (options.scene.inputs.empty())
     fail("found no SCENE, expected a scene or model file (--help shows all options)");
-  const std::size_t scenes = static_cast<std::size_t>(
-      std::count_if(options.scene.inputs.begin(), options.scene.inputs.end(),
-                    [](const auto& path) { return lower_extension(path) == ".soct"; }));
-  if (scenes > 0 && options.scene.inputs.size() > 1)
-    fail("found a .soct beside other inputs, expected it alone");
   const std::string extension = lower_extension(options.output);
   if (!options.output.empty() && extension != ".png" && extension != ".exr")
     fail("found output '" + options.output.string() + "', expected a name ending in .png or .exr");

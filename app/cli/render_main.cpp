@@ -1,4 +1,5 @@
 /// splatray-render: a scene in, pictures out.
+#include <algorithm>
 #include <cstdio>
 #include <future>
 
@@ -54,6 +55,34 @@ void tell_viewpoint(const RenderOptions& options, const Scene& scene) {
                viewpoint_name(choose_viewpoint(scene)));
 }
 
+/// Says that materials were asked for in a look that shows none.
+void tell_hidden_materials(const RenderOptions& options) {
+  const PictureOptions& picture = options.picture;
+  const bool asked = !options.scene.material.empty() ||
+                     std::any_of(picture.objects.begin(), picture.objects.end(), changes_look);
+  if (options.quiet || !asked || !picture.look || shows_materials(*picture.look)) return;
+  std::fputs("splatray-render: note: this --look shows no materials, --look lit does\n", stderr);
+}
+
+/// Tells the run's progress and sentences on stderr.
+SequenceListener told_on(ProgressLine& progress, const RenderOptions& options) {
+  const auto say = [&progress](const std::string& sentence) {
+    progress.clear();
+    std::fprintf(stderr, "splatray-render: %s\n", sentence.c_str());
+  };
+  return {[&](const SequenceFrame& frame, std::size_t, double share) {
+            progress.show(options.sequence.many() ? "frame " + std::to_string(frame.number) : "tracing",
+                          share);
+            return true;
+          },
+          [&options, say](const std::string& note) {
+            if (!options.quiet) say(note);
+          },
+          [say](const FailedPicture& picture) {
+            say("error: frame " + std::to_string(picture.frame.number) + ": " + picture.reason);
+          }};
+}
+
 int render(int argc, char** argv) {
   const std::optional<RenderOptions> parsed = parse_render_options(argc, argv);
   if (!parsed) return static_cast<int>(ExitCode::done);
@@ -84,11 +113,14 @@ int render(int argc, char** argv) {
   // What is asked of the pools, before they go.
   const Camera still = choose_camera(loaded.scene, options.picture);
   tell_viewpoint(options, loaded.scene);
+  tell_hidden_materials(options);
   const PoolCounts counts = pool_counts(loaded.scene);
   tracer.upload_and_free(loaded.scene);
   tracer.set_environment(environment);
   times.upload_ms = watch.lap_ms();
-  const SequenceRecord record = render_sequence(options, sequence, loaded, still, context, tracer, progress);
+  const SequenceRecord record =
+      render_sequence(options, sequence, loaded.scene, still, context, tracer, told_on(progress, options));
+  progress.clear();
 
   if (!options.stats_json.empty())
     write_stats(options, loaded, counts, context, tracer.pool_bytes(), times, record);

@@ -1,7 +1,6 @@
 #include "app/cli/render_sequence.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "app/cli/command_line.h"
@@ -20,23 +19,22 @@ constexpr std::uint32_t GOAL_SAMPLES = 65536;
 /// What all pictures of a run share.
 struct Run {
   const RenderOptions& options;
-  const LoadedScene& loaded;
+  const Scene& scene;
   const Context& context;
   Tracer& tracer;
-  ProgressLine& progress;
+  const SequenceListener& listener;
 };
 
-/// Traces and writes one picture; `stage` names it on the progress line.
-void make_picture(const Run& run, const Camera& camera, const SequenceFrame& frame, const std::string& stage,
+/// Traces and writes one picture, `before` others having come before it.
+void make_picture(const Run& run, const Camera& camera, const SequenceFrame& frame, std::size_t before,
                   SequenceRecord& record) {
   const View view{camera, run.options.picture.width, run.options.picture.height, run.options.window()};
-  const std::vector<SceneLight> lights = choose_lights(run.loaded, run.options.picture, camera);
+  const std::vector<SceneLight> lights = choose_lights(run.scene, run.options.picture, camera);
   run.tracer.set_lights(lights);
   const auto progress = [&](double share) {
-    run.progress.show(stage, share);
-    return !interrupted();
+    return run.listener.progress(frame, before, share) && !interrupted();
   };
-  Settings settings = choose_settings(run.loaded.scene, run.options.picture);
+  Settings settings = choose_settings(run.scene, run.options.picture);
   settings.aov = settings.aov || run.options.denoise;
   settings.estimate_error = settings.estimate_error || run.options.denoise;
   if (run.options.has_goal()) {
@@ -48,15 +46,14 @@ void make_picture(const Run& run, const Camera& camera, const SequenceFrame& fra
     record.last = run.tracer.render(view, settings, progress);
   }
   const RenderStats stats = run.tracer.stats();
-  Metadata metadata = picture_metadata(run.options, run.loaded.scene, view, run.context);
+  Metadata metadata = picture_metadata(run.options, run.scene, view, run.context);
   double denoise_ms = 0.0;
   Stopwatch watch;
-  run.progress.clear();
   if (run.options.denoise) {
     const std::string denoiser = remove_noise(run.tracer, view, settings, record.last);
     metadata.emplace_back("denoised", denoiser);
     denoise_ms = watch.lap_ms();
-    if (!run.options.quiet) std::fprintf(stderr, "splatray-render: denoised by %s\n", denoiser.c_str());
+    run.listener.note("denoised by " + denoiser);
   }
   write_output(run.options, record.last, metadata, frame.output);
   record.made.push_back({frame, lights.size(), stats, watch.lap_ms(), denoise_ms});
@@ -95,24 +92,25 @@ bool is_made(const RenderOptions& options, const Camera& camera, const std::file
 
 }  // namespace
 
-SequenceRecord render_sequence(const RenderOptions& options, const Sequence& sequence,
-                               const LoadedScene& loaded, const Camera& still, const Context& context,
-                               Tracer& tracer, ProgressLine& progress) {
-  const Run run{options, loaded, context, tracer, progress};
+SequenceRecord render_sequence(const RenderOptions& options, const Sequence& sequence, const Scene& scene,
+                               const Camera& still, const Context& context, Tracer& tracer,
+                               const SequenceListener& listener) {
+  const Run run{options, scene, context, tracer, listener};
   SequenceRecord record;
+  std::size_t before = 0;
   for (const SequenceFrame& frame : sequence.frames) {
     stop_if_interrupted();
-    const std::string stage = options.sequence.many() ? "frame " + std::to_string(frame.number) : "tracing";
     try {
-      const Camera camera = frame_camera(sequence, frame.number, still, loaded.scene.up);
-      if (options.sequence.skip_existing && is_made(options, camera, frame.output)) continue;
-      make_picture(run, camera, frame, stage, record);
+      const Camera camera = frame_camera(sequence, frame.number, still, choose_up(scene, options.picture));
+      if (!options.sequence.skip_existing || !is_made(options, camera, frame.output))
+        make_picture(run, camera, frame, before, record);
+      else if (++record.skipped; !listener.progress(frame, before, 1.0))
+        throw Error(ExitCode::interrupted, "rendering was interrupted");
     } catch (const Error& error) {
       if (!options.sequence.many() || error.code() == ExitCode::interrupted) throw;
-      progress.clear();
-      std::fprintf(stderr, "splatray-render: error: frame %u: %s\n", frame.number, error.what());
-      record.failed.push_back(frame);
+      listener.failed(record.failed.emplace_back(FailedPicture{frame, error.what()}));
     }
+    ++before;
   }
   return record;
 }
@@ -121,8 +119,9 @@ void require_all_made(const SequenceRecord& record) {
   if (record.failed.empty()) return;
   throw Error(ExitCode::failed, std::to_string(record.failed.size()) + " of " +
                                     std::to_string(record.failed.size() + record.made.size()) +
-                                    " frames failed, the first is '" + record.failed.front().output.string() +
-                                    "'");
+                                    " frames failed, the first is '" +
+                                    record.failed.front().frame.output.string() +
+                                    "': " + record.failed.front().reason);
 }
 
 }  // namespace splatray

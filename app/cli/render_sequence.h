@@ -1,10 +1,11 @@
 /// The pictures of a run, made one after the other from a scene that is loaded and uploaded once.
 #pragma once
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "app/cli/sequence.h"
 #include "app/library/scene_source.h"
-#include "engine/base/progress.h"
 #include "engine/gpu/tracer.h"
 
 namespace splatray {
@@ -18,18 +19,34 @@ struct PictureRecord {
   double denoise_ms = 0.0;  ///< 0 without --denoise
 };
 
-struct SequenceRecord {
-  std::vector<PictureRecord> made;
-  std::vector<SequenceFrame> failed;
-  Image last;  ///< the picture made last
+/// A picture that could not be made.
+struct FailedPicture {
+  SequenceFrame frame;
+  std::string reason;  ///< a sentence
 };
 
-/// Makes the pictures with an uploaded tracer; the scene's pools are not looked at. `still`: the camera without a sequence. Each is the still of its camera, default lights included. One of several
-/// that cannot be made is told on stderr, and the others go on; of a single one throws the Error. Always throws Error
-/// (interrupted) after a signal.
+struct SequenceRecord {
+  std::vector<PictureRecord> made;
+  std::vector<FailedPicture> failed;
+  std::size_t skipped = 0;  ///< left out, as they were there
+  Image last;               ///< the picture made last
+};
+
+/// Who hears of a run, on its thread.
+struct SequenceListener {
+  /// Told which picture is being made, how many came before it, and the share of it done, 0..1; returns false to stop.
+  std::function<bool(const SequenceFrame& frame, std::size_t before, double share)> progress;
+  std::function<void(const std::string&)> note;      ///< a sentence
+  std::function<void(const FailedPicture&)> failed;  ///< of several, as soon as one is
+};
+
+/// Makes the pictures with a tracer that shows the scene, of which only what is small is looked at: the pools may be gone. `still`:
+/// the camera without a sequence. Each is the still of its camera, default lights included; the tracer keeps the last one's lights.
+/// One of several that cannot be made is recorded, and the others go on; of a single one throws the Error. Throws Error
+/// (interrupted) when the listener stops it, and after a signal.
 [[nodiscard]] SequenceRecord render_sequence(const RenderOptions& options, const Sequence& sequence,
-                                             const LoadedScene& loaded, const Camera& still,
-                                             const Context& context, Tracer& tracer, ProgressLine& progress);
+                                             const Scene& scene, const Camera& still, const Context& context,
+                                             Tracer& tracer, const SequenceListener& listener);
 
 /// Throws Error (failed) when a picture failed.
 void require_all_made(const SequenceRecord& record);

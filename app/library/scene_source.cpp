@@ -50,6 +50,13 @@ void apply_material(Scene& scene, const std::string& name) {
   scene.surfaces.clear();
 }
 
+/// Whether a material is another than readers give to points, whose base colour alone depends on them.
+bool is_chosen(const Material& material) {
+  const Material plain = default_material();
+  return material.specular != plain.specular || material.shininess != plain.shininess ||
+         material.mirror != plain.mirror || (material.flags & MATERIAL_DIELECTRIC) != 0;
+}
+
 /// Applies --object.
 void change_objects(const std::vector<ObjectOptions>& options, Scene& scene) {
   if (options.empty()) return;
@@ -59,9 +66,9 @@ void change_objects(const std::vector<ObjectOptions>& options, Scene& scene) {
   scene.surfaces = std::move(looks.surfaces);
 }
 
-/// Up for a picture that names none: the scene's, or across it where the camera looks straight up or down.
-glm::dvec3 up_across(const Scene& scene, const glm::dvec3& view_dir) {
-  const glm::dmat3 axes = upright_axes(scene.up);
+/// Upwards in a picture, or across that where the camera looks straight up or down.
+glm::dvec3 up_across(const glm::dvec3& up, const glm::dvec3& view_dir) {
+  const glm::dmat3 axes = upright_axes(up);
   return glm::length(glm::cross(axes[1], view_dir)) > 1e-6 * glm::length(view_dir) ? axes[1] : -axes[2];
 }
 
@@ -83,11 +90,11 @@ SceneLight scan_light(SceneLight key) {
 }
 
 /// A rectangle whose width is level, facing its target.
-SceneLight rectangle_light(const Scene& scene, const LightOptions& light) {
+SceneLight rectangle_light(const glm::dvec3& up, const LightOptions& light) {
   const glm::dvec3 to_target = light.target - light.position;
   const double distance_squared = glm::dot(to_target, to_target);
   const glm::dvec3 normal = to_target / std::sqrt(distance_squared);
-  const glm::dvec3 level = glm::normalize(glm::cross(up_across(scene, normal), normal));
+  const glm::dvec3 level = glm::normalize(glm::cross(up_across(up, normal), normal));
   const double radiance = std::numbers::pi * distance_squared / (light.edges.x * light.edges.y);
   SceneLight made{LIGHT_RECTANGLE, light.position,
                   light.power.value_or(glm::vec3(static_cast<float>(radiance)))};
@@ -104,7 +111,11 @@ LoadedScene load_scene(const SceneOptions& options, const PictureOptions& pictur
   const auto start = Clock::now();
   LoadedScene loaded;
   tell(listener, "reading", 0.0);
-  if (lower_extension(options.inputs.front()) == ".soct") {
+  const bool has_scene = std::any_of(options.inputs.begin(), options.inputs.end(),
+                                     [](const auto& path) { return lower_extension(path) == ".soct"; });
+  if (has_scene && options.inputs.size() > 1)
+    throw Error(ExitCode::usage, "found a .soct beside other inputs, expected it alone");
+  if (has_scene) {
     loaded.scene = read_scene(options.inputs.front(), listener.progress);
   } else {
     loaded.scene = preprocess(options, listener, loaded.build.emplace());
@@ -112,9 +123,9 @@ LoadedScene load_scene(const SceneOptions& options, const PictureOptions& pictur
   loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   if (!options.material.empty()) apply_material(loaded.scene, options.material);
   change_objects(picture.objects, loaded.scene);
-  if (picture.up) loaded.scene.up = *picture.up;
+  loaded.scene.up = choose_up(loaded.scene, picture);
   loaded.legend = show_attributes(loaded.scene, picture.attributes);
-  loaded.environment_name = picture.environment.empty() ? loaded.scene.environment_path : picture.environment;
+  loaded.environment_name = choose_environment_name(loaded.scene, picture);
   return loaded;
 }
 
@@ -123,7 +134,7 @@ Camera choose_camera(const Scene& scene, const PictureOptions& picture) {
   if (picture.eye) {
     const glm::dvec3 target = picture.target.value_or(bounds_center(scene));
     const auto up = picture.camera_up ? picture.camera_up : picture.up;
-    return {*picture.eye, target, up.value_or(up_across(scene, target - *picture.eye)),
+    return {*picture.eye, target, up.value_or(up_across(scene.up, target - *picture.eye)),
             picture.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG), picture.ortho_height};
   }
   if (!scene.camera || picture.up || picture.viewpoint != Viewpoint::automatic)
@@ -133,7 +144,15 @@ Camera choose_camera(const Scene& scene, const PictureOptions& picture) {
   return camera;
 }
 
-std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
+glm::dvec3 choose_up(const Scene& scene, const PictureOptions& picture) {
+  return picture.up.value_or(scene.up);
+}
+
+std::string choose_environment_name(const Scene& scene, const PictureOptions& picture) {
+  return picture.environment.empty() ? scene.environment_path : picture.environment;
+}
+
+std::vector<SceneLight> choose_lights(const Scene& scene, const PictureOptions& picture,
                                       const Camera& camera) {
   if (picture.lights) {
     if (picture.lights->size() > LIGHTS_MOST)
@@ -142,11 +161,11 @@ std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOp
                                        std::to_string(LIGHTS_MOST));
     std::vector<SceneLight> lights;
     for (const LightOptions& light : *picture.lights)
-      lights.push_back(light.kind == LIGHT_RECTANGLE ? rectangle_light(loaded.scene, light)
-                                                     : scene_light(loaded.scene, light));
+      lights.push_back(light.kind == LIGHT_RECTANGLE ? rectangle_light(choose_up(scene, picture), light)
+                                                     : scene_light(scene, light));
     return lights;
   }
-  return own_lights(loaded.scene, !loaded.environment_name.empty(), choose_look(loaded.scene, picture),
+  return own_lights(scene, !choose_environment_name(scene, picture).empty(), choose_look(scene, picture),
                     camera);
 }
 
@@ -191,8 +210,12 @@ std::uint32_t choose_look(const Scene& scene, const PictureOptions& picture) {
   if (picture.look) return *picture.look;
   const bool plain = scene.lights.empty() && picture.environment.empty() && scene.environment_path.empty() &&
                      !picture.lights;
-  return !scene.stations.empty() && plain ? LOOK_SCAN : LOOK_LIT;
+  const bool materials = std::any_of(scene.materials.begin(), scene.materials.end(), is_chosen) ||
+                         std::any_of(picture.objects.begin(), picture.objects.end(), changes_look);
+  return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;
 }
+
+bool shows_materials(std::uint32_t look) { return look == LOOK_LIT || look == LOOK_PAPER; }
 
 Settings choose_settings(const Scene& scene, const PictureOptions& picture) {
   Settings settings = picture.settings;

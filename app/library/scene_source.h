@@ -12,7 +12,7 @@ namespace splatray {
 /// A scene and how it came to be.
 struct LoadedScene {
   Scene scene;
-  std::string environment_name;     ///< --env, else what the scene names; empty = none
+  std::string environment_name;     ///< as choose_environment_name has it
   double load_ms = 0.0;             ///< reading and preprocess
   std::optional<BuildStats> build;  ///< unless read from a .soct
   ColorLegend legend{};             ///< of PictureOptions::attributes
@@ -36,8 +36,13 @@ struct LoadListener {
 [[nodiscard]] std::vector<SceneLight> own_lights(const Scene& scene, bool environment_named,
                                                  std::uint32_t look, const Camera& camera);
 /// The lights: --light and --sun, else own_lights.
-[[nodiscard]] std::vector<SceneLight> choose_lights(const LoadedScene& loaded, const PictureOptions& picture,
+[[nodiscard]] std::vector<SceneLight> choose_lights(const Scene& scene, const PictureOptions& picture,
                                                     const Camera& camera);
+
+/// The up direction: --up, else the scene's.
+[[nodiscard]] glm::dvec3 choose_up(const Scene& scene, const PictureOptions& picture);
+/// The environment's name: --env, else what the scene names; empty = none.
+[[nodiscard]] std::string choose_environment_name(const Scene& scene, const PictureOptions& picture);
 
 /// The option that makes a light.
 [[nodiscard]] LightOptions light_options(const SceneLight& light);
@@ -49,8 +54,11 @@ struct LoadListener {
 /// (input_unreadable).
 [[nodiscard]] Environment choose_environment(const std::string& name);
 
-/// The look, LOOK_*: that of --look, else LOOK_SCAN for scans in no light of their own or of the options', else LOOK_LIT.
+/// The look, LOOK_*: that of --look, else LOOK_SCAN for scans in no light of their own or of the options' and without materials of
+/// either, else LOOK_LIT.
 [[nodiscard]] std::uint32_t choose_look(const Scene& scene, const PictureOptions& picture);
+/// Whether a look shows materials: LOOK_SCAN shows points' colours alone, clay and occlusion not even those.
+[[nodiscard]] bool shows_materials(std::uint32_t look);
 
 /// The settings, with defaults that depend on the scene filled in.
 [[nodiscard]] Settings choose_settings(const Scene& scene, const PictureOptions& picture);

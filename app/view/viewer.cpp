@@ -5,12 +5,9 @@
 
 #include "app/cli/command_line.h"
 #include "app/cli/reproduce.h"
-#include "app/library/camera_file.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_options.h"
 #include "app/view/model/navigation.h"
-#include "app/view/window/drop.h"
-#include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 
 namespace splatray {
@@ -42,13 +39,13 @@ ViewOptions sized(ViewOptions options, const UserState& user) {
 }  // namespace
 
 Viewer::Viewer(const ViewOptions& options, Clock::time_point start)
-    : options_(sized(options, user_)),
+    : options_(sized(options, user_.state())),
       stats_(start),
       window_("splatray", options_.picture.width, options_.picture.height),
       presenter_(window_),
       loader_([this] { window_.wake(); }),
       renderer_(options.picture.device, [this] { window_.wake(); }) {
-  panels_.recent_files = user_.recent_files;
+  panels_.recent_files = user_.state().recent_files;
   document_.exposure_ev = options.exposure_ev;
   PictureOptions first = options_.picture;
   first.width = std::max(picture_px().x, 1U);
@@ -59,8 +56,11 @@ Viewer::Viewer(const ViewOptions& options, Clock::time_point start)
 void Viewer::run() {
   int frames_left = FRAMES_TO_SETTLE;
   while (!closing_ && !window_.should_close() && !interrupted()) {
-    if (window_.wait(frames_left > 0 ? 0.0 : patience())) frames_left = FRAMES_TO_SETTLE;
-    if (frames_left == 0 && !presenter_.gui().wants_keyboard()) continue;
+    if (window_.wait(frames_left > 0 ? 0.0 : patience()))
+      frames_left = FRAMES_TO_SETTLE;
+    else if (frames_left == 0)
+      remember_window();
+    if (frames_left == 0 && !presenter_.gui().wants_keyboard() && panels_.notice.empty()) continue;
     frames_left = std::max(frames_left - 1, 0);
     take_news();
     presenter_.gui().begin();
@@ -71,8 +71,9 @@ void Viewer::run() {
     if (is_worth_drawing()) presenter_.draw(picture_px().x);
     if (stats_.has_news()) write_stats();
   }
-  if (const std::optional<Failure> failure = attempt("keeping the viewer's state", [this] { remember(); }))
-    std::fprintf(stderr, "splatray-view: note: %s\n", failure->sentence.c_str());
+  window_kept_ = {};  // the window that is closed last decides
+  remember_window();
+  if (!unkept_.empty()) std::fprintf(stderr, "splatray-view: note: %s\n", unkept_.c_str());
   write_stats();
 }
 
@@ -96,15 +97,15 @@ double Viewer::patience() const { return presenter_.gui().wants_keyboard() ? CAR
 void Viewer::take_news() {
   take_load_news();
   take_render_news();
-  for (const std::filesystem::path& file : window_.take_dropped())
-    attempt_to("opening " + file.string(), [&] { take_dropped(file); });
+  const SceneFiles dropped = window_.take_dropped();
+  if (!dropped.empty()) attempt_to("opening " + scene_title(dropped), [&] { take_files(dropped); });
 }
 
 void Viewer::take_load_news() {
   LoadNews news = loader_.take_news();
   work_.reset();
   if (news.progress) work_ = {news.progress->stage, news.progress->share};
-  if (!news.notice.empty()) panels_.notice = news.notice;
+  if (!news.notice.empty()) add_line(panels_.notice, news.notice);
   if (!news.error.empty()) panels_.error = news.error;
   if (news.opened) attempt_to("showing the scene", [&] { show(std::move(*news.opened)); });
 }
@@ -127,71 +128,9 @@ void Viewer::take_render_news() {
     set_pivot(document_, news.pick->inspected->hit_world);
 }
 
-void Viewer::open(const std::filesystem::path& file) {
-  SceneOptions scene = options_.scene;
-  scene.inputs = {file};
-  scene.material.clear();
-  PictureOptions picture;
-  picture.settings = has_scene_ ? document_.settings : options_.picture.settings;
-  picture.width = picture_px().x;
-  picture.height = picture_px().y;
-  loader_.load(scene, picture);
-}
-
-void Viewer::open(const RenderOptions& options) {
-  document_.exposure_ev = options.exposure_ev.value_or(0.0);
-  loader_.load(options.scene, options.picture);
-}
-
-void Viewer::show(OpenedScene opened) {
-  opened.document.exposure_ev = document_.exposure_ev;
-  opened.document.mode = document_.mode;
-  document_ = std::move(opened.document);
-  has_scene_ = true;
-  file_ = document_.loaded->source.inputs.front();
-  remember_file(user_, file_);
-  panels_.recent_files = user_.recent_files;
-  panels_.home = document_.camera;
-  panels_.object = panels_.light = 0;
-  panels_.save.width = panels_.record.width = std::max(picture_px().x, 1U);
-  panels_.save.height = panels_.record.height = std::max(picture_px().y, 1U);
-  panels_.save.samples = panels_.record.samples = document_.settings.samples;
-  panels_.bookmarks = user_.bookmarks[std::filesystem::absolute(file_).string()];
-  inspected_.reset();
-  window_.set_title(file_.filename().string() + " - splatray");
-  renderer_.open(std::move(opened.scene), document_, picture_px());
-}
-
 /// What goes wrong becomes a sentence in the window.
 void Viewer::attempt_to(const std::string& doing, const std::function<void()>& step) {
   if (const std::optional<Failure> failure = attempt(doing, step)) panels_.error = failure->sentence;
-}
-
-/// Throws Error when there is no scene that a dropped file could change.
-void Viewer::require_scene(const std::filesystem::path& file, const char* found) const {
-  if (!has_scene_)
-    throw Error(ExitCode::failed,
-                "found '" + file.filename().string() + "', " + found + ", expected a scene first");
-}
-
-void Viewer::take_dropped(const std::filesystem::path& file) {
-  switch (drop_kind(file)) {
-    case DropKind::scene:
-      return open(file);
-    case DropKind::picture:
-      return open(read_picture_options(file));
-    case DropKind::environment:
-      require_scene(file, "an environment");
-      document_.environment = file.string();
-      return;
-    case DropKind::camera:
-      require_scene(file, "a camera");
-      document_.camera = read_camera(file);
-      return;
-    case DropKind::unknown:
-      panels_.error = "found '" + file.filename().string() +
-                      "', expected a scene, a model, an environment, a camera or a picture of splatray";
-  }
 }
 
 void Viewer::handle_inputs() {
@@ -204,7 +143,7 @@ void Viewer::handle_inputs() {
       if (command && (!gui.wants_keyboard() || command->action == Action::escape)) handle(*command);
       continue;
     }
-    const bool over_controls = gui.wants_mouse() || !has_scene_;
+    const bool over_controls = gui.wants_mouse() || !scene_;
     if (const std::optional<Gesture> gesture = mouse_.take(event, over_controls, Clock::now()))
       handle(*gesture);
   }
@@ -248,7 +187,8 @@ void Viewer::fly_on() {
 }
 
 void Viewer::handle(const Command& command) {
-  if (apply(command, aspect(), document_, panels_)) return;
+  if (command.action == Action::escape && close_drop_down()) return;
+  if (apply(command, aspect(), document_, panels_)) return remember_bookmarks();
   switch (command.action) {
     case Action::quit:
       closing_ = true;
@@ -278,9 +218,9 @@ void Viewer::draw_controls() {
 
 void Viewer::handle(const Requests& requests) {
   for (const Command& command : requests.commands) handle(command);
-  if (requests.open) open(*requests.open);
-  if (requests.save && has_scene_) renderer_.save(save_job(document_, *requests.save));
-  if (requests.record && has_scene_) renderer_.save(save_job(document_, *requests.record));
+  if (requests.open) requests.add ? add(*requests.open) : open(*requests.open);
+  if (requests.save && scene_) renderer_.save(save_job(document_, *requests.save));
+  if (requests.record && scene_) renderer_.save(save_job(document_, *requests.record));
   if (requests.cancel) cancel();
 }
 
@@ -290,37 +230,17 @@ void Viewer::cancel() {
 }
 
 void Viewer::copy() {
-  if (!has_scene_) return;
+  if (!scene_) return;
   RenderOptions options = render_options(document_, picture_px().x, picture_px().y);
   options.output = panels_.save.path;
   window_.set_clipboard(command_line(options));
   panels_.notice = "copied a splatray-render command";
 }
 
-/// A splatray-render command, or files as file managers copy them.
-void Viewer::paste() {
-  const std::string text = window_.clipboard();
-  const std::vector<std::string> words = shell_words(text);
-  if (!words.empty() && std::filesystem::path(words.front()).filename() == "splatray-render")
-    return open(parse_command_line(text));
-  for (const std::filesystem::path& file : pasted_files(text)) take_dropped(file);
-}
-
 /// Hands the document over; the render thread finds out whether anything has changed.
 void Viewer::submit() {
   const glm::uvec2 size = picture_px();
-  if (has_scene_ && size.x > 0 && size.y > 0) renderer_.show(document_, size);
-}
-
-void Viewer::remember() {
-  if (user_path_.empty()) return;
-  if (has_scene_) user_.bookmarks[std::filesystem::absolute(file_).string()] = panels_.bookmarks;
-  const glm::uvec2 size = window_.size();
-  if (size.x > 0 && size.y > 0) {
-    user_.window_width = static_cast<int>(size.x);
-    user_.window_height = static_cast<int>(size.y);
-  }
-  write_user_state(user_, user_path_);
+  if (scene_ && size.x > 0 && size.y > 0) renderer_.show(document_, size);
 }
 
 /// The part of the window that shows the picture, pixels; 0 x 0 while minimised.

@@ -22,7 +22,7 @@ class Viewer {
   /// Opens the window. `start`: of the program. Throws Error (no_device).
   Viewer(const ViewOptions& options, ViewStats::Clock::time_point start);
 
-  /// Until the window is closed or a signal comes. State that cannot be kept is noted on stderr. Throws Error (failed) when
+  /// Until the window is closed or a signal comes. State that could not be kept is noted on stderr at the end. Throws Error (failed) when
   /// the window cannot be drawn or the statistics not be written.
   void run();
 
@@ -31,11 +31,13 @@ class Viewer {
   void take_load_news();
   void take_render_news();
   void attempt_to(const std::string& doing, const std::function<void()>& step);
-  void open(const std::filesystem::path& file);
-  void open(const RenderOptions& options);
+  void open(const SceneFiles& files);
+  void add(const SceneFiles& files);
+  void open(RenderOptions options);
   void show(OpenedScene opened);
   void require_scene(const std::filesystem::path& file, const char* found) const;
-  void take_dropped(const std::filesystem::path& file);
+  void take_files(const SceneFiles& files);
+  void take_file(const std::filesystem::path& file);
   void handle_inputs();
   void handle(const Gesture& gesture);
   void handle(const Command& command);
@@ -47,14 +49,17 @@ class Viewer {
   void paste();
   void submit();
   [[nodiscard]] bool is_worth_drawing();
-  void remember();
+  void remember(const UserChange& change);
+  void remember_bookmarks();
+  void remember_window();
   void write_stats();
   [[nodiscard]] glm::uvec2 picture_px() const;
   [[nodiscard]] double aspect() const;
   [[nodiscard]] double patience() const;
 
-  std::filesystem::path user_path_ = user_state_path();
-  UserState user_ = read_user_state(user_path_);
+  UserMemory user_{user_state_path()};
+  std::string unkept_;         ///< why the last change of user_ could not be kept; empty = it was
+  glm::uvec2 window_kept_{0};  ///< size of the window that user_ was told last
   ViewOptions options_;
   ViewStats stats_;
   Window window_;
@@ -63,8 +68,7 @@ class Viewer {
   RenderThread renderer_;
 
   Document document_;
-  bool has_scene_ = false;
-  std::filesystem::path file_;  ///< of the scene shown
+  SharedScene scene_;  ///< null: none is open
   Mouse mouse_;
   PanelState panels_;
   SharedFrame frame_;

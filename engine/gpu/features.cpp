@@ -18,10 +18,12 @@ bool scatters(const Material& material) {
 
 MaterialContent material_content(std::span<const Material> materials) {
   MaterialContent content;
+  content.open = true;
   bool all_two_sided = true, all_one_sided = true;
   for (const Material& material : materials) {
     all_two_sided = all_two_sided && material.flags == MATERIAL_TWO_SIDED;
     all_one_sided = all_one_sided && material.flags == 0;
+    content.open = content.open && material.flags != 0 && (material.flags & MATERIAL_HIDDEN) == 0;
     content.mirrors = content.mirrors || material.mirror > 0.0F;
     content.glass = content.glass || (material.flags & MATERIAL_DIELECTRIC) != 0;
     content.scatters = content.scatters || scatters(material);
@@ -97,7 +99,9 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   constants[SPEC_BLEND] = settings.blend;
   constants[SPEC_KERNEL] = settings.kernel;
   constants[SPEC_SIDE] = settings.side;
-  constants[SPEC_FACES] = content.materials.faces;
+  // Where nothing is looked through, what is behind glass is not to be seen: glass shows both of its sides.
+  const bool opaque = settings.look == LOOK_SCAN || settings.look == LOOK_CLAY || settings.look == LOOK_AO;
+  constants[SPEC_FACES] = opaque && content.materials.open ? FACES_BOTH : content.materials.faces;
   constants[SPEC_ORDER] = settings.order;
   constants[SPEC_STAGE] = STAGE_ALL;
   constants[SPEC_LOOK] = settings.look;

@@ -12,6 +12,7 @@ namespace splatray {
 /// What the features depend on in a scene's materials.
 struct MaterialContent {
   std::uint32_t faces = FACES_MIXED;  ///< FACES_*: the cheapest that is right for all
+  bool open = false;                  ///< every object is two-sided or a dielectric, none is hidden
   bool mirrors = false;               ///< some mirror
   bool glass = false;                 ///< some are dielectrics
   bool scatters = false;              ///< some send light of lights back, diffusely or as a highlight

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "app/library/materials.h"
 #include "engine/base/error.h"
 #include "engine/scene/surface.h"
@@ -82,6 +85,37 @@ TEST(ObjectOptions, SurfacesFollowMaterials) {
   EXPECT_EQ(looks.surfaces[2].coat_roughness, 0.2F);
   EXPECT_NE(refusal("dragon:roughness=2"), "");
   EXPECT_NE(refusal("dragon:emission=-1/0/0"), "");
+}
+
+TEST(ObjectOptions, TheOrderOfKeysDoesNotMatter) {
+  const std::vector<std::string> texts = {"0:roughness=0.1,metallic=1", "0:diffuse=0.5/0.5/0.5",
+                                          "dragon:specular=0.5", "0:preset=glossy", "0:two-sided=off"};
+  std::vector<std::size_t> order = {0, 1, 2, 3, 4};
+  std::optional<ObjectLooks> first;
+  do {
+    std::vector<ObjectOptions> options;
+    for (const std::size_t i : order) options.push_back(read_object_options(texts[i]));
+    ObjectLooks looks = matte();
+    apply_object_options(options, NAMES, looks);
+    EXPECT_EQ(looks.surfaces[0].roughness, 0.1F);
+    EXPECT_EQ(looks.surfaces[0].metallic, 1.0F);
+    EXPECT_EQ(looks.surfaces[0].base, vec3(0.5F));
+    if (!first) first = looks;
+    EXPECT_TRUE(object_options_between(*first, looks, NAMES).empty());
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(ObjectOptions, ASurfaceOfItsOwnStaysWhenItsMaterialChanges) {
+  ObjectLooks looks = matte();
+  looks.surfaces[0].metallic = 0.7F;
+  looks.surfaces[0].emission = vec3(2.0F);
+  apply_object_options({read_object_options("0:diffuse=0.1/0.2/0.3")}, NAMES, looks);
+  EXPECT_EQ(looks.surfaces[0].metallic, 0.7F);
+  EXPECT_EQ(looks.surfaces[0].emission, vec3(2.0F));
+  EXPECT_EQ(looks.surfaces[0].base, vec3(0.1F, 0.2F, 0.3F));
+  apply_object_options({read_object_options("0:preset=gold")}, NAMES, looks);
+  EXPECT_EQ(looks.surfaces[0].metallic, 1.0F);
+  EXPECT_EQ(looks.surfaces[0].emission, vec3(0.0F)) << "a preset replaces all";
 }
 
 TEST(ObjectOptions, DifferencesAreFoundAndAppliedAgain) {

@@ -10,7 +10,10 @@ constexpr int FRAMES_TO_SETTLE = 3;
 
 void add(Requests& all, const Requests& more) {
   all.commands.insert(all.commands.end(), more.commands.begin(), more.commands.end());
-  if (more.open) all.open = more.open;
+  if (more.open) {
+    all.open = more.open;
+    all.add = more.add;
+  }
   if (more.save) all.save = more.save;
   if (more.record) all.record = more.record;
   all.cancel |= more.cancel;

@@ -6,6 +6,7 @@
 
 #include "app/library/camera_file.h"
 #include "app/library/materials.h"
+#include "app/view/model/attempt.h"
 #include "app/view/thread/live_scene.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/surface.h"
@@ -255,8 +256,57 @@ TEST(PanelsTest, ErrorsStayUntilClosedAndWorkCanBeCancelled) {
 
 TEST(PanelsTest, RecentFilesAreOffered) {
   GuiDriver gui(1280, 720);
-  gui.state.recent_files = {"/data/dragon.ply"};
-  EXPECT_EQ(gui.click("##welcome", {"/data/dragon.ply", "dragon.ply"}).open, "/data/dragon.ply");
+  gui.state.recent_files = {{"/data/dragon.ply"}, {"/data/a.ply", "/data/b.ply"}};
+  EXPECT_EQ(gui.click("##welcome", {"/data/dragon.ply", "dragon.ply"}).open, SceneFiles{"/data/dragon.ply"});
+  const ControlPath both = {"/data/a.ply\n/data/b.ply", "a.ply and 1 more"};
+  EXPECT_EQ(gui.click("##welcome", both).open, (SceneFiles{"/data/a.ply", "/data/b.ply"}));
+}
+
+TEST(PanelsTest, TheOpenDialogHasTheKeyboardAndAdds) {
+  GuiDriver gui(1280, 720);
+  gui.state.show_open = true;
+  gui.state.can_add = true;
+  for (int i = 0; i < 3; ++i) gui.frame();
+  ImGui::GetIO().AddInputCharacter('x');
+  gui.frame();
+  gui.frame();
+  EXPECT_EQ(gui.state.open_path, "x");
+  gui.click("Open", {"beside what is shown"});
+  const Requests requests = gui.click("Open", {"open"});
+  EXPECT_EQ(requests.open, SceneFiles{"x"});
+  EXPECT_TRUE(requests.add);
+  EXPECT_FALSE(gui.state.add) << "asked for once";
+}
+
+TEST(PanelsTest, NoticesEndAfterTheirTimeAndTheirWork) {
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(1);
+  const Work work{"reading", 0.5};
+  gui.view.work = &work;
+  gui.state.notice = "one thing";
+  add_line(gui.state.notice, "another");
+  add_line(gui.state.notice, "another");
+  EXPECT_EQ(gui.state.notice, "one thing\nanother");
+  ImGui::GetIO().DeltaTime = static_cast<float>(NOTICE_SECONDS);
+  for (int i = 0; i < 5; ++i) gui.frame();
+  EXPECT_FALSE(gui.state.notice.empty()) << "the work goes on";
+  gui.view.work = nullptr;
+  for (int i = 0; i < 3; ++i) gui.frame();
+  EXPECT_TRUE(gui.state.notice.empty());
+}
+
+TEST(PanelsTest, EscapeClosesADropDownList) {
+  GuiDriver gui(1280, 720);
+  gui.document = document_of(1);
+  EXPECT_FALSE(close_drop_down());
+  gui.click("##column", {"view"});
+  EXPECT_GT(gui.rectangle("##Combo").GetArea(), 0.0F);
+  EXPECT_TRUE(close_drop_down());
+  for (int i = 0; i < 2; ++i) gui.frame();
+  EXPECT_EQ(gui.rectangle("##Combo").GetArea(), 0.0F);
+  gui.state.show_save = true;
+  for (int i = 0; i < 3; ++i) gui.frame();
+  EXPECT_FALSE(close_drop_down()) << "dialogs are closed otherwise";
 }
 
 TEST(PanelsTest, NothingOverlapsAndThePictureIsTheMainThing) {

@@ -9,13 +9,13 @@
 
 #include "app/cli/command_line.h"
 #include "app/library/image_file.h"
-#include "app/library/scene_source.h"
 #include "app/view/model/document_options.h"
 #include "app/view/model/resolution.h"
 #include "app/view/window/display_table.h"
 #include "app/view/window/drop.h"
 #include "app/view/window/mouse.h"
 #include "engine/scene/surface.h"
+#include "tests/temp_folder.h"
 #include "tests/view/live_documents.h"
 
 namespace splatray {
@@ -116,6 +116,11 @@ TEST(Drop, KindsByName) {
   EXPECT_EQ(drop_kind("text.doc"), DropKind::unknown);
 }
 
+TEST(Drop, FoldersAreScenes) {
+  const TempFolder folder;
+  EXPECT_EQ(drop_kind(folder.path()), DropKind::scene);
+}
+
 TEST(Drop, PastedPathsAndUris) {
   const std::vector<std::filesystem::path> expected = {"/a b/c.ply", "/d.ply", "/e%.ply", "f.ply"};
   EXPECT_EQ(pasted_files("file:///a%20b/c.ply\r\nfile://host/d.ply\n/e%.ply\n\nf.ply"), expected);
@@ -139,9 +144,7 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   document.settings.environment_turn = 0.4F;
   document.up = {0.0, 0.6, 0.8};
   const RenderOptions options = parse_command_line(command_line(render_options(document, 320, 200)));
-  LoadedScene loaded{scene, options.picture.environment, 0.0, {}};
-  loaded.scene.up = *options.picture.up;
-  const Document again = first_document(loaded, options.scene, options.picture);
+  const Document again = first_document(scene, options.scene, options.picture);
   EXPECT_TRUE(again.camera == document.camera);
   EXPECT_TRUE(again.lights == document.lights);
   EXPECT_TRUE(same_looks(again.looks, document.looks));
@@ -151,6 +154,74 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   EXPECT_EQ(again.up, document.up);
   EXPECT_EQ(options.exposure_ev, -0.75);
   EXPECT_EQ(options.picture.width, 320U);
+}
+
+RenderOptions copied_from(const Document& document) {
+  return parse_command_line(command_line(render_options(document, 320, 200)));
+}
+
+/// Of a file, in the folder where the program runs.
+Document loaded_document(const Scene& scene) {
+  SceneOptions source;
+  source.inputs = {"discs.ply"};
+  return first_document(scene, source, {});
+}
+
+TEST(DocumentOptions, ACommandOfTheSceneShownChangesTheLookAlone) {
+  const Scene scene = disc_scene(1);
+  const Document document = loaded_document(scene);
+  Document changed = document;
+  changed.up = {1.0, 0.0, 0.0};
+  changed.camera.eye.x += 1.0;
+  changed.settings.look = LOOK_CLAY;
+  changed.looks.materials[0].flags |= MATERIAL_HIDDEN;
+  RenderOptions options = copied_from(changed);
+  ASSERT_TRUE(is_of_scene(document, options));
+  const Document shown = shown_as(scene, document, options.picture);
+  EXPECT_EQ(shown.loaded, document.loaded);
+  EXPECT_EQ(shown.camera.eye, changed.camera.eye);
+  EXPECT_EQ(shown.up, changed.up);
+  EXPECT_EQ(shown.settings.look, LOOK_CLAY);
+  EXPECT_TRUE(same_looks(shown.looks, changed.looks));
+
+  options.scene.inputs = {std::filesystem::current_path() / "x" / ".." / "discs.ply"};
+  EXPECT_TRUE(is_of_scene(document, options)) << "the same file by another path";
+  options.picture.lights.reset();
+  EXPECT_FALSE(is_of_scene(document, options)) << "the default light follows the scene's up direction";
+  options = copied_from(document);
+  EXPECT_TRUE(is_of_scene(document, options));
+  options.scene.params.seed = 7;
+  EXPECT_FALSE(is_of_scene(document, options)) << "other points";
+  options = copied_from(document);
+  options.scene.inputs.push_back("more.ply");
+  EXPECT_FALSE(is_of_scene(document, options));
+}
+
+TEST(DocumentOptions, AnotherSceneKeepsWhatAPersonChose) {
+  const Scene scene = disc_scene(1);
+  Document document = loaded_document(scene);
+  EXPECT_FALSE(kept_options(document).look) << "nothing was chosen";
+  EXPECT_FALSE(kept_options(document).tone);
+  document.settings.look = LOOK_AO;
+  document.settings.samples = 99;
+  document.tone = Tone::agx;
+  const PictureOptions kept = kept_options(document);
+  EXPECT_EQ(kept.look, LOOK_AO);
+  EXPECT_EQ(kept.tone, Tone::agx);
+  EXPECT_EQ(kept.settings.samples, 99U);
+  EXPECT_FALSE(kept.eye || kept.lights || !kept.environment.empty() || !kept.objects.empty());
+}
+
+TEST(DocumentOptions, MoreFilesComeBesideTheSceneAsItIsShown) {
+  const Scene scene = disc_scene(1);
+  Document document = loaded_document(scene);
+  document.looks.materials[0].flags |= MATERIAL_HIDDEN;
+  const RenderOptions options = options_with(document, {"folder/more.ply", scene.object_names[0] + ".obj"});
+  EXPECT_EQ(options.scene.inputs,
+            (SceneFiles{"discs.ply", "folder/more.ply", scene.object_names[0] + ".obj"}));
+  ASSERT_EQ(options.picture.objects.size(), 1U);
+  EXPECT_EQ(options.picture.objects[0].object, "0") << "the name will be that of two";
+  EXPECT_EQ(options.picture.eye, document.camera.eye);
 }
 
 }  // namespace

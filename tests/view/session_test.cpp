@@ -83,6 +83,16 @@ class ViewSession : public CliTest {
     const nlohmann::json read = nlohmann::json::parse(content(file("stats.json")), nullptr, false);
     return read.is_object() ? read : nlohmann::json::object();
   }
+  /// What the viewer remembers; an empty object before it does.
+  nlohmann::json state() {
+    const nlohmann::json read =
+        nlohmann::json::parse(content(file("state/splatray/view.json")), nullptr, false);
+    return read.is_object() ? read : nlohmann::json::object();
+  }
+  bool is_bookmarked(const std::string& scene, std::size_t slot) {
+    const nlohmann::json bookmarks = state().value("bookmarks", nlohmann::json::object());
+    return bookmarks.contains(scene) && !bookmarks[scene][slot].is_null();
+  }
   void await_finished_picture() {
     await("a finished picture", [this] { return stats().value("samples", 0) == 2; });
   }
@@ -216,6 +226,45 @@ TEST_F(ViewSession, FilesThatCannotBeReadAreToldInTheWindow) {
   desktop.xdotool({"key", "ctrl+q"});
   EXPECT_EQ(viewer->wait(), 0);
   EXPECT_EQ(content(file("log")), "");
+}
+
+TEST_F(ViewSession, BookmarksOutliveAnotherSceneAndAKill) {
+  start({first});
+  const unsigned long window = desktop.wait_for_window("first.ply");
+  ASSERT_NE(window, 0U);
+  await_finished_picture();
+  desktop.xdotool({"key", "shift+1"});
+  await("a bookmark of the first scene", [this] { return is_bookmarked(first, 0); });
+  desktop.drop(window, second);
+  ASSERT_EQ(desktop.wait_for_window("second.ply"), window);
+  desktop.xdotool({"key", "shift+2"});
+  await("a bookmark of the second scene", [this] { return is_bookmarked(second, 1); });
+  viewer.reset();  // kill -9
+  EXPECT_TRUE(is_bookmarked(first, 0));
+  EXPECT_EQ(state()["recent_files"], (std::vector<std::string>{second, first}));
+}
+
+TEST_F(ViewSession, TwoWindowsLoseNothingOfEachOther) {
+  start({first});
+  const unsigned long one = desktop.wait_for_window("first.ply");
+  Program other({VIEW, "--resolution=700x500", "--samples=2", second}, viewer_environment(), folder.string(),
+                file("other.log"));
+  const unsigned long two = desktop.wait_for_window("second.ply");
+  ASSERT_TRUE(one != 0 && two != 0);
+  const auto bookmark = [this](unsigned long window, const char* key, const std::string& scene,
+                               std::size_t slot) {
+    desktop.xdotool({"windowfocus", "--sync", std::to_string(window), "key", key});
+    await("a bookmark", [&] { return is_bookmarked(scene, slot); });
+  };
+  bookmark(two, "shift+3", second, 2);
+  bookmark(one, "shift+1", first, 0);
+  desktop.close(one);
+  EXPECT_EQ(viewer->wait(), 0);
+  desktop.close(two);
+  EXPECT_EQ(other.wait(), 0);
+  EXPECT_TRUE(is_bookmarked(first, 0) && is_bookmarked(second, 2));
+  EXPECT_EQ(state()["recent_files"].size(), 2U);
+  EXPECT_EQ(state()["window_width"], 700) << "as the window that was closed last";
 }
 
 TEST_F(ViewSession, StateThatCannotBeKeptIsNotedAndNothingIsLost) {

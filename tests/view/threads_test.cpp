@@ -1,6 +1,7 @@
 // The threads beside the window's: what they are asked for comes back, whatever goes wrong in between.
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <mutex>
 
 #include "app/library/image_file.h"
@@ -109,6 +110,30 @@ TEST_F(RenderThreadTest, RecordsATurntable) {
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return !news.notice.empty(); });
   EXPECT_EQ(names(), (std::vector<std::string>{"turn.00.png", "turn.01.png", "turn.02.png"}));
+}
+
+TEST_F(RenderThreadTest, RecordingAgainMakesWhatIsMissing) {
+  thread.open(scene, document, SIZE);
+  RecordRequest request;
+  request.path = file("turn.#.png");
+  request.frames = 3;
+  request.width = request.height = 16;
+  request.samples = 1;
+  request.skip_existing = true;
+  const auto record = [&] {
+    std::string notice;
+    thread.save(save_job(document, request));
+    await([&](const RenderNews& news) { return !(notice = news.notice).empty(); });
+    return notice;
+  };
+  EXPECT_EQ(record().find("were there"), std::string::npos);
+  const auto time = std::filesystem::last_write_time(file("turn.0.png"));
+  std::filesystem::remove(file("turn.1.png"));
+  EXPECT_NE(record().find("1 of 3 pictures"), std::string::npos);
+  EXPECT_EQ(std::filesystem::last_write_time(file("turn.0.png")), time) << "a finished picture stays";
+  EXPECT_TRUE(std::filesystem::exists(file("turn.1.png")));
+  document.camera.eye.x += 0.5;
+  EXPECT_NE(record().find(": 3 pictures"), std::string::npos) << "they show something else";
 }
 
 TEST_F(RenderThreadTest, FailuresAreSentencesAndItGoesOn) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "engine/base/error.h"
 #include "tests/readers/read_error.h"
@@ -28,11 +29,16 @@ class Variable {
   std::optional<std::string> before_;
 };
 
+/// Makes the file hold this.
+void keep(const UserState& state, const std::filesystem::path& path) {
+  (void)change_user_state(path, {[&state](UserState& kept) { kept = state; }});
+}
+
 UserState some_state() {
   UserState state;
   state.window_width = 1601;
   state.window_height = 902;
-  state.recent_files = {"/data/b.ply", "/data/a.ply"};
+  state.recent_files = {{"/data/b.ply"}, {"/data/a.ply", "/data/c d.ply"}};
   state.bookmarks["/data/a.ply"][2] =
       Camera{{560000.123456789, 5.9e6, -1e-9}, {1, 2, 3}, {0, 0, 1}, 33.5, 0.25};
   return state;
@@ -56,8 +62,8 @@ TEST(UserFilesTest, WhatIsWrittenIsReadBack) {
   const TempFolder folder;
   const std::filesystem::path path = folder.path() / "new" / "splatray" / "view.json";
   const UserState state = some_state();
-  write_user_state(state, path);
-  write_user_state(state, path);  // replaces
+  keep(state, path);
+  keep(state, path);  // replaces
   const UserState read = read_user_state(path);
   EXPECT_EQ(read.window_width, 1601);
   EXPECT_EQ(read.window_height, 902);
@@ -68,7 +74,7 @@ TEST(UserFilesTest, WhatIsWrittenIsReadBack) {
 TEST(UserFilesTest, DamageAtAnyByteGivesDefaultsAtWorst) {
   const TempFolder folder;
   const std::filesystem::path path = folder.path() / "view.json";
-  write_user_state(some_state(), path);
+  keep(some_state(), path);
   std::ifstream file(path);
   const std::string whole((std::istreambuf_iterator<char>(file)), {});
   for (std::size_t length = 0; length < whole.size(); length += 7) {
@@ -104,19 +110,105 @@ TEST(UserFilesTest, WrongMembersHaveTheirDefaultsAndSoundOnesStay) {
 TEST(UserFilesTest, NoFolderIsASentence) {
   const TempFolder folder;
   folder.write("file", "");
-  EXPECT_THROW(write_user_state({}, folder.path() / "file" / "view.json"), Error);
+  EXPECT_THROW(keep({}, folder.path() / "file" / "view.json"), Error);
 }
 
 TEST(UserFilesTest, RecentFilesAreFewNewestFirstAndOnce) {
   UserState state;
-  for (int i = 0; i < 15; ++i) remember_file(state, "/data/" + std::to_string(i) + ".ply");
-  remember_file(state, "/data/x/../9.ply");
+  for (int i = 0; i < 15; ++i) remember_files(state, {"/data/" + std::to_string(i) + ".ply"});
+  remember_files(state, {"/data/x/../9.ply"});
   ASSERT_EQ(state.recent_files.size(), RECENT_COUNT);
-  EXPECT_EQ(state.recent_files[0], "/data/9.ply");
-  EXPECT_EQ(state.recent_files[1], "/data/14.ply");
-  EXPECT_EQ(std::count(state.recent_files.begin(), state.recent_files.end(), "/data/9.ply"), 1);
-  remember_file(state, "here.ply");
-  EXPECT_TRUE(state.recent_files[0].is_absolute());
+  EXPECT_EQ(state.recent_files[0], SceneFiles{"/data/9.ply"});
+  EXPECT_EQ(state.recent_files[1], SceneFiles{"/data/14.ply"});
+  EXPECT_EQ(std::count(state.recent_files.begin(), state.recent_files.end(), SceneFiles{"/data/9.ply"}), 1);
+  remember_files(state, {"here.ply", "folder/"});
+  EXPECT_TRUE(state.recent_files[0][0].is_absolute());
+  EXPECT_EQ(scene_title(state.recent_files[0]), "here.ply and 1 more");
+  EXPECT_EQ(scene_title({"folder/"}), "folder");
+  EXPECT_EQ(scene_name({"here.ply"}), scene_name(state.recent_files[0]));
+}
+
+Camera camera_at_x(double x) { return {{x, 0, 0}, {0, 0, 0}, {0, 1, 0}, 40.0, 0.0}; }
+
+UserChange bookmark(const std::string& scene, std::size_t slot, double x) {
+  return [=](UserState& state) { state.bookmarks[scene][slot] = camera_at_x(x); };
+}
+
+TEST(UserFilesTest, TwoWindowsLoseNothingOfEachOther) {
+  const TempFolder folder;
+  const std::filesystem::path path = folder.path() / "view.json";
+  UserMemory one(path), other(path);
+  one.change(bookmark("/a", 0, 1.0));
+  other.change(bookmark("/a", 1, 2.0));
+  one.change([](UserState& state) { remember_files(state, {"/a"}); });
+  other.change([](UserState& state) { remember_files(state, {"/b"}); });
+  const UserState kept = read_user_state(path);
+  EXPECT_EQ(kept.bookmarks.at("/a")[0], camera_at_x(1.0));
+  EXPECT_EQ(kept.bookmarks.at("/a")[1], camera_at_x(2.0));
+  EXPECT_EQ(kept.recent_files, (std::vector<SceneFiles>{{"/b"}, {"/a"}}));
+  EXPECT_EQ(one.state().bookmarks.at("/a")[1], camera_at_x(2.0)) << "each window has the other's";
+}
+
+TEST(UserFilesTest, ManyWindowsAtOnceLoseNothing) {
+  constexpr std::size_t CHANGES = 6;
+  const TempFolder folder;
+  const std::filesystem::path path = folder.path() / "view.json";
+  std::vector<std::thread> windows;
+  for (std::size_t window = 0; window < 3; ++window)
+    windows.emplace_back([&path, window] {
+      UserMemory memory(path);
+      for (std::size_t i = 0; i < CHANGES; ++i)
+        memory.change(bookmark("/" + std::to_string(i), window, double(i)));
+    });
+  for (std::thread& window : windows) window.join();
+  const UserState kept = read_user_state(path);
+  ASSERT_EQ(kept.bookmarks.size(), CHANGES);
+  for (const auto& [scene, bookmarks] : kept.bookmarks)
+    for (std::size_t window = 0; window < 3; ++window) EXPECT_TRUE(bookmarks[window]) << scene;
+}
+
+TEST(UserFilesTest, WhatCouldNotBeKeptIsKeptWithTheNextChange) {
+  const TempFolder folder;
+  const std::filesystem::path blocked = folder.write("state", ""), path = blocked / "view.json";
+  UserMemory memory(path);
+  EXPECT_THROW(memory.change(bookmark("/a", 0, 1.0)), Error);
+  EXPECT_TRUE(memory.state().bookmarks.at("/a")[0]) << "this window has it";
+  std::filesystem::remove(blocked);
+  memory.change(bookmark("/a", 1, 2.0));
+  EXPECT_TRUE(read_user_state(path).bookmarks.at("/a")[0]);
+  EXPECT_TRUE(read_user_state(path).bookmarks.at("/a")[1]);
+}
+
+TEST(UserFilesTest, LinksAndForeignFilesStayAsTheyAre) {
+  const TempFolder folder;
+  const std::filesystem::path path = folder.path() / "view.json";
+  const auto expect_refused = [&](const char* what) {
+    try {
+      keep(some_state(), path);
+      ADD_FAILURE() << what;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::failed);
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+    }
+  };
+  const std::filesystem::path mine = folder.write("mine.json", R"({"recent_files": []})");
+  for (const std::filesystem::path& target : {mine, folder.path() / "none"}) {
+    std::filesystem::create_symlink(target, path);
+    expect_refused("a link");
+    EXPECT_TRUE(std::filesystem::is_symlink(path));
+    std::filesystem::remove(path);
+  }
+  EXPECT_EQ(std::filesystem::file_size(mine), 20U);
+  for (const char* foreign : {"my notes", "[1, 2]", R"({"editor": "mine"})"}) {
+    folder.write("view.json", foreign);
+    expect_refused(foreign);
+    EXPECT_EQ(std::filesystem::file_size(path), std::string(foreign).size());
+  }
+  folder.write("view.json", "");
+  keep(some_state(), path);
+  std::filesystem::remove(folder.path() / "view.lock");
+  std::filesystem::create_symlink(mine, folder.path() / "view.lock");
+  EXPECT_THROW(keep(some_state(), path), Error);
 }
 
 }  // namespace

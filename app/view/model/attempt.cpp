@@ -20,4 +20,9 @@ std::optional<Failure> attempt(const std::string& doing, const std::function<voi
   return {};
 }
 
+void add_line(std::string& sentences, const std::string& sentence) {
+  if (sentences.find(sentence) != std::string::npos) return;
+  sentences += (sentences.empty() ? "" : "\n") + sentence;
+}
+
 }  // namespace splatray

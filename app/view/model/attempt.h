@@ -16,4 +16,7 @@ struct Failure {
 /// other std::exception says. `doing` names the work where the exception cannot: "loading dragon.ply".
 [[nodiscard]] std::optional<Failure> attempt(const std::string& doing, const std::function<void()>& step);
 
+/// Adds a sentence to others, one a line; one that is there already is not added.
+void add_line(std::string& sentences, const std::string& sentence);
+
 }  // namespace splatray

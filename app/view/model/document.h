@@ -26,6 +26,8 @@ enum class ViewMode {
 /// What stays as it was loaded.
 struct LoadedPart {
   SceneOptions source;                       ///< the files, and how points are made of them
+  PictureOptions asked;                      ///< what was asked of the picture when they were loaded
+  std::uint32_t look = LOOK_LIT;             ///< as first shown
   std::vector<std::string> object_names;     ///< one per object
   ObjectLooks looks{};                       ///< one per object, as the scene has them
   std::vector<std::string> color_sources{};  ///< attributes that colours may show (attributes.h)

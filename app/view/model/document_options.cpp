@@ -1,9 +1,21 @@
 #include "app/view/model/document_options.h"
 
+#include <algorithm>
+
 #include "app/library/scene_source.h"
 #include "engine/scene/surface.h"
 
 namespace splatray {
+namespace {
+
+/// The same scene's options, its files named by plain paths.
+SceneOptions plain(SceneOptions scene) {
+  for (std::vector<std::filesystem::path>* paths : {&scene.inputs, &scene.data_paths})
+    for (std::filesystem::path& path : *paths) path = plain_path(path);
+  return scene;
+}
+
+}  // namespace
 
 RenderOptions render_options(const Document& document, std::uint32_t width, std::uint32_t height) {
   RenderOptions options;
@@ -28,29 +40,63 @@ RenderOptions render_options(const Document& document, std::uint32_t width, std:
   return options;
 }
 
-Document first_document(const LoadedScene& loaded, const SceneOptions& options,
-                        const PictureOptions& picture) {
-  const Scene& scene = loaded.scene;
+Document first_document(const Scene& scene, const SceneOptions& source, const PictureOptions& picture) {
   Document document;
-  document.loaded = std::make_shared<const LoadedPart>(LoadedPart{options,
+  document.loaded = std::make_shared<const LoadedPart>(LoadedPart{source,
+                                                                  picture,
+                                                                  choose_look(scene, picture),
                                                                   scene.object_names,
                                                                   {scene.materials, surfaces_of(scene)},
                                                                   color_sources(scene),
                                                                   categories_of(scene, COLUMN_CLASS),
                                                                   categories_of(scene, COLUMN_SCAN)});
-  document.looks = document.loaded->looks;
-  apply_object_options(picture.objects, scene.object_names, document.looks);
-  document.camera = choose_camera(scene, picture);
-  document.lights = choose_lights(loaded, picture, document.camera);
-  document.environment = loaded.environment_name;
-  document.settings = choose_settings(scene, picture);
-  document.tone = choose_tone(picture);
+  return shown_as(scene, document, picture);
+}
+
+bool is_of_scene(const Document& document, const RenderOptions& options) {
+  const LoadedPart& loaded = *document.loaded;
+  if (plain(options.scene) != plain(loaded.source)) return false;
+  // The scene has the up direction of its loading, which cameras and lights follow that are not told.
+  const PictureOptions& picture = options.picture;
+  return picture.up == loaded.asked.up || (picture.up && picture.eye && picture.lights);
+}
+
+Document shown_as(const Scene& scene, const Document& document, const PictureOptions& picture) {
+  Document shown = document;
+  shown.looks = document.loaded->looks;
+  apply_object_options(picture.objects, scene.object_names, shown.looks);
+  shown.camera = choose_camera(scene, picture);
+  shown.lights = choose_lights(scene, picture, shown.camera);
+  shown.environment = choose_environment_name(scene, picture);
+  shown.settings = choose_settings(scene, picture);
+  shown.tone = choose_tone(picture);
   static_cast<void>(color_by(scene, picture.attributes));  // throws where the scene does not have it
-  document.attributes = picture.attributes;
-  document.up = scene.up;
-  document.bounds_min_world = scene.bounds_min_world;
-  document.bounds_max_world = scene.bounds_max_world;
-  return document;
+  shown.attributes = picture.attributes;
+  shown.up = choose_up(scene, picture);
+  shown.bounds_min_world = scene.bounds_min_world;
+  shown.bounds_max_world = scene.bounds_max_world;
+  return shown;
+}
+
+PictureOptions kept_options(const Document& document) {
+  const LoadedPart& loaded = *document.loaded;
+  PictureOptions kept;
+  kept.settings = document.settings;
+  if (loaded.asked.look || document.settings.look != loaded.look) kept.look = document.settings.look;
+  if (loaded.asked.tone || document.tone != choose_tone(loaded.asked)) kept.tone = document.tone;
+  return kept;
+}
+
+RenderOptions options_with(const Document& document, const SceneFiles& more) {
+  RenderOptions options = render_options(document, 1, 1);
+  const LoadedPart& loaded = *document.loaded;
+  std::vector<std::string> names = loaded.object_names;
+  for (const std::filesystem::path& file : more) {
+    options.scene.inputs.push_back(file);
+    std::replace(names.begin(), names.end(), file.stem().string(), std::string());  // no longer one object's
+  }
+  options.picture.objects = object_options_between(loaded.looks, document.looks, names);
+  return options;
 }
 
 }  // namespace splatray

@@ -1,9 +1,16 @@
 #include "app/view/model/user_files.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/library/user_folders.h"
 #include "engine/base/error.h"
@@ -13,6 +20,7 @@
 namespace splatray {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int LEAST_WINDOW = 320, LARGEST_WINDOW = 16384;
@@ -58,6 +66,21 @@ json to_json(const Bookmarks& bookmarks) {
   return array;
 }
 
+/// One file, or several that were opened together. Throws json::exception.
+SceneFiles files_of(const json& recent) {
+  if (!recent.is_array()) return {recent.get<std::string>()};
+  SceneFiles files;
+  for (const json& file : recent) files.emplace_back(file.get<std::string>());
+  return files;
+}
+
+json to_json(const SceneFiles& files) {
+  if (files.size() == 1) return files.front().string();
+  json array = json::array();
+  for (const fs::path& file : files) array.push_back(file.string());
+  return array;
+}
+
 /// Calls `read`; what it cannot make sense of keeps its default.
 template <typename Read>
 void if_sound(const Read& read) {
@@ -68,20 +91,9 @@ void if_sound(const Read& read) {
   }
 }
 
-}  // namespace
-
-std::filesystem::path user_state_path() {
-  const std::filesystem::path folder = user_state_folder();
-  return folder.empty() ? folder : folder / "view.json";
-}
-
-UserState read_user_state(const std::filesystem::path& path) {
+/// Reads what a text makes sense of.
+UserState state_of(const json& all) {
   UserState state;
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (json_is_too_deep(text)) return state;
-  const json all = json::parse(text, nullptr, false);
-  if (!all.is_object()) return state;
   const auto window_edge = [&](const char* name, int& edge) {
     if_sound([&] {
       edge = static_cast<int>(
@@ -92,8 +104,8 @@ UserState read_user_state(const std::filesystem::path& path) {
   window_edge("window_height", state.window_height);
   if_sound([&] {
     for (const json& recent : all.at("recent_files"))
-      if (state.recent_files.size() < RECENT_COUNT)
-        state.recent_files.emplace_back(recent.get<std::string>());
+      if (SceneFiles files = files_of(recent); !files.empty() && state.recent_files.size() < RECENT_COUNT)
+        state.recent_files.push_back(std::move(files));
   });
   if_sound([&] {
     for (const auto& scene : all.at("bookmarks").items())
@@ -102,26 +114,108 @@ UserState read_user_state(const std::filesystem::path& path) {
   return state;
 }
 
-void write_user_state(const UserState& state, const std::filesystem::path& path) {
-  std::error_code failed;
-  std::filesystem::create_directories(path.parent_path(), failed);
-  if (failed)
-    throw Error(ExitCode::failed, path.parent_path().string() + ": cannot make this folder (" +
-                                      failed.message() + "), expected a place for the viewer's state");
+/// The JSON of a text; no object for any other text.
+json parsed(const std::string& text) {
+  return json_is_too_deep(text) ? json() : json::parse(text, nullptr, false);
+}
+
+std::string content(std::ifstream& file) { return {std::istreambuf_iterator<char>(file), {}}; }
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& found) {
+  throw Error(ExitCode::failed, "cannot keep the viewer's state in '" + path.string() + "': " + found);
+}
+
+/// Throws Error (failed) for a file that the viewer did not write, as replacing it would lose it. An empty one holds nothing.
+UserState own_state(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (status.type() == fs::file_type::not_found) return {};
+  if (!fs::is_regular_file(status)) refuse(path, "found a link or no regular file, expected a file");
+  std::ifstream file(path);
+  if (!file) refuse(path, "it cannot be read");
+  const std::string text = content(file);
+  const json all = parsed(text);
+  if (!text.empty() && !(all.is_object() && all.contains("recent_files")))
+    refuse(path, "found a file of something else, expected the viewer's own; move it away");
+  return state_of(all);
+}
+
+void write_state(const UserState& state, const fs::path& path) {
   json all = {{"window_width", state.window_width}, {"window_height", state.window_height}};
   all["recent_files"] = json::array();
-  for (const std::filesystem::path& file : state.recent_files) all["recent_files"].push_back(file.string());
+  for (const SceneFiles& files : state.recent_files) all["recent_files"].push_back(to_json(files));
   all["bookmarks"] = json::object();
   for (const auto& [scene, bookmarks] : state.bookmarks) all["bookmarks"][scene] = to_json(bookmarks);
   write_text_file(all.dump(2, ' ', false, json::error_handler_t::replace) + "\n", path, Links::refuse);
 }
 
-void remember_file(UserState& state, const std::filesystem::path& file) {
+/// While it lives, no other process has a lock of this path. Locks end with their process.
+class Lock {
+ public:
+  /// Throws Error (failed) where the path cannot be opened, or another process keeps it locked.
+  explicit Lock(const fs::path& path)
+      : descriptor_(open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600)) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + std::chrono::seconds(3);
+    while (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EINTR) continue;
+      if (errno == EWOULDBLOCK && Clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        continue;
+      }
+      close(descriptor_);
+      refuse(path, "another window keeps it locked");
+    }
+    if (descriptor_ < 0) refuse(path, std::generic_category().message(errno));
+  }
+  ~Lock() { close(descriptor_); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace
+
+fs::path user_state_path() {
+  const fs::path folder = user_state_folder();
+  return folder.empty() ? folder : folder / "view.json";
+}
+
+UserState read_user_state(const fs::path& path) {
   std::error_code failed;
-  const std::filesystem::path absolute = std::filesystem::absolute(file, failed).lexically_normal();
-  const std::filesystem::path remembered = failed ? file : absolute;
+  if (!fs::is_regular_file(path, failed)) return {};
+  std::ifstream file(path);
+  return state_of(parsed(content(file)));
+}
+
+UserState change_user_state(const fs::path& path, const std::vector<UserChange>& changes) {
+  std::error_code failed;
+  fs::create_directories(path.parent_path(), failed);
+  if (failed)
+    throw Error(ExitCode::failed, path.parent_path().string() + ": cannot make this folder (" +
+                                      failed.message() + "), expected a place for the viewer's state");
+  const Lock lock(fs::path(path).replace_extension(".lock"));
+  UserState state = own_state(path);
+  for (const UserChange& change : changes) change(state);
+  write_state(state, path);
+  return state;
+}
+
+void UserMemory::change(const UserChange& change) {
+  change(state_);
+  if (path_.empty()) return;
+  unkept_.push_back(change);
+  state_ = change_user_state(path_, unkept_);
+  unkept_.clear();
+}
+
+void remember_files(UserState& state, const SceneFiles& files) {
+  SceneFiles remembered;
+  for (const fs::path& file : files) remembered.push_back(plain_path(file));
   std::erase(state.recent_files, remembered);
-  state.recent_files.insert(state.recent_files.begin(), remembered);
+  state.recent_files.insert(state.recent_files.begin(), std::move(remembered));
   if (state.recent_files.size() > RECENT_COUNT) state.recent_files.resize(RECENT_COUNT);
 }
 

@@ -3,11 +3,13 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/view/model/scene_files.h"
 #include "app/view/ui/panels.h"
 
 namespace splatray {
@@ -16,9 +18,9 @@ using Bookmarks = std::array<std::optional<Camera>, BOOKMARK_COUNT>;
 
 /// What is remembered.
 struct UserState {
-  int window_width = 1280, window_height = 720;     ///< screen coordinates, 320..16384
-  std::vector<std::filesystem::path> recent_files;  ///< newest first, at most RECENT_COUNT, absolute
-  std::map<std::string, Bookmarks> bookmarks;       ///< by absolute path of the scene
+  int window_width = 1280, window_height = 720;  ///< screen coordinates, 320..16384
+  std::vector<SceneFiles> recent_files;          ///< newest first, at most RECENT_COUNT, absolute
+  std::map<std::string, Bookmarks> bookmarks;    ///< by scene_name
 };
 
 inline constexpr std::size_t RECENT_COUNT = 10;
@@ -27,10 +29,31 @@ inline constexpr std::size_t RECENT_COUNT = 10;
 [[nodiscard]] std::filesystem::path user_state_path();
 /// What is kept there; what is missing, unreadable or damaged has its default.
 [[nodiscard]] UserState read_user_state(const std::filesystem::path& path);
-/// Replaces it, whole or not at all; creates the folder. Throws Error (failed).
-void write_user_state(const UserState& state, const std::filesystem::path& path);
 
-/// Puts a file (made absolute) first, once.
-void remember_file(UserState& state, const std::filesystem::path& file);
+/// What a person does to what is remembered.
+using UserChange = std::function<void(UserState&)>;
+/// Makes changes to what the file holds now, whole or not at all, while no other window changes it, and returns what it holds
+/// then; creates file and folder. Throws Error (failed), also for a link and for a file that is not the viewer's: both stay.
+[[nodiscard]] UserState change_user_state(const std::filesystem::path& path,
+                                          const std::vector<UserChange>& changes);
+
+/// What is remembered, shared with other windows: each change goes into the file at once.
+class UserMemory {
+ public:
+  /// `path` empty: nothing is kept.
+  explicit UserMemory(std::filesystem::path path) : path_(std::move(path)), state_(read_user_state(path_)) {}
+
+  [[nodiscard]] const UserState& state() const { return state_; }
+  /// Makes a change here and in the file. Throws Error (failed) where the file cannot take it; it then goes there with the next.
+  void change(const UserChange& change);
+
+ private:
+  std::filesystem::path path_;
+  UserState state_;
+  std::vector<UserChange> unkept_;
+};
+
+/// Puts files (made absolute) first, once.
+void remember_files(UserState& state, const SceneFiles& files);
 
 }  // namespace splatray

@@ -25,6 +25,9 @@ class LiveScene {
   /// that cannot be read, once: the one before stays.
   void match(const Document& document, ViewMode mode);
 
+  /// After others have given the tracer lights.
+  void forget_lights() { lights_.reset(); }
+
   [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const ColorLegend& legend() const { return legend_; }

@@ -5,12 +5,13 @@
 #include "app/library/scene_source.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_options.h"
+#include "app/view/model/scene_files.h"
 
 namespace splatray {
 namespace {
 
 std::string stage_text(const char* stage, const SceneOptions& scene) {
-  return std::string(stage) + " " + scene.inputs.front().filename().string();
+  return std::string(stage) + " " + scene_title(scene.inputs);
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ void LoadThread::run() {
       cancelled_ = false;
     }
     const std::optional<Failure> failure =
-        attempt("loading " + wish.scene.inputs.front().string(), [&] { load_now(wish); });
+        attempt("loading " + scene_title(wish.scene.inputs), [&] { load_now(wish); });
     deliver([&](LoadNews& news) {
       if (!wish_) news.progress.reset();
       if (failure && !failure->interrupted) news.error = failure->sentence;
@@ -74,12 +75,12 @@ void LoadThread::load_now(const Wish& wish) {
         });
         return !is_cancelled();
       },
-      [&](const std::string& note) { deliver([&](LoadNews& news) { news.notice = note; }); }};
+      [&](const std::string& note) { deliver([&](LoadNews& news) { add_line(news.notice, note); }); }};
   PictureOptions picture = wish.picture;
   picture.objects.clear();  // the document keeps the materials without them
   picture.attributes = {};  // the render thread applies them
   LoadedScene loaded = load_scene(wish.scene, picture, listener);
-  OpenedScene opened{nullptr, first_document(loaded, wish.scene, wish.picture)};
+  OpenedScene opened{nullptr, first_document(loaded.scene, wish.scene, wish.picture)};
   opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));
   if (is_cancelled()) return;
   deliver([&](LoadNews& news) { news.opened = std::move(opened); });

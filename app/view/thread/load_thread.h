@@ -29,7 +29,7 @@ struct OpenedScene {
 struct LoadNews {
   std::optional<OpenedScene> opened;
   std::optional<LoadProgress> progress;  ///< of what is being loaded, as it is now
-  std::string notice;                    ///< a sentence
+  std::string notice;                    ///< sentences, one a line
   std::string error;                     ///< a sentence
 };
 

@@ -1,7 +1,7 @@
 #include "app/view/thread/save.h"
 
 #include "app/cli/picture.h"
-#include "app/cli/sequence.h"
+#include "app/cli/render_sequence.h"
 #include "app/view/model/document_options.h"
 
 namespace splatray {
@@ -32,23 +32,24 @@ SaveJob save_job(const Document& document, const RecordRequest& request) {
 std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& context,
                           const SaveProgress& progress) {
   const RenderOptions& options = job.options;
-  const PictureOptions& picture = options.picture;
   const Sequence sequence = plan_sequence(options);
   require_outputs_writable(options);
   live.match(job.document, ViewMode::shaded);
-  double done = 0.0;
-  for (const SequenceFrame& frame : sequence.frames) {
-    const Camera camera = frame_camera(sequence, frame.number, job.document.camera, job.document.up);
-    const View view{camera, picture.width, picture.height};
-    const std::string stage = "saving " + frame.output.filename().string();
-    const Image image = live.tracer().render(view, picture.settings, [&](double share) {
-      return progress({stage, (done + share) / static_cast<double>(sequence.frames.size())});
-    });
-    write_output(options, image, picture_metadata(options, live.scene(), view, context), frame.output);
-    done += 1.0;
-  }
-  if (!options.sequence.many()) return "saved '" + options.output.string() + "'";
-  return "saved " + std::to_string(sequence.frames.size()) + " pictures as '" + options.output.string() + "'";
+  live.forget_lights();
+  const auto pictures = static_cast<double>(sequence.frames.size());
+  const SequenceListener listener{[&](const SequenceFrame& frame, std::size_t before, double share) {
+                                    return progress({"saving " + frame.output.filename().string(),
+                                                     (static_cast<double>(before) + share) / pictures});
+                                  },
+                                  [](const std::string&) {}, [](const FailedPicture&) {}};
+  const SequenceRecord record =
+      render_sequence(options, sequence, live.scene(), job.document.camera, context, live.tracer(), listener);
+  require_all_made(record);
+  const std::string saved = "saved '" + options.output.string() + "'";
+  if (!options.sequence.many()) return saved;
+  const std::string all = std::to_string(sequence.frames.size()) + " pictures";
+  if (record.skipped == 0) return saved + ": " + all;
+  return saved + ": " + std::to_string(record.made.size()) + " of " + all + ", the others were there";
 }
 
 }  // namespace splatray

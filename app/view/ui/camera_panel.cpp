@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "app/view/model/navigation.h"
@@ -55,14 +56,35 @@ void bookmark_buttons(const PanelState& state, Requests& requests) {
   }
 }
 
-/// Three numbers that are taken over one by one when Enter ends them.
+constexpr const char* COORDINATE = "%.12g";
+
+/// Whether three numbers fit beside each other into a width.
+bool fit_beside(const glm::dvec3& point, float width_px) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float each = (width_px - 2.0F * style.ItemInnerSpacing.x) / 3.0F - 2.0F * style.FramePadding.x;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), COORDINATE, point[axis]);
+    if (ImGui::CalcTextSize(text.data()).x > each) return false;
+  }
+  return true;
+}
+
+/// Three numbers that are taken over one by one when Enter ends them; below each other where they are long.
 void point_input(const char* label, glm::dvec3& point) {
   glm::dvec3 typed = point;
   ImGui::TextUnformatted(label);
-  ImGui::SetNextItemWidth(-1.0F);  // coordinates may be long
-  if (ImGui::InputScalarN((std::string("##") + label).c_str(), ImGuiDataType_Double, &typed.x, 3, nullptr,
-                          nullptr, "%.12g", ImGuiInputTextFlags_EnterReturnsTrue))
-    point = typed;
+  ImGui::PushID(label);
+  const int columns = fit_beside(point, ImGui::GetContentRegionAvail().x) ? 3 : 1;
+  for (int axis = 0; axis < 3; axis += columns) {
+    ImGui::PushID(axis);
+    ImGui::SetNextItemWidth(-1.0F);
+    if (ImGui::InputScalarN("##numbers", ImGuiDataType_Double, &typed[axis], columns, nullptr, nullptr,
+                            COORDINATE, ImGuiInputTextFlags_EnterReturnsTrue))
+      point = typed;
+    ImGui::PopID();
+  }
+  ImGui::PopID();
 }
 
 }  // namespace

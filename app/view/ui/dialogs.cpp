@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <utility>
 
 #include "app/library/camera_file.h"
 #include "app/view/model/attempt.h"
@@ -145,13 +146,20 @@ void open_dialog(PanelState& state, Requests& requests) {
   Dialog dialog("Open", state.show_open);
   if (!dialog) return;
   const std::string hint = ".soct " + format_extensions();
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered =
       ImGui::InputTextWithHint("file", hint.c_str(), &state.open_path, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (state.can_add) {
+    ImGui::Checkbox("beside what is shown", &state.add);
+    tip("loads the files shown and this one together");
+  }
   recent_list(state, requests);
   const std::string refusal = state.open_path.empty() ? "Name a file, or drop one on the window." : "";
   if (dialog.done_or_cancelled("open", refusal) || (entered && refusal.empty()))
-    requests.open = state.open_path;
-  if (requests.open) state.show_open = false;
+    requests.open = SceneFiles{state.open_path};
+  if (!requests.open) return;
+  requests.add = std::exchange(state.add, false);
+  state.show_open = false;
 }
 
 void save_dialog(const Document& document, PanelState& state, Requests& requests) {

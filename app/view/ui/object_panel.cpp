@@ -2,9 +2,9 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "app/library/materials.h"
+#include "app/library/scene_source.h"
 #include "app/view/ui/panel_parts.h"
 #include "engine/scene/surface.h"
 
@@ -59,10 +59,13 @@ void visibility_buttons(Document& document, const std::vector<std::size_t>& obje
   }
 }
 
-void preset_combo(Material& material) {
+/// Replaces material and surface by those of a name.
+void preset_combo(Material& material, Surface& surface) {
   if (!ImGui::BeginCombo("preset", "choose")) return;
   for (const std::string& name : material_names()) {
-    if (ImGui::Selectable(name.c_str())) change_material(material, name);
+    if (!ImGui::Selectable(name.c_str())) continue;
+    change_material(material, name);
+    surface = surface_of(material);
   }
   ImGui::EndCombo();
 }
@@ -107,7 +110,6 @@ void light_controls(Surface& surface) {
 }
 
 void material_controls(Material& material) {
-  preset_combo(material);
   glass_switch(material);
   const bool glass = has(material, MATERIAL_DIELECTRIC);
   if (glass)
@@ -116,6 +118,13 @@ void material_controls(Material& material) {
     surface_controls(material);
   color_edit("tint", material.tint);
   tip(glass ? "transmittance of each crossing" : "reflectance of the mirror");
+}
+
+/// Says where a look shows no materials, and offers one that does.
+void look_note(Settings& settings) {
+  if (shows_materials(settings.look)) return;
+  ImGui::TextWrapped("This look shows no materials.");
+  if (ImGui::SmallButton("look lit")) settings.look = LOOK_LIT;
 }
 
 }  // namespace
@@ -145,9 +154,11 @@ void material_panel(Document& document, PanelState& state) {
   ImGui::TextUnformatted(shown_name(document, state.object).c_str());
   Material& material = document.looks.materials[state.object];
   Surface& surface = document.looks.surfaces[state.object];
+  preset_combo(material, surface);
   const Material before = material;
   material_controls(material);
-  if (std::memcmp(&before, &material, sizeof material) != 0) surface = surface_of(material);
+  surface = surface_after(before, surface, material);
+  look_note(document.settings);
   if (document.settings.look == LOOK_LIT) light_controls(surface);
   if (ImGui::Button("as loaded")) {
     material = document.loaded->looks.materials[state.object];

@@ -92,13 +92,26 @@ void attribute_legend(const ColorLegend& legend) {
     ImGui::Text("and %zu more", legend.categories.size() - MOST_LEGEND_ROWS);
 }
 
+/// Ends a notice after its time, which runs while nothing is under way.
+void age_notice(PanelState& state, const PanelView& view) {
+  const double now = ImGui::GetTime();
+  if (view.work != nullptr || state.notice != state.notice_shown) {
+    state.notice_shown = state.notice;
+    state.notice_end = now + NOTICE_SECONDS;
+  }
+  if (now > state.notice_end) state.notice.clear();
+}
+
 }  // namespace
 
-void status_line(const Document& document, const PanelState& state, const PanelView& view, float width_px) {
+void status_line(const Document& document, PanelState& state, const PanelView& view, float width_px) {
+  age_notice(state, view);
   const bool facts = view.frame != nullptr && state.show_panels;
   if (!facts && state.notice.empty()) return;
   begin_overlay("##status", width_px, {0.0F, 1.0F}, ImGuiWindowFlags_NoInputs);
+  ImGui::PushTextWrapPos(width_px - 2.0F * MARGIN_EM * ImGui::GetFontSize());
   if (!state.notice.empty()) ImGui::TextUnformatted(state.notice.c_str());
+  ImGui::PopTextWrapPos();
   if (facts) ImGui::TextUnformatted(status_text(document, *view.frame, view.frames_per_second).c_str());
   ImGui::End();
 }

@@ -27,10 +27,12 @@ void command_button(const char* label, Action action, Requests& requests) {
 }
 
 void recent_list(const PanelState& state, Requests& requests) {
-  for (const std::filesystem::path& file : state.recent_files) {
-    ImGui::PushID(file.c_str());
-    if (ImGui::Selectable(file.filename().c_str())) requests.open = file;
-    tip(file.c_str());
+  for (const SceneFiles& files : state.recent_files) {
+    std::string paths;
+    for (const std::filesystem::path& file : files) paths += (paths.empty() ? "" : "\n") + file.string();
+    ImGui::PushID(paths.c_str());
+    if (ImGui::Selectable(scene_title(files).c_str())) requests.open = files;
+    tip(paths.c_str());
     ImGui::PopID();
   }
 }
@@ -48,7 +50,8 @@ void tip(const char* text) {
 
 void fact(const char* what, const std::string& value) {
   ImGui::TextDisabled("%s", what);
-  ImGui::SameLine(7.5F * ImGui::GetFontSize());
+  const float em = ImGui::GetFontSize(), end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x;
+  ImGui::SameLine(std::max(7.5F * em, end + 0.5F * em));
   ImGui::TextUnformatted(value.c_str());
 }
 

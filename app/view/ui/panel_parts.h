@@ -24,7 +24,7 @@ void error_dialog(PanelState& state);
 [[nodiscard]] bool dialog_is_open(const PanelState& state);
 
 /// Over the picture, which is `width_px` wide.
-void status_line(const Document& document, const PanelState& state, const PanelView& view, float width_px);
+void status_line(const Document& document, PanelState& state, const PanelView& view, float width_px);
 void work_bar(const PanelView& view, float width_px, Requests& requests);
 void legend(const PanelView& view, float width_px);
 void help_overlay(PanelState& state);

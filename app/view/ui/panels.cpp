@@ -1,6 +1,7 @@
 #include "app/view/ui/panels.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "app/view/ui/panel_parts.h"
 #include "engine/scene/splat.h"
@@ -69,6 +70,15 @@ void column_window(Document& document, PanelState& state, const PanelView& view,
 }
 
 }  // namespace
+
+bool close_drop_down() {
+  const auto& popups = ImGui::GetCurrentContext()->OpenPopupStack;
+  if (popups.empty()) return false;
+  const ImGuiWindow* top = popups.back().Window;
+  if (top == nullptr || (top->Flags & ImGuiWindowFlags_Modal) != 0) return false;
+  ImGui::ClosePopupToLevel(popups.Size - 1, true);
+  return true;
+}
 
 Requests draw_panels(Document& document, PanelState& state, const PanelView& view) {
   Requests requests;

@@ -9,6 +9,7 @@
 #include "app/view/model/document.h"
 #include "app/view/model/frame.h"
 #include "app/view/model/keys.h"
+#include "app/view/model/scene_files.h"
 
 namespace splatray {
 
@@ -33,8 +34,9 @@ struct RecordRequest {
 
 /// What a person asked for in the panels, beyond changes of the document.
 struct Requests {
-  std::vector<Command> commands;              ///< buttons that do what a key does
-  std::optional<std::filesystem::path> open;  ///< a scene
+  std::vector<Command> commands;   ///< buttons that do what a key does
+  std::optional<SceneFiles> open;  ///< a scene
+  bool add = false;                ///< `open` goes beside what is shown
   std::optional<SaveRequest> save;
   std::optional<RecordRequest> record;
   bool cancel = false;  ///< stop the work that PanelView::work shows
@@ -55,6 +57,7 @@ struct PanelView {
 };
 
 inline constexpr int BOOKMARK_COUNT = 9;
+inline constexpr double NOTICE_SECONDS = 10.0;  ///< after the work that they tell of
 
 /// What the panels remember, and what is open.
 struct PanelState {
@@ -65,12 +68,16 @@ struct PanelState {
   std::string object_filter;  ///< part of the names listed
   Camera home;                ///< as loaded
   std::array<std::optional<Camera>, BOOKMARK_COUNT> bookmarks;
-  std::vector<std::filesystem::path> recent_files;  ///< newest first
-  std::string open_path;                            ///< of the open dialog
+  std::vector<SceneFiles> recent_files;  ///< newest first
+  std::string open_path;                 ///< of the open dialog
+  bool add = false;                      ///< of the open dialog: beside what is shown
+  bool can_add = false;                  ///< something is shown
   SaveRequest save;
   RecordRequest record;
-  std::string error;   ///< a sentence in a pop-up until closed; empty = none
-  std::string notice;  ///< a sentence in the status line; empty = none
+  std::string error;         ///< a sentence in a pop-up until closed; empty = none
+  std::string notice;        ///< sentences in the status line, one a line, for NOTICE_SECONDS; empty = none
+  std::string notice_shown;  ///< what the status line has begun to show
+  double notice_end = 0.0;   ///< when it ends, by Dear ImGui's clock
 };
 
 /// Font and colours for `ui_scale`; replaces the font atlas (its texture must be uploaded anew).
@@ -81,6 +88,9 @@ void set_style(double ui_scale);
 
 /// All panels, dialogs, help and legends for this frame.
 [[nodiscard]] Requests draw_panels(Document& document, PanelState& state, const PanelView& view);
+
+/// Closes the drop-down list or other pop-up that is open in the panels or over a dialog; returns whether there was one.
+[[nodiscard]] bool close_drop_down();
 
 /// Does what needs neither window nor threads: camera, view mode, bookmarks, which panels are open. `aspect` of the
 /// picture. Returns false when the command is the caller's: quit, copy_command, paste_command, pivot, inspect, drags,

@@ -39,6 +39,8 @@ bool is_splatray_picture(const std::filesystem::path& file) {
 
 DropKind drop_kind(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
+  std::error_code failed;
+  if (std::filesystem::is_directory(file, failed)) return DropKind::scene;
   if (extension == ".soct" || find_format(file) != nullptr) return DropKind::scene;
   if (extension == ".json") return DropKind::camera;
   if (extension == ".png") return DropKind::picture;

@@ -8,7 +8,7 @@ namespace splatray {
 
 /// What a file is for.
 enum class DropKind {
-  scene,        ///< a .soct or what splatray-preprocess reads
+  scene,        ///< a .soct or what splatray-preprocess reads, a folder too
   picture,      ///< of splatray: .png, .exr with options kept in it
   environment,  ///< another .exr, .hdr
   camera,       ///< .json

@@ -1,0 +1,152 @@
+// What the viewer does with files: those of scenes and others that a person opens, drops or pastes, and its own.
+#include <algorithm>
+#include <utility>
+
+#include "app/cli/command_line.h"
+#include "app/cli/reproduce.h"
+#include "app/library/camera_file.h"
+#include "app/view/model/attempt.h"
+#include "app/view/model/document_options.h"
+#include "app/view/viewer.h"
+#include "app/view/window/drop.h"
+#include "engine/base/error.h"
+
+namespace splatray {
+
+/// Opens another scene; the first one as the command line says.
+void Viewer::open(const SceneFiles& files) {
+  SceneOptions source = options_.scene;
+  source.inputs = files;
+  source.material.clear();
+  PictureOptions picture = scene_ ? kept_options(document_) : options_.picture;
+  picture.width = picture_px().x;
+  picture.height = picture_px().y;
+  panels_.notice.clear();
+  loader_.load(source, picture);
+}
+
+/// Loads the scene shown together with more files.
+void Viewer::add(const SceneFiles& files) {
+  if (!scene_) return open(files);
+  const RenderOptions options = options_with(document_, files);
+  panels_.notice.clear();
+  loader_.load(options.scene, options.picture);
+}
+
+/// Options of the scene shown change what it looks like, at once; others are loaded.
+void Viewer::open(RenderOptions options) {
+  if (scene_ && is_of_scene(document_, options)) {
+    options.picture.width = std::max(picture_px().x, 1U);
+    options.picture.height = std::max(picture_px().y, 1U);
+    document_ = shown_as(*scene_, document_, options.picture);
+  } else {
+    panels_.notice.clear();
+    loader_.load(options.scene, options.picture);
+  }
+  document_.exposure_ev = options.exposure_ev.value_or(0.0);
+}
+
+void Viewer::show(OpenedScene opened) {
+  opened.document.exposure_ev = document_.exposure_ev;
+  opened.document.mode = document_.mode;
+  document_ = std::move(opened.document);
+  if (!scene_) {
+    panels_.save.width = panels_.record.width = std::max(picture_px().x, 1U);
+    panels_.save.height = panels_.record.height = std::max(picture_px().y, 1U);
+    panels_.save.samples = panels_.record.samples = document_.settings.samples;
+  }
+  scene_ = std::move(opened.scene);
+  const SceneFiles& files = document_.loaded->source.inputs;
+  remember([&files](UserState& state) { remember_files(state, files); });
+  panels_.home = document_.camera;
+  panels_.can_add = true;
+  panels_.object = panels_.light = 0;
+  inspected_.reset();
+  window_.set_title(scene_title(files) + " - splatray");
+  renderer_.open(scene_, document_, picture_px());
+}
+
+/// Throws Error when there is no scene that a dropped file could change.
+void Viewer::require_scene(const std::filesystem::path& file, const char* found) const {
+  if (!scene_)
+    throw Error(ExitCode::failed,
+                "found '" + file.filename().string() + "', " + found + ", expected a scene first");
+}
+
+/// Files that were dropped or pasted: those of scenes make one.
+void Viewer::take_files(const SceneFiles& files) {
+  SceneFiles scene;
+  for (const std::filesystem::path& file : files)
+    drop_kind(file) == DropKind::scene ? scene.push_back(file) : take_file(file);
+  if (!scene.empty()) open(scene);
+}
+
+/// A file of no scene.
+void Viewer::take_file(const std::filesystem::path& file) {
+  switch (drop_kind(file)) {
+    case DropKind::picture:
+      return open(read_picture_options(file));
+    case DropKind::environment:
+      require_scene(file, "an environment");
+      document_.environment = file.string();
+      return;
+    case DropKind::camera:
+      require_scene(file, "a camera");
+      document_.camera = read_camera(file);
+      return;
+    case DropKind::scene:
+    case DropKind::unknown:
+      panels_.error = "found '" + file.filename().string() +
+                      "', expected a scene, a model, an environment, a camera or a picture of splatray";
+  }
+}
+
+/// A splatray-render command, or files as file managers copy them.
+void Viewer::paste() {
+  const std::string text = window_.clipboard();
+  const std::vector<std::string> words = shell_words(text);
+  if (!words.empty() && std::filesystem::path(words.front()).filename() == "splatray-render")
+    return open(parse_command_line(text));
+  take_files(pasted_files(text));
+}
+
+/// Keeps a change of what is remembered, and shows what other windows have added. Why it cannot be kept is told once.
+void Viewer::remember(const UserChange& change) {
+  const std::optional<Failure> failure = attempt("keeping the viewer's state", [&] { user_.change(change); });
+  const std::string before = std::exchange(unkept_, failure ? failure->sentence : std::string());
+  if (!unkept_.empty() && unkept_ != before) {
+    panels_.notice = unkept_;
+    window_.wake();
+  }
+  panels_.recent_files = user_.state().recent_files;
+  if (!scene_) return;
+  const auto found = user_.state().bookmarks.find(scene_name(document_.loaded->source.inputs));
+  panels_.bookmarks = found != user_.state().bookmarks.end() ? found->second : Bookmarks();
+}
+
+/// Keeps the bookmarks that a command has set.
+void Viewer::remember_bookmarks() {
+  if (!scene_) return;
+  const std::string name = scene_name(document_.loaded->source.inputs);
+  const Bookmarks now = panels_.bookmarks;
+  const auto found = user_.state().bookmarks.find(name);
+  const Bookmarks before = found != user_.state().bookmarks.end() ? found->second : Bookmarks();
+  if (now == before) return;
+  remember([name, now, before](UserState& state) {
+    Bookmarks& kept = state.bookmarks[name];
+    for (std::size_t i = 0; i < now.size(); ++i)
+      if (now[i] != before[i]) kept[i] = now[i];
+  });
+}
+
+void Viewer::remember_window() {
+  const glm::uvec2 size = window_.size();
+  if (size.x == 0 || size.y == 0 || size == window_kept_) return;
+  window_kept_ = size;
+  remember([size](UserState& state) {
+    state.window_width = static_cast<int>(size.x);
+    state.window_height = static_cast<int>(size.y);
+  });
+}
+
+}  // namespace splatray
