@@ -70,7 +70,9 @@ TEST(Laz, EveryKindOfItemGivesThePointsOfTheLasFile) {
     SCOPED_TRACE(entry.path());
     const ScanFile expected = read_file(las, everything());
     EXPECT_EQ(expected.points.size(), 40U);
-    EXPECT_GE(expected.points.columns.size(), 5U);
+    const bool timed =
+        !entry.path().filename().string().starts_with("pf2");  // formats 0 and 2 have no GPS time
+    EXPECT_GE(expected.points.columns.size(), timed ? 5U : 4U);
     expect_equal(read_file(entry.path(), everything()).points, expected.points);
     ++files;
   }
