@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/error.h"
 #include "engine/gpu/tracer.h"
 #include "engine/scene/scene_check.h"
 #include "preprocess/build.h"
@@ -50,7 +51,12 @@ void build_and_show(Input input, std::uint64_t choice) {
   BuildStats stats;
   const Scene scene = build_scene(std::move(input), params_of(choice), 1, stats);
   require(!scene.data_pool.empty() && !find_scene_defect(scene), "a scene that was built may be walked");
-  show(scene, look);
+  try {
+    show(scene, look);
+  } catch (const Error& error) {
+    // Of a scene whose size is near the smallest number, no camera can be said in float32.
+    require(error.code() == ExitCode::usage, "a picture is made, or its camera refused", error.what());
+  }
 }
 
 }  // namespace splatray::testing

@@ -2,15 +2,16 @@
 #pragma once
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "engine/base/error.h"
 
 namespace splatray::testing {
 
-/// Ends the program, as a finding, unless the promise holds.
-inline void require(bool holds, const char* promise) {
+/// Ends the program, as a finding, unless the promise holds; `found` is what broke it.
+inline void require(bool holds, const char* promise, const std::string& found = {}) {
   if (holds) return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::fprintf(stderr, "broken promise: %s %s\n", promise, found.c_str());
   std::abort();
 }
 
@@ -20,8 +21,10 @@ void read_or_refuse(const Read& read) {
   try {
     read();
   } catch (const Error& error) {
-    require(error.code() == ExitCode::input_unreadable, "input that cannot be read has its own exit code");
-    require(std::string(error.what()).find('\n') == std::string::npos, "an error is one line");
+    const std::string sentence = error.what();
+    require(error.code() == ExitCode::input_unreadable, "input that cannot be read has its own exit code",
+            sentence);
+    require(sentence.find('\n') == std::string::npos, "an error is one line", sentence);
   }
 }
 
