@@ -5,6 +5,7 @@
 #include "app/cli/option_types.h"
 #include "app/cli/reproduce.h"
 #include "app/cli/sequence.h"
+#include "app/library/scene_source.h"
 #include "engine/base/error.h"
 #include "preprocess/base/file_extension.h"
 
@@ -200,6 +201,7 @@ void check_together(const RenderOptions& options) {
   const PictureOptions& picture = options.picture;
   if (options.scene.inputs.empty())
     fail("found no SCENE, expected a scene or model file (--help shows all options)");
+  require_scene_alone(options.scene.inputs);
   const std::string extension = lower_extension(options.output);
   if (!options.output.empty() && extension != ".png" && extension != ".exr")
     fail("found output '" + options.output.string() + "', expected a name ending in .png or .exr");

@@ -103,7 +103,14 @@ SceneLight rectangle_light(const glm::dvec3& up, const LightOptions& light) {
   return made;
 }
 
+bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
+
 }  // namespace
+
+void require_scene_alone(const std::vector<std::filesystem::path>& inputs) {
+  if (inputs.size() > 1 && std::any_of(inputs.begin(), inputs.end(), is_scene_file))
+    throw Error(ExitCode::usage, "found a .soct beside other inputs, expected it alone");
+}
 
 LoadedScene load_scene(const SceneOptions& options, const PictureOptions& picture,
                        const LoadListener& listener) {
@@ -111,11 +118,8 @@ LoadedScene load_scene(const SceneOptions& options, const PictureOptions& pictur
   const auto start = Clock::now();
   LoadedScene loaded;
   tell(listener, "reading", 0.0);
-  const bool has_scene = std::any_of(options.inputs.begin(), options.inputs.end(),
-                                     [](const auto& path) { return lower_extension(path) == ".soct"; });
-  if (has_scene && options.inputs.size() > 1)
-    throw Error(ExitCode::usage, "found a .soct beside other inputs, expected it alone");
-  if (has_scene) {
+  require_scene_alone(options.inputs);
+  if (is_scene_file(options.inputs.front())) {
     loaded.scene = read_scene(options.inputs.front(), listener.progress);
   } else {
     loaded.scene = preprocess(options, listener, loaded.build.emplace());

@@ -24,6 +24,9 @@ struct LoadListener {
   std::function<void(const std::string&)> note;  ///< a sentence about something odd in the files
 };
 
+/// Throws Error (usage) where a .soct, which is a whole scene, is not the only input.
+void require_scene_alone(const std::vector<std::filesystem::path>& inputs);
+
 /// Reads or preprocesses the scene; applies --material, --object, --up and what is shown of attributes. Throws Error.
 [[nodiscard]] LoadedScene load_scene(const SceneOptions& scene, const PictureOptions& picture,
                                      const LoadListener& listener);

@@ -27,9 +27,7 @@ std::vector<std::filesystem::path> data_files(const std::string& folder) {
 }
 
 void expect_sane(const std::filesystem::path& file) {
-  ReadOptions options;
-  options.samples = 20'000;
-  const Input input = read_input({file}, options);
+  const Input input = read_input({file}, {});
   for (const InputObject& object : input.objects) {
     EXPECT_GE(object.points.size(), 100U) << file << " " << object.name;
     EXPECT_EQ(object.points.normal.size(), object.points.size()) << file;
