@@ -22,7 +22,8 @@ std::uint64_t take_digit(std::uint64_t& choice, std::uint64_t count) {
 BuildParams params_of(std::uint64_t choice) {
   BuildParams params;
   params.leaf_size = take_digit(choice, 2) == 0 ? 0 : 1 + static_cast<std::uint32_t>(take_digit(choice, 16));
-  params.insertion = std::array{Insertion::overlap, Insertion::probe, Insertion::centre}.at(take_digit(choice, 3));
+  params.insertion =
+      std::array{Insertion::overlap, Insertion::probe, Insertion::centre}.at(take_digit(choice, 3));
   params.radius_rule = take_digit(choice, 4) == 0 ? RadiusRule::knn : RadiusRule::coverage;
   params.normal_fields = take_digit(choice, 4) != 0;
   params.clip = take_digit(choice, 4) != 0;
