@@ -1,5 +1,5 @@
-/// Libraries stay loaded until the process ends: linked into each program of the builds whose leaks are looked for, in place of the
-/// C library's function. Mesa's drivers allocate memory that only their own variables point to (on AMD processors of the families 23
-/// and 25 a mask for each L3 cache, of a window's surface 112 bytes); once the Vulkan loader has unloaded a driver, LeakSanitizer
-/// would report it as leaked, from an unknown module.
+/// Libraries stay loaded until the process ends: linked into each program of the builds whose leaks are looked for, in place of
+/// the C library's function. Mesa's drivers allocate memory that only their own variables point to (on AMD processors of the
+/// families 23 and 25 a mask for each L3 cache, of a window's surface 112 bytes); once the Vulkan loader has unloaded a driver,
+/// LeakSanitizer would report it as leaked, from an unknown module.
 extern "C" int dlclose(void* /*library*/) noexcept { return 0; }
