@@ -245,10 +245,10 @@ def own_ms(record):
     return record["ms"]["wall"] - sum(record["ms"][stage] for stage in DRIVER_STAGES)
 
 
-def startup_line(record):
-    """Device, driver, commit and day of a record, as machine_lines() tells them."""
+def machine_line(record, part):
+    """Device, driver, commit and day of a record of this part, in the form of machine_lines()."""
     device = record["device"]
-    return f"- {device['name']}, {device['driver']}, commit {record['commit']}, {record['date']}, start of programs"
+    return f"- {device['name']}, {device['driver']}, commit {record['commit']}, {record['date']}, {part}"
 
 
 def startup_parts(records):
@@ -304,12 +304,14 @@ def main():
     path = options.folder / "scale_startup.json"
     startup = json.loads(path.read_text()) if path.exists() else []
     machines = [line for records in (rays, features, coverage) if records for line in machine_lines(records)]
-    machines += [startup_line(record) for record in startup if "commit" in record]
+    machines += [machine_line(record, "start of programs") for record in startup if "commit" in record]
+    path = options.folder / "scale_models.json"
+    models = json.loads(path.read_text()) if path.exists() else []
+    machines += [machine_line(record, "models") for record in models if "device" in record]
     parts = ["# Scale\n", "\n".join(dict.fromkeys(machines)) + "\n", f"```sh\n{options.commands}\n```\n"]
     parts += ["## Targets\n", targets_table(targets(coverage, startup))]
     parts += rays_parts(rays, options.folder) if rays else []
-    path = options.folder / "scale_models.json"
-    parts += models_parts(json.loads(path.read_text())) if path.exists() else []
+    parts += models_parts(models) if models else []
     parts += features_parts(features) if features else []
     parts += coverage_parts(coverage) if coverage else []
     parts += startup_parts(startup) if startup else []
