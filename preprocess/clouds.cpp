@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "preprocess/base/counted_list.h"
 
 namespace splatray {
 namespace {
@@ -69,11 +70,8 @@ void require_points(const std::vector<Cloud>& clouds, const BuildStats& stats) {
       {stats.dropped_isolated, "isolated"},
       {stats.dropped_mixed, "between two surfaces"},
       {stats.dropped_unsupported, "with too few neighbours"}};
-  std::string reasons;
-  for (const auto& [count, reason] : lost)
-    if (count > 0) reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
   throw Error(ExitCode::input_unreadable, "the input has no point on a surface: found " +
-                                              counted_points(stats.points_read) + ", of them " + reasons +
+                                              counted_points(stats.points_read) + ", of them " + counted_list(lost) +
                                               ", expected at least one other");
 }
 

@@ -378,6 +378,7 @@ SPLATRAY_CONST SIDE_NONE = 2u;        ///< neither: the failures of Goradia et a
 SPLATRAY_CONST FACES_BOTH = 0u;       ///< every object is two-sided
 SPLATRAY_CONST FACES_FRONT = 1u;      ///< every object is one-sided and none is a dielectric
 SPLATRAY_CONST FACES_MIXED = 2u;
+SPLATRAY_CONST FACES_OPAQUE = 3u;     ///< FACES_MIXED where dielectrics are shown as opaque: two-sided, too
 SPLATRAY_CONST ORDER_Z = 0u;       ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
 SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels

@@ -105,7 +105,7 @@ struct OpenOptions {
 };
 
 class Scene;
-/// Reads scenes, models and scans: .ply .obj .stl .vtp .gltf .glb .las .laz .e57 .pcd .ptx .pts .xyz .csv .txt .asc .bin, folders
+/// Reads scenes, models and scans: .ply .obj .stl .vtk .vtp .vtu .pvtp .pvtu .gltf .glb .las .laz .e57 .pcd .ptx .pts .xyz .csv .txt .asc .bin, folders
 /// of scans, or one .soct alone. Throws Error (input, usage, cancelled, out_of_memory).
 [[nodiscard]] SPLATRAY_API Scene open(std::span<const std::filesystem::path> files,
                                       const OpenOptions& options = {});

@@ -101,7 +101,8 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   constants[SPEC_SIDE] = settings.side;
   // Where nothing is looked through, what is behind glass is not to be seen: glass shows both of its sides.
   const bool opaque = settings.look == LOOK_SCAN || settings.look == LOOK_CLAY || settings.look == LOOK_AO;
-  constants[SPEC_FACES] = opaque && content.materials.open ? FACES_BOTH : content.materials.faces;
+  const std::uint32_t opaque_faces = content.materials.open ? FACES_BOTH : FACES_OPAQUE;
+  constants[SPEC_FACES] = opaque && content.materials.glass ? opaque_faces : content.materials.faces;
   constants[SPEC_ORDER] = settings.order;
   constants[SPEC_STAGE] = STAGE_ALL;
   constants[SPEC_LOOK] = settings.look;

@@ -182,6 +182,7 @@ Dispatch Runner::aov_dispatch(const View& view, const Settings& settings) const 
   Settings phong = settings;
   phong.look = LOOK_PAPER;
   Dispatch dispatch = picture_dispatch(view, phong);
+  dispatch.constants[SPEC_FACES] = picture_features(scene.content(), settings)[SPEC_FACES];
   dispatch.constants[SPEC_STAGE] = STAGE_AOV;
   return dispatch;
 }

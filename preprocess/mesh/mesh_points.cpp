@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "preprocess/base/append.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/usable_position.h"
 #include "preprocess/mesh/mesh_normals.h"
@@ -80,7 +81,7 @@ std::vector<Part*> sampled_parts(std::vector<Part>& parts, const Condition& cond
   return chosen;
 }
 
-/// Appends; an attribute that only one side has is filled: white, no normal, no radius.
+/// Appends; what only one side has is filled: white, no normal, no radius, attributes of 0.
 void append_points(Points& to, Points&& more) {
   if (to.size() == 0) {
     to = std::move(more);
@@ -88,6 +89,7 @@ void append_points(Points& to, Points&& more) {
   }
   const std::size_t before = to.size();
   const std::size_t after = before + more.size();
+  append_columns(to.columns, before, std::move(more.columns), more.size());
   to.position.insert(to.position.end(), more.position.begin(), more.position.end());
   const auto append = [&](auto& mine, auto& theirs, auto fill) {
     if (mine.empty() && theirs.empty()) {
@@ -123,7 +125,7 @@ void move_out_points(InputObject& object) {
   for (Mesh& mesh : object.meshes) {
     if (!mesh.triangles.empty()) continue;
     if (object.points.size() == 0) {
-      object.points = std::move(mesh.vertices);  // with its columns, which only files of one point set have
+      object.points = std::move(mesh.vertices);
     } else {
       append_points(object.points, std::move(mesh.vertices));
     }

@@ -11,7 +11,9 @@
 #include <numeric>
 #include <random>
 #include <span>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
@@ -90,6 +92,7 @@ class SampleWriter {
     const glm::uvec3& triangle = mesh_.triangles[triangle_index];
     triangles_.push_back(static_cast<std::uint32_t>(triangle_index));
     const glm::vec3 w(weights);
+    if (!mesh_.vertices.columns.empty()) weights_.push_back(w);
     const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
     points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
     points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
@@ -122,14 +125,41 @@ class SampleWriter {
         points_);
   }
 
-  Points finish() { return std::move(points_); }
+  Points finish() {
+    for (const Column& column : mesh_.vertices.columns) points_.columns.push_back(on_samples(column));
+    return std::move(points_);
+  }
 
  private:
+  /// An attribute of the vertices at the points: numbers with a fraction are interpolated, whole ones are the nearest corner's.
+  [[nodiscard]] Column on_samples(const Column& column) const {
+    const auto take = [this](const auto& values) -> Column::Values {
+      using Values = std::decay_t<decltype(values)>;
+      using Value = typename Values::value_type;
+      Values taken(points_.size());
+      for (std::size_t i = 0; i < taken.size(); ++i) {
+        const glm::uvec3& triangle = mesh_.triangles[triangles_[i]];
+        const glm::vec3& w = weights_[i];
+        if constexpr (std::is_floating_point_v<Value>) {
+          taken[i] = static_cast<Value>(w.x) * values[triangle.x] +
+                     static_cast<Value>(w.y) * values[triangle.y] +
+                     static_cast<Value>(w.z) * values[triangle.z];
+        } else {
+          const int nearest = w.x >= w.y && w.x >= w.z ? 0 : (w.y >= w.z ? 1 : 2);
+          taken[i] = values[triangle[nearest]];
+        }
+      }
+      return taken;
+    };
+    return {column.name, std::visit(take, column.values)};
+  }
+
   const Mesh& mesh_;
   AlphaMask mask_;
   std::vector<glm::vec3> normals_;
   Points points_;
   std::vector<std::uint32_t> triangles_;  ///< beside points_
+  std::vector<glm::vec3> weights_;        ///< beside points_ where vertices have attributes, else empty
 };
 
 /// Index of the corner opposite the longest edge: the lattice's rows are then short.
@@ -262,6 +292,10 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
     if (!mesh.vertices.radius.empty()) {
       points.radius.push_back(mesh.vertices.radius[i]);
     }
+  }
+  for (const Column& column : mesh.vertices.columns) {
+    const auto take = [&kept](const auto& values) { return Column::Values(gather(values, kept)); };
+    points.columns.push_back({column.name, std::visit(take, column.values)});
   }
   if (creases.clip) clip_vertices(mesh, weld, normals, creases.cosine, kept, points);
   return points;

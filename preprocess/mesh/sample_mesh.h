@@ -21,8 +21,8 @@ struct MeshCreases {
 /// whose longest edge exceeds 1 % of the mesh's diagonal (a box of 12 triangles, the walls of a room).
 [[nodiscard]] bool is_coarse(const Mesh& mesh);
 
-/// One point per used vertex with its normal (given, or angle-weighted from the triangles), colour and
-/// radius. Vertices that coincide in position and, within 2 degrees, in normal are one point: the first.
+/// One point per used vertex with its normal (given, or angle-weighted from the triangles), colour, radius
+/// and attributes. Vertices that coincide in position and, within 2 degrees, in normal are one point: the first.
 /// `weld` is weld_positions of the vertices.
 [[nodiscard]] Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld,
                                    const MeshCreases& creases = {});
@@ -32,7 +32,7 @@ struct MeshCreases {
 /// the i-th of `count` equal shares of the area on the way (systematic sampling). Its place in the share's
 /// triangle is a Fibonacci lattice: height from the share, side from multiples of the golden ratio (Kronecker
 /// sequence, Niederreiter 1992). Deterministic for a seed. Normals are corner_normals interpolated, at most
-/// 20 degrees from the triangle's; radii are not passed on. The mesh must have a positive, finite area unless
+/// 20 degrees from the triangle's; attributes are interpolated, whole numbers the nearest corner's; radii are not passed on. The mesh must have a positive, finite area unless
 /// count is 0.
 [[nodiscard]] Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
                                     std::uint64_t seed, const MeshCreases& creases = {});

@@ -30,7 +30,9 @@ constexpr Format FORMATS[] = {
      read_ply, nullptr, nullptr},
     {".obj", "points or triangles; normals, colours", without_options<read_obj>, nullptr, nullptr},
     {".stl", "triangles, ASCII and binary", without_options<read_stl>, nullptr, nullptr},
-    {".vtp", "points or triangles; normals, colours, radius", without_options<read_vtp>, nullptr, nullptr},
+    {".vtk .vtp .vtu .pvtp .pvtu",
+     "VTK's points, faces, outer faces of volumes, pieces; normals, colours, radius, all arrays at points",
+     without_options<read_vtk>, nullptr, nullptr},
     {".gltf .glb",
      "node transforms, triangles, `POINTS`, `pbrMetallicRoughness`, transmission, ior, punctual lights, "
      "cameras",

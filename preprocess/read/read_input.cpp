@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/one_line.h"
+#include "preprocess/base/counted_list.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/mesh/mesh_points.h"
@@ -156,10 +157,7 @@ std::string fate_of(const ScanCounts& counts) {
                                                         {counts.noise, "of the classes of noise"},
                                                         {counts.no_return, "without a finite position"},
                                                         {counts.missing, "missing or damaged"}};
-  std::string text;
-  for (const auto& [count, fate] : lost)
-    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + fate;
-  return text;
+  return counted_list(lost);
 }
 
 [[noreturn]] void refuse_no_points(const std::vector<NamedFile>& files, const ScanCounts& counts) {

@@ -26,6 +26,14 @@ First no_first() {
   return first;
 }
 
+bool is_two_sided(uint object) {
+  if (FACES == FACES_BOTH) return true;
+  if (FACES == FACES_FRONT) return false;
+  uint flags = MATERIAL_TWO_SIDED;
+  if (FACES == FACES_OPAQUE) flags |= MATERIAL_DIELECTRIC;
+  return (material_at(object).flags & flags) != 0u;
+}
+
 /// The side a ray expects (Goradia et al. 2010, sec. IV-C2, made per object): fronts outside, backs inside.
 bool side_expected(uint object, float facing, uint inside) {
   if (FACES == FACES_BOTH) return true;
@@ -33,14 +41,7 @@ bool side_expected(uint object, float facing, uint inside) {
   Material material = material_at(object);
   bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((inside >> material.mask_bit) & 1u) != 0u;
   bool as_expected = is_inside ? facing > 0.0f : facing < 0.0f;
-  return (material.flags & MATERIAL_HIDDEN) == 0u &&
-         (SIDE != SIDE_SIDE || (material.flags & MATERIAL_TWO_SIDED) != 0u || as_expected);
-}
-
-bool is_two_sided(uint object) {
-  if (FACES == FACES_BOTH) return true;
-  if (FACES == FACES_FRONT) return false;
-  return (material_at(object).flags & MATERIAL_TWO_SIDED) != 0u;
+  return (material.flags & MATERIAL_HIDDEN) == 0u && (SIDE != SIDE_SIDE || is_two_sided(object) || as_expected);
 }
 
 /// Everything but the geometry that a hit needs in order to count.

@@ -92,6 +92,9 @@ void fuzz_ply(FuzzBytes bytes) { read_as("fuzzed.ply", bytes); }
 void fuzz_obj(FuzzBytes bytes) { read_as("fuzzed.obj", bytes); }
 void fuzz_stl(FuzzBytes bytes) { read_as("fuzzed.stl", bytes); }
 void fuzz_vtp(FuzzBytes bytes) { read_as("fuzzed.vtp", bytes); }
+void fuzz_vtk(FuzzBytes bytes) {
+  read_as(!bytes.empty() && bytes[0] == '<' ? "fuzzed.vtu" : "fuzzed.vtk", bytes);
+}
 void fuzz_las(FuzzBytes bytes) { read_as("fuzzed.las", bytes); }
 
 void fuzz_e57(FuzzBytes bytes) {

@@ -17,6 +17,8 @@ void fuzz_ply(FuzzBytes bytes);
 void fuzz_obj(FuzzBytes bytes);
 void fuzz_stl(FuzzBytes bytes);
 void fuzz_vtp(FuzzBytes bytes);
+/// The same on a legacy .vtk, or, where the bytes begin with `<`, a .vtu.
+void fuzz_vtk(FuzzBytes bytes);
 /// The same with the extra bytes that are called a, b, c and v; LAS or LAZ, by what the header says.
 void fuzz_las(FuzzBytes bytes);
 /// The same as the bytes are, and once more with the pages' checksums put right.
@@ -50,6 +52,7 @@ inline constexpr FuzzTarget FUZZ_TARGETS[] = {
     {"obj", fuzz_obj},
     {"stl", fuzz_stl},
     {"vtp", fuzz_vtp},
+    {"vtk", fuzz_vtk},
     {"las", fuzz_las},
     {"e57", fuzz_e57},
     {"pcd", fuzz_pcd},

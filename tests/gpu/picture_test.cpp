@@ -62,6 +62,24 @@ TEST_F(PictureTest, ManySamplesAverageToTheCoveredArea) {
   EXPECT_NEAR(covered, exact, 0.01);
 }
 
+TEST_F(PictureTest, GlassThatIsShownAsOpaqueHasTwoSides) {
+  Scene scene = disc_scene(2);
+  scene.materials[0].flags = MATERIAL_DIELECTRIC;
+  tracer.upload(scene);
+  View view = disc_view(16, 16);
+  const auto object_seen = [&](double side) {
+    view.camera.eye.z = side * 3.0;
+    Settings settings = plain_settings();
+    settings.aov = true;
+    settings.look = LOOK_SCAN;
+    const Image image = tracer.render(view, settings);
+    const std::size_t middle = std::size_t{8} * view.width + 8;
+    return image.rgba[middle].a > 0.0F ? static_cast<int>(image.aov[middle].object) : -1;
+  };
+  EXPECT_EQ(object_seen(1.0), 0) << "the disc in front";
+  EXPECT_EQ(object_seen(-1.0), 0) << "through the other, which is opaque and seen from behind";
+}
+
 TEST_F(PictureTest, AovsAreTheDiscsDepthNormalAndObject) {
   Settings settings = plain_settings();
   settings.aov = true;

@@ -1,4 +1,4 @@
-/// OBJ, STL, VTP, and meshes turned into points.
+/// OBJ, STL, and meshes turned into points.
 #include <chrono>
 #include <cmath>
 
@@ -102,52 +102,10 @@ TEST(Stl, IsReadAndItsCountIsChecked) {
       "endfacet\nendsolid a\n");
 }
 
-const char* const VTP =
-    "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\"><PolyData><Piece "
-    "NumberOfPoints=\"2\" "
-    "NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\"><PointData "
-    "Normals=\"N\" "
-    "Scalars=\"C\"><DataArray type=\"Float32\" Name=\"N\" NumberOfComponents=\"3\" format=\"ascii\">0 0 1 0 "
-    "1 "
-    "0</DataArray><DataArray type=\"UInt8\" Name=\"C\" NumberOfComponents=\"3\" format=\"ascii\">255 0 128 0 "
-    "0 "
-    "0</DataArray><DataArray type=\"Float64\" Name=\"radius\" format=\"ascii\">0.5 "
-    "0.25</DataArray></PointData>"
-    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">4000000.001 0 0 1 2 "
-    "3</DataArray></Points></Piece></PolyData></VTKFile>\n";
-
-TEST(Vtk, VtpKeepsDoublesNormalsColoursAndRadii) {
-  const TempFolder folder;
-  const Points points = read_input({folder.write("p.vtp", VTP)}, {}).objects[0].points;
-  ASSERT_EQ(points.size(), 2U);
-  EXPECT_DOUBLE_EQ(points.position[0].x, 4000000.001);
-  EXPECT_FLOAT_EQ(points.normal[1].y, 1.0F);
-  EXPECT_NEAR(points.color[0].z, 0.2158605F, 1e-6F);
-  EXPECT_FLOAT_EQ(points.radius[1], 0.25F);
-}
-
-TEST(Vtk, VtpFacesBeyondTheirArraysAreErrors) {
-  const TempFolder folder;
-  const auto with_face = [&](const std::string& connectivity, const std::string& offsets) {
-    std::string text = VTP;
-    text.replace(text.find("NumberOfPolys=\"0\""), 17, "NumberOfPolys=\"1\"");
-    text.insert(text.find("</Piece>"),
-                "<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" + connectivity +
-                    "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offsets +
-                    "</DataArray></Polys>");
-    return folder.write("f.vtp", text);
-  };
-  EXPECT_EQ(read_input({with_face("0 1 0", "3")}, {}).objects[0].points.size(), 2U);
-  static_cast<void>(read_error(with_face("0 1 77", "3")));
-  static_cast<void>(read_error(with_face("0 1 0", "3000000")));
-}
-
-TEST(Vtk, BrokenFilesAreErrorsAndNothingIsPrinted) {
+TEST(Obj, BrokenFilesAreErrorsAndNothingIsPrinted) {
   const TempFolder folder;
   testing::internal::CaptureStderr();
-  read_every_prefix(folder, "p.vtp", std::string(VTP).substr(0, 400));
   read_every_prefix(folder, "cube.obj", CUBE_OBJ);
-  static_cast<void>(read_error(folder.write("x.vtp", "this is not XML")));
   static_cast<void>(read_error(folder.write("i.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n")));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }

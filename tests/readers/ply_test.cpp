@@ -98,9 +98,7 @@ TEST(Ply, ColoursOf16BitsFloatsAndEightBitsInSixteen) {
 
 TEST(Ply, FacesAreFansAndUnusedVerticesAreDropped) {
   const TempFolder folder;
-  ReadOptions options;
-  options.keep_meshes = true;
-  const Input input = read_input({folder.write("m.ply", ASCII_MESH)}, options);
+  const Input input = read_input({folder.write("m.ply", ASCII_MESH)}, keeping_meshes());
   const Mesh& mesh = input.objects.front().meshes.at(0);
   ASSERT_EQ(mesh.triangles.size(), 3U);
   EXPECT_EQ(mesh.triangles[1], glm::uvec3(0, 2, 3));
@@ -111,14 +109,12 @@ TEST(Ply, FacesAreFansAndUnusedVerticesAreDropped) {
 
 TEST(Ply, StripsAreTriangles) {
   const TempFolder folder;
-  ReadOptions options;
-  options.keep_meshes = true;
   const Input input =
       read_input({folder.write("s.ply",
                                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
                                "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
                                "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 3 2 1\n")},
-                 options);
+                 keeping_meshes());
   const std::vector<glm::uvec3>& triangles = input.objects[0].meshes[0].triangles;
   ASSERT_EQ(triangles.size(), 3U);
   EXPECT_EQ(triangles[1], glm::uvec3(2, 1, 3));
@@ -177,8 +173,9 @@ TEST(Input, WhatIsNoInputIsOneSentence) {
   const TempFolder folder;
   EXPECT_NE(read_error(folder.path() / "missing.ply").find("no such file"), std::string::npos);
   EXPECT_NE(read_error(folder.write("empty.ply", "")).find("empty"), std::string::npos);
-  EXPECT_NE(read_error(folder.write("a.abc", "1 2 3")).find(".ply .obj .stl .vtp .gltf .glb"),
-            std::string::npos);
+  EXPECT_NE(
+      read_error(folder.write("a.abc", "1 2 3")).find(".ply .obj .stl .vtk .vtp .vtu .pvtp .pvtu .gltf .glb"),
+      std::string::npos);
   std::filesystem::create_directory(folder.path() / "folder.ply");
   EXPECT_NE(read_error(folder.path() / "folder.ply").find("found a folder without scans"), std::string::npos);
   EXPECT_NE(read_error(folder.write("none.ply",

@@ -1,4 +1,4 @@
-/// VTP through VTK. VTK believes what a file says, so each file is checked first. Nothing is printed.
+/// VTK's own formats, through VTK. VTK believes what a file says, so each file is checked first. Nothing is printed.
 #pragma once
 #include <filesystem>
 
@@ -7,8 +7,11 @@
 
 namespace splatray {
 
-/// VTP: positions in the file's precision; point data Normals, 3 or 4 component uchar scalars (sRGB colours) and an array
-/// `radius`. Throws Error (input_unreadable), (interrupted).
-[[nodiscard]] Mesh read_vtp(const std::filesystem::path& path, const ReadListener& listener);
+/// The surface of a .vtp, .vtu or legacy .vtk, or of the pieces that a .pvtp or .pvtu names, which lie beside it or below: faces,
+/// the outer faces of volumes, or points where there are neither. Positions in the file's precision; point data Normals, 3 or 4
+/// component uchar scalars (sRGB colours), an array `radius`; every other array of numbers at the points becomes a column, of
+/// vectors NAME_X, NAME_Y, NAME_Z and NAME_Magnitude, of more components NAME_0 and so on. Throws Error (input_unreadable),
+/// (interrupted).
+[[nodiscard]] Mesh read_vtk(const std::filesystem::path& path, const ReadListener& listener);
 
 }  // namespace splatray

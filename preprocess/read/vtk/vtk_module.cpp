@@ -1,9 +1,14 @@
 #include "preprocess/read/vtk/vtk_module.h"
 
 #include <vtkAlgorithm.h>
+#include <vtkAppendFilter.h>
+#include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetReader.h>
+#include <vtkDataSetSurfaceFilter.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -11,7 +16,9 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +26,10 @@
 #include <new>
 
 #include "engine/base/srgb.h"
+#include "preprocess/base/file_extension.h"
 #include "preprocess/read/byte_reader.h"
+#include "preprocess/read/scan/narrow_column.h"
+#include "preprocess/read/vtk/vtk_cells_check.h"
 
 namespace splatray {
 namespace {
@@ -94,51 +104,163 @@ class ProgressWatch : public vtkCommand {
   std::exception_ptr stopped;
 };
 
+/// Runs readers and filters of VTK's one after the other for one file, silently.
+class Run {
+ public:
+  explicit Run(const std::filesystem::path& path, const ReadListener& listener) : path_(path) {
+    watch_->listener = &listener;
+  }
+
+  /// Throws what the listener threw, or Error (input_unreadable) with VTK's first error.
+  void update(vtkAlgorithm* algorithm) {
+    algorithm->AddObserver(vtkCommand::ProgressEvent, watch_.Get());
+    try {
+      algorithm->Update();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& failure) {
+      throw_unreadable(path_, std::string("VTK cannot read it: ") + failure.what());
+    }
+    if (watch_->stopped) std::rethrow_exception(watch_->stopped);
+    if (!window_->first_error.empty())
+      throw_unreadable(path_, "VTK cannot read it: " + sentence_of(window_->first_error));
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  vtkNew<SilentWindow> window_;
+  WindowScope scope_{window_};
+  vtkNew<ProgressWatch> watch_;
+};
+
+/// VTK's filters take for granted that attributes have a value for each point or cell.
+void drop_unfit_arrays(vtkFieldData* attributes, vtkIdType count) {
+  for (int i = attributes->GetNumberOfArrays() - 1; i >= 0; --i)
+    if (attributes->GetAbstractArray(i)->GetNumberOfTuples() != count) attributes->RemoveArray(i);
+}
+
 template <class Reader>
-vtkSmartPointer<vtkPolyData> run_reader(Reader* reader, const std::filesystem::path& path,
-                                        const ReadListener& listener) {
-  const vtkNew<SilentWindow> window;
-  const WindowScope scope(window);
-  const vtkNew<ProgressWatch> watch;
-  watch->listener = &listener;
-  reader->AddObserver(vtkCommand::ProgressEvent, watch.Get());
+vtkSmartPointer<vtkDataSet> read_by(const std::filesystem::path& path, const ReadListener& listener) {
+  Run run(path, listener);
+  const vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
-  try {
-    reader->Update();
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& failure) {
-    throw_unreadable(path, std::string("VTK cannot read it: ") + failure.what());
-  }
-  if (watch->stopped) {
-    std::rethrow_exception(watch->stopped);
-  }
-  if (!window->first_error.empty()) {
-    throw_unreadable(path, "VTK cannot read it: " + sentence_of(window->first_error));
-  }
-  vtkSmartPointer<vtkPolyData> data = reader->GetOutput();
-  if (data == nullptr) {
-    throw_unreadable(path, "VTK found no surface in it");
-  }
+  run.update(reader.Get());
+  vtkSmartPointer<vtkDataSet> data = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  if (data == nullptr) throw_unreadable(path, "VTK found no points in it");
+  check_vtk_cells(data, path);
+  drop_unfit_arrays(data->GetPointData(), data->GetNumberOfPoints());
+  drop_unfit_arrays(data->GetCellData(), data->GetNumberOfCells());
   return data;
 }
 
-void copy_points(vtkPolyData* data, Points& points) {
+vtkSmartPointer<vtkDataSet> read_file(const std::filesystem::path& path, const ReadListener& listener) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".vtp") return read_by<vtkXMLPolyDataReader>(path, listener);
+  if (extension == ".vtu") return read_by<vtkXMLUnstructuredGridReader>(path, listener);
+  return read_by<vtkDataSetReader>(path, listener);
+}
+
+/// The pieces as one, without the cells that a piece has of its neighbours; points at one place of volumes are one.
+vtkSmartPointer<vtkDataSet> joined(const std::vector<vtkSmartPointer<vtkDataSet>>& pieces,
+                                   const std::filesystem::path& path, const ReadListener& listener) {
+  if (pieces.size() == 1) return pieces[0];
+  Run run(path, listener);
+  if (vtkPolyData::SafeDownCast(pieces[0]) != nullptr) {
+    const vtkNew<vtkAppendPolyData> all;
+    for (vtkDataSet* piece : pieces) {
+      auto* surface = vtkPolyData::SafeDownCast(piece);
+      surface->RemoveGhostCells();
+      all->AddInputData(surface);
+    }
+    run.update(all.Get());
+    return all->GetOutput();
+  }
+  const vtkNew<vtkAppendFilter> all;
+  all->MergePointsOn();
+  for (vtkDataSet* piece : pieces) {
+    vtkUnstructuredGrid::SafeDownCast(piece)->RemoveGhostCells();
+    all->AddInputData(piece);
+  }
+  run.update(all.Get());
+  return all->GetOutput();
+}
+
+/// The outer faces of what is no surface yet.
+vtkSmartPointer<vtkPolyData> surface_of(vtkDataSet* data, const std::filesystem::path& path,
+                                        const ReadListener& listener) {
+  if (auto* surface = vtkPolyData::SafeDownCast(data)) return surface;
+  Run run(path, listener);
+  const vtkNew<vtkDataSetSurfaceFilter> filter;
+  filter->SetInputData(data);
+  run.update(filter.Get());
+  return filter->GetOutput();
+}
+
+bool is_beside(vtkDataArray* array, vtkIdType count) {
+  return array != nullptr && array->GetNumberOfTuples() == count;
+}
+
+/// An array of the points' attributes as columns, one for each component and of vectors their length too.
+void add_columns(vtkDataArray* array, Points& points) {
+  const int width = array->GetNumberOfComponents();
+  const std::string name = array->GetName();
+  std::vector<double> values(points.size()), squared(width == 3 || width == 2 ? points.size() : 0);
+  for (int component = 0; component < width; ++component) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = array->GetComponent(static_cast<vtkIdType>(i), component);
+    for (std::size_t i = 0; i < squared.size(); ++i) squared[i] += values[i] * values[i];
+    const std::string suffix = width == 1         ? std::string()
+                               : !squared.empty() ? std::string("_") + "XYZ"[component]
+                                                  : "_" + std::to_string(component);
+    points.columns.push_back(narrow_column(name + suffix, values));
+  }
+  if (squared.empty()) return;
+  for (double& value : squared) value = std::sqrt(value);
+  points.columns.push_back(narrow_column(name + "_Magnitude", std::move(squared)));
+}
+
+/// What is neither normal, colour nor radius, as far as scenes have room for.
+void copy_attributes(vtkPointData* attributes, const std::vector<vtkDataArray*>& used,
+                     const std::filesystem::path& path, const ReadListener& listener, Points& points) {
+  const auto count = static_cast<vtkIdType>(points.size());
+  std::uint64_t left_out = 0;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i) {
+    vtkDataArray* array = attributes->GetArray(i);
+    if (!is_beside(array, count) || array->GetName() == nullptr || array->GetName()[0] == 0) continue;
+    const std::string name = array->GetName();
+    const auto width = static_cast<std::size_t>(array->GetNumberOfComponents());
+    if (std::find(used.begin(), used.end(), array) != used.end() || name == "vtkGhostType" || width == 0)
+      continue;
+    listener.report(0.9);
+    if (points.columns.size() + width + 1 > COLUMNS_MOST)
+      ++left_out;
+    else
+      add_columns(array, points);
+  }
+  if (left_out > 0)
+    listener.note(path, std::to_string(left_out) + " arrays are left out, as scenes have at most " +
+                            std::to_string(COLUMNS_MOST) + " attributes");
+}
+
+void copy_points(vtkPointSet* data, const std::filesystem::path& path, const ReadListener& listener,
+                 Points& points) {
   const vtkIdType count = data->GetNumberOfPoints();
   points.position.resize(static_cast<std::size_t>(count));
-  for (vtkIdType i = 0; i < count; ++i) {
-    data->GetPoint(i, &points.position[static_cast<std::size_t>(i)].x);
-  }
+  for (vtkIdType i = 0; i < count; ++i) data->GetPoint(i, &points.position[static_cast<std::size_t>(i)].x);
   vtkPointData* attributes = data->GetPointData();
+  std::vector<vtkDataArray*> used;
   if (vtkDataArray* normals = attributes->GetNormals();
-      normals != nullptr && normals->GetNumberOfComponents() == 3 && normals->GetNumberOfTuples() == count) {
+      is_beside(normals, count) && normals->GetNumberOfComponents() == 3) {
+    used.push_back(normals);
     for (vtkIdType i = 0; i < count; ++i) {
       const double* n = normals->GetTuple3(i);
       points.normal.emplace_back(n[0], n[1], n[2]);
     }
   }
   auto* colors = vtkUnsignedCharArray::SafeDownCast(attributes->GetScalars());
-  if (colors != nullptr && colors->GetNumberOfComponents() >= 3 && colors->GetNumberOfTuples() == count) {
+  if (is_beside(colors, count) &&
+      (colors->GetNumberOfComponents() == 3 || colors->GetNumberOfComponents() == 4)) {
+    used.push_back(colors);
     for (vtkIdType i = 0; i < count; ++i) {
       const auto linear = [&](int channel) {
         return srgb_to_linear(static_cast<float>(colors->GetTypedComponent(i, channel)) / 255.0F);
@@ -147,28 +269,19 @@ void copy_points(vtkPolyData* data, Points& points) {
     }
   }
   vtkDataArray* radii = attributes->GetArray("radius");
-  if (radii != nullptr && radii->GetNumberOfComponents() == 1 && radii->GetNumberOfTuples() == count) {
-    for (vtkIdType i = 0; i < count; ++i) {
-      points.radius.push_back(static_cast<float>(radii->GetTuple1(i)));
-    }
+  if (is_beside(radii, count) && radii->GetNumberOfComponents() == 1) {
+    used.push_back(radii);
+    for (vtkIdType i = 0; i < count; ++i) points.radius.push_back(static_cast<float>(radii->GetTuple1(i)));
   }
+  copy_attributes(attributes, used, path, listener, points);
 }
 
-void copy_cells(vtkCellArray* cells, bool strips, const std::filesystem::path& path, Mesh& mesh) {
-  const auto vertex_count = static_cast<vtkIdType>(mesh.vertices.size());
-  if (!cells->IsValid()) {
-    throw_unreadable(path, "the offsets of its faces do not fit their connectivity");
-  }
+/// Triangles of cells that check_vtk_cells has seen.
+void copy_cells(vtkCellArray* cells, bool strips, Mesh& mesh) {
   vtkIdType length = 0;
   const vtkIdType* ids = nullptr;
   cells->InitTraversal();
   while (cells->GetNextCell(length, ids) != 0) {
-    for (vtkIdType i = 0; i < length; ++i) {
-      if (ids[i] < 0 || ids[i] >= vertex_count) {
-        throw_unreadable(path, "a face uses vertex " + std::to_string(ids[i]) + ", expected less than " +
-                                   std::to_string(vertex_count));
-      }
-    }
     for (vtkIdType i = 2; i < length; ++i) {
       const auto odd = strips && i % 2 == 1;
       const glm::uvec3 triangle(strips ? ids[i - 2] : ids[0], ids[i - 1], ids[i]);
@@ -177,22 +290,30 @@ void copy_cells(vtkCellArray* cells, bool strips, const std::filesystem::path& p
   }
 }
 
-Mesh mesh_of(vtkPolyData* data, const std::filesystem::path& path) {
+Mesh mesh_of(vtkDataSet* data, const std::filesystem::path& path, const ReadListener& listener) {
+  if (data->GetNumberOfPoints() > 0xFFFFFFFFLL) throw_unreadable(path, "found more than 4294967295 points");
+  const vtkSmartPointer<vtkPolyData> surface = surface_of(data, path, listener.part(0.8, 0.9));
+  const bool has_faces = surface->GetNumberOfPolys() > 0 || surface->GetNumberOfStrips() > 0;
+  auto* points = vtkPointSet::SafeDownCast(data);
   Mesh mesh;
-  if (data->GetNumberOfPoints() > 0xFFFFFFFFLL) {
-    throw_unreadable(path, "found more than 4294967295 points");
-  }
-  copy_points(data, mesh.vertices);
-  copy_cells(data->GetPolys(), false, path, mesh);
-  copy_cells(data->GetStrips(), true, path, mesh);
+  copy_points(has_faces || points == nullptr ? surface.Get() : points, path, listener, mesh.vertices);
+  if (!has_faces) return mesh;
+  copy_cells(surface->GetPolys(), false, mesh);
+  copy_cells(surface->GetStrips(), true, mesh);
   return mesh;
 }
 
 }  // namespace
 }  // namespace splatray
 
-void splatray_read_vtp(const std::filesystem::path& path, const splatray::ReadListener& listener,
-                       splatray::Mesh& mesh) {
-  const vtkNew<vtkXMLPolyDataReader> reader;
-  mesh = splatray::mesh_of(splatray::run_reader(reader.Get(), path, listener), path);
+void splatray_read_vtk(const std::vector<std::filesystem::path>& files,
+                       const splatray::ReadListener& listener, splatray::Mesh& mesh) {
+  std::vector<vtkSmartPointer<vtkDataSet>> pieces;
+  const double share = 0.7 / static_cast<double>(files.size());
+  for (const std::filesystem::path& file : files) {
+    const double begin = share * static_cast<double>(pieces.size());
+    pieces.push_back(splatray::read_file(file, listener.part(begin, begin + share)));
+  }
+  const auto whole = splatray::joined(pieces, files[0], listener.part(0.7, 0.8));
+  mesh = splatray::mesh_of(whole, files[0], listener);
 }

@@ -1,4 +1,4 @@
-#include "preprocess/read/vtk/vtp_check.h"
+#include "preprocess/read/vtk/vtk_xml_check.h"
 
 #include <algorithm>
 #include <array>
@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "preprocess/read/byte_reader.h"
@@ -46,21 +47,22 @@ std::string from_base64(const std::string& text) {
   return bytes;
 }
 
-class VtpScan {
+class XmlScan {
  public:
-  VtpScan(const std::filesystem::path& path, const ReadListener& listener)
+  XmlScan(const std::filesystem::path& path, const ReadListener& listener)
       : in_(path, &listener), size_(in_.remaining()) {}
 
-  void scan() {
+  std::vector<std::string> scan() {
     for (int c = next(); c >= 0; c = next()) {
       if (c == 0) fail("found a zero byte in its XML, expected UTF-8 text");
       if (c == '<') {
         check_inline_array();
-        if (!read_markup()) return;
+        if (!read_markup()) break;
       } else if (in_array_ && c > ' ' && array_text_.size() < 4 * HEADER_BYTES / 3) {
         array_text_ += static_cast<char>(c);
       }
     }
+    return std::move(sources_);
   }
 
  private:
@@ -113,6 +115,7 @@ class VtpScan {
     depth_ += has_content ? 1 : 0;
     if (depth_ > MOST_DEPTH) fail("its elements nest more than " + std::to_string(MOST_DEPTH) + " deep");
     if (name == "VTKFile") read_file_attributes(attributes);
+    if (name == "Piece" && attributes.count("Source") > 0) sources_.push_back(value_of(attributes, "Source"));
     check_counts(attributes);
     if (name == "AppendedData") {
       check_appended_arrays(value_of(attributes, "encoding") == "base64");
@@ -235,12 +238,13 @@ class VtpScan {
   bool in_array_ = false;
   std::string array_text_;
   std::vector<std::uint64_t> offsets_;
+  std::vector<std::string> sources_;
 };
 
 }  // namespace
 
-void check_vtp(const std::filesystem::path& path, const ReadListener& listener) {
-  VtpScan(path, listener).scan();
+std::vector<std::string> check_vtk_xml(const std::filesystem::path& path, const ReadListener& listener) {
+  return XmlScan(path, listener).scan();
 }
 
 }  // namespace splatray
