@@ -29,6 +29,11 @@
 /// for both lines:
 ///   bits 7..0 direction d: m = a (e cross n) + b OCT_SCALE e, a = |128 - d| - 64, b = |128 - (d + 192 & 255)| - 64
 ///   bits 15..8 distance q: limit = (q - 127) 2^h OCT_SCALE / 2; 255 cuts nothing off
+/// In place of the second line there may be an ellipse, where points lie in lines (EWA splatting: Zwicker et al. 2001, "Surface
+/// Splatting"): q of bits 31..24 is then below 127, which no line's is there. With m of the direction in bits 22..16 and the
+/// code f of bits 31..23, the squared distance of a point from the centre is x.x + k (m.x)^2 wherever a disc's is x.x: the disc
+/// shrinks along m.
+///   k = (8 + (f & 7)) 2^((f >> 3) - 45)
 ///
 /// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
 /// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them
@@ -98,7 +103,7 @@ SPLATRAY_CONST FIELD_FLAT = 0x20080200u;  ///< the normal field of a flat disc
 SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
 SPLATRAY_CONST CLIP_NONE = 0xFF00FF00u;   ///< clip lines that cut nothing off
 SPLATRAY_CONST CLIP_STEPS = 64u;          ///< directions of clip lines: |a| + |b| = CLIP_STEPS
-SPLATRAY_CONST CLIP_ZERO = 127u;          ///< q of a line through the centre
+SPLATRAY_CONST CLIP_ZERO = 127u;          ///< q of a line through the centre; of second lines none is below
 /// A slab that holds the whole cell, and halves that hold the whole list.
 SPLATRAY_CONST SLAB_FULL = 0x0FF803E0u;
 SPLATRAY_CONST SLAB_AXIS_SCALE = 31u;  ///< slab axes: |u| + |v| + |w| = SLAB_AXIS_SCALE
@@ -208,10 +213,8 @@ struct FrameParams {
   uint sky_width;     ///< cells of the sky table (engine/scene/sky_table.h)
   uint sky_height;
   float sky_share;  ///< how often a path's vertex chooses the environment, 0..1; else a light
+  vec3 cut_eye;     ///< FACES_CUT: splats that face away from here are left out
   uint emitters;    ///< balls that hold what objects send out light with, in the table behind light_end
-  uint unused_0;    ///< zero, as the next two
-  uint unused_1;
-  uint unused_2;
   vec4 absorption[32];  ///< per lattice unit, inside each bit of a ray's mask
 };
 
@@ -332,7 +335,8 @@ SPLATRAY_CONST FEATURE_LIGHTS = 32u;        ///< there are lights, and a materia
 SPLATRAY_CONST FEATURE_SHADOWS = 64u;       ///< shadow rays
 SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, else constant
 SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
-SPLATRAY_CONST FEATURE_CLIPS = 262144u;     ///< there is a pool of clip lines
+SPLATRAY_CONST FEATURE_CLIPS = 262144u;     ///< some splat has clip lines
+SPLATRAY_CONST FEATURE_ELLIPSES = 524288u; ///< some splat is an ellipse
 // Of LOOK_LIT and its like alone:
 SPLATRAY_CONST FEATURE_SKY = 512u;          ///< the environment is chosen among the lights, by the sky table
 SPLATRAY_CONST FEATURE_SIZES = 1024u;       ///< some light has a size, and can be met
@@ -379,6 +383,7 @@ SPLATRAY_CONST FACES_BOTH = 0u;       ///< every object is two-sided
 SPLATRAY_CONST FACES_FRONT = 1u;      ///< every object is one-sided and none is a dielectric
 SPLATRAY_CONST FACES_MIXED = 2u;
 SPLATRAY_CONST FACES_OPAQUE = 3u;     ///< FACES_MIXED where dielectrics are shown as opaque: two-sided, too
+SPLATRAY_CONST FACES_CUT = 4u;        ///< FACES_BOTH without the splats that face away from the eye, for all rays
 SPLATRAY_CONST ORDER_Z = 0u;       ///< pixels of a group in Z-order (Goradia et al. 2010, sec. IV-A)
 SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels

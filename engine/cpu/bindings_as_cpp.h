@@ -28,6 +28,7 @@ __attribute__((tls_model("initial-exec"))) thread_local uint lane_now = 0;
 #define SHADOWS HAS(FEATURE_SHADOWS)
 #define ENVIRONMENT HAS(FEATURE_ENVIRONMENT)
 #define CLIPS HAS(FEATURE_CLIPS)
+#define ELLIPSES HAS(FEATURE_ELLIPSES)
 #define COUNTERS HAS(FEATURE_COUNTERS)
 #ifdef LIT
 #define LOOK (bound->constants[SPEC_LOOK])
@@ -75,6 +76,7 @@ constexpr Bound<RayHit, BIND_HITS> hits;
 #endif
 
 float medium_at(uint bit) { return frame.media[bit >> 2U][static_cast<int>(bit & 3U)]; }
+vec3 cut_eye() { return frame.cut_eye; }
 vec3 absorption_at(uint bit) { return vec3(frame.absorption[bit]); }
 uint node_word(uint index) { return node_pool[index]; }
 uint begin_end_at(uint index) { return begin_end[index]; }

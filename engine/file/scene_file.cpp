@@ -67,7 +67,7 @@ Header describe(const Scene& scene, std::size_t string_bytes) {
   header.leaves = scene.begin_end.size() - 1;
   header.objects = static_cast<std::uint32_t>(scene.materials.size());
   header.lights = static_cast<std::uint32_t>(scene.lights.size());
-  header.attributes = optional_pools(scene);
+  header.attributes = attributes_of(scene);
   header.has_camera = scene.camera ? 1 : 0;
   header.string_bytes = string_bytes;
   header.root = scene.root;
@@ -200,9 +200,9 @@ class Reader {
          {header_.nodes, header_.leaves, header_.references, header_.splats, header_.string_bytes})
       if (count > MOST_ELEMENTS) refuse("a count of " + std::to_string(count), "one that fits the file");
     if (header_.has_camera > 1) refuse("a flag above 1", "0 or 1");
-    const std::uint32_t known = optional_pools({}, true);
-    if (header_.attributes > known)
-      refuse("attributes " + std::to_string(header_.attributes), "0 to " + std::to_string(known));
+    const std::uint32_t known = attributes_of({}, true);
+    if ((header_.attributes & ~known) != 0)
+      refuse("attributes " + std::to_string(header_.attributes), "bits of " + std::to_string(known));
     for (const std::uint8_t type : header_.column_types)
       if (type >= std::size(COLUMN_BYTES))
         refuse("a column of type " + std::to_string(type),
@@ -345,6 +345,9 @@ Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
   reader.end();
   if (const auto defect = tree_defect.get()) reader.refuse(defect->found, defect->expected);
   if (const auto defect = find_content_defect(scene)) reader.refuse(defect->found, defect->expected);
+  if (attributes_of(scene) != reader.header().attributes)
+    reader.refuse("attributes " + std::to_string(reader.header().attributes),
+                  std::to_string(attributes_of(scene)) + ", as there are or are no ellipses");
   return scene;
 }
 

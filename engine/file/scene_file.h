@@ -15,7 +15,8 @@
 ///       56 | uint64    | filled leaves = entries of Begin-End - 1
 ///       64 | uint32    | objects = materials
 ///       68 | uint32    | lights
-///       72 | uint32    | optional pools, a bit each: 1 colour pool, 2 normal fields, 4 clip lines
+///       72 | uint32    | optional pools, a bit each: 1 colour pool, 2 normal fields, 4 clip lines; 256: some of
+///      |           | these are ellipses
 ///       76 | uint32    | 1: there is a camera, 0: none
 ///       80 | uint64    | bytes of strings
 ///       88 | float64[3]| root's lowest corner, world

@@ -7,6 +7,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "engine/scene/clip.h"
+
 namespace splatray::scene_file {
 namespace {
 
@@ -58,8 +60,8 @@ void lay_out(Header& header) {
   header.file_size = align(end) + sizeof(END_MARKER);
 }
 
-std::uint32_t optional_pools(const Scene& scene, bool all) {
-  std::uint32_t bits = 0;
+std::uint32_t attributes_of(const Scene& scene, bool all) {
+  std::uint32_t bits = all || clip_content(scene.clip_pool).ellipses ? ELLIPSES : 0;
   std::uint32_t bit = 1;
   for_each_pool([&](const auto& row) {
     if (!row.optional) return;

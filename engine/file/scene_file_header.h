@@ -75,8 +75,10 @@ static_assert(std::variant_size_v<Column::Values> + 1 == std::size(COLUMN_BYTES)
 /// The section table (but for checksums) and the file's size follow from the header's counts.
 void lay_out(Header& header);
 
-/// One bit for each optional pool of POOL_TABLE, in order, that the scene has; with `all`, each that there may be.
-[[nodiscard]] std::uint32_t optional_pools(const Scene& scene, bool all = false);
+/// One bit for each optional pool of POOL_TABLE, in order, that the scene has, and ELLIPSES where some splat is one, which
+/// readers before knew nothing of; with `all`, each that there may be.
+[[nodiscard]] std::uint32_t attributes_of(const Scene& scene, bool all = false);
+inline constexpr std::uint32_t ELLIPSES = 256;
 
 /// Of header and section table, its own field taken as zero.
 [[nodiscard]] std::uint64_t header_checksum(Header header);

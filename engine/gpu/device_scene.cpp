@@ -36,6 +36,7 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   pools_ = {};  // the device may not have room for two scenes
   cells_ = filled_cells(scene);
   emitters_ = balls_of(find_emitters(scene, scene.surfaces));
+  clip_content_ = clip_content(scene.clip_pool);
   pools_ = Pools(context_, queue_, scene, wish_, spent);
   bindings_.emplace(context_, pools_.paging);
   outline_ = {};
@@ -134,7 +135,8 @@ SceneContent DeviceScene::content() const {
   return {.materials = material_content_,
           .colors = pools_.bytes.at(BIND_COLOR_POOL) > 0,
           .fields = pools_.bytes.at(BIND_FIELD_POOL) > 0,
-          .clips = pools_.bytes.at(BIND_CLIP_POOL) > 0,
+          .clips = clip_content_.lines,
+          .ellipses = clip_content_.ellipses,
           .references = pools_.references,
           .top_levels = pools_.top_levels,
           .pages = pools_.paging.pages_constant(),

@@ -12,6 +12,7 @@
 #include "engine/image/emitters.h"
 #include "engine/image/footprint.h"
 #include "engine/image/view.h"
+#include "engine/scene/clip.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/sky_table.h"
@@ -68,6 +69,7 @@ class DeviceScene {
 
   Scene outline_;  ///< the scene without its arrays: transform, bounds, up
   Pools pools_;
+  ClipContent clip_content_;
   std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
   std::vector<Material> materials_;
   std::vector<Surface> surfaces_;  ///< beside them, in world units

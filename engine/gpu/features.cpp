@@ -93,6 +93,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
       settings.look == LOOK_PAPER ? phong_features(content, settings) : light_features(content, settings);
   add(content.fields && !flat_blend, FEATURE_FIELDS);
   add(content.clips, FEATURE_CLIPS);
+  add(content.ellipses, FEATURE_ELLIPSES);
   add(content.references, FEATURE_REFERENCES);
   add(content.environment_texture, FEATURE_ENVIRONMENT);
   add(settings.counters, FEATURE_COUNTERS);
@@ -103,6 +104,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   const bool opaque = settings.look == LOOK_SCAN || settings.look == LOOK_CLAY || settings.look == LOOK_AO;
   const std::uint32_t opaque_faces = content.materials.open ? FACES_BOTH : FACES_OPAQUE;
   constants[SPEC_FACES] = opaque && content.materials.glass ? opaque_faces : content.materials.faces;
+  if (settings.cutaway && constants[SPEC_FACES] == FACES_BOTH) constants[SPEC_FACES] = FACES_CUT;
   constants[SPEC_ORDER] = settings.order;
   constants[SPEC_STAGE] = STAGE_ALL;
   constants[SPEC_LOOK] = settings.look;
@@ -124,6 +126,9 @@ SpecConstants query_features(const SceneContent& content, const Settings& settin
   phong.look = LOOK_PAPER;
   SpecConstants constants = picture_features(content, phong);
   constants[SPEC_FEATURES] &= ~SHADING;
+  // Rays from an eye meet what faces it by its front.
+  if (constants[SPEC_FACES] == FACES_CUT)
+    constants[SPEC_FACES] = settings.side == SIDE_SIDE ? FACES_FRONT : FACES_BOTH;
   constants[SPEC_ORDER] = 0;
   return constants;
 }

@@ -27,7 +27,8 @@ struct SceneContent {
   MaterialContent materials{};
   bool colors = false;               ///< there is a colour pool
   bool fields = false;               ///< there is a pool of normal fields
-  bool clips = false;                ///< there is a pool of clip lines
+  bool clips = false;                ///< some splat has clip lines
+  bool ellipses = false;             ///< some splat is an ellipse
   bool references = false;           ///< the data pool is read through the reference pool
   std::uint32_t top_levels = 0;      ///< of the top table
   std::uint32_t pages = 0;           ///< Paging::pages_constant

@@ -15,6 +15,7 @@ constexpr double SLACK =
     1.5;  // lattice units that lines lie further out: centres and planes are rounded to such
 constexpr std::uint32_t NONE = CLIP_NONE & 0xFFFFU;
 constexpr int STEPS = static_cast<int>(CLIP_STEPS);
+constexpr int HALF_TURN = 2 * STEPS;  // directions
 
 /// The disc's plane as clip lines see it.
 struct ClipFrame {
@@ -74,6 +75,15 @@ std::uint32_t pack_line(const uvec4& words, const ClipFrame& frame, const ClipEd
   return static_cast<std::uint32_t>(q) << 8 | static_cast<std::uint32_t>(direction);
 }
 
+constexpr int LEAST_EXPONENT = -45;  // of an ellipse's factor
+constexpr std::uint32_t MOST_CODE = 2 * CLIP_ZERO - 1;
+
+/// Squared length of what of a line's `across` lies in the disc's plane.
+double squared_in_plane(const glm::dvec3& across, const glm::dvec3& unit_normal) {
+  const double out = glm::dot(across, unit_normal);
+  return glm::dot(across, across) - out * out;
+}
+
 }  // namespace
 
 std::array<ClipLine, 2> unpack_clip(std::uint32_t clip, const uvec4& words) {
@@ -82,7 +92,7 @@ std::array<ClipLine, 2> unpack_clip(std::uint32_t clip, const uvec4& words) {
     const int q = static_cast<int>(bits >> 8 & 0xFFU) - static_cast<int>(CLIP_ZERO);
     return ClipLine{frame.across(static_cast<int>(bits & 0xFFU)), q * frame.step};
   };
-  return {line(clip), line(clip >> 16)};
+  return {line(clip), line(is_ellipse(clip) ? NONE : clip >> 16)};
 }
 
 std::uint32_t pack_clip(const uvec4& words, std::span<const ClipEdge> edges) {
@@ -92,6 +102,43 @@ std::uint32_t pack_clip(const uvec4& words, std::span<const ClipEdge> edges) {
   for (std::size_t i = 0; i < edges.size(); ++i) lines[i] = pack_line(words, frame, edges[i]);
   if (lines[0] == NONE) std::swap(lines[0], lines[1]);
   return lines[0] | lines[1] << 16;
+}
+
+Ellipse unpack_ellipse(std::uint32_t clip, const uvec4& words) {
+  const std::uint32_t code = clip >> 23;
+  const double factor = std::ldexp(8.0 + (code & 7U), static_cast<int>(code >> 3) + LEAST_EXPONENT);
+  return {ClipFrame(words).across(static_cast<int>(clip >> 16 & 0x7FU)), factor};
+}
+
+ClipLine side_of(const Ellipse& ellipse, const Splat& splat) {
+  constexpr double ROUNDING = 1.0 + 1e-12;
+  const double squared = squared_in_plane(ellipse.across, splat.normal);
+  const double limit = std::sqrt(splat.radius_squared * squared / (1.0 + ellipse.factor * squared));
+  return {ellipse.across, limit * ROUNDING};
+}
+
+std::uint32_t pack_ellipse(const uvec4& words, const glm::dvec3& dir, double aspect, std::uint32_t clip) {
+  assert(aspect >= 1.0);
+  if (!(aspect >= LEAST_ASPECT)) return clip;
+  const ClipFrame frame(words);
+  const glm::dvec3 normal = unpack_splat(words).normal;
+  const int direction = nearest_direction(frame, normal, dir) % HALF_TURN;
+  const double factor = (aspect * aspect - 1.0) / squared_in_plane(frame.across(direction), normal);
+  int exponent = 0;
+  const auto mantissa = static_cast<std::uint32_t>(16.0 * std::frexp(factor, &exponent));  // 8 to 15
+  exponent -= 4 + LEAST_EXPONENT;
+  assert(exponent >= 0);  // across is at most 2^21 long
+  const std::uint32_t code = static_cast<std::uint32_t>(exponent) << 3 | (mantissa & 7U);
+  return std::min(code, MOST_CODE) << 23 | static_cast<std::uint32_t>(direction) << 16 | (clip & 0xFFFFU);
+}
+
+ClipContent clip_content(std::span<const std::uint32_t> clips) {
+  ClipContent content;
+  for (const std::uint32_t clip : clips) {
+    content.ellipses = content.ellipses || is_ellipse(clip);
+    content.lines = content.lines || cuts_off(clip);
+  }
+  return content;
 }
 
 }  // namespace splatray

@@ -18,6 +18,20 @@ inline constexpr std::string_view COLUMN_RETURNS = "returns";      ///< of its p
 inline constexpr std::string_view COLUMN_SOURCE = "source";
 inline constexpr std::string_view COLUMN_SCAN = "scan";  ///< the station's number, from 0
 inline constexpr std::string_view COLUMN_TIME = "time";  ///< GPS time, seconds
+/// What each point of a scan is part of (ScanKind); made by the build, and absent where all are of surfaces.
+inline constexpr std::string_view COLUMN_KIND = "kind";
+
+/// What a point of a scan is part of, as its neighbourhood tells.
+enum class ScanKind : std::uint8_t {
+  surface,
+  line,    ///< wires, poles: its neighbours spread in one direction
+  scatter  ///< leaves, grass, clutter: they spread in three
+};
+inline constexpr std::size_t SCAN_KINDS = 3;
+
+[[nodiscard]] constexpr std::string_view name_of(ScanKind kind) {
+  return kind == ScanKind::surface ? "surface" : kind == ScanKind::line ? "line" : "scatter";
+}
 
 /// Most columns that a scene may have.
 inline constexpr std::size_t COLUMNS_MOST = 32;

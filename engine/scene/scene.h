@@ -47,6 +47,7 @@ struct BuildParams {
   /// How far around each point noisy scans are smoothed, world units; 0 = not at all, negative = as their noise asks for.
   /// Files do not tell.
   double smooth_world = -1.0;
+  bool keep_strays = false;  ///< points of scans on no surface stay, but for those far from all others. Files do not tell.
 
   bool operator==(const BuildParams&) const = default;
 };
@@ -63,7 +64,7 @@ struct Scene {
   std::vector<uvec4> data_pool;           ///< the splats, in Z-order of their centres
   std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
   std::vector<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
-  std::vector<std::uint32_t> clip_pool;   ///< clip lines beside data_pool, or empty (all discs are whole)
+  std::vector<std::uint32_t> clip_pool;   ///< clip lines, ellipses beside data_pool, or empty (whole discs)
   std::vector<Column> columns;            ///< attributes beside data_pool, kept on the host; may be empty
   std::vector<Station> stations;          ///< of all objects' scans: what COLUMN_SCAN counts; may be empty
   std::vector<Material> materials;        ///< one per object

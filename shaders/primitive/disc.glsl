@@ -89,9 +89,13 @@ PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   PRECISE double t = dot(n, to_center) / denominator;
   PRECISE dvec3 from_center = dvec3(dir) * t - to_center;
   PRECISE double rho_squared = dot(from_center, from_center);
-  vec3 high = vec3(from_center);
-  vec3 low = vec3(from_center - dvec3(high));
-  return PlaneHit(two_floats(t), two_floats(rho_squared), high, low, float(denominator));
+  PlaneHit hit;
+  hit.t = two_floats(t);
+  hit.rho_squared = two_floats(rho_squared);
+  hit.from_center = vec3(from_center);
+  hit.from_center_low = vec3(from_center - dvec3(hit.from_center));
+  hit.facing = float(denominator);
+  return hit;
 }
 #else
 /// t = n.(c - o) / (n.d) and |o + t d - c|^2 to about 2^-44 of the distances involved.
@@ -137,23 +141,49 @@ float clip_limit(uint line, uvec4 words) {
   return (float((line >> 8u) & 255u) - float(CLIP_ZERO)) * (0.5f * float(OCT_SCALE)) * bound;
 }
 
-/// Whether a meeting with the disc's plane is on the clip line's inner side.
-bool line_keeps(uint line, uvec4 words, PlaneHit hit) {
-  vec3 across = clip_normal(line, splat_normal(words));
+/// The product of a clip line's normal and a meeting's offset from the centre: two floats, on CPUs a double.
 #ifdef CPU
-  double along = dot(dvec3(across), dvec3(hit.from_center) + dvec3(hit.from_center_low));
-  return along <= double(clip_limit(line, words));
+double along_clip(uint line, uvec4 words, PlaneHit hit) {
+  vec3 across = clip_normal(line, splat_normal(words));
+  PRECISE double along = dot(dvec3(across), dvec3(hit.from_center) + dvec3(hit.from_center_low));
+  return along;
+}
 #else
+vec2 along_clip(uint line, uvec4 words, PlaneHit hit) {
+  vec3 across = clip_normal(line, splat_normal(words));
   vec2 x = df_scale(vec2(hit.from_center.x, hit.from_center_low.x), across.x);
   vec2 y = df_scale(vec2(hit.from_center.y, hit.from_center_low.y), across.y);
   vec2 z = df_scale(vec2(hit.from_center.z, hit.from_center_low.z), across.z);
-  return !df_less(vec2(clip_limit(line, words), 0.0f), df_add(df_add(x, y), z));
+  return df_add(df_add(x, y), z);
+}
+#endif
+
+/// Whether a meeting with the disc's plane is on the clip line's inner side.
+bool line_keeps(uint line, uvec4 words, PlaneHit hit) {
+#ifdef CPU
+  return along_clip(line, words, hit) <= double(clip_limit(line, words));
+#else
+  return !df_less(vec2(clip_limit(line, words), 0.0f), along_clip(line, words, hit));
 #endif
 }
 
-/// Whether it is on the part of the plane that the splat's clip lines leave.
-bool clip_keeps(uint clip, uvec4 words, PlaneHit hit) {
-  return line_keeps(clip, words, hit) && line_keeps(clip >> 16u, words, hit);
+/// Whether a splat's clip word has an ellipse in place of the second line; only where some splat of the scene has.
+bool is_ellipse(uint clip) { return (clip >> 24u) < CLIP_ZERO; }
+
+/// A meeting with the plane of a splat that may be an ellipse: its squared distance is what an ellipse takes it for (layout.h).
+PlaneHit ellipse_hit(uint clip, uvec4 words, PlaneHit hit) {
+  uint code = clip >> 23u;
+  float factor = float(8u + (code & 7u)) * uintBitsToFloat((82u + (code >> 3u)) << 23u);
+  uint direction = (clip >> 16u) & 0x7Fu;
+#ifdef CPU
+  PRECISE double along = along_clip(direction, words, hit);
+  PRECISE double squared = double(hit.rho_squared.x) + double(hit.rho_squared.y) + double(factor) * (along * along);
+  vec2 rho_squared = two_floats(squared);
+#else
+  vec2 rho_squared = df_add(df_scale(df_square(along_clip(direction, words, hit)), factor), hit.rho_squared);
+#endif
+  hit.rho_squared = is_ellipse(clip) ? rho_squared : hit.rho_squared;
+  return hit;
 }
 
 /// One entry of a normal field, per radius.

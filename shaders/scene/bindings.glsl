@@ -32,6 +32,7 @@ const bool LIGHTS = (FEATURES & FEATURE_LIGHTS) != 0u;
 const bool SHADOWS = (FEATURES & FEATURE_SHADOWS) != 0u;
 const bool ENVIRONMENT = (FEATURES & FEATURE_ENVIRONMENT) != 0u;
 const bool CLIPS = (FEATURES & FEATURE_CLIPS) != 0u;
+const bool ELLIPSES = (FEATURES & FEATURE_ELLIPSES) != 0u;
 const bool COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 #ifdef LIT
 layout(constant_id = SPEC_LOOK) const uint LOOK = LOOK_LIT;
@@ -147,6 +148,9 @@ Surface surface_at(uint object) { return surfaces[object]; }
 float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
 uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
 #endif
+
+/// Where splats must face to be there at all (FACES_CUT), root space.
+vec3 cut_eye() { return frame.cut_eye; }
 
 vec3 environment_texel(vec2 position) { return textureLod(environment_map, position, 0.0f).xyz; }
 

@@ -92,7 +92,7 @@ void add_samples(INOUT(Work) work) {
   vec4 mean = STAGE == STAGE_NEXT ? vec4(0.0f) : mean_before(work.place);
   uint sample_index = frame.sample_begin;
   do {
-    Tally tally = Tally(0u, 0u, 0u, 0u);
+    Tally tally = no_tally();
     if (STAGE != STAGE_NEXT) work.path = path_start(sample_ray(work.pixel, sample_index));
     follow_path(work.path, pixel_number, sample_index, tally);
 #ifdef STAGED

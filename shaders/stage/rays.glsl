@@ -5,7 +5,7 @@
 
 /// Answers a ray query.
 void answer_ray(uint index) {
-  Tally tally = Tally(0u, 0u, 0u, 0u);
+  Tally tally = no_tally();
   RayHit hit = answer_query(rays[index], frame.kappa, frame.delta, tally);
   hits[index] = hit;
   if (COUNTERS) {

@@ -10,7 +10,7 @@ uint hash_words(uvec4 words) {
 }
 
 void write_aov(uvec2 pixel, uint index) {
-  Tally tally = Tally(0u, 0u, 0u, 0u);
+  Tally tally = no_tally();
   float eye_distance = 0.0f;
   Ray ray = center_ray(pixel, eye_distance);
   Hit hit = trace_nearest(ray, frame.kappa, tally);

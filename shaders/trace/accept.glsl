@@ -1,6 +1,6 @@
 // Which splats of a leaf's list a ray hits, decided exactly: each hit counts in one leaf, so what is found depends on the splats
 // alone, not on the tree. Needs, beside walk.glsl: splat_words(splat), clip_word(splat), material_at(object), and the constants
-// BLEND, SIDE, FACES, CLIPS.
+// BLEND, SIDE, FACES, CLIPS, ELLIPSES, with FACES_CUT cut_eye().
 #ifndef SPLATRAY_ACCEPT_GLSL
 #define SPLATRAY_ACCEPT_GLSL
 #include "trace/walk.glsl"
@@ -27,7 +27,7 @@ First no_first() {
 }
 
 bool is_two_sided(uint object) {
-  if (FACES == FACES_BOTH) return true;
+  if (FACES == FACES_BOTH || FACES == FACES_CUT) return true;
   if (FACES == FACES_FRONT) return false;
   uint flags = MATERIAL_TWO_SIDED;
   if (FACES == FACES_OPAQUE) flags |= MATERIAL_DIELECTRIC;
@@ -36,7 +36,7 @@ bool is_two_sided(uint object) {
 
 /// The side a ray expects (Goradia et al. 2010, sec. IV-C2, made per object): fronts outside, backs inside.
 bool side_expected(uint object, float facing, uint inside) {
-  if (FACES == FACES_BOTH) return true;
+  if (FACES == FACES_BOTH || FACES == FACES_CUT) return true;
   if (FACES == FACES_FRONT) return SIDE != SIDE_SIDE || facing < 0.0f;
   Material material = material_at(object);
   bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((inside >> material.mask_bit) & 1u) != 0u;
@@ -44,12 +44,30 @@ bool side_expected(uint object, float facing, uint inside) {
   return (material.flags & MATERIAL_HIDDEN) == 0u && (SIDE != SIDE_SIDE || is_two_sided(object) || as_expected);
 }
 
+/// Whether a splat turns its front to the eye, and so is there in a picture that leaves all else out (FACES_CUT). Of whole splats, not
+/// of rays: what hides a room from the eye keeps no light from it either.
+bool faces_eye(uvec4 words) { return dot(splat_normal(words), cut_eye() - splat_center(words)) > 0.0f; }
+
 /// Everything but the geometry that a hit needs in order to count.
 bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
+  if (FACES == FACES_CUT && !faces_eye(words)) return false;
   uint object = splat_object(words);
   bool own = false;
   if (SIDE == SIDE_SIDE) own = ray.from_object != NO_OBJECT && splat_of_sheet_left(words, ray, is_two_sided(object));
   return !own && side_expected(object, hit.facing, ray.inside);
+}
+
+/// Where a ray meets a splat's plane, measured as the splat's shape has it.
+PlaneHit meet_splat(uint splat, uvec4 words, Ray ray) {
+  PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+  if (ELLIPSES) hit = ellipse_hit(clip_word(splat), words, hit);
+  return hit;
+}
+
+/// Whether a meeting is on the part of the splat's plane that its clip lines leave.
+bool clip_keeps(uint clip, uvec4 words, PlaneHit hit) {
+  bool single = ELLIPSES && is_ellipse(clip);
+  return line_keeps(clip, words, hit) && (single || line_keeps(clip >> 16u, words, hit));
 }
 
 /// Whether a meeting with a disc's plane is a hit on the disc that counts in the leaf's interval.
@@ -71,7 +89,7 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
       candidates &= candidates - 1u;
       uint splat = splat_at(chunk + bit);
       uvec4 words = splat_words(splat);
-      PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+      PlaneHit hit = meet_splat(splat, words, ray);
       bool accept = hit_accepted(words, splat, hit, ray, walk);
       accepted |= (accept ? 1u : 0u) << bit;
       vec2 measure = hit.t;

@@ -97,7 +97,7 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       mask &= mask - 1u;
       candidates = low ? uvec2(mask, candidates.y) : uvec2(0u, mask);
       uvec4 words = splat_words(splat);
-      PlaneHit hit = splat_plane_hit(words, ray.origin, ray.origin_low, ray.dir);
+      PlaneHit hit = meet_splat(splat, words, ray);
       float behind = df_add(hit.t, -first.t).x;
       float inverse_radius = inversesqrt(splat_radius_squared(words));
       float u_squared = hit.rho_squared.x * (inverse_radius * inverse_radius);

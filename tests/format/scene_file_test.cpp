@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/scene/clip.h"
 #include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
 #include "tests/temp_folder.h"
@@ -119,6 +120,19 @@ TEST_F(SceneFile, RoundTrip) {
   EXPECT_EQ(copy.bounds_max_world, scene.bounds_max_world);
   write_scene(copy, path);
   EXPECT_EQ(load(), bytes);
+}
+
+TEST_F(SceneFile, EllipsesAreToldOfInTheHeader) {
+  EXPECT_EQ(get<std::uint32_t>(bytes, 72), 7U) << "without ellipses as before";
+  Scene scene = tiny_scene();
+  scene.clip_pool[1] = pack_ellipse(scene.data_pool[1], {1.0, 0.0, 0.0}, 5.0);
+  write_scene(scene, path);
+  Bytes with = load();
+  EXPECT_EQ(get<std::uint32_t>(with, 72), 263U);
+  EXPECT_EQ(read_scene(path).clip_pool, scene.clip_pool);
+  put<std::uint32_t>(with, 72, 7);
+  reseal(with);
+  EXPECT_NE(refusal(with).find("found attributes 7, expected 263"), std::string::npos);
 }
 
 TEST_F(SceneFile, OptionalPartsMayBeAbsent) {

@@ -38,12 +38,14 @@ TEST(Features, OnlyWhatTheSceneHasIsOn) {
                                 .colors = true,
                                 .fields = true,
                                 .clips = true,
+                                .ellipses = true,
                                 .references = true,
                                 .lights = true,
                                 .environment_texture = true};
   EXPECT_EQ(picture_features(everything, {})[SPEC_FEATURES],
             FEATURE_MIRRORS | FEATURE_GLASS | FEATURE_COLORS | FEATURE_FIELDS | FEATURE_CLIPS |
-                FEATURE_REFERENCES | FEATURE_LIGHTS | FEATURE_SHADOWS | FEATURE_ENVIRONMENT);
+                FEATURE_ELLIPSES | FEATURE_REFERENCES | FEATURE_LIGHTS | FEATURE_SHADOWS |
+                FEATURE_ENVIRONMENT);
 }
 
 TEST(Features, LightsThatNoMaterialScattersAreOff) {

@@ -262,5 +262,38 @@ TEST(Splat, HitsBesideClipLines) {
   conclude(all);
 }
 
+TEST(Splat, HitsBesideRimsOfEllipses) {
+  std::mt19937_64 random(17);
+  CaseRow all{.compared = "rays 2^-1 to 2^-36 r inside and outside rims of ellipses: device, brute force"};
+  for (int i = 0; i < 12; ++i) {
+    const dvec3 normal = i < 3 ? dvec3(i == 0, i == 1, i == 2) : random_unit(random);
+    Scene scene = lattice_scene({{dvec3(MIDDLE), normal, 5e5}}, test_material(MATERIAL_TWO_SIDED));
+    scene.clip_pool.assign(scene.data_pool.size(), CLIP_NONE);
+    const std::size_t large = unpack_radius_squared(scene.data_pool[0]) > 100.0 ? 0 : 1;
+    const uvec4& words = scene.data_pool[large];
+    const dvec3 dir = glm::normalize(glm::cross(unpack_splat(words).normal, random_unit(random)));
+    scene.clip_pool[large] = pack_ellipse(words, dir, std::exp2(uniform(random, 1.0, 8.0)));
+    const BruteForce brute(scene);
+    const Splat& splat = brute.splats()[large];
+    const Ellipse ellipse = unpack_ellipse(scene.clip_pool[large], words);
+    std::vector<RayQuery> rays;
+    for (int ray = 0; ray < 4000; ++ray) {
+      const dvec3 out = glm::normalize(glm::cross(splat.normal, random_unit(random)));
+      const double across = glm::dot(ellipse.across, out);
+      const double rim = std::sqrt(splat.radius_squared / (1.0 + ellipse.factor * across * across));
+      const double off = std::copysign(std::exp2(-uniform(random, 1.0, 36.0)), double(ray % 2) - 0.5);
+      const dvec3 dir_to_rim = random_unit(random);
+      rays.push_back(primary_ray(splat.center + rim * (1.0 + off) * out - 1e6 * dir_to_rim, dir_to_rim));
+    }
+    DeviceScene device(scene);
+    const CaseRow row = compare_with_brute_force(device, brute, rays, "");
+    all.count += row.count;
+    all.exceptions += row.exceptions;
+    all.lost += row.lost;
+    all.non_finite += row.non_finite;
+  }
+  conclude(all);
+}
+
 }  // namespace
 }  // namespace splatray::testing

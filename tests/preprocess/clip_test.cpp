@@ -122,6 +122,34 @@ TEST(Clip, LinesAreRoundedOutwards) {
   }
 }
 
+TEST(Clip, EllipsesAreRoundedOutwards) {
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> unit;
+  for (int i = 0; i < 20000; ++i) {
+    dvec3 normal = i % 4 == 0 ? dvec3(0.0) : dvec3(gauss(random), gauss(random), gauss(random));
+    if (i % 4 == 0) normal[i / 4 % 3] = 1.0;
+    const uvec4 words =
+        pack_splat({dvec3(1e6), glm::normalize(normal), std::exp2(4.0 + 30.0 * unit(random)), 0});
+    const Splat splat = unpack_splat(words);
+    const TangentFrame frame(splat.normal);
+    const double angle = 2.0 * M_PI * unit(random), aspect = std::exp2(8.0 * unit(random));
+    const dvec3 dir = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
+    const std::uint32_t clip = pack_ellipse(words, dir, aspect, 0xFF008F10U);
+    ASSERT_EQ(clip & 0xFFFFU, 0x8F10U) << "the first line stays";
+    ASSERT_EQ(is_ellipse(clip), aspect >= LEAST_ASPECT) << aspect;
+    if (!is_ellipse(clip)) continue;
+    const Ellipse ellipse = unpack_ellipse(clip, words);
+    const dvec3 narrow = ellipse.across - splat.normal * glm::dot(splat.normal, ellipse.across);
+    const double found = std::sqrt(1.0 + ellipse.factor * glm::dot(narrow, narrow));
+    ASSERT_LE(found, aspect * (1.0 + 1e-9));
+    ASSERT_GE(found, aspect / 1.08);
+    ASSERT_GT(std::abs(glm::dot(glm::normalize(narrow), dir)), std::cos(1.6 * M_PI / 180.0));
+    const double half_width = std::sqrt(splat.radius_squared) / found;
+    EXPECT_NEAR(side_of(ellipse, splat).limit / glm::length(narrow), half_width, 1e-9 * half_width);
+  }
+}
+
 TEST(Clip, ACubesDiscsEndAtItsEdges) {
   const Mesh cube = box(dvec3(1.0));
   const Scene clipped = scene_of(cube, 3000, {.clip = true});

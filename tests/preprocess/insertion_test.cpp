@@ -9,6 +9,7 @@
 #include <random>
 #include <span>
 
+#include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/tree/long_lists.h"
@@ -39,9 +40,10 @@ double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::
   return glm::length(p - a - (b - a) * t);
 }
 
-/// Whether a disc meets a box: the part of the disc's plane in the box is a polygon; its distance from the
-/// centre decides.
-bool disc_meets_box(const Splat& splat, const glm::dvec3& low, const glm::dvec3& high) {
+/// Whether a disc, or one that is `aspect` times less wide along `narrow`, meets a box: the part of its plane in the box is
+/// a polygon; its distance from the centre, measured as the ellipse has it, decides.
+bool disc_meets_box(const Splat& splat, const glm::dvec3& low, const glm::dvec3& high,
+                    const glm::dvec3& narrow = glm::dvec3(0.0), double aspect = 1.0) {
   const glm::dvec3& c = splat.center;
   if (glm::all(glm::lessThanEqual(low, c)) && glm::all(glm::lessThanEqual(c, high))) return true;
   const double radius = std::sqrt(splat.radius_squared);
@@ -53,6 +55,7 @@ bool disc_meets_box(const Splat& splat, const glm::dvec3& low, const glm::dvec3&
     polygon = clipped(polygon, axis, 1.0, high[axis]);
     polygon = clipped(polygon, axis, -1.0, -low[axis]);
   }
+  for (glm::dvec3& corner : polygon) corner += narrow * ((aspect - 1.0) * glm::dot(narrow, corner - c));
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     if (distance_to_segment(c, polygon[i], polygon[(i + 1) % polygon.size()]) <= radius) return true;
   }
@@ -126,6 +129,41 @@ TEST(Insertion, OverlapListsDiscsAtTheDepthCap) {
   }
   order_splats(splats, 10);
   check_against_exact(splats);
+}
+
+TEST(Insertion, OverlapListsEllipsesByTheirSides) {
+  SplatList splats = surface_splats(800, 100000.0, 300000.0);
+  const Octree tree = build_octree(splats, 4);
+  const std::size_t of_discs = insert_overlaps(tree, splats, STAGE).splat.size();
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (const uvec4& words : splats.words) {
+    const glm::dvec3 any(unit(random), unit(random), unit(random));
+    const glm::dvec3 dir = glm::normalize(glm::cross(unpack_splat(words).normal, any));
+    splats.clip.push_back(pack_ellipse(words, dir, std::exp2(3.0 + 2.0 * unit(random))));
+  }
+  const LeafLists lists = insert_overlaps(tree, splats, STAGE);
+  std::size_t missing = 0, needless = 0;
+  for (std::size_t leaf = 0; leaf < tree.leaves.size(); ++leaf) {
+    const glm::dvec3 low(morton_point(tree.leaves[leaf].key));
+    const glm::dvec3 high = low + static_cast<double>(tree.leaves[leaf].cell_size());
+    const auto list = list_of(lists, leaf);
+    for (std::uint32_t i = 0; i < splats.size(); ++i) {
+      const Splat splat = unpack_splat(splats.words[i]);
+      const Ellipse ellipse = unpack_ellipse(splats.clip[i], splats.words[i]);
+      const glm::dvec3 narrow = ellipse.across - splat.normal * glm::dot(splat.normal, ellipse.across);
+      const double squared = glm::dot(narrow, narrow);
+      const bool meets =
+          disc_meets_box(splat, low - (LIST_INFLATION - 1e-6), high + (LIST_INFLATION - 1e-6),
+                         narrow / std::sqrt(squared), std::sqrt(1.0 + ellipse.factor * squared));
+      const bool is_listed = std::binary_search(list.begin(), list.end(), i);
+      missing += meets && !is_listed ? 1 : 0;
+      needless += is_listed && !meets ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(missing, 0U);
+  EXPECT_LT(5 * needless, 2 * lists.splat.size()) << "of " << lists.splat.size();
+  EXPECT_LT(3 * lists.splat.size(), 2 * of_discs) << "lists as long as those of whole discs";
 }
 
 TEST(Insertion, PoliciesAreNested) {

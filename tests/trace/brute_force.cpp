@@ -85,10 +85,23 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
   return !(in_slab || from_behind);
 }
 
-bool BruteForce::kept(std::size_t index, const dvec3& from_center) const {
-  if (clips_.empty()) return true;
-  const Splat& splat = splats_[index];
-  dvec3 stored = splat.normal;  // of length 1: brought to the stored length, |x| + |y| + |z| = OCT_SCALE
+bool BruteForce::is_ellipse(std::size_t index) const {
+  return !clips_.empty() && clips_[index] / (1U << 24) < 127;
+}
+
+double BruteForce::rho_squared(std::size_t index, const dvec3& from_center) const {
+  const double of_disc = glm::dot(from_center, from_center);
+  if (!is_ellipse(index)) return of_disc;
+  const int code = static_cast<int>(clips_[index] / (1U << 23));
+  const double factor = (8.0 + code % 8) * std::pow(2.0, code / 8 - 45);
+  const double along =
+      glm::dot(across(index, static_cast<int>(clips_[index] / (1U << 16) % 128)), from_center);
+  return of_disc + factor * along * along;
+}
+
+dvec3 BruteForce::across(std::size_t index, int direction) const {
+  dvec3 stored =
+      splats_[index].normal;  // of length 1: brought to the stored length, |x| + |y| + |z| = OCT_SCALE
   stored = glm::round(stored *
                       (double(OCT_SCALE) / (std::abs(stored.x) + std::abs(stored.y) + std::abs(stored.z))));
   glm::length_t axis = 0;
@@ -96,15 +109,21 @@ bool BruteForce::kept(std::size_t index, const dvec3& from_center) const {
     if (std::abs(stored[i]) < std::abs(stored[axis])) axis = i;
   dvec3 unit(0.0);
   unit[axis] = 1.0;
+  const double a = std::abs(128 - direction) - 64, b = std::abs(128 - ((direction + 192) & 255)) - 64;
+  return a * glm::cross(unit, stored) + b * double(OCT_SCALE) * unit;
+}
+
+bool BruteForce::kept(std::size_t index, const dvec3& from_center) const {
+  if (clips_.empty()) return true;
+  const Splat& splat = splats_[index];
   int exponent = 0;
   std::frexp(splat.radius_squared, &exponent);  // r^2 < 2^exponent
   const double bound = std::exp2(std::ceil(exponent / 2.0));
-  for (const std::uint32_t line : {clips_[index] & 0xFFFFU, clips_[index] >> 16}) {
-    const int direction = static_cast<int>(line & 0xFFU);
-    const double a = std::abs(128 - direction) - 64, b = std::abs(128 - ((direction + 192) & 255)) - 64;
-    const dvec3 across = a * glm::cross(unit, stored) + b * double(OCT_SCALE) * unit;
+  const int lines = is_ellipse(index) ? 1 : 2;
+  for (int number = 0; number < lines; ++number) {
+    const std::uint32_t line = clips_[index] >> 16 * number & 0xFFFFU;
     const double limit = (static_cast<double>(line >> 8) - 127.0) * bound * OCT_SCALE / 2.0;
-    if (glm::dot(across, from_center) > limit) return false;
+    if (glm::dot(across(index, static_cast<int>(line & 0xFFU)), from_center) > limit) return false;
   }
   return true;
 }
@@ -141,7 +160,7 @@ std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, con
     const double cosine = glm::dot(splat.normal, dir);
     const double t = glm::dot(splat.normal, splat.center - origin) / cosine;
     const dvec3 from_center = origin + t * dir - splat.center;
-    const double rho_squared = glm::dot(from_center, from_center);
+    const double rho_squared = this->rho_squared(index, from_center);
     if (!(rho_squared <= splat.radius_squared) || !(t > double(query.t_min)) || !std::isfinite(t)) continue;
     if (!kept(index, from_center)) continue;
     const Meeting meeting{t, rho_squared / splat.radius_squared, cosine, index};

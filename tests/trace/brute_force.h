@@ -66,6 +66,11 @@ class BruteForce {
   };
   /// Whether an offset from a disc's centre is before its clip lines, by the rule in shaders/layout.h.
   [[nodiscard]] bool kept(std::size_t index, const glm::dvec3& from_center) const;
+  [[nodiscard]] bool is_ellipse(std::size_t index) const;
+  /// The squared distance from a splat's centre as an ellipse takes it, by the same rule.
+  [[nodiscard]] double rho_squared(std::size_t index, const glm::dvec3& from_center) const;
+  /// The vector m of a direction there.
+  [[nodiscard]] glm::dvec3 across(std::size_t index, int direction) const;
   [[nodiscard]] Facet facet(const Meeting& meeting, const RayQuery& query) const;
   [[nodiscard]] std::vector<Meeting> meetings(const RayQuery& query, const Settings& settings) const;
   [[nodiscard]] bool counts(const Meeting& meeting, const RayQuery& query, const Settings& settings) const;

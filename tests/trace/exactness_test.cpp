@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <iostream>
+#include <random>
 
 #include "data/shapes.h"
 #include "engine/gpu/tracer.h"
+#include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
 #include "preprocess/mesh/sample_mesh.h"
@@ -160,6 +163,77 @@ TEST(Exactness, ClipLinesThatAreNotKeptAreNoticed) {
   for (std::uint32_t& clip : scene.clip_pool) clip = clip == CLIP_NONE ? clip : clip + 0x100;
   EXPECT_GT(agreement_of(brute, truth, gpu_intersect(scene, rays, settings)).exceptions(), 0U)
       << "lines a step further out";
+}
+
+/// Discs made ellipses of all directions and aspects, some with a clip line; their lists stay those of the discs.
+Scene with_ellipses(Scene scene) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit;
+  for (const uvec4& words : scene.data_pool) {
+    const Splat splat = unpack_splat(words);
+    const glm::dvec3 any(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
+    const glm::dvec3 dir = glm::normalize(glm::cross(splat.normal, any));
+    const glm::dvec3 out = glm::cross(splat.normal, dir);
+    const std::array<ClipEdge, 1> edge{{{out, splat.center + 0.5 * std::sqrt(splat.radius_squared) * out}}};
+    const std::uint32_t clip = unit(random) < 0.3 ? pack_clip(words, edge) : CLIP_NONE;
+    scene.clip_pool.push_back(pack_ellipse(words, dir, std::exp(5.0 * unit(random)), clip));
+  }
+  return scene;
+}
+
+TEST(Exactness, EllipsesOneSidedTwoSidedAndGlass) {
+  for (const std::uint32_t flags : {0U, MATERIAL_TWO_SIDED, MATERIAL_DIELECTRIC}) {
+    const TestObject object = sphere_object(20000, false, flags);
+    compare_gpu({with_ellipses(scene_of({object}, 10))}, 50000);
+  }
+}
+
+/// A sphere of rings whose points are a tenth as far from each other as the rings are, as a scanner would deliver it.
+Scene ringed_sphere(std::uint32_t leaf_size) {
+  constexpr int RINGS = 40;
+  Input input;
+  InputObject& object = input.objects.emplace_back();
+  for (int ring = 1; ring < RINGS; ++ring) {
+    const double polar = M_PI * ring / RINGS;
+    const int points = static_cast<int>(20 * RINGS * std::sin(polar));
+    for (int i = 0; i < points; ++i) {
+      const double turn = 2.0 * M_PI * (i + 0.5 * (ring % 2)) / points;
+      const glm::dvec3 place(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
+                             std::cos(polar));
+      object.points.position.push_back(place);
+      object.points.normal.emplace_back(place);
+    }
+  }
+  object.material = test_material(MATERIAL_DIELECTRIC);
+  BuildParams params;
+  params.leaf_size = leaf_size;
+  BuildStats stats;
+  Scene scene = build_scene(std::move(input), params, 0, stats);
+  EXPECT_GT(stats.ellipses, scene.data_pool.size() * 9 / 10);
+  return scene;
+}
+
+TEST(Exactness, EllipsesOfRingsWhateverTheTree) {
+  compare_gpu({ringed_sphere(10), ringed_sphere(4), ringed_sphere(40)}, 100000);
+}
+
+TEST(Exactness, EllipsesTurnedOrShortenedAreNoticed) {
+  const Scene scene = with_ellipses(scene_of({sphere_object(5000, true, 0)}));
+  const Settings settings;
+  const BruteForce brute(scene);
+  const std::vector<RayQuery> rays = random_primary_rays(scene, 20000, 5);
+  const auto truth = all_nearest(brute, rays, settings);
+  const auto exceptions = [&](const Scene& changed) {
+    const std::size_t found = agreement_of(brute, truth, gpu_intersect(changed, rays, settings)).exceptions();
+    const auto host = intersect_on(Context(HOST_DEVICE), changed, rays, settings);
+    return std::min<std::size_t>(found, agreement_of(brute, truth, host).exceptions());
+  };
+  EXPECT_EQ(exceptions(scene), 0U);
+  for (const std::uint32_t step : {1U << 16, 1U << 23}) {  // of the direction, of the factor
+    Scene changed = scene;
+    for (std::uint32_t& clip : changed.clip_pool) clip ^= is_ellipse(clip) ? step : 0U;
+    EXPECT_GT(exceptions(changed), 0U) << step;
+  }
 }
 
 class RealModel : public ::testing::TestWithParam<const char*> {};

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/tree.h"
 
@@ -31,6 +32,7 @@ namespace glsl {
 #define COUNTERS ((features[SPEC_FEATURES] & FEATURE_COUNTERS) != 0)
 #define FIELDS ((features[SPEC_FEATURES] & FEATURE_FIELDS) != 0)
 #define CLIPS (!bound->clip_pool.empty())
+#define ELLIPSES ((features[SPEC_FEATURES] & FEATURE_ELLIPSES) != 0)
 
 uint top_entry(uint index) { return top.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
@@ -41,6 +43,7 @@ uvec4 splat_words(uint splat) { return bound->data_pool.at(splat); }
 Material material_at(uint object) { return bound->materials.at(object); }
 vec3 color_at(uint splat) { return unpack_color(bound->color_pool.at(splat)); }
 uint field_word(uint splat) { return bound->field_pool.at(splat); }
+vec3 cut_eye() { return vec3(0.0F); }
 uint clip_word(uint splat) { return bound->clip_pool.at(splat); }
 
 #include "shaders/stage/query.glsl"
@@ -69,7 +72,8 @@ Features twin_features(const Scene& scene, const Settings& settings) {
   chosen[SPEC_FACES] = faces_of(scene);
   const bool bends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
   chosen[SPEC_FEATURES] = FEATURE_GLASS | FEATURE_COUNTERS | (scene.color_pool.empty() ? 0 : FEATURE_COLORS) |
-                          (bends && !scene.field_pool.empty() ? FEATURE_FIELDS : 0);
+                          (bends && !scene.field_pool.empty() ? FEATURE_FIELDS : 0) |
+                          (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0);
   chosen[SPEC_TOP_LEVELS] = 5;
   return chosen;
 }
