@@ -24,6 +24,7 @@
 #include "preprocess/base/select.h"
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/clouds.h"
+#include "preprocess/scan/grid/pinhole.h"
 #include "preprocess/scan/scan_surface.h"
 #include "preprocess/surface/cloud.h"
 #include "preprocess/surface/normals.h"
@@ -122,6 +123,8 @@ void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const Progress&
     std::uint32_t& flags = scene.materials[object].flags;
     if (estimated > 0 && estimated == cloud.size() && (flags & MATERIAL_DIELECTRIC) == 0)
       flags |= MATERIAL_TWO_SIDED;
+    // Bare points are a scan, also in a format that meshes and samples come in too.
+    if (estimated > 0 && cloud.measured && scene.stations.empty()) scene.stations.emplace_back();
   }
 }
 
@@ -176,6 +179,7 @@ std::uint32_t packed_field(const Cloud& cloud, std::size_t i, const glm::dvec3& 
 
 /// The clip lines of a splat that has been packed.
 std::uint32_t packed_clip(const Cloud& cloud, std::size_t i, const RootTransform& root, const uvec4& words) {
+  if (cloud.clip.empty()) return CLIP_NONE;
   const PointClip& clip = cloud.clip[i];
   if (cloud.radius[i] > clip.reach) return CLIP_NONE;
   std::array<ClipEdge, 2> edges;
@@ -187,6 +191,13 @@ std::uint32_t packed_clip(const Cloud& cloud, std::size_t i, const RootTransform
   return pack_clip(words, std::span(edges).first(clip.lines()));
 }
 
+/// The same with the ellipse of a point that lies on a line.
+std::uint32_t packed_shape(const Cloud& cloud, std::size_t i, const RootTransform& root, const uvec4& words) {
+  const std::uint32_t clip = packed_clip(cloud, i, root, words);
+  if (cloud.line.empty() || !(cloud.line[i].reach > 0.0F)) return clip;
+  return pack_ellipse(words, glm::normalize(glm::dvec3(cloud.line[i].along)), cloud.line[i].aspect, clip);
+}
+
 bool all_whole(const std::vector<std::uint32_t>& clips) {
   return std::all_of(clips.begin(), clips.end(), [](std::uint32_t clip) { return clip == CLIP_NONE; });
 }
@@ -195,11 +206,23 @@ bool all_flat(const std::vector<std::uint32_t>& fields) {
   return std::all_of(fields.begin(), fields.end(), [](std::uint32_t field) { return field == FIELD_FLAT; });
 }
 
+/// Keeps what points are part of beside their other attributes; a file's own column of that name stays.
+void add_kind_column(Cloud& cloud) {
+  if (cloud.kind.empty() || cloud.columns.size() >= COLUMNS_MOST || find_column(cloud.columns, COLUMN_KIND))
+    return;
+  std::vector<std::uint8_t> values(cloud.size());
+  std::transform(cloud.kind.begin(), cloud.kind.end(), values.begin(),
+                 [](ScanKind kind) { return static_cast<std::uint8_t>(kind); });
+  cloud.kind = {};
+  cloud.columns.push_back({std::string(COLUMN_KIND), std::move(values)});
+}
+
 /// The columns of all objects' points, one object after the other; 0 where an object lacks one.
 std::vector<Column> take_columns(std::vector<Cloud>& clouds) {
   std::vector<Column> columns;
   std::size_t size = 0;
   for (Cloud& cloud : clouds) {
+    add_kind_column(cloud);
     append_columns(columns, size, std::exchange(cloud.columns, {}), cloud.size());
     size += cloud.size();
   }
@@ -224,7 +247,7 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
   for (const Cloud& cloud : clouds) {
     total += cloud.size();
     has_fields = has_fields || !cloud.field.empty();
-    has_clips = has_clips || !cloud.clip.empty();
+    has_clips = has_clips || !cloud.clip.empty() || !cloud.line.empty();
     has_colors = has_colors || !cloud.color.empty();
   }
   SplatList splats;
@@ -248,7 +271,7 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
       splats.words[first + i] = words;
       splats.key[first + i] = morton_key(glm::uvec3(splat.center));
       if (!cloud.field.empty()) splats.field[first + i] = packed_field(cloud, i, splat.normal);
-      if (!cloud.clip.empty()) splats.clip[first + i] = packed_clip(cloud, i, root, words);
+      if (has_clips) splats.clip[first + i] = packed_shape(cloud, i, root, words);
     });
     std::copy(cloud.color.begin(), cloud.color.end(),
               splats.color.begin() + static_cast<std::ptrdiff_t>(cloud.color.empty() ? 0 : first));
@@ -317,8 +340,10 @@ void fill_pools(ListedOctree built, SplatList splats, Scene& scene, BuildStats& 
 
 void count_result(const Scene& scene, BuildStats& stats) {
   stats.splats = scene.data_pool.size();
-  stats.clipped = scene.clip_pool.size() - static_cast<std::uint64_t>(std::count(
-                                               scene.clip_pool.begin(), scene.clip_pool.end(), CLIP_NONE));
+  for (const std::uint32_t clip : scene.clip_pool) {
+    stats.ellipses += is_ellipse(clip) ? 1 : 0;
+    stats.clipped += cuts_off(clip) ? 1 : 0;
+  }
   stats.references = scene.reference_pool.size();
   stats.nodes = scene.node_pool.size();
   stats.filled_leaves = scene.begin_end.size() - 1;
@@ -354,6 +379,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   require_build_memory(input);
   Scene scene = describe_scene(input, params);
   std::vector<Cloud> clouds = make_clouds(input, scene.object_names, stats);
+  if (!scene.camera) scene.camera = camera_of_scan(clouds);
   find_all_surfaces(clouds, scene, progress, stats);
   require_points(clouds, stats);
   find_bounds(clouds, scene);

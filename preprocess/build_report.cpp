@@ -16,11 +16,25 @@ nlohmann::ordered_json sides_json(const BuildStats& stats) {
   return json;
 }
 
+nlohmann::ordered_json kinds_json(const BuildStats& stats) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (std::size_t kind = 0; kind < SCAN_KINDS; ++kind)
+    json[std::string(name_of(static_cast<ScanKind>(kind)))] = stats.kinds[kind];
+  return json;
+}
+
 /// What was repaired of scans, in a line each.
 void tell_scans(const BuildStats& stats, std::ostringstream& text) {
   if (stats.dropped_isolated + stats.dropped_mixed + stats.dropped_unsupported > 0) {
     text << "  not drawn: " << stats.dropped_isolated << " isolated points, " << stats.dropped_mixed
          << " between two surfaces, " << stats.dropped_unsupported << " with too few neighbours\n";
+  }
+  const auto [surface, line, scatter] = stats.kinds;
+  if (line + scatter > 0) {
+    const double percent = 100.0 / static_cast<double>(surface + line + scatter);
+    text << "  kinds of points: " << percent * static_cast<double>(surface) << " % surface, "
+         << percent * static_cast<double>(line) << " % line, " << percent * static_cast<double>(scatter)
+         << " % scatter\n";
   }
   if (stats.smoothed > 0) {
     text << "  " << stats.smoothed << " points smoothed (noise " << stats.noise
@@ -48,6 +62,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"dropped_isolated", stats.dropped_isolated},
                                        {"dropped_mixed", stats.dropped_mixed},
                                        {"dropped_unsupported", stats.dropped_unsupported},
+                                       {"kinds", kinds_json(stats)},
                                        {"smoothed", stats.smoothed},
                                        {"noise", stats.noise},
                                        {"moved_median_world", stats.moved_median_world},
@@ -60,6 +75,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"radii_isolated", stats.radii_isolated},
                                        {"splats", stats.splats},
                                        {"clipped", stats.clipped},
+                                       {"ellipses", stats.ellipses},
                                        {"creased", stats.creased},
                                        {"bordered", stats.bordered},
                                        {"crease_copies", stats.crease_copies},
@@ -98,6 +114,7 @@ std::string build_summary(const BuildStats& stats, const std::filesystem::path& 
   repair(stats.radii_repaired, "given radii computed anew: zero, negative or not finite");
   repair(stats.radii_isolated, "points without neighbours: radius relative to the scene");
   repair(stats.clipped, "splats end at a border or a crease");
+  repair(stats.ellipses, "splats are ellipses, as points lie in lines");
   text << "  " << stats.nodes << " nodes, " << stats.filled_leaves << " filled leaves, depth " << stats.depth
        << ", " << stats.references << " references: growth " << 100.0 * stats.growth << " %";
   if (stats.growth_overlap > stats.growth) text << " (overlap: " << 100.0 * stats.growth_overlap << " %)";

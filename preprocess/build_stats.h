@@ -16,6 +16,7 @@ struct BuildStats {
   std::uint64_t dropped_isolated = 0;    ///< strays of scans: far from all others
   std::uint64_t dropped_mixed = 0;       ///< of scans with grids: between the two surfaces that a beam met
   std::uint64_t dropped_unsupported = 0;  ///< of noisy scans: fewer than 6 neighbours on their surface
+  std::array<std::uint64_t, 3> kinds{};   ///< of scans without normals: points of each ScanKind
   std::uint64_t smoothed = 0;             ///< points of noisy scans, moved onto their surface
   /// Of the noisiest scan without normals: heights off the surface over the distance to the 8th place.
   double noise = 0.0;
@@ -30,6 +31,7 @@ struct BuildStats {
   std::uint64_t radii_isolated = 0;
   std::uint64_t splats = 0;
   std::uint64_t clipped = 0;        ///< splats that end at a border or a crease
+  std::uint64_t ellipses = 0;       ///< splats that are longer than wide
   std::uint64_t creased = 0;        ///< points of scans at which a crease was found
   std::uint64_t bordered = 0;       ///< points of scans at which a border was found
   std::uint64_t crease_copies = 0;  ///< points added, as a crease's points lie on several planes

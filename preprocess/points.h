@@ -39,7 +39,13 @@ struct PointClip {
   }
 };
 
-/// A point set. All arrays that are not empty have the same length, but for `stations`.
+/// Where a sensor that moved was at a time.
+struct TrackPlace {
+  double time;  ///< of the same clock as COLUMN_TIME
+  glm::dvec3 sensor_world;
+};
+
+/// A point set. All arrays that are not empty have the same length, but for `stations` and `track`.
 struct Points {
   std::vector<glm::dvec3> position;  ///< world units
   std::vector<glm::vec3> normal;     ///< any length; empty = none given. A zero normal means "estimate me"
@@ -54,6 +60,7 @@ struct Points {
   std::vector<Station> stations;         ///< where the points were measured from; empty = not known
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< row * columns + column in the station's grid; empty = no grids
+  std::vector<TrackPlace> track;  ///< where points with COLUMN_TIME were measured from, by time; empty = not told
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
@@ -129,6 +136,8 @@ struct ScanOptions {
 
   /// Where the scanner stood, world units after z_scale, for points whose file does not say; it tells the sides of their normals.
   std::optional<glm::dvec3> sensor_world;
+  /// Text of times and places, where the sensor of points with times moved; empty = not known.
+  std::filesystem::path trajectory;
   double z_scale = 1.0;  ///< factor on heights, > 0: 0.3048 where they are in feet beside metres
 
   bool operator==(const ScanOptions&) const = default;

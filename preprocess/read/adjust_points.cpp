@@ -8,6 +8,7 @@ void scale_heights(Points& points, double scale) {
   for (glm::vec3& normal : points.normal) normal.z = static_cast<float>(double(normal.z) / scale);
   for (Station& station : points.stations)
     if (station.sensor_world) station.sensor_world->z *= scale;
+  for (TrackPlace& place : points.track) place.sensor_world.z *= scale;
 }
 
 }  // namespace

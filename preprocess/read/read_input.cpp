@@ -14,6 +14,7 @@
 #include "preprocess/read/join_scans.h"
 #include "preprocess/read/one_system.h"
 #include "preprocess/read/read_mesh.h"
+#include "preprocess/read/text/read_track.h"
 
 namespace splatray {
 namespace {
@@ -173,6 +174,21 @@ std::string fate_of(const ScanCounts& counts) {
   throw Error(ExitCode::input_unreadable, found);
 }
 
+/// Gives all points that have times the track that they were measured from.
+void add_track(Input& input, const ReadOptions& options) {
+  const std::filesystem::path& path = options.scans.trajectory;
+  const std::vector<TrackPlace> track = read_track(path, {input.notes, options.progress, 1.0, 1.0});
+  bool used = false;
+  for (InputObject& object : input.objects) {
+    const Column* time = find_column(object.points.columns, COLUMN_TIME);
+    for (std::size_t i = 0; time != nullptr && i < time->size() && object.points.track.empty(); ++i)
+      if (time->number(i) >= track.front().time && time->number(i) <= track.back().time)
+        object.points.track = track;
+    used = used || !object.points.track.empty();
+  }
+  if (!used) throw_unreadable(path, "found no point that has a time of this trajectory, expected some");
+}
+
 }  // namespace
 
 Material default_material() {
@@ -214,6 +230,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   if (left_out && scans.empty() && input.objects.empty()) throw Error(*left_out);
   require_one_system(scans);
   if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
+  if (!options.scans.trajectory.empty()) add_track(input, options);
   for (InputObject& object : input.objects) adjust_points(object, options.scans);
   points_from_meshes(input, options);
   drop_empty_objects(input);

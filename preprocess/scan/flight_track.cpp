@@ -68,7 +68,8 @@ FlightTrack::FlightTrack(const Cloud& cloud, const glm::dvec3& up) {
   const Column* number = find_column(cloud.columns, COLUMN_RETURN);
   const Column* returns = find_column(cloud.columns, COLUMN_RETURNS);
   const Column* time = find_column(cloud.columns, COLUMN_TIME);
-  if (number == nullptr || returns == nullptr || time == nullptr) return;
+  if (time != nullptr && !cloud.track.empty()) places_ = cloud.track;
+  if (number == nullptr || returns == nullptr || time == nullptr || !places_.empty()) return;
   const std::vector<Pulse> pulses = find_pulses(cloud, *number, *returns, *time);
   for (std::size_t begin = 0; begin < pulses.size();) {
     std::size_t end = begin;
@@ -91,10 +92,10 @@ FlightTrack::FlightTrack(const Cloud& cloud, const glm::dvec3& up) {
 
 glm::dvec3 FlightTrack::at(double time) const {
   const auto after = std::lower_bound(places_.begin(), places_.end(), time,
-                                      [](const Place& place, double value) { return place.time < value; });
+                                      [](const TrackPlace& place, double value) { return place.time < value; });
   if (after == places_.begin()) return places_.front().sensor_world;
   if (after == places_.end()) return places_.back().sensor_world;
-  const Place& before = *(after - 1);
+  const TrackPlace& before = *(after - 1);
   const double share = (time - before.time) / (after->time - before.time);
   return glm::mix(before.sensor_world, after->sensor_world, share);
 }

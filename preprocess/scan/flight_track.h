@@ -14,6 +14,7 @@ class FlightTrack {
   /// with at least 15 of them, weighted by the squared distance between the returns (Roussel et al. 2020; Gatziolis and
   /// McGaughey 2019, "Reconstructing aircraft trajectories from multi-return airborne laser-scanning data"). Needs the columns
   /// return, returns and time. Bins whose sensor does not lie above its points along `up` (unit) are left out.
+  /// Where the cloud has a track of its own, that is taken; its points' times are still needed.
   FlightTrack(const Cloud& cloud, const glm::dvec3& up);
 
   [[nodiscard]] bool empty() const { return places_.empty(); }
@@ -21,11 +22,7 @@ class FlightTrack {
   [[nodiscard]] glm::dvec3 at(double time) const;
 
  private:
-  struct Place {
-    double time;
-    glm::dvec3 sensor_world;
-  };
-  std::vector<Place> places_;
+  std::vector<TrackPlace> places_;
 };
 
 }  // namespace splatray

@@ -1,5 +1,6 @@
 #include "preprocess/scan/noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -12,10 +13,13 @@ namespace {
 constexpr float ALIKE = 0.9F;               // cosine of normals of one smooth surface
 constexpr std::size_t MOST_ASKED = 200000;  // points that tell the median well enough
 
-/// What a point and its nearest places disagree about.
-float disagreement(const Cloud& cloud, const Survey& survey, std::uint32_t i) {
+constexpr std::size_t MOST_SORTED = 65536;  // coordinates that tell their step
+
+/// What a point and its nearest places disagree about, and what rounding hides of it.
+float disagreement(const Cloud& cloud, const Survey& survey, const glm::vec3& step, std::uint32_t i) {
   float sum = 0.0F, count = 0.0F;
   for (const std::uint32_t j : survey.around(i).first(Survey::RING)) {
+    if (!cloud.on_surface(j)) continue;
     const float along = glm::dot(cloud.normal[i], cloud.normal[j]);
     if (std::abs(along) < ALIKE) continue;
     const glm::vec3 both = cloud.normal[i] + std::copysign(1.0F, along) * cloud.normal[j];
@@ -23,7 +27,9 @@ float disagreement(const Cloud& cloud, const Survey& survey, std::uint32_t i) {
     sum += height * height;
     count += 1.0F;
   }
-  return count > 0.0F && survey.reach[i] > 0.0F ? std::sqrt(sum / count) / survey.reach[i] : 0.0F;
+  if (!(count > 0.0F && survey.reach[i] > 0.0F)) return 0.0F;
+  const float rounded = glm::dot(step, glm::abs(cloud.normal[i]));
+  return std::sqrt(std::max(sum / count, rounded * rounded / 12.0F)) / survey.reach[i];
 }
 
 /// The median over at most about `most` of the points.
@@ -40,9 +46,27 @@ double median(const std::vector<std::uint32_t>& points, std::size_t most, const 
 
 }  // namespace
 
-double measure_noise(const Cloud& cloud, const Survey& survey) {
-  const auto points = numbers_where(cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0; });
-  return median(points, MOST_ASKED, [&](auto i) { return disagreement(cloud, survey, i); });
+glm::vec3 coordinate_step(const Cloud& cloud) {
+  const std::size_t stride = cloud.size() / MOST_SORTED + 1;
+  glm::vec3 step(0.0F);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < cloud.size(); i += stride) places.push_back(cloud.position[i][axis]);
+    std::sort(places.begin(), places.end());
+    double least = 0.0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      const double apart = places[i] - places[i - 1];
+      if (apart > 0.0 && (least == 0.0 || apart < least)) least = apart;
+    }
+    step[axis] = static_cast<float>(least / cloud.half_extent_world);
+  }
+  return step;
+}
+
+double measure_noise(const Cloud& cloud, const Survey& survey, const glm::vec3& step) {
+  const auto points = numbers_where(
+      cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0 && cloud.on_surface(i); });
+  return median(points, MOST_ASKED, [&](auto i) { return disagreement(cloud, survey, step, i); });
 }
 
 }  // namespace splatray

@@ -1,9 +1,10 @@
 #include "preprocess/scan/scan_surface.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
+#include "preprocess/scan/grid/grid_surface.h"
+#include "preprocess/scan/kind.h"
+#include "preprocess/scan/line/lines.h"
 #include "preprocess/scan/noise.h"
 #include "preprocess/scan/sides.h"
 #include "preprocess/scan/smooth.h"
@@ -17,12 +18,17 @@ namespace {
 constexpr double NOISY = 0.05;  // noise (measure_noise) from which points are moved
 constexpr double SHARP =
     0.05;  // share of points at creases that noise would have hidden: edges are what looks like it
+constexpr double WHOLE = 4.0;         // a radius, cloud coordinates, that reaches all points from each
 constexpr std::size_t FEWEST = 1000;  // points that tell noise from shape
-constexpr double SHORT = 0.95;        // of a smoothing radius, from which it is not reached
+constexpr float LEAVES = 0.4F,
+                CLUTTER = 0.3F;  // radius of discs on no surface over the distance to the 6th place
 
 /// Leaves out what find_strays finds, in the survey too.
-void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
-  const std::vector<Stray> strays = find_strays(cloud, survey);
+void drop_strays(Cloud& cloud, const GridSurface& grids, Survey& survey, BuildStats& stats) {
+  std::vector<Stray> strays = find_strays(cloud, survey, grids);
+  // The next ring may be far off: what is on a line is not alone.
+  const auto alone = numbers_where(cloud.size(), [&](std::size_t i) { return strays[i] == Stray::isolated; });
+  for (const std::uint32_t i : points_on_lines(cloud, survey, alone)) strays[i] = Stray::no;
   const auto count = [&](Stray kind) {
     return static_cast<std::uint64_t>(std::count(strays.begin(), strays.end(), kind));
   };
@@ -37,6 +43,25 @@ void drop_strays(Cloud& cloud, Survey& survey, BuildStats& stats) {
   survey.keep(kept, number);
 }
 
+/// Tells what points are part of; those at creases, which bend the planes around them, and on lines that make up a surface are of
+/// surfaces.
+void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, BuildStats& stats) {
+  for (const SharpSide& side : sharp)
+    if (side.crease) survey.flatness[side.point] = 0.0F;
+  cloud.kind = find_kinds(cloud, survey);
+  if (!cloud.kind.empty() && !cloud.line.empty())
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      if (cloud.line[i].reach > 0.0F || cloud.line[i].most > 0.0F) cloud.kind[i] = ScanKind::surface;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (survey.estimated[i] == 0) continue;
+    ++stats.kinds[static_cast<std::size_t>(cloud.kind.empty() ? ScanKind::surface : cloud.kind[i])];
+  }
+  // What a line's own points say of its ends and sides is not of the surface.
+  std::erase_if(sharp, [&](const SharpSide& side) {
+    return !cloud.on_surface(side.point) || (!cloud.line.empty() && cloud.line[side.point].reach > 0.0F);
+  });
+}
+
 /// Creases and borders among the points, as `params` ask for; of points without radii, as others are discs already.
 std::vector<SharpSide> find_sharp_sides(const Cloud& cloud, const Survey& survey, const BuildParams& params,
                                         const Stage& stage) {
@@ -44,15 +69,10 @@ std::vector<SharpSide> find_sharp_sides(const Cloud& cloud, const Survey& survey
   return find_sharp(cloud, params.crease_degrees, survey.estimated, stage);
 }
 
-/// Where there are so many points that a radius which was asked for is not reached.
-void note_reach(const Smoothed& smoothed, double asked_world, BuildStats& stats) {
-  if (!(smoothed.reach_median_world < SHORT * asked_world)) return;
-  std::array<char, 160> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "smoothing by %.3g reaches %.3g (median), where there are about 64 neighbours; it takes no more",
-      asked_world, smoothed.reach_median_world);
-  stats.notes.emplace_back(text.data());
+/// Turns the planes at creases and borders to the sides of their points' normals.
+void turn_with_points(const Cloud& cloud, std::vector<SharpSide>& sharp) {
+  for (SharpSide& side : sharp)
+    if (glm::dot(side.normal, cloud.normal[side.point]) < 0.0F) side.normal = -side.normal;
 }
 
 void count_sharp(const std::vector<SharpSide>& sharp, BuildStats& stats) {
@@ -64,28 +84,60 @@ void count_sharp(const std::vector<SharpSide>& sharp, BuildStats& stats) {
   }
 }
 
+/// The surface that grids tell.
+GridSurface find_grids(Cloud& cloud, const BuildParams& params, const Stage& stage, BuildStats& stats) {
+  GridSurface grids = find_grid_surface(cloud, params.smooth_world < 0.0, stage);
+  stats.dropped_mixed += grids.mixed;
+  stats.smoothed += grids.moved;
+  stats.moved_median_world = std::max(stats.moved_median_world, grids.moved_median_world);
+  stats.noise = std::max(stats.noise, grids.noise);
+  return grids;
+}
+
 }  // namespace
 
 std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildParams& params,
                                 const Stage& stage, BuildStats& stats) {
+  const GridSurface grids = params.keep_strays ? GridSurface{} : find_grids(cloud, params, stage, stats);
+  const bool all_told = grids.points > 0 && grids.points == cloud.size();
+  if (all_told && !(params.smooth_world > 0.0)) {
+    if (grids.normals > 0) ++stats.sides_by[static_cast<std::size_t>(SideRung::sensor)];
+    return grids.normals;
+  }
+  const glm::vec3 step = coordinate_step(cloud);  // positions are gone after the survey
   Survey survey = survey_points(cloud, up, stage);
-  drop_strays(cloud, survey, stats);
-  const auto estimated = numbers_where(cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0; });
+  if (!params.keep_strays) drop_strays(cloud, grids, survey, stats);
+  lay_line_surfaces(cloud, survey, params.clip && cloud.radius.empty(), stage);
+  std::vector<SharpSide> sharp = find_sharp_sides(cloud, survey, params, stage);
+  sort_kinds(cloud, survey, sharp, stats);
+  const auto all_estimated =
+      static_cast<std::uint64_t>(std::count(survey.estimated.begin(), survey.estimated.end(), 1));
+  const auto estimated = numbers_where(
+      cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0 && cloud.on_surface(i); });
   const SidesFound sides = turn_to_sides(cloud, survey, estimated, up, stage);
   if (!estimated.empty()) ++stats.sides_by[static_cast<std::size_t>(sides.rung)];
   stats.sides_unsure += sides.unsure;
-  const std::vector<SharpSide> sharp = find_sharp_sides(cloud, survey, params, stage);
+  turn_with_points(cloud, sharp);
   take_normals(cloud, sharp);
-  const double noise = measure_noise(cloud, survey);
+  const double noise = measure_noise(cloud, survey, step);
+  if (!cloud.kind.empty()) {
+    const bool terrain = sides.rung == SideRung::up || sides.rung == SideRung::track;
+    make_scatter_discs(cloud, survey, up, !terrain && is_room(cloud, survey) ? CLUTTER : LEAVES);
+  }
   stats.noise = std::max(stats.noise, noise);
   const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
   const bool noisy = noise > NOISY && estimated.size() >= FEWEST && !sharply;
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
-    const double radius = std::max(params.smooth_world, 0.0) / cloud.half_extent_world;
+    const double radius = std::clamp(params.smooth_world / cloud.half_extent_world, 0.0, WHOLE);
     survey.listed = {};
+    Smoothed smoothed;
+    if (params.smooth_world < 0.0) {
+      std::vector<std::uint8_t> movable = survey.estimated;
+      for (std::size_t i = 0; i < cloud.size(); ++i) movable[i] = movable[i] != 0 && cloud.on_surface(i) ? 1 : 0;
+      smoothed = smooth_by_grids(cloud, movable, noise, stage);
+    }
     const bool sided = estimated.empty() || sides.rung == SideRung::sensor;
-    const Smoothed smoothed = smooth_points(cloud, survey, radius, sided, stage);
-    if (smoothed.moved > 0) note_reach(smoothed, params.smooth_world, stats);
+    if (smoothed.moved == 0) smoothed = smooth_points(cloud, survey, radius, sided, noise, stage);
     stats.smoothed += smoothed.moved;
     stats.dropped_unsupported += smoothed.dropped;
     stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);
@@ -93,7 +145,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
     take_sides(cloud, sharp);
     count_sharp(sharp, stats);
   }
-  return estimated.size();
+  return all_estimated + grids.normals;
 }
 
 }  // namespace splatray

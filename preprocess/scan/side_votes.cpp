@@ -31,6 +31,7 @@ float difference(const Cloud& cloud, std::uint32_t i, std::uint32_t j) {
 }
 
 bool are_near(const Cloud& cloud, const Survey& survey, std::uint32_t i, std::uint32_t j) {
+  if (!cloud.on_surface(i) || !cloud.on_surface(j)) return false;
   const glm::vec3 step = cloud.coord[j] - cloud.coord[i];
   const float reach = LINK * std::min(survey.reach[i], survey.reach[j]);
   return glm::dot(step, step) <= reach * reach;
@@ -116,30 +117,6 @@ Parts find_parts(const Cloud& cloud, const Survey& survey) {
   return parts;
 }
 
-/// Whether much of the cloud lies in walls, floors and ceilings: planes that all but few points are on one side of.
-bool is_room(const Cloud& cloud, const Survey& survey) {
-  constexpr std::size_t PLANES = 512, POINTS = 2000;
-  const std::size_t planes = std::min(PLANES, cloud.size()), points = std::min(POINTS, cloud.size());
-  std::vector<std::uint8_t> bounds(planes);
-  tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
-    const std::size_t i = p * cloud.size() / planes;
-    const double near = 2.0 * survey.reach[i] + 0.002;
-    std::size_t above = 0, below = 0, within = 0;
-    for (std::size_t q = 0; q < points; ++q) {
-      const std::size_t j = q * cloud.size() / points;
-      const double height =
-          glm::dot(glm::dvec3(cloud.normal[i]), glm::dvec3(cloud.coord[j] - cloud.coord[i]));
-      above += height > near ? 1 : 0;
-      below += height < -near ? 1 : 0;
-      const bool alike = std::abs(glm::dot(cloud.normal[i], cloud.normal[j])) > FLAT;
-      within += alike && std::abs(height) <= near ? 1 : 0;
-    }
-    bounds[p] = std::min(above, below) < points / 50 && within > points / 25;
-  });
-  const auto count = static_cast<double>(std::count(bounds.begin(), bounds.end(), 1));
-  return count > ROOM_SHARE * static_cast<double>(planes);
-}
-
 /// A direction about +z, the same for the same number, cosine-weighted: a Halton sequence's members (bases 2 and 3).
 glm::dvec3 direction(std::uint32_t number) {
   const auto inverse = [](std::uint32_t n, std::uint32_t base) {
@@ -169,6 +146,7 @@ std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, co
   std::vector<std::int8_t> votes(cloud.size());
   parallel_each(stage, cloud.size() / stride, [&](std::size_t n) {
     const std::size_t i = n * stride;
+    if (!cloud.on_surface(i)) return;
     const glm::dvec3 normal(cloud.normal[i]);
     const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(normal, side)), v = glm::cross(normal, u);
@@ -216,6 +194,29 @@ void ask_neighbours(const Cloud& cloud, const Survey& survey, const Parts& parts
 
 }  // namespace
 
+bool is_room(const Cloud& cloud, const Survey& survey) {
+  constexpr std::size_t PLANES = 512, POINTS = 2000;
+  const std::size_t planes = std::min(PLANES, cloud.size()), points = std::min(POINTS, cloud.size());
+  std::vector<std::uint8_t> bounds(planes);
+  tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
+    const std::size_t i = p * cloud.size() / planes;
+    const double near = 2.0 * survey.reach[i] + 0.002;
+    std::size_t above = 0, below = 0, within = 0;
+    for (std::size_t q = 0; q < points; ++q) {
+      const std::size_t j = q * cloud.size() / points;
+      const double height =
+          glm::dot(glm::dvec3(cloud.normal[i]), glm::dvec3(cloud.coord[j] - cloud.coord[i]));
+      above += height > near ? 1 : 0;
+      below += height < -near ? 1 : 0;
+      const bool alike = std::abs(glm::dot(cloud.normal[i], cloud.normal[j])) > FLAT;
+      within += alike && std::abs(height) <= near ? 1 : 0;
+    }
+    bounds[p] = std::min(above, below) < points / 50 && within > points / 25;
+  });
+  const auto count = static_cast<double>(std::count(bounds.begin(), bounds.end(), 1));
+  return count > ROOM_SHARE * static_cast<double>(planes);
+}
+
 std::uint64_t turn_by_votes(Cloud& cloud, const Survey& survey, const Stage& stage) {
   const Parts parts = find_parts(cloud, survey);
   const std::vector<std::int8_t> cast = cast_votes(cloud, survey, stage);
@@ -231,6 +232,7 @@ std::uint64_t turn_by_votes(Cloud& cloud, const Survey& survey, const Stage& sta
   ask_neighbours(cloud, survey, parts, side);
   std::uint64_t unsure = 0;
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (!cloud.on_surface(i)) continue;
     const std::uint32_t part = parts.part[i];
     unsure += side[part] == 0 ? 1 : 0;
     const std::int8_t its = side[part] != 0 ? side[part] : votes[part].same >= votes[part].opposite ? 1 : -1;

@@ -20,7 +20,9 @@ const double GRAZING =
 template <typename SensorOf>
 void turn_towards(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points,
                   const SensorOf& sensor_of) {
-  std::vector<std::uint8_t> sure(cloud.size(), 1);
+  std::vector<std::uint8_t> sure(cloud.size());
+  tbb::parallel_for(std::size_t{0}, cloud.size(),
+                    [&](std::size_t i) { sure[i] = cloud.on_surface(i) ? 1 : 0; });
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t n) {
     const std::uint32_t i = points[n];
     const std::optional<glm::dvec3> sensor = sensor_of(i);
@@ -83,7 +85,7 @@ SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<s
   const auto in_cloud = [&](const glm::dvec3& world) {
     return (world - cloud.center_world) / cloud.half_extent_world;
   };
-  if (any_sensor(cloud)) {
+  if (cloud.track.empty() && any_sensor(cloud)) {
     turn_towards(cloud, survey, estimated, [&](std::uint32_t i) -> std::optional<glm::dvec3> {
       const auto& sensor = cloud.stations[cloud.station_of(i)].sensor_world;
       return sensor ? std::optional(in_cloud(*sensor)) : std::nullopt;

@@ -8,6 +8,7 @@
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
 #include "preprocess/base/vector_clones.h"
+#include "preprocess/scan/reproject.h"
 #include "preprocess/surface/neighbours.h"
 
 namespace splatray {
@@ -145,27 +146,53 @@ class Projection {
   }
 
   [[nodiscard]] NeighbourSearch::Query query(std::uint32_t i) const {
-    const float limit = radius_ > 0.0F ? radius_ : REACHES * std::max(survey_.reach[i], usual_);
+    if (radius_ > 0.0F) return {cloud_.coord[i], radius_ * radius_, radius_ * radius_};
+    const float limit = REACHES * std::max(survey_.reach[i], usual_);
     const float squared = std::min(limit * limit, survey_.expected_squared(i, ENOUGH));
     return {cloud_.coord[i], squared, squared};
   }
 
-  /// The median of what queries are limited to, cloud coordinates.
-  [[nodiscard]] double usual_limit() const {
-    std::vector<float> limits(survey_.reach.size());
-    tbb::parallel_for(std::size_t{0}, limits.size(),
-                      [&](std::size_t i) { limits[i] = query(static_cast<std::uint32_t>(i)).limit_squared; });
-    select_nth(std::span(limits), limits.size() / 2, std::identity());
-    return std::sqrt(double{limits[limits.size() / 2]});
+  /// Every how many points are looked at around a point: a power of 4, so that a radius that was asked for holds no more than
+  /// ENOUGH of them.
+  [[nodiscard]] std::size_t stride_of(std::size_t i) const {
+    std::size_t stride = 1;
+    if (radius_ > 0.0F) {
+      const float count = survey_.expected_count(i, radius_ * radius_);
+      while (count > ENOUGH * static_cast<float>(stride) && stride * MOST < cloud_.size()) stride *= 4;
+    }
+    return stride;
   }
 
-  /// Whether a point may be moved: where nobody asks for a radius, given normals stay with their points.
-  [[nodiscard]] bool moves(std::uint32_t i) const { return radius_ > 0.0F || survey_.estimated[i] != 0; }
+  /// Whether a point may be moved: it is of a surface and, where nobody asks for a radius, its normal was not given.
+  [[nodiscard]] bool moves(std::size_t i) const {
+    return cloud_.on_surface(i) && (radius_ > 0.0F || survey_.estimated[i] != 0);
+  }
 
+  /// Moves the points of these numbers by every `stride`-th point around them.
+  void move(const std::vector<std::uint32_t>& movers, std::size_t stride, Moved& moved,
+            const Stage& stage) const {
+    if (movers.empty()) return;
+    Cloud thin;
+    std::vector<std::uint32_t> source;
+    if (stride > 1) {
+      source = numbers_where(cloud_.size(),
+                             [&](std::size_t i) { return i % stride == 0 && cloud_.on_surface(i); });
+      thin.coord = splatray::gather(cloud_.coord, source);
+      thin.normal = splatray::gather(cloud_.normal, source);
+    }
+    const NeighbourSearch search(stride > 1 ? thin : cloud_, Sites::oriented_surface);
+    search.find_each(
+        movers.size(), [&](std::uint32_t n) { return query(movers[n]); }, MOST, stage,
+        [&](std::uint32_t n, std::span<Neighbour> nearest) {
+          if (stride > 1)
+            for (Neighbour& neighbour : nearest)
+              neighbour = {neighbour.distance_squared(), source[neighbour.index()]};
+          move(movers[n], nearest, moved);
+        });
+  }
+
+ private:
   void move(std::uint32_t i, std::span<const Neighbour> nearest, Moved& moved) const {
-    moved.supported[i] = 1;
-    moved.normal[i] = cloud_.normal[i];
-    if (!moves(i)) return;
     Around around;
     float distance_squared[Around::ROOM];
     const float widest = nearest.size() == MOST ? farthest(nearest) : query(i).limit_squared;
@@ -178,7 +205,6 @@ class Projection {
     moved.normal[i] = plane.normal;
   }
 
- private:
   static float farthest(std::span<const Neighbour> nearest) {
     float squared = 0.0F;
     for (const Neighbour& neighbour : nearest) squared = std::max(squared, neighbour.distance_squared());
@@ -211,28 +237,32 @@ class Projection {
 
 }  // namespace
 
-Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided, const Stage& stage) {
+Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided, double noise,
+                       const Stage& stage) {
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
   const Projection projection(cloud, survey, radius, sided);
-  Moved moved{std::vector<float>(size), std::vector<glm::vec3>(size), std::vector<std::uint8_t>(size)};
-  double reach = 0.0;
-  {
-    const NeighbourSearch search(cloud, Sites::oriented_positions);
-    reach = projection.usual_limit();
-    search.find_each(
-        size, [&](std::uint32_t i) { return projection.query(i); }, MOST, stage,
-        [&](std::uint32_t i, std::span<const Neighbour> nearest) { projection.move(i, nearest, moved); });
+  Moved moved{std::vector<float>(size), cloud.normal, std::vector<std::uint8_t>(size, 1)};
+  std::vector<std::uint8_t> moves(size);
+  tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) { moves[i] = projection.moves(i) ? 1 : 0; });
+  for (std::size_t stride = 1; stride == 1 || (radius > 0.0 && stride < 4 * size); stride *= 4) {
+    const auto movers = numbers_where(
+        size, [&](std::size_t i) { return moves[i] != 0 && projection.stride_of(i) == stride; });
+    projection.move(movers, stride, moved, stage);
   }
-  const auto kept = numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
-  if (kept.empty()) return {};  // nothing supports anything: the radius is too small for these points
-  std::vector<float> lifts;
-  for (const std::uint32_t i : kept)
-    if (projection.moves(i)) lifts.push_back(std::abs(moved.lift[i]));
+  const auto supported = numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
+  if (supported.empty()) return {};  // nothing supports anything: the radius is too small for these points
   cloud.normal = std::move(moved.normal);
-  keep_points(cloud, kept);
-  move_points(cloud, gather(moved.lift, kept));
-  Smoothed smoothed{lifts.size(), size - kept.size(), 0.0, reach * cloud.half_extent_world};
+  keep_points(cloud, supported);
+  moves = gather(moves, supported);
+  std::vector<float> lift = gather(moved.lift, supported);
+  move_points(cloud, lift);
+  reproject_points(cloud, moves, lift, sided, noise, stage);
+  put_in_order(cloud);
+  std::vector<float> lifts;
+  for (std::size_t i = 0; i < lift.size(); ++i)
+    if (moves[i] != 0) lifts.push_back(std::abs(lift[i]));
+  Smoothed smoothed{lifts.size(), size - lift.size(), 0.0};
   if (lifts.empty()) return smoothed;
   select_nth(std::span(lifts), lifts.size() / 2, std::identity());
   smoothed.moved_median_world = lifts[lifts.size() / 2] * cloud.half_extent_world;

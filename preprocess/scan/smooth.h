@@ -13,18 +13,18 @@ struct Smoothed {
   std::uint64_t moved = 0;
   std::uint64_t dropped = 0;        ///< had fewer than 6 neighbours on their surface
   double moved_median_world = 0.0;  ///< how far the points moved
-  double reach_median_world = 0.0;  ///< within which the neighbours were that moved them
 };
 
-/// Projects points and their normals once onto the plane of their surroundings, by moving least squares (Levin 2003; Alexa et al.
-/// 2003, "Computing and rendering point set surfaces", with the mean normal for the plane's as Adamson and Alexa 2004): the
-/// places within `radius` (cloud coordinates; 0 = 2.5 times the distance to the 8th place, the point's own or the median of all,
-/// whichever is more) or, where that is less, within what about 64 are expected in, weights (1 - d^2/R^2)^2 times the cosine to
-/// the point's own normal, so that surfaces behind and edges stay; the plane of weighted mean and mean normal, twice weighted
-/// anew by the distance to it. Points with fewer than 6 such neighbours are dropped. With a radius of 0 the points whose normals
-/// were not estimated stay as they are. Normals must be known; `sided` when their sides are too. The cloud is in order
-/// afterwards.
+/// Projects points and their normals once onto the plane of their surroundings, by moving least squares (Levin 2003; Alexa et
+/// al. 2003, "Computing and rendering point set surfaces", with the mean normal for the plane's as Adamson and Alexa 2004): the
+/// places within `radius` (cloud coordinates), every 4th, 16th and so on where more than about 64 are expected; with 0 those
+/// within 2.5 times the distance to the 8th place, the point's own or the median of all, whichever is more, or, where that is
+/// less, within what about 64 are expected in; weights (1 - d^2/R^2)^2 times the cosine to the point's own normal, so that
+/// surfaces behind and edges stay; the plane of weighted mean and mean normal, twice weighted anew by the distance to it.
+/// Points with fewer than 6 such neighbours are dropped. What is left is looked at again (reproject_points, which `noise` is
+/// for). Points on no surface stay as they are, and with a radius of 0 those whose normals were not estimated. Normals must be
+/// known; `sided` when their sides are too. The cloud is in order afterwards.
 [[nodiscard]] Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided,
-                                     const Stage& stage);
+                                     double noise, const Stage& stage);
 
 }  // namespace splatray

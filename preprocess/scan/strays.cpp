@@ -118,16 +118,19 @@ void mark_seen_from(const Cloud& cloud, const Survey& survey, const Station& sta
 
 }  // namespace
 
-std::vector<Stray> find_strays(const Cloud& cloud, const Survey& survey) {
+std::vector<Stray> find_strays(const Cloud& cloud, const Survey& survey, const GridSurface& grids) {
   std::vector<Stray> strays(cloud.size(), Stray::no);
   if (cloud.size() < FEWEST) return strays;
   mark_isolated(survey, strays);
   mark_small_parts(cloud, survey, strays);
   for (std::size_t s = 0; s < cloud.stations.size(); ++s) {
     if (!cloud.stations[s].sensor_world) continue;
-    const auto points = numbers_where(cloud.size(), [&](std::size_t i) { return cloud.station_of(i) == s; });
+    const auto points = numbers_where(
+        cloud.size(), [&](std::size_t i) { return cloud.station_of(i) == s && !grids.has(cloud, i); });
     mark_seen_from(cloud, survey, cloud.stations[s], points, strays);
   }
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (grids.has(cloud, i)) strays[i] = Stray::no;
   return strays;
 }
 

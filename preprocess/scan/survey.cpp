@@ -21,11 +21,18 @@ constexpr double LINE =
 constexpr std::array<std::size_t, 2> STRIDES{8, 64};
 constexpr float ROUGH = 0.03F;  // of a neighbourhood that noise or edges tell more of than a plane does
 constexpr double ROUGHEST =
-    1.0 / 3.0;                    // of a line too: one ring with its noise makes a plane across the surface
-constexpr float EVEN = 2.0F;      // distance to the 32nd place over that to the 8th on a surface
-constexpr float ROOM = 1.3F;      // squared distance that is searched over what is expected
-constexpr float TOGETHER = 0.3F;  // extent of rough points that share a wider neighbourhood, over its radius
-constexpr double FLATTER = 0.5;   // roughness of a wider one that is better, over that
+    1.0 / 3.0;                     // of a line too: one ring with its noise makes a plane across the surface
+constexpr float EVEN = 2.0F;       // distance to the 32nd place over that to the 8th on a surface
+constexpr float ROOM = 1.3F;       // squared distance that is searched over what is expected
+constexpr float TOGETHER = 0.3F;   // extent of rough points that share a wider neighbourhood, over its radius
+constexpr double FLATTER = 0.5;    // roughness of a wider one that is better, over that
+constexpr double DRAWN_OUT = 0.3;  // second deviation / first: below this a neighbourhood tells of no surface
+constexpr std::size_t KIND_STRIDE =
+    STRIDES[0];  // of the wider neighbourhoods that tell what points are part of
+constexpr std::array<std::size_t, 2> KIND_SIZES{16, 32};  // and what is looked at of them
+constexpr float THICK = 1.0F;                             // flatness that tells of no line and no surface
+constexpr double THICKER =
+    1.4;  // deviation across a wider one that is still the noise of a surface, over that of 32
 
 float entropy(const glm::dvec3& variance) {
   const double by = 1.0 / (variance.x + variance.y + variance.z);
@@ -41,6 +48,8 @@ float entropy(const glm::dvec3& variance) {
 struct Plane {
   glm::dvec3 axis{0.0};  ///< zero where it has none
   double roughness = ROUGHEST;
+  float flatness = 0.0F;   ///< Survey::flatness of all its sizes
+  double thickness = 0.0;  ///< deviation across the whole
 };
 
 bool is_line(const glm::dvec3& variance) { return variance.y < LINE * variance.z; }
@@ -55,6 +64,13 @@ double roughness_of(const glm::dvec3& variance) {
   return is_line(variance) || !(sum > 0.0) ? ROUGHEST : variance.x / sum;
 }
 
+/// Survey::flatness of one neighbourhood.
+float flatness_of(const glm::dvec3& variance) {
+  const bool spreads = variance.y >= DRAWN_OUT * DRAWN_OUT * variance.z && variance.y > 0.0;
+  return spreads ? static_cast<float>(std::sqrt(variance.x / variance.y))
+                 : std::numeric_limits<float>::infinity();
+}
+
 Offsets offsets_of(const Cloud& cloud, const glm::vec3& place, std::span<const Neighbour> nearest) {
   Offsets offsets;
   for (const Neighbour& neighbour : nearest) offsets.add(cloud.coord[neighbour.index()] - place);
@@ -66,20 +82,24 @@ Offsets offsets_of(const Cloud& cloud, const glm::vec3& place, std::span<const N
 Plane best_plane(const Offsets& offsets) {
   Covariance best = covariance_of(offsets, offsets.count);
   glm::dvec3 variances = variances_of(best);
-  const double roughness = roughness_of(variances);
-  if (roughness > ROUGH) {
+  Plane plane{{}, roughness_of(variances), flatness_of(variances), std::sqrt(variances.x)};
+  if (plane.flatness == std::numeric_limits<float>::infinity())
+    plane.thickness = plane.flatness;  // one line of a scanner tells nothing of what is across
+  if (plane.roughness > ROUGH || plane.flatness > Survey::FLAT) {
     float least = order_of(variances);
     for (const std::size_t size : {SIZES[1], SIZES[0]}) {
       if (size >= offsets.count) continue;
       const Covariance covariance = covariance_of(offsets, size);
       const glm::dvec3 its = variances_of(covariance);
+      plane.flatness = std::min(plane.flatness, flatness_of(its));
       const float here = order_of(its);
-      if (!(here < least)) continue;
+      if (!(plane.roughness > ROUGH && here < least)) continue;
       least = here;
       best = covariance, variances = its;
     }
   }
-  return {least_axis_of(best, variances), roughness};
+  plane.axis = least_axis_of(best, variances);
+  return plane;
 }
 
 /// The normal of a neighbourhood without a plane of its own.
@@ -127,10 +147,40 @@ std::vector<Bunch> find_bunches(const Cloud& cloud, const Survey& survey,
   return bunches;
 }
 
+/// What wider surroundings may be better than.
+struct Rough {
+  std::vector<float> roughness, thickness;  ///< of each point's plane
+};
+
+/// The variances of wider neighbourhoods that tell what points are part of.
+using WideVariances = std::array<glm::dvec3, KIND_SIZES.size()>;
+
+WideVariances wide_variances(const Offsets& offsets) {
+  WideVariances variances;
+  for (std::size_t n = 0; n < variances.size(); ++n)
+    variances[n] = variances_of(covariance_of(offsets, std::min(KIND_SIZES[n], offsets.count)));
+  return variances;
+}
+
+/// Survey::flatness with those of wider neighbourhoods that are hardly thicker than `thickness`; of a line only where the first
+/// of them is none.
+float wide_flatness(float flatness, const WideVariances& variances, float thickness) {
+  const bool along = flatness_of(variances[0]) == std::numeric_limits<float>::infinity();
+  if (along && thickness == std::numeric_limits<float>::infinity())
+    return std::numeric_limits<float>::infinity();
+  flatness = std::min(flatness, THICK);
+  for (const glm::dvec3& variance : variances)
+    if (variance.x <= THICKER * THICKER * thickness * thickness)
+      flatness = std::min(flatness, flatness_of(variance));
+  return flatness;
+}
+
 /// Tries rough points among every `stride`-th point.
-void look_wider(Cloud& cloud, std::size_t stride, const Survey& survey, std::vector<float>& roughness,
-                const Stage& stage) {
-  const auto rough = numbers_where(cloud.size(), [&](std::size_t i) { return roughness[i] > ROUGH; });
+void look_wider(Cloud& cloud, std::size_t stride, Survey& survey, Rough& of, const Stage& stage) {
+  const bool kinds = stride == KIND_STRIDE;
+  const auto rough = numbers_where(cloud.size(), [&](std::size_t i) {
+    return of.roughness[i] > ROUGH || (kinds && survey.flatness[i] > Survey::FLAT);
+  });
   if (rough.empty() || cloud.size() < stride * SIZES.back()) return;
   const Cloud thin = thinned(cloud, stride);
   const NeighbourSearch search(thin, Sites::positions);
@@ -139,21 +189,23 @@ void look_wider(Cloud& cloud, std::size_t stride, const Survey& survey, std::vec
     return {bunches[n].middle, ROOM * bunches[n].expected_squared, std::numeric_limits<float>::infinity()};
   };
   const auto try_plane = [&](std::uint32_t n, std::span<const Neighbour> nearest) {
-    const Plane plane = best_plane(offsets_of(thin, bunches[n].middle, nearest));
-    if (plane.axis == glm::dvec3(0.0)) return;
+    const Offsets offsets = offsets_of(thin, bunches[n].middle, nearest);
+    const Plane plane = best_plane(offsets);
+    const WideVariances variances = kinds ? wide_variances(offsets) : WideVariances{};
     for (std::uint32_t r = bunches[n].begin; r < bunches[n].end; ++r) {
       const std::uint32_t i = rough[r];
-      if (!(plane.roughness < FLATTER * roughness[i])) continue;
+      if (kinds) survey.flatness[i] = wide_flatness(survey.flatness[i], variances, of.thickness[i]);
+      if (!(plane.roughness < FLATTER * of.roughness[i]) || plane.axis == glm::dvec3(0.0)) continue;
       cloud.normal[i] = glm::vec3(plane.axis);
-      roughness[i] = static_cast<float>(plane.roughness);
+      of.roughness[i] = static_cast<float>(plane.roughness);
     }
   };
   search.find_each(bunches.size(), query, SIZES.back(), stage, try_plane);
 }
 
 /// What is known of each point before wider surroundings are tried.
-void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& survey,
-                 std::vector<float>& roughness, const Stage& stage) {
+void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& survey, Rough& rough,
+                 const Stage& stage) {
   const NeighbourSearch search(cloud, Sites::positions);
   for (std::size_t begin = 0; begin < cloud.size(); begin += Survey::CHUNK)
     survey.listed.emplace_back(std::min(Survey::CHUNK, cloud.size() - begin) * Survey::LISTED);
@@ -170,7 +222,9 @@ void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& sur
                                                     : EVEN * survey.reach[i];
     if (survey.estimated[i] == 0) return;
     const Plane plane = best_plane(offsets_of(cloud, cloud.coord[i], nearest));
-    roughness[i] = static_cast<float>(plane.roughness);
+    rough.roughness[i] = static_cast<float>(plane.roughness);
+    rough.thickness[i] = static_cast<float>(plane.thickness);
+    survey.flatness[i] = plane.flatness;
     cloud.normal[i] =
         glm::vec3(plane.axis != glm::dvec3(0.0) ? plane.axis : degenerate_plane(cloud, i, nearest, up));
   };
@@ -179,18 +233,30 @@ void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& sur
 
 }  // namespace
 
+float Survey::growth(std::size_t point) const {
+  if (!(reach[point] > 0.0F)) return 1.0F;
+  return std::min(wide[point] * wide[point] / (reach[point] * reach[point]), EVEN * EVEN);
+}
+
 float Survey::expected_squared(std::size_t point, float count) const {
   const float squared = wide[point] * wide[point];
-  if (!(reach[point] > 0.0F)) return squared;
-  const float growth =
-      std::min(squared / (reach[point] * reach[point]), EVEN * EVEN);  // of four times as many
-  return squared * std::pow(growth, 0.5F * std::log2(count / static_cast<float>(WIDE)));
+  return squared * std::pow(growth(point), 0.5F * std::log2(count / static_cast<float>(WIDE)));
+}
+
+float Survey::expected_count(std::size_t point, float squared) const {
+  constexpr float SPACE = 2.5F;  // growth where places fill space: few are in no more dimensions
+  const float ratio = squared / (wide[point] * wide[point]);
+  return ratio > 0.0F && std::isfinite(ratio)
+             ? static_cast<float>(WIDE) *
+                   std::exp2(2.0F * std::log2(ratio) / std::log2(std::max(growth(point), SPACE)))
+             : static_cast<float>(WIDE);
 }
 
 void Survey::keep(const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& number) {
   reach = gather(reach, kept);
   wide = gather(wide, kept);
   estimated = gather(estimated, kept);
+  flatness = gather(flatness, kept);
   std::vector<std::vector<std::uint32_t>> before = std::exchange(listed, {});
   for (std::size_t begin = 0, freed = 0; begin < kept.size(); begin += CHUNK) {
     const std::size_t end = std::min(begin + CHUNK, kept.size());
@@ -214,9 +280,10 @@ Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   survey.reach.resize(cloud.size());
   survey.wide.resize(cloud.size());
   survey.estimated.resize(cloud.size());
-  std::vector<float> roughness(cloud.size());
-  look_around(cloud, up, all_given, survey, roughness, stage);
-  for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, roughness, stage);
+  survey.flatness.resize(cloud.size());
+  Rough rough{std::vector<float>(cloud.size()), std::vector<float>(cloud.size())};
+  look_around(cloud, up, all_given, survey, rough, stage);
+  for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, rough, stage);
   return survey;
 }
 

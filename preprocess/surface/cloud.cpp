@@ -38,6 +38,7 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   for (Column& column : points.columns)
     std::visit([&](auto& values) { cloud.columns.push_back({column.name, take(values)}); }, column.values);
   cloud.stations = std::move(points.stations);
+  cloud.track = std::move(points.track);
   cloud.station = take(points.station);
   cloud.grid_cell = take(points.grid_cell);
   cloud.radius = take(points.radius);
@@ -90,8 +91,9 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
     const std::uint16_t station = cloud.station.empty() ? std::uint16_t{0} : cloud.station[i];
     const std::uint32_t cell = cloud.grid_cell.empty() ? NO_CELL : cloud.grid_cell[i];
     const float radius = cloud.radius.empty() ? 0.0F : cloud.radius[i];
+    const ScanKind kind = cloud.kind.empty() ? ScanKind::surface : cloud.kind[i];
     return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), p.x, p.y, p.z, color, radius,
-                      station, cell);
+                      station, cell, kind);
   };
   const auto key_a = key(a), key_b = key(b);
   if (key_a != key_b) return key_a < key_b;
@@ -127,6 +129,9 @@ void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
   reorder(cloud.color);
   reorder(cloud.radius);
   reorder(cloud.clip);
+  reorder(cloud.line);
+  reorder(cloud.kind);
+  reorder(cloud.radius_most);
   reorder(cloud.station);
   reorder(cloud.grid_cell);
   for (Column& column : cloud.columns) std::visit(reorder, column.values);
@@ -181,6 +186,11 @@ void add_copies(Cloud& cloud, const std::vector<std::uint32_t>& of) {
 
 void put_in_order(Cloud& cloud) { rearrange(cloud, canonical_order(cloud)); }
 
+void follow_positions(Cloud& cloud) {
+  find_coordinates(cloud);
+  put_in_order(cloud);
+}
+
 void move_points(Cloud& cloud, const std::vector<float>& lift) {
   if (cloud.position.empty()) {
     tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
@@ -192,7 +202,6 @@ void move_points(Cloud& cloud, const std::vector<float>& lift) {
     });
     find_coordinates(cloud);
   }
-  put_in_order(cloud);
 }
 
 }  // namespace splatray

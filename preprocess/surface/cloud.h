@@ -14,6 +14,14 @@ namespace splatray {
 /// Steps of Cloud::coord. Distinct coordinates differ by at least this, so no squared distance underflows.
 inline constexpr float COORD_STEP = 0x1p-24F;
 
+/// A point among lines of points that are far closer along these than the next lines are.
+struct PointLine {
+  glm::vec3 along{0.0F};  ///< the short axis of its splat, unit
+  float aspect = 1.0F;    ///< half a splat's length over half its width
+  float reach = 0.0F;     ///< half its length, across the line, to meet those of the next; 0 = a disc
+  float most = 0.0F;      ///< bounds a disc's radius; 0 = nothing does
+};
+
 /// Points of one object. All arrays that are not empty have the same length. Order: Morton key of the
 /// coordinates, then every attribute, so that shuffled input gives the same cloud.
 struct Cloud {
@@ -27,10 +35,14 @@ struct Cloud {
   std::vector<glm::vec3> field;          ///< normal field: uu, uv, vv of the change of the unit normal per
                                          ///< half_extent_world in TangentFrame(normal); empty = all flat
   std::vector<PointClip> clip;           ///< in units of half_extent_world; empty = the surface ends nowhere
+  std::vector<PointLine> line;           ///< in units of half_extent_world; empty = no point is on a line
+  std::vector<ScanKind> kind;            ///< of points that were measured; empty = all are of surfaces
+  std::vector<float> radius_most;        ///< of unknown radii, in units of half_extent_world; empty = no limit
   std::vector<Column> columns;           ///< further attributes
   std::vector<Station> stations;         ///< where the points were measured from; empty = not known
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< Points::grid_cell
+  std::vector<TrackPlace> track;         ///< Points::track
   bool ends_known = false;               ///< the surface ends, or has a crease, only where `clip` says so
   bool measured = false;                 ///< by a scanner: neither a mesh's nor made
   bool oriented = false;                 ///< normals point outwards: opposite normals are opposite sheets
@@ -41,6 +53,7 @@ struct Cloud {
   [[nodiscard]] glm::dvec3 place_world(std::size_t i) const {
     return position.empty() ? center_world + half_extent_world * glm::dvec3(coord[i]) : position[i];
   }
+  [[nodiscard]] bool on_surface(std::size_t i) const { return kind.empty() || kind[i] == ScanKind::surface; }
   /// The number of a point's station; meant only where there are stations.
   [[nodiscard]] std::size_t station_of(std::size_t i) const { return station.empty() ? 0 : station[i]; }
 };
@@ -62,7 +75,10 @@ void add_copies(Cloud& cloud, const std::vector<std::uint32_t>& of);
 /// Puts points whose normals or places were changed in order again.
 void put_in_order(Cloud& cloud);
 
-/// Moves points by this much along their normals (cloud coordinates) and puts the cloud in order; its frame stays.
+/// Puts points whose positions were changed, and are known, where these say and in order again; the cloud's frame stays.
+void follow_positions(Cloud& cloud);
+
+/// Moves points by this much along their normals (cloud coordinates); the cloud is then out of order, its frame stays.
 void move_points(Cloud& cloud, const std::vector<float>& lift);
 
 }  // namespace splatray

@@ -64,11 +64,13 @@ std::vector<NeighbourSearch::Site> NeighbourSearch::choose_sites(const Cloud& cl
       is_site[i] = !copy && ++coincident <= MAX_COINCIDENT;
     }
   };
+  const auto counts = [&](std::size_t i) { return kind != Sites::oriented_surface || cloud.on_surface(i); };
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
     if (!same_place(i)) choose(i);
   });
-  copies_ = numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] == 0; });
-  const auto chosen = numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] != 0; });
+  copies_ = numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] == 0 && counts(i); });
+  const auto chosen =
+      numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] != 0 && counts(i); });
   std::vector<Site> sites(chosen.size());
   tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t n) {
     sites[n] = {cloud.coord[chosen[n]], chosen[n]};

@@ -31,8 +31,9 @@ class Neighbour {
 
 /// Which points of a cloud can be neighbours. Copies of a point would crowd out its true neighbours.
 enum class Sites {
-  positions,          ///< one point of each position
-  oriented_positions  ///< of each position up to 8 points of different normals
+  positions,           ///< one point of each position
+  oriented_positions,  ///< of each position up to 8 points of different normals
+  oriented_surface     ///< the same, of the points that are of surfaces (Cloud::kind) alone
 };
 
 /// Bounding-box hierarchy over the sites in the order of a k-d tree: blocks of 8 consecutive sites, groups of 8
@@ -51,8 +52,9 @@ class NeighbourSearch {
   /// What is done with a point of the cloud and its nearest sites, which may be put into another order.
   using Visit = std::function<void(std::uint32_t point, std::span<Neighbour> nearest)>;
 
-  /// Calls visit for every point of the cloud with what find() gives for `count` <= 32 sites, from many threads and in any
-  /// order. Faster than find(), as the sites of a block look through the same blocks around them.
+  /// Calls visit for every point of the cloud (or its surfaces, as the sites are) with what find() gives for `count` <= 32
+  /// sites, from many threads and in any order. Faster than find(), as the sites of a block look through the same blocks around
+  /// them.
   void find_all(std::size_t count, const Stage& stage, const Visit& visit) const;
 
   /// Most neighbours that find_each looks for.

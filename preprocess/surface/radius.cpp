@@ -26,11 +26,14 @@ constexpr float MANY_OVER_FEW = 1.3F * MANY / FEW;  // of their squared distance
 constexpr double COVERAGE_MARGIN = 1.02;            // discs of a curved surface lie in different planes
 // More where discs lie at different heights, in standard deviations of the heights.
 constexpr double ROUGHNESS_REACH = 1.0;
-constexpr double LEAST_SLANT = 0.5;  // sine of the angle between planes that meet in a crease
-constexpr double PARALLEL = 0.9;     // cosine of normals of layers of one noisy sheet
-constexpr double NOISE_REACH = 4.0;  // of a noisy sheet's disc, in standard deviations of its heights
-constexpr double NOISE_LIMIT = 2.0;  // the same at most, in units of the disc that covers
-constexpr float STRAY = 4.0F;        // largest radius in units of the surroundings' median
+constexpr double LEAST_SLANT = 0.5;      // sine of the angle between planes that meet in a crease
+constexpr double PARALLEL = 0.9;         // cosine of normals of layers of one noisy sheet
+constexpr double NOISE_REACH = 4.0;      // of a noisy sheet's disc, in standard deviations of its heights
+constexpr double NOISE_LIMIT = 2.0;      // the same at most, in units of the disc that covers
+constexpr float STRAY = 4.0F;            // largest radius in units of the surroundings' median
+constexpr std::size_t SURROUNDING = 16;  // neighbours that tell what distance is usual around a point
+constexpr float USUAL = 2.0F;   // most of it that a disc of an open cell follows, in units of their median
+constexpr float CLOSED = 2.2F;  // radius of a closed cell, at most, in units of it: no even sample has more
 
 double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
   std::array<Neighbour, RING> nearest;
@@ -111,10 +114,16 @@ class Surroundings {
   std::size_t crease_count_ = 0;
 };
 
+/// A radius that covers its point's cell, and whether the cell is open.
+struct Covering {
+  double radius = 0.0;
+  bool open = false;
+};
+
 /// The radius that covers the point's cell, 0 where there is none; nothing when `wanted` neighbours do not settle it.
-SPLATRAY_VECTOR_CLONES std::optional<double> covering_radius(const Neighbourhood& around,
-                                                             std::size_t wanted) {
-  if (around.found == 0) return 0.0;
+SPLATRAY_VECTOR_CLONES std::optional<Covering> covering_radius(const Neighbourhood& around,
+                                                               std::size_t wanted) {
+  if (around.found == 0) return Covering{};
   const Surroundings surroundings(around);
   const VoronoiReach reach =
       voronoi_reach(surroundings.neighbours(), surroundings.creases(), around.ends_known);
@@ -123,17 +132,30 @@ SPLATRAY_VECTOR_CLONES std::optional<double> covering_radius(const Neighbourhood
                        (surroundings.neighbours().size() >= RING && reach.decisive_distance <= seen);
   if (!settled || !(reach.radius > 0.0)) return {};
   const double covering = COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * surroundings.noise(CLOSE);
-  return std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW)), NOISE_LIMIT * reach.radius);
+  return Covering{
+      std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW)), NOISE_LIMIT * reach.radius),
+      reach.open};
+}
+
+/// Of points whose radii follow their cells: the distance to the RING-th neighbour, negative where the cell is open. Empty for
+/// points that were not measured: those are as even as they were made.
+using Rings = std::vector<float>;
+
+float ring_of(const Neighbourhood& around, bool open) {
+  if (around.count == 0) return 0.0F;
+  const auto ring = static_cast<float>(std::sqrt(around.distance_squared[std::min(RING, around.count) - 1]));
+  return open ? -ring : ring;
 }
 
 /// Radii that the FEW nearest places settle; of others the squared distance of the last of these, negative.
-float radius_of_few(const Neighbourhood& around) {
-  if (const auto radius = covering_radius(around, FEW)) return static_cast<float>(*radius);
-  return -around.seen_squared;
+float radius_of_few(const Neighbourhood& around, std::uint32_t point, Rings& rings) {
+  const auto covering = covering_radius(around, FEW);
+  if (!rings.empty()) rings[point] = ring_of(around, covering && covering->open);
+  return covering ? static_cast<float>(covering->radius) : -around.seen_squared;
 }
 
 /// Settles what radius_of_few has not.
-void look_further(Cloud& cloud, const NeighbourSearch& search, const Stage& stage) {
+void look_further(Cloud& cloud, const NeighbourSearch& search, Rings& rings, const Stage& stage) {
   const auto open = numbers_where(cloud.size(), [&](std::size_t i) { return cloud.radius[i] < 0.0F; });
   const auto query = [&](std::uint32_t n) -> NeighbourSearch::Query {
     return {cloud.coord[open[n]], MANY_OVER_FEW * -cloud.radius[open[n]],
@@ -142,14 +164,43 @@ void look_further(Cloud& cloud, const NeighbourSearch& search, const Stage& stag
   search.find_each(open.size(), query, MANY, stage, [&](std::uint32_t n, std::span<Neighbour> nearest) {
     const std::uint32_t i = open[n];
     if (!std::is_sorted(nearest.begin(), nearest.end())) std::sort(nearest.begin(), nearest.end());
-    const auto radius = covering_radius(Neighbourhood(cloud, i, nearest), MANY);
-    cloud.radius[i] = static_cast<float>(radius ? *radius : knn_radius(cloud, search, i));
+    const Neighbourhood around(cloud, i, nearest);
+    const auto covering = covering_radius(around, MANY);
+    cloud.radius[i] = static_cast<float>(covering ? covering->radius : knn_radius(cloud, search, i));
+    if (!rings.empty()) rings[i] = ring_of(around, !covering || covering->open);
   });
 }
 
 float median(std::span<float> values) {
   select_nth(values, values.size() / 2, std::identity());
   return values[values.size() / 2];
+}
+
+/// Keeps discs to the distances that are usual around them, those of open cells, whose reach nothing bounds, the most: none
+/// spans a hole of the scan.
+void bound_wide(Cloud& cloud, const NeighbourSearch& search, const Rings& rings) {
+  tbb::parallel_for(std::size_t{0}, rings.size(), [&](std::size_t i) {
+    const float ring = std::abs(rings[i]);
+    const bool open = rings[i] < 0.0F;
+    if (!open && cloud.radius[i] <= CLOSED * ring) return;
+    std::array<Neighbour, SURROUNDING> nearest;
+    std::array<float, SURROUNDING> around;
+    const std::size_t found = search.find(cloud.coord[i], nearest);
+    for (std::size_t j = 0; j < found; ++j) around[j] = std::abs(rings[nearest[j].index()]);
+    const float usual = found > 0 ? median(std::span(around).first(found)) : 0.0F;
+    if (!(usual > 0.0F)) return;
+    if (!open) {
+      cloud.radius[i] = std::min(cloud.radius[i], CLOSED * std::max(ring, usual));
+    } else if (ring > USUAL * usual) {
+      cloud.radius[i] = std::min(cloud.radius[i], static_cast<float>(KNN_FACTOR) * USUAL * usual);
+    }
+  });
+}
+
+/// Keeps discs among lines to what lies between these.
+void bound_by_rings(Cloud& cloud, const std::vector<std::uint32_t>& computed) {
+  for (const std::uint32_t i : computed)
+    if (cloud.line[i].most > 0.0F) cloud.radius[i] = std::min(cloud.radius[i], cloud.line[i].most);
 }
 
 /// Keeps stray points from covering the scene with discs as wide as their distance to it.
@@ -176,21 +227,32 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
   if (fields) cloud.field.resize(cloud.size());
   if (!unknown.empty() || fields) {
     const bool knn = rule == RadiusRule::knn;
+    Rings rings(cloud.measured && !knn ? cloud.size() : 0);
     std::optional<NeighbourSearch> sheets, places;
-    if (fields || !knn) sheets.emplace(cloud, Sites::oriented_positions);
+    if (fields || !knn) sheets.emplace(cloud, Sites::oriented_surface);
     if (knn && !unknown.empty()) places.emplace(cloud, Sites::positions);
     const auto fill = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
       const Neighbourhood around(cloud, i, nearest);
-      if (fields) cloud.field[i] = fit_normal_field(around);
+      const bool on_line = !cloud.line.empty() && cloud.line[i].reach > 0.0F;
+      if (fields && !on_line) cloud.field[i] = fit_normal_field(around);  // a line alone tells none
       if (cloud.radius[i] != 0.0F) return;
-      cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i) : radius_of_few(around));
+      if (on_line) {
+        cloud.radius[i] = cloud.line[i].reach;
+        return;
+      }
+      cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i)
+                                               : radius_of_few(around, i, rings));
     };
     if (sheets) {
       sheets->find_all(FEW, stage, fill);
-      if (!knn) look_further(cloud, *sheets, stage);
+      if (!knn) look_further(cloud, *sheets, rings, stage);
     } else {
       parallel_each(stage, cloud.size(), [&](std::size_t i) { fill(static_cast<std::uint32_t>(i), {}); });
     }
+    if (sheets) bound_wide(cloud, *sheets, rings);
+    for (const std::uint32_t i : cloud.radius_most.empty() ? std::vector<std::uint32_t>{} : unknown)
+      cloud.radius[i] = std::min(cloud.radius[i], cloud.radius_most[i]);
+    if (!cloud.line.empty()) bound_by_rings(cloud, unknown);
     if (!unknown.empty()) bound_strays(cloud, knn ? *places : *sheets, unknown);
   }
   tbb::parallel_for(std::size_t{0}, cloud.size(),

@@ -145,7 +145,7 @@ VoronoiReach voronoi_reach(std::span<const TangentNeighbour> neighbours,
   if (edges.open && edges.neighbours > 0)
     radius = std::max(radius, OPEN_REACH * edges.distance_sum / static_cast<double>(edges.neighbours));
   if (edges.gap) radius = std::min(radius, BORDER_REACH * ring_distance(BORDER_RING));
-  return {radius, decisive};
+  return {radius, decisive, edges.gap};
 }
 
 }  // namespace splatray

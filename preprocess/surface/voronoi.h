@@ -22,6 +22,7 @@ struct TangentCrease {
 struct VoronoiReach {
   double radius;             ///< distance of the cell's farthest point; 0 without neighbours
   double decisive_distance;  ///< neighbours beyond this distance would not change the cell
+  bool open = false;  ///< no neighbour bounds it on some side: the surface ends, or is not sampled, there
 };
 
 /// The reach of the origin's Voronoi cell among `neighbours`, which ascend by distance, on its side of the

@@ -1,4 +1,4 @@
-/// A splat's disc and clip lines, and the cells that list it by policy `overlap`.
+/// A splat's disc, clip lines and ellipse, and the cells that list it by policy `overlap`.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,26 +13,37 @@ namespace splatray {
 
 struct ListedDisc {
   Disc disc;
-  bool clipped = false;
-  std::array<ClipLine, 2> lines{};  ///< meant only where it is clipped
+  std::size_t line_count = 0;
+  std::array<ClipLine, 3> lines{};  ///< clip lines, and those along an ellipse's long sides
 
   ListedDisc(const SplatList& splats, std::size_t i) : disc(unpack_splat(splats.words[i])) {
-    clipped = !splats.clip.empty() && splats.clip[i] != CLIP_NONE;
-    if (clipped) lines = unpack_clip(splats.clip[i], splats.words[i]);
+    if (!splats.clip.empty() && splats.clip[i] != CLIP_NONE) find_lines(splats.clip[i], splats.words[i]);
   }
 
-  /// Whether the disc comes within LIST_INFLATION of a cell before its clip lines.
+  /// Whether the disc comes within LIST_INFLATION of a cell before its lines.
   [[nodiscard]] bool is_in(const glm::uvec3& low, std::uint32_t size) const {
-    return !(beyond(disc, low, low + size) > 0.0) && !(clipped && cut_off(low, size));
+    return !(beyond(disc, low, low + size) > 0.0) && !cut_off(low, size);
   }
 
  private:
-  /// Whether all of a cell, and LIST_INFLATION around it, is beyond one of the clip lines.
+  void find_lines(std::uint32_t clip, const uvec4& words) {
+    const std::array<ClipLine, 2> two = unpack_clip(clip, words);
+    lines = {two[0], two[1]};
+    line_count = 2;
+    if (!is_ellipse(clip)) return;
+    const ClipLine side = side_of(unpack_ellipse(clip, words), unpack_splat(words));
+    lines[1] = side;
+    lines[2] = {-side.across, side.limit};
+    line_count = 3;
+  }
+
+  /// Whether all of a cell, and LIST_INFLATION around it, is beyond one of the lines.
   [[nodiscard]] bool cut_off(const glm::uvec3& low, std::uint32_t size) const {
     const double half = 0.5 * size;
     const glm::dvec3 middle =
         glm::dvec3(low) + half - glm::dvec3(disc.x.center, disc.y.center, disc.z.center);
-    for (const ClipLine& line : lines) {
+    for (std::size_t i = 0; i < line_count; ++i) {
+      const ClipLine& line = lines[i];
       const glm::dvec3 extent = glm::abs(line.across) * (half + LIST_INFLATION);
       if (glm::dot(line.across, middle) - (extent.x + extent.y + extent.z) > line.limit) return true;
     }

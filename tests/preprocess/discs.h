@@ -1,4 +1,4 @@
-/// The discs of a scene as its rays see them, with their clip lines.
+/// The discs and ellipses of a scene as its rays see them, with their clip lines.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -60,6 +60,11 @@ class Discs {
   [[nodiscard]] bool holds(std::size_t i, const Splat& splat, const dvec3& offset) const {
     if (glm::dot(offset, offset) > splat.radius_squared) return false;
     if (scene_.clip_pool.empty()) return true;
+    if (is_ellipse(scene_.clip_pool[i])) {
+      const Ellipse ellipse = unpack_ellipse(scene_.clip_pool[i], scene_.data_pool[i]);
+      const double across = glm::dot(ellipse.across, offset);
+      if (glm::dot(offset, offset) + ellipse.factor * across * across > splat.radius_squared) return false;
+    }
     for (const ClipLine& line : unpack_clip(scene_.clip_pool[i], scene_.data_pool[i]))
       if (glm::dot(line.across, offset) > line.limit) return false;
     return true;

@@ -185,5 +185,25 @@ TEST(Voronoi, OpenCellEndsNearItsNeighbours) {
   EXPECT_EQ(voronoi_reach({}, {}).radius, 0.0);
 }
 
+/// Three points far beyond the last row of a lattice: twice its 6th distance is the most that is usual around them.
+TEST(Radius, NoDiscOfMeasuredPointsSpansAHole) {
+  InputObject object = test::square_lattice(21, 1.0);
+  for (int i = 0; i < 3; ++i) {
+    object.points.position.emplace_back(4.0 * i + 6.0, 30.0, 0.0);
+    object.points.normal.emplace_back(0.0F, 0.0F, 1.0F);
+  }
+  for (const bool measured : {true, false}) {
+    Cloud cloud = test::cloud_of(object);
+    cloud.measured = measured;
+    find_radii(cloud, RadiusRule::coverage, 1.0, false, {"radii", test::SILENT});
+    double widest = 0.0;
+    for (const float radius : cloud.radius) widest = std::max(widest, radius * cloud.half_extent_world);
+    if (measured)
+      EXPECT_LT(widest, 0.65 * 2.0 * 2.0 + 0.01);
+    else
+      EXPECT_GT(widest, 2.8);
+  }
+}
+
 }  // namespace
 }  // namespace splatray

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/readers/read_error.h"
+
 namespace splatray {
 namespace {
 
@@ -36,6 +38,44 @@ TEST(AdjustPoints, TheScannersPlaceIsForThoseThatDoNotSay) {
   EXPECT_EQ(without.points.stations[0].sensor_world, options.sensor_world);
   EXPECT_EQ(with.points.stations[0].sensor_world, glm::dvec3(9.0));
   EXPECT_EQ(with.points.stations[1].sensor_world, options.sensor_world);
+}
+
+TEST(Trajectory, IsReadByHeaderOrInOrderAndGivenToPointsOfItsTimes) {
+  const TempFolder folder;
+  const auto points = folder.write("p.csv", "x,y,z,gps_time\n0,0,0,10\n1,0,0,11\n0,1,0,12\n");
+  ReadOptions options;
+  const std::string bare = "12 5 6 900\n10 1 2 900\n";
+  for (const auto& [name, text] :
+       {std::pair("bare.txt", bare), {"named.csv", std::string("X,Y,Z,Time\n1,2,900,10\n5,6,900,12\n")}}) {
+    options.scans.trajectory = folder.write(name, text);
+    const Points read = read_input({points}, options).objects.at(0).points;
+    ASSERT_EQ(read.track.size(), 2U) << name;
+    EXPECT_EQ(read.track[0].time, 10.0) << name;
+    EXPECT_EQ(read.track[1].sensor_world, glm::dvec3(5.0, 6.0, 900.0)) << name;
+  }
+  options.scans.z_scale = 0.5;
+  EXPECT_EQ(read_input({points}, options).objects.at(0).points.track[0].sensor_world.z, 450.0);
+}
+
+TEST(Trajectory, ThatTellsNothingIsRefused) {
+  const TempFolder folder;
+  const auto points = folder.write("p.csv", "x,y,z,gps_time\n0,0,0,10\n1,0,0,11\n0,1,0,12\n");
+  const auto refusal = [&](const std::filesystem::path& track) {
+    ReadOptions options;
+    options.scans.trajectory = track;
+    try {
+      static_cast<void>(read_input({points}, options));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+      EXPECT_NE(std::string(error.what()).find(track.string()), std::string::npos) << error.what();
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal(folder.write("later.txt", "13 0 0 9\n14 0 0 9\n")).find("no point that has a time"),
+            std::string::npos);
+  EXPECT_NE(refusal(folder.write("once.txt", "10 0 0 9\n10 0 0 9\n")).find("one time alone"), std::string::npos);
+  EXPECT_NE(refusal(folder.path() / "none.txt"), "");
 }
 
 TEST(AdjustPoints, NothingChangesUnasked) {

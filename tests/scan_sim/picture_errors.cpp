@@ -30,7 +30,7 @@ PictureErrors picture_errors(const Scene& scene, const TriangleTree& truth, std:
   const double diagonal = glm::length(truth.high() - truth.low());
   const double half = std::tan(FOV_DEG * std::numbers::pi / 360.0);
   std::vector<double> angles, depths;
-  double beyond = 0.0;
+  double beyond = 0.0, holes = 0.0;
   for (const double sign : {1.0, -1.0}) {
     const dvec3 eye =
         middle + dvec3(0.0, 0.0, sign * 0.5 * diagonal / std::sin(FOV_DEG * std::numbers::pi / 360.0));
@@ -51,6 +51,7 @@ PictureErrors picture_errors(const Scene& scene, const TriangleTree& truth, std:
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const auto wanted = truth.first_hit(eye, dirs[i]);
       beyond += hits[i].found && !wanted ? 1.0 : 0.0;
+      holes += !hits[i].found && wanted ? 1.0 : 0.0;
       if (!hits[i].found || !wanted) continue;
       const double cosine = glm::dot(glm::normalize(hits[i].normal), truth.smooth_normal(*wanted));
       angles.push_back(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi);
@@ -58,7 +59,7 @@ PictureErrors picture_errors(const Scene& scene, const TriangleTree& truth, std:
     }
   }
   return {percentile(angles, 0.95), percentile(angles, 0.99), percentile(depths, 0.95),
-          100.0 * beyond / (2.0 * size * size)};
+          100.0 * beyond / (2.0 * size * size), 100.0 * holes / (2.0 * size * size)};
 }
 
 }  // namespace splatray::testing

@@ -11,6 +11,7 @@ struct PictureErrors {
   double normal_p99_deg = 0.0;
   double depth_p95 = 0.0;       ///< the same pixels, in units of the mesh's diagonal
   double beyond_percent = 0.0;  ///< pixels that show a surface where there is none, of all
+  double holes_percent = 0.0;   ///< pixels that show none where there is a surface, of all
 };
 
 /// Pictures of size x size pixels of a mesh's box, from +z and from -z, 30 degrees of view.

@@ -78,6 +78,26 @@ ScanCase vaulted_room(const std::filesystem::path& folder) {
 
 }  // namespace
 
+ScanCase street_sweep(int rings) {
+  static const std::shared_ptr<const TriangleTree> street = tree_of(street_mesh());
+  Spinner spinner{.sensor = {0.0, 0.5, 1.8}, .rings = rings};
+  if (rings <= 16) spinner.lowest_deg = -15.0;  // as those of so few have
+  ScanCase sweep;
+  sweep.name = "street, " + std::to_string(rings) + " rings";
+  sweep.scan = scan_by_spinner(*street, spinner, {.noise = 0.015});
+  sweep.spinner = spinner;
+  sweep.rings_of = street;
+  return sweep;
+}
+
+SimulatedScan corner_by_depth_camera(DepthCamera camera) {
+  camera.sensor = {3.2, 3.0, 1.4};
+  const dvec3 ahead = glm::normalize(dvec3(0.9, 1.0, 0.6) - camera.sensor);
+  const dvec3 right = glm::normalize(glm::cross(ahead, dvec3(0.0, 0.0, 1.0)));
+  camera.axes = {right, glm::cross(ahead, right), ahead};
+  return scan_by_depth_camera(TriangleTree(corner_mesh()), camera, {.noise = 0.0005, .divergence = 1e-3});
+}
+
 ScanCase without_stations(ScanCase scan_case) {
   scan_case.name += ", no places";
   Points& points = scan_case.scan.points;
@@ -99,8 +119,17 @@ std::vector<ScanCase> built_in_cases() {
   cases.push_back({"room, tripods",
                    scan_from_tripods(room, {.sensors = {{-0.3, 0.2, 1.6}, {4.9, 3.4, 1.7}}}, {}), nullptr});
   cases.push_back(without_stations(cases.back()));
+  cases.push_back({"corner, depth camera", corner_by_depth_camera(), nullptr});
   cases.push_back(
       {"hills, from the air", scan_from_air(TriangleTree(terrain_mesh()), {}, {.noise = 0.03}), nullptr});
+  for (const int rings : {16, 32, 64, 128}) {
+    cases.push_back(street_sweep(rings));
+    cases.push_back(without_stations(cases.back()));
+  }
+  Wood wood = wood_mesh();
+  ScanCase hill{"wood on a hill, from the air", wood_scan(TriangleTree(std::move(wood.mesh))), nullptr};
+  mark_leaves(hill.scan, wood.first_leaf);
+  cases.push_back(std::move(hill));
   const auto body = tree_of(body_mesh());
   const Beam range_beam{.noise = 0.0015, .divergence = 1e-4};
   cases.push_back(
@@ -121,8 +150,12 @@ std::vector<ScanCase> data_cases(const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder / "models/ice_cave.ply")) {
     const Spinner spinner{.sensor = {0.0, -0.5, 8.0}, .axes = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}};
     const auto cave = read_tree(folder / "models/ice_cave.ply");
-    cases.push_back(
-        {"cave, spinner", scan_by_spinner(*cave, spinner, {.noise = 0.01}), nullptr, {0.0, -1.0, 0.0}});
+    cases.push_back({"cave, spinner",
+                     scan_by_spinner(*cave, spinner, {.noise = 0.01}),
+                     nullptr,
+                     {0.0, -1.0, 0.0},
+                     spinner,
+                     cave});
     cases.push_back(without_stations(cases.back()));
   }
   if (std::filesystem::exists(folder / "models/bunny.ply")) {

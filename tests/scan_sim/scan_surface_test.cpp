@@ -45,7 +45,7 @@ struct Shares {
 };
 
 Shares shares_of(const SimulatedScan& scan, const Scene& scene) {
-  std::array<double, 3> all{}, drawn{};
+  std::array<double, POINT_KINDS> all{}, drawn{};
   for (const PointKind kind : scan.kind) all[static_cast<std::size_t>(kind)] += 1.0;
   const Column& number = *find_column(scene.columns, NUMBER);
   double right = 0.0;
@@ -139,6 +139,100 @@ TEST(ScanSurface, NoiseIsSmoothedUnlessThatIsOff) {
   EXPECT_GT(smoothed.stats.smoothed, 0U);
   EXPECT_EQ(rough.stats.smoothed, 0U);
   EXPECT_LT(roughness(smoothed.scene), 0.5 * roughness(rough.scene));
+}
+
+/// Of the drawn points that are truly of a kind, the share that the build says to be of surfaces.
+double surface_share(const SimulatedScan& scan, const Scene& scene, PointKind truth) {
+  const Column& number = *find_column(scene.columns, NUMBER);
+  const Column* kinds = find_column(scene.columns, COLUMN_KIND);
+  double all = 0.0, surface = 0.0;
+  for (std::size_t s = 0; s < scene.data_pool.size(); ++s) {
+    if (scan.kind[static_cast<std::size_t>(number.number(s))] != truth) continue;
+    all += 1.0;
+    surface += kinds == nullptr || kinds->number(s) == 0.0 ? 1.0 : 0.0;
+  }
+  return surface / std::max(all, 1.0);
+}
+
+TEST(ScanKinds, LeavesAreScatterAndTheHillIsNot) {
+  Wood wood = wood_mesh();
+  SimulatedScan scan = wood_scan(TriangleTree(std::move(wood.mesh)));
+  mark_leaves(scan, wood.first_leaf);
+  const Built built = build(scan);
+  EXPECT_GT(surface_share(scan, built.scene, PointKind::surface), 0.98);
+  EXPECT_LT(surface_share(scan, built.scene, PointKind::leaf), 0.05);
+  std::uint64_t told = 0;
+  for (const std::uint64_t count : built.stats.kinds) told += count;
+  EXPECT_EQ(told,
+            built.scene.data_pool.size() + built.stats.dropped_duplicates + built.stats.dropped_unsupported);
+}
+
+TEST(ScanKinds, RoomsAndNoiseAreSurfaces) {
+  for (const SimulatedScan& scan : {room_scan(0.5), ball_scan(), ball_scan({.noise = 0.01})})
+    EXPECT_GT(surface_share(scan, build(scan).scene, PointKind::surface), 0.97);
+}
+
+/// Rolling ground with a ball of leaves and a straight wire above it; numbers of the three follow each other.
+struct Glade {
+  static constexpr std::size_t GROUND = 10000, LEAVES = 4000, WIRE = 1500;
+  InputObject object;
+};
+
+Glade glade_with_wire() {
+  Glade glade;
+  glade.object.material = default_material();
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  std::vector<glm::dvec3>& places = glade.object.points.position;
+  for (std::size_t i = 0; i < Glade::GROUND; ++i)
+    places.emplace_back(20.0 * unit(random) - 10.0, 20.0 * unit(random) - 10.0, 0.0);
+  for (glm::dvec3& p : places) p.z = std::sin(0.4 * p.x) * std::cos(0.4 * p.y) + 0.01 * normal(random);
+  for (std::size_t i = 0; i < Glade::LEAVES; ++i) {
+    const glm::dvec3 dir = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    places.push_back(glm::dvec3(-5.0, -5.0, 4.0) + 2.0 * std::cbrt(unit(random)) * dir);
+  }
+  for (std::size_t i = 0; i < Glade::WIRE; ++i)
+    places.emplace_back(0.01 * normal(random), 20.0 * unit(random) - 10.0, 8.0 + 0.01 * normal(random));
+  std::vector<double> numbers(places.size());
+  std::iota(numbers.begin(), numbers.end(), 0.0);
+  glade.object.points.columns.push_back({std::string(NUMBER), numbers});
+  return glade;
+}
+
+TEST(ScanKinds, GroundLeavesAndWiresAreToldApart) {
+  Input input;
+  input.up = glm::dvec3(0.0, 0.0, 1.0);
+  input.objects.push_back(glade_with_wire().object);
+  BuildStats stats;
+  const Scene scene = build_scene(std::move(input), {}, 0, stats);
+  const Column &number = *find_column(scene.columns, NUMBER),
+               &kinds = *find_column(scene.columns, COLUMN_KIND);
+  std::array<std::array<double, SCAN_KINDS>, 3> count{};
+  std::vector<double> leaf_radii;
+  glm::dvec3 facing(0.0);
+  for (std::size_t s = 0; s < scene.data_pool.size(); ++s) {
+    const auto i = static_cast<std::size_t>(number.number(s));
+    const std::size_t part = i < Glade::GROUND ? 0 : i < Glade::GROUND + Glade::LEAVES ? 2 : 1;
+    count[part][static_cast<std::size_t>(kinds.number(s))] += 1.0;
+    if (part != 2) continue;
+    const Splat splat = unpack_splat(scene.data_pool[s]);
+    leaf_radii.push_back(std::sqrt(splat.radius_squared) * scene.root.unit_world);
+    facing += splat.normal;
+  }
+  for (std::size_t part = 0; part < SCAN_KINDS; ++part)
+    EXPECT_GT(count[part][part], 0.97 * (count[part][0] + count[part][1] + count[part][2])) << part;
+  std::nth_element(leaf_radii.begin(), leaf_radii.begin() + leaf_radii.size() / 2, leaf_radii.end());
+  // Six others in a ball of 4 pi d^3 / 3, of 4000 in one of the radius 2.
+  const double sixth = 2.0 * std::cbrt(6.0 / static_cast<double>(Glade::LEAVES));
+  EXPECT_NEAR(leaf_radii[leaf_radii.size() / 2], 0.4 * sixth, 0.05 * sixth);
+  EXPECT_GT(glm::normalize(facing).z, 0.95) << "leaves face outwards and up";
+}
+
+TEST(ScanKinds, WhereAllIsSurfaceNothingIsKept) {
+  const Built built = build(ball_scan({.noise = 0.0, .stray_share = 0.0}));
+  EXPECT_EQ(find_column(built.scene.columns, COLUMN_KIND), nullptr);
+  EXPECT_EQ(built.stats.kinds[1] + built.stats.kinds[2], 0U);
 }
 
 /// Points of a sphere without noise, with normals, as no mesh's.

@@ -27,6 +27,7 @@ struct Return {
   dvec3 normal{0.0};
   PointKind kind = PointKind::surface;
   double last_range = 0.0;  ///< of the farthest surface in the beam where there are two, else 0
+  std::uint32_t triangle = 0, last_triangle = 0;  ///< that the middle and the farthest ray met
 };
 
 /// Two directions across a unit vector.
@@ -44,6 +45,7 @@ std::optional<Return> send(const TriangleTree& mesh, const dvec3& sensor, const 
   const double cosine = -glm::dot(middle->normal, dir);
   const auto [u, v] = across(dir);
   double sum = middle->distance, farthest = 0.0;
+  std::uint32_t farthest_triangle = 0;
   int count = 1;
   bool jumps = false;
   for (int i = 0; i < AROUND; ++i) {
@@ -54,7 +56,7 @@ std::optional<Return> send(const TriangleTree& mesh, const dvec3& sensor, const 
     const double on_plane = middle->distance * cosine / std::max(-glm::dot(middle->normal, ray), 1e-6);
     const double apart = std::abs(hit->distance - on_plane);
     if (apart > std::max(JUMP_NOISES * beam.noise, LEAST_JUMP * middle->distance)) jumps = true;
-    farthest = std::max(farthest, hit->distance);
+    if (hit->distance > farthest) farthest = hit->distance, farthest_triangle = hit->triangle;
     sum += hit->distance;
     ++count;
   }
@@ -67,6 +69,8 @@ std::optional<Return> send(const TriangleTree& mesh, const dvec3& sensor, const 
   std::normal_distribution<double> noise(0.0, beam.noise);
   answer.range = (mixed ? mean : middle->distance) + noise(random);
   answer.last_range = mixed ? farthest : 0.0;
+  answer.triangle = middle->triangle;
+  answer.last_triangle = farthest_triangle;
   std::uniform_real_distribution<double> share(0.0, 1.0);
   if (share(random) < beam.stray_share) {
     answer.kind = PointKind::stray;
@@ -96,6 +100,7 @@ void add_point(SimulatedScan& scan, const dvec3& sensor, const dvec3& dir, const
   scan.position.push_back(sensor + dir * answer.true_range);
   scan.normal.push_back(answer.normal);
   scan.kind.push_back(answer.kind);
+  scan.triangle.push_back(answer.triangle);
 }
 
 void add_station(SimulatedScan& scan, const TriangleTree& mesh, Station station, const Direction& direction,
@@ -182,6 +187,7 @@ SimulatedScan scan_from_air(const TriangleTree& mesh, const Flight& flight, cons
       near.kind = far.kind = PointKind::surface;
       near.range = near.true_range;
       far.range = far.true_range = far.last_range;
+      far.triangle = far.last_triangle;
       add(sensor, dir, near, 1, 2, at);
       add(sensor, dir, far, 2, 2, at);
     }
@@ -190,6 +196,15 @@ SimulatedScan scan_from_air(const TriangleTree& mesh, const Flight& flight, cons
                          {std::string(COLUMN_RETURNS), of},
                          {std::string(COLUMN_TIME), time}};
   return scan;
+}
+
+SimulatedScan wood_scan(const TriangleTree& mesh) {
+  return scan_from_air(mesh, {.from_x = -30.0, .to_x = 30.0, .swath = 30.0}, {.noise = 0.02});
+}
+
+void mark_leaves(SimulatedScan& scan, std::uint32_t first) {
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (scan.kind[i] == PointKind::surface && scan.triangle[i] >= first) scan.kind[i] = PointKind::leaf;
 }
 
 SimulatedScan range_images(const TriangleTree& mesh, const RangeImages& images, const Beam& beam) {
@@ -217,6 +232,28 @@ SimulatedScan range_images(const TriangleTree& mesh, const RangeImages& images, 
     add_station(scan, mesh, std::move(station), direction, beam);
     const dvec3 moved(shift(random), shift(random), shift(random));
     for (std::size_t i = first; i < scan.size(); ++i) scan.points.position[i] += moved;
+  }
+  return scan;
+}
+
+SimulatedScan scan_by_depth_camera(const TriangleTree& mesh, const DepthCamera& camera, const Beam& beam) {
+  SimulatedScan scan;
+  Station station;
+  station.sensor_world = camera.sensor;
+  station.rows = camera.rows, station.columns = camera.columns;
+  const Direction direction = [&](std::uint32_t row, std::uint32_t column) {
+    const double x = column - 0.5 * (camera.columns - 1.0), y = row - 0.5 * (camera.rows - 1.0);
+    return glm::normalize(camera.axes * dvec3(x, y, camera.focal));
+  };
+  add_station(scan, mesh, std::move(station), direction, beam);
+  std::mt19937_64 random(beam.seed);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  for (dvec3& position : scan.points.position) {
+    const dvec3 away = position - camera.sensor;
+    const double depth = glm::dot(away, camera.axes[2]);
+    double inverse = 1.0 / depth + camera.inverse_noise * noise(random);
+    if (camera.step > 0.0) inverse = camera.step * std::max(std::round(inverse / camera.step), 1.0);
+    position = camera.sensor + away / (depth * inverse);
   }
   return scan;
 }

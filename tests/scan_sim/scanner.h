@@ -13,8 +13,10 @@ namespace splatray::testing {
 enum class PointKind : std::uint8_t {
   surface,
   mixed,  ///< of a beam that meets two surfaces: between them
-  stray   ///< on nothing: dust, birds, multiple reflections
+  stray,  ///< on nothing: dust, birds, multiple reflections
+  leaf    ///< on something smaller than the points are apart (mark_leaves)
 };
+inline constexpr std::size_t POINT_KINDS = 4;
 
 /// Points with what is true of them, beside them.
 struct SimulatedScan {
@@ -22,6 +24,7 @@ struct SimulatedScan {
   std::vector<glm::dvec3> position;  ///< without noise
   std::vector<glm::dvec3> normal;    ///< unit, towards the scanner
   std::vector<PointKind> kind;
+  std::vector<std::uint32_t> triangle;  ///< of the mesh, that was met
 
   [[nodiscard]] std::size_t size() const { return kind.size(); }
 };
@@ -67,6 +70,12 @@ struct Flight {
 };
 [[nodiscard]] SimulatedScan scan_from_air(const TriangleTree& mesh, const Flight& flight, const Beam& beam);
 
+/// A flight over wood_mesh, with 8 pulses a square metre.
+[[nodiscard]] SimulatedScan wood_scan(const TriangleTree& mesh);
+
+/// Says that what lies on the mesh's triangles from `first` on is leaves.
+void mark_leaves(SimulatedScan& scan, std::uint32_t first);
+
 /// Range images all around a body from `views` places, each turned and moved a little, as registration leaves it: several
 /// layers of one surface.
 struct RangeImages {
@@ -79,5 +88,17 @@ struct RangeImages {
 };
 [[nodiscard]] SimulatedScan range_images(const TriangleTree& mesh, const RangeImages& images,
                                          const Beam& beam);
+
+/// A depth camera: a grid of lines of sight through a pinhole, and depths that are steps of disparity.
+struct DepthCamera {
+  glm::dvec3 sensor{0.0};
+  glm::dmat3 axes{1.0};  ///< columns: towards larger columns, larger rows, and ahead
+  std::uint32_t columns = 320, rows = 240;
+  double focal = 290.0;          ///< cells
+  double step = 0.0029;          ///< of inverse depths, 1 / world units; 0 = they are not rounded
+  double inverse_noise = 0.001;  ///< standard deviation of inverse depths before they are rounded
+};
+[[nodiscard]] SimulatedScan scan_by_depth_camera(const TriangleTree& mesh, const DepthCamera& camera,
+                                                 const Beam& beam);
 
 }  // namespace splatray::testing

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 
 namespace splatray::testing {
 namespace {
@@ -84,6 +85,16 @@ Mesh room_mesh() {
   return mesh;
 }
 
+Mesh corner_mesh() {
+  Mesh mesh = sphere_mesh(5);
+  for (dvec3& position : mesh.vertices.position) position = CORNER_BALL + CORNER_BALL_RADIUS * position;
+  add_quad(mesh, {0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
+  add_quad(mesh, {0, 0, 0}, {0, 4, 0}, {0, 4, 4}, {0, 0, 4});
+  add_quad(mesh, {0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0});
+  add_box(mesh, {0.4, 1.9, 0.0}, {0.9, 2.4, 0.7});
+  return mesh;
+}
+
 Mesh terrain_mesh() {
   Mesh mesh;
   const auto height = [](double x, double y) {
@@ -101,6 +112,66 @@ Mesh terrain_mesh() {
     }
   }
   return mesh;
+}
+
+Mesh street_mesh() {
+  Mesh mesh;
+  const auto height = [](double x, double y) {
+    const double off = std::max(std::abs(y) - 8.0, 0.0);
+    return 0.03 * off + 0.1 * std::sin(0.05 * x) - 0.01 * std::min(std::abs(y), 5.0);
+  };
+  add_sheet(mesh, 160, [&](double u, double v) {
+    const double x = 160.0 * (u - 0.5), y = 160.0 * (v - 0.5);
+    return dvec3(x, y, height(x, y));
+  });
+  for (const double side : {-1.0, 1.0}) {
+    add_box(mesh, {-80.0, side < 0 ? -7.0 : 5.0, -0.5}, {80.0, side < 0 ? -5.0 : 7.0, 0.12});  // pavements
+    for (const double x : {-62.0, -36.0, -12.0, 14.0, 41.0, 66.0})
+      add_box(mesh, {x - 9.0, side < 0 ? -24.0 : 11.0, -1.0},
+              {x + 9.0, side < 0 ? -11.0 : 24.0, 7.0 + 0.05 * x});
+    for (const double x : {-31.0, -9.5, 7.0, 24.0}) {
+      const double y = side * 3.9;
+      add_box(mesh, {x - 2.1, y - 0.85, 0.25}, {x + 2.1, y + 0.85, 0.85});
+      add_box(mesh, {x - 1.1, y - 0.75, 0.85}, {x + 0.9, y + 0.75, 1.45});
+    }
+    for (const double x : {-40.0, -18.0, 3.0, 17.0, 33.0}) {
+      add_column(mesh, {x, side * 6.0, 0.0}, 0.08, 5.0);
+      add_box(mesh, {x - 0.02, side * 6.0 - 0.4, 2.2}, {x + 0.02, side * 6.0 + 0.4, 3.0});
+    }
+  }
+  return mesh;
+}
+
+Wood wood_mesh() {
+  constexpr double EDGE = 60.0, LEAF = 0.077;
+  constexpr int TREES = 80, LEAVES = 2000;
+  const auto height = [](double x, double y) {
+    return 0.4 * y + 1.5 * std::sin(0.11 * x) * std::cos(0.09 * y) + 0.15 * std::sin(0.8 * x + 0.5 * y);
+  };
+  Wood wood;
+  add_sheet(wood.mesh, 120, [&](double u, double v) {
+    const double x = EDGE * (u - 0.5), y = EDGE * (v - 0.5);
+    return dvec3(x, y, height(x, y));
+  });
+  wood.first_leaf = static_cast<std::uint32_t>(wood.mesh.triangles.size());
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    return glm::normalize(dvec3(normal(random), normal(random), normal(random)));
+  };
+  for (int tree = 0; tree < TREES; ++tree) {
+    const double x = EDGE * (unit(random) - 0.5), y = EDGE * (unit(random) - 0.5),
+                 size = 0.7 + 0.6 * unit(random);
+    const dvec3 middle(x, y, height(x, y) + 7.0 * size);
+    for (int leaf = 0; leaf < LEAVES; ++leaf) {
+      const dvec3 at = middle + size * dvec3(2.5, 2.5, 3.5) * direction() * std::cbrt(unit(random));
+      const dvec3 u = direction(), v = glm::normalize(glm::cross(u, direction()));
+      add_triangle(wood.mesh, at + 2.0 * LEAF * u, at - LEAF * u + LEAF * 1.7 * v,
+                   at - LEAF * u - LEAF * 1.7 * v);
+    }
+  }
+  return wood;
 }
 
 Mesh body_mesh() {

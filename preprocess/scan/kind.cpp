@@ -1,0 +1,99 @@
+#include "preprocess/scan/kind.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "preprocess/base/parallel.h"
+#include "preprocess/base/select.h"
+#include "preprocess/base/unit_or_zero.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::size_t FEWEST = 1000;    // points that tell surfaces from what is none
+constexpr std::size_t RING = 6;         // the place whose distance a disc's radius follows
+constexpr float USUAL = 2.0F;           // most of that distance, in units of the median around
+constexpr float BESIDE_SCATTER = 1.0F;  // most of a surface's radius next to what is none, in the same units
+constexpr int ROUNDS = 2;               // in which points do as most around them
+constexpr double UPWARDS = 0.7;         // of `up`, beside the unit gradient of the density
+
+ScanKind kind_of(const Survey& survey, std::uint32_t point) {
+  if (survey.flatness[point] == std::numeric_limits<float>::infinity()) return ScanKind::line;
+  const auto around = survey.around(point);
+  const auto rough = std::count_if(around.begin(), around.end(),
+                                   [&](std::uint32_t i) { return survey.flatness[i] > Survey::FLAT; });
+  const bool own = survey.flatness[point] > Survey::FLAT;
+  const auto votes = static_cast<std::size_t>(rough) + (own ? 1 : 0);
+  return 2 * votes > Survey::LISTED + 1 ? ScanKind::scatter : ScanKind::surface;
+}
+
+float ring_distance(const Cloud& cloud, const Survey& survey, std::uint32_t point) {
+  const float distance = glm::distance(cloud.coord[point], cloud.coord[survey.around(point)[RING - 1]]);
+  return distance > 0.0F ? distance : survey.reach[point];  // a stray that is gone stood there
+}
+
+/// Surfaces of a few points amid scatter are scatter too, and the reverse.
+std::vector<ScanKind> as_most_around(const std::vector<ScanKind>& kinds, const Survey& survey) {
+  std::vector<ScanKind> next(kinds.size());
+  tbb::parallel_for(std::size_t{0}, kinds.size(), [&](std::size_t i) {
+    next[i] = kinds[i];
+    if (survey.estimated[i] == 0 || kinds[i] == ScanKind::line) return;
+    const auto around = survey.around(static_cast<std::uint32_t>(i));
+    const auto scatter = std::count_if(around.begin(), around.end(),
+                                       [&](std::uint32_t j) { return kinds[j] == ScanKind::scatter; });
+    const auto votes = static_cast<std::size_t>(scatter) + (kinds[i] == ScanKind::scatter ? 1 : 0);
+    next[i] = 2 * votes > Survey::LISTED + 1 ? ScanKind::scatter : ScanKind::surface;
+  });
+  return next;
+}
+
+}  // namespace
+
+std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey) {
+  if (cloud.size() < FEWEST) return {};
+  std::vector<ScanKind> kinds(cloud.size());
+  tbb::parallel_for(std::size_t{0}, kinds.size(), [&](std::size_t i) {
+    const bool told = survey.estimated[i] != 0;
+    kinds[i] = told ? kind_of(survey, static_cast<std::uint32_t>(i)) : ScanKind::surface;
+  });
+  for (int round = 0; round < ROUNDS; ++round) kinds = as_most_around(kinds, survey);
+  const bool all =
+      std::all_of(kinds.begin(), kinds.end(), [](ScanKind kind) { return kind == ScanKind::surface; });
+  return all ? std::vector<ScanKind>{} : kinds;
+}
+
+void make_scatter_discs(Cloud& cloud, const Survey& survey, const glm::dvec3& up, float share) {
+  std::vector<float> ring(cloud.size());
+  std::vector<glm::vec3> around(cloud.size());  // sums of the places around each point
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    const auto point = static_cast<std::uint32_t>(i);
+    ring[i] = ring_distance(cloud, survey, point);
+    for (const std::uint32_t j : survey.around(point)) around[i] += cloud.coord[j] - cloud.coord[i];
+  });
+  cloud.radius.resize(cloud.size());
+  cloud.radius_most.resize(cloud.size(), std::numeric_limits<float>::infinity());
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    const auto listed = survey.around(static_cast<std::uint32_t>(i));
+    const auto amid = [&](std::uint32_t j) { return !cloud.on_surface(j); };
+    if (cloud.on_surface(i) && std::none_of(listed.begin(), listed.end(), amid)) return;
+    std::array<float, Survey::LISTED> rings;
+    glm::dvec3 inwards(0.0);
+    for (std::size_t k = 0; k < listed.size(); ++k) {
+      rings[k] = ring[listed[k]];
+      inwards += glm::dvec3(around[listed[k]]) +
+                 static_cast<double>(Survey::LISTED) * glm::dvec3(cloud.coord[listed[k]] - cloud.coord[i]);
+    }
+    select_nth(std::span<float>(rings), rings.size() / 2, std::identity());
+    const float usual = rings[rings.size() / 2];
+    cloud.radius_most[i] = BESIDE_SCATTER * usual;
+    if (cloud.on_surface(i)) return;
+    cloud.radius[i] = share * std::min(ring[i], USUAL * usual);
+    const glm::dvec3 normal = unit_or_zero(UPWARDS * up - unit_or_zero(inwards));
+    cloud.normal[i] = glm::vec3(normal == glm::dvec3(0.0) ? up : normal);
+  });
+}
+
+}  // namespace splatray

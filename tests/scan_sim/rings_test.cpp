@@ -1,0 +1,71 @@
+// What preprocess makes of the rings of spinning scanners: ellipses that join them.
+#include <gtest/gtest.h>
+
+#include "engine/scene/clip.h"
+#include "engine/scene/splat.h"
+#include "preprocess/build.h"
+#include "preprocess/scan/sides.h"
+#include "tests/scan_sim/ring_errors.h"
+#include "tests/scan_sim/scan_cases.h"
+#include "tests/scan_sim/sim_meshes.h"
+
+namespace splatray::testing {
+namespace {
+
+struct Joined {
+  Scene scene;
+  BuildStats stats;
+};
+
+Joined built_of(const SimulatedScan& scan, const BuildParams& params = {}) {
+  Input input;
+  input.up = glm::dvec3(0.0, 0.0, 1.0);
+  InputObject& object = input.objects.emplace_back();
+  object.material = default_material();
+  object.points = scan.points;
+  Joined built;
+  built.scene = build_scene(std::move(input), params, 0, built.stats);
+  return built;
+}
+
+double ellipse_share(const Joined& built) {
+  return static_cast<double>(built.stats.ellipses) / static_cast<double>(built.stats.splats);
+}
+
+class RingSweep : public ::testing::TestWithParam<int> {};
+
+TEST_P(RingSweep, AreJoinedByEllipses) {
+  const ScanCase sweep = street_sweep(GetParam());
+  const RingErrors joined = ring_errors(built_of(sweep.scan).scene, *sweep.rings_of, *sweep.spinner, 10000);
+  EXPECT_LT(joined.stripes_percent, 1.0);
+  EXPECT_LT(joined.overlap, 3.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rings, RingSweep, ::testing::Values(16, 32, 64, 128));
+
+TEST(Rings, OfDiscsHaveStripesOrOverlap) {
+  const ScanCase sweep = street_sweep(32);
+  const RingErrors discs =
+      ring_errors(built_of(sweep.scan, {.clip = false}).scene, *sweep.rings_of, *sweep.spinner, 10000);
+  EXPECT_TRUE(discs.stripes_percent > 2.0 || discs.overlap > 6.0)
+      << discs.stripes_percent << ' ' << discs.overlap << ": the comparison above can fail";
+}
+
+TEST(Rings, TellTheScannersPlace) {
+  const ScanCase sweep = without_stations(street_sweep(32));
+  const Joined built = built_of(sweep.scan);
+  EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
+}
+
+TEST(Rings, EvenScansHaveNoEllipses) {
+  const Tripod tripod{
+      .sensors = {{-0.3, 0.2, 1.6}}, .step_deg = 1.0, .lowest_deg = -40.0, .highest_deg = 40.0};
+  const Joined room = built_of(scan_from_tripods(TriangleTree(room_mesh()), tripod, {}));
+  EXPECT_LT(ellipse_share(room), 0.2);
+  const Joined ball = built_of(range_images(TriangleTree(sphere_mesh(5)),
+                                            {.views = 6, .pixels = 60, .misplaced = 0.0}, {.noise = 0.0005}));
+  EXPECT_EQ(ball.stats.ellipses, 0U);
+}
+
+}  // namespace
+}  // namespace splatray::testing
