@@ -36,6 +36,8 @@ void add_scan_options(OptionList& list, ScanOptions& scans) {
   list.add_switch("--strict", scans.strict, "refuse a scan that holds less than it says");
   add_vector(list, "--sensor", scans.sensor_world,
              "where the scanner stood, for points whose file does not say; tells the sides of their normals");
+  add_path(list, "--trajectory", scans.trajectory,
+           "text of times and places (time, x, y, z) where the scanner moved, for points with times");
   add_number(list, "--z-scale", scans.z_scale, 1e-6, 1e6, "factor on the heights of points; default 1");
   list.add_switch("--ignore-checksums", scans.ignore_checksums, "read an E57 with damaged pages");
   list.add_switch("--keep-withheld", scans.keep_withheld,
@@ -98,6 +100,8 @@ void add_build_options(OptionList& list, BuildOptions& options, const std::strin
   add_number(list, "--crease", params.crease_degrees, 0, 180,
              "degrees by which a surface turns at a crease, where a mesh is not shaded smoothly; default 30");
   add_scan_options(list, options.scans);
+  list.add_switch("--keep-strays", params.keep_strays,
+                  "keep the points of scans that lie on no surface, but for those far from all others");
   add_smoothing(list, params.smooth_world);
   add_number(list, "--threads", options.threads, 0, 4096,
              "threads of reading, preprocess and the device cpu; default 0 = all cores");

@@ -93,8 +93,6 @@ void check_part(const RenderOptions& options) {
     fail(std::string("found --denoise with ") + part + ", expected it for a whole picture");
   if (!options.reference.empty())
     fail(std::string("found --reference with ") + part + ", expected a whole picture");
-  if (!options.exposure_ev && lower_extension(options.output) == ".png")
-    fail(std::string("found --exposure auto with ") + part + " and a .png output, expected a number or .exr");
 }
 
 void add_output_options(OptionList& list, RenderOptions& options) {
@@ -108,12 +106,17 @@ void add_output_options(OptionList& list, RenderOptions& options) {
   });
   const auto read_exposure = [&options](const std::string& text) {
     options.exposure_ev.reset();
-    if (text != "auto") options.exposure_ev = read_number<double>("--exposure", text, -60.0, 60.0);
+    options.exposure_auto = text == "auto";
+    if (!options.exposure_auto) options.exposure_ev = read_number<double>("--exposure", text, -60.0, 60.0);
   };
   list.add_value(
       "--exposure", read_exposure,
-      [&options] { return options.exposure_ev ? number_text(*options.exposure_ev) : std::string("auto"); },
-      "brightness of a PNG in stops, or auto: what is seen becomes middle grey on the mean; default 0",
+      [&options] {
+        if (options.exposure_ev) return number_text(*options.exposure_ev);
+        return std::string(options.exposure_auto ? "auto" : "");
+      },
+      "brightness of a PNG in stops, or auto: what is seen becomes middle grey on the mean, less where it "
+      "would be too bright, as a small picture of the same view tells; default auto for scans, else 0",
       "EV|auto");
   list.add_value(
       "--aov", [&options](const std::string& text) { read_aovs(text, options); },
@@ -127,9 +130,11 @@ void add_output_options(OptionList& list, RenderOptions& options) {
   add_number(list, "--time", options.seconds_goal, 0.0, 1e9,
              "the best picture in so many seconds of tracing, instead of --samples; beside --error the end "
              "of it; default 0 = none");
-  list.add_switch(
-      "--denoise", options.denoise,
-      "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of our own");
+  list.add_switch("--denoise", options.denoise,
+                  "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of "
+                  "our own; PNGs of "
+                  "scans whose look is not asked for go through it anyway");
+  list.add_switch("--keep-noise", options.keep_noise, "do not take the noise out of scans' pictures either");
   add_path(list, "--stats-json", options.stats_json, "write times, counts, bytes and device here");
   add_path(list, "--reference", options.reference, "picture to compare with; exit 1 when they differ");
   add_number(list, "--reference-threshold", options.reference_threshold, 0.0, 1.0,
@@ -212,6 +217,7 @@ void check_together(const RenderOptions& options) {
   if (picture.camera_up && !picture.eye) fail("found --camera-up without --eye, expected both");
   if (options.aov_error && !options.has_goal() && picture.settings.samples < 2)
     fail("found --aov error with one sample, expected at least two");
+  if (options.denoise && options.keep_noise) fail("found --denoise and --keep-noise, expected one of them");
   if (options.denoise && !options.has_goal() && picture.settings.samples < 2)
     fail("found --denoise with one sample, expected at least two");
   if (options.denoise && picture.look == LOOK_PAPER)

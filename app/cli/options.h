@@ -96,7 +96,9 @@ struct RenderOptions {
   /// View::window: that of crop or tile.
   [[nodiscard]] PixelWindow window() const;
   bool denoise = false;
-  std::optional<double> exposure_ev = 0.0;  ///< stops, PNG only; unset = automatic
+  bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
+  std::optional<double> exposure_ev;  ///< stops, PNG only; unset = automatic for scans, else 0
+  bool exposure_auto = false;         ///< unset = automatic for all
   bool aov_depth = false, aov_normal = false, aov_id = false, aov_error = false;
   std::filesystem::path stats_json;    ///< empty = none
   std::filesystem::path reference;     ///< empty = no comparison

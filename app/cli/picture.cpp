@@ -17,9 +17,8 @@ namespace {
 
 bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
 
-Display display_of(const RenderOptions& options, const Image& image) {
-  return {options.exposure_ev ? *options.exposure_ev : automatic_exposure_ev(image),
-          choose_tone(options.picture)};
+Display display_of(const RenderOptions& options) {
+  return {options.exposure_ev.value_or(0.0), choose_tone(options.picture)};
 }
 
 std::string size_text(std::uint32_t width, std::uint32_t height) {
@@ -48,8 +47,7 @@ void require_outputs_writable(const RenderOptions& options) {
 std::optional<DisplayImage> read_reference(const RenderOptions& options) {
   if (options.reference.empty()) return {};
   // An exposure that the picture itself decides cannot be that of a float reference: it is taken as it is.
-  DisplayImage reference = read_display_image(
-      options.reference, {options.exposure_ev.value_or(0.0), choose_tone(options.picture)});
+  DisplayImage reference = read_display_image(options.reference, display_of(options));
   if (reference.width != options.picture.width || reference.height != options.picture.height)
     throw Error(ExitCode::failed, "reference '" + options.reference.string() + "' is " +
                                       size_text(reference.width, reference.height) +
@@ -76,7 +74,7 @@ Metadata picture_metadata(const RenderOptions& options, const Scene& scene, cons
 
 void write_output(const RenderOptions& options, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path) {
-  if (is_png(path)) return write_png(display_image(image, display_of(options, image)), metadata, path);
+  if (is_png(path)) return write_png(display_image(image, display_of(options)), metadata, path);
   ExrPicture picture = exr_picture(
       image, {options.aov_depth, options.aov_normal, options.aov_id, options.aov_error}, metadata);
   if (const PixelWindow window = options.window(); window.width > 0) {
@@ -89,7 +87,7 @@ void write_output(const RenderOptions& options, const Image& image, const Metada
 
 void require_match(const RenderOptions& options, const Image& image, const DisplayImage& reference) {
   const Tolerance tolerance{options.reference_threshold, options.reference_share, options.reference_limit};
-  DisplayImage picture = display_image(image, display_of(options, image));
+  DisplayImage picture = display_image(image, display_of(options));
   if (is_png(options.output)) quantise(picture);
   const Comparison comparison = compare(picture, reference, tolerance);
   const std::string numbers = describe(comparison, tolerance);

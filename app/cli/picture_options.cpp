@@ -57,11 +57,15 @@ void add_camera_options(OptionList& list, PictureOptions& picture) {
       "FILE");
   std::vector<Choice<Viewpoint>> viewpoints;
   for (const Viewpoint viewpoint :
-       {Viewpoint::automatic, Viewpoint::front, Viewpoint::oblique, Viewpoint::top, Viewpoint::inside})
+       {Viewpoint::automatic, Viewpoint::front, Viewpoint::oblique, Viewpoint::top, Viewpoint::inside,
+        Viewpoint::dollhouse, Viewpoint::sensor})
     viewpoints.push_back({viewpoint_name(viewpoint), viewpoint});
-  add_choice(list, "--view", picture.viewpoint, viewpoints,
-             "where a scene is looked at from without --eye; inside: from a scanner's place or the middle; "
-             "default auto: the scene's camera, else by the shape of a scan, else front");
+  add_choice(
+      list, "--view", picture.viewpoint, viewpoints,
+      "where a scene is looked at from without --eye; inside: from a scanner's place or the middle; "
+      "dollhouse: into a room from above, without what faces away from the eye, with --eye from there; "
+      "sensor: as a depth camera or scanner saw it; default auto: the scene's camera, of scans sensor, "
+      "inside, dollhouse or oblique by what they are of, else front");
   add_vector(list, "--eye", picture.eye,
              "camera position; default: the scene's camera, else a view of the whole scene");
   add_vector(list, "--target", picture.target, "point looked at; default the scene's centre; needs --eye");
@@ -227,8 +231,11 @@ void add_number_list(OptionList& list, const std::string& name, std::vector<std:
 void add_attribute_options(OptionList& list, PictureOptions& picture) {
   AttributeOptions& attributes = picture.attributes;
   add_text(list, "--color-by", attributes.color_by,
-           "colours of points: rgb (their own), height, normal, distance (from the scanner), or an attribute "
-           "they have, such as intensity, class, return, source, scan; default rgb",
+           "colours of points: rgb (their own), plain (none), height (low to high: blue-green, green, ochre, "
+           "rose), height+intensity (darker where that is low), normal, distance (from the scanner), or an "
+           "attribute "
+           "they have, such as intensity, class, return, source, scan, kind (surface, line or scatter); default "
+           "rgb, of scans without colours intensity, of sites and rooms height with it",
            "NAME");
   list.add_value(
       "--color-range",
@@ -261,8 +268,8 @@ void add_look_options(OptionList& list, PictureOptions& picture) {
        {"paper", LOOK_PAPER}},
       "lit: path tracing; clay: the same, all of it white clay; ao: ambient occlusion; scan: the points' "
       "colours under occlusion and a "
-      "soft light; paper: Phong, hard shadows, mirrors and glass; default auto: scan for points without "
-      "materials, else lit");
+      "soft light; paper: Phong, hard shadows, mirrors and glass; default auto: scan for points with "
+      "colours and without materials, else lit");
   std::vector<Choice<std::optional<Tone>>> tones = {{"auto", std::nullopt}};
   for (std::size_t i = 0; i < TONE_NAMES.size(); ++i) tones.push_back({TONE_NAMES[i], Tone(i)});
   add_choice(list, "--tone", picture.tone, tones,

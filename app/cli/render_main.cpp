@@ -1,5 +1,6 @@
 /// splatray-render: a scene in, pictures out.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <future>
 
@@ -11,7 +12,9 @@
 #include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
+#include "engine/base/number_text.h"
 #include "engine/base/progress.h"
+#include "preprocess/base/file_extension.h"
 
 namespace {
 
@@ -46,13 +49,37 @@ LoadedScene load(const RenderOptions& options, ProgressLine& progress) {
   return loaded;
 }
 
-/// Says from where a scan is seen, as that was chosen by its shape.
-void tell_viewpoint(const RenderOptions& options, const Scene& scene) {
+/// Decides the exposure where that is left to the picture. Of EXR files too, which keep it for what makes PNGs of them.
+void expose(const Sequence& sequence, const Scene& scene, const Camera& still, Tracer& tracer,
+            RenderOptions& options) {
+  const bool automatic = options.exposure_auto || !scene.stations.empty();
+  if (options.exposure_ev || !automatic) return;
   const PictureOptions& picture = options.picture;
-  const bool chosen = !picture.eye && !scene.camera && picture.viewpoint == Viewpoint::automatic;
-  if (options.quiet || !chosen || scene.stations.empty()) return;
-  std::fprintf(stderr, "splatray-render: view: %s (--view changes it)\n",
-               viewpoint_name(choose_viewpoint(scene)));
+  const std::uint32_t first = sequence.path.empty() ? 0 : sequence.path.front().frame;
+  const Camera camera = frame_camera(sequence, first, still, choose_up(scene, picture));
+  tracer.set_lights(choose_lights(scene, picture, camera));
+  const double ev =
+      preview_exposure_ev(tracer, {camera, picture.width, picture.height}, choose_settings(scene, picture));
+  options.exposure_ev = std::clamp(std::round(100.0 * ev) / 100.0, -60.0, 60.0);
+}
+
+/// Takes the noise out of a scan's picture whose look was chosen for it, where it is for looking at.
+void choose_denoise(const Scene& scene, RenderOptions& options) {
+  const bool asked =
+      options.picture.look || options.keep_noise || options.has_goal() || !options.reference.empty();
+  if (scene.stations.empty() || asked || options.window().width > 0 || options.picture.settings.samples < 2)
+    return;
+  options.denoise = options.denoise || lower_extension(options.output) == ".png";
+  require_picture_memory(options);
+}
+
+/// Says in a line what was chosen for a scan, as the options that would choose it.
+void tell_chosen(const RenderOptions& asked, const RenderOptions& options, const LoadedScene& loaded) {
+  if (options.quiet || loaded.told.empty()) return;
+  std::string told = loaded.told;
+  if (options.exposure_ev && !asked.exposure_ev) told += " --exposure " + number_text(*options.exposure_ev);
+  if (options.denoise && !asked.denoise) told += " --denoise";
+  std::fprintf(stderr, "splatray-render: %s\n", told.c_str());
 }
 
 /// Says that materials were asked for in a look that shows none.
@@ -86,7 +113,7 @@ SequenceListener told_on(ProgressLine& progress, const RenderOptions& options) {
 int render(int argc, char** argv) {
   const std::optional<RenderOptions> parsed = parse_render_options(argc, argv);
   if (!parsed) return static_cast<int>(ExitCode::done);
-  const RenderOptions& options = *parsed;
+  RenderOptions options = *parsed;
   if (options.list_devices) return print_devices();
 
   const Sequence sequence = plan_sequence(options);
@@ -106,17 +133,20 @@ int render(int argc, char** argv) {
   const std::future<void> codec = std::async(std::launch::async, load_image_codec);
   ProgressLine progress(options.quiet, options.progress);
   LoadedScene loaded = load(options, progress);
+  choose_denoise(loaded.scene, options);
+  options.picture = loaded.picture;
   const Environment environment = choose_environment(loaded.environment_name);
 
   watch.lap_ms();
   Tracer tracer(context, {.pipeline_folder = user_cache_folder(), .threads = options.scene.threads});
   // What is asked of the pools, before they go.
   const Camera still = choose_camera(loaded.scene, options.picture);
-  tell_viewpoint(options, loaded.scene);
   tell_hidden_materials(options);
   const PoolCounts counts = pool_counts(loaded.scene);
   tracer.upload_and_free(loaded.scene);
   tracer.set_environment(environment);
+  expose(sequence, loaded.scene, still, tracer, options);
+  tell_chosen(*parsed, options, loaded);
   times.upload_ms = watch.lap_ms();
   const SequenceRecord record =
       render_sequence(options, sequence, loaded.scene, still, context, tracer, told_on(progress, options));

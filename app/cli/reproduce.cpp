@@ -18,6 +18,7 @@ RenderOptions looks_only(const RenderOptions& options) {
   looks.scene = options.scene;
   looks.picture = options.picture;
   looks.exposure_ev = options.exposure_ev;
+  looks.exposure_auto = options.exposure_auto;
   looks.aov_depth = options.aov_depth;
   looks.aov_normal = options.aov_normal;
   looks.aov_id = options.aov_id;
@@ -25,6 +26,7 @@ RenderOptions looks_only(const RenderOptions& options) {
   looks.error_goal = options.error_goal;
   looks.seconds_goal = options.seconds_goal;
   looks.denoise = options.denoise;
+  looks.keep_noise = options.keep_noise;
   looks.crop = options.crop;
   looks.tile = options.tile;
   looks.tiles = options.tiles;

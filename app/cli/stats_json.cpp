@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/library/attributes.h"
 #include "app/library/commit.h"
 #include "engine/file/atomic_file.h"
 #include "preprocess/build_report.h"
@@ -13,13 +14,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json scene_json(const Scene& scene, const PoolCounts& counts, std::size_t lights) {
-  return {{"splats", counts.splats},
-          {"references", counts.references},
-          {"nodes", counts.node_words},
-          {"filled_leaves", counts.filled_leaves},
-          {"objects", scene.materials.size()},
-          {"lights", lights},
-          {"diagonal_world", scene.diagonal_world()}};
+  Json json = {{"splats", counts.splats},
+               {"references", counts.references},
+               {"nodes", counts.node_words},
+               {"filled_leaves", counts.filled_leaves},
+               {"objects", scene.materials.size()},
+               {"lights", lights},
+               {"diagonal_world", scene.diagonal_world()}};
+  for (const Category& kind : categories_of(scene, COLUMN_KIND)) json["kinds"][kind.name] = kind.points;
+  return json;
 }
 
 Json counters_json(const std::array<std::uint64_t, COUNTER_COUNT>& count) {

@@ -18,15 +18,20 @@ constexpr double RANGE_FIRST = 0.02,
                  RANGE_LAST = 0.98;  ///< shares of all values that a range leaves out at its ends
 constexpr std::size_t RAMP_STEPS = 256;
 constexpr double INTENSITY_GAMMA = 2.2;
+/// Display values of its ends: on black and on white no shade is seen.
+constexpr const char* HEIGHT_AND_INTENSITY = "height+intensity";
+constexpr float RELIEF_DARK = 0.2F,
+                RELIEF_BRIGHT = 1.5F;  ///< factors on a height's colour, of black and white intensity
+constexpr double INTENSITY_DARK = 0.25, INTENSITY_BRIGHT = 0.92;
 
 std::uint32_t color_of(const glm::vec3& encoded) {
   return pack_color({srgb_to_linear(encoded.x), srgb_to_linear(encoded.y), srgb_to_linear(encoded.z)});
 }
 
-std::vector<std::uint32_t> heat_ramp() {
+std::vector<std::uint32_t> ramp_of(glm::vec3 (*color)(float)) {
   std::vector<std::uint32_t> ramp;
   for (std::size_t i = 0; i < RAMP_STEPS; ++i)
-    ramp.push_back(color_of(heat_color(static_cast<float>(i) / (RAMP_STEPS - 1))));
+    ramp.push_back(color_of(color(static_cast<float>(i) / (RAMP_STEPS - 1))));
   return ramp;
 }
 
@@ -34,7 +39,8 @@ std::vector<std::uint32_t> grey_ramp() {
   std::vector<std::uint32_t> ramp;
   for (std::size_t i = 0; i < RAMP_STEPS; ++i) {
     const double share = std::pow(static_cast<double>(i) / (RAMP_STEPS - 1), 1.0 / INTENSITY_GAMMA);
-    ramp.push_back(color_of(glm::vec3(static_cast<float>(share))));
+    ramp.push_back(
+        color_of(glm::vec3(static_cast<float>(std::lerp(INTENSITY_DARK, INTENSITY_BRIGHT, share)))));
   }
   return ramp;
 }
@@ -74,9 +80,22 @@ const std::map<std::uint32_t, AsprsClass>& asprs_classes() {
   return CLASSES;
 }
 
-bool is_category(std::string_view name) {
+/// Whether a column is the build's own: a file may have one of that name, too.
+bool is_kinds(const Column& column) {
+  return column.name == COLUMN_KIND && std::holds_alternative<std::vector<std::uint8_t>>(column.values);
+}
+
+bool is_category(const Column& column) {
+  const std::string_view name = column.name;
   return name == COLUMN_CLASS || name == COLUMN_RETURN || name == COLUMN_RETURNS || name == COLUMN_SOURCE ||
-         name == COLUMN_SCAN;
+         name == COLUMN_SCAN || is_kinds(column);
+}
+
+/// Surfaces grey, lines orange, scatter green: display-encoded, 0..255.
+glm::vec3 kind_color(ScanKind kind) {
+  return kind == ScanKind::surface ? glm::vec3(176, 178, 184)
+         : kind == ScanKind::line  ? glm::vec3(240, 140, 30)
+                                   : glm::vec3(60, 150, 70);
 }
 
 Category category(const Scene& scene, std::string_view column, std::uint32_t value) {
@@ -85,6 +104,10 @@ Category category(const Scene& scene, std::string_view column, std::uint32_t val
     if (known != asprs_classes().end()) {
       return {value, known->second.name, color_of(known->second.rgb / 255.0F), 0};
     }
+  }
+  if (column == COLUMN_KIND && value < SCAN_KINDS) {
+    const auto kind = static_cast<ScanKind>(value);
+    return {value, std::string(name_of(kind)), color_of(kind_color(kind) / 255.0F), 0};
   }
   const bool named = column == COLUMN_SCAN && value < scene.stations.size();
   return {value, named ? scene.stations[value].name : "", color_of(number_color(value)), 0};
@@ -143,17 +166,36 @@ std::array<double, 2> robust_range(std::vector<double> values) {
   return {low, at(RANGE_LAST)};
 }
 
+std::vector<std::uint32_t> ramp_for(const std::string& name) {
+  if (name == COLUMN_INTENSITY) return grey_ramp();
+  return ramp_of(name == "height" ? land_color : heat_color);
+}
+
 AttributeColors ramp_colors(const Scene& scene, const AttributeOptions& options) {
   const std::vector<double> values = values_of(scene, options.color_by);
   const auto [low, high] = options.color_range ? *options.color_range : robust_range(values);
   AttributeColors result;
-  result.legend = {
-      options.color_by, low, high, options.color_by == COLUMN_INTENSITY ? grey_ramp() : heat_ramp(), {}};
+  result.legend = {options.color_by, low, high, ramp_for(options.color_by), {}};
   result.colors.reserve(values.size());
   for (const double value : values) {
     const double share = high > low ? (value - low) / (high - low) : 0.5;
     const double step = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * (RAMP_STEPS - 1) : 0.0;
     result.colors.push_back(result.legend.ramp[static_cast<std::size_t>(std::lround(step))]);
+  }
+  return result;
+}
+
+/// Heights' colours, darker where intensity is low: what a survey's surfaces are made of on the lie of the land.
+AttributeColors relief_colors(const Scene& scene, AttributeOptions options) {
+  options.color_by = "height";
+  AttributeColors result = ramp_colors(scene, options);
+  options.color_by = COLUMN_INTENSITY;
+  options.color_range.reset();
+  const std::vector<std::uint32_t> grey = ramp_colors(scene, options).colors;
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    const float share = linear_to_srgb(unpack_color(grey[i]).x),
+                factor = RELIEF_DARK + (RELIEF_BRIGHT - RELIEF_DARK) * share;
+    result.colors[i] = pack_color(glm::min(factor * unpack_color(result.colors[i]), glm::vec3(1.0F)));
   }
   return result;
 }
@@ -205,25 +247,30 @@ std::vector<std::string> color_sources(const Scene& scene) {
   std::vector<std::string> names;
   for (const Column& column : scene.columns) names.push_back(column.name);
   names.insert(names.end(), {"height", "normal"});
+  if (find_column(scene.columns, COLUMN_INTENSITY) != nullptr) names.emplace_back(HEIGHT_AND_INTENSITY);
+  if (!scene.color_pool.empty()) names.emplace_back("plain");
   if (knows_a_sensor(scene)) names.emplace_back("distance");
   return names;
 }
 
 AttributeColors color_by(const Scene& scene, const AttributeOptions& options) {
   if (options.color_by.empty() || options.color_by == "rgb") return {};
+  if (options.color_by == "plain")
+    return {std::vector<std::uint32_t>(scene.color_pool.size(), pack_color(glm::vec3(1.0F))), {}};
   const std::vector<std::string> sources = color_sources(scene);
   if (std::find(sources.begin(), sources.end(), options.color_by) == sources.end())
     throw Error(ExitCode::usage, "--color-by: found '" + options.color_by +
                                      "', expected what the scene's points have: rgb, " + joined(sources));
   if (options.color_by == "normal") return normal_colors(scene);
-  if (is_category(options.color_by))
-    return category_colors(scene, *find_column(scene.columns, options.color_by));
+  if (options.color_by == HEIGHT_AND_INTENSITY) return relief_colors(scene, options);
+  if (const Column* column = find_column(scene.columns, options.color_by); column && is_category(*column))
+    return category_colors(scene, *column);
   return ramp_colors(scene, options);
 }
 
 std::vector<Category> categories_of(const Scene& scene, std::string_view name) {
   const Column* column = find_column(scene.columns, name);
-  if (column == nullptr) return {};
+  if (column == nullptr || !is_category(*column)) return {};
   std::map<std::uint32_t, std::uint64_t> points;
   for (std::size_t i = 0; i < column->size(); ++i) ++points[static_cast<std::uint32_t>(column->number(i))];
   std::vector<Category> categories;
@@ -246,7 +293,7 @@ std::vector<AttributeValue> attributes_of(const Scene& scene, std::size_t splat)
   std::vector<AttributeValue> values;
   for (const Column& column : scene.columns) {
     std::string text = number_text(column.number(splat));
-    if (column.name == COLUMN_CLASS || column.name == COLUMN_SCAN) {
+    if (column.name == COLUMN_CLASS || column.name == COLUMN_SCAN || is_kinds(column)) {
       const std::string name =
           category(scene, column.name, static_cast<std::uint32_t>(column.number(splat))).name;
       if (!name.empty()) text += " (" + name + ")";

@@ -12,7 +12,7 @@ namespace splatray {
 
 /// What is shown of the attributes of a scene's points.
 struct AttributeOptions {
-  /// rgb, height, normal, distance, or a column's name; empty = rgb, what the scene has.
+  /// rgb, plain (no colours), height, height+intensity (darker where intensity is low), normal, distance, or a column's name; empty = rgb, what the scene has.
   std::string color_by;
   /// Unset = from the 2nd to the 98th of 100 parts of all values.
   std::optional<std::array<double, 2>> color_range;
@@ -47,16 +47,19 @@ struct AttributeColors {
 /// What color_by may be for this scene, without rgb.
 [[nodiscard]] std::vector<std::string> color_sources(const Scene& scene);
 
-/// The colours that the options ask for: categories for class, return, returns, source and scan, a ramp over `color_range`
-/// for others (intensity: grey with gamma 1/2.2, as its values are of any scale). Throws Error (usage) for an attribute that
+/// The colours that the options ask for: categories for class, return, returns, source, scan and kind, a ramp over `color_range`
+/// for others (intensity: greys from dark to light with gamma 1/2.2, as its values are of any scale; height: land_color). Throws
+/// Error (usage) for an attribute that
 /// the scene does not have.
 [[nodiscard]] AttributeColors color_by(const Scene& scene, const AttributeOptions& options);
 
-/// The categories of a column, with the points that have each; none where there is no such column.
+/// The categories of a column, with the points that have each; none where there is no such column
+/// of categories.
 [[nodiscard]] std::vector<Category> categories_of(const Scene& scene, std::string_view column);
 
-/// Makes the scene what is shown of it: its colours, and splats of hidden classes and scans shrunk to the least radius, 1/10^6 of
-/// the scene, which hardly any ray meets. Throws Error (usage) as color_by does, and where something is hidden that the scene does not have.
+/// Makes the scene what is shown of it: its colours, and splats of hidden classes and scans shrunk to the least radius, 1/10^6
+/// of the scene, which hardly any ray meets. Throws Error (usage) as color_by does, and where something is hidden that the
+/// scene does not have.
 [[nodiscard]] ColorLegend show_attributes(Scene& scene, const AttributeOptions& options);
 
 /// All attributes of a splat, by name, in the scene's order.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/srgb.h"
 
@@ -76,16 +77,20 @@ DisplayImage display_image(const Image& image, const Display& display) {
 }
 
 double automatic_exposure_ev(const Image& image) {
-  constexpr double MIDDLE = 0.25;
+  constexpr double MIDDLE = 0.25, BRIGHT = 0.65, DARK = 0.15;
   for (const float least_coverage : {0.5F, 0.0F}) {
-    double sum = 0.0, count = 0.0;
+    std::vector<double> stops;
     for (const vec4& pixel : image.rgba) {
       const double bright = (double(pixel.x) + double(pixel.y) + double(pixel.z)) / 3.0;
       if (pixel.w < least_coverage || !(bright > 1e-9) || !std::isfinite(bright)) continue;
-      sum += std::log2(bright);
-      ++count;
+      stops.push_back(std::log2(bright));
     }
-    if (count > 0.0) return std::log2(MIDDLE) - sum / count;
+    if (stops.empty()) continue;
+    std::sort(stops.begin(), stops.end());
+    const auto at = [&stops](double share) { return stops[std::size_t(share * double(stops.size() - 1))]; };
+    const double mean = std::accumulate(stops.begin(), stops.end(), 0.0) / double(stops.size());
+    return std::min(std::log2(MIDDLE) - mean,
+                    std::max(std::log2(BRIGHT) - at(0.95), std::log2(DARK) - at(0.5)));
   }
   return 0.0;
 }

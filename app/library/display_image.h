@@ -41,8 +41,9 @@ struct Display {
 [[nodiscard]] vec3 display_value(vec3 radiance, const Display& display);
 [[nodiscard]] DisplayImage display_image(const Image& image, const Display& display);
 
-/// The exposure, stops, that brings the mean of the logarithm of what objects' pixels send out to that of a grey of 0.25; of all
-/// pixels where none is covered; 0 where all are black.
+/// The exposure, stops, that brings the mean of the logarithm of what objects' pixels send out to that of a grey of 0.25, less where
+/// the brightest twentieth would come near white, but not so little that the median is dark; of all pixels where none is covered; 0
+/// where all are black.
 [[nodiscard]] double automatic_exposure_ev(const Image& image);
 /// Rounds each channel to the 8 bits a PNG stores.
 void quantise(DisplayImage& image);

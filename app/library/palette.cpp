@@ -1,5 +1,7 @@
 #include "app/library/palette.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/color_space.hpp>
 #include <numbers>
@@ -48,6 +50,15 @@ glm::vec3 heat_color(float share) {
   }();
   if (!(share > 0.0F)) return COLORS.front();
   return COLORS[static_cast<std::size_t>(std::lround(255.0F * std::min(share, 1.0F)))];
+}
+
+glm::vec3 land_color(float share) {
+  static constexpr std::array STOPS = {glm::vec3(0.31F, 0.48F, 0.52F), glm::vec3(0.45F, 0.60F, 0.44F),
+                                       glm::vec3(0.76F, 0.66F, 0.43F), glm::vec3(0.80F, 0.60F, 0.58F)};
+  if (!(share > 0.0F)) return STOPS.front();
+  const float at = std::min(share, 1.0F) * (STOPS.size() - 1);
+  const auto first = std::min(static_cast<std::size_t>(at), STOPS.size() - 2);
+  return glm::mix(STOPS[first], STOPS[first + 1], at - static_cast<float>(first));
 }
 
 }  // namespace splatray

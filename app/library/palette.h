@@ -9,6 +9,10 @@ namespace splatray {
 /// Clamped outside.
 [[nodiscard]] glm::vec3 heat_color(float share);
 
+/// The same of a height: blue-green over green and ochre to rose, soft and of middle brightness, so that light and shade on it
+/// are seen as they are on land.
+[[nodiscard]] glm::vec3 land_color(float share);
+
 /// A colour of its own for each number, display-encoded; consecutive ones differ in hue and lightness.
 [[nodiscard]] glm::vec3 number_color(std::uint32_t number);
 

@@ -11,6 +11,7 @@
 #include "engine/base/memory.h"
 #include "engine/base/number_text.h"
 #include "engine/file/scene_file.h"
+#include "engine/image/upright.h"
 #include "engine/scene/surface.h"
 #include "preprocess/base/file_extension.h"
 
@@ -127,8 +128,11 @@ LoadedScene load_scene(const SceneOptions& options, const PictureOptions& pictur
   loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   if (!options.material.empty()) apply_material(loaded.scene, options.material);
   change_objects(picture.objects, loaded.scene);
-  loaded.scene.up = choose_up(loaded.scene, picture);
-  loaded.legend = show_attributes(loaded.scene, picture.attributes);
+  loaded.scene.up = picture.up.value_or(upright(loaded.scene));
+  SuitedPicture suited = suited_picture(loaded.scene, picture);
+  loaded.picture = std::move(suited.picture);
+  loaded.told = std::move(suited.told);
+  loaded.legend = show_attributes(loaded.scene, loaded.picture.attributes);
   loaded.environment_name = choose_environment_name(loaded.scene, picture);
   return loaded;
 }
@@ -141,7 +145,8 @@ Camera choose_camera(const Scene& scene, const PictureOptions& picture) {
     return {*picture.eye, target, up.value_or(up_across(scene.up, target - *picture.eye)),
             picture.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG), picture.ortho_height};
   }
-  if (!scene.camera || picture.up || picture.viewpoint != Viewpoint::automatic)
+  // A depth camera's view suits the picture's shape; a model's own camera is its author's.
+  if (!scene.camera || !scene.stations.empty() || picture.up || picture.viewpoint != Viewpoint::automatic)
     return viewpoint_camera(scene, picture.viewpoint, aspect, picture.fov_y_deg);
   Camera camera = *scene.camera;
   camera.fov_y_deg = picture.fov_y_deg.value_or(camera.fov_y_deg);

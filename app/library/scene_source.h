@@ -9,12 +9,16 @@
 
 namespace splatray {
 
+class Tracer;
+
 /// A scene and how it came to be.
 struct LoadedScene {
   Scene scene;
   std::string environment_name;     ///< as choose_environment_name has it
   double load_ms = 0.0;             ///< reading and preprocess
   std::optional<BuildStats> build;  ///< unless read from a .soct
+  PictureOptions picture{};         ///< with what suits the scan where nothing was asked for (suited_picture)
+  std::string told{};               ///< of these choices
   ColorLegend legend{};             ///< of PictureOptions::attributes
 };
 
@@ -27,7 +31,8 @@ struct LoadListener {
 /// Throws Error (usage) where a .soct, which is a whole scene, is not the only input.
 void require_scene_alone(const std::vector<std::filesystem::path>& inputs);
 
-/// Reads or preprocesses the scene; applies --material, --object, --up and what is shown of attributes. Throws Error.
+/// Reads or preprocesses the scene; applies --material, --object, --up (else upright of upright.h) and what is shown of attributes.
+/// Throws Error.
 [[nodiscard]] LoadedScene load_scene(const SceneOptions& scene, const PictureOptions& picture,
                                      const LoadListener& listener);
 
@@ -65,5 +70,23 @@ void require_scene_alone(const std::vector<std::filesystem::path>& inputs);
 
 /// The settings, with defaults that depend on the scene filled in.
 [[nodiscard]] Settings choose_settings(const Scene& scene, const PictureOptions& picture);
+
+/// Options of which nothing is left open that depends on what a scan is of.
+struct SuitedPicture {
+  PictureOptions picture;
+  std::string told;  ///< what was chosen, with the options that say the same; empty for what is no scan
+};
+
+/// The picture with what suits the scan (kind_of_scan, with the scene's up direction as it is shown) where nothing is asked for:
+/// - view: choose_viewpoint; Settings::cutaway with --view dollhouse, chosen or asked for.
+/// - colours: rgb where it says something, else intensity that varies, else none (plain); of sites, sweeps and rooms seen from outside
+///   height, and intensity with it.
+/// - look: scan where points have colours of their own, whose light is in them, and inside rooms, where little light comes; else lit.
+/// Other scenes' options come back as they are, but for cutaway. The scene has its own colours.
+[[nodiscard]] SuitedPicture suited_picture(const Scene& scene, const PictureOptions& picture);
+
+/// The exposure, stops, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide and high, with the
+/// tracer's lights and environment. Parts of a picture, and all pictures of a run, have one exposure by it.
+[[nodiscard]] double preview_exposure_ev(Tracer& tracer, View view, Settings settings);
 
 }  // namespace splatray

@@ -14,7 +14,12 @@ std::optional<ViewOptions> parse_view_options(int argc, char** argv) {
   list.add_answer("--keys", keys_markdown, "print the table of keys as Markdown");
   list.set_footer("\n" + keys_text());
   add_scene_options(list, options.scene);
-  add_number(list, "--exposure", options.exposure_ev, -60.0, 60.0, "brightness in stops; default 0");
+  list.add_value(
+      "--exposure",
+      [&options](const std::string& text) {
+        options.exposure_ev = read_number<double>("--exposure", text, -60.0, 60.0);
+      },
+      {}, "brightness in stops; default: what is seen of a scan becomes middle grey, else 0", "EV");
   add_path(list, "--stats-json", options.stats_json,
            "write times, rates, counts and errors here, whenever the picture rests and at the end");
   add_picture_options(list, options.picture);

@@ -46,7 +46,7 @@ Viewer::Viewer(const ViewOptions& options, Clock::time_point start)
       loader_([this] { window_.wake(); }),
       renderer_(options.picture.device, [this] { window_.wake(); }) {
   panels_.recent_files = user_.state().recent_files;
-  document_.exposure_ev = options.exposure_ev;
+  asked_exposure_ev_ = options.exposure_ev;
   PictureOptions first = options_.picture;
   first.width = std::max(picture_px().x, 1U);
   first.height = std::max(picture_px().y, 1U);
@@ -119,6 +119,10 @@ void Viewer::take_render_news() {
     stats_.shown(frame_, Clock::now());
   }
   if (news.saving) work_ = news.saving;
+  if (news.exposure_ev) {
+    found_exposure_ev_ = news.exposure_ev;
+    document_.exposure_ev = *news.exposure_ev;
+  }
   if (!news.notice.empty()) panels_.notice = news.notice;
   if (!news.error.empty()) panels_.error = news.error;
   if (!news.pick) return;
@@ -199,9 +203,21 @@ void Viewer::handle(const Command& command) {
       return copy();
     case Action::paste_command:
       return attempt_to("pasting", [this] { paste(); });
+    case Action::next_viewpoint:
+      return look_from_next();
     default:
       return;
   }
+}
+
+/// Goes round the views of --view.
+void Viewer::look_from_next() {
+  if (!scene_) return;
+  viewpoint_ = viewpoint_ == Viewpoint::sensor ? Viewpoint::front
+                                               : static_cast<Viewpoint>(static_cast<int>(viewpoint_) + 1);
+  document_.camera = viewpoint_camera(*scene_, viewpoint_, aspect(), {});
+  document_.settings.cutaway = viewpoint_ == Viewpoint::dollhouse;
+  panels_.notice = std::string("view: ") + viewpoint_name(viewpoint_);
 }
 
 void Viewer::draw_controls() {

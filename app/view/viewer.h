@@ -42,6 +42,7 @@ class Viewer {
   void handle(const Gesture& gesture);
   void handle(const Command& command);
   void fly_on();
+  void look_from_next();
   void draw_controls();
   void handle(const Requests& requests);
   void cancel();
@@ -68,7 +69,10 @@ class Viewer {
   RenderThread renderer_;
 
   Document document_;
-  SharedScene scene_;  ///< null: none is open
+  std::optional<double> asked_exposure_ev_;     ///< by an option; unset = what suits a scan, else as it was
+  std::optional<double> found_exposure_ev_;     ///< that suits the scan shown
+  SharedScene scene_;                           ///< null: none is open
+  Viewpoint viewpoint_ = Viewpoint::automatic;  ///< that look_from_next took last
   Mouse mouse_;
   PanelState panels_;
   SharedFrame frame_;

@@ -43,11 +43,14 @@ void Viewer::open(RenderOptions options) {
     panels_.notice.clear();
     loader_.load(options.scene, options.picture);
   }
+  asked_exposure_ev_ = options.exposure_ev;
   document_.exposure_ev = options.exposure_ev.value_or(0.0);
 }
 
 void Viewer::show(OpenedScene opened) {
-  opened.document.exposure_ev = document_.exposure_ev;
+  const bool exposes = !asked_exposure_ev_ && !opened.scene->stations.empty();
+  const bool kept = document_.exposure_ev != found_exposure_ev_;
+  opened.document.exposure_ev = asked_exposure_ev_.value_or(kept ? document_.exposure_ev : 0.0);
   opened.document.mode = document_.mode;
   document_ = std::move(opened.document);
   if (!scene_) {
@@ -60,10 +63,11 @@ void Viewer::show(OpenedScene opened) {
   remember([&files](UserState& state) { remember_files(state, files); });
   panels_.home = document_.camera;
   panels_.can_add = true;
+  viewpoint_ = Viewpoint::automatic;
   panels_.object = panels_.light = 0;
   inspected_.reset();
   window_.set_title(scene_title(files) + " - splatray");
-  renderer_.open(scene_, document_, picture_px());
+  renderer_.open(scene_, document_, picture_px(), exposes);
 }
 
 /// Throws Error when there is no scene that a dropped file could change.

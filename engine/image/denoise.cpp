@@ -1,8 +1,10 @@
 #include "engine/image/denoise.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 namespace splatray {
@@ -51,6 +53,18 @@ class Filter {
   }
   [[nodiscard]] bool is_surface(std::size_t i) const { return image_.aov[i].object != NO_OBJECT; }
   [[nodiscard]] vec3 base_of(std::size_t i) const { return glm::max(vec3(base_[i]), vec3(BASE_LEAST)); }
+
+  /// Calls work(row) for all rows, on all processors; what it writes is of its row alone.
+  template <class Work>
+  void for_rows(const Work& work) const {
+    std::atomic<int> next{0};
+    const auto take = [&] {
+      for (int y = next++; y < height_; y = next++) work(y);
+    };
+    std::vector<std::jthread> others;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(take);
+    take();
+  }
 
   /// The least change of depth towards a neighbour, per pixel: at edges that of the pixel's own surface.
   [[nodiscard]] vec2 slope(int x, int y) const {
@@ -120,7 +134,7 @@ class Filter {
   /// Two halves of the samples tell little of one pixel's noise: the mean over 7 x 7 of the same surface does.
   [[nodiscard]] Light spread_variance(Light light) const {
     std::vector<float> spread(light.variance.size(), 0.0F);
-    for (int y = 0; y < height_; ++y)
+    for_rows([&](int y) {
       for (int x = 0; x < width_; ++x) {
         const std::size_t center = at(x, y);
         if (!is_surface(center)) continue;
@@ -132,13 +146,14 @@ class Filter {
         });
         spread[center] = weights > 0.0F ? sum / weights : light.variance[center];
       }
+    });
     light.variance = std::move(spread);
     return light;
   }
 
   [[nodiscard]] Light filtered(const Light& light, int step) const {
     Light result = light;
-    for (int y = 0; y < height_; ++y)
+    for_rows([&](int y) {
       for (int x = 0; x < width_; ++x) {
         const std::size_t center = at(x, y);
         if (!is_surface(center)) continue;
@@ -158,6 +173,7 @@ class Filter {
         result.color[center] = sum / weights;
         result.variance[center] = variance / (weights * weights);
       }
+    });
     return result;
   }
 

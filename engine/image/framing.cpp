@@ -5,8 +5,9 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/image/point_sample.h"
+#include "engine/image/scan_kind.h"
 #include "engine/image/view.h"
-#include "engine/scene/splat.h"
 
 namespace splatray {
 namespace {
@@ -14,28 +15,60 @@ namespace {
 constexpr double DEG = std::numbers::pi / 180.0;
 constexpr double OBLIQUE_DEG = 35.0;   ///< elevation of a look at terrain
 constexpr double STEEPEST_DEG = 89.9;  ///< beyond it the scene's up tells no picture's top
-constexpr double OUTERMOST = 0.01;     ///< share of the points that a robust size leaves out at each end
-constexpr double FLAT = 0.3;        ///< height over width below which a scan is looked at from further above
-constexpr double EYE_SHARE = 0.45;  ///< height of the eye inside, over the scan's height
+constexpr double EYE_SHARE = 0.45;     ///< height of the eye inside, over the scan's height
 /// Of the diagonal: an eye that near the middle looks along the longer side.
 constexpr double CENTRAL = 0.05;
-constexpr std::size_t SECTORS = 36;      ///< of directions around a scanner
-constexpr double OVERHEAD_SHARE = 0.05;  ///< of points more than 45 degrees above a scanner that is indoors
-constexpr double MARGIN = 1.06;          ///< picture size / size of the scene in it
-constexpr std::size_t MOST_POINTS = 1U << 16;
+constexpr double OUTERMOST = 0.01;  ///< share of the points that a robust size leaves out at each end
+constexpr double MARGIN = 1.06;     ///< picture size / size of the scene in it
+/// Share of a site's or room's points that its frame leaves out at each end.
+constexpr double FRAME_OUTSIDE = 0.005;
+constexpr double BOX_SLACK = 0.01;  ///< of the size: walls are rough
+/// Of a sweep's, whose last points are far away and far apart.
+constexpr double SWEEP_OUTSIDE = 0.02;
+/// Where a doll's house is looked at from, degrees: from its front, left and above, as in a section of a building.
+constexpr double DOLL_AZIMUTH_DEG = -32.7, DOLL_ELEVATION_DEG = 42.0, DOLL_FOV_Y_DEG = 34.0;
+constexpr double SENSOR_SHARE = 0.99, SENSOR_MOST_DEG = 100.0;  ///< of what a sensor saw; field of view
+constexpr double CROP_MOST = 1.4;  ///< of a depth camera's picture, where the one made is wider
 
-/// What must be in the picture, world space: an even choice of the splat centres, or the bounding box's
-/// corners.
-std::vector<glm::dvec3> framed_points(const Scene& scene) {
-  std::vector<glm::dvec3> points;
-  const std::size_t stride = scene.data_pool.size() / MOST_POINTS + 1;
-  for (std::size_t i = 0; i < scene.data_pool.size(); i += stride)
-    points.push_back(scene.root.to_world(unpack_splat(scene.data_pool[i]).center));
-  if (!points.empty()) return points;
+/// The share of a scan's points that its frame may leave out at each end: things are seen whole.
+double outside_of(SceneKind kind) {
+  if (kind == SceneKind::sweep) return SWEEP_OUTSIDE;
+  return kind == SceneKind::site || kind == SceneKind::room ? FRAME_OUTSIDE : 0.0;
+}
+
+/// Without the points beyond what holds all but a share at each end, right, up and front.
+PointSample within_box(const PointSample& sample, const glm::dmat3& axes, double outside) {
+  glm::dvec3 low(0.0), high(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [first, last] = range_along(sample.position, axes[axis], outside);
+    const double slack = BOX_SLACK * (last - first);
+    low[axis] = first - slack;
+    high[axis] = last + slack;
+  }
+  PointSample kept;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const glm::dvec3 q = glm::transpose(axes) * sample.position[i];
+    if (!glm::all(glm::greaterThanEqual(q, low)) || !glm::all(glm::lessThanEqual(q, high))) continue;
+    kept.position.push_back(sample.position[i]);
+    kept.normal.push_back(sample.normal[i]);
+  }
+  return kept;
+}
+
+/// What must be in the picture, world space: of scans the main parts without their outermost points, else an even choice of the
+/// splat centres, or the bounding box's corners.
+PointSample framed_points(const Scene& scene) {
+  PointSample sample = sample_points(scene);
+  if (!scene.stations.empty()) {
+    sample = main_parts(sample);
+    const double outside = outside_of(kind_of_scan(scene));
+    if (outside > 0.0) sample = within_box(sample, upright_axes(scene.up), outside);
+  }
+  if (sample.size() > 0) return sample;
   for (int corner = 0; corner < 8; ++corner)
-    points.push_back(glm::mix(scene.bounds_min_world, scene.bounds_max_world,
-                              glm::bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0)));
-  return points;
+    sample.position.push_back(glm::mix(scene.bounds_min_world, scene.bounds_max_world,
+                                       glm::bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0)));
+  return sample;
 }
 
 /// Least distance, and the centred offset, of a pinhole of half-angle tangent `slope` that sees all points
@@ -54,53 +87,118 @@ struct AxisFit {
   [[nodiscard]] double distance() const { return 0.5 * (positive + negative) / slope; }
 };
 
-/// The scene's size along right, up and front, without the outermost points.
-glm::dvec3 robust_size(const std::vector<glm::dvec3>& points, const glm::dmat3& axes) {
-  glm::dvec3 size(0.0);
-  std::vector<double> along(points.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < points.size(); ++i) along[i] = glm::dot(points[i], axes[axis]);
-    const auto at = [&along](double share) {
-      const auto place = along.begin() + std::lround(share * static_cast<double>(along.size() - 1));
-      std::nth_element(along.begin(), place, along.end());
-      return *place;
-    };
-    const double low = at(OUTERMOST);
-    size[axis] = at(1.0 - OUTERMOST) - low;
-  }
-  return size;
-}
-
-/// Whether points lie on all sides of the place and above it.
-bool is_within(const std::vector<glm::dvec3>& points, const glm::dvec3& place, const glm::dmat3& axes) {
-  std::array<bool, SECTORS> seen{};
-  std::size_t overhead = 0;
+/// A camera that holds these points.
+Camera fitted_camera(const Scene& scene, const std::vector<glm::dvec3>& points, double aspect,
+                     double fov_y_deg, const glm::dmat3& axes) {
+  const glm::dvec3 center = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+  const double slope = std::tan(0.5 * fov_y_deg * DEG) / MARGIN;
+  AxisFit horizontal{slope * aspect}, vertical{slope};
   for (const glm::dvec3& point : points) {
-    const glm::dvec3 q = glm::transpose(axes) * (point - place);
-    const double level = std::hypot(q.x, q.z);
-    if (q.y > level) ++overhead;
-    const double turn = (std::atan2(q.z, q.x) / std::numbers::pi + 1.0) / 2.0;
-    seen[std::min(static_cast<std::size_t>(turn * SECTORS), SECTORS - 1)] = true;
+    const glm::dvec3 q = point - center;
+    horizontal.add(glm::dot(q, axes[0]), glm::dot(q, axes[2]));
+    vertical.add(glm::dot(q, axes[1]), glm::dot(q, axes[2]));
   }
-  const bool around = std::count(seen.begin(), seen.end(), true) >= std::ptrdiff_t(SECTORS) * 9 / 10;
-  return around && static_cast<double>(overhead) > OVERHEAD_SHARE * static_cast<double>(points.size());
+  const double least = std::max(1e-3 * scene.diagonal_world(), scene.root.unit_world);
+  const double distance = std::max({horizontal.distance(), vertical.distance(), least});
+
+  Camera camera;
+  camera.target = center + horizontal.offset() * axes[0] + vertical.offset() * axes[1];
+  camera.eye = camera.target + distance * axes[2];
+  camera.up = axes[1];
+  camera.fov_y_deg = fov_y_deg;
+  return camera;
 }
 
-std::optional<glm::dvec3> first_sensor(const Scene& scene) {
+/// The picture's right, up and back, seen from there; the scene's up is the picture's but from straight above or below.
+glm::dmat3 angled_axes(const glm::dmat3& axes, double azimuth_deg, double elevation_deg) {
+  const double azimuth = azimuth_deg * DEG, elevation = elevation_deg * DEG;
+  const glm::dvec3 level = std::cos(azimuth) * axes[2] + std::sin(azimuth) * axes[0];
+  const glm::dvec3 back = std::cos(elevation) * level + std::sin(elevation) * axes[1];
+  const bool steep = std::abs(elevation_deg) > STEEPEST_DEG;
+  const glm::dvec3 right = glm::normalize(glm::cross(axes[1], steep ? level : back));
+  return {right, glm::cross(back, right), back};
+}
+
+/// Into a room from above, its frame about what faces the eye: the rest is left out.
+Camera camera_into_dollhouse(const Scene& scene, double aspect, double fov_y_deg) {
+  const glm::dmat3 upright = upright_axes(scene.up),
+                   axes = angled_axes(upright, DOLL_AZIMUTH_DEG, DOLL_ELEVATION_DEG);
+  const PointSample sample = framed_points(scene);
+  std::vector<glm::dvec3> facing;
+  for (std::size_t i = 0; i < sample.normal.size(); ++i)
+    if (glm::dot(sample.normal[i], axes[2]) > 0.0) facing.push_back(sample.position[i]);
+  Camera camera = fitted_camera(scene, facing.empty() ? sample.position : facing, aspect, fov_y_deg, axes);
+  camera.up = upright[1];
+  return camera;
+}
+
+/// From the first sensor's place, as wide as holds what it saw.
+Camera camera_at_sensor(const Scene& scene, const glm::dvec3& sensor, double aspect,
+                        std::optional<double> fov_y_deg) {
+  const PointSample sample = framed_points(scene);
+  glm::dvec3 ahead(0.0);
+  double reach = 0.0;
+  for (const glm::dvec3& point : sample.position) {
+    if (point != sensor) ahead += glm::normalize(point - sensor);
+    reach += glm::distance(point, sensor) / static_cast<double>(sample.size());
+  }
+  const glm::dmat3 axes = upright_axes(scene.up);
+  ahead = glm::length(ahead) > 0.0 ? glm::normalize(ahead) : -axes[2];
+  Camera camera;
+  camera.eye = sensor;
+  camera.target = sensor + std::max(reach, scene.root.unit_world) * ahead;
+  camera.up = glm::length(glm::cross(axes[1], ahead)) > 1e-3 ? axes[1] : -axes[2];
+  const glm::dvec3 right = glm::normalize(glm::cross(ahead, camera.up)), up = glm::cross(right, ahead);
+  std::vector<double> slopes;
+  for (const glm::dvec3& point : sample.position) {
+    const glm::dvec3 q = point - sensor;
+    const double depth = glm::dot(q, ahead);
+    const double most = std::max(std::abs(glm::dot(q, right)) / aspect, std::abs(glm::dot(q, up)));
+    slopes.push_back(depth > 0.0 ? most / depth : std::numeric_limits<double>::infinity());
+  }
+  const auto place = slopes.begin() + std::lround(SENSOR_SHARE * static_cast<double>(slopes.size() - 1));
+  std::nth_element(slopes.begin(), place, slopes.end());
+  camera.fov_y_deg = fov_y_deg.value_or(std::clamp(2.0 * std::atan(*place) / DEG, 1.0, SENSOR_MOST_DEG));
+  return camera;
+}
+
+/// A depth camera's own view, cropped to the picture's shape where that is wider than its grid.
+Camera cropped_camera(const Scene& scene, double aspect, std::optional<double> fov_y_deg) {
+  Camera camera = *scene.camera;
+  double grid = aspect;
   for (const Station& station : scene.stations)
-    if (station.sensor_world) return station.sensor_world;
-  return {};
+    if (station.rows > 0 && station.columns > 0) grid = static_cast<double>(station.columns) / station.rows;
+  const double crop = std::clamp(aspect / grid, 1.0, CROP_MOST);
+  camera.fov_y_deg = fov_y_deg.value_or(2.0 * std::atan(std::tan(0.5 * camera.fov_y_deg * DEG) / crop) / DEG);
+  return camera;
+}
+
+/// Of Viewpoint::sensor.
+Camera sensor_camera(const Scene& scene, double aspect, std::optional<double> fov_y_deg) {
+  if (scene.camera) return cropped_camera(scene, aspect, fov_y_deg);
+  const PointSample sample = sample_points(scene);
+  const std::optional<glm::dvec3> seeing = seeing_place(scene, sample),
+                                  sensor = seeing ? seeing : first_sensor(scene);
+  if (sensor) return camera_at_sensor(scene, *sensor, aspect, fov_y_deg);
+  const double fov = fov_y_deg.value_or(DEFAULT_FOV_Y_DEG);
+  return is_camera_frame(scene, sample) ? framing_camera(scene, aspect, fov, upright_axes(scene.up))
+                                        : framing_camera(scene, aspect, fov);
 }
 
 Camera camera_inside(const Scene& scene, double fov_y_deg) {
-  const std::vector<glm::dvec3> points = framed_points(scene);
+  const PointSample sample = framed_points(scene);
   const glm::dmat3 axes = upright_axes(scene.up);
   const glm::dvec3 center = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
-  const glm::dvec3 size = robust_size(points, axes);
+  glm::dvec3 size(0.0), middle(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = range_along(sample.position, axes[axis], OUTERMOST);
+    size[axis] = high - low;
+  }
   Camera camera;
-  camera.eye = first_sensor(scene).value_or(center - (0.5 - EYE_SHARE) * size.y * axes[1]);
-  glm::dvec3 middle(0.0);
-  for (const glm::dvec3& point : points) middle += point / static_cast<double>(points.size());
+  const std::optional<glm::dvec3> free = station_within(scene, sample),
+                                  sensor = free ? free : first_sensor(scene);
+  camera.eye = sensor.value_or(center - (0.5 - EYE_SHARE) * size.y * axes[1]);
+  for (const glm::dvec3& point : sample.position) middle += point / static_cast<double>(sample.size());
   glm::dvec3 ahead = middle - camera.eye;
   ahead -= glm::dot(ahead, axes[1]) * axes[1];
   if (glm::length(ahead) < CENTRAL * scene.diagonal_world()) ahead = size.x > size.z ? axes[0] : -axes[2];
@@ -114,17 +212,22 @@ Camera camera_inside(const Scene& scene, double fov_y_deg) {
 }  // namespace
 
 Viewpoint choose_viewpoint(const Scene& scene) {
-  if (scene.stations.empty() || scene.data_pool.empty()) return Viewpoint::front;
-  const std::vector<glm::dvec3> points = framed_points(scene);
-  const glm::dmat3 axes = upright_axes(scene.up);
-  const auto sensor = first_sensor(scene);
-  if (sensor && is_within(points, *sensor, axes)) return Viewpoint::inside;
-  const glm::dvec3 size = robust_size(points, axes);
-  return size.y < FLAT * std::min(size.x, size.z) ? Viewpoint::oblique : Viewpoint::front;
+  switch (kind_of_scan(scene)) {
+    case SceneKind::camera:
+      return Viewpoint::sensor;
+    case SceneKind::room:
+      return station_within(scene, main_parts(sample_points(scene))) ? Viewpoint::inside
+                                                                     : Viewpoint::dollhouse;
+    case SceneKind::site:
+    case SceneKind::sweep:
+      return Viewpoint::oblique;
+    default:
+      return Viewpoint::front;
+  }
 }
 
 const char* viewpoint_name(Viewpoint viewpoint) {
-  static constexpr std::array NAMES = {"auto", "front", "oblique", "top", "inside"};
+  static constexpr std::array NAMES = {"auto", "front", "oblique", "top", "inside", "dollhouse", "sensor"};
   return NAMES[static_cast<std::size_t>(viewpoint)];
 }
 
@@ -139,6 +242,10 @@ Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
       return framing_camera(scene, aspect, fov, {axes[0], -axes[2], axes[1]});
     case Viewpoint::inside:
       return camera_inside(scene, fov_y_deg.value_or(INSIDE_FOV_Y_DEG));
+    case Viewpoint::dollhouse:
+      return camera_into_dollhouse(scene, aspect, fov_y_deg.value_or(DOLL_FOV_Y_DEG));
+    case Viewpoint::sensor:
+      return sensor_camera(scene, aspect, fov_y_deg);
     case Viewpoint::automatic:
     case Viewpoint::front:
       break;
@@ -157,34 +264,13 @@ Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg) {
 Camera angled_camera(const Scene& scene, double aspect, double fov_y_deg, double azimuth_deg,
                      double elevation_deg) {
   const glm::dmat3 axes = upright_axes(scene.up);
-  const double azimuth = azimuth_deg * DEG, elevation = elevation_deg * DEG;
-  const glm::dvec3 level = std::cos(azimuth) * axes[2] + std::sin(azimuth) * axes[0];
-  const glm::dvec3 back = std::cos(elevation) * level + std::sin(elevation) * axes[1];
-  const bool steep = std::abs(elevation_deg) > STEEPEST_DEG;
-  const glm::dvec3 right = glm::normalize(glm::cross(axes[1], steep ? level : back));
-  Camera camera = framing_camera(scene, aspect, fov_y_deg, {right, glm::cross(back, right), back});
-  if (!steep) camera.up = axes[1];
+  Camera camera = framing_camera(scene, aspect, fov_y_deg, angled_axes(axes, azimuth_deg, elevation_deg));
+  if (std::abs(elevation_deg) <= STEEPEST_DEG) camera.up = axes[1];
   return camera;
 }
 
 Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg, const glm::dmat3& axes) {
-  const glm::dvec3 center = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
-  const double slope = std::tan(0.5 * fov_y_deg * DEG) / MARGIN;
-  AxisFit horizontal{slope * aspect}, vertical{slope};
-  for (const glm::dvec3& point : framed_points(scene)) {
-    const glm::dvec3 q = point - center;
-    horizontal.add(glm::dot(q, axes[0]), glm::dot(q, axes[2]));
-    vertical.add(glm::dot(q, axes[1]), glm::dot(q, axes[2]));
-  }
-  const double least = std::max(1e-3 * scene.diagonal_world(), scene.root.unit_world);
-  const double distance = std::max({horizontal.distance(), vertical.distance(), least});
-
-  Camera camera;
-  camera.target = center + horizontal.offset() * axes[0] + vertical.offset() * axes[1];
-  camera.eye = camera.target + distance * axes[2];
-  camera.up = axes[1];
-  camera.fov_y_deg = fov_y_deg;
-  return camera;
+  return fitted_camera(scene, framed_points(scene).position, aspect, fov_y_deg, axes);
 }
 
 }  // namespace splatray

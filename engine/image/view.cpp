@@ -20,8 +20,10 @@ constexpr double FAR_EDGES = 4.0;
 constexpr double MAX_DISTANCE_ROOT = 1e18;
 
 constexpr double ROOT_EDGE = 1U << LATTICE_BITS;
+/// From so many root edges away all of a root faces the same way.
+constexpr double PARALLEL_EDGES = 1e6;
 
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void refuse(const char* sentence) { throw Error(ExitCode::usage, sentence); }
 
@@ -29,7 +31,7 @@ void check_view(const View& view) {
   const Camera& camera = view.camera;
   if (view.width == 0 || view.height == 0)
     refuse("the picture's size is zero, expected at least 1 pixel each way");
-  if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up))
+  if (!is_finite(camera.eye) || !is_finite(camera.target) || !is_finite(camera.up))
     refuse("the camera's eye, target or up is not finite, expected three numbers each");
   if (camera.eye == camera.target) refuse("the camera's eye is its target, expected two different points");
   if (!std::isfinite(camera.ortho_height) || camera.ortho_height < 0.0)
@@ -138,6 +140,9 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   frame.delta = static_cast<float>(settings.delta_world / scene.root.unit_world);
 
   set_lens(scene, view.camera, settings, frame);
+  const ImagePlane plane = image_plane(scene.root, view);
+  frame.cut_eye =
+      view.camera.ortho_height > 0.0 ? plane.eye - PARALLEL_EDGES * ROOT_EDGE * plane.forward : plane.eye;
   const double reach =
       settings.reach_world > 0.0 ? settings.reach_world : REACH_SHARE * scene.diagonal_world();
   frame.reach = static_cast<float>(reach / scene.root.unit_world);

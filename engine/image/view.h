@@ -47,6 +47,9 @@ struct Settings {
   std::uint32_t seed = 1;
   std::uint32_t max_bounces = 8;  ///< secondary rays in a path, 0..64
   bool shadows = true;
+  /// Leave out what faces away from the eye, for all rays: a room lies open to whoever looks into it. Of scenes whose objects are all
+  /// two-sided, as those of scans are.
+  bool cutaway = false;
   std::uint32_t blend = BLEND_WINDOW;
   std::uint32_t kernel = KERNEL_RIM;
   float kappa = 1.0F;  ///< window depth / radius of the first splat, > 0
@@ -114,10 +117,12 @@ enum class Viewpoint {
   oblique,    ///< the same from 35 degrees above: terrain, sites
   top,        ///< from straight above, the front at the bottom
   inside,     ///< from a scanner's place, or the middle at eye height, towards most of what is there
+  dollhouse,  ///< into a room from its front, left and above; with Settings::cutaway it lies open
+  sensor,     ///< from where a depth camera or scanner was, as it saw; front where no place is known
 };
 
-/// Front for what is no scan; of scans inside for a scanner's place with points all around and overhead, oblique for what is
-/// less than 0.3 times as high as wide, else front.
+/// By kind_of_scan (scan_kind.h): from the sensor what one saw, into rooms from inside where a station stands free in them, else as into
+/// a doll's house; sites and sweeps oblique, all else from the front.
 [[nodiscard]] Viewpoint choose_viewpoint(const Scene& scene);
 /// "front" and so on.
 [[nodiscard]] const char* viewpoint_name(Viewpoint viewpoint);
@@ -125,7 +130,8 @@ enum class Viewpoint {
 /// Vertical field of view from inside that names none, degrees.
 inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 
-/// A camera at that viewpoint, without a look at the scene's own.
+/// A camera at that viewpoint, without a look at the scene's own but for Viewpoint::sensor. Scans are framed by their main parts
+/// (point_sample.h), sites and rooms without half a percent of the points at each end of each axis, sweeps without two.
 [[nodiscard]] Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
                                       std::optional<double> fov_y_deg);
 

@@ -69,7 +69,7 @@ TEST(Attributes, ColoursFollowTheValues) {
     const glm::vec3 linear = unpack_color(colors.colors[i]);
     EXPECT_EQ(linear.x, linear.z) << "grey";
     const double share = std::max(std::round(place(scene, i).x), 0.0) / (EDGE - 1.0);
-    EXPECT_NEAR(linear_to_srgb(linear.x), std::pow(share, 1.0 / 2.2), 0.01);
+    EXPECT_NEAR(linear_to_srgb(linear.x), 0.25 + 0.67 * std::pow(share, 1.0 / 2.2), 0.01);
   }
   EXPECT_EQ(color_by(scene, {}).colors.size(), 0U) << "nothing is asked for";
 }
@@ -87,6 +87,40 @@ TEST(Attributes, HeightAndDistanceNeedNoColumn) {
   EXPECT_LT(distance.legend.high, 11.0);
 }
 
+TEST(Attributes, HeightIsSoftAndPlainIsNoColour) {
+  Scene scene = sheet();
+  AttributeOptions options;
+  options.color_by = "height";
+  const ColorLegend legend = color_by(scene, options).legend;
+  for (const std::uint32_t color : legend.ramp) {
+    const glm::vec3 linear = unpack_color(color);
+    const float most = linear_to_srgb(std::max({linear.x, linear.y, linear.z}));
+    EXPECT_TRUE(most > 0.3F && most < 0.85F)
+        << "neither black nor white, so that shade is seen on it: " << most;
+  }
+  options.color_by = "plain";
+  EXPECT_TRUE(color_by(scene, options).colors.empty()) << "it has none";
+  scene.color_pool.assign(scene.data_pool.size(), 0);
+  static_cast<void>(show_attributes(scene, options));
+  EXPECT_EQ(scene.color_pool,
+            std::vector<std::uint32_t>(scene.data_pool.size(), pack_color(glm::vec3(1.0F))));
+}
+
+TEST(Attributes, HeightIsDarkerWhereIntensityIsLow) {
+  const Scene scene = sheet();
+  AttributeOptions options;
+  options.color_by = "height+intensity";
+  const AttributeColors both = color_by(scene, options);
+  EXPECT_EQ(both.legend.title, "height");
+  const Column* intensity = find_column(scene.columns, "intensity");
+  float dark = 0.0F, bright = 0.0F;
+  for (std::size_t i = 0; i < both.colors.size(); ++i) {
+    if (intensity->number(i) == 0.0) dark = unpack_color(both.colors[i]).y;
+    if (intensity->number(i) == 4.0) bright = unpack_color(both.colors[i]).y;  // of the same height
+  }
+  EXPECT_GT(bright, 1.5F * dark);
+}
+
 TEST(Attributes, CategoriesAreCountedAndNamed) {
   const Scene scene = sheet();
   const auto classes = categories_of(scene, COLUMN_CLASS);
@@ -97,6 +131,23 @@ TEST(Attributes, CategoriesAreCountedAndNamed) {
   EXPECT_EQ(categories_of(scene, COLUMN_SCAN).at(1).name, "window");
   EXPECT_NE(classes[0].color, classes[1].color);
   EXPECT_EQ(attributes_of(scene, 0).at(0).text, "2 (ground)");
+}
+
+TEST(Attributes, KindsHaveNamesAndColours) {
+  Scene scene = sheet();
+  std::vector<std::uint8_t> kinds(scene.data_pool.size(), 0);
+  kinds[0] = 1, kinds[1] = 2, kinds[2] = 2;
+  scene.columns.push_back({std::string(COLUMN_KIND), kinds});
+  AttributeOptions options;
+  options.color_by = "kind";
+  const AttributeColors colors = color_by(scene, options);
+  ASSERT_EQ(colors.legend.categories.size(), SCAN_KINDS);
+  EXPECT_EQ(colors.legend.categories[1].name, "line");
+  EXPECT_EQ(colors.legend.categories[2].points, 2U);
+  EXPECT_EQ(colors.colors[1], colors.colors[2]);
+  EXPECT_NE(colors.colors[0], colors.colors[1]);
+  EXPECT_NE(colors.colors[1], colors.colors[3]);
+  EXPECT_EQ(attributes_of(scene, 0).back().text, "1 (line)");
 }
 
 TEST(Attributes, WhatIsHiddenIsTooSmallToBeSeen) {

@@ -68,6 +68,7 @@ SceneOptions random_scene(Dice& dice) {
   scene.scans.ignore_checksums = dice.chance(0.5);
   scene.scans.keep_withheld = dice.chance(0.5);
   if (dice.chance(0.5)) scene.scans.sensor_world = vector(dice);
+  if (dice.chance(0.5)) scene.scans.trajectory = odd_text(dice) + ".txt";
   scene.scans.z_scale = dice.chance(0.5) ? 0.3048 : 1.0;
   if (dice.chance(0.5)) scene.scans.columns = odd_text(dice);
   for (std::uint32_t i = dice.below(3); i > 0; --i)
@@ -80,6 +81,7 @@ SceneOptions random_scene(Dice& dice) {
   params.radius_scale = number(dice, 1e-3, 1e3);
   params.samples = dice.seed() >> 11U;
   params.normal_fields = dice.chance(0.5);
+  params.keep_strays = dice.chance(0.5);
   params.smooth_world = dice.chance(0.3) ? -1.0 : dice.chance(0.3) ? 0.0 : 0.25 * (1 + dice.below(8));
   if (dice.chance(0.5)) scene.material = material_names()[dice.below(std::uint32_t(material_names().size()))];
   return scene;

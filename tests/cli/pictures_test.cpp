@@ -74,6 +74,17 @@ TEST(Tones, AutomaticExposureMakesWhatIsSeenGrey) {
   EXPECT_EQ(automatic_exposure_ev(image), 0.0);
 }
 
+TEST(Tones, AutomaticExposureSparesTheBrightest) {
+  Image image{100, 1, std::vector<vec4>(100, vec4(vec3(0.02F), 1.0F)), {}};
+  for (std::size_t i = 80; i < 100; ++i) image.rgba[i] = vec4(vec3(0.4F), 1.0F);
+  const auto shown = [&](float radiance) { return radiance * std::exp2(automatic_exposure_ev(image)); };
+  EXPECT_GT(shown(0.02F), 0.13) << "a fifth is bright, but the rest is not left in the dark";
+  for (std::size_t i = 0; i < 80; ++i) image.rgba[i] = vec4(vec3(0.08F), 1.0F);
+  EXPECT_NEAR(shown(0.08F), 0.15, 1e-3) << "the darkest that the middle may be";
+  for (std::size_t i = 0; i < 80; ++i) image.rgba[i] = vec4(vec3(0.12F), 1.0F);
+  EXPECT_NEAR(shown(0.4F), 0.65, 1e-3) << "where both can be, neither is lost";
+}
+
 TEST(ImageFile, PngRoundTrip) {
   const std::string path = temporary("round.png");
   DisplayImage display = display_image(gradient(), 0.0);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/image/view.h"
@@ -61,22 +62,8 @@ TEST(FramingCamera, ShowsASinglePoint) {
 
 /// A scan of points on the six sides of a box, z up, its scanner in the middle where `sensor` says so.
 Scene scanned_box(const glm::dvec3& size, bool roof, bool sensor) {
-  Scene scene = box_scene();
-  scene.up = {0.0, 0.0, 1.0};
-  scene.root = {-size, 2e-6 * std::max({size.x, size.y, size.z})};
-  scene.stations.resize(1);
+  Scene scene = scan_scene(box_points(size, roof));
   if (sensor) scene.stations[0].sensor_world = glm::dvec3(0.0);
-  for (int a = 0; a <= 40; ++a)
-    for (int b = 0; b <= 40; ++b) {
-      const double u = a / 20.0 - 1.0, v = b / 20.0 - 1.0;
-      for (const glm::dvec3& side : {glm::dvec3(u, v, -1.0), glm::dvec3(u, -1.0, v), glm::dvec3(u, 1.0, v),
-                                     glm::dvec3(-1.0, u, v), glm::dvec3(1.0, u, v), glm::dvec3(u, v, 1.0)})
-        if (roof || side.z < 1.0)
-          scene.data_pool.push_back(
-              pack_splat({scene.root.to_root(0.5 * side * size), {0.0, 0.0, 1.0}, 4.0, 0}));
-    }
-  scene.bounds_min_world = -0.5 * size;
-  scene.bounds_max_world = 0.5 * size;
   return scene;
 }
 
@@ -84,7 +71,7 @@ TEST(Viewpoint, FollowsTheShapeOfAScan) {
   EXPECT_EQ(choose_viewpoint(box_scene()), Viewpoint::front) << "no scan";
   EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, true, true)), Viewpoint::inside);
   EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, false, true)), Viewpoint::front) << "a yard";
-  EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, true, false)), Viewpoint::front)
+  EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, true, false)), Viewpoint::dollhouse)
       << "nobody was inside";
   EXPECT_EQ(choose_viewpoint(scanned_box({400.0, 500.0, 30.0}, false, false)), Viewpoint::oblique);
 }
@@ -103,6 +90,60 @@ TEST(Viewpoint, CamerasStandWhereTheySay) {
   const Camera middle =
       viewpoint_camera(scanned_box({4.0, 6.0, 3.0}, true, false), Viewpoint::inside, 1.5, {});
   EXPECT_NEAR(middle.eye.z, -0.15, 0.02) << "at eye height";
+}
+
+/// The largest |x| and |y| in the picture of points that face the eye, 1 = its border.
+double facing_reach(const Scene& scene, const Camera& camera, double aspect) {
+  const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up)), top = glm::cross(right, forward);
+  const double slope = std::tan(0.5 * camera.fov_y_deg * DEG);
+  double most = 0.0;
+  for (const uvec4& words : scene.data_pool) {
+    const Splat splat = unpack_splat(words);
+    const glm::dvec3 q = scene.root.to_world(splat.center) - camera.eye;
+    if (glm::dot(splat.normal, q) >= 0.0) continue;
+    const double depth = glm::dot(q, forward) * slope;
+    most =
+        std::max({most, std::abs(glm::dot(q, right)) / (aspect * depth), std::abs(glm::dot(q, top)) / depth});
+  }
+  return most;
+}
+
+TEST(Viewpoint, TheDollhouseIsSeenFromAboveItsFrontAndFillsThePicture) {
+  const Scene room = scanned_box({4.0, 5.0, 3.0}, true, false);
+  const Camera camera = viewpoint_camera(room, Viewpoint::dollhouse, 1.5, {});
+  const glm::dvec3 from = glm::normalize(camera.eye - camera.target);
+  EXPECT_LT(from.x, -0.3);
+  EXPECT_LT(from.y, -0.5);
+  EXPECT_GT(from.z, 0.6);
+  EXPECT_NEAR(facing_reach(room, camera, 1.5), 1.0 / 1.06, 0.03) << "walls that are left out need no room";
+}
+
+TEST(Viewpoint, OfADepthCameraIsItsOwnCroppedToThePicture) {
+  Scene scene = scanned_box({4.0, 5.0, 3.0}, true, true);
+  scene.camera = Camera{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 45.0};
+  scene.stations[0].rows = 480;
+  scene.stations[0].columns = 640;
+  EXPECT_EQ(choose_viewpoint(scene), Viewpoint::sensor);
+  EXPECT_NEAR(viewpoint_camera(scene, Viewpoint::sensor, 4.0 / 3.0, {}).fov_y_deg, 45.0, 1e-9);
+  const Camera wide = viewpoint_camera(scene, Viewpoint::sensor, 16.0 / 9.0, {});
+  EXPECT_NEAR(std::tan(0.5 * wide.fov_y_deg * DEG) * 16.0 / 9.0, std::tan(22.5 * DEG) * 4.0 / 3.0, 1e-9)
+      << "as wide as the grid";
+  EXPECT_EQ(wide.eye, scene.camera->eye);
+  EXPECT_NEAR(viewpoint_camera(scene, Viewpoint::sensor, 0.75, {}).fov_y_deg, 45.0, 1e-9) << "no less high";
+}
+
+TEST(FramingCamera, OfAScanIgnoresStrays) {
+  OrientedPoints points = box_points({4.0, 5.0, 3.0}, true);
+  const Camera clean = framing_camera(scan_scene(points), 1.5);
+  for (int i = 0; i < 20; ++i)
+    points.emplace_back(glm::dvec3(40.0 + 0.01 * i, 3.0, 9.0), glm::dvec3(0, 0, 1));
+  const Camera strayed = framing_camera(scan_scene(points), 1.5);
+  EXPECT_LT(glm::distance(clean.eye, strayed.eye), 0.02 * glm::length(clean.eye));
+  Scene model = scan_scene(points);
+  model.stations.clear();
+  EXPECT_GT(glm::length(framing_camera(model, 1.5).eye), 2.0 * glm::length(clean.eye))
+      << "a model is shown whole";
 }
 
 TEST(DefaultCamera, IsTheScenesOwn) {

@@ -23,7 +23,12 @@ splatray::Camera framed(const splatray::Scene& scene, const Framing& framing) {
     return angled_camera(scene, framing.aspect, framing.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG),
                          framing.azimuth_deg.value_or(DEFAULT_AZIMUTH_DEG),
                          framing.elevation_deg.value_or(DEFAULT_ELEVATION_DEG));
-  if (!scene.camera) return viewpoint_camera(scene, Viewpoint::automatic, framing.aspect, framing.fov_y_deg);
+  if (!scene.camera || !scene.stations.empty()) {
+    // Pictures of the library leave nothing out, so that a doll's house would be a closed box.
+    const Viewpoint chosen = choose_viewpoint(scene);
+    return viewpoint_camera(scene, chosen == Viewpoint::dollhouse ? Viewpoint::front : chosen, framing.aspect,
+                            framing.fov_y_deg);
+  }
   splatray::Camera camera = *scene.camera;
   camera.fov_y_deg = framing.fov_y_deg.value_or(camera.fov_y_deg);
   return camera;

@@ -40,8 +40,12 @@ std::uint32_t inner_look(const LoadedScene& loaded, const Look& look) {
       return LOOK_SCAN;
     case Style::automatic: {
       PictureOptions picture;
+      if (look.environment.empty()) picture.look = loaded.picture.look;
       picture.environment = look.environment;
-      if (look.lights) picture.lights.emplace();
+      if (look.lights) {
+        picture.lights.emplace();
+        picture.look.reset();
+      }
       return choose_look(loaded.scene, picture);
     }
   }

@@ -32,6 +32,7 @@ struct LoadedPart {
   ObjectLooks looks{};                       ///< one per object, as the scene has them
   std::vector<std::string> color_sources{};  ///< attributes that colours may show (attributes.h)
   std::vector<Category> classes{}, scans{};  ///< of the points; empty = not known
+  bool is_scan = false;                      ///< its exposure is automatic where nothing is said of it
 };
 
 struct Document {

@@ -20,7 +20,7 @@ SceneOptions plain(SceneOptions scene) {
 RenderOptions render_options(const Document& document, std::uint32_t width, std::uint32_t height) {
   RenderOptions options;
   options.scene = document.loaded->source;
-  options.exposure_ev = document.exposure_ev;
+  if (document.loaded->is_scan || document.exposure_ev != 0.0) options.exposure_ev = document.exposure_ev;
   PictureOptions& picture = options.picture;
   picture.width = width;
   picture.height = height;
@@ -30,6 +30,7 @@ RenderOptions render_options(const Document& document, std::uint32_t width, std:
   picture.aperture_world = 2.0 * document.settings.lens_radius_world;
   if (document.settings.side == SIDE_DELTA) picture.delta_world = document.settings.delta_world;
   set_camera(picture, document.camera);
+  if (document.settings.cutaway) picture.viewpoint = Viewpoint::dollhouse;
   picture.up = document.up;
   picture.environment = document.environment;
   picture.attributes = document.attributes;
@@ -42,14 +43,16 @@ RenderOptions render_options(const Document& document, std::uint32_t width, std:
 
 Document first_document(const Scene& scene, const SceneOptions& source, const PictureOptions& picture) {
   Document document;
-  document.loaded = std::make_shared<const LoadedPart>(LoadedPart{source,
-                                                                  picture,
-                                                                  choose_look(scene, picture),
-                                                                  scene.object_names,
-                                                                  {scene.materials, surfaces_of(scene)},
-                                                                  color_sources(scene),
-                                                                  categories_of(scene, COLUMN_CLASS),
-                                                                  categories_of(scene, COLUMN_SCAN)});
+  document.loaded = std::make_shared<const LoadedPart>(
+      LoadedPart{source,
+                 picture,
+                 choose_look(scene, suited_picture(scene, picture).picture),
+                 scene.object_names,
+                 {scene.materials, surfaces_of(scene)},
+                 color_sources(scene),
+                 categories_of(scene, COLUMN_CLASS),
+                 categories_of(scene, COLUMN_SCAN),
+                 !scene.stations.empty()});
   return shown_as(scene, document, picture);
 }
 
@@ -61,7 +64,8 @@ bool is_of_scene(const Document& document, const RenderOptions& options) {
   return picture.up == loaded.asked.up || (picture.up && picture.eye && picture.lights);
 }
 
-Document shown_as(const Scene& scene, const Document& document, const PictureOptions& picture) {
+Document shown_as(const Scene& scene, const Document& document, const PictureOptions& asked) {
+  const PictureOptions picture = suited_picture(scene, asked).picture;
   Document shown = document;
   shown.looks = document.loaded->looks;
   apply_object_options(picture.objects, scene.object_names, shown.looks);
@@ -82,6 +86,7 @@ PictureOptions kept_options(const Document& document) {
   const LoadedPart& loaded = *document.loaded;
   PictureOptions kept;
   kept.settings = document.settings;
+  kept.settings.cutaway = false;
   if (loaded.asked.look || document.settings.look != loaded.look) kept.look = document.settings.look;
   if (loaded.asked.tone || document.tone != choose_tone(loaded.asked)) kept.tone = document.tone;
   return kept;

@@ -55,6 +55,8 @@ constexpr std::array BINDINGS = {
     key(Action::view_back, GLFW_KEY_1, CTRL, "view from the back, the left, below"),
     key(Action::view_left, GLFW_KEY_3, CTRL, ""),
     key(Action::view_bottom, GLFW_KEY_7, CTRL, ""),
+    key(Action::next_viewpoint, GLFW_KEY_V, 0,
+        "next of the views: front, oblique, top, inside, dollhouse (open to the eye), sensor"),
     key(Action::orthographic, GLFW_KEY_5, 0, "perspective or orthographic"),
     key(Action::up_axis, GLFW_KEY_U, 0, "next up axis: y, z, x"),
     digits(Action::bookmark_set, SHIFT, "remember the camera as a bookmark of this scene"),

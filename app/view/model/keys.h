@@ -28,9 +28,10 @@ enum class Action {
   view_left,
   view_top,
   view_bottom,
-  orthographic,  ///< perspective or orthographic
-  up_axis,       ///< x, y, z in turn
-  mode_next,     ///< next ViewMode
+  next_viewpoint,  ///< those of --view in turn
+  orthographic,    ///< perspective or orthographic
+  up_axis,         ///< x, y, z in turn
+  mode_next,       ///< next ViewMode
   mode_previous,
   bookmark_go,   ///< digit 1..9
   bookmark_set,  ///< digit 1..9

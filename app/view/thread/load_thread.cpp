@@ -79,7 +79,10 @@ void LoadThread::load_now(const Wish& wish) {
   PictureOptions picture = wish.picture;
   picture.objects.clear();  // the document keeps the materials without them
   picture.attributes = {};  // the render thread applies them
+  picture.attributes.color_by = "rgb";
   LoadedScene loaded = load_scene(wish.scene, picture, listener);
+  if (const std::string told = suited_picture(loaded.scene, wish.picture).told; !told.empty())
+    listener.note(told);
   OpenedScene opened{nullptr, first_document(loaded.scene, wish.scene, wish.picture)};
   opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));
   if (is_cancelled()) return;

@@ -28,6 +28,7 @@ class Progressive {
   void show(const Document& document, glm::uvec2 window_px);
   /// Traces anew what is shown: the live scene is another, or was used for something else.
   void restart();
+  [[nodiscard]] glm::uvec2 window_px() const { return window_px_; }
   /// When work() has something to do: nothing = the picture is finished.
   [[nodiscard]] std::optional<Clock::time_point> next_work() const;
   /// Some tens of milliseconds of work; returns a picture when a new one is whole, else null. `stop` = something newer waits.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/library/scene_source.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/inspect.h"
 
@@ -23,10 +24,13 @@ void RenderThread::show(const Document& document, glm::uvec2 window_px) {
   open(nullptr, document, window_px);
 }
 
-void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 window_px) {
+void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 window_px, bool exposes) {
   std::optional<Document> copy(document);  // made, and the one before freed, without the mutex
   const std::lock_guard lock(mutex_);
-  if (scene) wishes_.scene = std::move(scene);
+  if (scene) {
+    wishes_.scene = std::move(scene);
+    wishes_.exposes = exposes;
+  }
   std::swap(wishes_.document, copy);
   wishes_.window_px = window_px;
   changed_.notify_one();
@@ -89,8 +93,17 @@ void RenderThread::fulfil(const Wishes& wishes) {
   }
   if (wishes.scene) progressive_.restart();
   if (!live_.is_open()) return;
+  if (wishes.scene && wishes.exposes) expose();
   if (wishes.pick) answer(*wishes.pick);
   if (wishes.save) save_now(*wishes.save);
+}
+
+/// Tells how bright the scene opened should be shown.
+void RenderThread::expose() {
+  const glm::uvec2 size = glm::max(progressive_.window_px(), glm::uvec2(1));
+  live_.match(shown_, ViewMode::shaded);
+  const double ev = preview_exposure_ev(live_.tracer(), {shown_.camera, size.x, size.y}, shown_.settings);
+  deliver([&](RenderNews& news) { news.exposure_ev = ev; });
 }
 
 void RenderThread::answer(const PickRequest& request) {

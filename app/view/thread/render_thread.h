@@ -31,9 +31,10 @@ struct Pick {
 struct RenderNews {
   SharedFrame frame;
   std::optional<Pick> pick;
-  std::optional<Work> saving;  ///< nothing: no picture is being saved
-  std::string notice;          ///< a sentence
-  std::string error;           ///< a sentence
+  std::optional<double> exposure_ev;  ///< that suits the scene opened, where open asked for it
+  std::optional<Work> saving;         ///< nothing: no picture is being saved
+  std::string notice;                 ///< a sentence
+  std::string error;                  ///< a sentence
 };
 
 /// All members are for one thread, the window's, and return at once.
@@ -48,8 +49,8 @@ class RenderThread {
 
   /// From now on shows this document of the scene opened; the newest counts.
   void show(const Document& document, glm::uvec2 window_px);
-  /// As show, of another scene.
-  void open(SharedScene scene, const Document& document, glm::uvec2 window_px);
+  /// As show, of another scene; `exposes`: its picture's exposure is told as soon as it is known.
+  void open(SharedScene scene, const Document& document, glm::uvec2 window_px, bool exposes = false);
   /// The newest counts.
   void pick(const PickRequest& request);
   void save(SaveJob job);
@@ -65,6 +66,7 @@ class RenderThread {
     SharedScene scene;
     std::optional<Document> document;
     glm::uvec2 window_px{0};
+    bool exposes = false;
     std::optional<PickRequest> pick;
     std::optional<SaveJob> save;
     [[nodiscard]] bool any() const { return scene || document || pick || save; }
@@ -73,6 +75,7 @@ class RenderThread {
   void run();
   [[nodiscard]] std::optional<Wishes> wait_for_wishes();
   void fulfil(const Wishes& wishes);
+  void expose();
   void answer(const PickRequest& request);
   void save_now(const SaveJob& job);
   void attempt_to(const char* doing, const std::function<void()>& step);

@@ -14,7 +14,7 @@ constexpr float LIST_EM = 8.0F;  ///< height of the list of classes, or of scans
 void source_combo(Document& document) {
   std::string& shown = document.attributes.color_by;
   if (!ImGui::BeginCombo("colours", shown.empty() ? "rgb" : shown.c_str())) return;
-  if (ImGui::Selectable("rgb", shown.empty() || shown == "rgb")) shown.clear();
+  if (ImGui::Selectable("rgb", shown.empty() || shown == "rgb")) shown = "rgb";
   for (const std::string& source : document.loaded->color_sources) {
     if (!ImGui::Selectable(source.c_str(), source == shown)) continue;
     shown = source;

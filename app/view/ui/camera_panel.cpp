@@ -94,6 +94,9 @@ void camera_panel(Document& document, PanelState& state, Requests& requests) {
   ImGui::SameLine();
   command_button("as loaded", Action::home, requests);
   axis_buttons(requests);
+  command_button("next view", Action::next_viewpoint, requests);
+  ImGui::Checkbox("cutaway", &document.settings.cutaway);
+  tip("leave out what faces away from the eye, so that rooms lie open");
   bool ortho = document.camera.ortho_height > 0.0;
   if (ImGui::Checkbox("orthographic", &ortho)) toggle_orthographic(document);
   if (document.camera.ortho_height == 0.0)

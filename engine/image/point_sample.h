@@ -1,0 +1,35 @@
+/// An even choice of a scene's splats, from which its shape is told and its picture framed.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+struct PointSample {
+  std::vector<glm::dvec3> position;  ///< centres, world space
+  std::vector<glm::dvec3> normal;    ///< unit, beside them
+
+  [[nodiscard]] std::size_t size() const { return position.size(); }
+};
+
+/// Every n-th splat of the scene's order, at most 2^16 of them.
+[[nodiscard]] PointSample sample_points(const Scene& scene);
+
+/// Without what hangs together with less than a tenth of the largest part: strays, what was seen through a window. Points hang together
+/// that lie in cells which touch, 1/32 of what holds 98 % of the points along its longest side.
+[[nodiscard]] PointSample main_parts(const PointSample& sample);
+
+/// The values along a unit direction that leave `outside` of all points out at each end, 0..0.5; 0, 0 without points.
+[[nodiscard]] std::array<double, 2> range_along(const std::vector<glm::dvec3>& points,
+                                                const glm::dvec3& direction, double outside);
+
+/// The size along each of three axes, without a hundredth of the points at each end.
+[[nodiscard]] glm::dvec3 robust_size(const PointSample& sample, const glm::dmat3& axes);
+/// The mean of the normals; shorter than 1 the more they differ.
+[[nodiscard]] glm::dvec3 mean_normal(const PointSample& sample);
+/// One number over another; 0 over 0.
+[[nodiscard]] double share_of(std::size_t part, std::size_t all);
+
+}  // namespace splatray

@@ -1,0 +1,137 @@
+#include "engine/image/upright.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "engine/image/scan_kind.h"
+#include "engine/image/view.h"
+
+namespace splatray {
+namespace {
+
+constexpr double RING_FLAT = 0.1, RING_ROUND = 0.5;  ///< of its larger side
+constexpr double THIN = 0.5;                         ///< a sweep's height over its width
+constexpr double OPEN_LEAST = 0.06, OPEN_MOST = 0.25, OPEN_TIMES = 3.0;
+constexpr double BASE_SHARE = 0.03, BASE_TIMES = 3.0, BASE_HEIGHT = 0.03, BASE_OUTSIDE = 0.005,
+                 BASE_DEG = 15.0;
+constexpr double WALL = 0.3;  ///< height over width of what is too flat to stand
+
+/// The six axes: x, y, z and their opposites.
+glm::dvec3 signed_axis(int number) {
+  glm::dvec3 axis(0.0);
+  axis[number % 3] = number < 3 ? 1.0 : -1.0;
+  return axis;
+}
+
+/// The axis, 0 to 2, of stations that stand in a ring around all points, outside them; nothing where they do not.
+std::optional<int> ring_axis(const Scene& scene) {
+  std::vector<glm::dvec3> places;
+  for (const Station& station : scene.stations)
+    if (station.sensor_world) places.push_back(*station.sensor_world);
+  if (places.size() < 3) return {};
+  glm::dvec3 low = places.front(), high = low;
+  for (const glm::dvec3& place : places) {
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+    if (glm::all(glm::greaterThan(place, scene.bounds_min_world)) &&
+        glm::all(glm::lessThan(place, scene.bounds_max_world)))
+      return {};
+  }
+  const glm::dvec3 size = high - low;
+  int flat = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (size[axis] < size[flat]) flat = axis;
+  const double a = size[(flat + 1) % 3], b = size[(flat + 2) % 3];
+  const bool ring = size[flat] < RING_FLAT * std::max(a, b) && std::min(a, b) > RING_ROUND * std::max(a, b);
+  const glm::dvec3 center = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+  bool around = true;
+  for (const int axis : {(flat + 1) % 3, (flat + 2) % 3})
+    around = around && low[axis] < center[axis] && high[axis] > center[axis];
+  return ring && around ? std::optional(flat) : std::nullopt;
+}
+
+std::optional<glm::dvec3> up_of_ring(const Scene& scene, const PointSample& sample) {
+  const std::optional<int> axis = ring_axis(scene);
+  if (!axis) return {};
+  return signed_axis(mean_normal(sample)[*axis] < 0.0 ? *axis + 3 : *axis);
+}
+
+/// Of a sweep without a known place.
+std::optional<glm::dvec3> up_of_sweep(const Scene& scene, const PointSample& sample) {
+  if (first_sensor(scene)) return {};
+  const glm::dvec3 size = robust_size(sample, glm::dmat3(1.0));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(size[axis] < THIN * std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]))) continue;
+    const bool own = std::abs(scene.up[axis]) > 0.5 * glm::length(scene.up);
+    const glm::dvec3 up = own ? scene.up : signed_axis(axis);
+    if (is_sweep(scene, sample, upright_axes(up))) return up;
+  }
+  return {};
+}
+
+/// Whether a direction stands the scene on its head.
+bool is_opposite(const glm::dvec3& up, const Scene& scene) {
+  return glm::dot(up, glm::normalize(scene.up)) < -0.5;
+}
+
+/// Of what is open below.
+std::optional<glm::dvec3> up_of_opening(const Scene& scene, const PointSample& sample) {
+  const glm::dvec3 mean = mean_normal(sample);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double along = std::abs(mean[axis]);
+    const double across = std::max(std::abs(mean[(axis + 1) % 3]), std::abs(mean[(axis + 2) % 3]));
+    const glm::dvec3 up = signed_axis(mean[axis] < 0.0 ? axis + 3 : axis);
+    if (along > OPEN_LEAST && along < OPEN_MOST && along > OPEN_TIMES * across && !is_opposite(up, scene))
+      return up;
+  }
+  return {};
+}
+
+/// The share of the points that lie flat at the lower end of an up direction.
+double base_share(const PointSample& sample, const glm::dvec3& up) {
+  const double level = std::cos(BASE_DEG * std::numbers::pi / 180.0);
+  const auto [low, high] = range_along(sample.position, up, BASE_OUTSIDE);
+  std::size_t base = 0;
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    if (glm::dot(sample.position[i], up) < low + BASE_HEIGHT * (high - low) &&
+        std::abs(glm::dot(sample.normal[i], up)) > level)
+      ++base;
+  return share_of(base, sample.size());
+}
+
+/// Of what stands on something flat.
+glm::dvec3 up_of_base(const Scene& scene, const PointSample& sample, bool room) {
+  const glm::dvec3 own = glm::normalize(scene.up);
+  glm::dvec3 best = scene.up;
+  double most = std::max(BASE_SHARE, BASE_TIMES * base_share(sample, own));
+  for (int number = 0; number < 6; ++number) {
+    const glm::dvec3 up = signed_axis(number), size = robust_size(sample, upright_axes(up));
+    const bool flat = size.y < WALL * std::min(size.x, size.z);
+    if (is_opposite(up, scene) || (flat && !room)) continue;
+    const double share = base_share(sample, up);
+    if (share <= most) continue;
+    most = share;
+    best = up;
+  }
+  return best;
+}
+
+}  // namespace
+
+glm::dvec3 upright(const Scene& scene) {
+  const SceneKind kind = kind_of_scan(scene);
+  if (kind == SceneKind::none || scene.camera) return scene.up;
+  const PointSample all = sample_points(scene), sample = main_parts(all);
+  if (is_camera_frame(scene, all)) return {0.0, -1.0, 0.0};
+  if (const auto up = up_of_ring(scene, sample)) return *up;
+  if (const auto up = up_of_sweep(scene, all)) return *up;
+  if (kind != SceneKind::object && kind != SceneKind::room) return scene.up;
+  if (kind == SceneKind::object)
+    if (const auto up = up_of_opening(scene, sample)) return *up;
+  return up_of_base(scene, sample, kind == SceneKind::room);
+}
+
+}  // namespace splatray

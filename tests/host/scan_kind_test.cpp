@@ -1,0 +1,142 @@
+/// What scans are of, and which way they stand.
+#include "engine/image/scan_kind.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/image/upright.h"
+#include "engine/image/view.h"
+#include "tests/host/scenes.h"
+
+namespace splatray {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double GOLDEN = 2.399963;  ///< radians between neighbours of a sunflower, which fill discs evenly
+
+/// A hill of 100 m whose points lie evenly, or ever further apart away from its middle.
+OrientedPoints ground(bool crowded) {
+  OrientedPoints points;
+  constexpr int COUNT = 20000;
+  for (int i = 0; i < COUNT; ++i) {
+    const double share = (i + 0.5) / COUNT, away = 50.0 * (crowded ? share * share : std::sqrt(share));
+    points.emplace_back(
+        glm::dvec3(away * std::cos(GOLDEN * i), away * std::sin(GOLDEN * i), 4.0 * std::cos(away / 20.0)),
+        glm::dvec3(0.0, 0.0, 1.0));
+  }
+  return points;
+}
+
+/// A cone about `up` on a flat base, ten times as many points on its side as below.
+OrientedPoints cone(const glm::dvec3& up) {
+  const glm::dmat3 axes = upright_axes(up);
+  OrientedPoints points;
+  for (int i = 0; i < 11000; ++i) {
+    const bool below = i % 11 == 0;
+    const double away = std::sqrt((i + 0.5) / 11000.0);
+    const glm::dvec3 out = std::cos(GOLDEN * i) * axes[0] + std::sin(GOLDEN * i) * axes[2];
+    points.emplace_back(away * out + (below ? 0.0 : 2.0 * (1.0 - away)) * axes[1],
+                        below ? -axes[1] : glm::normalize(2.0 * out + axes[1]));
+  }
+  return points;
+}
+
+TEST(SceneKind, FollowsThePoints) {
+  Scene model = scan_scene(box_points({4.0, 5.0, 3.0}, true));
+  model.stations.clear();
+  EXPECT_EQ(kind_of_scan(model), SceneKind::none);
+  EXPECT_EQ(kind_of_scan(scan_scene(box_points({4.0, 5.0, 3.0}, true))), SceneKind::room);
+  EXPECT_EQ(kind_of_scan(scan_scene(box_points({4.0, 5.0, 3.0}, false))), SceneKind::object) << "open above";
+  EXPECT_EQ(kind_of_scan(scan_scene(cone({0, 0, 1}))), SceneKind::object);
+  EXPECT_EQ(kind_of_scan(scan_scene(ground(false))), SceneKind::site) << "its middle lies below the hilltop";
+  EXPECT_EQ(kind_of_scan(scan_scene(ground(true))), SceneKind::sweep);
+}
+
+TEST(SceneKind, ABoxThatFacesOutIsNoRoom) {
+  OrientedPoints points = box_points({4.0, 5.0, 3.0}, true);
+  for (auto& [position, normal] : points) normal = -normal;
+  EXPECT_EQ(kind_of_scan(scan_scene(points)), SceneKind::object);
+}
+
+TEST(SceneKind, WhatIsSeenFromOnePlaceIsASensorsView) {
+  const glm::dvec3 eye(0.0, -4.0, 1.0);
+  OrientedPoints points = cone({0, 0, 1});
+  std::erase_if(points, [&](const auto& point) { return glm::dot(point.second, eye - point.first) < 0.0; });
+  Scene scene = scan_scene(points);
+  scene.stations[0].sensor_world = eye;
+  EXPECT_EQ(kind_of_scan(scene), SceneKind::camera);
+  scene.stations.resize(2);
+  EXPECT_EQ(kind_of_scan(scene), SceneKind::object) << "two stations see all sides";
+  scene.stations.resize(1);
+  scene.stations[0].sensor_world = glm::dvec3(0.0, -0.5, 1.0);
+  EXPECT_EQ(kind_of_scan(scene), SceneKind::object) << "from too near to be seen at one glance";
+}
+
+TEST(SceneKind, ACamerasFrameIsKnownByItsOrigin) {
+  OrientedPoints wall;
+  for (int x = 0; x < 60; ++x)
+    for (int y = 0; y < 60; ++y)
+      wall.emplace_back(glm::dvec3(0.02 * (x - 30), 0.02 * (y - 30), 2.0 + 0.005 * x),
+                        glm::dvec3(0, 0, x % 2 == 0 ? 1 : -1));
+  Scene scene = scan_scene(wall);
+  EXPECT_EQ(kind_of_scan(scene), SceneKind::camera);
+  EXPECT_EQ(upright(scene), glm::dvec3(0, -1, 0));
+  EXPECT_EQ(seeing_place(scene, sample_points(scene)), glm::dvec3(0.0));
+  OrientedPoints behind = wall;
+  for (const auto& [position, normal] : wall) behind.emplace_back(1.5 * position, normal);
+  EXPECT_FALSE(seeing_place(scan_scene(behind), sample_points(scan_scene(behind))))
+      << "a wall hides the other";
+  for (auto& [position, normal] : wall) position.x += 5.0;
+  EXPECT_NE(kind_of_scan(scan_scene(wall)), SceneKind::camera) << "not along z";
+  for (auto& [position, normal] : wall) normal.z = -1.0;
+  EXPECT_EQ(upright(scan_scene(wall)), glm::dvec3(0, -1, 0)) << "it faces down, as only a camera's frame can";
+}
+
+TEST(Upright, ThingsStandOnTheirFlatEnd) {
+  for (const glm::dvec3 up :
+       {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(-1, 0, 0)})
+    EXPECT_EQ(upright(scan_scene(cone(up))), up);
+  Scene model = scan_scene(cone({0, 1, 0}));
+  model.stations.clear();
+  EXPECT_EQ(upright(model), model.up) << "no scan";
+}
+
+TEST(Upright, RoomsAndTerrainStayAsTheirFormatHasThem) {
+  EXPECT_EQ(upright(scan_scene(box_points({4.0, 5.0, 3.0}, true))), glm::dvec3(0, 0, 1));
+  EXPECT_EQ(upright(scan_scene(ground(false))), glm::dvec3(0, 0, 1));
+  OrientedPoints wall = box_points({4.0, 0.2, 3.0}, false);
+  EXPECT_EQ(upright(scan_scene(wall)), glm::dvec3(0, 0, 1)) << "a wall is no floor";
+}
+
+TEST(Upright, ATurntablesRingTellsItsAxis) {
+  OrientedPoints ball;
+  for (int i = 0; i < 5000; ++i) {
+    const double z = 2.0 * (i + 0.5) / 5000.0 - 1.0, level = std::sqrt(1.0 - z * z);
+    const glm::dvec3 normal(level * std::cos(GOLDEN * i), level * std::sin(GOLDEN * i), z);
+    ball.emplace_back(normal, normal);
+  }
+  Scene scene = scan_scene(ball);
+  scene.stations.clear();
+  for (int i = 0; i < 6; ++i)
+    scene.stations.push_back(
+        {"", glm::dvec3(3.0 * std::cos(pi * i / 3.0), 0.1, 3.0 * std::sin(pi * i / 3.0)), 0, 0});
+  EXPECT_EQ(std::abs(upright(scene).y), 1.0);
+}
+
+TEST(MainParts, LeaveOutWhatIsSmallAndFarAway) {
+  OrientedPoints points = box_points({4.0, 5.0, 3.0}, true);
+  const std::size_t count = points.size();
+  for (int i = 0; i < 50; ++i)
+    points.emplace_back(glm::dvec3(30.0 + 0.01 * i, 0.0, 0.0), glm::dvec3(1, 0, 0));
+  EXPECT_EQ(main_parts(sample_points(scan_scene(points))).size(), count);
+  for (int i = 0; i < 2000; ++i)
+    points.emplace_back(glm::dvec3(30.0 + 0.001 * i, 1.0, 0.0), glm::dvec3(1, 0, 0));
+  EXPECT_GT(main_parts(sample_points(scan_scene(points))).size(), count + 1900)
+      << "a second thing is no stray";
+}
+
+}  // namespace
+}  // namespace splatray
