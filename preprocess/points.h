@@ -60,7 +60,8 @@ struct Points {
   std::vector<Station> stations;         ///< where the points were measured from; empty = not known
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< row * columns + column in the station's grid; empty = no grids
-  std::vector<TrackPlace> track;  ///< where points with COLUMN_TIME were measured from, by time; empty = not told
+  /// Where points with COLUMN_TIME were measured from, by time; empty = not told
+  std::vector<TrackPlace> track;
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };

@@ -233,8 +233,8 @@ void add_attribute_options(OptionList& list, PictureOptions& picture) {
   add_text(list, "--color-by", attributes.color_by,
            "colours of points: rgb (their own), plain (none), height (low to high: blue-green, green, ochre, "
            "rose), height+intensity (darker where that is low), normal, distance (from the scanner), or an "
-           "attribute "
-           "they have, such as intensity, class, return, source, scan, kind (surface, line or scatter); default "
+           "attribute they have, such as intensity, class, return, source, scan, kind (surface, line or "
+           "scatter); default "
            "rgb, of scans without colours intensity, of sites and rooms height with it",
            "NAME");
   list.add_value(

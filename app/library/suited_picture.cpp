@@ -55,7 +55,8 @@ bool has_intensity(const Scene& scene) {
 
 const char* suited_colors(const Scene& scene, SceneKind kind, bool inside) {
   if (has_colors(scene)) return "rgb";
-  const bool land = kind == SceneKind::site || kind == SceneKind::sweep || (kind == SceneKind::room && !inside);
+  const bool land =
+      kind == SceneKind::site || kind == SceneKind::sweep || (kind == SceneKind::room && !inside);
   if (has_intensity(scene)) return land ? "height+intensity" : "intensity";
   return land || kind == SceneKind::room ? "height" : "plain";
 }

@@ -47,7 +47,8 @@ struct BuildParams {
   /// How far around each point noisy scans are smoothed, world units; 0 = not at all, negative = as their noise asks for.
   /// Files do not tell.
   double smooth_world = -1.0;
-  bool keep_strays = false;  ///< points of scans on no surface stay, but for those far from all others. Files do not tell.
+  /// Points of scans on no surface stay, but for those far from all others. Files do not tell.
+  bool keep_strays = false;
 
   bool operator==(const BuildParams&) const = default;
 };

@@ -91,8 +91,9 @@ FlightTrack::FlightTrack(const Cloud& cloud, const glm::dvec3& up) {
 }
 
 glm::dvec3 FlightTrack::at(double time) const {
-  const auto after = std::lower_bound(places_.begin(), places_.end(), time,
-                                      [](const TrackPlace& place, double value) { return place.time < value; });
+  const auto after =
+      std::lower_bound(places_.begin(), places_.end(), time,
+                       [](const TrackPlace& place, double value) { return place.time < value; });
   if (after == places_.begin()) return places_.front().sensor_world;
   if (after == places_.end()) return places_.back().sensor_world;
   const TrackPlace& before = *(after - 1);

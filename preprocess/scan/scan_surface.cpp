@@ -20,8 +20,8 @@ constexpr double SHARP =
     0.05;  // share of points at creases that noise would have hidden: edges are what looks like it
 constexpr double WHOLE = 4.0;         // a radius, cloud coordinates, that reaches all points from each
 constexpr std::size_t FEWEST = 1000;  // points that tell noise from shape
-constexpr float LEAVES = 0.4F,
-                CLUTTER = 0.3F;  // radius of discs on no surface over the distance to the 6th place
+// Radius of discs on no surface over the distance to the 6th place.
+constexpr float LEAVES = 0.4F, CLUTTER = 0.3F;
 
 /// Leaves out what find_strays finds, in the survey too.
 void drop_strays(Cloud& cloud, const GridSurface& grids, Survey& survey, BuildStats& stats) {
@@ -133,7 +133,8 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
     Smoothed smoothed;
     if (params.smooth_world < 0.0) {
       std::vector<std::uint8_t> movable = survey.estimated;
-      for (std::size_t i = 0; i < cloud.size(); ++i) movable[i] = movable[i] != 0 && cloud.on_surface(i) ? 1 : 0;
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        movable[i] = movable[i] != 0 && cloud.on_surface(i) ? 1 : 0;
       smoothed = smooth_by_grids(cloud, movable, noise, stage);
     }
     const bool sided = estimated.empty() || sides.rung == SideRung::sensor;

@@ -240,8 +240,8 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
         cloud.radius[i] = cloud.line[i].reach;
         return;
       }
-      cloud.radius[i] = static_cast<float>(knn ? knn_radius(cloud, *places, i)
-                                               : radius_of_few(around, i, rings));
+      cloud.radius[i] =
+          static_cast<float>(knn ? knn_radius(cloud, *places, i) : radius_of_few(around, i, rings));
     };
     if (sheets) {
       sheets->find_all(FEW, stage, fill);

@@ -74,7 +74,8 @@ TEST(Trajectory, ThatTellsNothingIsRefused) {
   };
   EXPECT_NE(refusal(folder.write("later.txt", "13 0 0 9\n14 0 0 9\n")).find("no point that has a time"),
             std::string::npos);
-  EXPECT_NE(refusal(folder.write("once.txt", "10 0 0 9\n10 0 0 9\n")).find("one time alone"), std::string::npos);
+  EXPECT_NE(refusal(folder.write("once.txt", "10 0 0 9\n10 0 0 9\n")).find("one time alone"),
+            std::string::npos);
   EXPECT_NE(refusal(folder.path() / "none.txt"), "");
 }
 
