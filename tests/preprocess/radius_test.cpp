@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
+#include <vector>
 
 #include "preprocess/surface/voronoi.h"
 #include "tests/preprocess/shapes.h"
@@ -149,6 +151,22 @@ TEST(Radius, LonePointHasNone) {
   object.points.position.assign(5, glm::dvec3(1.0, 2.0, 3.0));
   object.points.normal.assign(5, glm::vec3(0.0F, 0.0F, 1.0F));
   for (const double radius : radii_world(object, RadiusRule::coverage)) EXPECT_EQ(radius, 0.0);
+}
+
+/// Two sheets that all but touch: creases through the point in all directions.
+TEST(Radius, CreasesThatHardlyMissThePointLeaveACell) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> angle(0.0, 2.0 * std::numbers::pi), exponent(-320.0, -10.0);
+  const std::vector<TangentNeighbour> neighbours{{{1.0, 0.0}, 1.0}, {{0.0, 1.0}, 1.0}, {{-1.0, 0.0}, 1.0}};
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<TangentCrease> creases;
+    for (int i = 0; i < 24; ++i) {
+      const double turn = i % 2 == 0 ? angle(random) : std::numbers::pi + angle(random) * 1e-17;
+      creases.push_back({{std::cos(turn), std::sin(turn)}, std::pow(10.0, exponent(random))});
+    }
+    const VoronoiReach reach = voronoi_reach(neighbours, creases);
+    EXPECT_FALSE(reach.radius < 0.0) << round;
+  }
 }
 
 TEST(Voronoi, HexagonReachesItsCorners) {
