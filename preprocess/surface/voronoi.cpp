@@ -75,7 +75,8 @@ class Cell {
       const glm::dvec2 crossing = here.place + (next.place - here.place) * (a / (a - b));
       spare_[count++] = a <= 0.0 ? Corner{crossing, edge, dir} : Corner{crossing, here.edge, here.normal};
     }
-    if (count == 0) return false;  // rounding, as the origin is in every cell: lines that hardly miss it leave slivers
+    if (count == 0)
+      return false;  // rounding, as the origin is in every cell: lines that hardly miss it leave slivers
     std::swap(corners_, spare_);
     size_ = count;
     return true;
