@@ -138,8 +138,8 @@ TEST(Insertion, OverlapListsEllipsesByTheirSides) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (const uvec4& words : splats.words) {
-    const glm::dvec3 any(unit(random), unit(random), unit(random));
-    const glm::dvec3 dir = glm::normalize(glm::cross(unpack_splat(words).normal, any));
+    const double z = unit(random), y = unit(random), x = unit(random);  // in this order with every compiler
+    const glm::dvec3 dir = glm::normalize(glm::cross(unpack_splat(words).normal, glm::dvec3(x, y, z)));
     splats.clip.push_back(pack_ellipse(words, dir, std::exp2(3.0 + 2.0 * unit(random))));
   }
   const LeafLists lists = insert_overlaps(tree, splats, STAGE);

@@ -57,6 +57,16 @@ TEST(Rings, TellTheScannersPlace) {
   EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
 }
 
+/// From ever farther away straight rows look ever more alike: no scanner is there.
+TEST(Rings, RowsOfAGridTellNoPlaceAndEnd) {
+  for (const double apart : {0.5, 1.0, 2.0, 4.0}) {
+    SimulatedScan rows;
+    for (int n = 0; n < 1500; ++n) rows.points.position.emplace_back(0.2 * (n % 100), apart * (n / 100), 0.0);
+    const Joined built = built_of(rows);
+    EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 0U) << apart;
+  }
+}
+
 TEST(Rings, EvenScansHaveNoEllipses) {
   const Tripod tripod{
       .sensors = {{-0.3, 0.2, 1.6}}, .step_deg = 1.0, .lowest_deg = -40.0, .highest_deg = 40.0};

@@ -15,6 +15,7 @@ constexpr std::size_t STEPS_ASKED = 1000;  // that tell how alike they look from
 constexpr std::size_t STARTS = 400;        // points that the place may be near: most lie around the scanner
 constexpr std::size_t BEST = 6;            // of them that are looked around
 constexpr double FIRST_MOVE = 0.1, LAST_MOVE = 1e-5;  // cloud coordinates
+constexpr int MOST_MOVES = 200;                       // so many cross the cloud ten times
 constexpr double MOST_UNLIKE =
     0.06;  // median deviation of the angles over their median: rings are 0.02, scans by rows 0.2 and more
 
@@ -66,15 +67,23 @@ struct Eye {
   glm::dvec3 place;
 };
 
-/// Moves along the axes while that helps, ever less far (Hooke and Jeeves 1961, without pattern moves).
+bool is_among(const glm::dvec3& place) {
+  const glm::dvec3 off = glm::abs(place);
+  return std::max({off.x, off.y, off.z}) <= 1.0;
+}
+
+/// Moves along the axes while that helps, ever less far (Hooke and Jeeves 1961, without pattern moves), but not out of the cloud: from
+/// ever farther away all steps look ever more alike.
 Eye settle(std::span<const LineStep> steps, const glm::dvec3& axis, const glm::dvec3& start) {
   Eye eye{unlikeness(steps, start, axis), start};
-  for (double move = FIRST_MOVE; move > LAST_MOVE;) {
+  double move = FIRST_MOVE;
+  for (int round = 0; round < MOST_MOVES && move > LAST_MOVE; ++round) {
     Eye best = eye;
     for (int side = 0; side < 3; ++side) {
       for (const double by : {-move, move}) {
         glm::dvec3 place = eye.place;
         place[side] += by;
+        if (!is_among(place)) continue;
         const double unlike = unlikeness(steps, place, axis);
         if (unlike < best.unlike) best = {unlike, place};
       }
@@ -104,9 +113,7 @@ std::optional<glm::dvec3> find_spinning_sensor(const Cloud& cloud, const std::ve
   eyes.resize(std::min(BEST, eyes.size()));
   try_all([&](std::size_t n) { return settle(steps, NO_AXIS, eyes[n].place); });
   const Eye best = settle(steps, axis_of_lines(places), eyes.front().place);
-  const glm::dvec3 off = glm::abs(best.place);
-  const bool among = std::max({off.x, off.y, off.z}) <= 1.0;
-  return among && best.unlike < MOST_UNLIKE ? std::optional(best.place) : std::nullopt;
+  return is_among(best.place) && best.unlike < MOST_UNLIKE ? std::optional(best.place) : std::nullopt;
 }
 
 }  // namespace splatray
