@@ -352,9 +352,7 @@ void count_result(const Scene& scene, BuildStats& stats) {
   tbb::parallel_for(std::size_t{0}, scene.data_pool.size(),
                     [&](std::size_t i) { squared[i] = unpack_radius_squared(scene.data_pool[i]); });
   const double sum_squared = std::accumulate(squared.begin(), squared.end(), 0.0);
-  const std::size_t middle = squared.size() / 2;
-  select_nth(std::span(squared), middle, std::identity());
-  stats.radius_median_world = std::sqrt(squared[middle]) * scene.root.unit_world;
+  stats.radius_median_world = std::sqrt(median_of(std::span(squared))) * scene.root.unit_world;
   if (scene.surface_area_world > 0.0) {
     stats.overlap = std::numbers::pi * sum_squared * scene.root.unit_world * scene.root.unit_world /
                     scene.surface_area_world;

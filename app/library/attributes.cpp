@@ -8,6 +8,7 @@
 #include "app/library/palette.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
+#include "engine/base/rank.h"
 #include "engine/base/srgb.h"
 #include "engine/scene/splat.h"
 
@@ -157,13 +158,7 @@ std::vector<double> values_of(const Scene& scene, const std::string& name) {
 std::array<double, 2> robust_range(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {0.0, 0.0};
-  const auto at = [&values](double share) {
-    const auto place = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  };
-  const double low = at(RANGE_FIRST);
-  return {low, at(RANGE_LAST)};
+  return {value_at(values, RANGE_FIRST), value_at(values, RANGE_LAST)};
 }
 
 std::vector<std::uint32_t> ramp_for(const std::string& name) {

@@ -31,16 +31,16 @@ struct LoadListener {
 /// Throws Error (usage) where a .soct, which is a whole scene, is not the only input.
 void require_scene_alone(const std::vector<std::filesystem::path>& inputs);
 
-/// Reads or preprocesses the scene; applies --material, --object, --up (else upright of upright.h) and what is shown of attributes.
-/// Throws Error.
+/// Reads or preprocesses the scene; applies --material, --object, --up (else upright of upright.h) and what is shown of
+/// attributes. Throws Error.
 [[nodiscard]] LoadedScene load_scene(const SceneOptions& scene, const PictureOptions& picture,
                                      const LoadListener& listener);
 
 /// The camera the options ask for: --eye, else the scene's own, else a view of the whole scene.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const PictureOptions& picture);
 
-/// The lights a scene is shown in that nothing else is said of: its own, else the key light of a look (LOOK_*), none where an environment
-/// is named.
+/// The lights a scene is shown in that nothing else is said of: its own, else the key light of a look (LOOK_*), none
+/// where an environment is named.
 [[nodiscard]] std::vector<SceneLight> own_lights(const Scene& scene, bool environment_named,
                                                  std::uint32_t look, const Camera& camera);
 /// The lights: --light and --sun, else own_lights.
@@ -62,8 +62,8 @@ void require_scene_alone(const std::vector<std::filesystem::path>& inputs);
 /// (input_unreadable).
 [[nodiscard]] Environment choose_environment(const std::string& name);
 
-/// The look, LOOK_*: that of --look, else LOOK_SCAN for scans in no light of their own or of the options' and without materials of
-/// either, else LOOK_LIT.
+/// The look, LOOK_*: that of --look, else LOOK_SCAN for scans in no light of their own or of the options' and without
+/// materials of either, else LOOK_LIT.
 [[nodiscard]] std::uint32_t choose_look(const Scene& scene, const PictureOptions& picture);
 /// Whether a look shows materials: LOOK_SCAN shows points' colours alone, clay and occlusion not even those.
 [[nodiscard]] bool shows_materials(std::uint32_t look);
@@ -77,16 +77,19 @@ struct SuitedPicture {
   std::string told;  ///< what was chosen, with the options that say the same; empty for what is no scan
 };
 
-/// The picture with what suits the scan (kind_of_scan, with the scene's up direction as it is shown) where nothing is asked for:
+/// The picture with what suits the scan (kind_of_scan, with the scene's up direction as it is shown) where nothing is
+/// asked for:
 /// - view: choose_viewpoint; Settings::cutaway with --view dollhouse, chosen or asked for.
-/// - colours: rgb where it says something, else intensity that varies, else none (plain); of sites, sweeps and rooms seen from outside
-///   height, and intensity with it.
-/// - look: scan where points have colours of their own, whose light is in them, and inside rooms, where little light comes; else lit.
+/// - colours: rgb where it says something, else intensity that varies, else none (plain); of sites, sweeps and rooms
+///   seen from outside height, and intensity with it.
+/// - look: scan where points have colours of their own, whose light is in them, and inside rooms, where little light
+///   comes; else lit.
 /// Other scenes' options come back as they are, but for cutaway. The scene has its own colours.
 [[nodiscard]] SuitedPicture suited_picture(const Scene& scene, const PictureOptions& picture);
 
-/// The exposure, stops, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide and high, with the
-/// tracer's lights and environment. Parts of a picture, and all pictures of a run, have one exposure by it.
+/// The exposure, stops, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide and
+/// high, with the tracer's lights and environment. Parts of a picture, and all pictures of a run, have one exposure by
+/// it.
 [[nodiscard]] double preview_exposure_ev(Tracer& tracer, View view, Settings settings);
 
 }  // namespace splatray

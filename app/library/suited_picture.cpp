@@ -5,6 +5,7 @@
 
 #include "app/library/display_image.h"
 #include "app/library/scene_source.h"
+#include "engine/base/rank.h"
 #include "engine/gpu/tracer.h"
 #include "engine/image/scan_kind.h"
 
@@ -19,13 +20,7 @@ constexpr double FEW_SHARE = 0.02;         ///< of the range, between the quarti
 /// The values that leave a share out at each end.
 template <class Value>
 std::array<Value, 2> middle_of(std::vector<Value>& values, double outside) {
-  const auto at = [&values](double share) {
-    const auto place = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  };
-  const Value low = at(outside);
-  return {low, at(1.0 - outside)};
+  return {value_at(values, outside), value_at(values, 1.0 - outside)};
 }
 
 bool has_colors(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/base/rank.h"
 #include "engine/image/point_sample.h"
 #include "engine/image/scan_kind.h"
 #include "engine/image/view.h"
@@ -156,9 +157,8 @@ Camera camera_at_sensor(const Scene& scene, const glm::dvec3& sensor, double asp
     const double most = std::max(std::abs(glm::dot(q, right)) / aspect, std::abs(glm::dot(q, up)));
     slopes.push_back(depth > 0.0 ? most / depth : std::numeric_limits<double>::infinity());
   }
-  const auto place = slopes.begin() + std::lround(SENSOR_SHARE * static_cast<double>(slopes.size() - 1));
-  std::nth_element(slopes.begin(), place, slopes.end());
-  camera.fov_y_deg = fov_y_deg.value_or(std::clamp(2.0 * std::atan(*place) / DEG, 1.0, SENSOR_MOST_DEG));
+  const double slope = value_at(slopes, SENSOR_SHARE);
+  camera.fov_y_deg = fov_y_deg.value_or(std::clamp(2.0 * std::atan(slope) / DEG, 1.0, SENSOR_MOST_DEG));
   return camera;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 
+#include "engine/base/rank.h"
 #include "engine/scene/splat.h"
 
 namespace splatray {
@@ -76,13 +77,7 @@ std::array<double, 2> range_along(const std::vector<glm::dvec3>& points, const g
   std::vector<double> along;
   along.reserve(points.size());
   for (const glm::dvec3& point : points) along.push_back(glm::dot(point, direction));
-  const auto at = [&along](double share) {
-    const auto place = along.begin() + std::lround(share * static_cast<double>(along.size() - 1));
-    std::nth_element(along.begin(), place, along.end());
-    return *place;
-  };
-  const double low = at(outside);
-  return {low, at(1.0 - outside)};
+  return {value_at(along, outside), value_at(along, 1.0 - outside)};
 }
 
 glm::dvec3 robust_size(const PointSample& sample, const glm::dmat3& axes) {

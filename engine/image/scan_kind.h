@@ -20,26 +20,29 @@ enum class SceneKind {
 /// - none: it has no stations or no points.
 /// - camera: it has a camera of its own, or seeing_place finds one, or its frame is a camera's (is_camera_frame).
 /// - room: is_within holds at a station, or at the middle of the points, and most normals face that place, overhead too.
-/// - sweep: points lie all around a station or, where no place is known, the origin, in 12 of 12 sectors of azimuth, and half of them
-///   within 0.6 of the reach of 90 %.
+/// - sweep: points lie all around a station or, where no place is known, the origin, in 12 of 12 sectors of azimuth,
+///   and half of them within 0.6 of the reach of 90 %.
 /// - site: less than 0.3 times as high as wide.
 /// - object: else.
 [[nodiscard]] SceneKind kind_of_scan(const Scene& scene);
 /// "a room" and so on; of none "a model".
 [[nodiscard]] const char* scan_kind_name(SceneKind kind);
 
-/// Whether a scan without a known place is in the frame of a camera, x to the right, y down and z ahead: it was seen from the origin
-/// (as seeing_place has it) along z; or it has one layer along z, near the origin, whose normals look to -z on the mean, by more than 0.3:
-/// no scan from above or around does.
+/// Whether a scan without a known place is in the frame of a camera, x to the right, y down and z ahead: it was seen
+/// from the origin (as seeing_place has it) along z; or it has one layer along z, near the origin, whose normals look
+/// to -z on the mean, by more than 0.3: no scan from above or around does.
 [[nodiscard]] bool is_camera_frame(const Scene& scene, const PointSample& sample);
-/// The one place from which all was seen, where there is such a place: that of the only station, or the origin of a camera's frame, if 98 %
-/// of the points lie within 50 degrees of one direction, but not within 8, and three quarters have no other 10 % closer before them.
+/// The one place from which all was seen, where there is such a place: that of the only station, or the origin of a
+/// camera's frame, if 98 % of the points lie within 50 degrees of one direction, but not within 8, and three quarters
+/// have no other 10 % closer before them.
 [[nodiscard]] std::optional<glm::dvec3> seeing_place(const Scene& scene, const PointSample& sample);
-/// Whether points lie around a place and above it, as around someone in a room: in 12 of 12 sectors of azimuth some lie within
-/// 30 degrees of level, and in 18 of 24 parts of equal area of the sky above 45 degrees. Not by shares of all points: of a room that was
-/// thinned out evenly 2 % may lie that high, of the same as scanned 30 %. `axes` as upright_axes has them.
+/// Whether points lie around a place and above it, as around someone in a room: in 12 of 12 sectors of azimuth some lie
+/// within 30 degrees of level, and in 18 of 24 parts of equal area of the sky above 45 degrees. Not by shares of all
+/// points: of a room that was thinned out evenly 2 % may lie that high, of the same as scanned 30 %. `axes` as
+/// upright_axes has them.
 [[nodiscard]] bool is_within(const PointSample& sample, const glm::dvec3& place, const glm::dmat3& axes);
-/// Whether points lie all around a station or, where no place is known, the origin, in 12 of 12 sectors of azimuth, and crowd about it.
+/// Whether points lie all around a station or, where no place is known, the origin, in 12 of 12 sectors of azimuth, and
+/// crowd about it.
 [[nodiscard]] bool is_sweep(const Scene& scene, const PointSample& sample, const glm::dmat3& axes);
 /// The first station in free space with points all around and overhead.
 [[nodiscard]] std::optional<glm::dvec3> station_within(const Scene& scene, const PointSample& sample);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <type_traits>
 
@@ -54,6 +55,13 @@ void select_nth(std::span<Value> values, std::size_t nth, const Key& key) {
   }
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(nth), values.end(),
                    [&](const Value& a, const Value& b) { return key(a) < key(b); });
+}
+
+/// The value of the middle rank, of an even number of values the larger; changes their order. There must be one.
+template <typename Value>
+[[nodiscard]] Value median_of(std::span<Value> values) {
+  select_nth(values, values.size() / 2, std::identity());
+  return values[values.size() / 2];
 }
 
 }  // namespace splatray

@@ -86,8 +86,7 @@ void make_scatter_discs(Cloud& cloud, const Survey& survey, const glm::dvec3& up
       inwards += glm::dvec3(around[listed[k]]) +
                  static_cast<double>(Survey::LISTED) * glm::dvec3(cloud.coord[listed[k]] - cloud.coord[i]);
     }
-    select_nth(std::span<float>(rings), rings.size() / 2, std::identity());
-    const float usual = rings[rings.size() / 2];
+    const float usual = median_of(std::span<float>(rings));
     cloud.radius_most[i] = BESIDE_SCATTER * usual;
     if (cloud.on_surface(i)) return;
     cloud.radius[i] = share * std::min(ring[i], USUAL * usual);

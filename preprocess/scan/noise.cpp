@@ -39,9 +39,7 @@ double median(const std::vector<std::uint32_t>& points, std::size_t most, const 
   std::vector<float> noise(points.size() / stride);
   tbb::parallel_for(std::size_t{0}, noise.size(),
                     [&](std::size_t n) { noise[n] = noise_of(points[n * stride]); });
-  if (noise.empty()) return 0.0;
-  select_nth(std::span(noise), noise.size() / 2, std::identity());
-  return noise[noise.size() / 2];
+  return noise.empty() ? 0.0 : median_of(std::span(noise));
 }
 
 }  // namespace

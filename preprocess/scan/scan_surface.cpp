@@ -94,6 +94,24 @@ GridSurface find_grids(Cloud& cloud, const BuildParams& params, const Stage& sta
   return grids;
 }
 
+/// Moves points onto the surface that they are of: as far as `params` ask for, else by their grids or by what is near.
+void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, double noise, bool sided,
+                     const Stage& stage, BuildStats& stats) {
+  const double radius = std::clamp(params.smooth_world / cloud.half_extent_world, 0.0, WHOLE);
+  survey.listed = {};
+  Smoothed smoothed;
+  if (params.smooth_world < 0.0) {
+    std::vector<std::uint8_t> movable = survey.estimated;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      movable[i] = movable[i] != 0 && cloud.on_surface(i) ? 1 : 0;
+    smoothed = smooth_by_grids(cloud, movable, noise, stage);
+  }
+  if (smoothed.moved == 0) smoothed = smooth_points(cloud, survey, radius, sided, noise, stage);
+  stats.smoothed += smoothed.moved;
+  stats.dropped_unsupported += smoothed.dropped;
+  stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);
+}
+
 }  // namespace
 
 std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildParams& params,
@@ -128,20 +146,8 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
   const bool noisy = noise > NOISY && estimated.size() >= FEWEST && !sharply;
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
-    const double radius = std::clamp(params.smooth_world / cloud.half_extent_world, 0.0, WHOLE);
-    survey.listed = {};
-    Smoothed smoothed;
-    if (params.smooth_world < 0.0) {
-      std::vector<std::uint8_t> movable = survey.estimated;
-      for (std::size_t i = 0; i < cloud.size(); ++i)
-        movable[i] = movable[i] != 0 && cloud.on_surface(i) ? 1 : 0;
-      smoothed = smooth_by_grids(cloud, movable, noise, stage);
-    }
     const bool sided = estimated.empty() || sides.rung == SideRung::sensor;
-    if (smoothed.moved == 0) smoothed = smooth_points(cloud, survey, radius, sided, noise, stage);
-    stats.smoothed += smoothed.moved;
-    stats.dropped_unsupported += smoothed.dropped;
-    stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);
+    move_to_surface(cloud, survey, params, noise, sided, stage, stats);
   } else {
     take_sides(cloud, sharp);
     count_sharp(sharp, stats);

@@ -141,8 +141,7 @@ class Projection {
   Projection(const Cloud& cloud, const Survey& survey, double radius, bool sided)
       : cloud_(cloud), survey_(survey), radius_(static_cast<float>(radius)), sided_(sided) {
     std::vector<float> ranked = survey.reach;
-    select_nth(std::span(ranked), ranked.size() / 2, std::identity());
-    usual_ = ranked[ranked.size() / 2];
+    usual_ = median_of(std::span(ranked));
   }
 
   [[nodiscard]] NeighbourSearch::Query query(std::uint32_t i) const {
@@ -264,8 +263,7 @@ Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool s
     if (moves[i] != 0) lifts.push_back(std::abs(lift[i]));
   Smoothed smoothed{lifts.size(), size - lift.size(), 0.0};
   if (lifts.empty()) return smoothed;
-  select_nth(std::span(lifts), lifts.size() / 2, std::identity());
-  smoothed.moved_median_world = lifts[lifts.size() / 2] * cloud.half_extent_world;
+  smoothed.moved_median_world = median_of(std::span(lifts)) * cloud.half_extent_world;
   return smoothed;
 }
 

@@ -29,11 +29,7 @@ constexpr double SECOND_OF_8 = 0.25;  // the median of the second least of 8 suc
 const double SLANTED =
     std::sin(15.0 * std::numbers::pi / 180.0);  // sine of the angle that a plane is seen at
 
-float median(std::vector<float>& values) {
-  if (values.empty()) return 0.0F;
-  select_nth(std::span(values), values.size() / 2, std::identity());
-  return values[values.size() / 2];
-}
+float median(std::vector<float>& values) { return values.empty() ? 0.0F : median_of(std::span(values)); }
 
 /// Points that have no neighbour as near as their neighbours have.
 void mark_isolated(const Survey& survey, std::vector<Stray>& strays) {

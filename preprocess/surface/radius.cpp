@@ -171,11 +171,6 @@ void look_further(Cloud& cloud, const NeighbourSearch& search, Rings& rings, con
   });
 }
 
-float median(std::span<float> values) {
-  select_nth(values, values.size() / 2, std::identity());
-  return values[values.size() / 2];
-}
-
 /// Keeps discs to the distances that are usual around them, those of open cells, whose reach nothing bounds, the most: none
 /// spans a hole of the scan.
 void bound_wide(Cloud& cloud, const NeighbourSearch& search, const Rings& rings) {
@@ -187,7 +182,7 @@ void bound_wide(Cloud& cloud, const NeighbourSearch& search, const Rings& rings)
     std::array<float, SURROUNDING> around;
     const std::size_t found = search.find(cloud.coord[i], nearest);
     for (std::size_t j = 0; j < found; ++j) around[j] = std::abs(rings[nearest[j].index()]);
-    const float usual = found > 0 ? median(std::span(around).first(found)) : 0.0F;
+    const float usual = found > 0 ? median_of(std::span(around).first(found)) : 0.0F;
     if (!(usual > 0.0F)) return;
     if (!open) {
       cloud.radius[i] = std::min(cloud.radius[i], CLOSED * std::max(ring, usual));
@@ -206,7 +201,7 @@ void bound_by_rings(Cloud& cloud, const std::vector<std::uint32_t>& computed) {
 /// Keeps stray points from covering the scene with discs as wide as their distance to it.
 void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector<std::uint32_t>& computed) {
   std::vector<float> radii = gather(cloud.radius, computed);
-  const float limit = STRAY * median(radii);
+  const float limit = STRAY * median_of(std::span(radii));
   const std::vector<float> before = cloud.radius;
   tbb::parallel_for(std::size_t{0}, computed.size(), [&](std::size_t n) {
     float& radius = cloud.radius[computed[n]];
@@ -215,7 +210,7 @@ void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector
     std::array<float, FEW> around;
     const std::size_t found = search.find(cloud.coord[computed[n]], nearest);
     for (std::size_t j = 0; j < found; ++j) around[j] = before[nearest[j].index()];
-    radius = std::min(radius, STRAY * median(std::span(around).first(found)));
+    radius = std::min(radius, STRAY * median_of(std::span(around).first(found)));
   });
 }
 

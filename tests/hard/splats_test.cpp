@@ -253,11 +253,7 @@ TEST(Splat, HitsBesideClipLines) {
       }
     }
     DeviceScene device(scene);
-    const CaseRow row = compare_with_brute_force(device, brute, rays, "");
-    all.count += row.count;
-    all.exceptions += row.exceptions;
-    all.lost += row.lost;
-    all.non_finite += row.non_finite;
+    all += compare_with_brute_force(device, brute, rays, "");
   }
   conclude(all);
 }
@@ -286,11 +282,7 @@ TEST(Splat, HitsBesideRimsOfEllipses) {
       rays.push_back(primary_ray(splat.center + rim * (1.0 + off) * out - 1e6 * dir_to_rim, dir_to_rim));
     }
     DeviceScene device(scene);
-    const CaseRow row = compare_with_brute_force(device, brute, rays, "");
-    all.count += row.count;
-    all.exceptions += row.exceptions;
-    all.lost += row.lost;
-    all.non_finite += row.non_finite;
+    all += compare_with_brute_force(device, brute, rays, "");
   }
   conclude(all);
 }

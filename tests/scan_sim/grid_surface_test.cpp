@@ -10,39 +10,12 @@
 #include <random>
 
 #include "engine/scene/splat.h"
-#include "preprocess/build.h"
+#include "tests/scan_sim/built_scan.h"
 #include "tests/scan_sim/scan_cases.h"
 #include "tests/scan_sim/sim_meshes.h"
 
 namespace splatray::testing {
 namespace {
-
-constexpr std::string_view POINT_NUMBER = "number";  // of each point, to find it again
-
-struct BuiltGrid {
-  Scene scene;
-  BuildStats stats;
-};
-
-BuiltGrid build_grid(const Points& points, const BuildParams& params = {}, unsigned threads = 0) {
-  Input input;
-  input.up = glm::dvec3(0.0, 0.0, 1.0);
-  InputObject object;
-  object.material = default_material();
-  object.points = points;
-  std::vector<double> numbers(points.size());
-  std::iota(numbers.begin(), numbers.end(), 0.0);
-  object.points.columns.push_back({std::string(POINT_NUMBER), numbers});
-  input.objects.push_back(std::move(object));
-  BuiltGrid built;
-  built.scene = build_scene(std::move(input), params, threads, built.stats);
-  return built;
-}
-
-/// The number of the point that a splat is.
-std::size_t number_of(const Scene& scene, std::size_t splat) {
-  return static_cast<std::size_t>(find_column(scene.columns, POINT_NUMBER)->number(splat));
-}
 
 double at_share(std::vector<double> values, double share) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -86,7 +59,7 @@ double drawn_share(const SimulatedScan& scan, const Scene& scene, PointKind kind
 
 TEST(GridSurface, StepsOfDepthBecomeTheSurface) {
   const SimulatedScan scan = corner_by_depth_camera();
-  const BuiltGrid built = build_grid(scan.points);
+  const BuiltScan built = build_scan(scan.points);
   const Errors walls = errors_of(scan, built.scene, false), ball = errors_of(scan, built.scene, true);
   ASSERT_GT(walls.angles_deg.size(), 40000U);
   ASSERT_GT(ball.angles_deg.size(), 2000U);
@@ -105,7 +78,7 @@ TEST(GridSurface, StepsOfDepthBecomeTheSurface) {
 
 TEST(GridSurface, LayersOfEqualDepthAreNoStrays) {
   const SimulatedScan scan = corner_by_depth_camera();
-  const BuiltGrid built = build_grid(scan.points);
+  const BuiltScan built = build_scan(scan.points);
   EXPECT_GT(drawn_share(scan, built.scene, PointKind::surface), 0.999);
   EXPECT_LT(drawn_share(scan, built.scene, PointKind::stray), 0.05);
   EXPECT_LT(drawn_share(scan, built.scene, PointKind::mixed), 0.4);
@@ -124,7 +97,7 @@ TEST(GridSurface, SparseGridsKeepTheirPoints) {
     sparse.position.push_back(scan.points.position[i]);
     sparse.grid_cell.push_back(cell);
   }
-  const BuiltGrid built = build_grid(sparse);
+  const BuiltScan built = build_scan(sparse);
   EXPECT_GT(built.stats.smoothed, 0U);
   EXPECT_GT(built.scene.data_pool.size(), sparse.size() * 97 / 100);
 }
@@ -138,7 +111,7 @@ TEST(GridSurface, OneStepOfDepthBehindTellsNothing) {
     const double depth = glm::dot(position - sensor, ahead);
     if (depth > 2.4) position = sensor + (position - sensor) * (4.0 / depth);
   }
-  const BuiltGrid built = build_grid(scan.points);
+  const BuiltScan built = build_scan(scan.points);
   EXPECT_GT(built.stats.smoothed, 0U);
   for (const uvec4& words : built.scene.data_pool)
     ASSERT_TRUE(std::isfinite(glm::length(unpack_splat(words).normal)));
@@ -147,7 +120,7 @@ TEST(GridSurface, OneStepOfDepthBehindTellsNothing) {
 TEST(GridSurface, PointsMoveAlongTheirLinesOfSight) {
   const SimulatedScan scan = corner_by_depth_camera();
   const glm::dvec3 sensor = *scan.points.stations[0].sensor_world;
-  const BuiltGrid built = build_grid(scan.points);
+  const BuiltScan built = build_scan(scan.points);
   EXPECT_EQ(built.stats.smoothed, built.scene.data_pool.size());
   for (std::size_t s = 0; s < built.scene.data_pool.size(); ++s) {
     const glm::dvec3 is = built.scene.root.to_world(unpack_splat(built.scene.data_pool[s]).center) - sensor;
@@ -158,7 +131,7 @@ TEST(GridSurface, PointsMoveAlongTheirLinesOfSight) {
 
 TEST(GridSurface, NothingMovesWhereSmoothingIsOff) {
   const SimulatedScan scan = corner_by_depth_camera();
-  const BuiltGrid built = build_grid(scan.points, {.smooth_world = 0.0});
+  const BuiltScan built = build_scan(scan.points, {.smooth_world = 0.0});
   EXPECT_EQ(built.stats.smoothed, 0U);
   for (std::size_t s = 0; s < built.scene.data_pool.size(); ++s)
     ASSERT_LT(glm::distance(built.scene.root.to_world(unpack_splat(built.scene.data_pool[s]).center),
@@ -172,7 +145,7 @@ TEST(GridSurface, GivenNormalsStay) {
   Points points = scan.points;
   const glm::dvec3 leaning = glm::normalize(glm::dvec3(0.3, 0.2, 0.9));
   points.normal.assign(points.size(), glm::vec3(leaning));
-  const BuiltGrid built = build_grid(points);
+  const BuiltScan built = build_scan(points);
   EXPECT_EQ(built.stats.normals_estimated, 0U);
   EXPECT_GT(built.stats.smoothed, 0U);
   for (const uvec4& words : built.scene.data_pool)
@@ -189,7 +162,7 @@ TEST(GridSurface, DoesNotDependOnOrderOrThreads) {
     shuffled.position[i] = scan.points.position[order[i]];
     shuffled.grid_cell[i] = scan.points.grid_cell[order[i]];
   }
-  const BuiltGrid one = build_grid(scan.points, {}, 1), other = build_grid(shuffled, {}, 4);
+  const BuiltScan one = build_scan(scan.points, {}, 1), other = build_scan(shuffled, {}, 4);
   EXPECT_GT(one.stats.smoothed, 0U);
   EXPECT_EQ(one.scene.data_pool, other.scene.data_pool);
 }
@@ -197,13 +170,13 @@ TEST(GridSurface, DoesNotDependOnOrderOrThreads) {
 /// Rendered depths, and range scans that are fine beside their grid, are as clean as other points.
 TEST(GridSurface, CleanGridsAreNotMoved) {
   const SimulatedScan scan = corner_by_depth_camera({.step = 1e-6, .inverse_noise = 0.0});
-  const BuiltGrid built = build_grid(scan.points);
+  const BuiltScan built = build_scan(scan.points);
   EXPECT_EQ(built.stats.smoothed, 0U);
 }
 
 TEST(GridSurface, TheScenesCameraIsTheDepthCameras) {
   const SimulatedScan scan = corner_by_depth_camera();
-  const Scene scene = build_grid(scan.points).scene;
+  const Scene scene = build_scan(scan.points).scene;
   ASSERT_TRUE(scene.camera);
   const glm::dvec3 ahead = glm::normalize(scene.camera->target - scene.camera->eye);
   const glm::dvec3 truth = glm::normalize(glm::dvec3(0.9, 1.0, 0.6) - glm::dvec3(3.2, 3.0, 1.4));
@@ -217,17 +190,17 @@ TEST(GridSurface, TheScenesCameraIsTheDepthCameras) {
 TEST(GridSurface, OtherGridsHaveNoCamera) {
   const SimulatedScan room = scan_from_tripods(
       TriangleTree(room_mesh()), {.sensors = {{-0.3, 0.2, 1.6}}, .step_deg = 2.0, .highest_deg = 75.0}, {});
-  EXPECT_FALSE(build_grid(room.points).scene.camera);
+  EXPECT_FALSE(build_scan(room.points).scene.camera);
   Points turned = corner_by_depth_camera().points;
   for (glm::dvec3& position : turned.position) position = {position.y + 9.0, position.z, position.x};
-  EXPECT_FALSE(build_grid(turned).scene.camera);
+  EXPECT_FALSE(build_scan(turned).scene.camera);
 }
 
 /// A terrestrial scanner's grid of angles; in space its noise would leave a median of 1 mm and 0.4 degrees.
 TEST(GridSurface, TripodsAreSmoothedAlongTheirLinesOfSight) {
   const Tripod tripod{.sensors = {{-0.3, 0.2, 1.6}}, .step_deg = 0.5};
   const SimulatedScan scan = scan_from_tripods(TriangleTree(room_mesh()), tripod, {});
-  const BuiltGrid built = build_grid(scan.points);
+  const BuiltScan built = build_scan(scan.points);
   const Errors errors = errors_of(scan, built.scene, false);
   EXPECT_GT(drawn_share(scan, built.scene, PointKind::surface), 0.999);
   EXPECT_LT(at_share(errors.angles_deg, 0.5), 0.2);
@@ -252,7 +225,7 @@ TEST(GridSurface, SeveralStationsAreSmoothedInSpace) {
     points.station.push_back(1);
   }
   points.stations.push_back(points.stations[0]);
-  const BuiltGrid built = build_grid(points);
+  const BuiltScan built = build_scan(points);
   EXPECT_FALSE(built.scene.camera);
   EXPECT_GT(built.stats.dropped_isolated, 0U);
 }

@@ -3,8 +3,8 @@
 
 #include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
-#include "preprocess/build.h"
 #include "preprocess/scan/sides.h"
+#include "tests/scan_sim/built_scan.h"
 #include "tests/scan_sim/ring_errors.h"
 #include "tests/scan_sim/scan_cases.h"
 #include "tests/scan_sim/sim_meshes.h"
@@ -12,31 +12,16 @@
 namespace splatray::testing {
 namespace {
 
-struct Joined {
-  Scene scene;
-  BuildStats stats;
-};
-
-Joined built_of(const SimulatedScan& scan, const BuildParams& params = {}) {
-  Input input;
-  input.up = glm::dvec3(0.0, 0.0, 1.0);
-  InputObject& object = input.objects.emplace_back();
-  object.material = default_material();
-  object.points = scan.points;
-  Joined built;
-  built.scene = build_scene(std::move(input), params, 0, built.stats);
-  return built;
-}
-
-double ellipse_share(const Joined& built) {
+double ellipse_share(const BuiltScan& built) {
   return static_cast<double>(built.stats.ellipses) / static_cast<double>(built.stats.splats);
 }
 
 class RingSweep : public ::testing::TestWithParam<int> {};
 
-TEST_P(RingSweep, AreJoinedByEllipses) {
+TEST_P(RingSweep, AreBuiltScanByEllipses) {
   const ScanCase sweep = street_sweep(GetParam());
-  const RingErrors joined = ring_errors(built_of(sweep.scan).scene, *sweep.rings_of, *sweep.spinner, 10000);
+  const RingErrors joined =
+      ring_errors(build_scan(sweep.scan.points).scene, *sweep.rings_of, *sweep.spinner, 10000);
   EXPECT_LT(joined.stripes_percent, 1.0);
   EXPECT_LT(joined.overlap, 3.0);
 }
@@ -45,15 +30,15 @@ INSTANTIATE_TEST_SUITE_P(Rings, RingSweep, ::testing::Values(16, 32, 64, 128));
 
 TEST(Rings, OfDiscsHaveStripesOrOverlap) {
   const ScanCase sweep = street_sweep(32);
-  const RingErrors discs =
-      ring_errors(built_of(sweep.scan, {.clip = false}).scene, *sweep.rings_of, *sweep.spinner, 10000);
+  const RingErrors discs = ring_errors(build_scan(sweep.scan.points, {.clip = false}).scene, *sweep.rings_of,
+                                       *sweep.spinner, 10000);
   EXPECT_TRUE(discs.stripes_percent > 2.0 || discs.overlap > 6.0)
       << discs.stripes_percent << ' ' << discs.overlap << ": the comparison above can fail";
 }
 
 TEST(Rings, TellTheScannersPlace) {
   const ScanCase sweep = without_stations(street_sweep(32));
-  const Joined built = built_of(sweep.scan);
+  const BuiltScan built = build_scan(sweep.scan.points);
   EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
 }
 
@@ -62,7 +47,7 @@ TEST(Rings, RowsOfAGridTellNoPlaceAndEnd) {
   for (const double apart : {0.5, 1.0, 2.0, 4.0}) {
     SimulatedScan rows;
     for (int n = 0; n < 1500; ++n) rows.points.position.emplace_back(0.2 * (n % 100), apart * (n / 100), 0.0);
-    const Joined built = built_of(rows);
+    const BuiltScan built = build_scan(rows.points);
     EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 0U) << apart;
   }
 }
@@ -70,10 +55,12 @@ TEST(Rings, RowsOfAGridTellNoPlaceAndEnd) {
 TEST(Rings, EvenScansHaveNoEllipses) {
   const Tripod tripod{
       .sensors = {{-0.3, 0.2, 1.6}}, .step_deg = 1.0, .lowest_deg = -40.0, .highest_deg = 40.0};
-  const Joined room = built_of(scan_from_tripods(TriangleTree(room_mesh()), tripod, {}));
+  const BuiltScan room = build_scan(scan_from_tripods(TriangleTree(room_mesh()), tripod, {}).points);
   EXPECT_LT(ellipse_share(room), 0.2);
-  const Joined ball = built_of(range_images(TriangleTree(sphere_mesh(5)),
-                                            {.views = 6, .pixels = 60, .misplaced = 0.0}, {.noise = 0.0005}));
+  const BuiltScan ball =
+      build_scan(range_images(TriangleTree(sphere_mesh(5)), {.views = 6, .pixels = 60, .misplaced = 0.0},
+                              {.noise = 0.0005})
+                     .points);
   EXPECT_EQ(ball.stats.ellipses, 0U);
 }
 

@@ -9,35 +9,13 @@
 #include <random>
 
 #include "engine/scene/splat.h"
-#include "preprocess/build.h"
 #include "preprocess/scan/sides.h"
+#include "tests/scan_sim/built_scan.h"
 #include "tests/scan_sim/scanner.h"
 #include "tests/scan_sim/sim_meshes.h"
 
 namespace splatray::testing {
 namespace {
-
-constexpr std::string_view NUMBER = "number";  // of each point, to find it again
-
-struct Built {
-  Scene scene;
-  BuildStats stats;
-};
-
-Built build(const SimulatedScan& scan, const BuildParams& params = {}, unsigned threads = 0) {
-  Input input;
-  input.up = glm::dvec3(0.0, 0.0, 1.0);
-  InputObject object;
-  object.material = default_material();
-  object.points = scan.points;
-  std::vector<double> numbers(scan.size());
-  std::iota(numbers.begin(), numbers.end(), 0.0);
-  object.points.columns.push_back({std::string(NUMBER), numbers});
-  input.objects.push_back(std::move(object));
-  Built built;
-  built.scene = build_scene(std::move(input), params, threads, built.stats);
-  return built;
-}
 
 /// Shares of the points of each kind that are drawn, and of right sides among surface points.
 struct Shares {
@@ -47,7 +25,7 @@ struct Shares {
 Shares shares_of(const SimulatedScan& scan, const Scene& scene) {
   std::array<double, POINT_KINDS> all{}, drawn{};
   for (const PointKind kind : scan.kind) all[static_cast<std::size_t>(kind)] += 1.0;
-  const Column& number = *find_column(scene.columns, NUMBER);
+  const Column& number = *find_column(scene.columns, POINT_NUMBER);
   double right = 0.0;
   for (std::size_t s = 0; s < scene.data_pool.size(); ++s) {
     const auto i = static_cast<std::size_t>(number.number(s));
@@ -77,7 +55,7 @@ SimulatedScan without_stations(SimulatedScan scan) {
 
 TEST(ScanSurface, StraysAndMixedPixelsAreNotDrawn) {
   const SimulatedScan scan = room_scan(0.5);
-  const Built built = build(scan);
+  const BuiltScan built = build_scan(scan.points);
   const Shares shares = shares_of(scan, built.scene);
   EXPECT_GT(shares.surface, 0.96);
   EXPECT_LT(shares.stray, 0.05);
@@ -88,7 +66,7 @@ TEST(ScanSurface, StraysAndMixedPixelsAreNotDrawn) {
 
 TEST(ScanSurface, SidesAreTheSensors) {
   const SimulatedScan scan = ball_scan();
-  const Built built = build(scan);
+  const BuiltScan built = build_scan(scan.points);
   EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
   EXPECT_GT(shares_of(scan, built.scene).right, 0.995);
 }
@@ -96,26 +74,26 @@ TEST(ScanSurface, SidesAreTheSensors) {
 TEST(ScanSurface, SensorsOnTheOtherSideTurnTheNormals) {
   SimulatedScan scan = ball_scan();
   for (Station& station : scan.points.stations) station.sensor_world = glm::dvec3(0.0);
-  EXPECT_LT(shares_of(scan, build(scan).scene).right, 0.005);
+  EXPECT_LT(shares_of(scan, build_scan(scan.points).scene).right, 0.005);
 }
 
 TEST(ScanSurface, VotesTellOutsidesOfBodies) {
   const SimulatedScan scan = without_stations(ball_scan());
-  const Built built = build(scan);
+  const BuiltScan built = build_scan(scan.points);
   EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::votes)], 1U);
   EXPECT_GT(shares_of(scan, built.scene).right, 0.97);
 }
 
 TEST(ScanSurface, VotesTellInsidesOfRooms) {
   const SimulatedScan scan = without_stations(room_scan());
-  EXPECT_GT(shares_of(scan, build(scan).scene).right, 0.9);
+  EXPECT_GT(shares_of(scan, build_scan(scan.points).scene).right, 0.9);
 }
 
 TEST(ScanSurface, PulsesTellTheTrack) {
   const SimulatedScan scan =
       scan_from_air(TriangleTree(terrain_mesh()), {.from_x = -45.0, .to_x = 45.0, .spacing = 0.8},
                     {.noise = 0.02, .divergence = 2e-3});
-  const Built built = build(scan);
+  const BuiltScan built = build_scan(scan.points);
   EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::track)], 1U);
   EXPECT_GT(shares_of(scan, built.scene).right, 0.98);
 }
@@ -134,8 +112,8 @@ TEST(ScanSurface, NoiseIsSmoothedUnlessThatIsOff) {
   const TriangleTree ball(sphere_mesh(6));
   const SimulatedScan scan =
       range_images(ball, {.views = 6, .pixels = 120, .misplaced = 0.0}, {.noise = 0.005, .stray_share = 0.0});
-  const Built smoothed = build(scan);
-  const Built rough = build(scan, {.smooth_world = 0.0});
+  const BuiltScan smoothed = build_scan(scan.points);
+  const BuiltScan rough = build_scan(scan.points, {.smooth_world = 0.0});
   EXPECT_GT(smoothed.stats.smoothed, 0U);
   EXPECT_EQ(rough.stats.smoothed, 0U);
   EXPECT_LT(roughness(smoothed.scene), 0.5 * roughness(rough.scene));
@@ -143,7 +121,7 @@ TEST(ScanSurface, NoiseIsSmoothedUnlessThatIsOff) {
 
 /// Of the drawn points that are truly of a kind, the share that the build says to be of surfaces.
 double surface_share(const SimulatedScan& scan, const Scene& scene, PointKind truth) {
-  const Column& number = *find_column(scene.columns, NUMBER);
+  const Column& number = *find_column(scene.columns, POINT_NUMBER);
   const Column* kinds = find_column(scene.columns, COLUMN_KIND);
   double all = 0.0, surface = 0.0;
   for (std::size_t s = 0; s < scene.data_pool.size(); ++s) {
@@ -158,7 +136,7 @@ TEST(ScanKinds, LeavesAreScatterAndTheHillIsNot) {
   Wood wood = wood_mesh();
   SimulatedScan scan = wood_scan(TriangleTree(std::move(wood.mesh)));
   mark_leaves(scan, wood.first_leaf);
-  const Built built = build(scan);
+  const BuiltScan built = build_scan(scan.points);
   EXPECT_GT(surface_share(scan, built.scene, PointKind::surface), 0.98);
   EXPECT_LT(surface_share(scan, built.scene, PointKind::leaf), 0.05);
   std::uint64_t told = 0;
@@ -169,7 +147,7 @@ TEST(ScanKinds, LeavesAreScatterAndTheHillIsNot) {
 
 TEST(ScanKinds, RoomsAndNoiseAreSurfaces) {
   for (const SimulatedScan& scan : {room_scan(0.5), ball_scan(), ball_scan({.noise = 0.01})})
-    EXPECT_GT(surface_share(scan, build(scan).scene, PointKind::surface), 0.97);
+    EXPECT_GT(surface_share(scan, build_scan(scan.points).scene, PointKind::surface), 0.97);
 }
 
 /// Rolling ground with a ball of leaves and a straight wire above it; numbers of the three follow each other.
@@ -196,7 +174,7 @@ Glade glade_with_wire() {
     places.emplace_back(0.01 * normal(random), 20.0 * unit(random) - 10.0, 8.0 + 0.01 * normal(random));
   std::vector<double> numbers(places.size());
   std::iota(numbers.begin(), numbers.end(), 0.0);
-  glade.object.points.columns.push_back({std::string(NUMBER), numbers});
+  glade.object.points.columns.push_back({std::string(POINT_NUMBER), numbers});
   return glade;
 }
 
@@ -206,7 +184,7 @@ TEST(ScanKinds, GroundLeavesAndWiresAreToldApart) {
   input.objects.push_back(glade_with_wire().object);
   BuildStats stats;
   const Scene scene = build_scene(std::move(input), {}, 0, stats);
-  const Column &number = *find_column(scene.columns, NUMBER),
+  const Column &number = *find_column(scene.columns, POINT_NUMBER),
                &kinds = *find_column(scene.columns, COLUMN_KIND);
   std::array<std::array<double, SCAN_KINDS>, 3> count{};
   std::vector<double> leaf_radii;
@@ -230,7 +208,7 @@ TEST(ScanKinds, GroundLeavesAndWiresAreToldApart) {
 }
 
 TEST(ScanKinds, WhereAllIsSurfaceNothingIsKept) {
-  const Built built = build(ball_scan({.noise = 0.0, .stray_share = 0.0}));
+  const BuiltScan built = build_scan(ball_scan({.noise = 0.0, .stray_share = 0.0}).points);
   EXPECT_EQ(find_column(built.scene.columns, COLUMN_KIND), nullptr);
   EXPECT_EQ(built.stats.kinds[1] + built.stats.kinds[2], 0U);
 }
@@ -305,17 +283,17 @@ InputObject exact_points(SurfaceAt at) {
   return object;
 }
 
-Built built_of(InputObject object, double smooth_world) {
+BuiltScan built_of(InputObject object, double smooth_world) {
   Input input;
   input.objects.push_back(std::move(object));
-  Built built;
+  BuiltScan built;
   built.scene = build_scene(std::move(input), {.smooth_world = smooth_world}, 0, built.stats);
   return built;
 }
 
 TEST(ScanSurface, GivenNormalsStayBitForBitHoweverTheSurfaceBends) {
   for (const SurfaceAt at : {thin_torus, screw, superquadric}) {
-    const Built by_default = built_of(exact_points(at), -1.0), off = built_of(exact_points(at), 0.0);
+    const BuiltScan by_default = built_of(exact_points(at), -1.0), off = built_of(exact_points(at), 0.0);
     EXPECT_EQ(by_default.stats.smoothed, 0U);
     EXPECT_EQ(by_default.scene.data_pool, off.scene.data_pool);
     EXPECT_EQ(by_default.scene.field_pool, off.scene.field_pool);
@@ -339,10 +317,10 @@ TEST(ScanSurface, GivenNormalsStayBesideNoise) {
     points.position[i] = glm::normalize(points.position[i]);
     points.normal[i] = glm::vec3(points.position[i]);
   }
-  const Built smoothed = build(scan);
+  const BuiltScan smoothed = build_scan(scan.points);
   EXPECT_GT(smoothed.stats.smoothed, scan.size() / 3);
   EXPECT_LT(smoothed.stats.smoothed, scan.size() * 2 / 3);
-  const Column& number = *find_column(smoothed.scene.columns, NUMBER);
+  const Column& number = *find_column(smoothed.scene.columns, POINT_NUMBER);
   for (std::size_t s = 0; s < smoothed.scene.data_pool.size(); ++s) {
     const auto i = static_cast<std::size_t>(number.number(s));
     if (points.position[i].x < 0.0) continue;
@@ -354,7 +332,7 @@ TEST(ScanSurface, GivenNormalsStayBesideNoise) {
 
 TEST(ScanSurface, DoesNotDependOnOrderOrThreads) {
   SimulatedScan scan = room_scan();
-  const Built one = build(scan, {}, 1);
+  const BuiltScan one = build_scan(scan.points, {}, 1);
   std::vector<std::uint32_t> order(scan.size());
   std::iota(order.begin(), order.end(), 0U);
   std::shuffle(order.begin(), order.end(), std::mt19937_64(3));
@@ -364,7 +342,7 @@ TEST(ScanSurface, DoesNotDependOnOrderOrThreads) {
     shuffled.points.station[i] = scan.points.station[order[i]];
     shuffled.points.grid_cell[i] = scan.points.grid_cell[order[i]];
   }
-  const Built other = build(shuffled, {}, 4);
+  const BuiltScan other = build_scan(shuffled.points, {}, 4);
   EXPECT_EQ(one.scene.data_pool, other.scene.data_pool);
   EXPECT_EQ(one.scene.reference_pool, other.scene.reference_pool);
 }

@@ -19,11 +19,7 @@ constexpr double KEPT = 0.75;                       // share of second differenc
 constexpr double MEAN_OF_KEPT = 0.515;  // of their sizes, in standard deviations of the normal distribution
 constexpr std::int64_t NEAR = 4;        // cells within which rays tell how they change
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  select_nth(std::span(values), values.size() / 2, std::identity());
-  return values[values.size() / 2];
-}
+double median(std::vector<double>& values) { return values.empty() ? 0.0 : median_of(std::span(values)); }
 
 /// The median step between distinct values, which ascend.
 double step_of(std::span<const float> values) {

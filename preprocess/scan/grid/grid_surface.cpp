@@ -56,8 +56,7 @@ std::vector<std::uint32_t> take_unsupported(DepthGrid& grid, const std::vector<f
   for (const float support : supports)
     if (support > 0.0F) usual.push_back(support);
   if (usual.empty()) return {};
-  select_nth(std::span(usual), usual.size() / 2, std::identity());
-  const float least = std::min(LEAST_SUPPORT, SPARSE * usual[usual.size() / 2]);
+  const float least = std::min(LEAST_SUPPORT, SPARSE * median_of(std::span(usual)));
   std::vector<std::uint32_t> points;
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
     if (grid.point[cell] == NO_CELL || supports[cell] >= least) continue;
@@ -80,9 +79,7 @@ double median_move(const Cloud& cloud, const std::vector<glm::dvec3>& places) {
   std::vector<double> moves;
   for (std::size_t i = 0; i < places.size(); ++i)
     if (const double move = glm::distance(cloud.place_world(i), places[i]); move > 0.0) moves.push_back(move);
-  if (moves.empty()) return 0.0;
-  select_nth(std::span(moves), moves.size() / 2, std::identity());
-  return moves[moves.size() / 2];
+  return moves.empty() ? 0.0 : median_of(std::span(moves));
 }
 
 std::vector<Told> all_told(const Cloud& cloud, const DepthGrid& grid) {

@@ -104,8 +104,7 @@ bool explains(const Projection& projection, const std::vector<Sight>& sights, do
   }
   const auto all = static_cast<double>(sights.size());
   if (static_cast<double>(off.size()) < (1.0 - MOST_BEHIND) * all) return false;
-  select_nth(std::span(off), off.size() / 2, std::identity());
-  return off[off.size() / 2] < MOST_OFF;
+  return median_of(std::span(off)) < MOST_OFF;
 }
 
 /// The camera of a projection, if it is one.
@@ -145,6 +144,7 @@ std::optional<Camera> camera_of_scan(std::span<const Cloud> clouds) {
   if (clouds.size() != 1 || clouds[0].stations.size() != 1 || !clouds[0].measured) return {};
   const Cloud& cloud = clouds[0];
   const Station& station = cloud.stations[0];
+  if (cloud.grid_cell.empty()) return {};
   std::vector<std::uint32_t> points(cloud.size());
   std::iota(points.begin(), points.end(), 0U);
   const auto pinhole = fit_pinhole(cloud, station, points);
@@ -159,13 +159,12 @@ std::optional<Camera> camera_of_scan(std::span<const Cloud> clouds) {
   std::vector<double> depths;
   for (const std::uint32_t i : points)
     depths.push_back(glm::dot(cloud.place_world(i) - pinhole->eye_world, dir));
-  select_nth(std::span(depths), depths.size() / 2, std::identity());
   // Rows run down where columns run to the right; what is mirrored has them run up.
   const glm::dmat3& axes = pinhole->axes;
   const bool mirrored = glm::determinant(axes) < 0.0;
   Camera camera;
   camera.eye = pinhole->eye_world;
-  camera.target = camera.eye + depths[depths.size() / 2] * dir;
+  camera.target = camera.eye + median_of(std::span(depths)) * dir;
   camera.up = mirrored ? axes[1] : -axes[1];
   camera.fov_y_deg = std::acos(std::clamp(glm::dot(top, bottom), -1.0, 1.0)) * 180.0 / std::numbers::pi;
   return camera;

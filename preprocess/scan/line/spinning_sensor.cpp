@@ -50,15 +50,11 @@ double unlikeness(std::span<const LineStep> steps, const glm::dvec3& eye, const 
       angles[n] = turned > 0.0 ? std::abs(glm::dot(axis, glm::cross(from, to))) / turned : 0.0;
     rises[n] = high - low;
   }
-  const auto median = [](std::vector<double>& values) {
-    select_nth(std::span(values), values.size() / 2, std::identity());
-    return values[values.size() / 2];
-  };
   std::vector<double> ranked = angles;
-  const double usual = median(ranked);
+  const double usual = median_of(std::span(ranked));
   if (!(usual > 0.0)) return std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < steps.size(); ++n) ranked[n] = std::hypot(angles[n] - usual, rises[n]) / usual;
-  return median(ranked);
+  return median_of(std::span(ranked));
 }
 
 /// A place and how little alike steps look from there.

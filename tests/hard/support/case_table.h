@@ -15,6 +15,15 @@ struct CaseRow {
   std::uint64_t lost = 0;        ///< rays stopped by the iteration cap (COUNT_LOST)
   std::uint64_t non_finite = 0;  ///< answers or pixels with NaN or infinity
   std::string remark = {};       ///< numbers worth knowing; nothing that changes from run to run
+
+  /// Adds the counts of another row.
+  CaseRow& operator+=(const CaseRow& more) {
+    count += more.count;
+    exceptions += more.exceptions;
+    lost += more.lost;
+    non_finite += more.non_finite;
+    return *this;
+  }
 };
 
 /// Adds a row for the running test and expects that something was compared, that lost rays, non-finite answers and exceptions
