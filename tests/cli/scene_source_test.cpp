@@ -1,5 +1,5 @@
 /// Scenes as options ask for them.
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 double outward_share(const std::string& material) {
   const std::string path = ::testing::TempDir() + "inwards.obj";
   std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
-  SceneOptions options;
+  Request::Source options;
   options.inputs = {path};
   options.material = material;
   options.params.samples = 400;
@@ -34,7 +34,7 @@ TEST(LoadScene, NobodyNeedsToListen) {
   const std::string path = ::testing::TempDir() + "quiet.obj",
                     scene_path = ::testing::TempDir() + "quiet.soct";
   std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 1\n";
-  SceneOptions options;
+  Request::Source options;
   options.inputs = {path};
   const LoadedScene loaded = load_scene(options, {}, {});
   EXPECT_GT(loaded.scene.data_pool.size(), 0U);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {
@@ -18,7 +18,7 @@ Scene site() {
 
 Scene room() { return scan_scene(box_points({4.0, 5.0, 3.0}, true)); }
 
-PictureOptions suited(const Scene& scene, const PictureOptions& picture = {}) {
+Request suited(const Scene& scene, const Request& request = {}) {
   return suited_picture(scene, picture).picture;
 }
 
@@ -35,17 +35,17 @@ TEST(SuitedPicture, OfAModelIsAsAskedFor) {
   Scene model = site();
   model.stations.clear();
   const SuitedPicture picture = suited_picture(model, {});
-  EXPECT_EQ(picture.picture, PictureOptions{});
+  EXPECT_EQ(picture.picture, Request{});
   EXPECT_EQ(picture.told, "");
 }
 
 TEST(SuitedPicture, WithoutColoursShowsTheShapeInLight) {
   const SuitedPicture land = suited_picture(site(), {});
   EXPECT_EQ(land.told, "a site: --view oblique --color-by height --look lit");
-  EXPECT_EQ(land.picture.viewpoint, Viewpoint::oblique);
-  EXPECT_EQ(land.picture.attributes.color_by, "height");
-  EXPECT_EQ(land.picture.look, LOOK_LIT);
-  EXPECT_FALSE(land.picture.settings.cutaway);
+  EXPECT_EQ(land.request.view.viewpoint, Viewpoint::oblique);
+  EXPECT_EQ(land.request.look.attributes.color_by, "height");
+  EXPECT_EQ(land.request.look.style, LOOK_LIT);
+  EXPECT_FALSE(land.request.settings.cutaway);
 }
 
 TEST(SuitedPicture, RoomsLieOpenUnlessAScannerStandsInThem) {
@@ -56,7 +56,7 @@ TEST(SuitedPicture, RoomsLieOpenUnlessAScannerStandsInThem) {
   const SuitedPicture inside = suited_picture(scene, {});
   EXPECT_EQ(inside.told, "a room: --view inside --color-by height --look scan")
       << "light comes from outside, which a closed room has none of";
-  EXPECT_FALSE(inside.picture.settings.cutaway);
+  EXPECT_FALSE(inside.request.settings.cutaway);
 }
 
 TEST(SuitedPicture, ColoursThatSaySomethingComeFirst) {
@@ -79,7 +79,7 @@ TEST(SuitedPicture, ColoursThatSaySomethingComeFirst) {
 }
 
 TEST(SuitedPicture, WhatIsAskedForStays) {
-  PictureOptions asked;
+  Request asked;
   asked.viewpoint = Viewpoint::top;
   asked.attributes.color_by = "normal";
   asked.look = LOOK_CLAY;
@@ -92,7 +92,7 @@ TEST(SuitedPicture, WhatIsAskedForStays) {
 }
 
 TEST(SuitedPicture, ADollhouseMayBeSeenFromAnEyeOfOnesOwn) {
-  PictureOptions asked;
+  Request asked;
   asked.viewpoint = Viewpoint::dollhouse;
   asked.eye = glm::dvec3(0.0, 0.0, 9.0);
   EXPECT_TRUE(suited(room(), asked).settings.cutaway);

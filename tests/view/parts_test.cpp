@@ -7,9 +7,9 @@
 #include <memory>
 #include <random>
 
-#include "app/cli/command_line.h"
+#include "app/library/request/command_line.h"
 #include "app/library/image_file.h"
-#include "app/view/model/document_options.h"
+#include "app/view/model/document_request.h"
 #include "app/view/model/resolution.h"
 #include "app/view/window/display_table.h"
 #include "app/view/window/drop.h"
@@ -143,8 +143,8 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   document.settings.max_bounces = 3;
   document.settings.environment_turn = 0.4F;
   document.up = {0.0, 0.6, 0.8};
-  const RenderOptions options = parse_command_line(command_line(render_options(document, 320, 200)));
-  const Document again = first_document(scene, options.scene, options.picture);
+  const Request request = parse_command_line(command_line(render_options(document, 320, 200)));
+  const Document again = first_document(scene, request.source, request);
   EXPECT_TRUE(again.camera == document.camera);
   EXPECT_TRUE(again.lights == document.lights);
   EXPECT_TRUE(same_looks(again.looks, document.looks));
@@ -152,17 +152,17 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   EXPECT_EQ(again.settings.environment_turn, 0.4F);
   EXPECT_EQ(again.environment, "white");
   EXPECT_EQ(again.up, document.up);
-  EXPECT_EQ(options.exposure_ev, -0.75);
-  EXPECT_EQ(options.picture.width, 320U);
+  EXPECT_EQ(request.look.exposure_ev, -0.75);
+  EXPECT_EQ(request.view.width, 320U);
 }
 
-RenderOptions copied_from(const Document& document) {
+Request copied_from(const Document& document) {
   return parse_command_line(command_line(render_options(document, 320, 200)));
 }
 
 /// Of a file, in the folder where the program runs.
 Document loaded_document(const Scene& scene) {
-  SceneOptions source;
+  Request::Source source;
   source.inputs = {"discs.ply"};
   return first_document(scene, source, {});
 }
@@ -175,25 +175,25 @@ TEST(DocumentOptions, ACommandOfTheSceneShownChangesTheLookAlone) {
   changed.camera.eye.x += 1.0;
   changed.settings.look = LOOK_CLAY;
   changed.looks.materials[0].flags |= MATERIAL_HIDDEN;
-  RenderOptions options = copied_from(changed);
+  Request request = copied_from(changed);
   ASSERT_TRUE(is_of_scene(document, options));
-  const Document shown = shown_as(scene, document, options.picture);
+  const Document shown = shown_as(scene, document, request);
   EXPECT_EQ(shown.loaded, document.loaded);
   EXPECT_EQ(shown.camera.eye, changed.camera.eye);
   EXPECT_EQ(shown.up, changed.up);
   EXPECT_EQ(shown.settings.look, LOOK_CLAY);
   EXPECT_TRUE(same_looks(shown.looks, changed.looks));
 
-  options.scene.inputs = {std::filesystem::current_path() / "x" / ".." / "discs.ply"};
+  request.source.inputs = {std::filesystem::current_path() / "x" / ".." / "discs.ply"};
   EXPECT_TRUE(is_of_scene(document, options)) << "the same file by another path";
-  options.picture.lights.reset();
+  request.look.lights.reset();
   EXPECT_FALSE(is_of_scene(document, options)) << "the default light follows the scene's up direction";
   options = copied_from(document);
   EXPECT_TRUE(is_of_scene(document, options));
-  options.scene.params.seed = 7;
+  request.source.params.seed = 7;
   EXPECT_FALSE(is_of_scene(document, options)) << "other points";
   options = copied_from(document);
-  options.scene.inputs.push_back("more.ply");
+  request.source.inputs.push_back("more.ply");
   EXPECT_FALSE(is_of_scene(document, options));
 }
 
@@ -205,7 +205,7 @@ TEST(DocumentOptions, AnotherSceneKeepsWhatAPersonChose) {
   document.settings.look = LOOK_AO;
   document.settings.samples = 99;
   document.tone = Tone::agx;
-  const PictureOptions kept = kept_options(document);
+  const Request kept = kept_options(document);
   EXPECT_EQ(kept.look, LOOK_AO);
   EXPECT_EQ(kept.tone, Tone::agx);
   EXPECT_EQ(kept.settings.samples, 99U);
@@ -216,12 +216,12 @@ TEST(DocumentOptions, MoreFilesComeBesideTheSceneAsItIsShown) {
   const Scene scene = disc_scene(1);
   Document document = loaded_document(scene);
   document.looks.materials[0].flags |= MATERIAL_HIDDEN;
-  const RenderOptions options = options_with(document, {"folder/more.ply", scene.object_names[0] + ".obj"});
-  EXPECT_EQ(options.scene.inputs,
+  const Request request = options_with(document, {"folder/more.ply", scene.object_names[0] + ".obj"});
+  EXPECT_EQ(request.source.inputs,
             (SceneFiles{"discs.ply", "folder/more.ply", scene.object_names[0] + ".obj"}));
-  ASSERT_EQ(options.picture.objects.size(), 1U);
-  EXPECT_EQ(options.picture.objects[0].object, "0") << "the name will be that of two";
-  EXPECT_EQ(options.picture.eye, document.camera.eye);
+  ASSERT_EQ(request.look.objects.size(), 1U);
+  EXPECT_EQ(request.look.objects[0].object, "0") << "the name will be that of two";
+  EXPECT_EQ(request.view.eye, document.camera.eye);
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ TEST_F(RenderThreadTest, ALongSaveIsCancelled) {
 class LoadThreadTest : public CliTest {
  protected:
   void load(const std::string& path) {
-    SceneOptions scene;
+    Request::Source scene;
     scene.inputs = {path};
     thread.load(scene, {});
   }

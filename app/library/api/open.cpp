@@ -25,8 +25,8 @@ void check(const OpenOptions& options) {
     refuse("an up direction of length " + std::to_string(length), "a finite one above 0");
 }
 
-SceneOptions scene_options(const OpenOptions& options) {
-  SceneOptions scene;
+Request::Source scene_options(const OpenOptions& options) {
+  Request::Source scene;
   scene.params.radius_scale = options.radius_scale;
   scene.params.samples = options.mesh_points;
   scene.data_paths = options.data;
@@ -35,10 +35,10 @@ SceneOptions scene_options(const OpenOptions& options) {
 }
 
 /// What is asked of a picture when the scene is loaded.
-PictureOptions picture_options(const OpenOptions& options) {
-  PictureOptions picture;
-  if (options.up) picture.up = glm::normalize(vector(*options.up));
-  picture.attributes.color_by = options.color_by;
+Request request_options(const OpenOptions& options) {
+  Request request;
+  if (options.up) request.look.up = glm::normalize(vector(*options.up));
+  request.look.attributes.color_by = options.color_by;
   return picture;
 }
 
@@ -90,13 +90,13 @@ InputObject input_object(const Points& points) {
 }  // namespace
 
 Scene open(std::span<const std::filesystem::path> files, const OpenOptions& options) {
-  return guarded(options.progress, [&](ProgressRelay& relay) {
+  return guarded(request.output.progress, [&](ProgressRelay& relay) {
     check(options);
     if (files.empty()) refuse("no file", "at least one");
     for (const std::filesystem::path& file : files)
       if (files.size() > 1 && lower_extension(file) == ".soct")
         refuse("a .soct beside other files", "it alone");
-    SceneOptions scene = scene_options(options);
+    Request::Source scene = scene_options(options);
     scene.inputs.assign(files.begin(), files.end());
     auto impl = new_scene(options);
     const LoadListener listener{std::ref(relay),
@@ -111,14 +111,14 @@ Scene open(const std::filesystem::path& file, const OpenOptions& options) {
 }
 
 Scene make_scene(std::span<const Points> objects, const OpenOptions& options) {
-  return guarded(options.progress, [&](ProgressRelay& relay) {
+  return guarded(request.output.progress, [&](ProgressRelay& relay) {
     check(options);
     Input input;
     input.up = glm::dvec3(0.0, 0.0, 1.0);
     if (options.up) input.up = glm::normalize(vector(*options.up));
     for (const Points& object : objects) input.objects.push_back(input_object(object));
     auto impl = new_scene(options);
-    const SceneOptions scene = scene_options(options);
+    const Request::Source scene = scene_options(options);
     BuildStats& stats = impl->loaded.build.emplace();
     impl->loaded.scene =
         build_scene(std::move(input), scene.params, scene.threads, stats, watching_memory(std::ref(relay)));

@@ -39,12 +39,12 @@ std::uint32_t inner_look(const LoadedScene& loaded, const Look& look) {
     case Style::scan:
       return LOOK_SCAN;
     case Style::automatic: {
-      PictureOptions picture;
-      if (look.environment.empty()) picture.look = loaded.picture.look;
-      picture.environment = look.environment;
+      Request request;
+      if (look.environment.empty()) request.look.style = loaded.request.look.style;
+      request.look.environment = look.environment;
       if (look.lights) {
-        picture.lights.emplace();
-        picture.look.reset();
+        request.look.lights.emplace();
+        request.look.style.reset();
       }
       return choose_look(loaded.scene, picture);
     }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/library/api/device.h"
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 #include "app/library/splatray.h"
 #include "engine/gpu/tracer.h"
 
