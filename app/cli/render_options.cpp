@@ -59,7 +59,8 @@ std::optional<GivenRequest> parse_render_options(int argc, char** argv) {
   Request request = base_request(files, given.values);
   assign(request, given, DOOR_RENDER);
   if (!request.output.list_devices) {
-    require_consistent(request);
+    require_inputs(request.source);
+  require_consistent(request);
     if (!files.save_request.empty()) return write_text_file(request_json(request), files.save_request), std::nullopt;
     if (request.output.path.empty())
       throw Error(ExitCode::usage, "found no output, expected -o with a .png or .exr file");

@@ -122,6 +122,11 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
     loaded.scene = preprocess(request, listener, loaded.build.emplace());
   }
   loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  show_as_asked(request, loaded);
+  return loaded;
+}
+
+void show_as_asked(const Request& request, LoadedScene& loaded) {
   if (!request.look.material.empty()) apply_material(loaded.scene, request.look.material);
   change_objects(request.look.objects, loaded.scene);
   loaded.scene.up = request.look.up.value_or(upright(loaded.scene));
@@ -130,7 +135,6 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
   loaded.told = std::move(suited.told);
   loaded.legend = show_attributes(loaded.scene, loaded.request.look.attributes);
   loaded.environment_name = choose_environment_name(loaded.scene, request);
-  return loaded;
 }
 
 Tone choose_tone(const Request& request) {

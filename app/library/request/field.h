@@ -56,8 +56,8 @@ struct Field {
   std::string letter{};                  ///< of a command line: "-o"
   bool repeated = false;                 ///< each value given counts; else the last
   std::string family{};                  ///< repeated fields whose values keep one order; empty = its own name
-  /// Called before the first value of the family is read; may be empty.
-  std::function<void(Request&)> begin{};
+  std::function<void(Request&)> clear{};  ///< of repeated ones: takes out the values of the family
+  bool adds = false;  ///< of repeated ones: values go behind those there were, instead of taking their place
   double least = 0.0, most = 0.0;  ///< of numbers
 
   [[nodiscard]] const std::string& family_name() const { return family.empty() ? name : family; }
@@ -184,7 +184,7 @@ template <class Member>
       name, group, std::move(value), std::move(help),
       [=](Request& request, const std::string& text) { member(request).emplace_back(text); }, {});
   row.repeated = true;
-  row.begin = [=](Request& request) { member(request).clear(); };
+  row.clear = [=](Request& request) { member(request).clear(); };
   row.write = [=](const Request& request) {
     std::vector<FieldText> texts;
     for (const std::filesystem::path& path : member(request)) texts.push_back({name, path.string()});

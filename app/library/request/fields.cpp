@@ -79,7 +79,8 @@ void assign(Request& request, const std::vector<FieldText>& values, FieldDoors d
   std::set<std::size_t> begun;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     if (is_overruled(sorted, i)) continue;
-    if (begun.insert(sorted[i].rank).second && sorted[i].field->begin) sorted[i].field->begin(request);
+    const Field& field = *sorted[i].field;
+    if (field.repeated && begun.insert(sorted[i].rank).second && !field.adds) field.clear(request);
     read(sorted[i], request, spelling);
   }
 }

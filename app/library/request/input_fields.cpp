@@ -45,7 +45,7 @@ Field inputs_row() {
   return with(paths_row("inputs", INPUT, MEMBER(source.inputs),
                         "a .soct scene alone, or files or folders with points, meshes or a scene: " + format_extensions(),
                         "FILE"),
-              {.doors = DOOR_PREPROCESS | DOOR_RENDER | DOOR_VIEW, .why_not = "open() takes the files"});
+              {.doors = DOORS_ALL});
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ Field light_row(std::string name, std::uint32_t kind, std::string value, std::st
       {});
   row.repeated = true;
   row.family = "lights";
-  row.begin = [](Request& request) { request.look.lights.emplace(); };
+  row.clear = [](Request& request) { request.look.lights.emplace(); };
   return row;
 }
 

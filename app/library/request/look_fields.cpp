@@ -42,7 +42,8 @@ Field object_row() {
         request.look.objects.push_back(read_object_change(text));
       },
       {});
-  row.repeated = true;
+  row.repeated = row.adds = true;
+  row.clear = [](Request& request) { request.look.objects.clear(); };
   row.write = [](const Request& request) {
     std::vector<FieldText> texts;
     for (const ObjectChange& object : request.look.objects) texts.push_back({"object", object_text(object)});

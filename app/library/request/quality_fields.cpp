@@ -46,7 +46,10 @@ std::vector<Field> quality_fields() {
           seed_row(),
           text_row("device", QUALITY, MEMBER(settings.device),
                    "device number or part of its name, or cpu: the processors without Vulkan; default the best",
-                   "N|NAME")};
+                   "N|NAME"),
+          with(path_row("cache", QUALITY, MEMBER(settings.cache),
+                        "folder that compiled pipelines are kept in between runs; default nowhere"),
+               {.doors = DOOR_LIBRARY, .why_not = "programs keep them in the user's cache folder"})};
 }
 
 }  // namespace splatray

@@ -87,10 +87,12 @@ void require_scene_alone(const std::vector<std::filesystem::path>& inputs) {
     fail("found a .soct beside other inputs, expected it alone");
 }
 
+void require_inputs(const Request::Source& source) {
+  if (source.inputs.empty()) fail("found no SCENE, expected a scene or model file (--help shows all options)");
+  require_scene_alone(source.inputs);
+}
+
 void require_consistent(const Request& request) {
-  if (request.source.inputs.empty())
-    fail("found no SCENE, expected a scene or model file (--help shows all options)");
-  require_scene_alone(request.source.inputs);
   const Request::Output& output = request.output;
   const std::string extension = lower_extension(output.path);
   if (!output.path.empty() && extension != ".png" && extension != ".exr")

@@ -83,6 +83,7 @@ struct Request {
     double error_goal = 0.0;                  ///< Goal::error; 0 = none
     double seconds_goal = 0.0;                ///< Goal::seconds; 0 = none
     std::string device;                       ///< number or part of a name; empty = best
+    std::filesystem::path cache;              ///< folder of compiled pipelines; empty = none, of programs the user's
 
     /// Whether a picture is traced until it is good enough, instead of by `samples`.
     [[nodiscard]] bool has_goal() const { return error_goal > 0.0 || seconds_goal > 0.0; }
@@ -125,7 +126,10 @@ struct Request {
 /// Makes the request's camera exactly this one.
 void set_camera(Request::View& view, const Camera& camera);
 
-/// Throws Error (usage), one sentence, for what no single field can check; `output` may be empty.
+/// Throws Error (usage), one sentence, where no input is named, or a .soct beside others.
+void require_inputs(const Request::Source& source);
+
+/// Throws Error (usage), one sentence, for what no single field can check of pictures; there may be no inputs and no output.
 void require_consistent(const Request& request);
 
 /// Throws Error (usage) where a .soct, which is a whole scene, is not the only input.

@@ -96,10 +96,11 @@ bool repeated_control(const Field& field, Request& request, std::string& error) 
   if (!changed) return false;
   std::erase_if(values, [](const FieldText& value) { return value.text.empty(); });
   if (values.empty() && field.family_name() == "lights") values.push_back({"lights", "none"});
-  Request before = request;
-  if (field.name == "object") before.look.objects.clear();
-  if (values.empty()) return field.begin ? (field.begin(request), true) : (request = before, true);
-  return set(before, values, error) && (request = before, true);
+  Request cleared = request;
+  field.clear(cleared);
+  if (!values.empty() && !set(cleared, values, error)) return false;
+  request = std::move(cleared);
+  return true;
 }
 
 }  // namespace
