@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "app/library/materials.h"
+#include "app/library/request/request_json.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 #include "tests/property/dice.h"
@@ -59,7 +60,7 @@ LightRequest random_light(Dice& dice) {
   return light;
 }
 
-Request::Source random_scene(Dice& dice) {
+Request::Source random_source(Dice& dice) {
   Request::Source scene;
   for (std::uint32_t i = dice.below(3) + 1; i > 0; --i) scene.inputs.emplace_back(odd_text(dice) + "b.ply");
   for (std::uint32_t i = dice.below(3); i > 0; --i) scene.data_paths.emplace_back("-" + odd_text(dice));
@@ -83,12 +84,11 @@ Request::Source random_scene(Dice& dice) {
   params.normal_fields = dice.chance(0.5);
   params.keep_strays = dice.chance(0.5);
   params.smooth_world = dice.chance(0.3) ? -1.0 : dice.chance(0.3) ? 0.0 : 0.25 * (1 + dice.below(8));
-  if (dice.chance(0.5)) scene.material = material_names()[dice.below(std::uint32_t(material_names().size()))];
   return scene;
 }
 
-Settings random_settings(Dice& dice) {
-  Settings settings;
+Request::Settings random_settings(Dice& dice) {
+  Request::Settings settings;
   settings.samples = 1 + dice.below(65536);
   settings.seed = static_cast<std::uint32_t>(dice.seed());
   settings.max_bounces = dice.below(65);
@@ -129,10 +129,12 @@ Request random_picture(Dice& dice) {
     request.look.attributes.hidden_classes.push_back(dice.below(256));
   for (std::uint32_t i = dice.below(3); i > 0; --i)
     request.look.attributes.hidden_scans.push_back(dice.below(65536));
-  maybe(dice, request.settings.asked_delta_world, number(dice, 1e-9, 1e9));
+  if (dice.chance(0.5))
+    request.look.material = material_names()[dice.below(std::uint32_t(material_names().size()))];
   request.settings = random_settings(dice);
+  maybe(dice, request.settings.asked_delta_world, number(dice, 1e-9, 1e9));
   if (dice.chance(0.5)) request.settings.device = odd_text(dice);
-  return picture;
+  return request;
 }
 
 /// A sequence that goes with the picture's camera, or none.
@@ -151,11 +153,11 @@ Request::Output random_sequence(Dice& dice, const Request& request) {
   return sequence;
 }
 
-Request random_options(Dice& dice) {
-  Request request;
-  request.source = random_scene(dice);
-  request = random_picture(dice);
+Request random_request(Dice& dice) {
+  Request request = random_picture(dice);
+  request.source = random_source(dice);
   request.source.params.seed = request.settings.seed;
+  request.output = random_sequence(dice, request);
   request.output.path = odd_text(dice) + "/b##.exr";
   request.look.exposure_ev = dice.between(-60.0, 60.0);
   request.output.aov_depth = dice.chance(0.5);
@@ -163,36 +165,45 @@ Request random_options(Dice& dice) {
   request.output.aov_id = dice.chance(0.5);
   request.settings.aov = request.output.aov_depth || request.output.aov_normal || request.output.aov_id;
   if (dice.chance(0.5)) request.output.stats_json = odd_text(dice);
-  request.output = random_sequence(dice, request);
   if (dice.chance(0.5) && !request.output.many()) request.output.reference = odd_text(dice);
   request.output.reference_threshold = dice.unit();
   request.output.reference_share = dice.unit();
   request.output.reference_limit = dice.unit();
   request.output.list_devices = dice.chance(0.2);
   request.output.quiet = dice.chance(0.5);
-  return options;
+  return request;
 }
 
 TEST(CommandLine, RandomOptionsComeBackEqual) {
+  int in_json = 0;
   for (std::uint64_t round = 0; round < 500; ++round) {
     Dice dice(round);
-    const Request request = random_options(dice);
-    const std::string line = command_line(options);
-    ASSERT_EQ(parse_command_line(line), options) << "round " << round << ": " << line;
+    const Request request = random_request(dice);
+    const std::string line = command_line(request);
+    ASSERT_EQ(parse_command_line(line), request) << "round " << round << ": " << line;
+    std::string json;
+    try {
+      json = request_json(request);
+    } catch (const Error&) {
+      continue;  // bytes at random are not always UTF-8
+    }
+    ASSERT_EQ(read_request_text(json, "the test"), request) << "round " << round << ": " << json;
+    ++in_json;
   }
+  EXPECT_GT(in_json, 50);
 }
 
 TEST(CommandLine, HoldsOnlyWhatDiffersFromTheDefaults) {
   Request request;
   request.source.inputs = {"a b.ply"};
   request.output.path = "o.png";
-  EXPECT_EQ(command_line(options), "splatray-render 'a b.ply' -o o.png");
+  EXPECT_EQ(command_line(request), "splatray-render 'a b.ply' -o o.png");
   request.look.lights.emplace();
   request.settings.kappa = 0.1F;
   request.look.objects = {read_object_change("a:b:hidden=on,mirror=0.25")};
   EXPECT_EQ(
-      command_line(options),
-      "splatray-render 'a b.ply' -o o.png --lights=none --object=a:b:mirror=0.25,hidden=on --kappa=0.1");
+      command_line(request),
+      "splatray-render 'a b.ply' --object=a:b:mirror=0.25,hidden=on --lights=none -o o.png --kappa=0.1");
 }
 
 TEST(CommandLine, AcceptsWhatPeoplePaste) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/library/request/fields.h"
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 #include "engine/base/number_text.h"
 #include "engine/base/one_line.h"
 
@@ -108,13 +108,22 @@ std::string request_json(const Request& request, int indent) {
     if (list.is_null()) list = Json::array();
     if (value != FieldText{"lights", "none"}) list.push_back(several ? value.name + "=" + value.text : value.text);
   }
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + (indent < 0 ? "" : "\n");
+  try {
+    return json.dump(indent) + (indent < 0 ? "" : "\n");
+  } catch (const Json::type_error&) {
+    throw Error(ExitCode::usage, "found a text that is no UTF-8 in a request, expected names that JSON can hold");
+  }
 }
 
 Request read_request_text(const std::string& text, const std::string& source) {
   const Reader reader(source);
-  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (json.is_discarded()) reader.refuse("a text that is no JSON", "an object of names and values");
+  if (json_is_too_deep(text)) reader.refuse("JSON that nests deeply", "an object of names and values");
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::exception& damage) {  // no JSON, or a number beyond float64
+    reader.refuse(one_line(damage.what()), "an object of names and values");
+  }
   Request request;
   try {
     assign(request, reader.read(json), DOORS_ALL);

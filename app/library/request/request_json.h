@@ -9,7 +9,8 @@
 
 namespace splatray {
 
-/// The text; `indent` < 0: in one line. read_request_text makes an equal request of it.
+/// The text; `indent` < 0: in one line. read_request_text makes an equal request of it. Throws Error (usage) where a text of the request
+/// is no UTF-8, which files may be named in.
 [[nodiscard]] std::string request_json(const Request& request, int indent = 2);
 
 /// The request of a text that `source` names in sentences. Throws Error (input_unreadable), one sentence.

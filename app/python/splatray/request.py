@@ -29,14 +29,19 @@ def text_of(name: str, value: Any) -> str:
     """The text of a field's value."""
     if isinstance(value, (bool, np.bool_)):
         return "on" if value else "off"
-    if isinstance(value, str):
+    kind, words = FIELDS[name].kind, FIELDS[name].value
+    if isinstance(value, str) and kind == "text":
         return value
     if isinstance(value, os.PathLike):
         return _check.path(name, value)
     if isinstance(value, Iterable):
         return SEPARATORS.get(name, ",").join(text_of(name, item) for item in value)
+    if kind == "text" and ("FILE" in words or "NAME" in words):
+        raise TypeError(f"{name}: found {value!r}, expected a text such as {words}")
+    if isinstance(value, str):
+        raise TypeError(f"{name}: found {value!r}, expected a number")
     number = _check.number(name, value)
-    if FIELDS[name].kind == "whole":
+    if kind == "whole":
         return str(_check.whole(name, value, int(FIELDS[name].least), int(FIELDS[name].most)))
     return repr(int(number)) if number == int(number) and abs(number) < 2**53 and isinstance(value, (int, np.integer)) else repr(number)
 
