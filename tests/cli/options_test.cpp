@@ -40,7 +40,7 @@ TEST_F(CliOptions, NonsenseIsRefused) {
                                                                {"--object=grid:glow=1"},
                                                                {"--object=nobody:hidden=on"},
                                                                {"--env=-1,0,0"},
-                                                               {"--max-bounces=65"},
+                                                               {"--bounces=65"},
                                                                {"--shadows=maybe"},
                                                                {"--blend=soft"},
                                                                {"--side=left"},
