@@ -112,7 +112,13 @@ def torn_lines(root, files):
         lines = (root / name).read_text().split("\n")
         for i, line in enumerate(lines[1:], 1):
             before = lines[i - 1].strip()
-            if "///<" in line and line.strip()[:4] != "///<" and before and not before.endswith((";", "{", "}", ",", ":")) and "//" not in before:
+            if "///<" not in line or line.strip()[:4] == "///<" or not before or "//" in before:
+                continue
+            code = line.split("///<")[0].strip()
+            deeper = len(line) - len(line.lstrip()) > len(lines[i - 1]) - len(lines[i - 1].lstrip())
+            in_braces = before.endswith("{") and code.endswith("};") and "{" not in code
+            in_list = before.endswith(",") and code.endswith(";") and deeper
+            if in_braces or in_list or not before.endswith((";", "{", "}", ",", ":")):
                 yield f"{name}:{i + 1}: found a declaration torn before its comment, expected the comment above it"
 
 
@@ -177,6 +183,8 @@ def prove():
         "no room": {"elsewhere/a.h": ""},
         "two folders of a room": {"preprocess/tree/a.h": '#include "preprocess/read/b.h"\n', "preprocess/read/b.h": ""},
         "library above the command line": {"app/library/a.h": '#include "app/cli/b.h"\n', "app/cli/b.h": ""},
+        "torn at a brace": {"engine/base/a.h": "struct A {\n  int a{\n      1};  ///< a number\n};\n"},
+        "torn at a comma": {"engine/base/a.h": "constexpr int A = 1,\n              B = 2;  ///< numbers\n"},
         "torn": {"engine/base/a.h": "struct A {\n  int\n      a;  ///< a number\n};\n"},
         "modules": {"shaders/variants.cmake": "add_variant(A a.glsl CPU)\n" * (MOST_MODULES + 1), "shaders/layout.h": ""},
         "constants": {"shaders/variants.cmake": "", "shaders/layout.h": "SPLATRAY_CONST SPEC_A = 0u;\n" * (MOST_CONSTANTS + 1)},
