@@ -48,7 +48,7 @@ class LiveScene {
   ColorLegend legend_;
 };
 
-/// Whether the words are the same.
+/// Whether the two are equal bit for bit.
 [[nodiscard]] bool same_looks(const ObjectLooks& a, const ObjectLooks& b);
 
 }  // namespace splatray
