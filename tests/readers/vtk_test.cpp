@@ -278,5 +278,16 @@ TEST(Vtk, BrokenFilesAreErrorsAndNothingIsPrinted) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(Vtk, OfHdfItIsSaidWhatToDoInstead) {
+  const TempFolder folder;
+  for (const char* name : {"a.vtkhdf", "A.VTKHDF"}) {
+    const std::string error = read_error(folder.write(name, "\x89HDF\r\n\x1a\n"));
+    EXPECT_NE(error.find("HDF format, which is not read, expected the same data as .vtp or .vtu"),
+              std::string::npos)
+        << error;
+  }
+  EXPECT_NE(read_error(folder.path() / "missing.vtkhdf").find("no such file"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace splatray
