@@ -184,7 +184,7 @@ struct Light {
 };
 /// How light is followed.
 enum class Style {
-  automatic,  ///< scan for scans in no light of their own, else lit
+  automatic,  ///< scan for scans in no light and of no material of their own or of the look's, else lit
   paper,      ///< highlights, mirrors, glass and hard shadows, no light between surfaces: quick
   lit,        ///< path tracing
   clay,       ///< the same, everything matt and light grey

@@ -25,6 +25,17 @@ splatray::View inner_view(const View& view) {
       view.height};
 }
 
+/// Whether objects are shown of other materials than their own; one that is hidden, or no longer, is of the same.
+bool changes_materials(const splatray::Scene& scene, const Look& look) {
+  const auto is_other = [](const splatray::Material& own, Material shown) {
+    shown.hidden = (own.flags & MATERIAL_HIDDEN) != 0;
+    return shown != described(own);
+  };
+  return look.materials.size() == scene.materials.size() &&
+         !std::equal(scene.materials.begin(), scene.materials.end(), look.materials.begin(),
+                     [&](const auto& own, const Material& shown) { return !is_other(own, shown); });
+}
+
 /// LOOK_* of a style; automatic as the programs have it.
 std::uint32_t inner_look(const LoadedScene& loaded, const Look& look) {
   switch (look.style) {
@@ -46,7 +57,8 @@ std::uint32_t inner_look(const LoadedScene& loaded, const Look& look) {
         picture.lights.emplace();
         picture.look.reset();
       }
-      return choose_look(loaded.scene, picture);
+      const std::uint32_t chosen = choose_look(loaded.scene, picture);
+      return !shows_materials(chosen) && changes_materials(loaded.scene, look) ? LOOK_LIT : chosen;
     }
   }
   refuse("style " + std::to_string(static_cast<int>(look.style)), "one of Style's");

@@ -167,6 +167,24 @@ void check_errors(const std::filesystem::path& folder) {
       },
       "environment");
   expect_error(
+      Kind::usage,
+      [&] {
+        (void)sr::render(scene, {{}, 8, 8}, {.style = sr::Style(77)});
+      },
+      "no style");
+  expect_error(
+      Kind::usage,
+      [&] {
+        (void)sr::render(scene, {{}, 8, 8}, {.lights = {{{.kind = sr::Light::Kind(77)}}}});
+      },
+      "no kind of light");
+  expect_error(
+      Kind::usage,
+      [&] {
+        (void)sr::render(scene, {sr::frame(scene), 8, 8}).png({.tone = sr::Tone(77)});
+      },
+      "no tone");
+  expect_error(
       Kind::usage, [&] { (void)sr::frame(scene, {.elevation_deg = 91.0}); }, "elevation");
   expect_error(
       Kind::usage, [&] { (void)sr::named_material("wood"); }, "material");
@@ -225,6 +243,23 @@ void check_pictures(const std::filesystem::path& folder) {
   expect(!give_up_after(scene, 0.0).empty() && give_up_after(scene, 0.0) != "done", "cancelling did nothing");
 }
 
+/// A scan is shown in a look without materials, until it is given one.
+void check_materials_of_scans() {
+  const Plane plane(0.0, 0.0, 0.0);
+  const sr::Scene scan = sr::make_scene({.positions = plane.positions, .scanned = true});
+  const sr::View view{sr::frame(scan), 32, 32};
+  const auto picture = [&](const sr::Look& look) {
+    return sr::render(scan, view, look, {.samples = 1}).pixels;
+  };
+  const auto automatic = picture({});
+  expect(automatic == picture({.style = sr::Style::scan}), "a scan's own look is another");
+  std::vector<sr::Material> materials = scan.materials();
+  expect(automatic == picture({.materials = materials}), "its own materials change a scan's picture");
+  materials[0] = sr::named_material("gold");
+  expect(picture({.materials = materials}) == picture({.style = sr::Style::lit, .materials = materials}),
+         "a scan of gold is not shown lit");
+}
+
 /// A camera on the equator and a scanner beside the sphere of radius 1: closed forms within a thousandth.
 void check_depth_and_ranges() {
   const sr::Scene scene = scene_of_arrays();
@@ -254,6 +289,7 @@ int main(int argc, char** argv) {
     check_rays();
     check_errors(folder);
     check_pictures(folder);
+    check_materials_of_scans();
     check_depth_and_ranges();
     alarm(240);  // a defect may be a call that never ends
     const std::string defect = find_reentrance_defect();
