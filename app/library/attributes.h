@@ -44,7 +44,7 @@ struct AttributeColors {
   ColorLegend legend;
 };
 
-/// What color_by may be for this scene, without rgb.
+/// What color_by may be for this scene. The first is what it shows where nothing is asked for: rgb, or plain without colours.
 [[nodiscard]] std::vector<std::string> color_sources(const Scene& scene);
 
 /// The colours that the options ask for: categories for class, return, returns, source, scan and kind, a ramp over `color_range`

@@ -48,7 +48,4 @@ class LiveScene {
   ColorLegend legend_;
 };
 
-/// Whether the two are equal bit for bit.
-[[nodiscard]] bool same_looks(const ObjectLooks& a, const ObjectLooks& b);
-
 }  // namespace splatray
