@@ -1,8 +1,8 @@
 """readme_test.py REPOSITORY PROGRAMS: what README.md and the pages of app/guide say is so. In a folder with small inputs of the names that
 they use (page_inputs.py), pictures being 16 x 16 and of two samples, their blocks behind the comment <!-- run --> run: one of commands (sh)
 ends well, one of a terminal (console) shows the lines below each command, "..." standing for any text. Every option that a line of these and
-of other pages gives to a program of splatray is one that its --help lists. The gallery's commands (data/gallery.md) are understood, and
-its pictures are there. README.md stays short."""
+of other pages gives to a program of splatray is one that its --help lists; links lead to files. The gallery's commands (data/gallery.md)
+are understood, and its pictures are there. CONTRIBUTING.md names tests that exist. README.md stays short."""
 
 import functools
 import os
@@ -17,7 +17,7 @@ import tempfile
 import page_inputs
 
 RUN = "README.md", "app/guide/*.md"
-READ = *RUN, "app/*/README.md", "app/*/*/README.md", "data/*.md", "data/figures/README.md"
+READ = *RUN, "*.md", "app/*/README.md", "app/*/*/README.md", "data/*.md", "data/figures/README.md"
 GALLERY = "data/gallery.md"
 GALLERY_PICTURES = 12
 MOST_PICTURE_BYTES = 250_000
@@ -145,6 +145,13 @@ def unknown_tests(root, text):
                 yield f"CONTRIBUTING.md: found the test {name}, expected one of tests/*/CMakeLists.txt"
 
 
+def broken_links(root, page):
+    """Links to files that are not there."""
+    for link in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", (root / page).read_text()):
+        if not (root / page).parent.joinpath(link).exists():
+            yield f"{page}: found a link to {link}, expected one to a file that is there"
+
+
 def too_long(text):
     lines = text.rstrip("\n").split("\n")
     if len(lines) > MOST_LINES:
@@ -166,6 +173,9 @@ def prove(root, programs, inputs):
         sys.exit(f"A file that is missing, an option that does not exist and a line not shown were found as {found}")
     if len(list(too_long("a\n" * (MOST_LINES + 1) + "a" * (MOST_COLUMNS + 1)))) != 2:
         sys.exit("A README.md that is too long and too wide was not found so")
+    (inputs / "page.md").write_text("[here](page.md#part), [nowhere](none.md), [elsewhere](https://example.org)")
+    if len(list(broken_links(inputs, "page.md"))) != 1:
+        sys.exit("A link to no file was not found so")
 
 
 def main():
@@ -180,8 +190,10 @@ def main():
         pages = sorted({path for pattern in RUN for path in root.glob(pattern)})
         for page in pages:
             found += failures(page.relative_to(root), page.read_text(), programs, inputs)
-        for page in sorted({path for pattern in READ for path in root.glob(pattern)} - set(pages)):
-            for _, body in blocks(page.read_text(), "sh"):
+        read = sorted({path for pattern in READ for path in root.glob(pattern)})
+        for page in read:
+            found += broken_links(root, page.relative_to(root))
+            for _, body in blocks(page.read_text(), "sh") if page not in pages else ():
                 found += unknown_options(page.relative_to(root), body, programs)
     print("\n".join(found), file=sys.stderr)
     sys.exit(1 if found else 0)
