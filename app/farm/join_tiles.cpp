@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/cli/command_line.h"
+#include "app/library/request/command_line.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 
@@ -26,16 +26,16 @@ void name_whole_picture(ExrPicture& part, const std::filesystem::path& file) {
                                  [](const auto& entry) { return entry.first == "command_line"; });
   if (kept == part.metadata.end())
     refuse(file, "no splatray.command_line in it", "an EXR of splatray-render");
-  RenderOptions options;
+  Request request;
   try {
-    options = parse_command_line(kept->second);
+    request = parse_command_line(kept->second);
   } catch (const Error& error) {
     refuse(file, std::string("a command that is none of ours (") + error.what() + ")",
            "an EXR of splatray-render");
   }
-  options.crop = {};
-  options.tile = options.tiles = 0;
-  kept->second = command_line(options);
+  request.view.crop = {};
+  request.view.tile = request.view.tiles = 0;
+  kept->second = command_line(request);
 }
 
 /// Refuses parts that cannot be the whole picture before there is memory for that: a part's header may claim any size.

@@ -1,7 +1,7 @@
 /// Sequences of pictures, and pictures made again.
 #include <fstream>
 
-#include "app/cli/frame_list.h"
+#include "app/library/request/frame_list.h"
 #include "app/library/image_file.h"
 #include "tests/cli/child_process.h"
 

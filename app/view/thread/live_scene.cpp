@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 #include "engine/scene/surface.h"
 
 namespace splatray {

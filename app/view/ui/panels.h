@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/library/request/request.h"
 #include "app/view/model/document.h"
 #include "app/view/model/frame.h"
 #include "app/view/model/keys.h"
@@ -13,32 +14,18 @@
 
 namespace splatray {
 
-/// A picture to be saved.
-struct SaveRequest {
-  std::string path = "splatray.png";  ///< .png or .exr
-  std::uint32_t width = 1920, height = 1080;
-  std::uint32_t samples = 16;
-  bool aov_depth = false, aov_normal = false, aov_id = false;  ///< .exr only
-};
-
-/// Pictures to be recorded.
-struct RecordRequest {
-  std::string path = "frame.####.png";  ///< #### = number of the frame
-  bool turntable = true;                ///< a turn about the pivot; else `camera_path`
-  std::string camera_path;              ///< file
-  std::uint32_t frames = 120;
-  std::uint32_t width = 1920, height = 1080;
-  std::uint32_t samples = 16;
-  bool skip_existing = false;
-};
+/// A picture that the save dialog first asks for: its size, samples, file and channels.
+[[nodiscard]] Request first_save();
+/// Pictures that the record dialog first asks for: a turn about the pivot.
+[[nodiscard]] Request first_record();
 
 /// What a person asked for in the panels, beyond changes of the document.
 struct Requests {
   std::vector<Command> commands;   ///< buttons that do what a key does
   std::optional<SceneFiles> open;  ///< a scene
   bool add = false;                ///< `open` goes beside what is shown
-  std::optional<SaveRequest> save;
-  std::optional<RecordRequest> record;
+  std::optional<Request> save;     ///< a picture or several; only what is_of_files() is looked at
+  std::optional<Request> change;   ///< the document becomes what this asks for
   bool cancel = false;  ///< stop the work that PanelView::work shows
 };
 
@@ -72,8 +59,8 @@ struct PanelState {
   std::string open_path;                 ///< of the open dialog
   bool add = false;                      ///< of the open dialog: beside what is shown
   bool can_add = false;                  ///< something is shown
-  SaveRequest save;
-  RecordRequest record;
+  Request save = first_save();
+  Request record = first_record();
   std::string error;         ///< a sentence in a pop-up until closed; empty = none
   std::string notice;        ///< sentences in the status line, one a line, for NOTICE_SECONDS; empty = none
   std::string notice_shown;  ///< what the status line has begun to show
