@@ -18,19 +18,22 @@ OptionList::OptionList(const std::string& description, const std::string& progra
 
 OptionList::~OptionList() = default;
 
-void OptionList::add_value(const std::string& name, const Read& read, const Write& write,
-                           const std::string& help, const std::string& value_name) {
+void OptionList::set_group(const std::string& title) { parser_->option_defaults()->group(title); }
+
+void OptionList::add_value(const std::string& name, const Read& read, const std::string& help,
+                           const std::string& value_name) {
   parser_->add_option_function<std::string>(name, read, help)->type_name(value_name);
-  if (!write) return;
-  add_words([name, write] {
-    const std::string text = write();
-    return text.empty() ? Words{} : Words{name + "=" + text};
-  });
 }
 
 void OptionList::add_repeated(const std::string& name, const Read& read, const std::string& help,
                               const std::string& value_name) {
-  parser_->add_option_function<std::string>(name, read, help)->trigger_on_parse()->type_name(value_name);
+  if (name.starts_with('-'))
+    return void(
+        parser_->add_option_function<std::string>(name, read, help)->trigger_on_parse()->type_name(value_name));
+  const auto read_all = [read](const Words& words) { std::for_each(words.begin(), words.end(), read); };
+  parser_->add_option_function<Words>(name, read_all, help)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name(value_name);
 }
 
 void OptionList::add_paths(const std::string& name, std::vector<std::filesystem::path>& target,
@@ -43,24 +46,26 @@ void OptionList::add_paths(const std::string& name, std::vector<std::filesystem:
 
 void OptionList::add_switch(const std::string& name, bool& target, const std::string& help) {
   parser_->add_flag(name, target, help);
-  add_words([name, &target] { return target ? Words{name} : Words{}; });
 }
 
-void OptionList::add_answer(const std::string& name, const Write& answer, const std::string& help) {
+void OptionList::add_switch(const std::string& name, const Read& read, const std::string& help) {
+  const auto read_word = [read](const std::string& word) {
+    read(word == "true" ? "on" : word == "false" ? "off" : word);
+  };
+  parser_->add_flag_function(
+      name, [](std::int64_t) {}, help)
+      ->each(read_word);
+}
+
+void OptionList::add_answer(const std::string& name, const std::function<std::string()>& answer,
+                            const std::string& help) {
   parser_->add_flag_callback(
       name, [answer] { throw CLI::CallForVersion(answer(), 0); }, help);
-}
-
-void OptionList::add_words(std::function<Words()> words) {
-  const Words initial = words();
-  writers_.push_back({std::move(words), initial});
 }
 
 void OptionList::require(const std::string& name) { parser_->get_option(name)->required(); }
 
 void OptionList::set_footer(const std::string& text) { parser_->footer(text); }
-
-void OptionList::remove_help() { parser_->set_help_flag(); }
 
 bool OptionList::parse(int argc, char** argv) { return parse(Words(argv + std::min(argc, 1), argv + argc)); }
 
@@ -76,15 +81,6 @@ bool OptionList::parse(const Words& words) {
     throw Error(ExitCode::usage, sentence + " (--help lists the options)");
   }
   return true;
-}
-
-Words OptionList::changed_words() const {
-  Words changed;
-  for (const Writer& writer : writers_) {
-    const Words words = writer.words();
-    if (words != writer.initial) changed.insert(changed.end(), words.begin(), words.end());
-  }
-  return changed;
 }
 
 }  // namespace splatray

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "app/cli/build_options.h"
+#include "app/cli/options.h"
 #include "app/cli/option_types.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
@@ -20,26 +20,20 @@ namespace {
 
 using namespace splatray;
 
-struct Options {
-  BuildOptions build;
-  std::filesystem::path output;
-  std::filesystem::path stats_json;  ///< empty = none
-};
-
 /// False when help was asked for and printed.
-bool parse(int argc, char** argv, Options& options) {
+bool parse(int argc, char** argv, Request& request, std::vector<std::string>& notes) {
   OptionList list("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
                   "splatray-preprocess");
-  list.add_paths("INPUT", options.build.inputs,
-                 "files with points, meshes or a scene: " + format_extensions(), "FILE");
+  GivenFields given;
+  add_fields(list, DOOR_PREPROCESS, "INPUT", given);
   list.require("INPUT");
-  add_path(list, "-o,--output", options.output, "scene file to write (.soct)");
+  list.set_group(group_title(FieldGroup::files));
+  add_path(list, "-o,--output", request.output.path, "scene file to write (.soct)");
   list.require("--output");
-  add_build_options(list, options.build, "--samples");
-  add_number(list, "--seed", options.build.params.seed, 0, 4294967295.0,
-             "seed of samples and probe rays; default 1");
-  add_path(list, "--stats-json", options.stats_json, "file to write counts and times to");
-  return list.parse(argc, argv);
+  if (!list.parse(argc, argv)) return false;
+  assign(request, given, DOOR_PREPROCESS);
+  notes = given.notes;
+  return true;
 }
 
 /// A build takes and frees many large arrays: glibc's malloc keeps their memory instead of giving it back, as each page that the
@@ -51,9 +45,9 @@ void keep_freed_memory() {
   mallopt(M_TOP_PAD, GROWTH_BYTES);
 }
 
-Input read(const BuildOptions& options, BuildStats& stats, const Progress& progress) {
+Input read(const Request::Source& source, BuildStats& stats, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  Input input = read_input(options.inputs, read_options(options, progress));
+  Input input = read_input(source.inputs, read_options(source, progress));
   stats.read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return input;
 }
@@ -63,10 +57,13 @@ void print_notes(const std::vector<std::string>& notes) {
 }
 
 int run(int argc, char** argv) {
-  Options options;
-  if (!parse(argc, argv, options)) return static_cast<int>(ExitCode::done);
-  require_writable(options.output);
-  if (!options.stats_json.empty()) require_writable(options.stats_json);
+  Request request;
+  std::vector<std::string> notes;
+  if (!parse(argc, argv, request, notes)) return static_cast<int>(ExitCode::done);
+  print_notes(notes);
+  const Request::Output& output = request.output;
+  require_writable(output.path);
+  if (!output.stats_json.empty()) require_writable(output.stats_json);
   catch_interrupts();
   keep_freed_memory();
 
@@ -75,17 +72,17 @@ int run(int argc, char** argv) {
     line.show(stage, share);
     return !interrupted();
   });
+  const Request::Source& source = request.source;
   BuildStats stats;
-  Input input = read(options.build, stats, progress);
+  Input input = read(source, stats, progress);
   line.clear();
   print_notes(input.notes);
-  const Scene scene =
-      build_scene(std::move(input), options.build.params, options.build.threads, stats, progress);
-  write_scene(scene, options.output, progress);
+  const Scene scene = build_scene(std::move(input), source.params, source.threads, stats, progress);
+  write_scene(scene, output.path, progress);
   line.clear();
   print_notes(stats.notes);
-  if (!options.stats_json.empty()) write_text_file(build_stats_json(stats) + '\n', options.stats_json);
-  std::fputs(build_summary(stats, options.output).c_str(), stdout);
+  if (!output.stats_json.empty()) write_text_file(build_stats_json(stats) + '\n', output.stats_json);
+  std::fputs(build_summary(stats, output.path).c_str(), stdout);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -81,20 +81,20 @@ Json frames_json(const std::vector<PictureRecord>& pictures) {
 
 }  // namespace
 
-void write_stats(const RenderOptions& options, const LoadedScene& loaded, const PoolCounts& counts,
+void write_stats(const Request& request, const LoadedScene& loaded, const PoolCounts& counts,
                  const Context& context, const PoolBytes& bytes, const StageTimes& times,
                  const SequenceRecord& record) {
   const DeviceInfo& device = context.device_info();
   const PictureRecord sum = sum_of(record.made);
-  const Settings& settings = options.picture.settings;
+  const Settings& settings = request.settings;
   Json json = {
       {"commit", COMMIT},
       {"device",
        {{"name", device.name}, {"type", device.type}, {"driver", device.driver}, {"api", device.api}}},
       {"scene", scene_json(loaded.scene, counts, sum.lights)},
       {"picture",
-       {{"width", options.picture.width},
-        {"height", options.picture.height},
+       {{"width", request.view.width},
+        {"height", request.view.height},
         {"samples", sum.stats.samples},
         {"error", sum.stats.error},
         {"seed", settings.seed}}},
@@ -108,9 +108,9 @@ void write_stats(const RenderOptions& options, const LoadedScene& loaded, const 
       {"bytes", bytes_json(bytes)}};
   if (loaded.build) json["build"] = Json::parse(build_stats_json(*loaded.build));
   if (settings.counters) json["counters"] = counters_json(sum.stats.counters);
-  if (options.denoise) json["times_ms"]["denoise"] = sum.denoise_ms;
-  if (options.sequence.many()) json["frames"] = frames_json(record.made);
-  write_text_file(json.dump(2) + '\n', options.stats_json);
+  if (request.output.denoise) json["times_ms"]["denoise"] = sum.denoise_ms;
+  if (request.output.many()) json["frames"] = frames_json(record.made);
+  write_text_file(json.dump(2) + '\n', request.output.stats_json);
 }
 
 }  // namespace splatray

@@ -1,6 +1,6 @@
 /// What a render did, as JSON for people and scripts.
 #pragma once
-#include "app/cli/render_sequence.h"
+#include "app/library/picture/render_sequence.h"
 
 namespace splatray {
 
@@ -12,7 +12,7 @@ struct StageTimes {
 /// Writes the file that the options name: device, scene, picture, times per stage, bytes per pool, and rays by class,
 /// steps and tests when counted; of a sequence the sums, and the times of each frame. Throws Error (failed); leaves no
 /// partial file.
-void write_stats(const RenderOptions& options, const LoadedScene& loaded, const PoolCounts& counts,
+void write_stats(const Request& request, const LoadedScene& loaded, const PoolCounts& counts,
                  const Context& context, const PoolBytes& bytes, const StageTimes& times,
                  const SequenceRecord& record);
 

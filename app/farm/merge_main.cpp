@@ -3,8 +3,8 @@
 
 #include "app/cli/option_list.h"
 #include "app/cli/option_types.h"
-#include "app/cli/picture.h"
-#include "app/cli/reproduce.h"
+#include "app/library/picture/picture_file.h"
+#include "app/library/picture/reproduce.h"
 #include "app/farm/join_tiles.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
@@ -21,10 +21,11 @@ struct Options {
 };
 
 bool parse(int argc, char** argv, Options& options) {
-  OptionList list("Joins the parts of a picture that splatray-render made with --tile or --crop.",
-                  "splatray-merge");
-  list.add_paths("PART", options.parts, "an EXR with a part of the picture; each pixel must be in one",
-                 "FILE");
+  OptionList list(
+      "Joins the parts of a picture that splatray-render made with --tile, --crop or --sample-offset.",
+      "splatray-merge");
+  list.add_paths("PART", options.parts,
+                 "an EXR with a part of the picture; each sample of each pixel must be in one", "FILE");
   list.require("PART");
   add_path(
       list, "-o,--output", options.output,
@@ -63,7 +64,7 @@ int merge(int argc, char** argv) {
   if (lower_extension(options.output) == ".exr") {
     write_exr(picture, options.output);
   } else {
-    write_output(read_picture_options(options.parts.front()), image_of(picture), picture.metadata,
+    write_output(read_picture_request(options.parts.front()), image_of(picture), picture.metadata,
                  options.output);
   }
   return static_cast<int>(ExitCode::done);

@@ -15,14 +15,14 @@
 namespace splatray {
 namespace {
 
-constexpr double RANGE_FIRST = 0.02,
-                 RANGE_LAST = 0.98;  ///< shares of all values that a range leaves out at its ends
+/// Shares of all values at the ends of a range.
+constexpr double RANGE_FIRST = 0.02, RANGE_LAST = 0.98;
 constexpr std::size_t RAMP_STEPS = 256;
 constexpr double INTENSITY_GAMMA = 2.2;
 /// Display values of its ends: on black and on white no shade is seen.
 constexpr const char* HEIGHT_AND_INTENSITY = "height+intensity";
-constexpr float RELIEF_DARK = 0.2F,
-                RELIEF_BRIGHT = 1.5F;  ///< factors on a height's colour, of black and white intensity
+/// Factors on a height's colour, of black and white intensity.
+constexpr float RELIEF_DARK = 0.2F, RELIEF_BRIGHT = 1.5F;
 constexpr double INTENSITY_DARK = 0.25, INTENSITY_BRIGHT = 0.92;
 
 std::uint32_t color_of(const glm::vec3& encoded) {

@@ -57,8 +57,8 @@ struct AttributeColors {
 /// of categories.
 [[nodiscard]] std::vector<Category> categories_of(const Scene& scene, std::string_view column);
 
-/// Makes the scene what is shown of it: its colours, and splats of hidden classes and scans shrunk to the least radius, 1/10^6
-/// of the scene, which hardly any ray meets. Throws Error (usage) as color_by does, and where something is hidden that the
+/// Applies colours and hides classes and scans: splats of hidden ones shrink to the least radius, 1/10^6 of the scene, which hardly
+/// any ray meets. Throws Error (usage) as color_by does, and where something is hidden that the
 /// scene does not have.
 [[nodiscard]] ColorLegend show_attributes(Scene& scene, const AttributeOptions& options);
 

@@ -35,7 +35,7 @@ std::string found_member(const Json& object, const char* name) {
   return std::string(name) + " " + (text.size() > MOST ? text.substr(0, MOST) + "..." : text);
 }
 
-glm::dvec3 read_vector(const Json& object, const char* name, const Source& source) {
+glm::dvec3 json_vector(const Json& object, const char* name, const Source& source) {
   const Json& value = object.contains(name) ? object[name] : Json();
   const bool three = value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() &&
                      value[2].is_number();
@@ -43,34 +43,34 @@ glm::dvec3 read_vector(const Json& object, const char* name, const Source& sourc
   return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
 }
 
-double read_number(const Json& object, const char* name, double most, const Source& source) {
+double json_number(const Json& object, const char* name, double most, const Source& source) {
   const double value = object[name].is_number() ? object[name].get<double>() : 0.0;
   if (!(value > 0.0 && value < most))
     source.refuse(found_member(object, name), "a number > 0 and < " + number_text(most));
   return value;
 }
 
-Camera read_camera(const Json& json, const Source& source) {
+Camera camera_of(const Json& json, const Source& source) {
   if (!json.is_object() || json.contains("keys"))
     source.refuse(json.is_object() ? "a camera path" : "no camera",
                   "an object with eye, target, up and fov_y_deg");
   Camera camera;
-  camera.eye = read_vector(json, "eye", source);
-  camera.target = read_vector(json, "target", source);
-  camera.up = read_vector(json, "up", source);
+  camera.eye = json_vector(json, "eye", source);
+  camera.target = json_vector(json, "target", source);
+  camera.up = json_vector(json, "up", source);
   if (json.contains("fov_y_deg") == json.contains("ortho_height"))
     source.refuse(
         json.contains("fov_y_deg") ? "fov_y_deg and ortho_height" : "no fov_y_deg and no ortho_height",
         "one of fov_y_deg and ortho_height");
   if (json.contains("fov_y_deg"))
-    camera.fov_y_deg = read_number(json, "fov_y_deg", 180.0, source);
+    camera.fov_y_deg = json_number(json, "fov_y_deg", 180.0, source);
   else
-    camera.ortho_height = read_number(json, "ortho_height", 1e30, source);
+    camera.ortho_height = json_number(json, "ortho_height", 1e30, source);
   return camera;
 }
 
 CameraKey read_key(const Json& json, const CameraPath& before, const Source& source) {
-  CameraKey key{read_camera(json, source), before.empty() ? 0 : before.back().frame + KEY_FRAMES};
+  CameraKey key{camera_of(json, source), before.empty() ? 0 : before.back().frame + KEY_FRAMES};
   if (json.contains("frame")) {
     const double frame = json["frame"].is_number() ? json["frame"].get<double>() : -1.0;
     const double least = before.empty() ? 0.0 : before.back().frame + 1.0;
@@ -116,7 +116,7 @@ Json to_json(const Camera& camera) {
 
 Camera read_camera(const std::filesystem::path& path) {
   const Source source{path, ""};
-  return read_camera(read_json(source), source);
+  return camera_of(read_json(source), source);
 }
 
 CameraPath read_camera_path(const std::filesystem::path& path) {

@@ -2,7 +2,7 @@
 ///
 ///     namespace sr = splatray::api;
 ///     sr::Scene scene = sr::open("scan.laz");
-///     sr::Image image = sr::render(scene, {sr::frame(scene), 1280, 720});
+///     sr::Image image = sr::render(scene, {{"resolution", "1280x720"}, {"samples", 64}});
 ///     image.save("scan.png");
 ///
 /// World space is right-handed, in the units of the input, float64. Colours and radiances are linear sRGB. Lengths are world
@@ -16,11 +16,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #define SPLATRAY_API __attribute__((visibility("default")))
@@ -67,6 +69,10 @@ struct Material {
   bool glass = false;                   ///< refracts; the object must be closed, its normals outwards
   bool two_sided = true;                ///< both faces are seen; glass is one-sided
   bool hidden = false;                  ///< not hit by any ray
+  // Of path tracing, in place of what follows from the above; unset = that.
+  std::optional<float> metallic{}, roughness{};   ///< 0..1 (glTF 2.0, "metallic-roughness")
+  std::optional<float> coat{}, coat_roughness{};  ///< a clear layer's share and roughness, 0..1 (KHR_materials_clearcoat)
+  std::optional<Float3> emission{};               ///< radiance sent out, 0..1e6
   bool operator==(const Material&) const = default;
 };
 /// The material of a name: matte, glossy, mirror, gold, copper, glass or ruby. Throws Error (usage) for another.
@@ -87,32 +93,99 @@ struct Points {
   std::optional<bool> scanned{};
 };
 
-/// How files or arrays become a scene.
-struct OpenOptions {
-  double radius_scale = 1.0;      ///< factor on every radius, 1e-6..1e6
-  std::uint64_t mesh_points = 0;  ///< points sampled on meshes by area; 0 = their vertices where fine enough
-  std::vector<std::filesystem::path> data{};  ///< folders searched for models that a scene names
-  /// Colours by an attribute: height, normal, distance, intensity ...; empty = the scene's own.
-  std::string color_by{};
-  std::optional<Double3> up{};  ///< up direction; unset = the file's own, z for arrays
-  unsigned threads = 0;         ///< of reading, preprocess and the device "cpu"; 0 = all cores
-  /// Vulkan device: number or part of a name as in devices(); empty = best. "cpu" = the processors without Vulkan: the same
-  /// hits, in two to three times the time of Mesa's Vulkan driver for them.
-  std::string device{};
-  /// Folder that compiled pipelines are kept in between runs; empty = nowhere.
-  std::filesystem::path cache{};
-  Progress progress{};  ///< may be empty
+/// A camera. The picture's top is towards `up`.
+struct Camera {
+  Double3 eye{0.0, 0.0, 1.0};
+  Double3 target{0.0, 0.0, 0.0};
+  Double3 up{0.0, 1.0, 0.0};  ///< not parallel to the view direction
+  double fov_y_deg = 30.0;    ///< vertical field of view, between 0 and 180
+  double ortho_height = 0.0;  ///< > 0: orthographic, of this height in world units
+};
+
+/// A value of a field: a text as on a command line, or what has such a text.
+class SPLATRAY_API Value {
+ public:
+  Value(const char* text) : text_(text) {}              // NOLINT(google-explicit-constructor): as are all
+  Value(std::string text) : text_(std::move(text)) {}   // NOLINT
+  Value(bool on) : text_(on ? "on" : "off") {}          // NOLINT
+  Value(double number);                                 // NOLINT
+  Value(float number);                                  // NOLINT
+  Value(int number) : text_(std::to_string(number)) {}  // NOLINT
+  Value(unsigned number) : text_(std::to_string(number)) {}            // NOLINT
+  Value(unsigned long number) : text_(std::to_string(number)) {}       // NOLINT
+  Value(unsigned long long number) : text_(std::to_string(number)) {}  // NOLINT
+  Value(const Double3& numbers);                                       // NOLINT
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// What can be asked for, under one name.
+struct FieldInfo {
+  std::string name;      ///< as on a command line without dashes, "environment-strength"; in Python with _
+  std::string group;     ///< part of the help
+  std::string kind;      ///< "flag", "number", "whole" or "text"
+  std::string value;     ///< what the text is like, "X,Y,Z"; of a choice its names with | between
+  std::string help;      ///< what it is, its unit, range and default
+  bool repeated;         ///< several values count
+  double least, most;    ///< of numbers
+};
+
+/// What is asked for of a scene and its picture: values of named fields, the same as the options of splatray-render, whose help says
+/// what each is; fields() has them all. Names may have _ for -. It is a value; all that is not set is left to what suits the scene.
+class SPLATRAY_API Request {
+ public:
+  Request();
+  /// With values set, as in {{"samples", 64}, {"look", "ao"}}; of a repeated field each is added.
+  Request(std::initializer_list<std::pair<const char*, Value>> values);
+  Request(const Request&);
+  Request(Request&&) noexcept;
+  Request& operator=(const Request&);
+  Request& operator=(Request&&) noexcept;
+  ~Request();
+
+  /// Sets a field; a repeated one to this value alone. Throws Error (usage) for a name or value that is none.
+  Request& set(const std::string& name, const Value& value);
+  /// Adds a value to a repeated field, such as "light", "sun", "area-light", "object". Throws Error (usage).
+  Request& add(const std::string& name, const Value& value);
+  /// Sets eye, target, camera-up, and fov or ortho-height.
+  Request& set_camera(const Camera& camera);
+  /// Adds an object's material; `object`: its name or index.
+  Request& add_material(const std::string& object, const Material& material);
+
+  /// The texts of a field; none where it is not set and has no default in numbers.
+  [[nodiscard]] std::vector<std::string> get(const std::string& name) const;
+  /// All that is set, as splatray-render --request reads it.
+  [[nodiscard]] std::string json() const;
+  /// Throws Error (input).
+  [[nodiscard]] static Request from_json(const std::string& text);
+  /// What a picture that a splatray program wrote keeps. Throws Error (input).
+  [[nodiscard]] static Request of_picture(const std::filesystem::path& picture);
+
+  /// All fields, in the order of the help.
+  [[nodiscard]] static std::vector<FieldInfo> fields();
+
+  struct Impl;  ///< not for users
+
+ private:
+  friend struct RequestAccess;
+  std::unique_ptr<Impl> impl_;
 };
 
 class Scene;
 /// Reads scenes, models and scans: .ply .obj .stl .vtk .vtp .vtu .pvtp .pvtu .gltf .glb .las .laz .e57 .pcd .ptx .pts .xyz .csv .txt .asc .bin, folders
-/// of scans, or one .soct alone. Throws Error (input, usage, cancelled, out_of_memory).
+/// of scans, or one .soct alone. Of the request: how they are read and built, device, threads, colours, materials, up direction; what is
+/// left open about pictures is kept for those of this scene. Throws Error (input, usage, cancelled, out_of_memory).
 [[nodiscard]] SPLATRAY_API Scene open(std::span<const std::filesystem::path> files,
-                                      const OpenOptions& options = {});
-[[nodiscard]] SPLATRAY_API Scene open(const std::filesystem::path& file, const OpenOptions& options = {});
+                                      const Request& request = {}, const Progress& progress = {});
+[[nodiscard]] SPLATRAY_API Scene open(const std::filesystem::path& file, const Request& request = {},
+                                      const Progress& progress = {});
 /// A scene of one or several objects. Throws Error (input) when no point is usable, and as open().
-[[nodiscard]] SPLATRAY_API Scene make_scene(std::span<const Points> objects, const OpenOptions& options = {});
-[[nodiscard]] SPLATRAY_API Scene make_scene(const Points& object, const OpenOptions& options = {});
+[[nodiscard]] SPLATRAY_API Scene make_scene(std::span<const Points> objects, const Request& request = {},
+                                            const Progress& progress = {});
+[[nodiscard]] SPLATRAY_API Scene make_scene(const Points& object, const Request& request = {},
+                                            const Progress& progress = {});
 
 /// A scene of splats, oriented discs in an octree; it never changes. Its device is opened with the first picture or ray.
 class SPLATRAY_API Scene {
@@ -147,14 +220,6 @@ class SPLATRAY_API Scene {
   std::shared_ptr<Impl> impl_;
 };
 
-/// A camera. The picture's top is towards `up`.
-struct Camera {
-  Double3 eye{0.0, 0.0, 1.0};
-  Double3 target{0.0, 0.0, 0.0};
-  Double3 up{0.0, 1.0, 0.0};  ///< not parallel to the view direction
-  double fov_y_deg = 30.0;    ///< vertical field of view, between 0 and 180
-  double ortho_height = 0.0;  ///< > 0: orthographic, of this height in world units
-};
 /// Where frame() looks from.
 struct Framing {
   /// From the front (+z where y is up, -y where z is) towards the right.
@@ -167,83 +232,33 @@ struct Framing {
 /// one of them the other is 27 or 17 degrees. Throws Error (usage).
 [[nodiscard]] SPLATRAY_API Camera frame(const Scene& scene, const Framing& framing = {});
 
-/// Which picture is made of a camera.
-struct View {
-  Camera camera;
-  std::uint32_t width = 1280, height = 720;  ///< pixels, 1..32768
-};
-
-/// A light.
-struct Light {
-  enum class Kind { directional, point } kind = Kind::directional;
-  /// Point: its place; directional: direction towards the light, any length > 0.
-  Double3 position{0.0, 1.0, 0.0};
-  Float3 power{3.14F, 3.14F, 3.14F};  ///< directional: irradiance facing it; point: irradiance * distance^2
-  /// Makes shadows soft. point: radius, world units; directional: angular diameter, degrees.
-  double size = 0.0;
-};
-/// How light is followed.
-enum class Style {
-  automatic,  ///< scan for scans in no light and of no material of their own or of the look's, else lit
-  paper,      ///< highlights, mirrors, glass and hard shadows, no light between surfaces: quick
-  lit,        ///< path tracing
-  clay,       ///< the same, everything matt and light grey
-  ambient,    ///< ambient occlusion
-  scan,       ///< the points' colours under ambient occlusion and the lights
-};
-/// In what light, and made of what, a scene is shown.
-struct Look {
-  Style style = Style::automatic;
-  /// Unset = the scene's; without those, and without `environment`, a key light.
-  std::optional<std::vector<Light>> lights{};
-  /// A latitude-longitude picture's file, or studio, white, black, or a radiance r,g,b; empty = the scene's, else studio.
-  std::string environment{};
-  float environment_strength = 1.0F;  ///< factor, >= 0
-  float environment_turn = 0.0F;      ///< turns about up, 1 = a full one, counter-clockwise seen from above
-  std::vector<Material> materials{};  ///< of all objects; empty = the scene's
-};
-
-/// How a picture is sampled.
-struct Settings {
-  std::uint32_t samples = 16;     ///< a pixel, 1..65536
-  std::uint32_t seed = 1;         ///< the same seed makes the same picture
-  std::uint32_t max_bounces = 8;  ///< mirror and glass rays in a path, 0..64
-  bool shadows = true;
-  bool channels = false;  ///< also Image::depth, normal and object
-};
-
-/// How what is brighter than a display can be is brought below 1.
-enum class Tone {
-  soft,     ///< each channel alone, from 0.8 on
-  neutral,  ///< Khronos PBR Neutral: colours keep their hue, bright ones go towards white
-  agx,      ///< AgX: like film
-  none,     ///< cut off at 1
-};
-/// What stands between a picture and a .png.
-struct Display {
-  double exposure = 0.0;  ///< brightness, stops
-  Tone tone = Tone::neutral;
-};
-
 /// A picture; rows from the top.
 struct SPLATRAY_API Image {
   std::uint32_t width = 0, height = 0;
   std::vector<std::array<float, 4>> pixels{};  ///< linear radiance r, g, b, and coverage
-  /// Distance from the eye, world units, +inf on a miss; empty unless Settings::channels.
+  /// Distance from the eye, world units, +inf on a miss; empty unless the request's "aov" asks for any.
   std::vector<float> depth{};
   std::vector<Float3> normal{};        ///< unit, world space, 0 on a miss; likewise
   std::vector<std::int32_t> object{};  ///< -1 on a miss; likewise
+  /// Estimated error of the radiance, the root of the mean square of r, g, b; empty unless "aov" has error.
+  std::vector<float> error{};
+  /// Brightness of a .png, stops, and its tone curve, "neutral", "agx", "soft" or "none": as asked for, or what suits the picture.
+  double exposure = 0.0;
+  std::string tone = "neutral";
 
-  /// Writes .png (sRGB, 8 bit, through `display`) or .exr (linear float; with Z, N.X N.Y N.Z and id where there are channels).
-  /// Throws Error (usage, failed); an older file then stays as it was.
-  void save(const std::filesystem::path& file, const Display& display = {}) const;
+  /// Writes .png (sRGB, 8 bit, through exposure and tone) or .exr (linear float; with Z, N.X N.Y N.Z, id and error where there are such
+  /// channels). Throws Error (usage, failed); an older file then stays as it was.
+  void save(const std::filesystem::path& file) const;
   /// The bytes of the .png.
-  [[nodiscard]] std::vector<unsigned char> png(const Display& display = {}) const;
+  [[nodiscard]] std::vector<unsigned char> png() const;
 };
 
-/// The picture of a scene: the same scene, look, view, settings and device give the same bits. Throws Error.
-[[nodiscard]] SPLATRAY_API Image render(const Scene& scene, const View& view, const Look& look = {},
-                                        const Settings& settings = {}, const Progress& progress = {});
+/// The picture of a scene that a request asks for, the same as splatray-render's: the same scene, request and device give the same bits
+/// (but for "time"). How the scene is read is not looked at. Throws Error.
+[[nodiscard]] SPLATRAY_API Image render(const Scene& scene, const Request& request = {},
+                                        const Progress& progress = {});
+/// The picture of the files that the request names as "inputs". Throws Error.
+[[nodiscard]] SPLATRAY_API Image make_picture(const Request& request, const Progress& progress = {});
 
 /// What rays hit, an element a ray. The surface is what pictures show: discs near each other are blended.
 struct Hits {

@@ -36,16 +36,16 @@ auto unlocked(const Body& body) {
   return body();
 }
 
-api::Scene* open(const std::vector<std::filesystem::path>& files, api::OpenOptions options,
+api::Scene* open(const std::vector<std::filesystem::path>& files, const api::Request& request,
                  const nb::object& progress) {
-  options.progress = progress_of(progress);
-  return unlocked([&] { return new api::Scene(api::open(files, options)); });
+  const api::Progress relay = progress_of(progress);
+  return unlocked([&] { return new api::Scene(api::open(files, request, relay)); });
 }
 
 api::Scene* make_scene(const Rows<double>& positions, const std::optional<Rows<float>>& normals,
                        const std::optional<Rows<float>>& colors, const std::optional<Column>& radii,
                        const std::string& name, const std::optional<api::Material>& material,
-                       std::optional<bool> scanned, api::OpenOptions options, const nb::object& progress) {
+                       std::optional<bool> scanned, const api::Request& request, const nb::object& progress) {
   api::Points points;
   points.positions = rows(positions);
   points.normals = rows(normals);
@@ -54,8 +54,8 @@ api::Scene* make_scene(const Rows<double>& positions, const std::optional<Rows<f
   points.name = name;
   points.material = material;
   points.scanned = scanned;
-  options.progress = progress_of(progress);
-  return unlocked([&] { return new api::Scene(api::make_scene(points, options)); });
+  const api::Progress relay = progress_of(progress);
+  return unlocked([&] { return new api::Scene(api::make_scene(points, request, relay)); });
 }
 
 api::Camera frame(const api::Scene& scene, std::optional<double> azimuth, std::optional<double> elevation,
@@ -63,13 +63,14 @@ api::Camera frame(const api::Scene& scene, std::optional<double> azimuth, std::o
   return unlocked([&] { return api::frame(scene, {azimuth, elevation, fov, aspect}); });
 }
 
-api::Image* render(const api::Scene& scene, const api::Camera& camera, std::uint32_t width,
-                   std::uint32_t height, const api::Look& look, const api::Settings& settings,
-                   const nb::object& progress) {
+api::Image* render(const api::Scene& scene, const api::Request& request, const nb::object& progress) {
   const api::Progress relay = progress_of(progress);
-  return unlocked([&] {
-    return new api::Image(api::render(scene, {camera, width, height}, look, settings, relay));
-  });
+  return unlocked([&] { return new api::Image(api::render(scene, request, relay)); });
+}
+
+api::Image* make_picture(const api::Request& request, const nb::object& progress) {
+  const api::Progress relay = progress_of(progress);
+  return unlocked([&] { return new api::Image(api::make_picture(request, relay)); });
 }
 
 nb::tuple trace(const api::Scene& scene, const Rows<double>& origins, const Rows<double>& directions,
@@ -130,8 +131,8 @@ using Vectors = nb::ndarray<const float, nb::shape<-1, -1, DEPTH>, nb::c_contig,
 
 /// The image of its channels, which are copied.
 api::Image* image_of(const Vectors<4>& pixels, const std::optional<Channel<float>>& depth,
-                     const std::optional<Vectors<3>>& normal,
-                     const std::optional<Channel<std::int32_t>>& object) {
+                     const std::optional<Vectors<3>>& normal, const std::optional<Channel<std::int32_t>>& object,
+                     const std::optional<Channel<float>>& error, double exposure, const std::string& tone) {
   auto image = std::make_unique<api::Image>();
   image->height = static_cast<std::uint32_t>(pixels.shape(0));
   image->width = static_cast<std::uint32_t>(pixels.shape(1));
@@ -139,11 +140,14 @@ api::Image* image_of(const Vectors<4>& pixels, const std::optional<Channel<float
   image->depth = elements<float>(depth, *image);
   image->normal = elements<api::Float3>(normal, *image);
   image->object = elements<std::int32_t>(object, *image);
+  image->error = elements<float>(error, *image);
+  image->exposure = exposure;
+  image->tone = tone;
   return image.release();
 }
 
-nb::bytes png(const api::Image& image, double exposure, int tone) {
-  const auto bytes = unlocked([&] { return image.png({exposure, static_cast<api::Tone>(tone)}); });
+nb::bytes png(const api::Image& image) {
+  const auto bytes = unlocked([&] { return image.png(); });
   return nb::bytes(bytes.data(), bytes.size());
 }
 
@@ -167,18 +171,18 @@ void add_scene(nb::module_& module) {
            })
       .def("frame", frame, nb::arg("azimuth").none(), nb::arg("elevation").none(), nb::arg("fov").none(),
            nb::arg("aspect"))
-      .def("render", render, nb::arg("camera"), nb::arg("width"), nb::arg("height"), nb::arg("look"),
-           nb::arg("settings"), nb::arg("progress").none())
+      .def("render", render, nb::arg("request"), nb::arg("progress").none())
       .def("trace", trace, nb::arg("origins"), nb::arg("directions"), nb::arg("progress").none());
-  module.def("open", open, nb::arg("files"), nb::arg("options"), nb::arg("progress").none());
+  module.def("open", open, nb::arg("files"), nb::arg("request"), nb::arg("progress").none());
   module.def("make_scene", make_scene, nb::arg("positions"), nb::arg("normals").none(),
              nb::arg("colors").none(), nb::arg("radii").none(), nb::arg("name"), nb::arg("material").none(),
-             nb::arg("scanned").none(), nb::arg("options"), nb::arg("progress").none());
+             nb::arg("scanned").none(), nb::arg("request"), nb::arg("progress").none());
+  module.def("make_picture", make_picture, nb::arg("request"), nb::arg("progress").none());
 }
 
 void add_image(nb::module_& module) {
   module.def("image_of", image_of, nb::arg("pixels"), nb::arg("depth").none(), nb::arg("normal").none(),
-             nb::arg("object").none());
+             nb::arg("object").none(), nb::arg("error").none(), nb::arg("exposure"), nb::arg("tone"));
   nb::class_<api::Image>(module, "Image")
       .def_ro("width", &api::Image::width)
       .def_ro("height", &api::Image::height)
@@ -186,9 +190,12 @@ void add_image(nb::module_& module) {
       .def_prop_ro("depth", [](api::Image& image) { return channel<float>(image, image.depth, 1); })
       .def_prop_ro("normal", [](api::Image& image) { return channel<float>(image, image.normal, 3); })
       .def_prop_ro("object", [](api::Image& image) { return channel<std::int32_t>(image, image.object, 1); })
-      .def("png", png, nb::arg("exposure"), nb::arg("tone"))
-      .def("save", [](const api::Image& image, const std::filesystem::path& file, double exposure, int tone) {
-        unlocked([&] { image.save(file, {exposure, static_cast<api::Tone>(tone)}); });
+      .def_prop_ro("error", [](api::Image& image) { return channel<float>(image, image.error, 1); })
+      .def_rw("exposure", &api::Image::exposure)
+      .def_rw("tone", &api::Image::tone)
+      .def("png", png)
+      .def("save", [](const api::Image& image, const std::filesystem::path& file) {
+        unlocked([&] { image.save(file); });
       });
 }
 

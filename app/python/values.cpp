@@ -9,7 +9,7 @@
 namespace splatray::python {
 namespace {
 
-void add_scene_values(nb::module_& module) {
+void add_material(nb::module_& module) {
   nb::class_<api::Material>(module, "Material")
       .def(nb::init<>())
       .def_rw("diffuse", &api::Material::diffuse)
@@ -20,20 +20,15 @@ void add_scene_values(nb::module_& module) {
       .def_rw("ior", &api::Material::ior)
       .def_rw("glass", &api::Material::glass)
       .def_rw("two_sided", &api::Material::two_sided)
-      .def_rw("hidden", &api::Material::hidden);
-  nb::class_<api::OpenOptions>(module, "OpenOptions")
-      .def(nb::init<>())
-      .def_rw("radius_scale", &api::OpenOptions::radius_scale)
-      .def_rw("mesh_points", &api::OpenOptions::mesh_points)
-      .def_rw("data", &api::OpenOptions::data)
-      .def_rw("color_by", &api::OpenOptions::color_by)
-      .def_rw("up", &api::OpenOptions::up)
-      .def_rw("threads", &api::OpenOptions::threads)
-      .def_rw("device", &api::OpenOptions::device)
-      .def_rw("cache", &api::OpenOptions::cache);
+      .def_rw("hidden", &api::Material::hidden)
+      .def_rw("metallic", &api::Material::metallic, nb::arg().none())
+      .def_rw("roughness", &api::Material::roughness, nb::arg().none())
+      .def_rw("coat", &api::Material::coat, nb::arg().none())
+      .def_rw("coat_roughness", &api::Material::coat_roughness, nb::arg().none())
+      .def_rw("emission", &api::Material::emission, nb::arg().none());
 }
 
-void add_picture_values(nb::module_& module) {
+void add_camera(nb::module_& module) {
   nb::class_<api::Camera>(module, "Camera")
       .def(nb::init<>())
       .def_rw("eye", &api::Camera::eye)
@@ -41,40 +36,42 @@ void add_picture_values(nb::module_& module) {
       .def_rw("up", &api::Camera::up)
       .def_rw("fov", &api::Camera::fov_y_deg)
       .def_rw("ortho_height", &api::Camera::ortho_height);
-  nb::class_<api::Light>(module, "Light")
+}
+
+/// Texts alone: the Python files beside this one make them of what users give.
+void add_request(nb::module_& module) {
+  nb::class_<api::FieldInfo>(module, "FieldInfo")
+      .def_ro("name", &api::FieldInfo::name)
+      .def_ro("group", &api::FieldInfo::group)
+      .def_ro("kind", &api::FieldInfo::kind)
+      .def_ro("value", &api::FieldInfo::value)
+      .def_ro("help", &api::FieldInfo::help)
+      .def_ro("repeated", &api::FieldInfo::repeated)
+      .def_ro("least", &api::FieldInfo::least)
+      .def_ro("most", &api::FieldInfo::most);
+  nb::class_<api::Request>(module, "Request")
       .def(nb::init<>())
-      .def_prop_rw(
-          "point", [](const api::Light& light) { return light.kind == api::Light::Kind::point; },
-          [](api::Light& light, bool point) {
-            light.kind = point ? api::Light::Kind::point : api::Light::Kind::directional;
-          })
-      .def_rw("position", &api::Light::position)
-      .def_rw("size", &api::Light::size)
-      .def_rw("power", &api::Light::power);
-  nb::class_<api::Look>(module, "Look")
-      .def(nb::init<>())
-      .def_prop_rw(
-          "style", [](const api::Look& look) { return static_cast<int>(look.style); },
-          [](api::Look& look, int style) { look.style = static_cast<api::Style>(style); })
-      .def_rw("lights", &api::Look::lights)
-      .def_rw("environment", &api::Look::environment)
-      .def_rw("environment_strength", &api::Look::environment_strength)
-      .def_rw("environment_turn", &api::Look::environment_turn)
-      .def_rw("materials", &api::Look::materials);
-  nb::class_<api::Settings>(module, "Settings")
-      .def(nb::init<>())
-      .def_rw("samples", &api::Settings::samples)
-      .def_rw("seed", &api::Settings::seed)
-      .def_rw("bounces", &api::Settings::max_bounces)
-      .def_rw("shadows", &api::Settings::shadows)
-      .def_rw("channels", &api::Settings::channels);
+      .def("set", [](api::Request& request, const std::string& name, const std::string& text) { request.set(name, text); })
+      .def("add", [](api::Request& request, const std::string& name, const std::string& text) { request.add(name, text); })
+      .def("set_camera", [](api::Request& request, const api::Camera& camera) { request.set_camera(camera); })
+      .def("add_material", [](api::Request& request, const std::string& object,
+                              const api::Material& material) { request.add_material(object, material); })
+      .def("get", &api::Request::get)
+      .def("json", &api::Request::json)
+      .def("copy", [](const api::Request& request) { return new api::Request(request); })
+      .def_static("from_json", [](const std::string& text) { return new api::Request(api::Request::from_json(text)); })
+      .def_static("of_picture", [](const std::filesystem::path& picture) {
+        return new api::Request(api::Request::of_picture(picture));
+      });
+  module.def("fields", api::Request::fields);
 }
 
 }  // namespace
 
 void add_values(nb::module_& module) {
-  add_scene_values(module);
-  add_picture_values(module);
+  add_material(module);
+  add_camera(module);
+  add_request(module);
 }
 
 }  // namespace splatray::python

@@ -10,10 +10,10 @@ using namespace splatray;
 
 int view(int argc, char** argv) {
   const auto start = ViewStats::Clock::now();
-  const std::optional<ViewOptions> options = parse_view_options(argc, argv);
-  if (!options) return static_cast<int>(ExitCode::done);
+  const std::optional<Request> request = parse_view_options(argc, argv);
+  if (!request) return static_cast<int>(ExitCode::done);
   catch_interrupts();
-  Viewer viewer(*options, start);
+  Viewer viewer(*request, start);
   viewer.run();
   stop_if_interrupted();
   return static_cast<int>(ExitCode::done);

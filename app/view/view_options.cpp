@@ -1,31 +1,24 @@
 #include "app/view/view_options.h"
 
-#include "app/cli/option_types.h"
+#include "app/cli/options.h"
 #include "app/view/model/keys.h"
 
 namespace splatray {
 
-std::optional<ViewOptions> parse_view_options(int argc, char** argv) {
-  ViewOptions options;
-  options.picture.width = options.picture.height = 0;
+std::optional<Request> parse_view_options(int argc, char** argv) {
   OptionList list("Shows a scene of splats in a window.", "splatray-view");
+  GivenFields given;
+  add_fields(list, DOOR_VIEW, "SCENE", given);
+  list.set_group(group_title(FieldGroup::files));
   list.add_answer(
       "--version", [] { return SPLATRAY_VERSION; }, "print the version");
   list.add_answer("--keys", keys_markdown, "print the table of keys as Markdown");
   list.set_footer("\n" + keys_text());
-  add_scene_options(list, options.scene);
-  list.add_value(
-      "--exposure",
-      [&options](const std::string& text) {
-        options.exposure_ev = read_number<double>("--exposure", text, -60.0, 60.0);
-      },
-      {}, "brightness in stops; default: what is seen of a scan becomes middle grey, else 0", "EV");
-  add_path(list, "--stats-json", options.stats_json,
-           "write times, rates, counts and errors here, whenever the picture rests and at the end");
-  add_picture_options(list, options.picture);
   if (!list.parse(argc, argv)) return {};
-  options.scene.params.seed = options.picture.settings.seed;
-  return options;
+  Request request;
+  request.view.width = request.view.height = 0;
+  assign(request, given, DOOR_VIEW);
+  return request;
 }
 
 }  // namespace splatray

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/cli/command_line.h"
-#include "app/cli/reproduce.h"
+#include "app/library/request/command_line.h"
+#include "app/library/picture/reproduce.h"
 #include "app/view/model/attempt.h"
-#include "app/view/model/document_options.h"
+#include "app/view/model/document_request.h"
 #include "app/view/model/navigation.h"
 #include "engine/base/interrupt.h"
 
@@ -29,28 +29,28 @@ bool flies_fast(const Window& window) {
 }
 
 /// With the size of the window that was closed last, unless another is asked for.
-ViewOptions sized(ViewOptions options, const UserState& user) {
-  if (options.picture.width > 0) return options;
-  options.picture.width = static_cast<std::uint32_t>(user.window_width);
-  options.picture.height = static_cast<std::uint32_t>(user.window_height);
-  return options;
+Request sized(Request request, const UserState& user) {
+  if (request.view.width > 0) return request;
+  request.view.width = static_cast<std::uint32_t>(user.window_width);
+  request.view.height = static_cast<std::uint32_t>(user.window_height);
+  return request;
 }
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, Clock::time_point start)
-    : options_(sized(options, user_.state())),
+Viewer::Viewer(const Request& request, Clock::time_point start)
+    : request_(sized(request, user_.state())),
       stats_(start),
-      window_("splatray", options_.picture.width, options_.picture.height),
+      window_("splatray", request_.view.width, request_.view.height),
       presenter_(window_),
       loader_([this] { window_.wake(); }),
-      renderer_(options.picture.device, [this] { window_.wake(); }) {
+      renderer_(request_.settings.device, [this] { window_.wake(); }) {
   panels_.recent_files = user_.state().recent_files;
-  asked_exposure_ev_ = options.exposure_ev;
-  PictureOptions first = options_.picture;
-  first.width = std::max(picture_px().x, 1U);
-  first.height = std::max(picture_px().y, 1U);
-  if (!options_.scene.inputs.empty()) loader_.load(options_.scene, first);
+  asked_exposure_ev_ = request.look.exposure_ev;
+  Request first = request_;
+  first.view.width = std::max(picture_px().x, 1U);
+  first.view.height = std::max(picture_px().y, 1U);
+  if (!request_.source.inputs.empty()) loader_.load(first);
 }
 
 void Viewer::run() {
@@ -78,8 +78,8 @@ void Viewer::run() {
 }
 
 void Viewer::write_stats() {
-  if (!options_.stats_json.empty())
-    stats_.write(options_.stats_json, presenter_.validation_messages() + renderer_.validation_messages());
+  if (!request_.output.stats_json.empty())
+    stats_.write(request_.output.stats_json, presenter_.validation_messages() + renderer_.validation_messages());
 }
 
 /// While a drag changes the picture, the window waits for that picture: on a processor, drawing costs the tracer's time.
@@ -236,7 +236,7 @@ void Viewer::handle(const Requests& requests) {
   for (const Command& command : requests.commands) handle(command);
   if (requests.open) requests.add ? add(*requests.open) : open(*requests.open);
   if (requests.save && scene_) renderer_.save(save_job(document_, *requests.save));
-  if (requests.record && scene_) renderer_.save(save_job(document_, *requests.record));
+  if (requests.change && scene_) open(*requests.change);
   if (requests.cancel) cancel();
 }
 
@@ -247,9 +247,9 @@ void Viewer::cancel() {
 
 void Viewer::copy() {
   if (!scene_) return;
-  RenderOptions options = render_options(document_, picture_px().x, picture_px().y);
-  options.output = panels_.save.path;
-  window_.set_clipboard(command_line(options));
+  Request request = request_of(document_, picture_px().x, picture_px().y);
+  request.output.path = panels_.save.output.path;
+  window_.set_clipboard(command_line(request));
   panels_.notice = "copied a splatray-render command";
 }
 

@@ -20,7 +20,7 @@ namespace splatray {
 class Viewer {
  public:
   /// Opens the window. `start`: of the program. Throws Error (no_device).
-  Viewer(const ViewOptions& options, ViewStats::Clock::time_point start);
+  Viewer(const Request& request, ViewStats::Clock::time_point start);
 
   /// Until the window is closed or a signal comes. State that could not be kept is noted on stderr at the end. Throws Error (failed) when
   /// the window cannot be drawn or the statistics not be written.
@@ -33,7 +33,7 @@ class Viewer {
   void attempt_to(const std::string& doing, const std::function<void()>& step);
   void open(const SceneFiles& files);
   void add(const SceneFiles& files);
-  void open(RenderOptions options);
+  void open(Request request);
   void show(OpenedScene opened);
   void require_scene(const std::filesystem::path& file, const char* found) const;
   void take_files(const SceneFiles& files);
@@ -61,7 +61,7 @@ class Viewer {
   UserMemory user_{user_state_path()};
   std::string unkept_;         ///< why the last change of user_ could not be kept; empty = it was
   glm::uvec2 window_kept_{0};  ///< size of the window that user_ was told last
-  ViewOptions options_;
+  Request request_;  ///< of the command line
   ViewStats stats_;
   Window window_;
   Presenter presenter_;

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/cli/command_line.h"
-#include "app/cli/reproduce.h"
+#include "app/library/request/command_line.h"
+#include "app/library/picture/reproduce.h"
 #include "app/library/camera_file.h"
 #include "app/view/model/attempt.h"
-#include "app/view/model/document_options.h"
+#include "app/view/model/document_request.h"
 #include "app/view/viewer.h"
 #include "app/view/window/drop.h"
 #include "engine/base/error.h"
@@ -15,36 +15,35 @@ namespace splatray {
 
 /// Opens another scene; the first one as the command line says.
 void Viewer::open(const SceneFiles& files) {
-  SceneOptions source = options_.scene;
-  source.inputs = files;
-  source.material.clear();
-  PictureOptions picture = scene_ ? kept_options(document_) : options_.picture;
-  picture.width = picture_px().x;
-  picture.height = picture_px().y;
+  Request request = scene_ ? kept_request(document_) : request_;
+  request.source = request_.source;
+  request.source.inputs = files;
+  request.look.material.clear();
+  request.view.width = picture_px().x;
+  request.view.height = picture_px().y;
   panels_.notice.clear();
-  loader_.load(source, picture);
+  loader_.load(request);
 }
 
 /// Loads the scene shown together with more files.
 void Viewer::add(const SceneFiles& files) {
   if (!scene_) return open(files);
-  const RenderOptions options = options_with(document_, files);
   panels_.notice.clear();
-  loader_.load(options.scene, options.picture);
+  loader_.load(request_with(document_, files));
 }
 
-/// Options of the scene shown change what it looks like, at once; others are loaded.
-void Viewer::open(RenderOptions options) {
-  if (scene_ && is_of_scene(document_, options)) {
-    options.picture.width = std::max(picture_px().x, 1U);
-    options.picture.height = std::max(picture_px().y, 1U);
-    document_ = shown_as(*scene_, document_, options.picture);
+/// A request of the scene shown changes what it looks like, at once; another is loaded.
+void Viewer::open(Request request) {
+  if (scene_ && is_of_scene(document_, request)) {
+    request.view.width = std::max(picture_px().x, 1U);
+    request.view.height = std::max(picture_px().y, 1U);
+    document_ = shown_as(*scene_, document_, request);
   } else {
     panels_.notice.clear();
-    loader_.load(options.scene, options.picture);
+    loader_.load(request);
   }
-  asked_exposure_ev_ = options.exposure_ev;
-  document_.exposure_ev = options.exposure_ev.value_or(0.0);
+  asked_exposure_ev_ = request.look.exposure_ev;
+  document_.exposure_ev = request.look.exposure_ev.value_or(0.0);
 }
 
 void Viewer::show(OpenedScene opened) {
@@ -54,12 +53,14 @@ void Viewer::show(OpenedScene opened) {
   opened.document.mode = document_.mode;
   document_ = std::move(opened.document);
   if (!scene_) {
-    panels_.save.width = panels_.record.width = std::max(picture_px().x, 1U);
-    panels_.save.height = panels_.record.height = std::max(picture_px().y, 1U);
-    panels_.save.samples = panels_.record.samples = document_.settings.samples;
+    for (Request* asked : {&panels_.save, &panels_.record}) {
+      asked->view.width = std::max(picture_px().x, 1U);
+      asked->view.height = std::max(picture_px().y, 1U);
+      asked->settings.samples = document_.settings.samples;
+    }
   }
   scene_ = std::move(opened.scene);
-  const SceneFiles& files = document_.loaded->source.inputs;
+  const SceneFiles& files = document_.loaded->asked.source.inputs;
   remember([&files](UserState& state) { remember_files(state, files); });
   panels_.home = document_.camera;
   panels_.can_add = true;
@@ -89,7 +90,7 @@ void Viewer::take_files(const SceneFiles& files) {
 void Viewer::take_file(const std::filesystem::path& file) {
   switch (drop_kind(file)) {
     case DropKind::picture:
-      return open(read_picture_options(file));
+      return open(read_picture_request(file));
     case DropKind::environment:
       require_scene(file, "an environment");
       document_.environment = file.string();
@@ -124,14 +125,14 @@ void Viewer::remember(const UserChange& change) {
   }
   panels_.recent_files = user_.state().recent_files;
   if (!scene_) return;
-  const auto found = user_.state().bookmarks.find(scene_name(document_.loaded->source.inputs));
+  const auto found = user_.state().bookmarks.find(scene_name(document_.loaded->asked.source.inputs));
   panels_.bookmarks = found != user_.state().bookmarks.end() ? found->second : Bookmarks();
 }
 
 /// Keeps the bookmarks that a command has set.
 void Viewer::remember_bookmarks() {
   if (!scene_) return;
-  const std::string name = scene_name(document_.loaded->source.inputs);
+  const std::string name = scene_name(document_.loaded->asked.source.inputs);
   const Bookmarks now = panels_.bookmarks;
   const auto found = user_.state().bookmarks.find(name);
   const Bookmarks before = found != user_.state().bookmarks.end() ? found->second : Bookmarks();

@@ -1,4 +1,4 @@
-/// The one table of file formats that preprocess reads: help, refusals, the viewer's drops and README follow it.
+/// The one table of file formats that preprocess reads: help, refusals, the viewer's drops and app/guide/formats.md follow it.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -13,7 +13,7 @@ namespace splatray {
 /// One format. It has one of three readers, which throw Error (input_unreadable) with the file's name, or (interrupted).
 struct Format {
   std::string_view extensions;  ///< with their dots, in lower case, a blank between: ".gltf .glb"
-  std::string_view contents;    ///< what is read, as README's table has it
+  std::string_view contents;    ///< what is read, as the guide's table has it
   /// Of a file that is one object; a mesh without triangles is a point set.
   Mesh (*read_mesh)(const std::filesystem::path& path, const ReadOptions& options,
                     const ReadListener& listener);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/cli/sequence.h"
+#include "app/library/picture/sequence.h"
 #include "app/library/camera_file.h"
 #include "engine/base/error.h"
 #include "tests/property/dice.h"

@@ -1,5 +1,5 @@
 /// Options as text and back: every field, every bit.
-#include "app/cli/command_line.h"
+#include "app/library/request/command_line.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "app/library/materials.h"
+#include "app/library/request/request_json.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 #include "tests/property/dice.h"
@@ -37,8 +38,8 @@ std::string odd_text(Dice& dice) {
   return text;
 }
 
-ObjectOptions random_object(Dice& dice) {
-  ObjectOptions object;
+ObjectChange random_object(Dice& dice) {
+  ObjectChange object;
   object.object = odd_text(dice);
   if (dice.chance(0.5)) object.preset = material_names()[dice.below(std::uint32_t(material_names().size()))];
   maybe(dice, object.diffuse, color(dice));
@@ -53,14 +54,14 @@ ObjectOptions random_object(Dice& dice) {
   return object;
 }
 
-LightOptions random_light(Dice& dice) {
-  LightOptions light{dice.chance(0.5) ? LIGHT_POINT : LIGHT_DIRECTIONAL, vector(dice), {}};
+LightRequest random_light(Dice& dice) {
+  LightRequest light{dice.chance(0.5) ? LIGHT_POINT : LIGHT_DIRECTIONAL, vector(dice), {}};
   maybe(dice, light.power, color(dice) * static_cast<float>(number(dice, 1e-6, 1e6)));
   return light;
 }
 
-SceneOptions random_scene(Dice& dice) {
-  SceneOptions scene;
+Request::Source random_source(Dice& dice) {
+  Request::Source scene;
   for (std::uint32_t i = dice.below(3) + 1; i > 0; --i) scene.inputs.emplace_back(odd_text(dice) + "b.ply");
   for (std::uint32_t i = dice.below(3); i > 0; --i) scene.data_paths.emplace_back("-" + odd_text(dice));
   scene.threads = dice.below(8);
@@ -83,12 +84,11 @@ SceneOptions random_scene(Dice& dice) {
   params.normal_fields = dice.chance(0.5);
   params.keep_strays = dice.chance(0.5);
   params.smooth_world = dice.chance(0.3) ? -1.0 : dice.chance(0.3) ? 0.0 : 0.25 * (1 + dice.below(8));
-  if (dice.chance(0.5)) scene.material = material_names()[dice.below(std::uint32_t(material_names().size()))];
   return scene;
 }
 
-Settings random_settings(Dice& dice) {
-  Settings settings;
+Request::Settings random_settings(Dice& dice) {
+  Request::Settings settings;
   settings.samples = 1 + dice.below(65536);
   settings.seed = static_cast<std::uint32_t>(dice.seed());
   settings.max_bounces = dice.below(65);
@@ -104,43 +104,45 @@ Settings random_settings(Dice& dice) {
   return settings;
 }
 
-PictureOptions random_picture(Dice& dice) {
-  PictureOptions picture;
-  picture.width = 1 + dice.below(32768);
-  picture.height = 1 + dice.below(32768);
-  maybe(dice, picture.eye, vector(dice));
-  if (picture.eye) {
-    maybe(dice, picture.target, vector(dice));
-    maybe(dice, picture.camera_up, vector(dice));
-    if (dice.chance(0.5)) picture.ortho_height = number(dice, 1e-9, 1e9);
+Request random_picture(Dice& dice) {
+  Request request;
+  request.view.width = 1 + dice.below(32768);
+  request.view.height = 1 + dice.below(32768);
+  maybe(dice, request.view.eye, vector(dice));
+  if (request.view.eye) {
+    maybe(dice, request.view.target, vector(dice));
+    maybe(dice, request.view.camera_up, vector(dice));
+    if (dice.chance(0.5)) request.view.ortho_height = number(dice, 1e-9, 1e9);
   }
-  maybe(dice, picture.up, vector(dice));
-  picture.viewpoint = static_cast<Viewpoint>(dice.below(5));
-  maybe(dice, picture.fov_y_deg, number(dice, 0.01, 179.0));
-  if (dice.chance(0.7)) picture.lights.emplace();
-  for (std::uint32_t i = picture.lights ? dice.below(4) : 0; i > 0; --i)
-    picture.lights->push_back(random_light(dice));
-  for (std::uint32_t i = dice.below(3); i > 0; --i) picture.objects.push_back(random_object(dice));
-  if (dice.chance(0.5)) picture.environment = odd_text(dice);
-  if (dice.chance(0.5)) picture.attributes.color_by = odd_text(dice);
+  maybe(dice, request.look.up, vector(dice));
+  request.view.viewpoint = static_cast<Viewpoint>(dice.below(5));
+  maybe(dice, request.view.fov_y_deg, number(dice, 0.01, 179.0));
+  if (dice.chance(0.7)) request.look.lights.emplace();
+  for (std::uint32_t i = request.look.lights ? dice.below(4) : 0; i > 0; --i)
+    request.look.lights->push_back(random_light(dice));
+  for (std::uint32_t i = dice.below(3); i > 0; --i) request.look.objects.push_back(random_object(dice));
+  if (dice.chance(0.5)) request.look.environment = odd_text(dice);
+  if (dice.chance(0.5)) request.look.attributes.color_by = odd_text(dice);
   const double low = number(dice, 1e-9, 1e9);
-  maybe(dice, picture.attributes.color_range, {low, low + number(dice, 1.0, 1e9)});
+  maybe(dice, request.look.attributes.color_range, {low, low + number(dice, 1.0, 1e9)});
   for (std::uint32_t i = dice.below(3); i > 0; --i)
-    picture.attributes.hidden_classes.push_back(dice.below(256));
+    request.look.attributes.hidden_classes.push_back(dice.below(256));
   for (std::uint32_t i = dice.below(3); i > 0; --i)
-    picture.attributes.hidden_scans.push_back(dice.below(65536));
-  maybe(dice, picture.delta_world, number(dice, 1e-9, 1e9));
-  picture.settings = random_settings(dice);
-  if (dice.chance(0.5)) picture.device = odd_text(dice);
-  return picture;
+    request.look.attributes.hidden_scans.push_back(dice.below(65536));
+  if (dice.chance(0.5))
+    request.look.material = material_names()[dice.below(std::uint32_t(material_names().size()))];
+  request.settings = random_settings(dice);
+  maybe(dice, request.settings.asked_delta_world, number(dice, 1e-9, 1e9));
+  if (dice.chance(0.5)) request.settings.device = odd_text(dice);
+  return request;
 }
 
 /// A sequence that goes with the picture's camera, or none.
-SequenceOptions random_sequence(Dice& dice, const PictureOptions& picture) {
-  SequenceOptions sequence;
+Request::Output random_sequence(Dice& dice, const Request& request) {
+  Request::Output sequence;
   sequence.skip_existing = dice.chance(0.5);
   if (dice.chance(0.5)) return sequence;
-  if (picture.eye || picture.fov_y_deg)
+  if (request.view.eye || request.view.fov_y_deg)
     sequence.turntable = 1 + dice.below(999999);
   else
     sequence.camera_path = odd_text(dice);
@@ -151,59 +153,68 @@ SequenceOptions random_sequence(Dice& dice, const PictureOptions& picture) {
   return sequence;
 }
 
-RenderOptions random_options(Dice& dice) {
-  RenderOptions options;
-  options.scene = random_scene(dice);
-  options.picture = random_picture(dice);
-  options.scene.params.seed = options.picture.settings.seed;
-  options.output = odd_text(dice) + "/b##.exr";
-  options.exposure_ev = dice.between(-60.0, 60.0);
-  options.aov_depth = dice.chance(0.5);
-  options.aov_normal = dice.chance(0.5);
-  options.aov_id = dice.chance(0.5);
-  options.picture.settings.aov = options.aov_depth || options.aov_normal || options.aov_id;
-  if (dice.chance(0.5)) options.stats_json = odd_text(dice);
-  options.sequence = random_sequence(dice, options.picture);
-  if (dice.chance(0.5) && !options.sequence.many()) options.reference = odd_text(dice);
-  options.reference_threshold = dice.unit();
-  options.reference_share = dice.unit();
-  options.reference_limit = dice.unit();
-  options.list_devices = dice.chance(0.2);
-  options.quiet = dice.chance(0.5);
-  return options;
+Request random_request(Dice& dice) {
+  Request request = random_picture(dice);
+  request.source = random_source(dice);
+  request.source.params.seed = request.settings.seed;
+  request.output = random_sequence(dice, request);
+  request.output.path = odd_text(dice) + "/b##.exr";
+  request.look.exposure_ev = dice.between(-60.0, 60.0);
+  request.output.aov_depth = dice.chance(0.5);
+  request.output.aov_normal = dice.chance(0.5);
+  request.output.aov_id = dice.chance(0.5);
+  request.settings.aov = request.output.aov_depth || request.output.aov_normal || request.output.aov_id;
+  if (dice.chance(0.5)) request.output.stats_json = odd_text(dice);
+  if (dice.chance(0.5) && !request.output.many()) request.output.reference = odd_text(dice);
+  request.output.reference_threshold = dice.unit();
+  request.output.reference_share = dice.unit();
+  request.output.reference_limit = dice.unit();
+  request.output.list_devices = dice.chance(0.2);
+  request.output.quiet = dice.chance(0.5);
+  return request;
 }
 
 TEST(CommandLine, RandomOptionsComeBackEqual) {
+  int in_json = 0;
   for (std::uint64_t round = 0; round < 500; ++round) {
     Dice dice(round);
-    const RenderOptions options = random_options(dice);
-    const std::string line = command_line(options);
-    ASSERT_EQ(parse_command_line(line), options) << "round " << round << ": " << line;
+    const Request request = random_request(dice);
+    const std::string line = command_line(request);
+    ASSERT_EQ(parse_command_line(line), request) << "round " << round << ": " << line;
+    std::string json;
+    try {
+      json = request_json(request);
+    } catch (const Error&) {
+      continue;  // bytes at random are not always UTF-8
+    }
+    ASSERT_EQ(read_request_text(json, "the test"), request) << "round " << round << ": " << json;
+    ++in_json;
   }
+  EXPECT_GT(in_json, 50);
 }
 
 TEST(CommandLine, HoldsOnlyWhatDiffersFromTheDefaults) {
-  RenderOptions options;
-  options.scene.inputs = {"a b.ply"};
-  options.output = "o.png";
-  EXPECT_EQ(command_line(options), "splatray-render 'a b.ply' -o o.png");
-  options.picture.lights.emplace();
-  options.picture.settings.kappa = 0.1F;
-  options.picture.objects = {read_object_options("a:b:hidden=on,mirror=0.25")};
+  Request request;
+  request.source.inputs = {"a b.ply"};
+  request.output.path = "o.png";
+  EXPECT_EQ(command_line(request), "splatray-render 'a b.ply' -o o.png");
+  request.look.lights.emplace();
+  request.settings.kappa = 0.1F;
+  request.look.objects = {read_object_change("a:b:hidden=on,mirror=0.25")};
   EXPECT_EQ(
-      command_line(options),
-      "splatray-render 'a b.ply' -o o.png --lights=none --object=a:b:mirror=0.25,hidden=on --kappa=0.1");
+      command_line(request),
+      "splatray-render 'a b.ply' --object=a:b:mirror=0.25,hidden=on --lights=none -o o.png --kappa=0.1");
 }
 
 TEST(CommandLine, AcceptsWhatPeoplePaste) {
-  const RenderOptions options = parse_command_line(
+  const Request request = parse_command_line(
       "  build/bin/splatray-render \"it's \\$5.ply\" \\\n --eye -1,2,3 --light 1,2,3 --sun 0,1,0,1,1,1 "
       "--light=4,5,6\n");
-  EXPECT_EQ(options.scene.inputs.front(), "it's $5.ply");
-  EXPECT_EQ(options.picture.eye, glm::dvec3(-1.0, 2.0, 3.0));
-  ASSERT_EQ(options.picture.lights->size(), 3U);
-  EXPECT_EQ((*options.picture.lights)[1].kind, LIGHT_DIRECTIONAL);
-  EXPECT_EQ((*options.picture.lights)[2].position, glm::dvec3(4.0, 5.0, 6.0));
+  EXPECT_EQ(request.source.inputs.front(), "it's $5.ply");
+  EXPECT_EQ(request.view.eye, glm::dvec3(-1.0, 2.0, 3.0));
+  ASSERT_EQ(request.look.lights->size(), 3U);
+  EXPECT_EQ((*request.look.lights)[1].kind, LIGHT_DIRECTIONAL);
+  EXPECT_EQ((*request.look.lights)[2].position, glm::dvec3(4.0, 5.0, 6.0));
 }
 
 TEST(CommandLine, RefusesWhatIsNoCommand) {

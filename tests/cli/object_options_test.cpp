@@ -1,5 +1,5 @@
 /// Changes to single objects' materials.
-#include "app/cli/object_options.h"
+#include "app/library/request/object_change.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ ObjectLooks matte() {
 std::string refusal(const std::string& text) {
   try {
     ObjectLooks looks = matte();
-    apply_object_options({read_object_options(text)}, NAMES, looks);
+    apply_object_changes({read_object_change(text)}, NAMES, looks);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     return error.what();
@@ -32,12 +32,12 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-TEST(ObjectOptions, ChangesWhatIsSetAndNothingElse) {
+TEST(ObjectChange, ChangesWhatIsSetAndNothingElse) {
   ObjectLooks looks = matte();
   const std::vector<Material>& materials = looks.materials;
-  apply_object_options(
-      {read_object_options("dragon:preset=gold,hidden=on"), read_object_options("a:b:mirror=0.25"),
-       read_object_options("2:diffuse=1/0/0.5,two-sided=off")},
+  apply_object_changes(
+      {read_object_change("dragon:preset=gold,hidden=on"), read_object_change("a:b:mirror=0.25"),
+       read_object_change("2:diffuse=1/0/0.5,two-sided=off")},
       NAMES, looks);
   EXPECT_EQ(materials[0].tint, named_material("gold").tint);
   EXPECT_EQ(materials[0].flags, MATERIAL_TWO_SIDED | MATERIAL_HIDDEN);
@@ -48,17 +48,17 @@ TEST(ObjectOptions, ChangesWhatIsSetAndNothingElse) {
   EXPECT_EQ(materials[3].diffuse, named_material("matte").diffuse);
 }
 
-TEST(ObjectOptions, ObjectsKeepTheirBit) {
+TEST(ObjectChange, ObjectsKeepTheirBit) {
   ObjectLooks looks = matte();
   const std::vector<Material>& materials = looks.materials;
   looks.materials[4].mask_bit = 3;
-  apply_object_options({read_object_options("4:preset=glass"), read_object_options("4:ior=1.3")}, NAMES,
+  apply_object_changes({read_object_change("4:preset=glass"), read_object_change("4:ior=1.3")}, NAMES,
                        looks);
   EXPECT_NE(materials[4].flags & MATERIAL_DIELECTRIC, 0U);
   EXPECT_EQ(materials[4].mask_bit, 3U);
 }
 
-TEST(ObjectOptions, RefusalsNameWhatExists) {
+TEST(ObjectChange, RefusalsNameWhatExists) {
   EXPECT_NE(refusal("dragoon:hidden=on").find("'dragon', 'a:b'"), std::string::npos);
   EXPECT_NE(refusal("6:hidden=on").find("below 6"), std::string::npos);
   EXPECT_NE(refusal("twin:hidden=on").find("several"), std::string::npos);
@@ -71,12 +71,12 @@ TEST(ObjectOptions, RefusalsNameWhatExists) {
     EXPECT_NE(refusal(text), "") << text;
 }
 
-TEST(ObjectOptions, SurfacesFollowMaterials) {
+TEST(ObjectChange, SurfacesFollowMaterials) {
   ObjectLooks looks = matte();
   looks.surfaces[1].emission = vec3(2.0F);
-  apply_object_options(
-      {read_object_options("dragon:preset=gold,roughness=0.3"), read_object_options("1:two-sided=off"),
-       read_object_options("2:emission=5/4/0,coat=1,coat-roughness=0.2,metallic=0.5")},
+  apply_object_changes(
+      {read_object_change("dragon:preset=gold,roughness=0.3"), read_object_change("1:two-sided=off"),
+       read_object_change("2:emission=5/4/0,coat=1,coat-roughness=0.2,metallic=0.5")},
       NAMES, looks);
   EXPECT_EQ(looks.surfaces[0].metallic, 1.0F);
   EXPECT_EQ(looks.surfaces[0].roughness, 0.3F);
@@ -87,38 +87,38 @@ TEST(ObjectOptions, SurfacesFollowMaterials) {
   EXPECT_NE(refusal("dragon:emission=-1/0/0"), "");
 }
 
-TEST(ObjectOptions, TheOrderOfKeysDoesNotMatter) {
+TEST(ObjectChange, TheOrderOfKeysDoesNotMatter) {
   const std::vector<std::string> texts = {"0:roughness=0.1,metallic=1", "0:diffuse=0.5/0.5/0.5",
                                           "dragon:specular=0.5", "0:preset=glossy", "0:two-sided=off"};
   std::vector<std::size_t> order = {0, 1, 2, 3, 4};
   std::optional<ObjectLooks> first;
   do {
-    std::vector<ObjectOptions> options;
-    for (const std::size_t i : order) options.push_back(read_object_options(texts[i]));
+    std::vector<ObjectChange> options;
+    for (const std::size_t i : order) options.push_back(read_object_change(texts[i]));
     ObjectLooks looks = matte();
-    apply_object_options(options, NAMES, looks);
+    apply_object_changes(options, NAMES, looks);
     EXPECT_EQ(looks.surfaces[0].roughness, 0.1F);
     EXPECT_EQ(looks.surfaces[0].metallic, 1.0F);
     EXPECT_EQ(looks.surfaces[0].base, vec3(0.5F));
     if (!first) first = looks;
-    EXPECT_TRUE(object_options_between(*first, looks, NAMES).empty());
+    EXPECT_TRUE(object_changes_between(*first, looks, NAMES).empty());
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
-TEST(ObjectOptions, ASurfaceOfItsOwnStaysWhenItsMaterialChanges) {
+TEST(ObjectChange, ASurfaceOfItsOwnStaysWhenItsMaterialChanges) {
   ObjectLooks looks = matte();
   looks.surfaces[0].metallic = 0.7F;
   looks.surfaces[0].emission = vec3(2.0F);
-  apply_object_options({read_object_options("0:diffuse=0.1/0.2/0.3")}, NAMES, looks);
+  apply_object_changes({read_object_change("0:diffuse=0.1/0.2/0.3")}, NAMES, looks);
   EXPECT_EQ(looks.surfaces[0].metallic, 0.7F);
   EXPECT_EQ(looks.surfaces[0].emission, vec3(2.0F));
   EXPECT_EQ(looks.surfaces[0].base, vec3(0.1F, 0.2F, 0.3F));
-  apply_object_options({read_object_options("0:preset=gold")}, NAMES, looks);
+  apply_object_changes({read_object_change("0:preset=gold")}, NAMES, looks);
   EXPECT_EQ(looks.surfaces[0].metallic, 1.0F);
   EXPECT_EQ(looks.surfaces[0].emission, vec3(0.0F)) << "a preset replaces all";
 }
 
-TEST(ObjectOptions, DifferencesAreFoundAndAppliedAgain) {
+TEST(ObjectChange, DifferencesAreFoundAndAppliedAgain) {
   const ObjectLooks loaded = matte();
   ObjectLooks shown = loaded;
   shown.materials[0] = named_material("glass");
@@ -129,15 +129,15 @@ TEST(ObjectOptions, DifferencesAreFoundAndAppliedAgain) {
   shown.surfaces[3] = surface_of(shown.materials[3]);
   shown.materials[4].shininess = 7.7F;
   shown.surfaces[5].emission = vec3(3.0F, 0.0F, 0.0F);
-  const auto changes = object_options_between(loaded, shown, NAMES);
+  const auto changes = object_changes_between(loaded, shown, NAMES);
   ASSERT_EQ(changes.size(), 5U);
   EXPECT_EQ(changes[1].object, "a:b");
   EXPECT_EQ(changes[2].object, "3");
   ObjectLooks again = loaded;
-  std::vector<ObjectOptions> read;
-  for (const ObjectOptions& change : changes) read.push_back(read_object_options(object_text(change)));
-  apply_object_options(read, NAMES, again);
-  EXPECT_TRUE(object_options_between(shown, again, NAMES).empty());
+  std::vector<ObjectChange> read;
+  for (const ObjectChange& change : changes) read.push_back(read_object_change(object_text(change)));
+  apply_object_changes(read, NAMES, again);
+  EXPECT_TRUE(object_changes_between(shown, again, NAMES).empty());
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST_F(CliOutputs, ReadOnlyFolder) {
 TEST_F(CliOutputs, ErrorsOfOddFileNamesAreOneLine) {
   for (const char* name : {"no\nsuch.soct", "no\nsuch.ply"})
     expect_refused([&] { return render({file(name)}); }, 3, "no?such");
-  expect_refused([&] { return render({grid, "--env", file("no\nsuch.hdr")}); }, 3, "no?such");
+  expect_refused([&] { return render({grid, "--environment", file("no\nsuch.hdr")}); }, 3, "no?such");
   expect_refused([&] { return render({grid, "--camera", file("no\nsuch.json")}); }, 3, "no?such");
 }
 

@@ -1,5 +1,5 @@
 /// Scenes as options ask for them.
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +15,12 @@ namespace {
 double outward_share(const std::string& material) {
   const std::string path = ::testing::TempDir() + "inwards.obj";
   std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
-  SceneOptions options;
-  options.inputs = {path};
-  options.material = material;
-  options.params.samples = 400;
+  Request request;
+  request.source.inputs = {path};
+  request.look.material = material;
+  request.source.params.samples = 400;
   const LoadListener listener{[](const char*, double) { return true; }, [](const std::string&) {}};
-  const Scene scene = load_scene(options, {}, listener).scene;
+  const Scene scene = load_scene(request, listener).scene;
   double outward = 0.0;
   for (const uvec4& words : scene.data_pool) {
     const Splat splat = unpack_splat(words);
@@ -34,19 +34,36 @@ TEST(LoadScene, NobodyNeedsToListen) {
   const std::string path = ::testing::TempDir() + "quiet.obj",
                     scene_path = ::testing::TempDir() + "quiet.soct";
   std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 1\n";
-  SceneOptions options;
-  options.inputs = {path};
-  const LoadedScene loaded = load_scene(options, {}, {});
+  Request request;
+  request.source.inputs = {path};
+  const LoadedScene loaded = load_scene(request, {});
   EXPECT_GT(loaded.scene.data_pool.size(), 0U);
   write_scene(loaded.scene, scene_path);
-  options.inputs = {scene_path};
-  EXPECT_EQ(load_scene(options, {}, {}).scene.data_pool, loaded.scene.data_pool);
+  request.source.inputs = {scene_path};
+  EXPECT_EQ(load_scene(request, {}).scene.data_pool, loaded.scene.data_pool);
 }
 
 TEST(LoadScene, GlassOfAMeshWoundInwardsIsTurnedOutwards) {
   EXPECT_EQ(outward_share("glass"), 1.0);
   EXPECT_EQ(outward_share("gold"), 0.0);  // all else stays as it was made
   EXPECT_EQ(outward_share(""), 0.0);
+}
+
+TEST(OwnLights, RectanglesArePointsInThePapersLook) {
+  Scene scene;
+  scene.bounds_min_world = glm::dvec3(-1.0);
+  scene.bounds_max_world = glm::dvec3(1.0);
+  SceneLight lamp{LIGHT_RECTANGLE, {0.0, 5.0, 0.0}, glm::vec3(3.0F)};
+  lamp.edge_u = {0.5, 0.0, 0.0};
+  lamp.edge_v = {0.0, 0.0, 1.0};  // it shines down
+  scene.lights = {lamp};
+  const std::vector<SceneLight> lit = own_lights(scene, false, LOOK_LIT, {});
+  EXPECT_EQ(lit, exposed_lights(scene));
+  const std::vector<SceneLight> paper = own_lights(scene, false, LOOK_PAPER, {});
+  ASSERT_EQ(paper.size(), 1U);
+  EXPECT_EQ(paper[0].kind, LIGHT_POINT);
+  EXPECT_GT(summed_irradiance(scene, lit), 0.0);
+  EXPECT_NEAR(summed_irradiance(scene, paper) / summed_irradiance(scene, lit), 1.0, 1e-6);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {
@@ -18,8 +18,8 @@ Scene site() {
 
 Scene room() { return scan_scene(box_points({4.0, 5.0, 3.0}, true)); }
 
-PictureOptions suited(const Scene& scene, const PictureOptions& picture = {}) {
-  return suited_picture(scene, picture).picture;
+Request suited(const Scene& scene, const Request& request = {}) {
+  return suited_picture(scene, request).request;
 }
 
 /// A grey for each splat, from `dark` to `bright`.
@@ -35,17 +35,17 @@ TEST(SuitedPicture, OfAModelIsAsAskedFor) {
   Scene model = site();
   model.stations.clear();
   const SuitedPicture picture = suited_picture(model, {});
-  EXPECT_EQ(picture.picture, PictureOptions{});
+  EXPECT_EQ(picture.request, Request{});
   EXPECT_EQ(picture.told, "");
 }
 
 TEST(SuitedPicture, WithoutColoursShowsTheShapeInLight) {
   const SuitedPicture land = suited_picture(site(), {});
   EXPECT_EQ(land.told, "a site: --view oblique --color-by height --look lit");
-  EXPECT_EQ(land.picture.viewpoint, Viewpoint::oblique);
-  EXPECT_EQ(land.picture.attributes.color_by, "height");
-  EXPECT_EQ(land.picture.look, LOOK_LIT);
-  EXPECT_FALSE(land.picture.settings.cutaway);
+  EXPECT_EQ(land.request.view.viewpoint, Viewpoint::oblique);
+  EXPECT_EQ(land.request.look.attributes.color_by, "height");
+  EXPECT_EQ(land.request.look.style, LOOK_LIT);
+  EXPECT_FALSE(land.request.settings.cutaway);
 }
 
 TEST(SuitedPicture, RoomsLieOpenUnlessAScannerStandsInThem) {
@@ -56,7 +56,7 @@ TEST(SuitedPicture, RoomsLieOpenUnlessAScannerStandsInThem) {
   const SuitedPicture inside = suited_picture(scene, {});
   EXPECT_EQ(inside.told, "a room: --view inside --color-by height --look scan")
       << "light comes from outside, which a closed room has none of";
-  EXPECT_FALSE(inside.picture.settings.cutaway);
+  EXPECT_FALSE(inside.request.settings.cutaway);
 }
 
 TEST(SuitedPicture, ColoursThatSaySomethingComeFirst) {
@@ -64,40 +64,40 @@ TEST(SuitedPicture, ColoursThatSaySomethingComeFirst) {
   std::vector<float> intensity(scene.data_pool.size());
   for (std::size_t i = 0; i < intensity.size(); ++i) intensity[i] = static_cast<float>(i % 200);
   scene.columns = {{std::string(COLUMN_INTENSITY), intensity}};
-  EXPECT_EQ(suited(scene).attributes.color_by, "height+intensity");
-  EXPECT_EQ(suited(scene).look, LOOK_LIT);
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "height+intensity");
+  EXPECT_EQ(suited(scene).look.style, LOOK_LIT);
   colour(scene, 0.5F, 0.5F);
-  EXPECT_EQ(suited(scene).attributes.color_by, "height+intensity") << "all colours are one";
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "height+intensity") << "all colours are one";
   colour(scene, 0.1F, 0.8F);
-  EXPECT_EQ(suited(scene).attributes.color_by, "rgb");
-  EXPECT_EQ(suited(scene).look, LOOK_SCAN);
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "rgb");
+  EXPECT_EQ(suited(scene).look.style, LOOK_SCAN);
   colour(scene, 0.0F, 0.0F);
   intensity.assign(intensity.size(), 7.0F);
   intensity.back() = 9.0F;
   scene.columns = {{std::string(COLUMN_INTENSITY), intensity}};
-  EXPECT_EQ(suited(scene).attributes.color_by, "height") << "nor does one value say anything";
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "height") << "nor does one value say anything";
 }
 
 TEST(SuitedPicture, WhatIsAskedForStays) {
-  PictureOptions asked;
-  asked.viewpoint = Viewpoint::top;
-  asked.attributes.color_by = "normal";
-  asked.look = LOOK_CLAY;
+  Request asked;
+  asked.view.viewpoint = Viewpoint::top;
+  asked.look.attributes.color_by = "normal";
+  asked.look.style = LOOK_CLAY;
   const SuitedPicture picture = suited_picture(room(), asked);
-  EXPECT_EQ(picture.picture, asked);
+  EXPECT_EQ(picture.request, asked);
   EXPECT_EQ(picture.told, "");
-  asked.look.reset();
-  asked.environment = "white";
-  EXPECT_FALSE(suited(room(), asked).look) << "an environment asks for its light";
+  asked.look.style.reset();
+  asked.look.environment = "white";
+  EXPECT_FALSE(suited(room(), asked).look.style) << "an environment asks for its light";
 }
 
 TEST(SuitedPicture, ADollhouseMayBeSeenFromAnEyeOfOnesOwn) {
-  PictureOptions asked;
-  asked.viewpoint = Viewpoint::dollhouse;
-  asked.eye = glm::dvec3(0.0, 0.0, 9.0);
+  Request asked;
+  asked.view.viewpoint = Viewpoint::dollhouse;
+  asked.view.eye = glm::dvec3(0.0, 0.0, 9.0);
   EXPECT_TRUE(suited(room(), asked).settings.cutaway);
-  EXPECT_EQ(choose_camera(room(), suited(room(), asked)).eye, *asked.eye);
-  asked.viewpoint = Viewpoint::automatic;
+  EXPECT_EQ(choose_camera(room(), suited(room(), asked)).eye, *asked.view.eye);
+  asked.view.viewpoint = Viewpoint::automatic;
   EXPECT_FALSE(suited(room(), asked).settings.cutaway);
 }
 

@@ -1,7 +1,7 @@
 // The targets that read small files of text: cameras, the viewer's state, a picture's command.
 #include <cmath>
 
-#include "app/cli/command_line.h"
+#include "app/library/request/command_line.h"
 #include "app/library/camera_file.h"
 #include "app/view/model/user_files.h"
 #include "tests/fuzz/memory_folder.h"
@@ -45,7 +45,7 @@ void fuzz_user_state(FuzzBytes bytes) {
 void fuzz_command_line(FuzzBytes bytes) {
   const std::string text(bytes.begin(), bytes.end());
   try {
-    const RenderOptions options = parse_command_line(text);
+    const Request request = parse_command_line(text);
     const std::string again = command_line(options);
     require(command_line(parse_command_line(again)) == again, "a command is read as it was written");
   } catch (const Error& error) {

@@ -1,5 +1,5 @@
 """install_test.py BUILD CONSUMER LIBDIR: installs the library of a build tree, builds CONSUMER against it by find_package and, after the
-tree has moved, by pkg-config, and runs both. Each finding ends the test with a sentence."""
+tree has moved, by pkg-config, and runs both; then the guide's program (app/guide/embed.md). Each finding ends the test with a sentence."""
 
 import os
 import pathlib
@@ -10,6 +10,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).parents[1] / "structure"))
+import page_inputs  # noqa: E402  (lies in the folder just named)
 
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror"]
 
@@ -66,6 +69,23 @@ def by_pkg_config(prefix, libdir, consumer, work):
     return program
 
 
+def by_guide(build, source, work):
+    """The guide's page about C++: its files, built and run by its commands, the first of them in splatray's folder."""
+    page = (source / "app/guide/embed.md").read_text()
+    theirs, ours = work / "theirs", work / "ours"
+    (theirs / "build").mkdir(parents=True)
+    (theirs / "build/release").symlink_to(build)
+    ours.mkdir()
+    for name, language in (("CMakeLists.txt", "cmake"), ("main.cpp", "cpp")):
+        (ours / name).write_text(re.search(rf"`{re.escape(name)}`:\n\n```{language}\n(.*?)```", page, re.DOTALL).group(1))
+    (ours / "survey.laz").write_bytes(page_inputs.survey())
+    commands = re.findall(r"```sh\n(.*?)```", page, re.DOTALL)
+    for command, folder in zip(commands, (theirs, ours), strict=True):
+        shown = run("bash", "-euc", command, cwd=folder, env=own_places(work))
+    if not re.search(r"3600 discs, 59(\.\d+)? across\nthe ray meets object 0 at distance ", shown) or not (ours / "picture.png").exists():
+        sys.exit(f"the guide's program showed\n{shown}expected its discs, a hit and a picture")
+
+
 def check_memory_only(program, work):
     """Scenes of arrays are built, shown and traced where no file can be written; all else the program does cannot be done there."""
     # Neither Mesa nor the validation layer keeps compiled shaders.
@@ -97,6 +117,7 @@ def main():
         program = by_pkg_config(moved, libdir, consumer, work)
         run(program, work, env=own_places(work))
         check_memory_only(program, work)
+        by_guide(build, consumer.parent.parent.parent, work)
 
 
 if __name__ == "__main__":

@@ -28,9 +28,9 @@ int body(int argc, char** argv) {
   add_number(list, "--rounds", rounds, 1, 1e9, "at least so many, however long they take; default 1");
   const auto read_seed = [&](const std::string& text) {
     seed =
-        text == "random" ? std::random_device()() : read_number<std::uint64_t>("--seed", text, 0, MOST_SEED);
+        text == "random" ? std::random_device()() : read_option<std::uint64_t>("--seed", text, 0, MOST_SEED);
   };
-  list.add_value("--seed", read_seed, {}, "of the first round, or random; default 1", "N|random");
+  list.add_value("--seed", read_seed, "of the first round, or random; default 1", "N|random");
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   const Context context;
   Tracer tracers[] = {Tracer(context), Tracer(context, {.kernels = Kernels::gpu})};

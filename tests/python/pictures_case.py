@@ -1,6 +1,7 @@
 """Pictures: arrays without copies, files, threads, interrupts."""
 
 import copy
+import inspect
 import os
 import pathlib
 import pickle
@@ -61,7 +62,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(t[0], self.scene.trace([[3.0, 0.0, 0.0]], [[-1.0, 0.0, 0.0]]).t[0])
 
     def test_pixels_are_views(self):
-        image = self.scene.render(size=(32, 18), samples=1, channels=True)
+        image = self.scene.render(size=(32, 18), samples=1, aov="depth,normal,id")
         self.assertTrue(np.shares_memory(image.pixels, image.pixels))
         self.assertTrue(np.shares_memory(np.asarray(image), image.pixels))
         kept = image.pixels
@@ -69,9 +70,33 @@ class Pictures(unittest.TestCase):
         del image
         np.testing.assert_array_equal(kept, copy)
 
+    def test_requests_say_what_arguments_say(self):
+        fields = dict(samples=2, environment="black", lights=[sr.sun((0, 0, 1)), sr.point_light((0, 0, 3), 5.0)], bounces=3)
+        request = sr.Request(resolution=(32, 18), **fields)
+        pixels = self.scene.render(size=(32, 18), **fields).pixels
+        for again in (request, pickle.loads(pickle.dumps(request)), sr.Request.from_json(request.json()), copy.deepcopy(request)):
+            self.assertEqual(again, request)
+            np.testing.assert_array_equal(self.scene.render(request=again).pixels, pixels)
+        self.assertEqual(request.replace(samples=5).get("samples"), ["5"])
+        self.assertEqual(request.get("samples"), ["2"])
+        self.assertGreater(np.abs(pixels - self.scene.render(request=request, environment="white").pixels).max(), 0.01)
+        rough = sr.Material(mirror=1.0, roughness=0.9)
+        self.assertGreater(np.abs(self.scene.render(size=(32, 18), materials={"ball": sr.Material(mirror=1.0)}).pixels
+                                  - self.scene.render(size=(32, 18), materials={"ball": rough}).pixels).max(), 0.01)
+
+    def test_every_field_is_in_a_signature(self):
+        told = {name for call in (sr.open, sr.points, sr.Scene.render) for name in inspect.signature(call).parameters}
+        from splatray.request import CAMERA, FIELDS, LIGHTS
+        for name, field in FIELDS.items():
+            if field.group == "Output" or name in LIGHTS or name in ("inputs", "resolution"):
+                continue  # of files, or there under another name: lights, files, size
+            self.assertIn(name, told)
+            self.assertTrue(any(f"{name}: " in call.__doc__ for call in (sr.open, sr.Scene.render)), name)
+        self.assertTrue(set(CAMERA) < told)
+
     def test_pictures_are_pickled_and_copied(self):
-        for channels in (False, True):
-            image = self.scene.render(size=(32, 18), samples=1, channels=channels)
+        for channels in ("", "depth,normal,id"):
+            image = self.scene.render(size=(32, 18), samples=1, aov=channels)
             for again in (pickle.loads(pickle.dumps(image)), copy.deepcopy(image)):
                 for name in ("pixels", "depth", "normal", "object"):
                     np.testing.assert_array_equal(getattr(again, name), getattr(image, name))
@@ -80,7 +105,7 @@ class Pictures(unittest.TestCase):
 
     def test_channels_agree_with_the_sphere(self):
         camera = sr.Camera((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), fov=40)
-        image = self.scene.render(camera, (64, 64), samples=1, channels=True)
+        image = self.scene.render(camera, (64, 64), samples=1, aov="depth,normal,id")
         self.assertIsNone(self.scene.render(camera, (8, 8), samples=1).depth)
         hit = image.object == 0
         self.assertTrue(np.isinf(image.depth[~hit]).all() and (image.object[~hit] == -1).all())

@@ -1,4 +1,4 @@
-/// The table of formats is what the readers do and what README says.
+/// The table of formats is what the readers do and what app/guide/formats.md says.
 #include "preprocess/read/formats.h"
 
 #include <algorithm>
@@ -16,14 +16,14 @@ std::vector<std::string> split(std::string_view text) {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
-TEST(Formats, ReadmesTableHasEveryRow) {
-  std::ifstream file(README);
-  const std::string readme{std::istreambuf_iterator<char>(file), {}};
+TEST(Formats, GuidesTableHasEveryRow) {
+  std::ifstream file(FORMATS_PAGE);
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
   for (const Format& format : formats()) {
     std::string row = "|";
     for (const std::string& extension : split(format.extensions)) row += " `" + extension + "`";
     row += " | " + std::string(format.contents) + " |\n";
-    EXPECT_NE(readme.find(row), std::string::npos) << "expected in README.md: " << row;
+    EXPECT_NE(page.find(row), std::string::npos) << "expected in app/guide/formats.md: " << row;
   }
 }
 

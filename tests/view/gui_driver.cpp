@@ -15,7 +15,7 @@ void add(Requests& all, const Requests& more) {
     all.add = more.add;
   }
   if (more.save) all.save = more.save;
-  if (more.record) all.record = more.record;
+  if (more.change) all.change = more.change;
   all.cancel |= more.cancel;
 }
 

@@ -97,7 +97,7 @@ TEST(PanelsTest, DialogsRunAndCanBeCancelled) {
                                                          : "Record";
     const Requests requests = gui.click(title, {"cancel"});
     EXPECT_FALSE(gui.state.*open);
-    EXPECT_FALSE(requests.save || requests.open || requests.record);
+    EXPECT_FALSE(requests.save || requests.open);
   }
 }
 
@@ -267,16 +267,16 @@ TEST(PanelsTest, TheSaveDialogAsksForThePicture) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(1);
   gui.state.show_save = true;
-  gui.state.save.path = "picture.txt";
+  gui.state.save.output.path = "picture.txt";
   EXPECT_FALSE(gui.can_click("Save the picture", {"save"}));
-  gui.state.save.path = "picture.exr";
+  gui.state.save.output.path = "picture.exr";
   gui.click("Save the picture", {"4K"});
-  gui.click("Save the picture", {"normal"});
+  gui.click("Save the picture", {"denoise"});
   const Requests requests = gui.click("Save the picture", {"save"});
   ASSERT_TRUE(requests.save.has_value());
-  EXPECT_EQ(requests.save->path, "picture.exr");
-  EXPECT_EQ(requests.save->width, 3840U);
-  EXPECT_TRUE(requests.save->aov_normal);
+  EXPECT_EQ(requests.save->output.path, "picture.exr");
+  EXPECT_EQ(requests.save->view.width, 3840U);
+  EXPECT_TRUE(requests.save->output.denoise);
   EXPECT_FALSE(gui.state.show_save);
 }
 
@@ -285,21 +285,21 @@ TEST(PanelsTest, CamerasAndBookmarksAreSavedAsFiles) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(1);
   gui.state.show_save = true;
-  gui.state.save.path = folder.path() / "camera.json";
+  gui.state.save.output.path = folder.path() / "camera.json";
   EXPECT_FALSE(gui.click("Save the picture", {"save"}).save.has_value());
   EXPECT_EQ(read_camera(folder.path() / "camera.json"), gui.document.camera);
 
   gui.state.bookmarks[1] = gui.state.bookmarks[4] = gui.document.camera;
   gui.state.bookmarks[4]->eye.x += 1.0;
   gui.state.show_record = true;
-  gui.state.record.turntable = false;
-  gui.state.record.camera_path = folder.path() / "path.json";
+  gui.state.record.output.turntable = 0;
+  gui.state.record.output.camera_path = folder.path() / "path.json";
   gui.click("Record", {"write the bookmarks there"});
   const CameraPath path = read_camera_path(folder.path() / "path.json");
   ASSERT_EQ(path.size(), 2U);
   EXPECT_EQ(path[1].camera, *gui.state.bookmarks[4]);
 
-  gui.state.record.camera_path = folder.path() / "none" / "path.json";
+  gui.state.record.output.camera_path = folder.path() / "none" / "path.json";
   gui.click("Record", {"write the bookmarks there"});
   EXPECT_NE(gui.state.error.find("path.json"), std::string::npos);
 }
@@ -308,10 +308,10 @@ TEST(PanelsTest, RecordingsNeedANumberInTheirName) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(1);
   gui.state.show_record = true;
-  gui.state.record.path = "frame.png";
+  gui.state.record.output.path = "frame.png";
   EXPECT_FALSE(gui.can_click("Record", {"record"}));
-  gui.state.record.path = "frame.####.png";
-  EXPECT_EQ(gui.click("Record", {"record"}).record->frames, 120U);
+  gui.state.record.output.path = "frame.####.png";
+  EXPECT_EQ(gui.click("Record", {"record"}).save->output.turntable, 120U);
 }
 
 TEST(PanelsTest, ErrorsStayUntilClosedAndWorkCanBeCancelled) {

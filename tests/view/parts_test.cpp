@@ -7,9 +7,9 @@
 #include <memory>
 #include <random>
 
-#include "app/cli/command_line.h"
+#include "app/library/request/command_line.h"
 #include "app/library/image_file.h"
-#include "app/view/model/document_options.h"
+#include "app/view/model/document_request.h"
 #include "app/view/model/resolution.h"
 #include "app/view/window/display_table.h"
 #include "app/view/window/drop.h"
@@ -127,11 +127,11 @@ TEST(Drop, PastedPathsAndUris) {
   EXPECT_EQ(pasted_files("file:///100%"), std::vector<std::filesystem::path>{"/100%"});
 }
 
-TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
+TEST(DocumentRequest, ComeBackThroughTheCommandLine) {
   const Scene scene = disc_scene(1);
   Document document = disc_document(scene);
   LoadedPart part = *document.loaded;
-  part.source.inputs = {"my scene.ply"};
+  part.asked.source.inputs = {"my scene.ply"};
   document.loaded = std::make_shared<const LoadedPart>(std::move(part));
   document.camera.fov_y_deg = DEFAULT_FOV_Y_DEG;  // orthographic cameras keep none
   document.looks.materials[0].mirror = 0.3F;
@@ -143,8 +143,8 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   document.settings.max_bounces = 3;
   document.settings.environment_turn = 0.4F;
   document.up = {0.0, 0.6, 0.8};
-  const RenderOptions options = parse_command_line(command_line(render_options(document, 320, 200)));
-  const Document again = first_document(scene, options.scene, options.picture);
+  const Request request = parse_command_line(command_line(request_of(document, 320, 200)));
+  const Document again = first_document(scene, request);
   EXPECT_TRUE(again.camera == document.camera);
   EXPECT_TRUE(again.lights == document.lights);
   EXPECT_TRUE(same_looks(again.looks, document.looks));
@@ -152,22 +152,22 @@ TEST(DocumentOptions, ComeBackThroughTheCommandLine) {
   EXPECT_EQ(again.settings.environment_turn, 0.4F);
   EXPECT_EQ(again.environment, "white");
   EXPECT_EQ(again.up, document.up);
-  EXPECT_EQ(options.exposure_ev, -0.75);
-  EXPECT_EQ(options.picture.width, 320U);
+  EXPECT_EQ(request.look.exposure_ev, -0.75);
+  EXPECT_EQ(request.view.width, 320U);
 }
 
-RenderOptions copied_from(const Document& document) {
-  return parse_command_line(command_line(render_options(document, 320, 200)));
+Request copied_from(const Document& document) {
+  return parse_command_line(command_line(request_of(document, 320, 200)));
 }
 
 /// Of a file, in the folder where the program runs.
 Document loaded_document(const Scene& scene) {
-  SceneOptions source;
-  source.inputs = {"discs.ply"};
-  return first_document(scene, source, {});
+  Request request;
+  request.source.inputs = {"discs.ply"};
+  return first_document(scene, request);
 }
 
-TEST(DocumentOptions, ACommandOfTheSceneShownChangesTheLookAlone) {
+TEST(DocumentRequest, ACommandOfTheSceneShownChangesTheLookAlone) {
   const Scene scene = disc_scene(1);
   const Document document = loaded_document(scene);
   Document changed = document;
@@ -175,53 +175,54 @@ TEST(DocumentOptions, ACommandOfTheSceneShownChangesTheLookAlone) {
   changed.camera.eye.x += 1.0;
   changed.settings.look = LOOK_CLAY;
   changed.looks.materials[0].flags |= MATERIAL_HIDDEN;
-  RenderOptions options = copied_from(changed);
-  ASSERT_TRUE(is_of_scene(document, options));
-  const Document shown = shown_as(scene, document, options.picture);
+  Request request = copied_from(changed);
+  ASSERT_TRUE(is_of_scene(document, request));
+  const Document shown = shown_as(scene, document, request);
   EXPECT_EQ(shown.loaded, document.loaded);
   EXPECT_EQ(shown.camera.eye, changed.camera.eye);
   EXPECT_EQ(shown.up, changed.up);
   EXPECT_EQ(shown.settings.look, LOOK_CLAY);
   EXPECT_TRUE(same_looks(shown.looks, changed.looks));
 
-  options.scene.inputs = {std::filesystem::current_path() / "x" / ".." / "discs.ply"};
-  EXPECT_TRUE(is_of_scene(document, options)) << "the same file by another path";
-  options.picture.lights.reset();
-  EXPECT_FALSE(is_of_scene(document, options)) << "the default light follows the scene's up direction";
-  options = copied_from(document);
-  EXPECT_TRUE(is_of_scene(document, options));
-  options.scene.params.seed = 7;
-  EXPECT_FALSE(is_of_scene(document, options)) << "other points";
-  options = copied_from(document);
-  options.scene.inputs.push_back("more.ply");
-  EXPECT_FALSE(is_of_scene(document, options));
+  request.source.inputs = {std::filesystem::current_path() / "x" / ".." / "discs.ply"};
+  EXPECT_TRUE(is_of_scene(document, request)) << "the same file by another path";
+  request.look.lights.reset();
+  EXPECT_FALSE(is_of_scene(document, request)) << "the default light follows the scene's up direction";
+  request = copied_from(document);
+  EXPECT_TRUE(is_of_scene(document, request));
+  request.source.params.seed = 7;
+  EXPECT_FALSE(is_of_scene(document, request)) << "other points";
+  request = copied_from(document);
+  request.source.inputs.push_back("more.ply");
+  EXPECT_FALSE(is_of_scene(document, request));
 }
 
-TEST(DocumentOptions, AnotherSceneKeepsWhatAPersonChose) {
+TEST(DocumentRequest, AnotherSceneKeepsWhatAPersonChose) {
   const Scene scene = disc_scene(1);
   Document document = loaded_document(scene);
-  EXPECT_FALSE(kept_options(document).look) << "nothing was chosen";
-  EXPECT_FALSE(kept_options(document).tone);
+  EXPECT_FALSE(kept_request(document).look.style) << "nothing was chosen";
+  EXPECT_FALSE(kept_request(document).look.tone);
   document.settings.look = LOOK_AO;
   document.settings.samples = 99;
   document.tone = Tone::agx;
-  const PictureOptions kept = kept_options(document);
-  EXPECT_EQ(kept.look, LOOK_AO);
-  EXPECT_EQ(kept.tone, Tone::agx);
+  const Request kept = kept_request(document);
+  EXPECT_EQ(kept.look.style, LOOK_AO);
+  EXPECT_EQ(kept.look.tone, Tone::agx);
   EXPECT_EQ(kept.settings.samples, 99U);
-  EXPECT_FALSE(kept.eye || kept.lights || !kept.environment.empty() || !kept.objects.empty());
+  EXPECT_FALSE(kept.view.eye || kept.look.lights || !kept.look.environment.empty() ||
+               !kept.look.objects.empty());
 }
 
-TEST(DocumentOptions, MoreFilesComeBesideTheSceneAsItIsShown) {
+TEST(DocumentRequest, MoreFilesComeBesideTheSceneAsItIsShown) {
   const Scene scene = disc_scene(1);
   Document document = loaded_document(scene);
   document.looks.materials[0].flags |= MATERIAL_HIDDEN;
-  const RenderOptions options = options_with(document, {"folder/more.ply", scene.object_names[0] + ".obj"});
-  EXPECT_EQ(options.scene.inputs,
+  const Request request = request_with(document, {"folder/more.ply", scene.object_names[0] + ".obj"});
+  EXPECT_EQ(request.source.inputs,
             (SceneFiles{"discs.ply", "folder/more.ply", scene.object_names[0] + ".obj"}));
-  ASSERT_EQ(options.picture.objects.size(), 1U);
-  EXPECT_EQ(options.picture.objects[0].object, "0") << "the name will be that of two";
-  EXPECT_EQ(options.picture.eye, document.camera.eye);
+  ASSERT_EQ(request.look.objects.size(), 1U);
+  EXPECT_EQ(request.look.objects[0].object, "0") << "the name will be that of two";
+  EXPECT_EQ(request.view.eye, document.camera.eye);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <thread>
 
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 #include "engine/base/error.h"
 #include "tests/view/live_documents.h"
 

@@ -84,11 +84,11 @@ TEST_F(RenderThreadTest, AnswersWhatIsUnderTheCursor) {
 
 TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
   thread.open(scene, document, SIZE);
-  SaveRequest request;
-  request.path = file("out.exr");
-  request.width = 31;
-  request.height = 17;
-  request.samples = 5;
+  Request request;
+  request.output.path = file("out.exr");
+  request.view.width = 31;
+  request.view.height = 17;
+  request.settings.samples = 5;
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return !news.notice.empty(); });
   Context context;
@@ -97,16 +97,16 @@ TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
   tracer.set_environment({0, 0, {}, vec3(1.0F)});
   document.settings.samples = 5;
   const Image image = tracer.render({document.camera, 31, 17}, document.settings);
-  EXPECT_TRUE(display_image(image, 0.0).rgb == read_display_image(request.path, 0.0).rgb);
+  EXPECT_TRUE(display_image(image, 0.0).rgb == read_display_image(request.output.path, 0.0).rgb);
 }
 
 TEST_F(RenderThreadTest, RecordsATurntable) {
   thread.open(scene, document, SIZE);
-  RecordRequest request;
-  request.path = file("turn.##.png");
-  request.frames = 3;
-  request.width = request.height = 16;
-  request.samples = 1;
+  Request request;
+  request.output.path = file("turn.##.png");
+  request.output.turntable = 3;
+  request.view.width = request.view.height = 16;
+  request.settings.samples = 1;
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return !news.notice.empty(); });
   EXPECT_EQ(names(), (std::vector<std::string>{"turn.00.png", "turn.01.png", "turn.02.png"}));
@@ -114,12 +114,12 @@ TEST_F(RenderThreadTest, RecordsATurntable) {
 
 TEST_F(RenderThreadTest, RecordingAgainMakesWhatIsMissing) {
   thread.open(scene, document, SIZE);
-  RecordRequest request;
-  request.path = file("turn.#.png");
-  request.frames = 3;
-  request.width = request.height = 16;
-  request.samples = 1;
-  request.skip_existing = true;
+  Request request;
+  request.output.path = file("turn.#.png");
+  request.output.turntable = 3;
+  request.view.width = request.view.height = 16;
+  request.settings.samples = 1;
+  request.output.skip_existing = true;
   const auto record = [&] {
     std::string notice;
     thread.save(save_job(document, request));
@@ -138,8 +138,8 @@ TEST_F(RenderThreadTest, RecordingAgainMakesWhatIsMissing) {
 
 TEST_F(RenderThreadTest, FailuresAreSentencesAndItGoesOn) {
   thread.open(scene, document, SIZE);
-  SaveRequest request;
-  request.path = file("missing/out.png");
+  Request request;
+  request.output.path = file("missing/out.png");
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return news.error.find("missing") != std::string::npos; });
   await([](const RenderNews& news) { return !news.saving; });
@@ -153,10 +153,10 @@ TEST_F(RenderThreadTest, FailuresAreSentencesAndItGoesOn) {
 
 TEST_F(RenderThreadTest, ALongSaveIsCancelled) {
   thread.open(scene, document, SIZE);
-  SaveRequest request;
-  request.path = file("out.png");
-  request.width = request.height = 2000;
-  request.samples = 65536;
+  Request request;
+  request.output.path = file("out.png");
+  request.view.width = request.view.height = 2000;
+  request.settings.samples = 65536;
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return news.saving.has_value(); });
   thread.cancel_save();
@@ -168,9 +168,9 @@ TEST_F(RenderThreadTest, ALongSaveIsCancelled) {
 class LoadThreadTest : public CliTest {
  protected:
   void load(const std::string& path) {
-    SceneOptions scene;
-    scene.inputs = {path};
-    thread.load(scene, {});
+    Request request;
+    request.source.inputs = {path};
+    thread.load(request);
   }
   void await(const std::function<bool(const LoadNews&)>& wanted) {
     EXPECT_TRUE(alarm.until([&] { return wanted(thread.take_news()); }));

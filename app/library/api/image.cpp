@@ -9,31 +9,24 @@
 namespace splatray::api {
 namespace {
 
-splatray::Display inner_display(const Display& display) {
-  switch (display.tone) {
-    case Tone::soft:
-      return {display.exposure, splatray::Tone::soft};
-    case Tone::agx:
-      return {display.exposure, splatray::Tone::agx};
-    case Tone::none:
-      return {display.exposure, splatray::Tone::none};
-    case Tone::neutral:
-      return {display.exposure, splatray::Tone::neutral};
-  }
-  refuse("tone " + std::to_string(static_cast<int>(display.tone)), "one of Tone's");
+splatray::Display inner_display(const Image& image) {
+  for (std::size_t i = 0; i < TONE_NAMES.size(); ++i)
+    if (image.tone == TONE_NAMES[i]) return {image.exposure, static_cast<splatray::Tone>(i)};
+  refuse("tone '" + image.tone + "'", "neutral, agx, soft or none");
 }
 
-void check(const Image& image, double exposure) {
+void check(const Image& image) {
   constexpr double MOST_STOPS = 60.0;
   const std::size_t pixels = std::size_t{image.width} * image.height;
   const auto is_none_or_all = [pixels](std::size_t size) { return size == 0 || size == pixels; };
   if (pixels == 0 || image.pixels.size() != pixels || !is_none_or_all(image.depth.size()) ||
-      image.normal.size() != image.depth.size() || image.object.size() != image.depth.size())
+      image.normal.size() != image.depth.size() || image.object.size() != image.depth.size() ||
+      !is_none_or_all(image.error.size()))
     refuse("a picture whose arrays do not fit its size of " + std::to_string(image.width) + " x " +
                std::to_string(image.height),
            "as many elements as pixels");
-  if (!(exposure >= -MOST_STOPS && exposure <= MOST_STOPS))
-    refuse("an exposure of " + std::to_string(exposure) + " stops", "-60 to 60");
+  if (!(image.exposure >= -MOST_STOPS && image.exposure <= MOST_STOPS))
+    refuse("an exposure of " + std::to_string(image.exposure) + " stops", "-60 to 60");
 }
 
 /// Throws splatray::Error (out_of_memory) where there is not so much memory a pixel for writing the picture.
@@ -44,7 +37,7 @@ void require_pixel_memory(const Image& image, std::uint64_t bytes) {
 }
 
 splatray::Image inner_image(const Image& image) {
-  splatray::Image inner{image.width, image.height, {}, {}};
+  splatray::Image inner{image.width, image.height, {}, {}, image.error};
   inner.rgba.resize(image.pixels.size());
   std::memcpy(inner.rgba.data(), image.pixels.data(), image.pixels.size() * sizeof(vec4));
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
@@ -58,25 +51,25 @@ splatray::Image inner_image(const Image& image) {
 
 }  // namespace
 
-void Image::save(const std::filesystem::path& file, const Display& display) const {
+void Image::save(const std::filesystem::path& file) const {
   guarded([&] {
-    check(*this, display.exposure);
+    check(*this);
     const std::string extension = lower_extension(file);
     const bool png = extension == ".png", channels = !depth.empty();
     if (!png && extension != ".exr")
       refuse("output '" + file.string() + "'", "a name ending in .png or .exr");
-    require_pixel_memory(*this, png ? PNG_WRITING_BYTES : exr_writing_bytes(channels ? 9 : 4));
+    require_pixel_memory(*this, png ? PNG_WRITING_BYTES : exr_writing_bytes(channels ? 10 : 5));
     const splatray::Image inner = inner_image(*this);
-    if (png) return write_png(display_image(inner, inner_display(display)), {}, file);
-    write_exr(inner, {channels, channels, channels}, {}, file);
+    if (png) return write_png(display_image(inner, inner_display(*this)), {}, file);
+    write_exr(inner, {channels, channels, channels, !error.empty()}, {}, file);
   });
 }
 
-std::vector<unsigned char> Image::png(const Display& display) const {
+std::vector<unsigned char> Image::png() const {
   return guarded([&] {
-    check(*this, display.exposure);
+    check(*this);
     require_pixel_memory(*this, PNG_WRITING_BYTES);
-    return encode_png(display_image(inner_image(*this), inner_display(display)), {});
+    return encode_png(display_image(inner_image(*this), inner_display(*this)), {});
   });
 }
 

@@ -16,27 +16,39 @@ Material named_material(const std::string& name) {
   return described(splatray::named_material(name));
 }
 
-splatray::Material changed(splatray::Material material, const Material& to) {
-  material.diffuse = vector(to.diffuse);
-  material.specular = to.specular;
-  material.shininess = to.shininess;
-  material.tint = vector(to.tint);
-  material.mirror = to.mirror;
-  material.ior = to.ior;
-  const auto set = [&material](std::uint32_t flag, bool on) {
-    material.flags = on ? material.flags | flag : material.flags & ~flag;
-  };
-  set(MATERIAL_DIELECTRIC, to.glass);
-  set(MATERIAL_TWO_SIDED, to.two_sided && !to.glass);
-  set(MATERIAL_HIDDEN, to.hidden);
-  return material;
+ObjectChange object_change(const std::string& object, const Material& material) {
+  ObjectChange change;
+  change.object = object;
+  change.diffuse = vector(material.diffuse);
+  change.specular = material.specular;
+  change.shininess = material.shininess;
+  change.tint = vector(material.tint);
+  change.mirror = material.mirror;
+  change.ior = material.ior;
+  change.glass = material.glass;
+  change.two_sided = material.two_sided && !material.glass;
+  change.hidden = material.hidden;
+  change.metallic = material.metallic;
+  change.roughness = material.roughness;
+  change.coat = material.coat;
+  change.coat_roughness = material.coat_roughness;
+  if (material.emission) change.emission = vector(*material.emission);
+  return read_object_change(object_text(change));  // which refuses what is out of range
 }
 
 Material described(const splatray::Material& material) {
   const auto has = [&material](std::uint32_t flag) { return (material.flags & flag) != 0; };
-  return {array(material.diffuse),  material.specular,       material.shininess,
-          array(material.tint),     material.mirror,         material.ior,
-          has(MATERIAL_DIELECTRIC), has(MATERIAL_TWO_SIDED), has(MATERIAL_HIDDEN)};
+  Material described;
+  described.diffuse = array(material.diffuse);
+  described.specular = material.specular;
+  described.shininess = material.shininess;
+  described.tint = array(material.tint);
+  described.mirror = material.mirror;
+  described.ior = material.ior;
+  described.glass = has(MATERIAL_DIELECTRIC);
+  described.two_sided = has(MATERIAL_TWO_SIDED);
+  described.hidden = has(MATERIAL_HIDDEN);
+  return described;
 }
 
 }  // namespace splatray::api

@@ -1,54 +1,13 @@
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "app/library/api/guard.h"
+#include "app/library/api/request_impl.h"
 #include "app/library/api/scene_impl.h"
 #include "engine/base/memory.h"
-#include "preprocess/base/file_extension.h"
 
 namespace splatray::api {
 namespace {
-
-void check(const OpenOptions& options) {
-  constexpr double LEAST = 1e-6, MOST = 1e6;
-  constexpr std::uint64_t MOST_POINTS = 1ULL << 32;
-  constexpr unsigned MOST_THREADS = 4096;
-  if (!(options.radius_scale >= LEAST && options.radius_scale <= MOST))
-    refuse("radius_scale " + std::to_string(options.radius_scale), "1e-6 to 1e6");
-  if (options.mesh_points >= MOST_POINTS)
-    refuse("mesh_points " + std::to_string(options.mesh_points), "less than 2^32");
-  if (options.threads > MOST_THREADS) refuse("threads " + std::to_string(options.threads), "at most 4096");
-  if (!options.up) return;
-  const double length = glm::length(vector(*options.up));
-  if (!(std::isfinite(length) && length > 0.0))
-    refuse("an up direction of length " + std::to_string(length), "a finite one above 0");
-}
-
-SceneOptions scene_options(const OpenOptions& options) {
-  SceneOptions scene;
-  scene.params.radius_scale = options.radius_scale;
-  scene.params.samples = options.mesh_points;
-  scene.data_paths = options.data;
-  scene.threads = options.threads;
-  return scene;
-}
-
-/// What is asked of a picture when the scene is loaded.
-PictureOptions picture_options(const OpenOptions& options) {
-  PictureOptions picture;
-  if (options.up) picture.up = glm::normalize(vector(*options.up));
-  picture.attributes.color_by = options.color_by;
-  return picture;
-}
-
-std::shared_ptr<Scene::Impl> new_scene(const OpenOptions& options) {
-  auto impl = std::make_shared<Scene::Impl>();
-  impl->device_wanted = options.device;
-  impl->cache = options.cache;
-  impl->threads = options.threads;
-  return impl;
-}
 
 /// An array in the type that preprocess works on.
 template <typename To, typename From>
@@ -76,7 +35,6 @@ InputObject input_object(const Points& points) {
   object.measured = points.scanned.value_or(points.normals.empty());
   object.material = default_material();
   if (!points.colors.empty()) object.material.diffuse = COLORED_DIFFUSE;
-  if (points.material) object.material = changed(object.material, *points.material);
   object.points.position = copied<glm::dvec3>(points.positions);
   object.points.normal = copied<glm::vec3>(points.normals);
   object.points.color = copied<glm::vec3>(points.colors);
@@ -89,50 +47,51 @@ InputObject input_object(const Points& points) {
 
 }  // namespace
 
-Scene open(std::span<const std::filesystem::path> files, const OpenOptions& options) {
-  return guarded(options.progress, [&](ProgressRelay& relay) {
-    check(options);
+Scene open(std::span<const std::filesystem::path> files, const Request& asked, const Progress& progress) {
+  return guarded(progress, [&](ProgressRelay& relay) {
+    splatray::Request request = RequestAccess::inner(asked);
     if (files.empty()) refuse("no file", "at least one");
-    for (const std::filesystem::path& file : files)
-      if (files.size() > 1 && lower_extension(file) == ".soct")
-        refuse("a .soct beside other files", "it alone");
-    SceneOptions scene = scene_options(options);
-    scene.inputs.assign(files.begin(), files.end());
-    auto impl = new_scene(options);
+    request.source.inputs.assign(files.begin(), files.end());
+    require_inputs(request.source);
+    auto impl = std::make_shared<Scene::Impl>();
     const LoadListener listener{std::ref(relay),
                                 [&](const std::string& note) { impl->notes.push_back(note); }};
-    impl->loaded = load_scene(scene, picture_options(options), listener);
+    impl->loaded = load_scene(request, listener);
     return SceneAccess::make(std::move(impl));
   });
 }
 
-Scene open(const std::filesystem::path& file, const OpenOptions& options) {
-  return open(std::span(&file, 1), options);
+Scene open(const std::filesystem::path& file, const Request& request, const Progress& progress) {
+  return open(std::span(&file, 1), request, progress);
 }
 
-Scene make_scene(std::span<const Points> objects, const OpenOptions& options) {
-  return guarded(options.progress, [&](ProgressRelay& relay) {
-    check(options);
+Scene make_scene(std::span<const Points> objects, const Request& asked, const Progress& progress) {
+  return guarded(progress, [&](ProgressRelay& relay) {
+    splatray::Request request = RequestAccess::inner(asked);
     Input input;
-    input.up = glm::dvec3(0.0, 0.0, 1.0);
-    if (options.up) input.up = glm::normalize(vector(*options.up));
-    for (const Points& object : objects) input.objects.push_back(input_object(object));
-    auto impl = new_scene(options);
-    const SceneOptions scene = scene_options(options);
+    input.up = request.look.up ? glm::normalize(*request.look.up) : glm::dvec3(0.0, 0.0, 1.0);
+    std::vector<ObjectChange> materials;
+    for (const Points& object : objects) {
+      if (object.material)
+        materials.push_back(object_change(std::to_string(input.objects.size()), *object.material));
+      input.objects.push_back(input_object(object));
+    }
+    request.look.objects.insert(request.look.objects.begin(), materials.begin(), materials.end());
+    auto impl = std::make_shared<Scene::Impl>();
     BuildStats& stats = impl->loaded.build.emplace();
-    impl->loaded.scene =
-        build_scene(std::move(input), scene.params, scene.threads, stats, watching_memory(std::ref(relay)));
-    impl->loaded.legend = show_attributes(impl->loaded.scene, picture_options(options).attributes);
+    impl->loaded.scene = build_scene(std::move(input), request.source.params, request.source.threads, stats,
+                                     watching_memory(std::ref(relay)));
     if (stats.dropped_non_finite > 0)
       impl->notes.push_back(std::to_string(stats.dropped_non_finite) +
                             " points that are not finite were left out");
     impl->notes.insert(impl->notes.end(), stats.notes.begin(), stats.notes.end());
+    show_as_asked(request, impl->loaded);
     return SceneAccess::make(std::move(impl));
   });
 }
 
-Scene make_scene(const Points& object, const OpenOptions& options) {
-  return make_scene(std::span(&object, 1), options);
+Scene make_scene(const Points& object, const Request& request, const Progress& progress) {
+  return make_scene(std::span(&object, 1), request, progress);
 }
 
 }  // namespace splatray::api

@@ -1,7 +1,10 @@
+#include <algorithm>
+
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/splat.h"
+#include "engine/scene/surface.h"
 
 namespace splatray::api {
 
@@ -28,7 +31,7 @@ Scene::Impl::~Impl() {
 std::shared_ptr<SceneOnDevice> Scene::Impl::open_device() {
   std::shared_ptr<SceneOnDevice> there = there_.load();
   if (there && !there->device->is_of_parent()) return there;
-  auto opened = std::make_shared<SceneOnDevice>(SceneOnDevice{shared_device(device_wanted)});
+  auto opened = std::make_shared<SceneOnDevice>(SceneOnDevice{shared_device(loaded.request.settings.device)});
   if (there) keep_for_good(there);
   return there_.compare_exchange_strong(there, opened) ? opened : there;
 }
@@ -39,7 +42,8 @@ Scene::Impl::InUse::InUse(const Impl& scene, SceneOnDevice& there) : there_(ther
            "other scenes there, or this one afterwards");
   if (!there.tracer) {
     auto tracer = std::make_unique<Tracer>(
-        there.device->context, TracerOptions{.pipeline_folder = scene.cache, .threads = scene.threads});
+        there.device->context, TracerOptions{.pipeline_folder = scene.loaded.request.settings.cache,
+                                                .threads = scene.loaded.request.source.threads});
     tracer->upload(scene.loaded.scene);
     there.tracer = std::move(tracer);
   }
@@ -52,6 +56,15 @@ void SceneOnDevice::show_environment(const std::string& name) {
   if (environment_shown == name) return;
   tracer->set_environment(choose_environment(name));
   environment_shown = name;
+}
+
+void SceneOnDevice::show_looks(const splatray::Scene& scene, const splatray::Scene& shown) {
+  tracer->set_materials(shown.materials, shown.surfaces);
+  const std::vector<Surface> before = surfaces_shown.empty() ? surfaces_of(scene) : surfaces_shown;
+  const auto same = [](const Surface& a, const Surface& b) { return a.emission == b.emission; };
+  if (!std::equal(before.begin(), before.end(), shown.surfaces.begin(), shown.surfaces.end(), same))
+    tracer->set_emitters(find_emitters(scene, shown.surfaces));
+  surfaces_shown = shown.surfaces;
 }
 
 std::size_t Scene::splats() const { return SceneAccess::impl(*this)->loaded.scene.data_pool.size(); }

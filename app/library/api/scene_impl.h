@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "app/library/api/device.h"
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
+#include "app/library/request/object_change.h"
 #include "app/library/splatray.h"
 #include "engine/gpu/tracer.h"
 
@@ -23,16 +24,17 @@ struct SceneOnDevice {
   std::optional<std::string> environment_shown{};
   bool in_use = false;
 
+  std::vector<Surface> surfaces_shown{};  ///< empty = the scene's own
+
   /// Gives the tracer the environment of this name.
   void show_environment(const std::string& name);
+  /// Gives the tracer the materials and surfaces of `shown`, and where they send out light.
+  void show_looks(const splatray::Scene& scene, const splatray::Scene& shown);
 };
 
 struct Scene::Impl {
   LoadedScene loaded;
   std::vector<std::string> notes;
-  std::string device_wanted;
-  std::filesystem::path cache;
-  unsigned threads = 0;  ///< of the device "cpu"
 
   /// Calls use(scene on its device), with the device to itself; asks `relay` while it waits for that. Throws Error (usage) where
   /// that is what the progress function of such a use does.
@@ -81,8 +83,8 @@ struct SceneAccess {
 [[nodiscard]] inline Double3 array(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 [[nodiscard]] inline Float3 array(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-/// `material` with what the interface's says; what that knows nothing of stays.
-[[nodiscard]] splatray::Material changed(splatray::Material material, const Material& to);
+/// The change that makes an object's material this one. Throws splatray::Error (usage) for what is out of range.
+[[nodiscard]] ObjectChange object_change(const std::string& object, const Material& material);
 [[nodiscard]] Material described(const splatray::Material& material);
 
 }  // namespace splatray::api

@@ -21,8 +21,9 @@ from .camera import Camera, frame
 from .device import Device, devices
 from .image import Image
 from .look import Light, Material, material, point_light, sun
-from .scene import Hits, Scene, Splats, open, points
+from .request import Request
+from .scene import Hits, Scene, Splats, make_picture, open, points
 
 __version__ = _version()
-__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Material", "NoDeviceError", "Scene", "Splats", "devices", "frame",
-           "material", "open", "point_light", "points", "sun"]
+__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Material", "NoDeviceError", "Request", "Scene", "Splats", "devices", "frame",
+           "make_picture", "material", "open", "point_light", "points", "sun"]

@@ -8,8 +8,6 @@ import numpy as np
 
 from . import _check, _core
 
-TONES = ("soft", "neutral", "agx", "none")
-
 
 class Image:
     """A picture; rows from the top. The arrays are views of it, not copies."""
@@ -36,37 +34,55 @@ class Image:
 
     @property
     def depth(self) -> Optional[np.ndarray]:
-        """float32 (height, width): distance from the eye, world units, inf on a miss. None unless rendered with channels=True."""
+        """float32 (height, width): distance from the eye, world units, inf on a miss. None unless rendered with aov="depth,normal,id"."""
         return self._core.depth
 
     @property
     def normal(self) -> Optional[np.ndarray]:
-        """float32 (height, width, 3): unit normal in world space, 0 on a miss. None unless rendered with channels=True."""
+        """float32 (height, width, 3): unit normal in world space, 0 on a miss. None unless rendered with aov="depth,normal,id"."""
         return self._core.normal
 
     @property
     def object(self) -> Optional[np.ndarray]:
-        """int32 (height, width): index into Scene.objects, -1 on a miss. None unless rendered with channels=True."""
+        """int32 (height, width): index into Scene.objects, -1 on a miss. None unless rendered with aov="depth,normal,id"."""
         return self._core.object
 
-    def save(self, path: Any, exposure: float = 0.0, tone: str = "neutral") -> None:
-        """Writes .png (sRGB, 8 bit) or .exr (linear float, with all channels).
+    @property
+    def error(self) -> Optional[np.ndarray]:
+        """float32 (height, width): estimated error of the radiance. None unless rendered with aov="error"."""
+        return self._core.error
 
-        exposure: brightness of a .png, stops. tone: how what is brighter than a display can be is brought below 1: neutral, agx, soft or
-        none.
-        """
-        stops, curve = _check.number("exposure", exposure), _check.choice("tone", tone, TONES)
+    @property
+    def exposure(self) -> float:
+        """Brightness of a .png, stops: as asked for, or what suits the picture; can be set."""
+        return self._core.exposure
+
+    @exposure.setter
+    def exposure(self, stops: float) -> None:
+        self._core.exposure = _check.number("exposure", stops)
+
+    @property
+    def tone(self) -> str:
+        """How a .png shows what is brighter than a display can be: neutral, agx, soft or none; can be set."""
+        return self._core.tone
+
+    @tone.setter
+    def tone(self, name: str) -> None:
+        self._core.tone = _check.text("tone", name)
+
+    def save(self, path: Any) -> None:
+        """Writes .png (sRGB, 8 bit, through exposure and tone) or .exr (linear float, with all channels)."""
         try:
-            self._core.save(_check.path("path", path), stops, curve)
+            self._core.save(_check.path("path", path))
         except RuntimeError as error:
             raise OSError(str(error)) from None
 
-    def png(self, exposure: float = 0.0, tone: str = "neutral") -> bytes:
+    def png(self) -> bytes:
         """The bytes of the .png."""
-        return self._core.png(_check.number("exposure", exposure), _check.choice("tone", tone, TONES))
+        return self._core.png()
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _image_of, (self.pixels, self.depth, self.normal, self.object)
+        return _image_of, (self.pixels, self.depth, self.normal, self.object, self.error, self.exposure, self.tone)
 
     def _repr_png_(self) -> bytes:
         return self.png()
@@ -79,6 +95,8 @@ class Image:
         return f"<splatray.Image {self.width} x {self.height}>"
 
 
-def _image_of(pixels: np.ndarray, depth: Optional[np.ndarray], normal: Optional[np.ndarray], object: Optional[np.ndarray]) -> Image:
+def _image_of(pixels: np.ndarray, depth: Optional[np.ndarray], normal: Optional[np.ndarray], object: Optional[np.ndarray],
+              error: Optional[np.ndarray], exposure: float, tone: str) -> Image:
     """The image of its arrays, for pickle and copy."""
-    return Image(_core.image_of(*(None if array is None else np.ascontiguousarray(array) for array in (pixels, depth, normal, object))))
+    arrays = (None if array is None else np.ascontiguousarray(array) for array in (pixels, depth, normal, object, error))
+    return Image(_core.image_of(*arrays, exposure, tone))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Tuple
+from typing import Optional, Tuple
 
 from . import _check, _core
 
@@ -17,7 +17,8 @@ class Material:
 
     diffuse: reflectance, times the points' colours where they have some. specular, shininess: share of light in Phong's highlight, and
     its exponent. mirror, tint: share of light mirrored, and its colour; of glass, transmittance of each crossing. ior: index of refraction
-    of glass, whose object must be closed with normals outwards. two_sided: both faces are seen. hidden: no ray hits it.
+    of glass, whose object must be closed with normals outwards. two_sided: both faces are seen. hidden: no ray hits it. Of path tracing, None for what
+    follows from the others: metallic, roughness (glTF's), coat, coat_roughness (a clear layer), 0..1; emission: radiance sent out.
     """
 
     diffuse: Color = (0.64, 0.61, 0.57)
@@ -29,12 +30,19 @@ class Material:
     glass: bool = False
     two_sided: bool = True
     hidden: bool = False
+    metallic: Optional[float] = None
+    roughness: Optional[float] = None
+    coat: Optional[float] = None
+    coat_roughness: Optional[float] = None
+    emission: Optional[Color] = None
 
     def _to_core(self) -> _core.Material:
         core = _core.Material()
         for field in fields(self):
             value = getattr(self, field.name)
-            if field.name in ("diffuse", "tint"):
+            if value is None:
+                continue
+            if field.name in ("diffuse", "tint", "emission"):
                 value = _check.color(field.name, value)
             elif field.name in ("glass", "two_sided", "hidden"):
                 value = bool(value)
@@ -65,13 +73,9 @@ class Light:
     point: bool = False
     size: float = 0.0
 
-    def _to_core(self) -> _core.Light:
-        light = _core.Light()
-        light.point = bool(self.point)
-        light.position = _check.vector("position", self.position)
-        light.power = _check.color("power", self.power)
-        light.size = _check.number("size", self.size)
-        return light
+    def _to_field(self) -> Tuple[str, str]:
+        numbers = [*_check.vector("position", self.position), *_check.color("power", self.power), _check.number("size", self.size)]
+        return ("light" if self.point else "sun"), ",".join(map(repr, numbers))
 
 
 def point_light(position: Vector, power: Color, radius: float = 0.0) -> Light:

@@ -10,14 +10,14 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 import numpy as np
 
 from . import _check, _core
-from .camera import Camera, Vector, frame
+from .camera import Camera
 from .image import Image
 from .look import Light, Material
+from .request import OPENING, PICTURES, Request, checked, takes_fields
 
 Path = Union[str, "os.PathLike[str]"]
 
 MOST_COLOR = 1.01  # more than rounding makes of 1
-STYLES = ("auto", "paper", "lit", "clay", "ao", "scan")
 
 
 class Hits(NamedTuple):
@@ -119,38 +119,26 @@ class Scene:
         except RuntimeError as error:
             raise OSError(str(error)) from None
 
-    def render(self, camera: Optional[Camera] = None, size: Tuple[int, int] = (1280, 720), *, samples: int = 16, seed: int = 1,
-               bounces: int = 8, shadows: bool = True, channels: bool = False, look: str = "auto", lights: Optional[Sequence[Light]] = None,
-               environment: str = "", environment_strength: float = 1.0, environment_turn: float = 0.0,
-               materials: Optional[Mapping[str, Material]] = None, progress: Optional[_check.Progress] = None) -> Image:
-        """The picture of the scene; the same arguments and device give the same bits.
+    @takes_fields(PICTURES)
+    def render(self, camera: Optional[Camera] = None, size: Tuple[int, int] = (1280, 720), *, lights: Optional[Sequence[Light]] = None,
+               materials: Optional[Mapping[str, Material]] = None, request: Optional[Request] = None,
+               progress: Optional[_check.Progress] = None, **fields: Any) -> Image:
+        """The picture of the scene, the same as splatray-render's; the same arguments and device give the same bits.
 
-        camera: None for frame(). size: (width, height), pixels, to 32768. samples: a pixel, to 65536. bounces: mirror and glass rays in
-        a path, to 64. channels: also depth, normal and object. look: lit (path tracing), paper (highlights, mirrors, glass and hard shadows:
-        quick), clay (all matt and grey), ao (ambient occlusion), scan (colours under ambient occlusion and the lights), auto for scan or lit. lights: None for the scene's own, or a key light. environment: file of a
-        latitude-longitude picture, or studio, white, black, or a radiance "r,g,b"; empty for the scene's, else the studio.
-        environment_turn: turns about up, 1 = a full one. materials: by object's name, in place of the scene's.
+        camera: None for what suits the scene (or eye, target, view ...). size: (width, height), pixels, to 32768. lights: None for the
+        scene's own, or a key light. materials: by object's name, in place of the scene's. request: what else is asked for; its camera, size,
+        lights and materials where none are given here.
         """
         core = self._open_core()
-        width, height = _check.size(size)
-        camera = frame(self, aspect=width / height) if camera is None else camera
-        if not isinstance(camera, Camera):
+        checked("render", fields, PICTURES)
+        asked = Request() if request is None else request.replace()
+        if camera is not None and not isinstance(camera, Camera):
             raise TypeError(f"camera: found {camera!r}, expected a splatray.Camera")
-        style = _check.choice("look", look, STYLES)
-        shown = _core.Look()
-        shown.style = style
-        shown.lights = None if lights is None else [_to_core(Light, "lights", light) for light in lights]
-        shown.environment = _check.path("environment", environment)
-        shown.environment_strength = _check.number("environment_strength", environment_strength)
-        shown.environment_turn = _check.number("environment_turn", environment_turn)
-        shown.materials = _materials(core, materials)
-        settings = _core.Settings()
-        settings.samples = _check.whole("samples", samples, 1, 65536)
-        settings.seed = _check.whole("seed", seed, 0, 2**32 - 1)
-        settings.bounces = _check.whole("bounces", bounces, 0, 64)
-        settings.shadows = bool(shadows)
-        settings.channels = bool(channels)
-        return Image(core.render(camera._to_core(), width, height, shown, settings, _check.progress(progress)))
+        if request is None or size != (1280, 720):
+            asked._set({"resolution": _check.size(size)})
+        _check_objects(core, materials)
+        asked._set({"camera": camera, "lights": lights, "materials": materials} | fields)
+        return Image(core.render(asked._core, _check.progress(progress)))
 
     def trace(self, origins: Any, directions: Any, *, progress: Optional[_check.Progress] = None) -> Hits:
         """Traces rays exactly, as brute force over all discs would.
@@ -168,47 +156,18 @@ class Scene:
         return Hits(*core.trace(origins, directions, _check.progress(progress)))
 
 
-def _to_core(kind: type, name: str, value: Any) -> Any:
-    if not isinstance(value, kind):
-        raise TypeError(f"{name}: found {value!r}, expected a splatray.{kind.__name__}")
-    return value._to_core()
+def _check_objects(core: _core.Scene, materials: Optional[Mapping[str, Material]]) -> None:
+    for name in materials if isinstance(materials, Mapping) else ():
+        if name not in core.objects:
+            raise ValueError(f"materials: found object {name!r}, expected one of {core.objects}")
 
 
-def _materials(core: _core.Scene, materials: Optional[Mapping[str, Material]]) -> List[_core.Material]:
-    if materials is None:
-        return []
-    if not isinstance(materials, Mapping):
-        raise TypeError(f"materials: found {materials!r}, expected a dict of object names to materials")
-    names, all_materials = core.objects, core.materials
-    for name, value in materials.items():
-        if name not in names:
-            raise ValueError(f"materials: found object {name!r}, expected one of {names}")
-        changed = _to_core(Material, "materials", value)
-        all_materials = [changed if other == name else kept for other, kept in zip(names, all_materials)]
-    return all_materials
-
-
-def _options(radius_scale: float, up: Optional[Vector], threads: int, device: str, cache: Optional[Path],
-             color_by: str) -> _core.OpenOptions:
-    options = _core.OpenOptions()
-    options.radius_scale = _check.number("radius_scale", radius_scale)
-    options.up = None if up is None else _check.vector("up", up)
-    options.threads = _check.whole("threads", threads, 0, 4096)
-    options.device = _check.text("device", device)
-    options.cache = "" if cache is None else _check.path("cache", cache)
-    options.color_by = _check.text("color_by", color_by)
-    return options
-
-
-def open(files: Union[Path, Sequence[Path]], *, radius_scale: float = 1.0, mesh_points: int = 0, data: Sequence[Path] = (),
-         color_by: str = "", up: Optional[Vector] = None, threads: int = 0, device: str = "", cache: Optional[Path] = None,
-         progress: Optional[_check.Progress] = None) -> Scene:
+@takes_fields(OPENING)
+def open(files: Union[Path, Sequence[Path]], *, materials: Optional[Mapping[str, Material]] = None, request: Optional[Request] = None,
+         progress: Optional[_check.Progress] = None, **fields: Any) -> Scene:
     """Reads a scene, model or scan, or several in one scene, or a folder of scans.
 
-    radius_scale: factor on every disc's radius. mesh_points: sampled on meshes by area; 0 for their vertices where fine enough. data:
-    folders searched for models that a scene names. color_by: an attribute shown as colours, such as height, intensity or class. up: up
-    direction, None for the file's own. threads: of reading, preprocess and device="cpu", 0 for all cores. device: number or part of a name of devices(),
-    empty for the best, "cpu" for the processors without Vulkan. cache: folder that compiled pipelines are kept in between runs.
+    materials: by object's name, in place of the file's. request: what else is asked for of the scene.
     """
     if isinstance(files, (str, bytes, os.PathLike)) or not isinstance(files, Iterable):
         files = [files]
@@ -216,10 +175,19 @@ def open(files: Union[Path, Sequence[Path]], *, radius_scale: float = 1.0, mesh_
     for path in paths:
         if not os.path.exists(path):
             raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
-    options = _options(radius_scale, up, threads, device, cache, color_by)
-    options.mesh_points = _check.whole("mesh_points", mesh_points, 0, 2**32 - 1)
-    options.data = [_check.path("data", folder) for folder in data]
-    return Scene(_core.open(paths, options, _check.progress(progress)))
+    return Scene(_core.open(paths, _opening("open", request, fields | {"materials": materials})._core, _check.progress(progress)))
+
+
+def _opening(function: str, request: Optional[Request], fields: Mapping[str, Any]) -> Request:
+    checked(function, fields, OPENING + ["materials"])
+    return (Request() if request is None else request.replace())._set(fields)
+
+
+def make_picture(request: Request, *, progress: Optional[_check.Progress] = None) -> Image:
+    """The picture of the files that the request names as `inputs`."""
+    if not isinstance(request, Request):
+        raise TypeError(f"request: found {request!r}, expected a splatray.Request")
+    return Image(_core.make_picture(request._core, _check.progress(progress)))
 
 
 def _linear_colors(colors: Any) -> np.ndarray:
@@ -236,17 +204,18 @@ def _linear_colors(colors: Any) -> np.ndarray:
     return np.ascontiguousarray(linear, dtype=np.float32)
 
 
+@takes_fields(OPENING)
 def points(xyz: Any, *, normals: Any = None, colors: Any = None, radii: Any = None, name: str = "points",
-           material: Optional[Material] = None, scanned: Optional[bool] = None, radius_scale: float = 1.0, up: Optional[Vector] = None,
-           threads: int = 0, device: str = "", cache: Optional[Path] = None, progress: Optional[_check.Progress] = None) -> Scene:
+           material: Optional[Material] = None, scanned: Optional[bool] = None, progress: Optional[_check.Progress] = None,
+           **fields: Any) -> Scene:
     """A scene of arrays, which are copied.
 
     xyz: (n, 3), world units; points that are masked or not finite are left out, and Scene.notes says so. normals: (n, 3), of any length; zero, masked or NaN:
     estimated. colors: (n, 3), linear in 0..1, or uint8 and uint16, which are sRGB. radii: (n,), world units; zero, negative or NaN: chosen.
     scanned: whether they come from a scanner, whose strays are left out and noise is smoothed; None where there are no normals. up: z unless
-    given. The others are those of open().
+    given.
     """
-    options = _options(radius_scale, up, threads, device, cache, "")
+    request = _opening("points", None, fields)
     positions = _check.rows("xyz", xyz, np.float64)
     given_radii = None if radii is None else _check.array("radii", radii, np.float32)
     if given_radii is not None and given_radii.ndim != 1:
@@ -257,5 +226,11 @@ def points(xyz: Any, *, normals: Any = None, colors: Any = None, radii: Any = No
         if values is not None and len(values) != len(positions):
             raise ValueError(f"{kind}: found {len(values)}, expected as many as the {len(positions)} points")
     return Scene(_core.make_scene(positions, rows["normals"], rows["colors"], rows["radii"], _check.text("name", name),
-                                  None if material is None else _to_core(Material, "material", material),
-                                  None if scanned is None else bool(scanned), options, _check.progress(progress)))
+                                  None if material is None else _material(material),
+                                  None if scanned is None else bool(scanned), request._core, _check.progress(progress)))
+
+
+def _material(value: Any) -> _core.Material:
+    if not isinstance(value, Material):
+        raise TypeError(f"material: found {value!r}, expected a splatray.Material")
+    return value._to_core()

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/options.h"
+#include "app/library/request/request.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 
@@ -25,8 +25,7 @@ enum class ViewMode {
 
 /// What stays as it was loaded.
 struct LoadedPart {
-  SceneOptions source;                       ///< the files, and how points are made of them
-  PictureOptions asked;                      ///< what was asked of the picture when they were loaded
+  Request asked;                             ///< files, how points are made of them, and how they are shown
   std::uint32_t look = LOOK_LIT;             ///< as first shown
   std::vector<std::string> object_names;     ///< one per object
   ObjectLooks looks{};                       ///< one per object, as the scene has them

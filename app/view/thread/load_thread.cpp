@@ -2,16 +2,16 @@
 
 #include <utility>
 
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 #include "app/view/model/attempt.h"
-#include "app/view/model/document_options.h"
+#include "app/view/model/document_request.h"
 #include "app/view/model/scene_files.h"
 
 namespace splatray {
 namespace {
 
-std::string stage_text(const char* stage, const SceneOptions& scene) {
-  return std::string(stage) + " " + scene_title(scene.inputs);
+std::string stage_text(const char* stage, const Request& request) {
+  return std::string(stage) + " " + scene_title(request.source.inputs);
 }
 
 }  // namespace
@@ -27,10 +27,10 @@ LoadThread::~LoadThread() {
   thread_.join();
 }
 
-void LoadThread::load(const SceneOptions& scene, const PictureOptions& picture) {
+void LoadThread::load(const Request& request) {
   const std::lock_guard lock(mutex_);
-  wish_ = {scene, picture};
-  news_.progress = {stage_text("reading", scene), 0.0};
+  wish_ = request;
+  news_.progress = {stage_text("reading", request), 0.0};
   cancelled_ = true;  // what is being loaded
   changed_.notify_one();
 }
@@ -50,7 +50,7 @@ LoadNews LoadThread::take_news() {
 
 void LoadThread::run() {
   while (true) {
-    Wish wish;
+    Request wish;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return ending_ || wish_; });
@@ -59,7 +59,7 @@ void LoadThread::run() {
       cancelled_ = false;
     }
     const std::optional<Failure> failure =
-        attempt("loading " + scene_title(wish.scene.inputs), [&] { load_now(wish); });
+        attempt("loading " + scene_title(wish.source.inputs), [&] { load_now(wish); });
     deliver([&](LoadNews& news) {
       if (!wish_) news.progress.reset();
       if (failure && !failure->interrupted) news.error = failure->sentence;
@@ -67,23 +67,23 @@ void LoadThread::run() {
   }
 }
 
-void LoadThread::load_now(const Wish& wish) {
+void LoadThread::load_now(const Request& wish) {
   const LoadListener listener{
       [&](const char* stage, double share) {
         deliver([&](LoadNews& news) {
-          if (!cancelled_) news.progress = {stage_text(stage, wish.scene), share};
+          if (!cancelled_) news.progress = {stage_text(stage, wish), share};
         });
         return !is_cancelled();
       },
       [&](const std::string& note) { deliver([&](LoadNews& news) { add_line(news.notice, note); }); }};
-  PictureOptions picture = wish.picture;
-  picture.objects.clear();  // the document keeps the materials without them
-  picture.attributes = {};  // the render thread applies them
-  picture.attributes.color_by = "rgb";
-  LoadedScene loaded = load_scene(wish.scene, picture, listener);
-  if (const std::string told = suited_picture(loaded.scene, wish.picture).told; !told.empty())
+  Request request = wish;
+  request.look.objects.clear();  // the document keeps the materials without them
+  request.look.attributes = {};  // the render thread applies them
+  request.look.attributes.color_by = "rgb";
+  LoadedScene loaded = load_scene(request, listener);
+  if (const std::string told = suited_picture(loaded.scene, wish).told; !told.empty())
     listener.note(told);
-  OpenedScene opened{nullptr, first_document(loaded.scene, wish.scene, wish.picture)};
+  OpenedScene opened{nullptr, first_document(loaded.scene, wish)};
   opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));
   if (is_cancelled()) return;
   deliver([&](LoadNews& news) { news.opened = std::move(opened); });

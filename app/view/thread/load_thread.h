@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "app/cli/options.h"
+#include "app/library/request/request.h"
 #include "app/view/model/document.h"
 #include "app/view/thread/live_scene.h"
 
@@ -44,26 +44,26 @@ class LoadThread {
   LoadThread& operator=(const LoadThread&) = delete;
 
   /// Starts to load; ends what is being loaded. The picture's size gives the aspect of the first view.
-  void load(const SceneOptions& scene, const PictureOptions& picture);
+  void load(const Request& request);
   void cancel();
   /// What is new; `progress` as it is now.
   [[nodiscard]] LoadNews take_news();
 
  private:
   struct Wish {
-    SceneOptions scene;
-    PictureOptions picture;
+    Request::Source scene;
+    Request request;
   };
 
   void run();
-  void load_now(const Wish& wish);
+  void load_now(const Request& wish);
   void deliver(const std::function<void(LoadNews&)>& change);
   [[nodiscard]] bool is_cancelled();
 
   std::function<void()> wake_;
   std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;
-  std::optional<Wish> wish_;
+  std::optional<Request> wish_;
   LoadNews news_;
   bool ending_ = false, cancelled_ = false;
   std::thread thread_;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/library/scene_source.h"
+#include "app/library/picture/scene_source.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/inspect.h"
 

@@ -1,39 +1,33 @@
 #include "app/view/thread/save.h"
 
-#include "app/cli/picture.h"
-#include "app/cli/render_sequence.h"
-#include "app/view/model/document_options.h"
+#include "app/library/picture/picture_file.h"
+#include "app/library/picture/render_sequence.h"
+#include "app/view/model/document_request.h"
 
 namespace splatray {
 
-SaveJob save_job(const Document& document, const SaveRequest& request) {
-  SaveJob job{document, render_options(document, request.width, request.height)};
-  job.options.output = request.path;
-  job.options.aov_depth = request.aov_depth;
-  job.options.aov_normal = request.aov_normal;
-  job.options.aov_id = request.aov_id;
-  job.options.picture.settings.samples = request.samples;
-  job.options.picture.settings.aov = request.aov_depth || request.aov_normal || request.aov_id;
-  return job;
-}
-
-SaveJob save_job(const Document& document, const RecordRequest& request) {
-  SaveJob job{document, render_options(document, request.width, request.height)};
-  job.options.output = request.path;
-  job.options.picture.settings.samples = request.samples;
-  if (request.turntable)
-    job.options.sequence.turntable = request.frames;
-  else
-    job.options.sequence.camera_path = request.camera_path;
-  job.options.sequence.skip_existing = request.skip_existing;
+SaveJob save_job(const Document& document, const Request& asked) {
+  SaveJob job{document, request_of(document, asked.view.width, asked.view.height)};
+  job.request.output = asked.output;
+  job.request.view.crop = asked.view.crop;
+  job.request.view.tile = asked.view.tile;
+  job.request.view.tiles = asked.view.tiles;
+  Request::Settings& settings = job.request.settings;
+  settings.samples = asked.settings.samples;
+  settings.sample_offset = asked.settings.sample_offset;
+  settings.error_goal = asked.settings.error_goal;
+  settings.seconds_goal = asked.settings.seconds_goal;
+  settings.aov = asked.settings.aov;
+  settings.estimate_error = asked.settings.estimate_error;
   return job;
 }
 
 std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& context,
                           const SaveProgress& progress) {
-  const RenderOptions& options = job.options;
-  const Sequence sequence = plan_sequence(options);
-  require_outputs_writable(options);
+  const Request& request = job.request;
+  require_consistent(request);
+  const Sequence sequence = plan_sequence(request);
+  require_outputs_writable(request);
   live.match(job.document, ViewMode::shaded);
   live.forget_lights();
   const auto pictures = static_cast<double>(sequence.frames.size());
@@ -43,10 +37,10 @@ std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& co
                                   },
                                   [](const std::string&) {}, [](const FailedPicture&) {}};
   const SequenceRecord record =
-      render_sequence(options, sequence, live.scene(), job.document.camera, context, live.tracer(), listener);
+      render_sequence(request, sequence, live.scene(), job.document.camera, context, live.tracer(), listener);
   require_all_made(record);
-  const std::string saved = "saved '" + options.output.string() + "'";
-  if (!options.sequence.many()) return saved;
+  const std::string saved = "saved '" + request.output.path.string() + "'";
+  if (!request.output.many()) return saved;
   const std::string all = std::to_string(sequence.frames.size()) + " pictures";
   if (record.skipped == 0) return saved + ": " + all;
   return saved + ": " + std::to_string(record.made.size()) + " of " + all + ", the others were there";

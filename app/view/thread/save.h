@@ -3,20 +3,20 @@
 #include <functional>
 #include <string>
 
-#include "app/cli/options.h"
+#include "app/library/request/request.h"
+#include "app/view/model/panel_state.h"
 #include "app/view/thread/live_scene.h"
-#include "app/view/ui/panels.h"
 
 namespace splatray {
 
 /// Pictures that are to be made.
 struct SaveJob {
   Document document;
-  RenderOptions options;  ///< of the document; with output, size, samples, AOVs and sequence
+  Request request;  ///< of the document; with output, size, samples, AOVs and sequence
 };
 
-[[nodiscard]] SaveJob save_job(const Document& document, const SaveRequest& request);
-[[nodiscard]] SaveJob save_job(const Document& document, const RecordRequest& request);
+/// The document's pictures; of `asked` only what is_of_files (field_controls.h): size, part, samples or goal, denoising and output.
+[[nodiscard]] SaveJob save_job(const Document& document, const Request& asked);
 
 /// Told what is made and the share of the job done, 0..1; returns false to stop.
 using SaveProgress = std::function<bool(const Work&)>;

@@ -8,6 +8,7 @@
 
 #include "app/library/camera_file.h"
 #include "app/view/model/attempt.h"
+#include "app/view/ui/field_controls.h"
 #include "app/view/ui/panel_parts.h"
 #include "preprocess/read/formats.h"
 
@@ -15,7 +16,7 @@ namespace splatray {
 namespace {
 
 constexpr float WIDTH_EM = 26.0F, FIELD_EM = 17.0F;
-constexpr std::uint32_t LEAST = 1, MOST_EDGE = 32768, MOST_SAMPLES = 65536, MOST_FRAMES = 1000000;
+constexpr std::uint32_t LEAST = 1, MOST_EDGE = 32768, MOST_SAMPLES = 65536, MOST_FRAMES = 999999;
 
 /// A dialog in the middle of the window for as long as it is open; its fields go between construction and destruction when
 /// it is true.
@@ -65,6 +66,24 @@ void edge_input(const char* label, std::uint32_t& value, std::uint32_t most) {
   value = std::clamp(value, LEAST, most);
 }
 
+void path_input(const char* label, std::filesystem::path& path, const char* hint = "") {
+  std::string text = path.string();
+  if (ImGui::InputTextWithHint(label, hint, &text)) path = text;
+}
+
+/// Fields of a saved picture that have no control of their own in a dialog, in the order of the help.
+void file_fields(Request& request, std::string& error, bool of_sequence) {
+  constexpr std::array OWN = {"output", "resolution", "samples", "turntable", "camera-path"};
+  constexpr std::array OF_SEQUENCES = {"frames", "skip-existing"};
+  const auto is_in = [](const auto& names, const Field& field) {
+    return std::find(names.begin(), names.end(), field.name) != names.end();
+  };
+  for (const Field& field : fields())
+    if (field.in(DOOR_VIEW) && field.group != FieldGroup::files && is_of_files(field) && !is_in(OWN, field) &&
+        (of_sequence || !is_in(OF_SEQUENCES, field)))
+      field_control(field, request, error);
+}
+
 void size_inputs(std::uint32_t& width, std::uint32_t& height) {
   struct Size {
     const char* name;
@@ -84,29 +103,31 @@ void size_inputs(std::uint32_t& width, std::uint32_t& height) {
   ImGui::NewLine();
 }
 
-bool ends_in(const std::string& path, const char* extension) {
-  return std::filesystem::path(path).extension() == extension;
+bool ends_in(const std::filesystem::path& path, const char* extension) {
+  return path.extension() == extension;
 }
 
-bool is_picture(const std::string& path) { return ends_in(path, ".png") || ends_in(path, ".exr"); }
+bool is_picture(const std::filesystem::path& path) { return ends_in(path, ".png") || ends_in(path, ".exr"); }
 
-std::string refusal_of(const SaveRequest& save) {
-  if (is_picture(save.path) || ends_in(save.path, ".json")) return "";
+std::string refusal_of_save(const Request& save) {
+  if (is_picture(save.output.path) || ends_in(save.output.path, ".json")) return "";
   return "The file's name must end in .png or .exr, or in .json for the camera alone.";
 }
 
-std::string refusal_of(const RecordRequest& record) {
-  if (record.path.find('#') == std::string::npos) return "The files' name needs #### where the number goes.";
-  if (!record.turntable && record.camera_path.empty()) return "A camera path is needed.";
-  return is_picture(record.path) ? "" : "The files' name must end in .png or .exr.";
+std::string refusal_of_record(const Request& record) {
+  const Request::Output& output = record.output;
+  if (output.path.string().find('#') == std::string::npos)
+    return "The files' name needs #### where the number goes.";
+  if (!output.many()) return "A camera path is needed.";
+  return is_picture(output.path) ? "" : "The files' name must end in .png or .exr.";
 }
 
 /// Writes a camera file at once, small as it is.
-void write_file(PanelState& state, const std::string& path, const std::function<void()>& write) {
-  if (const std::optional<Failure> failure = attempt("writing " + path, write))
+void write_file(PanelState& state, const std::filesystem::path& path, const std::function<void()>& write) {
+  if (const std::optional<Failure> failure = attempt("writing " + path.string(), write))
     state.error = failure->sentence;
   else
-    state.notice = "Written: " + path;
+    state.notice = "Written: " + path.string();
 }
 
 bool is_ortho(const Camera& camera) { return camera.ortho_height > 0.0; }
@@ -125,21 +146,18 @@ void write_bookmarks(PanelState& state) {
   else if (mixed)
     state.error = "the bookmarks are both perspective and orthographic, expected one kind in a camera path";
   else
-    write_file(state, state.record.camera_path, [&] { write_camera_path(path, state.record.camera_path); });
+    write_file(state, state.record.output.camera_path,
+               [&] { write_camera_path(path, state.record.output.camera_path); });
 }
 
 void path_inputs(PanelState& state) {
-  ImGui::InputTextWithHint("path file", "cameras.json", &state.record.camera_path);
-  ImGui::BeginDisabled(!ends_in(state.record.camera_path, ".json"));
+  path_input("path file", state.record.output.camera_path, "cameras.json");
+  ImGui::BeginDisabled(!ends_in(state.record.output.camera_path, ".json"));
   if (ImGui::SmallButton("write the bookmarks there")) write_bookmarks(state);
   ImGui::EndDisabled();
 }
 
 }  // namespace
-
-bool dialog_is_open(const PanelState& state) {
-  return state.show_open || state.show_save || state.show_record || !state.error.empty();
-}
 
 void open_dialog(PanelState& state, Requests& requests) {
   if (!state.show_open) return;
@@ -166,38 +184,38 @@ void save_dialog(const Document& document, PanelState& state, Requests& requests
   if (!state.show_save) return;
   Dialog dialog("Save the picture", state.show_save);
   if (!dialog) return;
-  SaveRequest& save = state.save;
-  ImGui::InputText("file", &save.path);
-  size_inputs(save.width, save.height);
-  edge_input("samples", save.samples, MOST_SAMPLES);
-  ImGui::BeginDisabled(!ends_in(save.path, ".exr"));
-  ImGui::Checkbox("depth", &save.aov_depth);
-  ImGui::SameLine();
-  ImGui::Checkbox("normal", &save.aov_normal);
-  ImGui::SameLine();
-  ImGui::Checkbox("object", &save.aov_id);
-  ImGui::EndDisabled();
-  if (!dialog.done_or_cancelled("save", refusal_of(save))) return;
-  if (is_picture(save.path))
+  Request& save = state.save;
+  path_input("file", save.output.path);
+  size_inputs(save.view.width, save.view.height);
+  edge_input("samples", save.settings.samples, MOST_SAMPLES);
+  file_fields(save, state.error, /*of_sequence=*/false);
+  if (!dialog.done_or_cancelled("save", refusal_of_save(save))) return;
+  if (is_picture(save.output.path))
     requests.save = save;
   else
-    write_file(state, save.path, [&] { write_camera(document.camera, save.path); });
+    write_file(state, save.output.path, [&] { write_camera(document.camera, save.output.path); });
 }
 
 void record_dialog(PanelState& state, Requests& requests) {
   if (!state.show_record) return;
   Dialog dialog("Record", state.show_record);
   if (!dialog) return;
-  RecordRequest& record = state.record;
-  if (ImGui::RadioButton("turntable about the pivot", record.turntable)) record.turntable = true;
-  if (ImGui::RadioButton("camera path", !record.turntable)) record.turntable = false;
-  if (!record.turntable) path_inputs(state);
-  ImGui::InputText("files", &record.path);
-  edge_input("frames", record.frames, MOST_FRAMES);
-  size_inputs(record.width, record.height);
-  edge_input("samples", record.samples, MOST_SAMPLES);
-  ImGui::Checkbox("skip files that exist", &record.skip_existing);
-  if (dialog.done_or_cancelled("record", refusal_of(record))) requests.record = record;
+  Request& record = state.record;
+  std::uint32_t& turntable = record.output.turntable;
+  if (ImGui::RadioButton("turntable about the pivot", turntable > 0) && turntable == 0)
+    turntable = first_record().output.turntable;
+  if (ImGui::RadioButton("camera path", turntable == 0)) turntable = 0;
+  if (turntable > 0)
+    edge_input("turntable", turntable, MOST_FRAMES);
+  else
+    path_inputs(state);
+  path_input("files", record.output.path);
+  size_inputs(record.view.width, record.view.height);
+  edge_input("samples", record.settings.samples, MOST_SAMPLES);
+  file_fields(record, state.error, /*of_sequence=*/true);
+  if (!dialog.done_or_cancelled("record", refusal_of_record(record))) return;
+  requests.save = record;
+  if (turntable > 0) requests.save->output.camera_path.clear();
 }
 
 void error_dialog(PanelState& state) {

@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include "app/view/ui/field_controls.h"
 #include "app/view/ui/panel_parts.h"
 #include "engine/scene/splat.h"
 
@@ -49,6 +50,7 @@ void column(Document& document, PanelState& state, const PanelView& view, Reques
   if (section("Quality", false)) quality_panel(document);
   if (section("Splat under the cursor", true)) inspector_panel(view);
   if (section("Statistics", true)) statistics_panel(view);
+  if (section("All options", false)) all_fields(document, state, requests);
 }
 
 void column_window(Document& document, PanelState& state, const PanelView& view, float width_px,

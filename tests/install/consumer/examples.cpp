@@ -11,7 +11,7 @@ namespace sr = splatray::api;
 /// A picture of a file: any format that splatray reads, seen as a whole in the default light.
 sr::Image picture_of_a_file(const std::filesystem::path& file) {
   const sr::Scene scene = sr::open(file);
-  return sr::render(scene, {sr::frame(scene), 320, 180});
+  return sr::render(scene, {{"resolution", "320x180"}});
 }
 //! [picture]
 
@@ -36,23 +36,21 @@ sr::Scene scene_of_arrays() {
 /// Other light and another material; the scene itself stays as it is.
 sr::Image gold_at_night(const sr::Scene& scene) {
   const sr::Double3 high = scene.bounds_high();
-  sr::Look look;
-  look.environment = "0.02,0.02,0.05";
-  look.lights = {
-      {.kind = sr::Light::Kind::point, .position = {high[0], high[1], high[2] + 3.0}, .power = {60, 50, 40}}};
-  look.materials.assign(scene.objects().size(), sr::named_material("gold"));
-  const sr::Camera camera = sr::frame(scene, {.azimuth_deg = 30.0, .elevation_deg = 40.0, .fov_y_deg = 35.0});
-  return sr::render(scene, {camera, 320, 180}, look, {.samples = 4});
+  sr::Request request = {{"resolution", "320x180"}, {"samples", 4}, {"environment", "0.02,0.02,0.05"}};
+  request.add("light", sr::Value(sr::Double3{high[0], high[1], high[2] + 3.0}).text() + ",60,50,40");
+  for (const std::string& object : scene.objects()) request.add_material(object, sr::named_material("gold"));
+  request.set_camera(sr::frame(scene, {.azimuth_deg = 30.0, .elevation_deg = 40.0, .fov_y_deg = 35.0}));
+  return sr::render(scene, request);
 }
 //! [look]
 
 //! [turntable]
 /// Eight pictures from all sides.
 void turntable(const sr::Scene& scene, const std::filesystem::path& folder) {
+  sr::Request request = {{"resolution", "96x96"}, {"samples", 1}};
   for (int i = 0; i < 8; ++i) {
-    const sr::Camera camera = sr::frame(scene, {.azimuth_deg = 45.0 * i, .aspect = 1.0});
-    sr::render(scene, {camera, 96, 96}, {}, {.samples = 1})
-        .save(folder / ("turn" + std::to_string(i) + ".png"));
+    request.set_camera(sr::frame(scene, {.azimuth_deg = 45.0 * i, .aspect = 1.0}));
+    sr::render(scene, request).save(folder / ("turn" + std::to_string(i) + ".png"));
   }
 }
 //! [turntable]
@@ -74,8 +72,8 @@ std::vector<float> simulated_lidar(const sr::Scene& scene, const sr::Double3& pl
 /// Depth, normals and objects for each of many poses.
 std::vector<sr::Image> depth_of_poses(const sr::Scene& scene, const std::vector<sr::Camera>& poses) {
   std::vector<sr::Image> images;
-  for (const sr::Camera& pose : poses)
-    images.push_back(sr::render(scene, {pose, 160, 120}, {}, {.samples = 1, .channels = true}));
+  sr::Request request = {{"resolution", "160x120"}, {"samples", 1}, {"aov", "depth,normal,id"}};
+  for (const sr::Camera& pose : poses) images.push_back(sr::render(scene, request.set_camera(pose)));
   return images;
 }
 //! [depth]
@@ -88,7 +86,7 @@ std::string give_up_after(const sr::Scene& scene, double seconds) {
     return std::chrono::steady_clock::now() - start < std::chrono::duration<double>(seconds);
   };
   try {
-    (void)sr::render(scene, {sr::frame(scene), 1280, 720}, {}, {.samples = 65536}, progress);
+    (void)sr::render(scene, {{"resolution", "1280x720"}, {"samples", 65536}}, progress);
     return "done";
   } catch (const sr::Error& error) {
     if (error.kind() != sr::ErrorKind::cancelled) throw;

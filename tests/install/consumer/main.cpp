@@ -130,60 +130,22 @@ void check_errors(const std::filesystem::path& folder) {
       Kind::usage, [&] { (void)sr::trace(scene, nan, one); }, "NaN");
   expect_error(
       Kind::usage, [&] { (void)sr::trace(scene, one, {}); }, "sizes");
+  for (const auto& [name, text] : {std::pair{"resolution", "0x1"}, {"samples", "0"}, {"lights", "some"}, {"blend", "soft"},
+                                   {"object", "plane:glow=1"}, {"look", "nice"}, {"tone", "bright"}, {"light", "0,0,1,-1,0,0"}, {"no-such-field", "1"}})
+    expect_error(
+        Kind::usage, [&, name = name, text = text] { (void)sr::Request{{name, text}}; }, name);
+  const auto refused = [&](Kind kind, const sr::Request& request, const std::string& name) {
+    expect_error(
+        kind, [&] { (void)sr::render(scene, request); }, name);
+  };
+  refused(Kind::usage, {{"eye", "0,0,0"}, {"target", "0,0,0"}}, "eye is target");
+  refused(Kind::usage, {{"target", "0,0,0"}}, "target alone");
+  refused(Kind::usage, {{"object", "other:hidden=on"}}, "another object");
+  refused(Kind::input, {{"resolution", "8x8"}, {"environment", "missing.hdr"}}, "environment");
   expect_error(
-      Kind::usage,
-      [&] {
-        (void)sr::render(scene, {{}, 0, 1});
-      },
-      "picture of size 0");
+      Kind::input, [] { (void)sr::Request::from_json("{\"samples\": []}"); }, "JSON of no request");
   expect_error(
-      Kind::usage,
-      [&] {
-        (void)sr::render(scene, {{.eye = {0, 0, 0}}, 8, 8});
-      },
-      "eye is target");
-  expect_error(
-      Kind::usage,
-      [&] {
-        (void)sr::render(scene, {{}, 8, 8}, {}, {.samples = 0});
-      },
-      "no samples");
-  expect_error(
-      Kind::usage,
-      [&] {
-        (void)sr::render(scene, {{}, 8, 8}, {.materials = std::vector<sr::Material>(2)});
-      },
-      "materials");
-  expect_error(
-      Kind::usage,
-      [&] {
-        (void)sr::render(scene, {{}, 8, 8}, {.lights = {{{.power = {-1.0F, 0.0F, 0.0F}}}}});
-      },
-      "negative light");
-  expect_error(
-      Kind::input,
-      [&] {
-        (void)sr::render(scene, {{}, 8, 8}, {.environment = "missing.hdr"});
-      },
-      "environment");
-  expect_error(
-      Kind::usage,
-      [&] {
-        (void)sr::render(scene, {{}, 8, 8}, {.style = sr::Style(77)});
-      },
-      "no style");
-  expect_error(
-      Kind::usage,
-      [&] {
-        (void)sr::render(scene, {{}, 8, 8}, {.lights = {{{.kind = sr::Light::Kind(77)}}}});
-      },
-      "no kind of light");
-  expect_error(
-      Kind::usage,
-      [&] {
-        (void)sr::render(scene, {sr::frame(scene), 8, 8}).png({.tone = sr::Tone(77)});
-      },
-      "no tone");
+      Kind::input, [&] { (void)sr::Request::of_picture(folder / "text.ply"); }, "no picture");
   expect_error(
       Kind::usage, [&] { (void)sr::frame(scene, {.elevation_deg = 91.0}); }, "elevation");
   expect_error(
@@ -193,17 +155,17 @@ void check_errors(const std::filesystem::path& folder) {
   expect_error(
       Kind::usage,
       [&] {
-        sr::render(scene, {sr::frame(scene), 8, 8}).save(folder / "a.tif");
+        sr::render(scene, {{"resolution", "8x8"}}).save(folder / "a.tif");
       },
       "extension");
   expect_error(
       Kind::failed,
       [&] {
-        sr::render(scene, {sr::frame(scene), 8, 8}).save(folder / "no" / "a.png");
+        sr::render(scene, {{"resolution", "8x8"}}).save(folder / "no" / "a.png");
       },
       "no folder");
   expect_error(
-      Kind::no_device, [&] { (void)sr::make_scene(plane.points(), {.device = "no such device"}).device(); },
+      Kind::no_device, [&] { (void)sr::make_scene(plane.points(), {{"device", "no such device"}}).device(); },
       "device");
   const sr::Scene other = std::move(scene);
   expect_error(
@@ -211,12 +173,32 @@ void check_errors(const std::filesystem::path& folder) {
   struct Own {};
   bool passed_on = false;
   try {
-    (void)sr::render(other, {sr::frame(other), 64, 64}, {}, {},
-                     [](const char*, double) -> bool { throw Own{}; });
+    (void)sr::render(other, {{"resolution", "64x64"}}, [](const char*, double) -> bool { throw Own{}; });
   } catch (const Own&) {
     passed_on = true;
   }
   expect(passed_on, "what progress threw did not come out");
+}
+
+/// All fields can be set by what they are now, and JSON holds what was set.
+void check_requests(const sr::Scene& scene, const std::filesystem::path& folder) {
+  sr::Request request = {{"samples", 3}, {"resolution", "16x9"}, {"environment_strength", 0.5}, {"denoise", false},
+                         {"sun", "0,0,1"}, {"light", "1,2,3"}};
+  request.set_camera(sr::frame(scene)).add_material("sphere", {.roughness = 0.25F});
+  const sr::Request same = sr::Request::from_json(request.json());
+  expect(same.json() == request.json() && same.get("lights").empty() && same.get("sun").size() == 1,
+         "a request did not come back from its JSON");
+  expect(sr::render(scene, same).pixels == sr::render(scene, request).pixels, "its picture is another");
+  for (const sr::FieldInfo& field : sr::Request::fields()) {
+    expect(!field.help.empty() && !field.group.empty(), field.name + " says nothing");
+    const std::vector<std::string> texts = request.get(field.name);
+    for (std::size_t i = 0; i < texts.size(); ++i) i == 0 ? request.set(field.name, texts[i]) : request.add(field.name, texts[i]);
+  }
+  expect(request.get("sun") == same.get("sun") && request.get("samples") == same.get("samples"),
+         "setting fields to what they are changed them");
+  scene.save(folder / "request.soct");
+  const sr::Request whole = sr::Request(request).set("inputs", (folder / "request.soct").string());
+  expect(sr::make_picture(whole).pixels == sr::render(scene, request).pixels, "make_picture gave another picture");
 }
 
 void check_pictures(const std::filesystem::path& folder) {
@@ -230,14 +212,15 @@ void check_pictures(const std::filesystem::path& folder) {
   first.join();
   second.join();
   expect(gold.pixels == again.pixels && gold.pixels == more.pixels, "two threads made two pictures");
-  expect(gold.pixels != sr::render(scene, {sr::frame(scene), 320, 180}).pixels,
+  expect(gold.pixels != sr::render(scene, {{"resolution", "320x180"}}).pixels,
          "gold at night is the default look");
   scene.save(folder / "sphere.soct");
   const sr::Image of_file = picture_of_a_file(folder / "sphere.soct");
-  expect(of_file.pixels == sr::render(scene, {sr::frame(scene), 320, 180}).pixels,
+  expect(of_file.pixels == sr::render(scene, {{"resolution", "320x180"}}).pixels,
          "the scene's file is another scene");
   turntable(scene, folder);
   expect(std::filesystem::file_size(folder / "turn7.png") > 100, "no picture of the turntable");
+  check_requests(scene, folder);
   const std::vector<unsigned char> png = of_file.png();
   expect(png.size() > 8 && png[1] == 'P' && png[2] == 'N' && png[3] == 'G', "png() gave no PNG");
   expect(!give_up_after(scene, 0.0).empty() && give_up_after(scene, 0.0) != "done", "cancelling did nothing");
@@ -247,17 +230,14 @@ void check_pictures(const std::filesystem::path& folder) {
 void check_materials_of_scans() {
   const Plane plane(0.0, 0.0, 0.0);
   const sr::Scene scan = sr::make_scene({.positions = plane.positions, .scanned = true});
-  const sr::View view{sr::frame(scan), 32, 32};
-  const auto picture = [&](const sr::Look& look) {
-    return sr::render(scan, view, look, {.samples = 1}).pixels;
+  const sr::Request small = {{"resolution", "32x32"}, {"samples", 1}};
+  const auto with = [&](const sr::Material& material, const char* look) {
+    return sr::render(scan, sr::Request(small).add_material("0", material).set("look", look)).pixels;
   };
-  const auto automatic = picture({});
-  expect(automatic == picture({.style = sr::Style::scan}), "a scan's own look is another");
-  std::vector<sr::Material> materials = scan.materials();
-  expect(automatic == picture({.materials = materials}), "its own materials change a scan's picture");
-  materials[0] = sr::named_material("gold");
-  expect(picture({.materials = materials}) == picture({.style = sr::Style::lit, .materials = materials}),
-         "a scan of gold is not shown lit");
+  const sr::Material own = scan.materials().front(), gold = sr::named_material("gold");
+  expect(sr::render(scan, small).pixels == with(own, "auto"), "its own material changes a scan's picture");
+  expect(with(gold, "auto") == with(gold, "lit"), "a scan of gold is not shown lit");
+  expect(with(gold, "auto") != with(own, "auto"), "a scan of gold looks as it did");
 }
 
 /// A camera on the equator and a scanner beside the sphere of radius 1: closed forms within a thousandth.

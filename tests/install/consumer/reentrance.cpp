@@ -19,7 +19,7 @@ const std::vector<sr::Double3> ORIGIN = {{500000.0, 4000000.0, 103.0}}, DOWN = {
 bool hits(const sr::Scene& scene) { return sr::trace(scene, ORIGIN, DOWN).object[0] == 0; }
 
 sr::Image picture(const sr::Scene& scene, const sr::Progress& progress = {}, std::uint32_t samples = 16) {
-  return sr::render(scene, {sr::frame(scene), 64, 64}, {}, {.samples = samples}, progress);
+  return sr::render(scene, {{"resolution", "64x64"}, {"samples", samples}}, progress);
 }
 
 /// The kind of Error that a progress function gets which makes `use`, a call of the library.
@@ -149,7 +149,7 @@ std::string find_defect_in_child(const sr::Scene& scene, const sr::Scene& on_hos
 
 std::string find_reentrance_defect() {
   const sr::Scene scene = scene_of_arrays();
-  const sr::Scene on_host = sr::make_scene({.positions = ORIGIN}, {.device = "cpu"});
+  const sr::Scene on_host = sr::make_scene({.positions = ORIGIN}, {{"device", "cpu"}});
   for (std::string defect :
        {find_defect_in_progress(scene), find_defect_in_threads(scene), find_defect_in_child(scene, on_host)})
     if (!defect.empty()) return defect;

@@ -1,0 +1,71 @@
+#include "app/cli/render_options.h"
+
+#include <algorithm>
+
+#include "app/cli/option_types.h"
+#include "app/cli/options.h"
+#include "app/library/picture/reproduce.h"
+#include "app/library/request/request_json.h"
+#include "engine/base/error.h"
+#include "engine/file/atomic_file.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray {
+namespace {
+
+/// Files that say what is asked for, and where that is written.
+struct RequestFiles {
+  std::filesystem::path picture, request, save_request;
+};
+
+void add_request_files(OptionList& list, RequestFiles& files) {
+  list.set_group(group_title(FieldGroup::files));
+  list.add_answer(
+      "--version", [] { return SPLATRAY_VERSION; }, "print the version");
+  add_path(list, "--from", files.picture,
+           "make this picture again, from the request kept in it; options beside it replace parts of that, -o defaults to "
+           "its name with .again; relative paths in it are looked for here, then in its folder and those above");
+  add_path(list, "--request", files.request,
+           "a request (JSON: names of options without dashes, and their values); options beside it replace parts of it");
+  add_path(list, "--save-request", files.save_request, "write all that is asked for here, as --request reads it, and end");
+}
+
+/// What the options stand on: the request of a picture or of a file.
+Request base_request(const RequestFiles& files, const std::vector<FieldText>& values) {
+  if (!files.picture.empty() && !files.request.empty())
+    throw Error(ExitCode::usage, "found --from and --request, expected one of them");
+  if (!files.request.empty()) return read_request(files.request);
+  Request request;
+  if (files.picture.empty()) return request;
+  request = read_picture_request(files.picture);
+  request.output.path = files.picture;
+  request.output.path.replace_extension(".again" + files.picture.extension().string());
+  const auto output = std::find_if(values.rbegin(), values.rend(),
+                                   [](const FieldText& value) { return value.name == "output"; });
+  if (output != values.rend() && lower_extension(output->text) == ".png")
+    assign(request, std::vector<FieldText>{{"aov", ""}}, DOOR_RENDER);
+  return request;
+}
+
+}  // namespace
+
+std::optional<GivenRequest> parse_render_options(int argc, char** argv) {
+  OptionList list("Ray-traces a scene of splats into pictures.", "splatray-render");
+  GivenFields given;
+  RequestFiles files;
+  add_fields(list, DOOR_RENDER, "SCENE", given);
+  add_request_files(list, files);
+  if (!list.parse(argc, argv)) return {};
+  Request request = base_request(files, given.values);
+  assign(request, given, DOOR_RENDER);
+  if (!request.output.list_devices) {
+    require_inputs(request.source);
+  require_consistent(request);
+    if (!files.save_request.empty()) return write_text_file(request_json(request), files.save_request), std::nullopt;
+    if (request.output.path.empty())
+      throw Error(ExitCode::usage, "found no output, expected -o with a .png or .exr file");
+  }
+  return GivenRequest{std::move(request), std::move(given.notes)};
+}
+
+}  // namespace splatray

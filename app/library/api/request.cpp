@@ -1,0 +1,153 @@
+#include <algorithm>
+
+#include "app/library/api/guard.h"
+#include "app/library/api/request_impl.h"
+#include "app/library/api/scene_impl.h"
+#include "app/library/picture/reproduce.h"
+#include "app/library/request/fields.h"
+#include "app/library/request/request_json.h"
+#include "engine/base/number_text.h"
+
+namespace splatray::api {
+namespace {
+
+/// The field of a name, in which _ stands for -.
+const Field& field_of(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  const Field* field = find_field(name, DOOR_LIBRARY);
+  if (field == nullptr || field->name != name) refuse("'" + name + "'", "the name of a field (Request::fields)");
+  return *field;
+}
+
+void read(const Field& field, const std::string& text, splatray::Request& request) {
+  try {
+    field.read(request, text);
+  } catch (const Expected& expected) {
+    throw Error(ErrorKind::usage, field.name + ": found '" + text + "', expected " + expected.what);
+  }
+}
+
+const char* kind_name(FieldKind kind) {
+  switch (kind) {
+    case FieldKind::flag:
+      return "flag";
+    case FieldKind::number:
+      return "number";
+    case FieldKind::whole:
+      return "whole";
+    case FieldKind::text:
+      break;
+  }
+  return "text";
+}
+
+std::unique_ptr<Request::Impl> holding(splatray::Request request) {
+  return std::make_unique<Request::Impl>(Request::Impl{std::move(request)});
+}
+
+}  // namespace
+
+Value::Value(double number) : text_(number_text(number)) {}
+Value::Value(float number) : text_(number_text(number)) {}
+Value::Value(const Double3& numbers) : text_(number_text(vector(numbers))) {}
+
+Request::Request() : impl_(std::make_unique<Impl>()) {}
+Request::~Request() = default;
+Request::Request(const Request& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+Request::Request(Request&& other) noexcept : impl_(std::move(other.impl_)) {
+  other.impl_ = std::make_unique<Impl>();
+}
+Request& Request::operator=(const Request& other) {
+  *impl_ = *other.impl_;
+  return *this;
+}
+Request& Request::operator=(Request&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+
+Request::Request(std::initializer_list<std::pair<const char*, Value>> values) : Request() {
+  for (const auto& [name, value] : values) field_of(name).repeated ? add(name, value) : set(name, value);
+}
+
+Request& Request::set(const std::string& name, const Value& value) {
+  guarded([&] {
+    const Field& field = field_of(name);
+    splatray::Request changed = impl_->request;
+    if (field.repeated) field.clear(changed);
+    read(field, value.text(), changed);
+    impl_->request = std::move(changed);
+  });
+  return *this;
+}
+
+Request& Request::add(const std::string& name, const Value& value) {
+  guarded([&] {
+    const Field& field = field_of(name);
+    if (!field.repeated) refuse("several values of '" + field.name + "'", "one, by set()");
+    splatray::Request changed = impl_->request;
+    if (field.family_name() == "lights" && !changed.look.lights) field.clear(changed);
+    read(field, value.text(), changed);
+    impl_->request = std::move(changed);
+  });
+  return *this;
+}
+
+Request& Request::set_camera(const Camera& camera) {
+  splatray::set_camera(impl_->request.view, {vector(camera.eye), vector(camera.target), vector(camera.up),
+                                             camera.fov_y_deg, camera.ortho_height});
+  return *this;
+}
+
+Request& Request::add_material(const std::string& object, const Material& material) {
+  guarded([&] {
+    impl_->request.look.objects.push_back(object_change(object, material));
+  });
+  return *this;
+}
+
+std::vector<std::string> Request::get(const std::string& name) const {
+  return guarded([&] {
+    const Field& wanted = field_of(name);
+    std::vector<std::string> texts;
+    for (const Field& field : splatray::fields()) {
+      if (field.family_name() != wanted.family_name() || !field.write) continue;
+      for (const FieldText& value : field.write(impl_->request))
+        if (value.name == wanted.name) texts.push_back(value.text);
+    }
+    return texts;
+  });
+}
+
+std::string Request::json() const {
+  return guarded([&] { return request_json(impl_->request); });
+}
+
+Request Request::from_json(const std::string& text) {
+  return guarded([&] {
+    Request made;
+    made.impl_ = holding(read_request_text(text, "the text"));
+    return made;
+  });
+}
+
+Request Request::of_picture(const std::filesystem::path& picture) {
+  return guarded([&] {
+    Request made;
+    made.impl_ = holding(read_picture_request(picture));
+    return made;
+  });
+}
+
+std::vector<FieldInfo> Request::fields() {
+  std::vector<FieldInfo> infos;
+  for (const Field& field : splatray::fields())
+    if (field.in(DOOR_LIBRARY))
+      infos.push_back({field.name, group_title(field.group), kind_name(field.kind), field.value, field.help,
+                       field.repeated, field.least, field.most});
+  return infos;
+}
+
+const splatray::Request& RequestAccess::inner(const Request& request) { return request.impl_->request; }
+
+}  // namespace splatray::api

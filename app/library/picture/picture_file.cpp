@@ -1,0 +1,106 @@
+#include "app/library/picture/picture_file.h"
+
+#include <cstdio>
+
+#include "app/library/request/command_line.h"
+#include "app/library/picture/reproduce.h"
+#include "app/library/commit.h"
+#include "app/library/compare.h"
+#include "engine/base/error.h"
+#include "engine/base/memory.h"
+#include "engine/base/number_text.h"
+#include "engine/file/atomic_file.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray {
+namespace {
+
+bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
+
+Display display_of(const Request& request) {
+  return {request.look.exposure_ev.value_or(0.0), choose_tone(request)};
+}
+
+std::string size_text(std::uint32_t width, std::uint32_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+void require_picture_memory(const Request& request) {
+  const PixelWindow made = View{{}, request.view.width, request.view.height, request.view.window()}.made();
+  Settings settings = request.settings;
+  settings.aov = settings.aov || request.output.denoise;
+  settings.estimate_error = settings.estimate_error || request.output.denoise || request.settings.has_goal();
+  const std::size_t channels = 4 + (request.output.aov_depth ? 1 : 0) + (request.output.aov_normal ? 3 : 0) +
+                               (request.output.aov_id ? 1 : 0) + (request.output.aov_error ? 1 : 0);
+  const std::uint64_t writing = is_png(request.output.path) ? PNG_WRITING_BYTES : exr_writing_bytes(channels);
+  require_memory(std::uint64_t{made.width} * made.height * (image_bytes(settings) + writing),
+                 "a picture of " + size_text(made.width, made.height) + " pixels and its file");
+}
+
+void require_outputs_writable(const Request& request) {
+  require_writable(request.output.path);
+  if (!request.output.stats_json.empty()) require_writable(request.output.stats_json);
+}
+
+std::optional<DisplayImage> read_reference(const Request& request) {
+  if (request.output.reference.empty()) return {};
+  // An exposure that the picture itself decides cannot be that of a float reference: it is taken as it is.
+  DisplayImage reference = read_display_image(request.output.reference, display_of(request));
+  if (reference.width != request.view.width || reference.height != request.view.height)
+    throw Error(ExitCode::failed, "reference '" + request.output.reference.string() + "' is " +
+                                      size_text(reference.width, reference.height) +
+                                      ", expected the picture's " +
+                                      size_text(request.view.width, request.view.height));
+  return reference;
+}
+
+Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
+                          const Context& context) {
+  const Camera& camera = view.camera;
+  const bool ortho = camera.ortho_height > 0.0;
+  return {{"command_line", command_line(still_request(request, camera))},
+          {"eye", number_text(camera.eye)},
+          {"target", number_text(camera.target)},
+          {"up", number_text(camera.up)},
+          {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
+          {"diagonal_world", number_text(scene.diagonal_world())},
+          {"device", context.device_info().name + ", " + context.device_info().driver},
+          {"samples", std::to_string(request.settings.samples)},
+          {"seed", std::to_string(request.settings.seed)},
+          {"commit", COMMIT}};
+}
+
+void write_output(const Request& request, const Image& image, const Metadata& metadata,
+                  const std::filesystem::path& path) {
+  if (is_png(path)) return write_png(display_image(image, display_of(request)), metadata, path);
+  ExrPicture picture = exr_picture(
+      image, {request.output.aov_depth, request.output.aov_normal, request.output.aov_id, request.output.aov_error}, metadata);
+  if (const PixelWindow window = request.view.window(); window.width > 0) {
+    picture.width = request.view.width;
+    picture.height = request.view.height;
+    picture.window = window;
+  }
+  write_exr(picture, path);
+}
+
+void require_match(const Request& request, const Image& image, const DisplayImage& reference) {
+  const Tolerance tolerance{request.output.reference_threshold, request.output.reference_share, request.output.reference_limit};
+  DisplayImage picture = display_image(image, display_of(request));
+  if (is_png(request.output.path)) quantise(picture);
+  const Comparison comparison = compare(picture, reference, tolerance);
+  const std::string numbers = describe(comparison, tolerance);
+  if (comparison.passed) {
+    if (!request.output.quiet) std::fprintf(stderr, "splatray-render: matches the reference: %s\n", numbers.c_str());
+    return;
+  }
+  std::filesystem::path difference = request.output.path;
+  difference.replace_extension(".diff.png");
+  write_png(comparison.difference, {}, difference);
+  throw Error(ExitCode::failed, "'" + request.output.path.string() + "' differs from '" +
+                                    request.output.reference.string() + "': " + numbers + "; see '" +
+                                    difference.string() + "'");
+}
+
+}  // namespace splatray

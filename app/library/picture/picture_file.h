@@ -1,0 +1,36 @@
+/// The outgoing side of splatray-render: picture file, its metadata, comparison with a reference.
+#pragma once
+#include <optional>
+
+#include "app/library/request/request.h"
+#include "app/library/image_file.h"
+#include "engine/base/stopwatch.h"
+#include "engine/vulkan/context.h"
+
+namespace splatray {
+
+/// Throws Error (out_of_memory) where there is less memory than a picture takes until it is written.
+void require_picture_memory(const Request& request);
+
+/// Throws Error (failed) when the pictures or the statistics have no place to go.
+void require_outputs_writable(const Request& request);
+
+/// The picture of --reference; nothing without the option. Throws Error: input_unreadable, or failed when its
+/// size is not
+/// --resolution's.
+[[nodiscard]] std::optional<DisplayImage> read_reference(const Request& request);
+
+/// The command line that makes this picture (still_request), camera, scene's diagonal, device, samples, seed and commit,
+/// for the picture's file.
+[[nodiscard]] Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
+                                        const Context& context);
+
+/// Writes the picture in the format of its name. Throws Error (failed).
+void write_output(const Request& request, const Image& image, const Metadata& metadata,
+                  const std::filesystem::path& path);
+
+/// Compares the picture, as its file shows it, with the reference. When they differ, writes
+/// `<output>.diff.png` beside it and throws Error (failed); else prints the numbers on stderr unless quiet.
+void require_match(const Request& request, const Image& image, const DisplayImage& reference);
+
+}  // namespace splatray

@@ -1,0 +1,73 @@
+#include "app/library/picture/reproduce.h"
+
+#include <algorithm>
+
+#include "app/library/request/command_line.h"
+#include "app/library/image_file.h"
+#include "app/library/picture/scene_source.h"
+#include "engine/base/error.h"
+
+namespace splatray {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Only what decides how a picture looks: a picture from elsewhere must not name files to write.
+Request looks_only(const Request& request) {
+  Request looks{request.source, request.look, request.view, request.settings, {}};
+  const Request::Output& from = request.output;
+  Request::Output& output = looks.output;
+  output.denoise = from.denoise;
+  output.keep_noise = from.keep_noise;
+  output.aov_depth = from.aov_depth;
+  output.aov_normal = from.aov_normal;
+  output.aov_id = from.aov_id;
+  output.aov_error = from.aov_error;
+  return looks;
+}
+
+/// Where a path kept in a picture leads now; itself when nothing is found.
+fs::path find_beside(const fs::path& path, const fs::path& picture) {
+  std::error_code error;
+  if (path.is_absolute() || fs::exists(path, error)) return path;
+  const fs::path home = fs::absolute(picture, error).parent_path();
+  fs::path folder = picture.parent_path();
+  for (auto depth = std::distance(home.begin(), home.end()); depth > 0; --depth) {
+    if (fs::exists(folder / path, error)) return folder / path;
+    folder /= "..";
+  }
+  return path;
+}
+
+}  // namespace
+
+Request still_request(const Request& request, const Camera& camera) {
+  Request still = looks_only(request);
+  set_camera(still.view, camera);
+  return still;
+}
+
+Request read_picture_request(const fs::path& picture) {
+  const auto refuse = [&](const std::string& found) {
+    throw Error(ExitCode::input_unreadable, "cannot read a request from picture '" + picture.string() +
+                                                "': " + found + ", expected a picture of splatray-render");
+  };
+  const Metadata metadata = read_metadata(picture);
+  const auto line = std::find_if(metadata.begin(), metadata.end(),
+                                 [](const auto& entry) { return entry.first == "command_line"; });
+  if (line == metadata.end()) refuse("found no splatray.command_line in it");
+  Request request;
+  try {
+    request = looks_only(parse_command_line(line->second));
+  } catch (const Error& error) {
+    refuse(error.what());
+  }
+  for (fs::path& input : request.source.inputs) input = find_beside(input, picture);
+  for (fs::path& folder : request.source.data_paths) folder = find_beside(folder, picture);
+  std::string& environment = request.look.environment;
+  if (!environment.empty() && !built_in_environment(environment))
+    environment = find_beside(environment, picture).string();
+  return request;
+}
+
+}  // namespace splatray

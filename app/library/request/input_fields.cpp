@@ -1,0 +1,91 @@
+#include "app/library/request/fields.h"
+#include "engine/base/number_text.h"
+#include "preprocess/read/formats.h"
+
+
+namespace splatray {
+namespace {
+
+constexpr FieldGroup INPUT = FieldGroup::input;
+
+/// auto, off or a radius (BuildParams::smooth_world).
+Field smooth_row() {
+  constexpr double MOST = 1e12;
+  return value_row(
+      "smooth", INPUT, "auto|off|RADIUS",
+      "noisy scans are smoothed as their noise asks for, not at all, or so far around each point (world units); "
+      "default auto",
+      [](Request& request, const std::string& text) {
+        double& smooth_world = request.source.params.smooth_world;
+        if (text == "auto" || text == "off") return void(smooth_world = text == "auto" ? -1.0 : 0.0);
+        const auto radius = split_numbers(text, ',', 1);
+        if (radius.empty() || !(radius[0] > 0.0 && radius[0] <= MOST))
+          throw Expected{"auto, off or a number above 0, to 1e12"};
+        smooth_world = radius[0];
+      },
+      [](const Request& request) -> std::string {
+        const double smooth_world = request.source.params.smooth_world;
+        return smooth_world < 0.0 ? "auto" : smooth_world == 0.0 ? "off" : number_text(smooth_world);
+      });
+}
+
+Field attributes_row() {
+  return value_row(
+      "attributes", INPUT, "NAME,...", "further attributes of scans to keep: extra bytes, columns",
+      [](Request& request, const std::string& text) { request.source.scans.attributes = split_names(text); },
+      [](const Request& request) {
+        std::string text;
+        for (const std::string& name : request.source.scans.attributes)
+          text += (text.empty() ? "" : ",") + name;
+        return text;
+      });
+}
+
+Field inputs_row() {
+  return with(paths_row("inputs", INPUT, MEMBER(source.inputs),
+                        "a .soct scene alone, or files or folders with points, meshes or a scene: " + format_extensions(),
+                        "FILE"),
+              {.doors = DOORS_ALL});
+}
+
+}  // namespace
+
+std::vector<Field> input_fields() {
+  constexpr double MOST_WHOLE = 9007199254740992.0;  // 2^53: whole numbers are exact up to here
+  std::vector<Field> rows = {
+      inputs_row(),
+      paths_row("data-path", INPUT, MEMBER(source.data_paths),
+                "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR",
+                "FOLDER"),
+      number_row("mesh-points", INPUT, MEMBER(source.params.samples), 0, MOST_WHOLE,
+                 "points sampled on meshes by area; default 0 = their vertices where fine enough"),
+      number_row("radius-scale", INPUT, MEMBER(source.params.radius_scale), 1e-6, 1e6,
+                 "factor on every radius; default 1"),
+      number_row("crease", INPUT, MEMBER(source.params.crease_degrees), 0, 180,
+                 "degrees by which a surface turns at a crease, where a mesh is not shaded smoothly; default 30"),
+      switch_row("strict", INPUT, MEMBER(source.scans.strict), "refuse a scan that holds less than it says"),
+      vector_row("sensor", INPUT, MEMBER(source.scans.sensor_world),
+                 "where the scanner stood, for points whose file does not say; tells the sides of their normals"),
+      path_row("trajectory", INPUT, MEMBER(source.scans.trajectory),
+               "text of times and places (time, x, y, z) where the scanner moved, for points with times"),
+      number_row("z-scale", INPUT, MEMBER(source.scans.z_scale), 1e-6, 1e6,
+                 "factor on the heights of points; default 1"),
+      switch_row("ignore-checksums", INPUT, MEMBER(source.scans.ignore_checksums),
+                 "read an E57 with damaged pages"),
+      switch_row("keep-withheld", INPUT, MEMBER(source.scans.keep_withheld),
+                 "keep points that are marked as deleted or as noise (classes 7 and 18)"),
+      text_row("columns", INPUT, MEMBER(source.scans.columns),
+               "columns of text files, such as x,y,z,intensity,-,r,g,b; - is skipped; default by header or values",
+               "NAME,..."),
+      attributes_row(),
+      switch_row("keep-strays", INPUT, MEMBER(source.params.keep_strays),
+                 "keep the points of scans that lie on no surface, but for those far from all others"),
+      smooth_row(),
+      number_row("threads", INPUT, MEMBER(source.threads), 0, 4096,
+                 "threads of reading, preprocess and the device cpu; default 0 = all cores")};
+  for (Field& row : rows) row.doors |= DOOR_PREPROCESS;
+  rows[2].old_names = {"points", "samples"};
+  return rows;
+}
+
+}  // namespace splatray

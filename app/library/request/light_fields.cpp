@@ -1,0 +1,132 @@
+#include <cmath>
+#include <span>
+
+#include "app/library/request/fields.h"
+#include "engine/base/number_text.h"
+
+
+namespace splatray {
+namespace {
+
+constexpr FieldGroup LIGHT = FieldGroup::light;
+
+/// Finite numbers, `least` of them or three more, or either and a last one; how many there are stands in their count.
+std::vector<double> light_numbers(const std::string& text, std::size_t least, const std::string& expected) {
+  for (const std::size_t count : {least, least + 3, least + 4})
+    if (auto numbers = split_numbers(text, ',', count); !numbers.empty()) return numbers;
+  throw Expected{expected};
+}
+
+void set_power(std::span<const double> numbers, LightRequest& light) {
+  light.power = glm::vec3(numbers[0], numbers[1], numbers[2]);
+  if (!(light.power->x >= 0.0F && light.power->y >= 0.0F && light.power->z >= 0.0F) ||
+      !std::isfinite(light.power->x + light.power->y + light.power->z))
+    throw Expected{"R,G,B of finite numbers >= 0"};
+}
+
+/// A light of X,Y,Z[,R,G,B[,SIZE]].
+LightRequest read_light(const std::string& text, std::uint32_t kind) {
+  const auto numbers =
+      light_numbers(text, 3, "three, six or seven numbers such as 1,-2,0.5 or 1,-2,0.5,9,9,9");
+  LightRequest light;
+  light.kind = kind;
+  light.position = {numbers[0], numbers[1], numbers[2]};
+  if (kind == LIGHT_DIRECTIONAL && light.position == glm::dvec3(0.0))
+    throw Expected{"a direction other than 0,0,0"};
+  if (numbers.size() > 3) set_power(std::span(numbers).subspan(3), light);
+  if (numbers.size() == 7) light.size = numbers[6];
+  const double most = kind == LIGHT_DIRECTIONAL ? 180.0 : 1e30;
+  if (!(light.size >= 0.0 && light.size <= most))
+    throw Expected{kind == LIGHT_DIRECTIONAL ? "a SIZE from 0 to 180 degrees" : "a SIZE of 0 or more"};
+  return light;
+}
+
+/// A rectangle of X,Y,Z,TX,TY,TZ,WIDTH,HEIGHT[,R,G,B].
+LightRequest read_rectangle(const std::string& text) {
+  const auto numbers =
+      light_numbers(text, 8, "eight or eleven numbers such as 0,0,3,0,0,0,2,1 or 0,0,3,0,0,0,2,1,9,9,9");
+  LightRequest light;
+  light.kind = LIGHT_RECTANGLE;
+  light.position = {numbers[0], numbers[1], numbers[2]};
+  light.target = {numbers[3], numbers[4], numbers[5]};
+  light.edges = {numbers[6], numbers[7]};
+  if (light.position == light.target) throw Expected{"a point TX,TY,TZ other than X,Y,Z to shine at"};
+  if (!(light.edges.x > 0.0 && light.edges.y > 0.0)) throw Expected{"a WIDTH and HEIGHT of more than 0"};
+  if (numbers.size() == 12) throw Expected{"eight or eleven numbers"};
+  if (numbers.size() > 8) set_power(std::span(numbers).subspan(8), light);
+  return light;
+}
+
+FieldText light_text(const LightRequest& light) {
+  const bool rectangle = light.kind == LIGHT_RECTANGLE;
+  std::string text = number_text(light.position);
+  if (rectangle)
+    text += "," + number_text(light.target) + "," + number_text(light.edges.x) + "," +
+            number_text(light.edges.y);
+  if (light.power) text += "," + number_text(*light.power);
+  if (light.size > 0.0) text += "," + number_text(light.size);
+  return {rectangle ? "area-light" : (light.kind == LIGHT_POINT ? "light" : "sun"), text};
+}
+
+/// One of the family of lights, which keeps the order in which they are given; the first replaces those there were.
+Field light_row(std::string name, std::uint32_t kind, std::string value, std::string help) {
+  Field row = value_row(
+      std::move(name), LIGHT, std::move(value), std::move(help),
+      [kind](Request& request, const std::string& text) {
+        request.look.lights->push_back(kind == LIGHT_RECTANGLE ? read_rectangle(text) : read_light(text, kind));
+      },
+      {});
+  row.repeated = true;
+  row.family = "lights";
+  row.clear = [](Request& request) { request.look.lights.emplace(); };
+  return row;
+}
+
+/// No light, and the one field of the family that writes.
+Field lights_row() {
+  Field row = light_row("lights", LIGHT_POINT, "none",
+                        "no light but the environment's, unless --light, --sun or --area-light add some");
+  row.read = [](Request&, const std::string& text) {
+    if (text != "none") throw Expected{"none"};
+  };
+  row.write = [](const Request& request) {
+    std::vector<FieldText> texts;
+    if (!request.look.lights) return texts;
+    for (const LightRequest& light : *request.look.lights) texts.push_back(light_text(light));
+    if (texts.empty()) texts.push_back({"lights", "none"});
+    return texts;
+  };
+  return row;
+}
+
+Field environment_row() {
+  return with(text_row("environment", LIGHT, MEMBER(look.environment),
+                       "an HDR or EXR file (latitude-longitude), white, black, studio or a radiance r,g,b; default: the "
+                       "scene's, else studio with a key light over the viewer's left shoulder",
+                       "FILE|NAME"),
+              {.old_names = {"env"}});
+}
+
+}  // namespace
+
+std::vector<Field> light_fields() {
+  return {light_row("light", LIGHT_POINT, "X,Y,Z[,R,G,B[,SIZE]]",
+                    "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at "
+                    "the scene's centre; SIZE: its radius, world units; repeatable"),
+          light_row("sun", LIGHT_DIRECTIONAL, "X,Y,Z[,R,G,B[,SIZE]]",
+                    "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, default pi; "
+                    "SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable"),
+          light_row("area-light", LIGHT_RECTANGLE, "X,Y,Z,TX,TY,TZ,W,H[,R,G,B]",
+                    "a rectangle of W x H here that shines towards TX,TY,TZ, instead of the scene's lights; R,G,B: its "
+                    "radiance, default irradiance pi there; with --look paper a point; repeatable"),
+          lights_row(),
+          environment_row(),
+          with(number_row("environment-strength", LIGHT, MEMBER(settings.environment_strength), 0.0, 1e6,
+                          "factor on the environment; default 1"),
+               {.old_names = {"env-strength"}}),
+          with(number_row("environment-turn", LIGHT, MEMBER(settings.environment_turn), -1e6, 1e6,
+                          "full turns of the environment about the up axis, counter-clockwise seen from above; default 0"),
+               {.old_names = {"env-turn"}})};
+}
+
+}  // namespace splatray

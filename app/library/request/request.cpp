@@ -1,0 +1,142 @@
+#include "app/library/request/request.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "engine/base/error.h"
+#include "engine/image/sample_mean.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray {
+namespace {
+
+[[noreturn]] void fail(const std::string& sentence) { throw Error(ExitCode::usage, sentence); }
+
+bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
+
+void check_sample_range(const Request& request) {
+  constexpr std::uint32_t MOST = 65536;
+  const std::uint32_t samples = request.settings.samples, offset = request.settings.sample_offset;
+  const std::string found =
+      "found --sample-offset " + std::to_string(offset) + " with --samples " + std::to_string(samples);
+  if (offset % whole_range(samples) != 0)
+    fail(found + ", expected a multiple of " + std::to_string(whole_range(samples)));
+  if (offset + samples > MOST) fail(found + ", expected at most " + std::to_string(MOST) + " in all");
+  if (offset > 0 && request.output.aov_error)
+    fail("found --aov error with --sample-offset, expected it for all samples of a picture");
+}
+
+void check_part(const Request& request) {
+  const Request::View& view = request.view;
+  const PixelWindow window = view.window();
+  const bool is_range = request.settings.sample_offset > 0;
+  if (view.tiles == 0 && window.width == 0 && !is_range) return;
+  check_sample_range(request);
+  if (view.tiles > 0 && view.crop.width > 0) fail("found --crop and --tile, expected one of them");
+  if (view.tiles > view.height)
+    fail("found --tile of " + std::to_string(view.tiles) + " parts, expected at most the picture's " +
+         std::to_string(view.height) + " rows");
+  if (window.x + window.width > view.width || window.y + window.height > view.height)
+    fail("found --crop beyond the picture's " + std::to_string(view.width) + "x" +
+         std::to_string(view.height) + " pixels, expected a part of it (--resolution)");
+  const std::string part = is_range ? "--sample-offset" : (view.tiles > 0 ? "--tile" : "--crop");
+  if (request.settings.has_goal()) fail("found --error or --time with " + part + ", expected --samples");
+  if (request.output.denoise) fail("found --denoise with " + part + ", expected it for a whole picture");
+  if (!request.output.reference.empty())
+    fail("found --reference with " + part + ", expected a whole picture");
+}
+
+void check_sequence(const Request& request) {
+  const Request::Output& output = request.output;
+  if (!output.frames.empty() && !output.many())
+    fail("found --frames alone, expected --camera-path or --turntable beside it");
+  if (output.turntable > 0 && !output.camera_path.empty())
+    fail("found --turntable and --camera-path, expected one of them");
+  if (!output.camera_path.empty() && (request.view.eye || request.view.fov_y_deg))
+    fail("found a camera beside --camera-path, expected only the path");
+  if (output.many() && !output.reference.empty())
+    fail("found --reference with a sequence of pictures, expected a single one");
+  if (output.many() && !output.path.empty()) (void)frame_file(output.path, 0);
+}
+
+void check_camera(const Request::View& view) {
+  if (view.target && !view.eye) fail("found --target without --eye, expected both");
+  if (view.ortho_height > 0.0 && !view.eye) fail("found --ortho-height without --eye, expected both");
+  if (view.camera_up && !view.eye) fail("found --camera-up without --eye, expected both");
+}
+
+void check_noise(const Request& request) {
+  const Request::Output& output = request.output;
+  const bool one_sample = !request.settings.has_goal() && request.settings.samples < 2;
+  if (output.aov_error && one_sample) fail("found --aov error with one sample, expected at least two");
+  if (!output.denoise) return;
+  if (output.keep_noise) fail("found --denoise and --keep-noise, expected one of them");
+  if (one_sample) fail("found --denoise with one sample, expected at least two");
+  if (request.look.style == LOOK_PAPER)
+    fail("found --denoise with --look paper, expected a look that has noise");
+  if (!output.reference.empty())
+    fail("found --denoise with --reference, expected pictures compared as they were traced");
+}
+
+}  // namespace
+
+PixelWindow Request::View::window() const {
+  if (tiles == 0) return crop;
+  const auto row = [this](std::uint32_t part) {
+    return static_cast<std::uint32_t>(std::uint64_t{height} * part / tiles);
+  };
+  return {0, row(tile - 1), width, row(tile) - row(tile - 1)};
+}
+
+void set_camera(Request::View& view, const Camera& camera) {
+  view.eye = camera.eye;
+  view.target = camera.target;
+  view.camera_up = camera.up;
+  view.fov_y_deg.reset();
+  if (camera.ortho_height == 0.0) view.fov_y_deg = camera.fov_y_deg;
+  view.ortho_height = camera.ortho_height;
+}
+
+void require_scene_alone(const std::vector<std::filesystem::path>& inputs) {
+  if (inputs.size() > 1 && std::any_of(inputs.begin(), inputs.end(), is_scene_file))
+    fail("found a .soct beside other inputs, expected it alone");
+}
+
+void require_inputs(const Request::Source& source) {
+  if (source.inputs.empty()) fail("found no SCENE, expected a scene or model file (--help shows all options)");
+  require_scene_alone(source.inputs);
+}
+
+void require_consistent(const Request& request) {
+  const Request::Output& output = request.output;
+  const std::string extension = lower_extension(output.path);
+  if (!output.path.empty() && extension != ".png" && extension != ".exr")
+    fail("found output '" + output.path.string() + "', expected a name ending in .png or .exr");
+  if ((request.settings.aov || output.aov_error) && extension == ".png")
+    fail("found --aov with a .png output, expected .exr");
+  check_camera(request.view);
+  check_noise(request);
+  check_sequence(request);
+  check_part(request);
+}
+
+std::vector<std::filesystem::path> model_folders(const Request::Source& source) {
+  std::vector<std::filesystem::path> folders = source.data_paths;
+  if (const char* folder = std::getenv("SPLATRAY_DATA_DIR")) folders.emplace_back(folder);
+  return folders;
+}
+
+ReadOptions read_options(const Request::Source& source, const Progress& progress) {
+  ReadOptions reading;
+  reading.samples = source.params.samples;
+  reading.seed = source.params.seed;
+  reading.data_paths = model_folders(source);
+  reading.threads = source.threads;
+  reading.clip = source.params.clip;
+  reading.crease_degrees = source.params.crease_degrees;
+  reading.scans = source.scans;
+  reading.progress = progress;
+  return reading;
+}
+
+}  // namespace splatray

@@ -1,0 +1,144 @@
+/// What is asked for: a scene, how it looks, from where it is seen, how it is sampled, and what is written. A value; its texts, names,
+/// ranges and sentences are the rows of fields.h, from which every door has them.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/library/attributes.h"
+#include "app/library/display_image.h"
+#include "app/library/request/frame_list.h"
+#include "app/library/request/object_change.h"
+#include "engine/base/progress.h"
+#include "engine/image/view.h"
+#include "engine/scene/scene.h"
+#include "preprocess/points.h"
+
+namespace splatray {
+
+/// A light that is asked for, world space.
+struct LightRequest {
+  std::uint32_t kind = LIGHT_POINT;  ///< LIGHT_*
+  /// Point: position; directional: towards the light, any length > 0; rectangle: its centre.
+  glm::dvec3 position{0.0};
+  /// As SceneLight's; unset = irradiance pi, of a point light at the scene's centre, of a rectangle at its target.
+  std::optional<glm::vec3> power;
+  double size = 0.0;       ///< point: radius; directional: angular diameter, degrees; 0 = none
+  glm::dvec3 target{0.0};  ///< rectangle: what it shines at
+  glm::dvec2 edges{0.0};   ///< rectangle: width and height; the width is level
+
+  bool operator==(const LightRequest&) const = default;
+};
+
+struct Request {
+  /// Input files and how they become a scene: one .soct, or files that preprocess reads.
+  struct Source {
+    std::vector<std::filesystem::path> inputs;
+    std::vector<std::filesystem::path> data_paths;  ///< folders for models a scene names
+    BuildParams params;
+    ScanOptions scans;
+    unsigned threads = 0;  ///< 0 = all cores
+
+    bool operator==(const Source&) const = default;
+  };
+
+  /// What the scene is shown as, and in what light.
+  struct Look {
+    std::optional<std::uint32_t> style;                 ///< LOOK_*; unset: as choose_look has it
+    std::string material;                               ///< a name of materials.h; empty = as the input says
+    std::vector<ObjectChange> objects;                  ///< changes to materials, in this order
+    std::optional<std::vector<LightRequest>> lights;    ///< unset = the scene's, or the default ones
+    std::string environment;                            ///< as written; empty = the scene's, else the studio
+    AttributeOptions attributes;                        ///< what is shown of the points' attributes
+    std::optional<glm::dvec3> up;                       ///< world; of the scene, its environment and the camera
+    std::optional<Tone> tone;                           ///< unset: as choose_tone has it
+    std::optional<double> exposure_ev;                  ///< stops; unset = automatic for scans, else 0
+    bool exposure_auto = false;                         ///< unset = automatic for all
+
+    bool operator==(const Look&) const = default;
+  };
+
+  /// The camera and what of its picture is made.
+  struct View {
+    std::uint32_t width = 1920, height = 1080;  ///< pixels
+    std::optional<glm::dvec3> eye, target;      ///< world
+    std::optional<glm::dvec3> camera_up;        ///< world; of the camera, where that is another than Look::up
+    std::optional<double> fov_y_deg;
+    Viewpoint viewpoint = Viewpoint::automatic;  ///< where no eye is given
+    double ortho_height = 0.0;                   ///< world units; 0 = perspective
+    double aperture_world = 0.0;                 ///< diameter of the lens
+    PixelWindow crop{};                          ///< without pixels: all
+    std::uint32_t tile = 0, tiles = 0;           ///< of `tiles` bands of rows this one, from 1 on; 0 = all
+
+    /// What of the picture is made: the crop's or the tile's window.
+    [[nodiscard]] PixelWindow window() const;
+    bool operator==(const View&) const = default;
+  };
+
+  /// How the picture is sampled, and by what device.
+  struct Settings : splatray::Settings {
+    std::optional<double> asked_delta_world;  ///< unset = 1/1000 of the scene's diagonal
+    double error_goal = 0.0;                  ///< Goal::error; 0 = none
+    double seconds_goal = 0.0;                ///< Goal::seconds; 0 = none
+    std::string device;                       ///< number or part of a name; empty = best
+    std::filesystem::path cache;              ///< folder of compiled pipelines; empty = none, of programs the user's
+
+    /// Whether a picture is traced until it is good enough, instead of by `samples`.
+    [[nodiscard]] bool has_goal() const { return error_goal > 0.0 || seconds_goal > 0.0; }
+    bool operator==(const Settings&) const = default;
+  };
+
+  /// Which pictures are made, and what is written of them.
+  struct Output {
+    std::filesystem::path path;  ///< empty = nowhere
+    bool denoise = false;
+    bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
+    bool aov_depth = false, aov_normal = false, aov_id = false, aov_error = false;
+    std::filesystem::path camera_path;  ///< camera_file.h; empty = none
+    std::uint32_t turntable = 0;        ///< frames of a full turn, 0 .. turntable - 1; 0 = none
+    std::vector<FrameRange> frames;     ///< empty = all
+    bool skip_existing = false;         ///< leave out pictures that exist
+    std::filesystem::path stats_json;    ///< empty = none
+    std::filesystem::path reference;     ///< empty = no comparison
+    double reference_threshold = 0.004;  ///< allowed error of a pixel, display-encoded 0..1
+    double reference_share = 0.0002;     ///< allowed share of pixels beyond it
+    double reference_limit = 0.012;      ///< no pixel may be beyond this
+    bool list_devices = false;
+    bool quiet = false;
+    ProgressStyle progress = ProgressStyle::line;
+
+    /// Whether several pictures are made, so that `path` is a pattern of names; else a still.
+    [[nodiscard]] bool many() const { return turntable > 0 || !camera_path.empty(); }
+    bool operator==(const Output&) const = default;
+  };
+
+  Source source;
+  Look look;
+  View view;
+  Settings settings;
+  Output output;
+
+  bool operator==(const Request&) const = default;
+};
+
+/// Makes the request's camera exactly this one.
+void set_camera(Request::View& view, const Camera& camera);
+
+/// Throws Error (usage), one sentence, where no input is named, or a .soct beside others.
+void require_inputs(const Request::Source& source);
+
+/// Throws Error (usage), one sentence, for what no single field can check of pictures; there may be no inputs and no output.
+void require_consistent(const Request& request);
+
+/// Throws Error (usage) where a .soct, which is a whole scene, is not the only input.
+void require_scene_alone(const std::vector<std::filesystem::path>& inputs);
+
+/// Folders for models a scene names: the data paths, then the variable SPLATRAY_DATA_DIR where it is set.
+[[nodiscard]] std::vector<std::filesystem::path> model_folders(const Request::Source& source);
+
+/// What reading needs to know of the source.
+[[nodiscard]] ReadOptions read_options(const Request::Source& source, const Progress& progress);
+
+}  // namespace splatray

@@ -1,0 +1,109 @@
+#include "app/view/model/document_request.h"
+
+#include <algorithm>
+
+#include "app/library/picture/scene_source.h"
+#include "engine/scene/surface.h"
+
+namespace splatray {
+namespace {
+
+/// The same scene's source, its files named by plain paths.
+Request::Source plain(Request::Source source) {
+  for (std::vector<std::filesystem::path>* paths : {&source.inputs, &source.data_paths})
+    for (std::filesystem::path& path : *paths) path = plain_path(path);
+  return source;
+}
+
+}  // namespace
+
+Request request_of(const Document& document, std::uint32_t width, std::uint32_t height) {
+  Request request;
+  request.source = document.loaded->asked.source;
+  request.view.width = width;
+  request.view.height = height;
+  set_camera(request.view, document.camera);
+  if (document.settings.cutaway) request.view.viewpoint = Viewpoint::dollhouse;
+  request.view.aperture_world = 2.0 * document.settings.lens_radius_world;
+  static_cast<Settings&>(request.settings) = document.settings;
+  if (document.settings.side == SIDE_DELTA)
+    request.settings.asked_delta_world = document.settings.delta_world;
+  Request::Look& look = request.look;
+  look.style = document.settings.look;
+  look.material = document.loaded->asked.look.material;
+  if (document.loaded->is_scan || document.exposure_ev != 0.0) look.exposure_ev = document.exposure_ev;
+  look.tone = document.tone;
+  look.up = document.up;
+  look.environment = document.environment;
+  look.attributes = document.attributes;
+  look.objects =
+      object_changes_between(document.loaded->looks, document.looks, document.loaded->object_names);
+  std::vector<LightRequest>& lights = look.lights.emplace();
+  for (const SceneLight& light : document.lights) lights.push_back(light_request(light));
+  return request;
+}
+
+Document first_document(const Scene& scene, const Request& asked) {
+  Document document;
+  document.loaded = std::make_shared<const LoadedPart>(
+      LoadedPart{asked,
+                 choose_look(scene, suited_picture(scene, asked).request),
+                 scene.object_names,
+                 {scene.materials, surfaces_of(scene)},
+                 color_sources(scene),
+                 categories_of(scene, COLUMN_CLASS),
+                 categories_of(scene, COLUMN_SCAN),
+                 !scene.stations.empty()});
+  return shown_as(scene, document, asked);
+}
+
+bool is_of_scene(const Document& document, const Request& request) {
+  const Request& asked = document.loaded->asked;
+  if (plain(request.source) != plain(asked.source) || request.look.material != asked.look.material)
+    return false;
+  // The scene has the up direction of its loading, which cameras and lights follow that are not told.
+  return request.look.up == asked.look.up || (request.look.up && request.view.eye && request.look.lights);
+}
+
+Document shown_as(const Scene& scene, const Document& document, const Request& asked) {
+  const Request request = suited_picture(scene, asked).request;
+  Document shown = document;
+  shown.looks = document.loaded->looks;
+  apply_object_changes(request.look.objects, scene.object_names, shown.looks);
+  shown.camera = choose_camera(scene, request);
+  shown.lights = choose_lights(scene, request, shown.camera);
+  shown.environment = choose_environment_name(scene, request);
+  shown.settings = choose_settings(scene, request);
+  shown.tone = choose_tone(request);
+  static_cast<void>(color_by(scene, request.look.attributes));  // throws where the scene does not have it
+  shown.attributes = request.look.attributes;
+  shown.up = choose_up(scene, request);
+  shown.bounds_min_world = scene.bounds_min_world;
+  shown.bounds_max_world = scene.bounds_max_world;
+  return shown;
+}
+
+Request kept_request(const Document& document) {
+  const LoadedPart& loaded = *document.loaded;
+  Request kept;
+  static_cast<Settings&>(kept.settings) = document.settings;
+  kept.settings.cutaway = false;
+  if (loaded.asked.look.style || document.settings.look != loaded.look)
+    kept.look.style = document.settings.look;
+  if (loaded.asked.look.tone || document.tone != choose_tone(loaded.asked)) kept.look.tone = document.tone;
+  return kept;
+}
+
+Request request_with(const Document& document, const SceneFiles& more) {
+  Request request = request_of(document, 1, 1);
+  const LoadedPart& loaded = *document.loaded;
+  std::vector<std::string> names = loaded.object_names;
+  for (const std::filesystem::path& file : more) {
+    request.source.inputs.push_back(file);
+    std::replace(names.begin(), names.end(), file.stem().string(), std::string());  // no longer one object's
+  }
+  request.look.objects = object_changes_between(loaded.looks, document.looks, names);
+  return request;
+}
+
+}  // namespace splatray

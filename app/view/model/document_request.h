@@ -1,0 +1,26 @@
+/// What is shown, as the request that makes the same picture.
+#pragma once
+#include "app/library/request/request.h"
+#include "app/view/model/document.h"
+#include "app/view/model/scene_files.h"
+
+namespace splatray {
+
+/// The request of this picture, `width` x `height` pixels, in ViewMode::shaded; without an output.
+[[nodiscard]] Request request_of(const Document& document, std::uint32_t width, std::uint32_t height);
+
+/// The document of a scene that load_scene read without the objects and attributes of the look, with the camera, lights, materials
+/// and settings that the request asks for. Throws Error (usage) for objects that the scene does not have.
+[[nodiscard]] Document first_document(const Scene& scene, const Request& asked);
+
+/// Whether the document's scene is the one of this request, so that it changes the look alone.
+[[nodiscard]] bool is_of_scene(const Document& document, const Request& request);
+/// The document of the same scene, shown as the request asks for. Throws as first_document.
+[[nodiscard]] Document shown_as(const Scene& scene, const Document& document, const Request& asked);
+
+/// What is kept of a picture when another scene is opened: what is no scene's own.
+[[nodiscard]] Request kept_request(const Document& document);
+/// The request that loads the document's scene with more files and shows it as it is shown.
+[[nodiscard]] Request request_with(const Document& document, const SceneFiles& more);
+
+}  // namespace splatray

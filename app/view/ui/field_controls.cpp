@@ -1,0 +1,132 @@
+#include "app/view/ui/field_controls.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "app/view/model/document_request.h"
+#include "app/view/ui/panel_parts.h"
+#include "engine/base/error.h"
+
+namespace splatray {
+namespace {
+
+/// The names of a choice; none for other fields.
+std::vector<std::string> choices_of(const Field& field) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= field.value.size();) {
+    const std::size_t end = std::min(field.value.find('|', begin), field.value.size());
+    names.push_back(field.value.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  const auto is_name = [](const std::string& name) {
+    return std::none_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c) != 0; });
+  };
+  const bool all_names = names.size() > 1 && std::all_of(names.begin(), names.end(), is_name);
+  return all_names ? names : std::vector<std::string>();
+}
+
+/// The texts that the field itself has in the request, without those of its family.
+std::vector<std::string> texts_of(const Field& field, const Request& request) {
+  std::vector<std::string> texts;
+  for (const Field& member : fields()) {
+    if (member.family_name() != field.family_name() || !member.write) continue;
+    for (const FieldText& value : member.write(request))
+      if (value.name == field.name) texts.push_back(value.text);
+  }
+  return texts;
+}
+
+bool set(Request& request, const std::vector<FieldText>& values, std::string& error) {
+  try {
+    Request changed = request;
+    assign(changed, values, DOOR_VIEW);
+    request = std::move(changed);
+    return true;
+  } catch (const Error& refusal) {
+    error = refusal.what();
+    return false;
+  }
+}
+
+/// A text that is taken over when it is complete.
+bool text_control(const char* label, const Field& field, std::string& text) {
+  return ImGui::InputTextWithHint(label, field.value.c_str(), &text, ImGuiInputTextFlags_EnterReturnsTrue);
+}
+
+bool single_control(const Field& field, Request& request, std::string& error) {
+  const std::vector<std::string> texts = texts_of(field, request);
+  std::string text = texts.empty() ? "" : texts.front();
+  bool changed = false;
+  if (const std::vector<std::string> names = choices_of(field); !names.empty()) {
+    if (ImGui::BeginCombo(field.name.c_str(), text.c_str())) {
+      for (const std::string& name : names)
+        if (ImGui::Selectable(name.c_str(), name == text)) changed = name != std::exchange(text, name);
+      ImGui::EndCombo();
+    }
+  } else if (field.kind == FieldKind::flag) {
+    bool on = text == "on";
+    changed = ImGui::Checkbox(field.name.c_str(), &on);
+    text = on ? "on" : "off";
+  } else {
+    changed = text_control(field.name.c_str(), field, text);
+  }
+  tip(field.help.c_str());
+  return changed && set(request, {{field.name, text}}, error);
+}
+
+/// The values of the whole family are read again, with one of this field's replaced, added or, where its text is empty, left out.
+bool repeated_control(const Field& field, Request& request, std::string& error) {
+  std::vector<FieldText> values;
+  for (const Field& member : fields())
+    if (member.family_name() == field.family_name() && member.write)
+      for (const FieldText& value : member.write(request)) values.push_back(value);
+  std::erase(values, FieldText{"lights", "none"});
+  values.push_back({field.name, ""});
+  bool changed = false;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i].name != field.name) continue;
+    ImGui::PushID(static_cast<int>(i));
+    changed |= text_control(field.name.c_str(), field, values[i].text);
+    tip(field.help.c_str());
+    ImGui::PopID();
+  }
+  if (!changed) return false;
+  std::erase_if(values, [](const FieldText& value) { return value.text.empty(); });
+  if (values.empty() && field.family_name() == "lights") values.push_back({"lights", "none"});
+  Request cleared = request;
+  field.clear(cleared);
+  if (!values.empty() && !set(cleared, values, error)) return false;
+  request = std::move(cleared);
+  return true;
+}
+
+}  // namespace
+
+bool is_of_files(const Field& field) {
+  constexpr std::array NAMES = {"resolution", "camera-path", "crop",   "tile", "samples", "sample-offset", "error", "time", "denoise", "keep-noise"};
+  return field.group == FieldGroup::output || field.group == FieldGroup::files ||
+         std::find(NAMES.begin(), NAMES.end(), field.name) != NAMES.end();
+}
+
+bool field_control(const Field& field, Request& request, std::string& error) {
+  return field.repeated ? repeated_control(field, request, error) : single_control(field, request, error);
+}
+
+void all_fields(const Document& document, PanelState& state, Requests& requests) {
+  Request request = request_of(document, 1, 1);
+  bool changed = false;
+  for (int group = 0; group <= static_cast<int>(FieldGroup::research); ++group) {
+    if (group == static_cast<int>(FieldGroup::output) || group == static_cast<int>(FieldGroup::files)) continue;
+    if (!ImGui::TreeNode(group_title(static_cast<FieldGroup>(group)))) continue;
+    for (const Field& field : fields())
+      if (static_cast<int>(field.group) == group && field.in(DOOR_VIEW) && !is_of_files(field))
+        changed |= field_control(field, request, state.error);
+    ImGui::TreePop();
+  }
+  if (changed) requests.change = request;
+}
+
+}  // namespace splatray

@@ -1,0 +1,49 @@
+"""The guide's page of rays: its code runs from top to bottom and finds what is there. The module's reference has all its names."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import splatray as sr
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests/structure"))
+import page_inputs  # noqa: E402  (lies in the folder just named)
+
+
+class Guide(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)
+
+    def test_rays(self):
+        pathlib.Path("survey.laz").write_bytes(page_inputs.survey())
+        blocks = re.findall(r"```python\n(.*?)```", (ROOT / "app/guide/rays.md").read_text(), re.DOTALL)
+        self.assertGreaterEqual(len(blocks), 6)
+        names = {}
+        for block in blocks:
+            exec(compile(block, "rays.md", "exec"), names)
+        # The survey is a hill of 6 m on a plain at 300 m, with a house of 5 m on it; the tower stands in its corner.
+        self.assertAlmostEqual(np.nanmin(names["heights"]), 300.0, delta=0.5)
+        self.assertAlmostEqual(np.nanmax(names["heights"]), 311.0, delta=0.7)
+        self.assertGreater(np.isfinite(names["heights"]).mean(), 0.9)
+        self.assertTrue(0.5 < names["seen"].mean() < 1.0)
+        self.assertGreater(len(names["again"]), 1000)
+        self.assertGreater(np.isfinite(names["depth"]).mean(), 0.2)
+        self.assertTrue(pathlib.Path("seen.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_reference_has_all_names(self):
+        subprocess.run([ROOT / "app/package/reference", self.folder.name, sys.executable], check=True, capture_output=True)
+        page = pathlib.Path("python/splatray.html").read_text()
+        for name in sr.__all__:
+            self.assertIn(f'name="{name}"' if isinstance(getattr(sr, name), type) else f'name="-{name}"', page)
+            for member in vars(getattr(sr, name)):
+                if not member.startswith("_"):
+                    self.assertIn(f">{member}<", page, name)
