@@ -244,10 +244,14 @@ TEST_F(CliPictures, OfOthersAreRefused) {
   const DisplayImage black{2, 2, std::vector<vec3>(4)};
   write_png(black, {}, file("other.png"));
   refuse(file("other.png"), "no splatray.command_line", 3);
-  write_png(black, {{"command_line", "splatray-render --from " + file("other.png")}}, file("loop.png"));
+  const auto quoted = [](const std::string& path) { return "'" + path + "'"; };  // the folder may have blanks
+  write_png(black, {{"command_line", "splatray-render --from " + quoted(file("other.png"))}},
+            file("loop.png"));
   refuse(file("loop.png"), "loop.png", 3);
-  write_png(black, {{"command_line", "splatray-render " + grid + " --stats-json " + file("trap.json")}},
-            file("trap.png"));
+  write_png(
+      black,
+      {{"command_line", "splatray-render " + quoted(grid) + " --stats-json " + quoted(file("trap.json"))}},
+      file("trap.png"));
   EXPECT_EQ(
       run_program({RENDER, "--quiet", "--from", file("trap.png"), "--resolution=8x8", "--samples=1"}).code,
       0);

@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import resource
+import shlex
 import shutil
 import subprocess
 import sys
@@ -61,7 +62,7 @@ def by_find_package(prefix, consumer, work):
 
 def by_pkg_config(prefix, libdir, consumer, work):
     environment = os.environ | {"PKG_CONFIG_PATH": str(prefix / libdir / "pkgconfig")}
-    flags = run("pkg-config", "--cflags", "--libs", "splatray", env=environment).split()
+    flags = shlex.split(run("pkg-config", "--cflags", "--libs", "splatray", env=environment))
     program = work / "by_pkg_config"
     sources = sorted(consumer.glob("*.cpp"))
     run("c++", "-std=c++20", *WARNINGS, *sources, "-o", program, *flags, f"-Wl,-rpath,{prefix / libdir}")
