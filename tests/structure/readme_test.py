@@ -25,8 +25,8 @@ MOST_LINES, MOST_COLUMNS = 80, 130  # of README.md
 INPUT_UNREADABLE = 3
 # Options behind a command's own, of which the last one holds; and behind those that name one of these.
 SMALLER = {"splatray-render": "--resolution=16x16 --samples=2", "splatray-preprocess": ""}
-SMALLER_IF = {"splatray-render": {"--points": "--points=2000", "--error": "--time=0.2", "--time": "--time=0.2", "--turntable": "--frames=0-1"},
-              "splatray-preprocess": {"--samples": "--samples=2000"}}
+SMALLER_IF = {"splatray-render": {"--mesh-points": "--mesh-points=2000", "--error": "--time=0.2", "--time": "--time=0.2", "--turntable": "--frames=0-1"},
+              "splatray-preprocess": {"--mesh-points": "--mesh-points=2000"}}
 
 
 def blocks(text, language):
