@@ -43,6 +43,21 @@ namespace {
 constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
 constexpr std::uint32_t MOST_EQUAL = 8;  // splats with the same words that are kept: more only add weight
 
+/// Bytes a point that stages take at once beside what is there when they begin, as measured: in their middle nobody can refuse.
+constexpr std::uint64_t SEARCH_BYTES = 39, SCAN_BYTES = 92, RADII_BYTES = 51, ORDER_BYTES = 36;
+
+/// Throws Error (out_of_memory) unless there are so many bytes and, where they are many, what threads and allocators take for
+/// themselves.
+void require_room(std::uint64_t bytes, const std::string& what) {
+  constexpr std::uint64_t SPARE = std::uint64_t{8} << 20U;
+  require_memory(bytes > SPARE / 2 ? bytes + SPARE : bytes, what);
+}
+
+/// The same of a stage that takes them at once.
+void require_stage_memory(const char* stage, std::size_t count, std::uint64_t bytes_each) {
+  require_room(count * bytes_each, "the stage '" + std::string(stage) + "' of the build");
+}
+
 void check_counts(const Input& input) {
   if (input.objects.size() > OBJECT_MASK + 1) {
     throw Error(ExitCode::input_unreadable,
@@ -117,6 +132,7 @@ void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const Progress&
     Cloud& cloud = clouds[object];
     const glm::dvec3 up = glm::normalize(scene.up);
     const Stage stage{"normals", progress};
+    require_stage_memory(stage.name, cloud.size(), cloud.measured ? SCAN_BYTES : SEARCH_BYTES);
     const std::uint64_t estimated = cloud.measured ? find_scan_surface(cloud, up, scene.build, stage, stats)
                                                    : estimate_normals(cloud, up, stage);
     stats.normals_estimated += estimated;
@@ -141,6 +157,7 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const Progre
   const double diagonal = scene.diagonal_world();
   const double isolated_world = (diagonal > 0.0 ? ISOLATED_SHARE * diagonal : 1.0) * scene.build.radius_scale;
   for (Cloud& cloud : clouds) {
+    require_stage_memory("radii", cloud.size(), RADII_BYTES);
     find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale, scene.build.normal_fields,
                {"radii", progress});
     const auto isolated =
@@ -251,6 +268,9 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
     has_colors = has_colors || !cloud.color.empty();
   }
   SplatList splats;
+  const std::uint64_t further = has_colors + has_fields + has_clips + number_points;
+  require_stage_memory(stage.name, total,
+                       sizeof(splats.key[0]) + sizeof(splats.words[0]) + further * sizeof(std::uint32_t));
   splats.key.resize(total);
   splats.words.resize(total);
   if (has_colors) splats.color.resize(total, pack_color(glm::vec3(1.0F)));
@@ -364,7 +384,7 @@ void require_build_memory(const Input& input) {
   constexpr std::uint64_t POINT_BYTES = 64;
   std::uint64_t points = 0;
   for (const InputObject& object : input.objects) points += object.points.size();
-  require_memory(POINT_BYTES * points, "a scene of " + std::to_string(points) + " points");
+  require_room(POINT_BYTES * points, "a scene of " + std::to_string(points) + " points");
 }
 
 }  // namespace
@@ -390,6 +410,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
     scene.root = fit_root(clouds);
     note_coarse_objects(clouds, scene.object_names, scene.root.unit_world, stats);
     splats = pack_clouds(std::move(clouds), scene.root, !columns.empty(), {"packing", progress});
+    require_stage_memory("order", splats.size(), ORDER_BYTES);
     stats.dropped_duplicates =
         order_splats(splats, params.leaf_size > 0 ? std::min(params.leaf_size, MOST_EQUAL) : MOST_EQUAL);
   }
@@ -402,10 +423,12 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   fill_pools(std::move(built), std::move(splats), scene, stats);
   {
     const AddedTime slab_watch(stats.slabs_ms);
+    require_stage_memory("slabs", scene.begin_end.size(), sizeof(OctreeCell) + sizeof(scene.slab_pool[0]));
     add_slabs(scene, {"slabs", progress});
   }
   {
     const AddedTime empty_watch(stats.empty_ms);
+    require_stage_memory("empty space", scene.node_pool.size(), sizeof(scene.node_pool[0]));
     grow_empty_leaves(scene, {"empty space", progress});
   }
   count_result(scene, stats);

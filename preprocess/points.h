@@ -22,9 +22,9 @@ inline constexpr std::uint32_t NO_CELL = 0xFFFFFFFF;
 
 /// Where the surface ends beside a point: up to two lines that its disc ends at. World units.
 struct PointClip {
-  glm::vec3 dir[2]{glm::vec3(0.0F),
-                   glm::vec3(0.0F)};  ///< unit, square to the normal, out of the surface; zero = no line
-  float distance[2]{};                ///< from the point to the line, >= 0
+  /// Unit, square to the normal, out of the surface; zero = no line.
+  glm::vec3 dir[2]{glm::vec3(0.0F), glm::vec3(0.0F)};
+  float distance[2]{};  ///< from the point to the line, >= 0
   /// Discs of larger radius are not clipped, as nobody looked so far for what they cover.
   float reach = 0.0F;
 

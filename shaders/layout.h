@@ -109,7 +109,7 @@ SPLATRAY_CONST SLAB_FULL = 0x0FF803E0u;
 SPLATRAY_CONST SLAB_AXIS_SCALE = 31u;  ///< slab axes: |u| + |v| + |w| = SLAB_AXIS_SCALE
 SPLATRAY_CONST SLAB_SCALE = 128u;      ///< q of the cell's half size
 SPLATRAY_CONST SLAB_THINNEST = 112u;   ///< thinnest slabs in a cell's half size
-SPLATRAY_CONST SLAB_SHARES = 16u;      ///< a leaf's halves are told in so many parts of its list
+SPLATRAY_CONST SLAB_SHARES = 16u;      ///< the split of a leaf's list is stored in sixteenths
 
 /// Material flags.
 SPLATRAY_CONST MATERIAL_DIELECTRIC = 1u;  ///< refracts and reflects by Fresnel; `tint` on each crossing
@@ -185,7 +185,7 @@ struct FrameParams {
   float root_unit_world;  ///< world length of one lattice unit
   uint sample_begin;      ///< samples of this dispatch: [sample_begin, sample_end)
   uint sample_end;
-  uint sample_total;  ///< samples of the whole picture
+  uint mean_begin;  ///< the sample that the running mean of these begins with
   uint seed;
   uint max_bounces;     ///< secondary rays in a path, >= 0
   uint light_end;       ///< lights of this dispatch: [light_begin, light_end)

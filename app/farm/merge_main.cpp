@@ -21,10 +21,11 @@ struct Options {
 };
 
 bool parse(int argc, char** argv, Options& options) {
-  OptionList list("Joins the parts of a picture that splatray-render made with --tile or --crop.",
-                  "splatray-merge");
-  list.add_paths("PART", options.parts, "an EXR with a part of the picture; each pixel must be in one",
-                 "FILE");
+  OptionList list(
+      "Joins the parts of a picture that splatray-render made with --tile, --crop or --sample-offset.",
+      "splatray-merge");
+  list.add_paths("PART", options.parts,
+                 "an EXR with a part of the picture; each sample of each pixel must be in one", "FILE");
   list.require("PART");
   add_path(
       list, "-o,--output", options.output,

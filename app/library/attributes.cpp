@@ -15,14 +15,14 @@
 namespace splatray {
 namespace {
 
-constexpr double RANGE_FIRST = 0.02,
-                 RANGE_LAST = 0.98;  ///< shares of all values that a range leaves out at its ends
+/// Shares of all values at the ends of a range.
+constexpr double RANGE_FIRST = 0.02, RANGE_LAST = 0.98;
 constexpr std::size_t RAMP_STEPS = 256;
 constexpr double INTENSITY_GAMMA = 2.2;
 /// Display values of its ends: on black and on white no shade is seen.
 constexpr const char* HEIGHT_AND_INTENSITY = "height+intensity";
-constexpr float RELIEF_DARK = 0.2F,
-                RELIEF_BRIGHT = 1.5F;  ///< factors on a height's colour, of black and white intensity
+/// Factors on a height's colour, of black and white intensity.
+constexpr float RELIEF_DARK = 0.2F, RELIEF_BRIGHT = 1.5F;
 constexpr double INTENSITY_DARK = 0.25, INTENSITY_BRIGHT = 0.92;
 
 std::uint32_t color_of(const glm::vec3& encoded) {
@@ -240,10 +240,11 @@ void hide(Scene& scene, std::string_view name, const std::vector<std::uint32_t>&
 
 std::vector<std::string> color_sources(const Scene& scene) {
   std::vector<std::string> names;
+  if (!scene.color_pool.empty()) names.emplace_back("rgb");
+  names.emplace_back("plain");
   for (const Column& column : scene.columns) names.push_back(column.name);
   names.insert(names.end(), {"height", "normal"});
   if (find_column(scene.columns, COLUMN_INTENSITY) != nullptr) names.emplace_back(HEIGHT_AND_INTENSITY);
-  if (!scene.color_pool.empty()) names.emplace_back("plain");
   if (knows_a_sensor(scene)) names.emplace_back("distance");
   return names;
 }
@@ -255,7 +256,7 @@ AttributeColors color_by(const Scene& scene, const AttributeOptions& options) {
   const std::vector<std::string> sources = color_sources(scene);
   if (std::find(sources.begin(), sources.end(), options.color_by) == sources.end())
     throw Error(ExitCode::usage, "--color-by: found '" + options.color_by +
-                                     "', expected what the scene's points have: rgb, " + joined(sources));
+                                     "', expected what the scene's points have: " + joined(sources));
   if (options.color_by == "normal") return normal_colors(scene);
   if (options.color_by == HEIGHT_AND_INTENSITY) return relief_colors(scene, options);
   if (const Column* column = find_column(scene.columns, options.color_by); column && is_category(*column))

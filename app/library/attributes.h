@@ -44,7 +44,7 @@ struct AttributeColors {
   ColorLegend legend;
 };
 
-/// What color_by may be for this scene, without rgb.
+/// What color_by may be for this scene. The first is what it shows where nothing is asked for: rgb, or plain without colours.
 [[nodiscard]] std::vector<std::string> color_sources(const Scene& scene);
 
 /// The colours that the options ask for: categories for class, return, returns, source, scan and kind, a ramp over `color_range`
@@ -57,8 +57,8 @@ struct AttributeColors {
 /// of categories.
 [[nodiscard]] std::vector<Category> categories_of(const Scene& scene, std::string_view column);
 
-/// Makes the scene what is shown of it: its colours, and splats of hidden classes and scans shrunk to the least radius, 1/10^6
-/// of the scene, which hardly any ray meets. Throws Error (usage) as color_by does, and where something is hidden that the
+/// Applies colours and hides classes and scans: splats of hidden ones shrink to the least radius, 1/10^6 of the scene, which hardly
+/// any ray meets. Throws Error (usage) as color_by does, and where something is hidden that the
 /// scene does not have.
 [[nodiscard]] ColorLegend show_attributes(Scene& scene, const AttributeOptions& options);
 

@@ -42,7 +42,7 @@ struct ExrPicture {
 
 /// Writes linear float EXR; a part as data window. Throws Error (failed) as write_png does.
 void write_exr(const ExrPicture& picture, const std::filesystem::path& path);
-/// An image as the whole of a picture; who has but a part says which one.
+/// Wraps an image that covers the whole picture; set `window` for a part.
 [[nodiscard]] ExrPicture exr_picture(const Image& image, AovChannels aovs, const Metadata& metadata);
 /// The same of an image that is the whole picture.
 void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
@@ -52,8 +52,8 @@ void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
 /// Reads it whole; Error (out_of_memory), too, where that would take more memory than there is.
 [[nodiscard]] ExrPicture read_exr(const std::filesystem::path& path);
 
-/// Whether a file is a PNG with its end or another picture whose last row can be read: whether write_png or write_exr came to
-/// their end. Throws Error (failed) when the library for pictures cannot be loaded, which it is but for PNG.
+/// Whether the file was written completely: a PNG has its end, of other pictures the last row can be read. Throws Error (failed)
+/// when the library for pictures cannot be loaded, which it is but for PNG.
 [[nodiscard]] bool is_whole_picture(const std::filesystem::path& path);
 
 /// Reads what write_png or write_exr kept; empty for pictures of others. Throws Error (input_unreadable) with path,

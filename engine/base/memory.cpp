@@ -1,5 +1,6 @@
 #include "engine/base/memory.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -112,9 +113,10 @@ Progress watching_memory(Progress progress, const fs::path& root) {
 }
 
 void require_memory(std::uint64_t bytes, const std::string& what) {
-  constexpr std::uint64_t SMALL = std::uint64_t{16} << 20U;  // is not worth the question
+  constexpr std::uint64_t SMALL = std::uint64_t{4} << 20U;  // is not worth the question
   if (bytes <= SMALL) return;
-  const std::uint64_t available = available_memory();
+  const std::uint64_t kept = mallinfo2().fordblks;  // free, and not given back to the system
+  const std::uint64_t left = available_memory(), available = left > NO_LIMIT - kept ? NO_LIMIT : left + kept;
   if (bytes > available)
     throw Error(ExitCode::out_of_memory,
                 what + " needs " + bytes_text(bytes) + " of memory, found " + bytes_text(available));

@@ -29,10 +29,16 @@ namespace {
 constexpr std::uint64_t PIECE_BYTES = 1ULL << 24;  ///< read or written between two looks at whether to go on
 constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, and would overflow sizes
 
-std::vector<LightRecord> light_records(const std::vector<SceneLight>& lights) {
-  std::vector<LightRecord> records;
-  for (const SceneLight& light : lights) records.push_back({light.kind, 0, light.position, light.power, 0});
-  return records;
+/// The bytes of the lights' section.
+std::vector<char> light_bytes(const std::vector<SceneLight>& lights, bool sized) {
+  std::vector<char> bytes;
+  for (const SceneLight& light : lights) {
+    const SizedLightRecord record{
+        {light.kind, 0, light.position, light.power, 0}, light.size, light.edge_u, light.edge_v};
+    const char* begin = reinterpret_cast<const char*>(&record);
+    bytes.insert(bytes.end(), begin, begin + (sized ? sizeof record : sizeof record.light));
+  }
+  return bytes;
 }
 
 std::vector<StationRecord> station_records(const std::vector<Station>& stations) {
@@ -58,7 +64,8 @@ Header describe(const Scene& scene, std::size_t string_bytes) {
   const BuildParams& build = scene.build;
   Header header{};
   std::memcpy(header.magic, MAGIC, sizeof MAGIC);
-  header.version = SCENE_FILE_VERSION;
+  header.version = std::any_of(scene.lights.begin(), scene.lights.end(), is_sized) ? SCENE_FILE_VERSION
+                                                                                   : PLAIN_SCENE_FILE_VERSION;
   header.endianness = ENDIANNESS;
   header.header_size = sizeof(Header);
   header.splats = scene.data_pool.size();
@@ -183,8 +190,10 @@ class Reader {
              "a header of " + std::to_string(HEADER_BYTES) + " (file truncated)");
     position_ = sizeof header_;
     if (header_.endianness != ENDIANNESS) refuse("a foreign byte order", "little-endian");
-    if (header_.version != SCENE_FILE_VERSION)
-      refuse("version " + std::to_string(header_.version), "version " + std::to_string(SCENE_FILE_VERSION));
+    if (header_.version < PLAIN_SCENE_FILE_VERSION || header_.version > SCENE_FILE_VERSION)
+      refuse("version " + std::to_string(header_.version), "version " +
+                                                               std::to_string(PLAIN_SCENE_FILE_VERSION) +
+                                                               " or " + std::to_string(SCENE_FILE_VERSION));
     if (header_.file_size != size_)
       refuse(std::to_string(size_) + " bytes",
              std::to_string(header_.file_size) +
@@ -224,8 +233,13 @@ class Reader {
 };
 
 void read_lights(Reader& reader, Scene& scene) {
-  for (const LightRecord& record : reader.section<LightRecord>(LIGHTS))
-    scene.lights.push_back({record.kind, record.position, record.power});
+  if (has_sized_lights(reader.header())) {
+    for (const auto& [light, size, edge_u, edge_v] : reader.section<SizedLightRecord>(LIGHTS))
+      scene.lights.push_back({light.kind, light.position, light.power, size, edge_u, edge_v});
+  } else {
+    for (const LightRecord& record : reader.section<LightRecord>(LIGHTS))
+      scene.lights.push_back({record.kind, record.position, record.power});
+  }
 }
 
 void read_stations(Reader& reader, Scene& scene) {
@@ -295,9 +309,11 @@ void write_bytes(AtomicFile& file, const Header& header,
 
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
   assert(!find_scene_defect(scene));
-  const std::vector<LightRecord> lights = light_records(scene.lights);
   const std::vector<StationRecord> stations = station_records(scene.stations);
   const std::string strings = joined_strings(scene);
+  Header header = describe(scene, strings.size());
+  lay_out(header);
+  const std::vector<char> lights = light_bytes(scene.lights, has_sized_lights(header));
   std::array<const void*, SECTION_COUNT> contents{};
   std::size_t section = 0;
   for_each_pool([&](const auto& row) { contents[section++] = (scene.*row.pool).data(); });
@@ -310,8 +326,6 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
   section = COLUMNS;
   for (const Column& column : scene.columns)
     std::visit([&](const auto& values) { contents[section++] = values.data(); }, column.values);
-  Header header = describe(scene, strings.size());
-  lay_out(header);
   for (std::uint32_t i = 0; i < SECTION_COUNT; ++i)
     header.sections[i].checksum = XXH3_64bits(contents[i], header.sections[i].size);
   header.checksum = header_checksum(header);

@@ -58,19 +58,29 @@ struct LightRecord {
   std::uint32_t zero_1;
 };
 
+/// That of version 11.
+struct SizedLightRecord {
+  LightRecord light;
+  double size;
+  glm::dvec3 edge_u, edge_v;
+};
+
 struct StationRecord {
   glm::dvec3 sensor;
   std::uint32_t has_sensor, rows, columns, zero;
 };
 
 inline constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
-static_assert(HEADER_BYTES == 1760 && sizeof(LightRecord) == 48 && sizeof(Camera) == 88 &&
-              sizeof(StationRecord) == 40);
+static_assert(HEADER_BYTES == 1760 && sizeof(LightRecord) == 48 && sizeof(SizedLightRecord) == 104 &&
+              sizeof(Camera) == 88 && sizeof(StationRecord) == 40);
 
 /// Bytes of a value of each column type.
 inline constexpr std::uint32_t COLUMN_BYTES[] = {0, sizeof(std::uint8_t), sizeof(std::uint16_t),
                                                  sizeof(float), sizeof(double)};
 static_assert(std::variant_size_v<Column::Values> + 1 == std::size(COLUMN_BYTES));
+
+/// Whether the file's lights are SizedLightRecords.
+[[nodiscard]] inline bool has_sized_lights(const Header& header) { return header.version >= 11; }
 
 /// The section table (but for checksums) and the file's size follow from the header's counts.
 void lay_out(Header& header);

@@ -92,7 +92,7 @@ class AdaptiveTile {
   }
 
   /// Of a half in a region, about.
-  [[nodiscard]] std::uint32_t most_samples() const { return dispatch_.frame.sample_total / 2; }
+  [[nodiscard]] std::uint32_t most_samples() const { return dispatch_.frame.sample_end / 2; }
 
   /// Regions of a half that have `samples` and are worse than wanted, as what the other half says lets expect of so many: a
   /// half's own samples must not decide how many they are.
@@ -116,7 +116,9 @@ class AdaptiveTile {
     aimed.keep([&](std::uint32_t x, std::uint32_t y) { return chosen[region_at(x, y)]; });
     const auto run = [&](std::uint32_t begin, std::uint32_t end) {
       half.means_before = half.means;
-      trace_ms_ += trace_samples(runner_, aimed, begin, end, runner_.work(dispatch), [](std::uint32_t) {});
+      std::uint32_t batch = 1;
+      trace_ms_ +=
+          trace_samples(runner_, aimed, begin, end, runner_.work(dispatch), batch, [](std::uint32_t) {});
       read(which);
     };
     const bool first = half.samples.front() == 0;
@@ -171,8 +173,10 @@ class AdaptiveTile {
 
 }  // namespace
 
-Image Tracer::render_until(const View& view, const Settings& settings, const Goal& goal,
+Image Tracer::render_until(const View& view, const Settings& wanted, const Goal& goal,
                            const Progress& progress) {
+  Settings settings = wanted;
+  settings.sample_offset = 0;
   Impl& impl = *impl_;
   Runner& runner = impl.runner;
   runner.require_scene("render_until()");
@@ -181,7 +185,7 @@ Image Tracer::render_until(const View& view, const Settings& settings, const Goa
   Image& image = picture.image;
   const std::size_t pixels = image.rgba.size();
   image.error.resize(pixels);
-  double trace_ms = 0.0, samples = 0.0, done = 0.0;
+  double samples = 0.0, done = 0.0;
   for (const Tile& tile : picture.tiles) {
     const double share = static_cast<double>(tile.pixels()) / static_cast<double>(pixels);
     const double end_ms = 1e3 * goal.seconds * (done + share);
@@ -199,12 +203,12 @@ Image Tracer::render_until(const View& view, const Settings& settings, const Goa
       return ms < end_ms;
     });
     adaptive.put(image);
-    trace_ms += adaptive.trace_ms();
+    impl.stats.trace_ms += adaptive.trace_ms();
     samples += adaptive.samples();
     done += share;
     if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov, image.width);
   }
-  impl.finish(start, trace_ms);
+  impl.finish(start);
   impl.stats.samples = samples / static_cast<double>(pixels);
   impl.stats.error = relative_error(image);
   return std::move(image);

@@ -44,6 +44,10 @@ void TileDispatch::set_samples(std::uint32_t begin, std::uint32_t end) {
   }
 }
 
+void TileDispatch::set_mean_begin(std::uint32_t mean_begin) {
+  for (Dispatch* part : {&seen, &empty}) part->frame.mean_begin = mean_begin;
+}
+
 void TileDispatch::set_lights(std::uint32_t begin, std::uint32_t end) {
   for (Dispatch* part : {&seen, &empty}) {
     part->frame.light_begin = begin;

@@ -31,8 +31,9 @@ struct TileDispatch {
 
   /// Leaves only those groups of pixels for whose corner, in pixels of the tile, `keeps` is true.
   void keep(const std::function<bool(std::uint32_t x, std::uint32_t y)>& keeps);
-  /// Has them trace samples [begin, end) of each pixel.
+  /// Has them trace samples [begin, end) of each pixel, whose mean runs from sample `mean_begin` on.
   void set_samples(std::uint32_t begin, std::uint32_t end);
+  void set_mean_begin(std::uint32_t mean_begin);
   /// Has them add the light of lights [begin, end) alone.
   void set_lights(std::uint32_t begin, std::uint32_t end);
 };

@@ -18,7 +18,8 @@ enum class PoolAccess {
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
-  automatic,   ///< copies where they fit (engine/scene/copies.h) and need no pages, which take the gain
+  /// Copies where they fit (engine/scene/copies.h) and one buffer holds them: splitting costs what they gain.
+  automatic,
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
 };

@@ -25,6 +25,7 @@ void Tracer::begin(const View& wanted, const Settings& settings) {
   progressive = {.dispatch = runner.picture_dispatch(view, settings),
                  .footprint = runner.scene.footprint(view, settings),
                  .accumulation = std::move(accumulation),
+                 .before = {},
                  .upload = impl.uploads};
 }
 
@@ -35,16 +36,18 @@ bool Tracer::advance(double wanted_ms) {
     throw Error(ExitCode::failed,
                 "advance() was called without begin() after upload(), expected an image begun");
   FrameParams& frame = progressive.dispatch.frame;
-  if (progressive.samples == frame.sample_total) return true;
+  const std::uint32_t all = frame.sample_end - frame.sample_begin;
+  if (progressive.samples == all) return true;
   const std::uint32_t rows = std::min(progressive.rows, frame.height - progressive.next_row);
   frame.tile_first = progressive.next_row * frame.width;
   const auto start = std::chrono::steady_clock::now();
   impl.runner.bind(progressive.accumulation);
   TileDispatch tile =
       aim(progressive.dispatch, {0, progressive.next_row, frame.width, rows}, progressive.footprint);
+  tile.set_mean_begin(frame.sample_begin + progressive.before.samples());
   ThreadWork work = impl.runner.work(progressive.dispatch);
-  const double trace_ms =
-      impl.runner.run_samples(tile, progressive.samples, progressive.samples + 1, {1, work.lights});
+  const std::uint32_t sample = frame.sample_begin + progressive.samples;
+  const double trace_ms = impl.runner.run_samples(tile, sample, sample + 1, {1, work.lights});
   const double ms = milliseconds_since(start);
   impl.stats.counters = impl.runner.counts;
   impl.stats.trace_ms += trace_ms;
@@ -54,8 +57,17 @@ bool Tracer::advance(double wanted_ms) {
   if (progressive.next_row == frame.height) {
     progressive.next_row = 0;
     ++progressive.samples;
+    if (progressive.samples < all) impl.end_block();
   }
-  return progressive.samples == frame.sample_total;
+  return progressive.samples == all;
+}
+
+void Tracer::Impl::end_block() {
+  if (progressive.samples - progressive.before.samples() < BLOCK_SAMPLES) return;
+  const FrameParams& frame = progressive.dispatch.frame;
+  auto means = read_means(progressive.accumulation, {0, 0, frame.width, frame.height});
+  if (!means) refuse_cut_loops();
+  progressive.before.add(*std::move(means), BLOCK_SAMPLES);
 }
 
 std::uint32_t Tracer::samples() const { return impl_->progressive.samples; }
@@ -69,8 +81,14 @@ Image Tracer::picture() {
   Image image{frame.width, frame.height, {}, {}};
   image.rgba.resize(std::size_t{frame.width} * frame.height);
   const std::uint32_t rows = progressive.samples > 0 ? frame.height : progressive.next_row;
-  if (rows > 0 && !impl.read_colors(progressive.accumulation, {0, 0, frame.width, rows}, image))
-    refuse_cut_loops();
+  if (rows == 0) return image;
+  auto means = impl.read_means(progressive.accumulation, {0, 0, frame.width, rows});
+  if (!means) refuse_cut_loops();
+  const std::uint32_t samples = progressive.samples - progressive.before.samples();
+  const std::size_t more = std::size_t{progressive.next_row} * frame.width;
+  progressive.before.join(std::span(*means).first(more), 0, samples + 1);
+  progressive.before.join(std::span(*means).subspan(more), more, samples);
+  std::copy(means->begin(), means->end(), image.rgba.begin());
   return image;
 }
 

@@ -34,7 +34,8 @@ std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Sett
     trace_ms += runner.run(dispatch);
     runner.hits.download(runner.queue, std::as_writable_bytes(std::span(hits).subspan(at, count)));
   }
-  impl.finish(start, trace_ms);
+  impl.finish(start);
+  impl.stats.trace_ms = trace_ms;
   return hits;
 }
 

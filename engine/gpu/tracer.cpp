@@ -16,18 +16,18 @@ using Clock = std::chrono::steady_clock;
 }  // namespace
 
 double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
-                     const ThreadWork& work, const std::function<void(std::uint32_t)>& advance) {
+                     const ThreadWork& work, std::uint32_t& batch,
+                     const std::function<void(std::uint32_t)>& advance) {
   // The device counts in 32 bits, which many samples of a large tile would overflow.
   const std::uint32_t most = has(tile.seen.constants, FEATURE_COUNTERS) ? 1 : work.samples;
-  std::uint32_t batch = 1;
   double all_ms = 0.0;
   for (std::uint32_t sample = begin; sample < end;) {
     const std::uint32_t next = sample + std::min(batch, end - sample);
     const double ms = runner.run_samples(tile, sample, next, work);
     all_ms += ms;
     advance(next - sample);
+    batch = std::min(next_batch(next - sample, ms), most);
     sample = next;
-    batch = std::min(next_batch(batch, ms), most);
   }
   return all_ms;
 }
@@ -48,17 +48,40 @@ void Tracer::Impl::start() {
   runner.counts = {};
 }
 
-void Tracer::Impl::finish(Clock::time_point start, double trace_ms) {
+void Tracer::Impl::finish(Clock::time_point start) {
   stats.counters = runner.counts;
-  stats.trace_ms = trace_ms;
   stats.wall_ms = milliseconds_since(start);
 }
 
-bool Tracer::Impl::read_colors(const Buffer& accumulation, const Tile& tile, Image& image) {
+std::optional<std::vector<vec4>> Tracer::Impl::read_means(const Buffer& accumulation, const Tile& tile) {
   std::vector<vec4> means(tile.pixels());
   accumulation.download(runner.queue, std::as_writable_bytes(std::span(means)));
-  place(tile, means, image.rgba, image.width);
-  return std::all_of(means.begin(), means.end(), [](const vec4& mean) { return mean.w >= 0.0F; });
+  if (!std::all_of(means.begin(), means.end(), [](const vec4& mean) { return mean.w >= 0.0F; })) return {};
+  return means;
+}
+
+bool Tracer::Impl::trace_means(TileDispatch& aimed, const Tile& tile, std::uint32_t half,
+                               const ThreadWork& work, const std::function<void(std::uint32_t)>& advance,
+                               const Take& take) {
+  const std::uint32_t first = aimed.seen.frame.sample_begin, samples = aimed.seen.frame.sample_end - first;
+  SampleMean before;
+  std::uint32_t batch = 1;
+  for (std::uint32_t done = 0; done < samples;) {
+    const std::uint32_t block = before.samples(), block_end = std::min(block + BLOCK_SAMPLES, samples);
+    const std::uint32_t next = done < half ? std::min(half, block_end) : block_end;
+    aimed.set_mean_begin(first + block);
+    stats.trace_ms += trace_samples(runner, aimed, first + done, first + next, work, batch, advance);
+    done = next;
+    std::optional<std::vector<vec4>> means = read_means(runner.accumulation, tile);
+    if (!means) return false;
+    if (done == half || done == samples) {
+      std::vector<vec4> all = *means;
+      before.join(all, 0, done - block);
+      take(done, all);
+    }
+    if (done == block + BLOCK_SAMPLES) before.add(*std::move(means), BLOCK_SAMPLES);
+  }
+  return true;
 }
 
 Tracer::Tracer(const Context& context, const TracerOptions& options)
@@ -129,25 +152,24 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   const std::size_t pixels = image.rgba.size();
   Image first_half{image.width, image.height, {}, {}};
   if (settings.estimate_error) first_half.rgba.resize(pixels);
+  const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;
   std::uint64_t done = 0;
-  double trace_ms = 0.0;
   for (const Tile& tile : picture.tiles) {
     const auto trace = [&](const ThreadWork& work, bool again) {
       const auto advance = [&](std::uint32_t samples) {
         done += again ? 0 : tile.pixels() * samples;
         report(progress, static_cast<double>(done) / (static_cast<double>(pixels) * settings.samples));
       };
+      const auto take = [&](std::uint32_t samples, const std::vector<vec4>& means) {
+        place(tile, means, samples == half ? first_half.rgba : image.rgba, image.width);
+      };
       TileDispatch aimed = aim(picture.dispatch, tile, picture.footprint);
-      const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;
-      trace_ms += trace_samples(runner, aimed, 0, half, work, advance);
-      if (half > 0 && !impl.read_colors(runner.accumulation, tile, first_half)) return false;
-      trace_ms += trace_samples(runner, aimed, half, settings.samples, work, advance);
-      return impl.read_colors(runner.accumulation, tile, image);
+      return impl.trace_means(aimed, tile, half, work, advance, take);
     };
     if (!trace(runner.work(picture.dispatch), false) && !trace({}, true)) refuse_cut_loops();
     if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov, image.width);
   }
-  impl.finish(start, trace_ms);
+  impl.finish(start);
   impl.stats.samples = settings.samples;
   if (settings.estimate_error && settings.samples > 1) {
     image.error = pixel_errors(image.rgba, first_half.rgba);
@@ -174,7 +196,8 @@ std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settin
     runner.trace_aov(tile, dispatch, footprint, pixels, made.width);
     report(progress, double(tile.y + tile.height) / made.height);
   }
-  impl.finish(start, milliseconds_since(start));
+  impl.finish(start);
+  impl.stats.trace_ms = impl.stats.wall_ms;
   return pixels;
 }
 

@@ -64,8 +64,8 @@ class Tracer {
   /// the lights (at most LIGHTS_MOST), or the environment; no pool is touched. Before the first set_environment all is black.
   void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces = {});
   void set_lights(std::span<const SceneLight> lights);
-  /// Where paths look for light that objects send out; upload() sets find_emitters() of the scene. Where surfaces change, others
-  /// make pictures less noisy.
+  /// Where paths look for light that objects send out; upload() sets find_emitters() of the scene. Set new emitters after surfaces
+  /// change; old ones stay correct but noisier.
   void set_emitters(std::span<const Emitter> emitters);
   void set_environment(const Environment& environment);
   /// Replaces the scene's up direction, about which the environment stands.

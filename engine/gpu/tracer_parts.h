@@ -1,10 +1,12 @@
 /// What the parts of Tracer share: tracer.cpp (whole images), progressive.cpp (images that grow), query.cpp (rays).
 #pragma once
 #include <chrono>
+#include <optional>
 
 #include "engine/base/stopwatch.h"
 #include "engine/gpu/runner.h"
 #include "engine/gpu/tracer.h"
+#include "engine/image/sample_mean.h"
 
 namespace splatray {
 
@@ -12,7 +14,8 @@ namespace splatray {
 struct Progressive {
   Dispatch dispatch;
   Footprint footprint;
-  Buffer accumulation;         ///< means of all pixels, vec4
+  Buffer accumulation;         ///< means of all pixels over the samples behind those of `before`, vec4
+  SampleMean before;           ///< of whole blocks
   std::uint32_t upload = 0;    ///< the upload() whose scene it shows; 0 = none was begun
   std::uint32_t samples = 0;   ///< in every pixel
   std::uint32_t next_row = 0;  ///< rows above it have one more
@@ -35,9 +38,18 @@ struct Tracer::Impl {
   /// Begins an image, `means` of each of whose pixels are traced at once; binds buffers with room for a tile of it.
   [[nodiscard]] Picture start_picture(const View& view, const Settings& settings, std::uint32_t means);
   /// Ends it.
-  void finish(std::chrono::steady_clock::time_point start, double trace_ms);
-  /// Reads the means of a tile back from `accumulation` into the image. Returns false where a driver cut some pixel's loops.
-  [[nodiscard]] bool read_colors(const Buffer& accumulation, const Tile& tile, Image& image);
+  void finish(std::chrono::steady_clock::time_point start);
+  /// Traces all samples of a tile, whose buffer is bound, with the work that each thread may do. `advance` hears of each batch, `take`
+  /// gets the means of the first `half` samples, if any, and those of all. Returns false where a driver cut some pixel's loops; the
+  /// device's milliseconds go into the statistics.
+  using Take = std::function<void(std::uint32_t samples, const std::vector<vec4>& means)>;
+  [[nodiscard]] bool trace_means(TileDispatch& aimed, const Tile& tile, std::uint32_t half,
+                                 const ThreadWork& work, const std::function<void(std::uint32_t)>& advance,
+                                 const Take& take);
+  /// Puts a full block of the image that grows to those before it.
+  void end_block();
+  /// Reads the means of a tile back; nothing where a driver cut some pixel's loops.
+  [[nodiscard]] std::optional<std::vector<vec4>> read_means(const Buffer& accumulation, const Tile& tile);
 
   Runner runner;
   Progressive progressive;
@@ -45,10 +57,11 @@ struct Tracer::Impl {
   std::uint32_t uploads = 0;
 };
 
-/// Adds samples [begin, end) to a tile's means, whose buffer is bound; tells `advance` of each batch. Returns the device's
-/// milliseconds.
+/// Adds samples [begin, end) to a tile's means, whose buffer is bound, `batch` of them first and then as many as `batch` is made;
+/// `advance` hears of each batch. Returns the device's milliseconds.
 double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
-                     const ThreadWork& work, const std::function<void(std::uint32_t)>& advance);
+                     const ThreadWork& work, std::uint32_t& batch,
+                     const std::function<void(std::uint32_t)>& advance);
 
 /// Throws Error (interrupted) where `progress` says so.
 void report(const Tracer::Progress& progress, double share);

@@ -133,7 +133,8 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   frame.tile_x = view.made().x;
   frame.tile_y = view.made().y;
   frame.root_unit_world = static_cast<float>(scene.root.unit_world);
-  frame.sample_end = frame.sample_total = settings.samples;
+  frame.sample_begin = frame.mean_begin = settings.sample_offset;
+  frame.sample_end = settings.sample_offset + settings.samples;
   frame.seed = settings.seed;
   frame.max_bounces = settings.max_bounces;
   frame.kappa = settings.kappa;

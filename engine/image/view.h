@@ -43,6 +43,9 @@ struct ImagePlane {
 struct Settings {
   /// Per pixel, >= 1; with LOOK_PAPER one sample goes through the pixel's centre.
   std::uint32_t samples = 16;
+  /// The samples are the next ones behind so many of those that a picture of any number has: a range of a picture whose others are made
+  /// elsewhere (sample_mean.h). Not of Tracer::render_until.
+  std::uint32_t sample_offset = 0;
   std::uint32_t look = LOOK_PAPER;  ///< LOOK_*
   std::uint32_t seed = 1;
   std::uint32_t max_bounces = 8;  ///< secondary rays in a path, 0..64

@@ -10,13 +10,13 @@ namespace splatray {
 /// A light in world space. Intensities are linear rgb.
 struct SceneLight {
   std::uint32_t kind = LIGHT_DIRECTIONAL;  ///< LIGHT_*
-  glm::dvec3 position{0.0, 1.0, 0.0};      ///< point: position; directional: unit vector towards the light
-  glm::vec3 power{
-      1.0F};  ///< directional: irradiance facing it; point: intensity (irradiance * distance^2); rectangle: radiance
+  glm::dvec3 position{0.0, 1.0, 0.0};      ///< point, rectangle: centre; directional: unit vector towards it
+  /// Directional: irradiance facing it; point: intensity (irradiance * distance^2); rectangle: radiance.
+  glm::vec3 power{1.0F};
   /// point: radius, world units; directional: angular radius, radians; 0 = none. LOOK_PAPER knows none.
   double size = 0.0;
-  glm::dvec3 edge_u{0.0},
-      edge_v{0.0};  ///< rectangle: half its edges, perpendicular; it shines towards cross(u, v)
+  /// Rectangle: half its edges, world units, perpendicular; it shines towards cross(u, v).
+  glm::dvec3 edge_u{0.0}, edge_v{0.0};
   bool operator==(const SceneLight&) const = default;
 };
 

@@ -184,10 +184,24 @@ Defect check_surface(const Surface& surface) {
   return {};
 }
 
+/// Whether a rectangle's half edges make one: some length each, and perpendicular but for rounding.
+bool are_edges(const glm::dvec3& u, const glm::dvec3& v) {
+  const double u_squared = glm::dot(u, u), v_squared = glm::dot(v, v);
+  return u_squared > 0.0 && v_squared > 0.0 && std::isfinite(u_squared * v_squared) &&
+         std::abs(glm::dot(u, v)) <= 1e-6 * std::sqrt(u_squared * v_squared);
+}
+
 Defect check_light(const SceneLight& light) {
-  if (light.kind > LIGHT_POINT) return SceneDefect{"a kind", "a directional or point light"};
-  const bool aimed = light.kind == LIGHT_POINT || glm::dot(light.position, light.position) > 0.0;
+  constexpr double WHOLE_SKY = 1.571, LARGEST = 1e30;  // a quarter turn, rounded up
+  if (light.kind > LIGHT_RECTANGLE)
+    return SceneDefect{"a kind", "a directional light, a point light or a rectangle"};
+  const bool aimed = light.kind != LIGHT_DIRECTIONAL || glm::dot(light.position, light.position) > 0.0;
   if (!finite(light.position) || !aimed) return SceneDefect{"a position or direction", "finite numbers"};
+  if (!(light.size >= 0.0 && light.size <= (light.kind == LIGHT_DIRECTIONAL ? WHOLE_SKY : LARGEST)))
+    return SceneDefect{"a size", "0 or more, of directional ones at most a quarter turn"};
+  const bool rectangle = light.kind == LIGHT_RECTANGLE;
+  if (!finite(light.edge_u) || !finite(light.edge_v) || (rectangle && !are_edges(light.edge_u, light.edge_v)))
+    return SceneDefect{"edges", "two that are perpendicular and have a length"};
   if (!finite(light.power) || glm::any(glm::lessThan(light.power, glm::vec3(0.0F))))
     return SceneDefect{"a power", "finite numbers, 0 or more"};
   return {};

@@ -11,6 +11,12 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options, co
   const ByteReader present(path);
   const Format* format = find_format(path);
   refuse_gaussian_file(path);
+  if (lower_extension(path) == ".vtkhdf") {
+    throw_unreadable(
+        path,
+        "found VTK's HDF format, which is not read, expected the same data as .vtp or .vtu: ParaView's "
+        "Save Data, vtkXMLPolyDataWriter and vtkXMLUnstructuredGridWriter write those");
+  }
   if (format == nullptr) {
     throw_unreadable(
         path, "found the extension '" + lower_extension(path) + "', expected one of " + format_extensions());

@@ -21,7 +21,7 @@ struct SharpSide {
 /// Where the evidence is clear, what a mesh would tell of the points' planes and lines; by point.
 /// Creases: the neighbourhood is two or three planes to within a twentieth of the spacing, each has points of its own, on one
 /// side of the line that two share, and they turn by more than `crease_degrees` there. A point has a side for each plane that
-/// it is on. Where `estimated`, one for each point, does not tell that a point's normal is the file's, it has but the one that agrees.
+/// it is on. A point whose normal came from the file (`estimated`, one for each point, is 0) keeps only the side that agrees with it.
 /// Borders: half of a point's surroundings, or three quarters at a corner, has no neighbours, those at the ends of the gap lie on
 /// its line, and far more room behind it is empty: where sampling is denser on one side nothing ends.
 [[nodiscard]] std::vector<SharpSide> find_sharp(const Cloud& cloud, double crease_degrees,

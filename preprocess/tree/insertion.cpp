@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/base/memory.h"
 #include "preprocess/tree/listed_disc.h"
 
 namespace splatray {
@@ -149,6 +150,8 @@ LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Sta
   };
   parallel_each(stage, met.size(), walk, /*grain=*/1);
   std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
+  require_memory((std::uint64_t{lists.begin.back()} + leaves) * sizeof(std::uint32_t),
+                 "the stage '" + std::string(stage.name) + "' of the build");
   lists.splat.resize(lists.begin.back());
   std::vector<std::uint32_t> place(lists.begin.begin(), lists.begin.end() - 1);
   tbb::parallel_for(std::size_t{0}, met.size(), [&](std::size_t chunk) {

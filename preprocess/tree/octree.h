@@ -46,8 +46,8 @@ struct Octree {
   std::vector<Leaf> leaves;  ///< in Z-order, empty ones too
 };
 
-/// A node of at most so many times `leaf_size` centres stays a leaf where the root mean square of their splats' radii is more
-/// than WIDEST_SPLATS of the width its children would have: these would list mostly the same splats, each with copies of its own.
+/// A node with up to CROWDED_MOST * leaf_size centres is not divided when the RMS radius of its splats exceeds WIDEST_SPLATS times
+/// a child cell's width: the children would list mostly the same splats, each with copies of its own.
 inline constexpr double CROWDED_MOST = 1.75;
 inline constexpr double WIDEST_SPLATS = 0.36;
 

@@ -51,9 +51,9 @@ Ray sample_ray(uvec2 pixel, uint sample_index) {
 }
 #endif
 
-/// The mean of a pixel's samples so far.
+/// The mean of a pixel's samples so far, from FrameParams.mean_begin on.
 vec4 mean_before(uint place) {
-  return frame.sample_begin == 0u && frame.light_begin == 0u ? vec4(0.0f) : accumulation[place];
+  return frame.sample_begin == frame.mean_begin && frame.light_begin == 0u ? vec4(0.0f) : accumulation[place];
 }
 
 /// The mean of a pixel's samples with one more, or with more of the light of the last one (FrameParams.light_begin). What is not
@@ -65,7 +65,7 @@ vec4 add_to_mean(vec4 mean, vec3 radiance, float coverage, uint sample_index) {
   vec4 value = vec4(finite ? radiance : vec3(1.0f, 0.0f, 1.0f), coverage);
   // A mean, not a sum: float32 would lose small samples beside a large sum.
   vec4 change = frame.light_begin == 0u ? value - mean : vec4(vec3(value), 0.0f);
-  return mean + change / float(sample_index + 1u);
+  return mean + change / float(sample_index - frame.mean_begin + 1u);
 }
 
 #endif

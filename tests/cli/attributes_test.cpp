@@ -174,7 +174,7 @@ TEST(Attributes, WhatASceneDoesNotHaveIsNamed) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     EXPECT_NE(std::string(error.what())
-                  .find("found 'return', expected what the scene's points have: rgb, class, intensity"),
+                  .find("found 'return', expected what the scene's points have: plain, class, intensity"),
               std::string::npos)
         << error.what();
   }
@@ -182,6 +182,19 @@ TEST(Attributes, WhatASceneDoesNotHaveIsNamed) {
   options = {};
   options.hidden_classes = {2};
   EXPECT_THROW(static_cast<void>(show_attributes(scene, options)), Error);
+}
+
+TEST(Attributes, OwnColoursAreOfferedWhereThereAreSome) {
+  Scene scene = sheet();
+  EXPECT_EQ(color_sources(scene).front(), "plain");
+  EXPECT_EQ(
+      color_by(scene, {.color_by = "plain", .color_range = {}, .hidden_classes = {}, .hidden_scans = {}})
+          .colors.size(),
+      0U);
+  scene.color_pool.assign(scene.data_pool.size(), 0);
+  const std::vector<std::string> sources = color_sources(scene);
+  EXPECT_EQ(sources[0], "rgb");
+  EXPECT_EQ(sources[1], "plain");
 }
 
 TEST(Attributes, DoNotDependOnTheOrderOfPoints) {

@@ -17,7 +17,7 @@ class CliInputs : public CliTest {
 
   /// A picture that shows the points: seen against a black environment, in the light of a sun alone, some pixels are lit.
   void expect_picture(const std::string& path) const {
-    const ChildResult result = render({path, "--env=black", "--sun=1,2,3"});
+    const ChildResult result = render({path, "--environment=black", "--sun=1,2,3"});
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     const DisplayImage image = read_display_image(file("out.png"), 0.0);
@@ -120,7 +120,7 @@ TEST_F(CliInputs, HugeCoordinates) { expect_picture(write("far.ply", grid_ply(tr
 TEST_F(CliInputs, UnreadableEnvironment) {
   const std::string grid = write("grid.ply", grid_ply(true));
   const auto refuse = [&](const std::string& environment) {
-    expect_refused([&] { return render({grid, "--env", environment}); }, 3, environment);
+    expect_refused([&] { return render({grid, "--environment", environment}); }, 3, environment);
   };
   refuse(file("missing.hdr"));
   refuse(folder.string());

@@ -69,6 +69,34 @@ TEST_F(CliOutputs, PictureAndStatistics) {
   EXPECT_NE(text.find("\"rays_primary\": 256"), std::string::npos) << text;
 }
 
+TEST_F(CliOutputs, MaterialsOfScansAreShownOrALineSaysWhyNot) {
+  std::string sheet = "# x y z r g b\n";
+  for (int i = 0; i < 400; ++i)
+    sheet += std::to_string(i % 20) + ' ' + std::to_string(i / 20) + " 0 " + std::to_string(i % 20 * 12) +
+             " 90 40\n";
+  const std::string scan = write("sheet.xyz", sheet), note = "note: this --look shows no materials";
+  const std::string gold = "--object=0:preset=gold";
+  const auto says_so = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {RENDER,       scan, "-o", file("out.png"), "--resolution=16x16",
+                                      "--samples=1"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ChildResult result = run_program(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.err.find(note) != std::string::npos;
+  };
+  EXPECT_FALSE(says_so({}));
+  std::filesystem::rename(file("out.png"), file("plain.png"));
+  EXPECT_EQ(render({scan, gold, "--reference", file("plain.png")}).code, 1)
+      << "gold looks as it looked before";
+  EXPECT_FALSE(says_so({gold}));
+  for (const char* look : {"--look=scan", "--look=clay", "--look=ao"}) {
+    EXPECT_TRUE(says_so({gold, look})) << look;
+    EXPECT_FALSE(says_so({look})) << look;
+  }
+  EXPECT_FALSE(says_so({gold, "--look=scan", "--quiet"}));
+  EXPECT_FALSE(says_so({gold, "--look=lit"}));
+}
+
 TEST_F(CliOutputs, ReferenceDecides) {
   ASSERT_EQ(render({grid}).code, 0);
   std::filesystem::rename(file("out.png"), file("reference.png"));
@@ -152,7 +180,7 @@ TEST_F(CliOutputs, ReadOnlyFolder) {
 TEST_F(CliOutputs, ErrorsOfOddFileNamesAreOneLine) {
   for (const char* name : {"no\nsuch.soct", "no\nsuch.ply"})
     expect_refused([&] { return render({file(name)}); }, 3, "no?such");
-  expect_refused([&] { return render({grid, "--env", file("no\nsuch.hdr")}); }, 3, "no?such");
+  expect_refused([&] { return render({grid, "--environment", file("no\nsuch.hdr")}); }, 3, "no?such");
   expect_refused([&] { return render({grid, "--camera", file("no\nsuch.json")}); }, 3, "no?such");
 }
 

@@ -1,6 +1,7 @@
 /// Pictures made in parts, and what tells of progress.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -49,6 +50,108 @@ TEST_F(CliParts, MergedTilesAreTheWholePictureByteForByte) {
   EXPECT_TRUE(bytes("plain.png") == bytes("whole.png"));
   EXPECT_EQ(read_display_image(file("merged.png"), {}).rgb, read_display_image(file("whole.png"), {}).rgb);
   EXPECT_FALSE(bytes("part1.exr") == bytes("part2.exr"));
+}
+
+/// Ranges of samples: {offset, samples}.
+using Ranges = std::vector<std::pair<int, int>>;
+
+class CliSampleRanges : public CliParts {
+ protected:
+  /// Renders as the whole picture and in ranges, joins these in another order, and expects the same file, as EXR and as PNG.
+  void expect_same(const Ranges& ranges, const std::vector<std::string>& options) const {
+    const int samples = ranges.back().first + ranges.back().second;
+    ASSERT_EQ(make_range("whole", ".exr", {0, samples}, options).code, 0);
+    std::vector<std::string> parts;
+    for (const auto& range : ranges) {
+      const std::string name = "part" + std::to_string(range.first);
+      ASSERT_EQ(make_range(name, ".exr", range, options).code, 0);
+      parts.insert(parts.begin(), file(name + ".exr"));
+      EXPECT_FALSE(bytes(name + ".exr") == bytes("whole.exr"));
+    }
+    expect_merged(parts, "whole.exr");
+    if (std::any_of(options.begin(), options.end(), [](const auto& o) { return o.starts_with("--aov"); }))
+      return;
+    ASSERT_EQ(make_range("whole", ".png", {0, samples}, options).code, 0);
+    expect_merged(parts, "whole.png");
+  }
+
+  [[nodiscard]] ChildResult make_range(const std::string& name, const std::string& extension,
+                                       std::pair<int, int> range, std::vector<std::string> options) const {
+    options.push_back("--samples=" + std::to_string(range.second));
+    if (range.first > 0) options.push_back("--sample-offset=" + std::to_string(range.first));
+    return make(name + extension, options);
+  }
+
+  void expect_merged(std::vector<std::string> parts, const std::string& whole) const {
+    const std::string merged = "merged_" + whole;
+    parts.insert(parts.end(), {"-o", file(merged)});
+    const ChildResult result = merge(parts);
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(bytes(merged) == bytes(whole)) << whole;
+  }
+};
+
+TEST_F(CliSampleRanges, TwoAreTheWholePictureByteForByte) { expect_same({{0, 64}, {64, 64}}, {}); }
+
+TEST_F(CliSampleRanges, ThreeAreWithTheLastOneShorter) { expect_same({{0, 128}, {128, 64}, {192, 9}}, {}); }
+
+TEST_F(CliSampleRanges, TheyKeepOtherChannels) {
+  expect_same({{0, 64}, {64, 64}, {128, 64}}, {"--aov=depth,normal,id"});
+}
+
+TEST_F(CliSampleRanges, ThePapersLookHasThemToo) { expect_same({{0, 64}, {64, 64}}, {"--look=paper"}); }
+
+TEST_F(CliSampleRanges, TilesOfThemAreJoinedAtOnce) {
+  ASSERT_EQ(make_range("whole", ".exr", {0, 128}, {}).code, 0);
+  std::vector<std::string> parts;
+  for (const std::string tile : {"1", "2"})
+    for (const int offset : {0, 64}) {
+      const std::string name = tile + "_" + std::to_string(offset);
+      ASSERT_EQ(make_range(name, ".exr", {offset, 64}, {"--tile=" + tile + "/2"}).code, 0);
+      parts.push_back(file(name + ".exr"));
+    }
+  expect_merged(parts, "whole.exr");
+}
+
+TEST_F(CliSampleRanges, WhatIsNoWholePictureIsRefused) {
+  const std::vector<std::string> small{"--resolution=8x8"};
+  const auto part = [&](std::pair<int, int> range, std::vector<std::string> options) {
+    const std::string name = "p" + std::to_string(range.first) + "_" + std::to_string(range.second) +
+                             (options.empty() ? "" : options.back());
+    options.insert(options.begin(), small.begin(), small.end());
+    EXPECT_EQ(make_range(name, ".exr", range, options).code, 0);
+    return file(name + ".exr");
+  };
+  const auto refused = [&](std::vector<std::string> words, const std::string& found) {
+    words.insert(words.end(), {"-o", file("out.exr")});
+    expect_refused([&] { return merge(words); }, 3, found);
+  };
+  const std::string first = part({0, 64}, {}), second = part({64, 64}, {}), third = part({128, 64}, {});
+  refused({first, third}, "found the samples 128 to 191 behind a gap, expected the samples 64 to 127");
+  refused({second}, "found the samples 64 to 127 behind a gap, expected the samples 0 to 63");
+  refused({first, part({0, 128}, {}), third},
+          "found the samples 0 to 63 of the pixel 0,0, which another part has");
+  refused({part({0, 3}, {}), second},
+          "found the samples 0 to 2 before others, expected 64, 128, 256 ... samples");
+  refused({part({0, 96}, {}), third}, "found the samples 0 to 95 before others");
+  refused({part({0, 192}, {}), part({192, 64}, {})}, "found the samples 0 to 191 before others");
+  refused({first, part({64, 64}, {"--seed=7"})}, "command_line");
+  ExrPicture other = read_exr(part({64, 64}, {"--aov=depth"}));
+  other.values.back() = 1.0F;
+  write_exr(other, file("other.exr"));
+  refused({part({0, 64}, {"--aov=depth"}), file("other.exr")}, "other values of a channel that is no colour");
+}
+
+TEST_F(CliSampleRanges, OptionsThatNeedAllSamplesAreRefused) {
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& found) {
+    expect_refused([&] { return make("x.exr", words); }, 2, found);
+  };
+  refused({"--sample-offset=32", "--samples=64"}, "expected a multiple of 64");
+  refused({"--sample-offset=64", "--samples=65"}, "expected a multiple of 128");
+  refused({"--sample-offset=65536", "--samples=64"}, "65535");
+  refused({"--sample-offset=65472", "--samples=64", "--error=0.1"}, "--samples");
+  refused({"--sample-offset=64", "--samples=64", "--aov=error"}, "for all samples");
+  refused({"--sample-offset=64", "--samples=64", "--denoise"}, "a whole picture");
 }
 
 TEST_F(CliParts, ACropIsThatPartOfThePicture) {

@@ -171,7 +171,7 @@ class CliPictures : public CliSequences {
   /// Renders a picture with about every option that matters, and again from its metadata.
   void expect_again(const std::string& extension, const std::vector<std::string>& more) const {
     std::vector<std::string> arguments = {grid,
-                                          "--env=0.5,0.6,0.7",
+                                          "--environment=0.5,0.6,0.7",
                                           "--object=0:preset=copper",
                                           "--sun=1,2,3",
                                           "--light=0.1,0.7,0.3,0.2,0.3,0.4",
@@ -193,7 +193,7 @@ class CliPictures : public CliSequences {
 TEST_F(CliPictures, AreMadeAgain) {
   expect_again(".png", {});
   expect_again(".exr", {"--aov=depth,id"});
-  expect_again(".exr", {"--eye=1,2,3", "--ortho=2", "--camera-up=0,1,0.1"});
+  expect_again(".exr", {"--eye=1,2,3", "--ortho-height=2", "--camera-up=0,1,0.1"});
 }
 
 TEST_F(CliPictures, AreMadeAgainOtherwise) {

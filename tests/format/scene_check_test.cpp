@@ -174,12 +174,23 @@ TEST(SceneCheck, FindsLightsOutOfRange) {
     return found_after([&](Scene& s) { s.lights[0] = light; });
   };
   EXPECT_EQ(found({LIGHT_POINT, glm::dvec3(0.0), vec3(0.0F)}), "");
-  EXPECT_NE(found({2, glm::dvec3(1.0), vec3(1.0F)}), "");
+  EXPECT_NE(found({LIGHT_RECTANGLE + 1, glm::dvec3(1.0), vec3(1.0F)}), "");
   EXPECT_NE(found({LIGHT_DIRECTIONAL, glm::dvec3(0.0), vec3(1.0F)}), "");
   EXPECT_NE(found({LIGHT_POINT, glm::dvec3(NAN), vec3(1.0F)}), "");
   for (const float wrong : {-1.0F, INFINITY, NAN})
     EXPECT_EQ(found({LIGHT_POINT, glm::dvec3(1.0), vec3(1.0F, wrong, 1.0F)}),
               "light 0 with a power out of range");
+  for (const double wrong : {-1.0, 1e31, double(INFINITY), double(NAN)})
+    EXPECT_EQ(found({LIGHT_POINT, glm::dvec3(1.0), vec3(1.0F), wrong}), "light 0 with a size out of range");
+  EXPECT_NE(found({LIGHT_DIRECTIONAL, glm::dvec3(1.0), vec3(1.0F), 1.6}), "");
+  EXPECT_EQ(found({LIGHT_DIRECTIONAL, glm::dvec3(1.0), vec3(1.0F), 1.5}), "");
+  const auto rectangle = [&](const glm::dvec3& u, const glm::dvec3& v) {
+    return found({LIGHT_RECTANGLE, glm::dvec3(0.0), vec3(1.0F), 0.0, u, v});
+  };
+  const glm::dvec3 u(3.0, 4.0, 0.0), v(-4.0, 3.0, 0.0);
+  EXPECT_EQ(rectangle(u, v), "");
+  for (const glm::dvec3& wrong : {glm::dvec3(0.0), u, glm::dvec3(NAN), glm::dvec3(INFINITY, 0.0, 0.0)})
+    EXPECT_EQ(rectangle(u, wrong), "light 0 with edges out of range");
 }
 
 }  // namespace

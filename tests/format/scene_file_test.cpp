@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <fstream>
+#include <limits>
 
 #include "engine/base/error.h"
 #include "engine/scene/clip.h"
@@ -72,7 +73,7 @@ TEST_F(SceneFile, GoldenBytes) {
 
 TEST_F(SceneFile, HeaderIsWhereTheTableSays) {
   EXPECT_EQ(bytes.substr(0, 4), "SOCT");
-  EXPECT_EQ(get<std::uint32_t>(bytes, 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), PLAIN_SCENE_FILE_VERSION);
   EXPECT_EQ(get<std::uint32_t>(bytes, 12), HEADER);
   EXPECT_EQ(get<std::uint64_t>(bytes, 16), bytes.size());
   EXPECT_EQ(get<std::uint64_t>(bytes, 32), 4U);
@@ -120,6 +121,70 @@ TEST_F(SceneFile, RoundTrip) {
   EXPECT_EQ(copy.bounds_max_world, scene.bounds_max_world);
   write_scene(copy, path);
   EXPECT_EQ(load(), bytes);
+}
+
+/// A file of version 11: lights of all kinds.
+class SizedLights : public SceneFile {
+ protected:
+  void SetUp() override {
+    scene.lights = {
+        {LIGHT_POINT, {1.0, 2.0, 3.0}, vec3(4.0F, 5.0F, 6.0F), 0.25},
+        {LIGHT_DIRECTIONAL, {0.0, 1.0, 0.0}, vec3(1.0F)},
+        {LIGHT_RECTANGLE, {0.0, 5.0, 0.0}, vec3(2.0F, 3.0F, 4.0F), 0.0, {3.0, 0.0, 4.0}, {0.0, 0.5, 0.0}}};
+    path = folder / "lights.soct";
+    write_scene(scene, path);
+    bytes = load();
+  }
+
+  Scene scene = tiny_scene();
+};
+
+TEST_F(SizedLights, AreKeptAsTheyAre) {
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(get<std::uint32_t>(bytes, TABLE + 9 * ENTRY + 4), 104U);
+  const std::size_t lights = section_offset(bytes, 10);
+  EXPECT_EQ(get<double>(bytes, lights + 48), 0.25);
+  EXPECT_EQ(get<std::uint32_t>(bytes, lights + 2 * 104), LIGHT_RECTANGLE);
+  EXPECT_EQ(get<double>(bytes, lights + 2 * 104 + 72), 4.0);
+  EXPECT_EQ(get<double>(bytes, lights + 2 * 104 + 88), 0.5);
+  const Scene copy = read_scene(path);
+  EXPECT_EQ(copy.lights, scene.lights);
+  EXPECT_EQ(copy.surfaces[1].emission, scene.surfaces[1].emission);
+  write_scene(copy, path);
+  EXPECT_EQ(load(), bytes);
+}
+
+TEST_F(SizedLights, TruncatedOrDamagedAreRefused) {
+  for (std::size_t length = 0; length < bytes.size(); length += 3)
+    EXPECT_NE(refusal(bytes.substr(0, length)), "") << length;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    Bytes flipped = bytes;
+    flipped[i] = static_cast<char>(flipped[i] ^ (1 << i % 8));
+    EXPECT_NE(refusal(flipped), "") << i;
+  }
+}
+
+TEST_F(SizedLights, ForgedOnesAreRefused) {
+  const auto says = [&](Bytes forged, const char* words) {
+    reseal(forged);
+    const std::string sentence = refusal(forged);
+    EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
+  };
+  for (const std::uint32_t version : {9U, 12U}) {
+    Bytes forged = bytes;
+    put<std::uint32_t>(forged, 4, version);
+    says(forged, "expected version 10 or 11");
+  }
+  Bytes forged = bytes;
+  put<std::uint32_t>(forged, 4, PLAIN_SCENE_FILE_VERSION);
+  says(forged, "a section table that contradicts the counts");
+  const std::size_t lights = section_offset(bytes, 10);
+  forged = bytes;
+  put(forged, lights + 48, -0.25);
+  says(forged, "light 0 with a size");
+  forged = bytes;
+  put(forged, lights + 2 * 104 + 80, std::numeric_limits<double>::quiet_NaN());
+  says(forged, "light 2 with edges");
 }
 
 TEST_F(SceneFile, EllipsesAreToldOfInTheHeader) {
@@ -183,7 +248,7 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
   put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 10");
+  says(other, "found version 2, expected version 10 or 11");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");

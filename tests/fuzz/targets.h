@@ -41,7 +41,7 @@ void fuzz_image(FuzzBytes bytes);
 void fuzz_part(FuzzBytes bytes);
 
 struct FuzzTarget {
-  /// Of its folder in corpus/, its dictionary NAME.dict, and the argument of tests/fuzz/run.
+  /// Of its folder in corpus/, its dictionary dictionaries/NAME.dict, and the argument of tests/fuzz/run.
   std::string_view name;
   void (*run)(FuzzBytes);
 };

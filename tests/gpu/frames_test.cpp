@@ -1,5 +1,6 @@
 // What changes between frames, and what that must not cost: neither a pipeline nor an upload of the pools.
 #include "engine/gpu/tracer.h"
+#include "engine/image/sample_mean.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -132,6 +133,39 @@ TEST_F(FramesTest, GrownPictureIsTheRenderedOne) {
   EXPECT_TRUE(grown.rgba == tracer.render(view, settings).rgba);
   settings.samples = 6;
   EXPECT_FALSE(grown.rgba == tracer.render(view, settings).rgba);
+}
+
+TEST_F(FramesTest, GrownPictureOfSeveralBlocksIsTheRenderedOne) {
+  view.width = view.height = 17;
+  settings.samples = 3 * BLOCK_SAMPLES + 2;
+  tracer.begin(view, settings);
+  while (!tracer.advance(1e-3)) {
+    if (tracer.samples() != 2 * BLOCK_SAMPLES) continue;
+    Settings fewer = settings;
+    fewer.samples = 2 * BLOCK_SAMPLES;
+    // Some rows may have one sample more.
+    EXPECT_EQ(tracer.picture().rgba.back(), tracer.render(view, fewer).rgba.back());
+  }
+  EXPECT_TRUE(tracer.picture().rgba == tracer.render(view, settings).rgba);
+}
+
+TEST_F(FramesTest, ARangeOfSamplesIsWhatTheWholePictureHasOfThem) {
+  view.width = view.height = 17;
+  settings.samples = BLOCK_SAMPLES;
+  const Image half = tracer.render(view, settings);
+  settings.sample_offset = BLOCK_SAMPLES;
+  Image both = tracer.render(view, settings);
+  EXPECT_FALSE(both.rgba == half.rgba);
+  tracer.begin(view, settings);
+  while (!tracer.advance(1e-3)) {
+  }
+  EXPECT_TRUE(tracer.picture().rgba == both.rgba);
+  SampleMean before;
+  before.add(half.rgba, BLOCK_SAMPLES);
+  before.join(both.rgba, 0, BLOCK_SAMPLES);
+  settings.sample_offset = 0;
+  settings.samples = 2 * BLOCK_SAMPLES;
+  EXPECT_TRUE(tracer.render(view, settings).rgba == both.rgba);
 }
 
 TEST_F(FramesTest, AovsAloneAreThoseOfAPicture) {

@@ -19,8 +19,8 @@ constexpr int MOST_BOUNCES = 16;
 struct WedgeCase {
   double angle_deg;
   bool even;
-  std::uint64_t known_all = 0,
-                known_beyond = 0;  ///< wrong rays that are known, up to the corner and beyond r of it
+  /// Wrong rays that are known, up to the corner and beyond r of it.
+  std::uint64_t known_all = 0, known_beyond = 0;
 };
 
 /// World rays at the inner sides of the wedge, and what happens to them.

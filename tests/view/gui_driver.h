@@ -32,6 +32,8 @@ class GuiDriver {
   void open_section(const char* title);
   /// Whether such a control can be clicked.
   [[nodiscard]] bool can_click(const std::string& window, const ControlPath& path);
+  /// Width of a control that the mouse can be over, pixels; fails the test where there is none.
+  [[nodiscard]] float width(const std::string& window, const ControlPath& path);
   /// Rectangle of the window whose name holds `window`, pixels; empty when it was not drawn.
   [[nodiscard]] ImRect rectangle(const std::string& window) const;
 

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
 #include <tuple>
 
 #include "app/library/camera_file.h"
 #include "app/library/materials.h"
 #include "app/view/model/attempt.h"
 #include "app/view/thread/live_scene.h"
+#include "app/view/ui/panel_parts.h"
+#include "engine/gpu/pools.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/surface.h"
 #include "tests/readers/read_error.h"
@@ -128,6 +132,74 @@ TEST(PanelsTest, APresetReplacesTheMaterialButKeepsItHidden) {
   EXPECT_EQ(gui.document.looks.materials[0].tint, named_material("matte").tint);
   gui.click("##column", {1, "as loaded"});
   EXPECT_TRUE(same_looks(gui.document.looks, gui.document.loaded->looks));
+}
+
+TEST(PanelsTest, ALookWithoutMaterialsSaysSoAndOffersOneThatHasThem) {
+  for (const std::uint32_t look : {LOOK_SCAN, LOOK_CLAY, LOOK_AO, LOOK_LIT, LOOK_PAPER}) {
+    GuiDriver gui(1280, 720);
+    gui.document = document_of(1);
+    gui.document.settings.look = look;
+    if (look == LOOK_LIT || look == LOOK_PAPER) {
+      EXPECT_FALSE(gui.can_click("##column", {0, "look lit"})) << look;
+      continue;
+    }
+    gui.click("##column", {0, "look lit"});
+    EXPECT_EQ(gui.document.settings.look, LOOK_LIT) << look;
+  }
+}
+
+TEST(PanelsTest, OnlyColoursThatThereAreAreOffered) {
+  for (const std::vector<std::string>& sources :
+       {std::vector<std::string>{"rgb", "plain", "height"}, std::vector<std::string>{"plain", "height"}}) {
+    GuiDriver gui(1280, 1600);
+    gui.document = document_of(1);
+    LoadedPart loaded = *gui.document.loaded;
+    loaded.color_sources = sources;
+    gui.document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
+    gui.click("##column", {"Points"});
+    gui.click("##column", {"colours"});
+    EXPECT_EQ(gui.can_click("##Combo", {"rgb"}), sources.front() == "rgb");
+    gui.click("##Combo", {"height"});
+    EXPECT_EQ(gui.document.attributes.color_by, "height");
+  }
+}
+
+TEST(PanelsTest, NamesOfFactsDoNotReachTheirValues) {
+  for (const double scale : {1.0, 2.0}) {
+    const GuiDriver gui(1280, 720, scale);
+    ImGui::NewFrame();
+    ImGui::SetNextWindowSize({600.0F, 600.0F});
+    ImGui::Begin("facts");
+    std::vector<std::string> names = {"x", "a column's name that is longer than any of ours"};
+    for (const auto& pool : pool_kinds()) names.emplace_back(pool.name);
+    for (const std::string& name : names) {
+      fact(name.c_str(), "12");
+      const float name_end =
+          ImGui::GetWindowPos().x + ImGui::GetCursorPosX() + ImGui::CalcTextSize(name.c_str()).x;
+      EXPECT_GT(ImGui::GetItemRectMin().x, name_end) << name;
+    }
+    ImGui::End();
+    ImGui::Render();
+  }
+}
+
+TEST(PanelsTest, CoordinatesFitIntoTheirBoxes) {
+  std::vector<NamedDocument> documents = navigated_documents();
+  documents.push_back({"survey", box_document({560000.123456, 5900000.654321, 120.25}, 50.0)});
+  for (const auto& [name, shown] : documents) {
+    GuiDriver gui(1280, 1600);
+    gui.document = document_of(1);
+    gui.document.camera = shown.camera;
+    gui.open_section("Camera");
+    // The boxes of three numbers are as wide as the first, whether beside or below each other.
+    const float room =
+        gui.width("##column", {"eye", 0, "##numbers", 0, ""}) - 2.0F * ImGui::GetStyle().FramePadding.x;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::array<char, 40> text{};
+      std::snprintf(text.data(), text.size(), "%.12g", shown.camera.eye[axis]);
+      EXPECT_GE(room, ImGui::CalcTextSize(text.data()).x) << name << ": " << text.data();
+    }
+  }
 }
 
 TEST(PanelsTest, GlassObjectsKeepTheirBit) {

@@ -167,7 +167,7 @@ TEST_F(ViewSession, OrbitMaterialSaveDropResizeClose) {
 }
 
 TEST_F(ViewSession, SavedPictureIsTheHeadlessOne) {
-  const std::vector<std::string> options = {first, "--eye=0.9,1.3,2.2", "--fov=35", "--max-bounces=3",
+  const std::vector<std::string> options = {first, "--eye=0.9,1.3,2.2", "--fov=35", "--bounces=3",
                                             "--exposure=0.5"};
   start(options);
   const unsigned long window = desktop.wait_for_window("first.ply");

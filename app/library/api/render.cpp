@@ -13,19 +13,6 @@
 namespace splatray::api {
 namespace {
 
-/// What is asked for, and for what that leaves open what suits the scene as it was opened.
-splatray::Request request_for(const LoadedScene& loaded, const splatray::Request& asked) {
-  const splatray::Request& suited = loaded.request;
-  splatray::Request request = asked;
-  const bool own_light = asked.look.environment.empty() && !asked.look.lights;
-  if (!request.look.style && own_light) request.look.style = suited.look.style;
-  if (!request.view.eye && request.view.viewpoint == Viewpoint::automatic && !request.look.up)
-    request.view.viewpoint = suited.view.viewpoint;
-  request.settings.cutaway = request.view.viewpoint == Viewpoint::dollhouse;
-  request.look.attributes = suited.look.attributes;
-  return request;
-}
-
 /// The scene's materials, surfaces and lights as a picture shows them.
 splatray::Scene shown_looks(const splatray::Scene& scene, const splatray::Request& request) {
   splatray::Scene shown;
@@ -42,6 +29,31 @@ splatray::Scene shown_looks(const splatray::Scene& scene, const splatray::Reques
   shown.materials = std::move(looks.materials);
   shown.surfaces = std::move(looks.surfaces);
   return shown;
+}
+
+/// Whether objects are shown of other materials than their own; one that is hidden, or no longer, is of the same.
+bool changes_materials(const splatray::Scene& scene, const splatray::Scene& shown) {
+  std::vector<splatray::Material> materials = shown.materials;
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    materials[i].flags = (materials[i].flags & ~MATERIAL_HIDDEN) | (scene.materials[i].flags & MATERIAL_HIDDEN);
+  return !same_looks({scene.materials, surfaces_of(scene)}, {materials, shown.surfaces});
+}
+
+/// What is asked for, and for what that leaves open what suits the scene as it was opened.
+splatray::Request request_for(const LoadedScene& loaded, const splatray::Request& asked,
+                              const splatray::Scene& shown) {
+  const splatray::Request& suited = loaded.request;
+  splatray::Request request = asked;
+  if (!request.look.style && asked.look.environment.empty() && !asked.look.lights)
+    request.look.style = suited.look.style;
+  if (!request.look.style) request.look.style = choose_look(loaded.scene, request);
+  if (!asked.look.style && changes_materials(loaded.scene, shown) && !shows_materials(*request.look.style))
+    request.look.style = LOOK_LIT;
+  if (!request.view.eye && request.view.viewpoint == Viewpoint::automatic && !request.look.up)
+    request.view.viewpoint = suited.view.viewpoint;
+  request.settings.cutaway = request.view.viewpoint == Viewpoint::dollhouse;
+  request.look.attributes = suited.look.attributes;
+  return request;
 }
 
 /// The interface's image; its channels where the request asks for any.
@@ -81,13 +93,13 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
   return guarded(progress, [&](ProgressRelay& relay) {
     const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
     const splatray::Scene& inner = impl->loaded.scene;
-    splatray::Request request = request_for(impl->loaded, RequestAccess::inner(asked));
+    splatray::Scene shown = shown_looks(inner, RequestAccess::inner(asked));
+    splatray::Request request = request_for(impl->loaded, RequestAccess::inner(asked), shown);
     require_consistent(request);
     require_both_images(request);
     const splatray::Camera camera = choose_camera(inner, request);
     // Refuses a camera and lights before a device is opened.
     (void)make_frame_params(inner, {camera, request.view.width, request.view.height}, choose_settings(inner, request));
-    splatray::Scene shown = shown_looks(inner, request);
     shown.lights = choose_lights(inner, request, camera);
     if (const auto defect = find_look_defect(shown)) refuse(defect->found, defect->expected);
     return impl->on_device(relay, [&](SceneOnDevice& there) {

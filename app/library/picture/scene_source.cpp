@@ -105,6 +105,16 @@ SceneLight rectangle_light(const glm::dvec3& up, const LightRequest& light) {
   return made;
 }
 
+/// Lights as a look takes them: LOOK_PAPER, which knows no sizes, has points in place of rectangles, as bright straight ahead.
+std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLight> lights) {
+  for (SceneLight& light : lights) {
+    if (look != LOOK_PAPER || light.kind != LIGHT_RECTANGLE) continue;
+    light.kind = LIGHT_POINT;
+    light.power *= static_cast<float>(4.0 * glm::length(glm::cross(light.edge_u, light.edge_v)));
+  }
+  return lights;
+}
+
 bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
 
 }  // namespace
@@ -176,7 +186,7 @@ std::vector<SceneLight> choose_lights(const Scene& scene, const Request& request
     for (const LightRequest& light : *request.look.lights)
       lights.push_back(light.kind == LIGHT_RECTANGLE ? rectangle_light(choose_up(scene, request), light)
                                                      : scene_light(scene, light));
-    return lights;
+    return lights_of_look(choose_look(scene, request), std::move(lights));
   }
   return own_lights(scene, !choose_environment_name(scene, request).empty(), choose_look(scene, request),
                     camera);
@@ -184,7 +194,7 @@ std::vector<SceneLight> choose_lights(const Scene& scene, const Request& request
 
 std::vector<SceneLight> own_lights(const Scene& scene, bool environment_named, std::uint32_t look,
                                    const Camera& camera) {
-  if (!scene.lights.empty()) return exposed_lights(scene);
+  if (!scene.lights.empty()) return lights_of_look(look, exposed_lights(scene));
   if (environment_named) return {};
   std::vector<SceneLight> lights = default_lights(scene, camera);
   if (look == LOOK_SCAN) lights.front() = scan_light(lights.front());

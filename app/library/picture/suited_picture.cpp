@@ -87,7 +87,7 @@ bool suits_denoising(const Scene& scene, const Request& asked) {
   const bool decided = asked.look.style || asked.output.keep_noise || asked.settings.has_goal() ||
                        !asked.output.reference.empty();
   return !scene.stations.empty() && !decided && asked.view.window().width == 0 &&
-         asked.settings.samples >= 2;
+         asked.settings.sample_offset == 0 && asked.settings.samples >= 2;
 }
 
 bool suits_exposure(const Scene& scene, const Request& asked) {
@@ -102,6 +102,7 @@ double preview_exposure_ev(Tracer& tracer, View view, Settings settings) {
   };
   view = {view.camera, scaled(view.width), scaled(view.height)};
   settings.samples = SAMPLES;
+  settings.sample_offset = 0;
   settings.aov = settings.estimate_error = settings.counters = false;
   constexpr double MOST_STOPS = 60.0, STEPS = 100.0;
   const double ev = automatic_exposure_ev(tracer.render(view, settings));

@@ -23,6 +23,23 @@ Field resolution_row() {
       });
 }
 
+/// Before the camera, which it takes the place of and whose fields beside it are refused.
+Field camera_path_row() {
+  Field row = value_row(
+      "camera-path", CAMERA, "FILE",
+      "one picture for each frame of this camera path (JSON: keys, each a camera with its frame)",
+      [](Request& request, const std::string& file) {
+        request.output.camera_path = file;
+        request.view.eye = request.view.target = request.view.camera_up = std::nullopt;
+        request.view.fov_y_deg.reset();
+        request.view.ortho_height = 0.0;
+      },
+      [](const Request& request) { return request.output.camera_path.string(); });
+  row.doors = DOOR_RENDER | DOOR_VIEW;
+  row.why_not = NOT_SEQUENCES;
+  return row;
+}
+
 Field camera_row() {
   return with(value_row(
                   "camera", CAMERA, "FILE",
@@ -110,6 +127,7 @@ Field tile_row() {
 
 std::vector<Field> camera_fields() {
   return {resolution_row(),
+          camera_path_row(),
           camera_row(),
           view_row(),
           vector_row("eye", CAMERA, MEMBER(view.eye),

@@ -118,7 +118,7 @@ std::vector<Field> light_fields() {
                     "SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable"),
           light_row("area-light", LIGHT_RECTANGLE, "X,Y,Z,TX,TY,TZ,W,H[,R,G,B]",
                     "a rectangle of W x H here that shines towards TX,TY,TZ, instead of the scene's lights; R,G,B: its "
-                    "radiance, default irradiance pi there; not with --look paper; repeatable"),
+                    "radiance, default irradiance pi there; with --look paper a point; repeatable"),
           lights_row(),
           environment_row(),
           with(number_row("environment-strength", LIGHT, MEMBER(settings.environment_strength), 0.0, 1e6,

@@ -34,6 +34,9 @@ struct ObjectLooks {
   std::vector<Surface> surfaces;
 };
 
+/// Whether the two are equal bit for bit.
+[[nodiscard]] bool same_looks(const ObjectLooks& a, const ObjectLooks& b);
+
 /// What a surface becomes when its material changes: surface_of the material after, but for metallic, roughness, coat and emission
 /// where the surface said something else than its material before. As it is where surface_of does not see the change.
 [[nodiscard]] Surface surface_after(const Material& before, const Surface& surface, const Material& after);

@@ -41,19 +41,6 @@ std::string aov_text(const Request& request) {
   return text;
 }
 
-Field camera_path_row() {
-  return value_row(
-      "camera-path", OUTPUT, "FILE",
-      "one picture for each frame of this camera path (JSON: keys, each a camera with its frame)",
-      [](Request& request, const std::string& file) {
-        request.output.camera_path = file;
-        request.view.eye = request.view.target = request.view.camera_up = std::nullopt;
-        request.view.fov_y_deg.reset();
-        request.view.ortho_height = 0.0;
-      },
-      [](const Request& request) { return request.output.camera_path.string(); });
-}
-
 Field frames_row() {
   return value_row(
       "frames", OUTPUT, "A-B:STEP,...",
@@ -109,12 +96,15 @@ std::vector<Field> output_fields() {
       value_row("aov", OUTPUT, "depth,normal,id,error",
                 "more channels of an EXR picture: Z, N.X N.Y N.Z, id, error (estimated, of the radiance)", read_aovs,
                 aov_text),
-      camera_path_row(),
       number_row("turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
                  "this many pictures of a full turn about the scene's up axis through the target; default 0 = none"),
       frames_row(),
       switch_row("skip-existing", OUTPUT, MEMBER(output.skip_existing),
                  "leave out pictures whose file is whole and was made by the same command")};
+  for (std::size_t i = 2; i < rows.size(); ++i) {
+    rows[i].doors = DOOR_RENDER | DOOR_VIEW;
+    rows[i].why_not = NOT_SEQUENCES;
+  }
   for (Field& row : file_fields()) rows.push_back(std::move(row));
   return rows;
 }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "engine/base/error.h"
+#include "engine/image/sample_mean.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray {
@@ -13,10 +14,24 @@ namespace {
 
 bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
 
+void check_sample_range(const Request& request) {
+  constexpr std::uint32_t MOST = 65536;
+  const std::uint32_t samples = request.settings.samples, offset = request.settings.sample_offset;
+  const std::string found =
+      "found --sample-offset " + std::to_string(offset) + " with --samples " + std::to_string(samples);
+  if (offset % whole_range(samples) != 0)
+    fail(found + ", expected a multiple of " + std::to_string(whole_range(samples)));
+  if (offset + samples > MOST) fail(found + ", expected at most " + std::to_string(MOST) + " in all");
+  if (offset > 0 && request.output.aov_error)
+    fail("found --aov error with --sample-offset, expected it for all samples of a picture");
+}
+
 void check_part(const Request& request) {
   const Request::View& view = request.view;
   const PixelWindow window = view.window();
-  if (view.tiles == 0 && window.width == 0) return;
+  const bool is_range = request.settings.sample_offset > 0;
+  if (view.tiles == 0 && window.width == 0 && !is_range) return;
+  check_sample_range(request);
   if (view.tiles > 0 && view.crop.width > 0) fail("found --crop and --tile, expected one of them");
   if (view.tiles > view.height)
     fail("found --tile of " + std::to_string(view.tiles) + " parts, expected at most the picture's " +
@@ -24,7 +39,7 @@ void check_part(const Request& request) {
   if (window.x + window.width > view.width || window.y + window.height > view.height)
     fail("found --crop beyond the picture's " + std::to_string(view.width) + "x" +
          std::to_string(view.height) + " pixels, expected a part of it (--resolution)");
-  const std::string part = view.tiles > 0 ? "--tile" : "--crop";
+  const std::string part = is_range ? "--sample-offset" : (view.tiles > 0 ? "--tile" : "--crop");
   if (request.settings.has_goal()) fail("found --error or --time with " + part + ", expected --samples");
   if (request.output.denoise) fail("found --denoise with " + part + ", expected it for a whole picture");
   if (!request.output.reference.empty())

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/view/model/false_color.h"
 #include "app/view/model/navigation.h"
-#include "app/view/ui/panel_parts.h"
+#include "app/view/model/panel_state.h"
 
 namespace splatray {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "app/view/model/panel_state.h"
 #include "app/view/model/scene_files.h"
-#include "app/view/ui/panels.h"
 
 namespace splatray {
 

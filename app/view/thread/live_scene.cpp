@@ -16,22 +16,12 @@ ObjectLooks two_sided(ObjectLooks looks) {
   return looks;
 }
 
-template <class Element>
-bool same_bytes(const std::vector<Element>& a, const std::vector<Element>& b) {
-  if (a.size() != b.size()) return false;
-  return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0;
-}
-
 bool same_emission(const std::vector<Surface>& a, const std::vector<Surface>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Surface& x, const Surface& y) { return x.emission == y.emission; });
 }
 
 }  // namespace
-
-bool same_looks(const ObjectLooks& a, const ObjectLooks& b) {
-  return same_bytes(a.materials, b.materials) && same_bytes(a.surfaces, b.surfaces);
-}
 
 void LiveScene::open(SharedScene scene) {
   scene_.reset();

@@ -48,7 +48,4 @@ class LiveScene {
   ColorLegend legend_;
 };
 
-/// Whether the words are the same.
-[[nodiscard]] bool same_looks(const ObjectLooks& a, const ObjectLooks& b);
-
 }  // namespace splatray

@@ -9,8 +9,8 @@ namespace {
 constexpr double MOVING_MS = 1000.0 / 30.0;  ///< of a coarse picture
 constexpr double BAND_MS = 30.0;             ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
-constexpr std::chrono::milliseconds BETWEEN_PICTURES{
-    33};  ///< of trace_samples, so that reading back costs little
+/// Of trace_samples, so that reading back costs little.
+constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
 
 /// Whether a picture of one is a picture of the other, but for the exposure.
 bool same_picture(const Document& a, const Document& b) {

@@ -14,6 +14,7 @@ SaveJob save_job(const Document& document, const Request& asked) {
   job.request.view.tiles = asked.view.tiles;
   Request::Settings& settings = job.request.settings;
   settings.samples = asked.settings.samples;
+  settings.sample_offset = asked.settings.sample_offset;
   settings.error_goal = asked.settings.error_goal;
   settings.seconds_goal = asked.settings.seconds_goal;
   settings.aov = asked.settings.aov;

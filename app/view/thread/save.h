@@ -4,8 +4,8 @@
 #include <string>
 
 #include "app/library/request/request.h"
+#include "app/view/model/panel_state.h"
 #include "app/view/thread/live_scene.h"
-#include "app/view/ui/panels.h"
 
 namespace splatray {
 

@@ -12,11 +12,11 @@ namespace {
 constexpr float LIST_EM = 8.0F;  ///< height of the list of classes, or of scans
 
 void source_combo(Document& document) {
+  const std::vector<std::string>& sources = document.loaded->color_sources;
   std::string& shown = document.attributes.color_by;
-  if (!ImGui::BeginCombo("colours", shown.empty() ? "rgb" : shown.c_str())) return;
-  if (ImGui::Selectable("rgb", shown.empty() || shown == "rgb")) shown = "rgb";
-  for (const std::string& source : document.loaded->color_sources) {
-    if (!ImGui::Selectable(source.c_str(), source == shown)) continue;
+  if (!ImGui::BeginCombo("colours", shown.empty() ? sources.front().c_str() : shown.c_str())) return;
+  for (const std::string& source : sources) {
+    if (!ImGui::Selectable(source.c_str(), source == (shown.empty() ? sources.front() : shown))) continue;
     shown = source;
     document.attributes.color_range.reset();
   }

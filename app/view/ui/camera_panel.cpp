@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -61,7 +62,9 @@ constexpr const char* COORDINATE = "%.12g";
 /// Whether three numbers fit beside each other into a width.
 bool fit_beside(const glm::dvec3& point, float width_px) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  const float each = (width_px - 2.0F * style.ItemInnerSpacing.x) / 3.0F - 2.0F * style.FramePadding.x;
+  // Dear ImGui gives each the same number of whole pixels.
+  const float each =
+      std::floor((width_px - 2.0F * style.ItemInnerSpacing.x) / 3.0F) - 2.0F * style.FramePadding.x;
   for (int axis = 0; axis < 3; ++axis) {
     std::array<char, 40> text{};
     std::snprintf(text.data(), text.size(), COORDINATE, point[axis]);
@@ -78,7 +81,7 @@ void point_input(const char* label, glm::dvec3& point) {
   const int columns = fit_beside(point, ImGui::GetContentRegionAvail().x) ? 3 : 1;
   for (int axis = 0; axis < 3; axis += columns) {
     ImGui::PushID(axis);
-    ImGui::SetNextItemWidth(-1.0F);
+    ImGui::SetNextItemWidth(-FLT_MIN);  // to the right end
     if (ImGui::InputScalarN("##numbers", ImGuiDataType_Double, &typed[axis], columns, nullptr, nullptr,
                             COORDINATE, ImGuiInputTextFlags_EnterReturnsTrue))
       point = typed;

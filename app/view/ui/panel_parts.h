@@ -20,8 +20,6 @@ void open_dialog(PanelState& state, Requests& requests);
 void save_dialog(const Document& document, PanelState& state, Requests& requests);
 void record_dialog(PanelState& state, Requests& requests);
 void error_dialog(PanelState& state);
-/// Whether one of them is.
-[[nodiscard]] bool dialog_is_open(const PanelState& state);
 
 /// Over the picture, which is `width_px` wide.
 void status_line(const Document& document, PanelState& state, const PanelView& view, float width_px);

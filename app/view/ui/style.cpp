@@ -7,8 +7,8 @@
 namespace splatray {
 namespace {
 
-constexpr float FONT_PX = 15.0F,
-                FALLBACK_FONT_PX = 13.0F;  ///< at scale 1; the fallback is drawn for 13 pixels
+/// At scale 1; the fallback is drawn for 13 pixels.
+constexpr float FONT_PX = 15.0F, FALLBACK_FONT_PX = 13.0F;
 /// Debian's fonts-dejavu-core; Dear ImGui's own font is used where it is not installed.
 constexpr const char* FONT_FILE = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 

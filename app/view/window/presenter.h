@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "app/view/ui/gui.h"
+#include "app/view/window/gui.h"
 #include "app/view/window/swapchain.h"
 #include "app/view/window/window.h"
 #include "engine/vulkan/buffer.h"

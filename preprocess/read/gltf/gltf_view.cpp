@@ -54,6 +54,26 @@ glm::dmat4 node_transform(const GltfFile& file, const tinygltf::Node& node) {
   return matrix;
 }
 
+namespace {
+
+/// Gives a light the size that the node's extras say: "size" as of --light and --sun, or "width" and "height" of a rectangle, which
+/// shines along the node's -z with the light's intensity straight ahead. What makes no sense is refused with the scene (scene_check.h).
+void apply_size(const tinygltf::Value& extras, const glm::dmat4& to_world, SceneLight& light) {
+  const double size = number_in(extras, "size").value_or(0.0);
+  light.size = light.kind == LIGHT_DIRECTIONAL ? glm::radians(0.5 * size) : size;
+  const auto width = number_in(extras, "width"), height = number_in(extras, "height");
+  if (light.kind != LIGHT_POINT || !width || !height) return;
+  const glm::dvec3 ahead = unit_axis(to_world, 2, -1.0), right = unit_axis(to_world, 0, 1.0);
+  const glm::dvec3 level = glm::normalize(right - glm::dot(right, ahead) * ahead);
+  light.kind = LIGHT_RECTANGLE;
+  light.size = 0.0;
+  light.power /= static_cast<float>(*width * *height);
+  light.edge_u = 0.5 * *width * level;
+  light.edge_v = 0.5 * *height * glm::cross(ahead, level);
+}
+
+}  // namespace
+
 std::optional<SceneLight> read_light(const GltfFile& file, const tinygltf::Node& node,
                                      const glm::dmat4& to_world, std::vector<std::string>& notes) {
   const tinygltf::Value* extension = find_extension(node.extensions, "KHR_lights_punctual");
@@ -72,11 +92,12 @@ std::optional<SceneLight> read_light(const GltfFile& file, const tinygltf::Node&
   if (source.type == "directional") {
     light.kind = LIGHT_DIRECTIONAL;
     light.position = unit_axis(to_world, 2, 1.0);
-    return light;
+  } else {
+    light.kind = LIGHT_POINT;
+    light.position = glm::dvec3(to_world[3]);
   }
-  light.kind = LIGHT_POINT;
-  light.position = glm::dvec3(to_world[3]);
-  if (source.type == "spot") {
+  apply_size(node.extras, to_world, light);
+  if (source.type == "spot" && light.kind == LIGHT_POINT) {
     notes.push_back(file.path.string() + ": spot light '" + source.name + "' shines in all directions here");
   }
   return light;

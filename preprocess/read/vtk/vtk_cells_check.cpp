@@ -58,6 +58,7 @@ const std::map<int, vtkIdType> CELL_POINTS{
 };
 
 void check_ids(vtkCellArray* cells, vtkIdType points, const std::filesystem::path& path) {
+  if (cells == nullptr) return;
   if (!cells->IsValid()) throw_unreadable(path, "the offsets of its cells do not fit their connectivity");
   vtkIdType length = 0;
   const vtkIdType* ids = nullptr;

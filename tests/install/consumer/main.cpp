@@ -131,7 +131,7 @@ void check_errors(const std::filesystem::path& folder) {
   expect_error(
       Kind::usage, [&] { (void)sr::trace(scene, one, {}); }, "sizes");
   for (const auto& [name, text] : {std::pair{"resolution", "0x1"}, {"samples", "0"}, {"lights", "some"}, {"blend", "soft"},
-                                   {"object", "plane:glow=1"}, {"light", "0,0,1,-1,0,0"}, {"no-such-field", "1"}})
+                                   {"object", "plane:glow=1"}, {"look", "nice"}, {"tone", "bright"}, {"light", "0,0,1,-1,0,0"}, {"no-such-field", "1"}})
     expect_error(
         Kind::usage, [&, name = name, text = text] { (void)sr::Request{{name, text}}; }, name);
   const auto refused = [&](Kind kind, const sr::Request& request, const std::string& name) {
@@ -226,6 +226,20 @@ void check_pictures(const std::filesystem::path& folder) {
   expect(!give_up_after(scene, 0.0).empty() && give_up_after(scene, 0.0) != "done", "cancelling did nothing");
 }
 
+/// A scan is shown in a look without materials, until it is given one.
+void check_materials_of_scans() {
+  const Plane plane(0.0, 0.0, 0.0);
+  const sr::Scene scan = sr::make_scene({.positions = plane.positions, .scanned = true});
+  const sr::Request small = {{"resolution", "32x32"}, {"samples", 1}};
+  const auto with = [&](const sr::Material& material, const char* look) {
+    return sr::render(scan, sr::Request(small).add_material("0", material).set("look", look)).pixels;
+  };
+  const sr::Material own = scan.materials().front(), gold = sr::named_material("gold");
+  expect(sr::render(scan, small).pixels == with(own, "auto"), "its own material changes a scan's picture");
+  expect(with(gold, "auto") == with(gold, "lit"), "a scan of gold is not shown lit");
+  expect(with(gold, "auto") != with(own, "auto"), "a scan of gold looks as it did");
+}
+
 /// A camera on the equator and a scanner beside the sphere of radius 1: closed forms within a thousandth.
 void check_depth_and_ranges() {
   const sr::Scene scene = scene_of_arrays();
@@ -255,6 +269,7 @@ int main(int argc, char** argv) {
     check_rays();
     check_errors(folder);
     check_pictures(folder);
+    check_materials_of_scans();
     check_depth_and_ranges();
     alarm(240);  // a defect may be a call that never ends
     const std::string defect = find_reentrance_defect();

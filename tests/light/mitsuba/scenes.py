@@ -154,7 +154,7 @@ def build(scene, programs, folder):
         write_points(files[-1], part)
     soct = f"{folder}/scene.soct"
     subprocess.run([f"{programs}/splatray-preprocess", *files, "-o", soct, "--normal-fields=off", "--clip=off"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    options = ["--look=lit", "--max-bounces=64", "--tone=none", f"--fov={scene.fov_deg}"]
+    options = ["--look=lit", "--bounces=64", "--tone=none", f"--fov={scene.fov_deg}"]
     for name, value in (("eye", scene.eye), ("target", scene.target)):
         options.append(f"--{name}=" + ",".join(map(str, value)))
     for name, part in scene.parts.items():
@@ -166,10 +166,10 @@ def build(scene, programs, folder):
         options += ["--light", ",".join(map(str, (*centre, intensity, intensity, intensity, radius)))]
     if not scene.lamps:
         options.append("--lights=none")
-    options.append("--env=black")
+    options.append("--environment=black")
     if scene.sky is not None:
         mi.Bitmap(scene.sky.astype(np.float32)).write(f"{folder}/sky.exr")
-        options[-1] = f"--env={folder}/sky.exr"
+        options[-1] = f"--environment={folder}/sky.exr"
     return soct, options
 
 

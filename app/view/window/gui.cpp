@@ -1,4 +1,4 @@
-#include "app/view/ui/gui.h"
+#include "app/view/window/gui.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_vulkan.h>
