@@ -106,7 +106,8 @@ bool repeated_control(const Field& field, Request& request, std::string& error) 
 }  // namespace
 
 bool is_of_files(const Field& field) {
-  constexpr std::array NAMES = {"resolution", "camera-path", "crop",   "tile", "samples", "sample-offset", "error", "time", "denoise", "keep-noise"};
+  constexpr std::array NAMES = {"resolution",    "camera-path", "crop", "tile",    "samples",
+                                "sample-offset", "error",       "time", "denoise", "keep-noise"};
   return field.group == FieldGroup::output || field.group == FieldGroup::files ||
          std::find(NAMES.begin(), NAMES.end(), field.name) != NAMES.end();
 }
@@ -119,7 +120,8 @@ void all_fields(const Document& document, PanelState& state, Requests& requests)
   Request request = request_of(document, 1, 1);
   bool changed = false;
   for (int group = 0; group <= static_cast<int>(FieldGroup::research); ++group) {
-    if (group == static_cast<int>(FieldGroup::output) || group == static_cast<int>(FieldGroup::files)) continue;
+    if (group == static_cast<int>(FieldGroup::output) || group == static_cast<int>(FieldGroup::files))
+      continue;
     if (!ImGui::TreeNode(group_title(static_cast<FieldGroup>(group)))) continue;
     for (const Field& field : fields())
       if (static_cast<int>(field.group) == group && field.in(DOOR_VIEW) && !is_of_files(field))
