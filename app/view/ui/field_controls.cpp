@@ -60,16 +60,16 @@ bool single_control(const Field& field, Request& request, std::string& error) {
   const std::vector<std::string> texts = texts_of(field, request);
   std::string text = texts.empty() ? "" : texts.front();
   bool changed = false;
-  if (const std::vector<std::string> names = choices_of(field); !names.empty()) {
+  if (field.kind == FieldKind::flag) {
+    bool on = text == "on";
+    changed = ImGui::Checkbox(field.name.c_str(), &on);
+    text = on ? "on" : "off";
+  } else if (const std::vector<std::string> names = choices_of(field); !names.empty()) {
     if (ImGui::BeginCombo(field.name.c_str(), text.c_str())) {
       for (const std::string& name : names)
         if (ImGui::Selectable(name.c_str(), name == text)) changed = name != std::exchange(text, name);
       ImGui::EndCombo();
     }
-  } else if (field.kind == FieldKind::flag) {
-    bool on = text == "on";
-    changed = ImGui::Checkbox(field.name.c_str(), &on);
-    text = on ? "on" : "off";
   } else {
     changed = text_control(field.name.c_str(), field, text);
   }
