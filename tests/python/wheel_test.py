@@ -44,8 +44,8 @@ def build_wheel(source, work, tools):
         for old in (work / folder).glob("*.whl"):
             old.unlink()
     environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}"}
-    run(tools / "pip", "wheel", "--no-deps", "--no-build-isolation", "-w", work / "plain", "-C", f"build-dir={work / 'build'}",
-        "-C", "cmake.define.CMAKE_COMPILE_WARNING_AS_ERROR=ON", "-C", "cmake.define.CMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",
+    run(tools / "pip", "wheel", "--no-deps", "--no-build-isolation", "-w", work / "plain", "--config-settings", f"build-dir={work / 'build'}",
+        "--config-settings", "cmake.define.CMAKE_COMPILE_WARNING_AS_ERROR=ON", "--config-settings", "cmake.define.CMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",
         source / "app/python", env=environment)
     plain = next((work / "plain").glob("*.whl"))
     run(tools / "auditwheel", "repair", "--plat", "manylinux_2_36_x86_64", "--exclude", "libvulkan.so.1", "-w", work / "wheel", plain,
