@@ -58,7 +58,7 @@ def check_wheel(wheel):
     if size > MOST_BYTES:
         sys.exit(f"{wheel.name}: found {size} bytes, expected at most {MOST_BYTES}")
     names = zipfile.ZipFile(wheel).namelist()
-    for expected in ("splatray/_core.pyi", "splatray/py.typed"):
+    for expected in ("splatray/_core.pyi", "splatray/_fields.pyi", "splatray/py.typed"):
         if expected not in names:
             sys.exit(f"{wheel.name}: found no {expected}")
     for unwanted in ("libvulkan", "vtk", "OpenImageIO", "libLLVM"):

@@ -5,23 +5,15 @@ from __future__ import annotations
 import inspect
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, List
 
 import numpy as np
 
 from . import _check, _core
+from ._table import FIELDS, OPENING, PICTURES, annotation_of
 from .camera import Camera
 from .look import Light, Material
 
-FIELDS: Dict[str, _core.FieldInfo] = {field.name.replace("-", "_"): field for field in _core.fields()}
-LIGHTS = ("light", "sun", "area_light", "lights")
-CAMERA = ("eye", "target", "camera_up", "fov", "ortho_height")
-#: Fields of how a scene is read and made; and those that its pictures have too.
-OPENING = [name for name, field in FIELDS.items() if field.group == "Input" and name != "inputs"] + [
-    "color_by", "color_range", "hide_class", "hide_scan", "material", "object", "up", "seed", "device", "cache", "leaf_size", "insertion",
-    "probes", "radius_rule", "normal_fields", "clip"]
-PICTURES = [name for name, field in FIELDS.items() if field.group not in ("Input", "Output") and name not in LIGHTS
-            and (name not in OPENING or name in ("material", "object", "seed"))] + ["aov"]
 SEPARATORS = {"resolution": "x", "tile": "/"}
 
 
@@ -154,17 +146,6 @@ def takes_fields(names: List[str]) -> Callable[[Callable[..., Any]], Callable[..
         return function
 
     return decorate
-
-
-def annotation_of(field: _core.FieldInfo) -> str:
-    """The type of a field's value, for people and type checkers."""
-    if field.repeated:
-        return "Optional[Union[str, Sequence[str]]]"
-    names = field.value.split("|")
-    if len(names) > 1 and all(name == name.lower() for name in names) and field.kind != "flag":
-        return f"Optional[Literal[{', '.join(map(repr, names))}]]"
-    return {"flag": "Optional[bool]", "number": "Optional[float]", "whole": "Optional[int]"}.get(
-        field.kind, "Optional[Union[str, float, Sequence[float], PathLike[str]]]")
 
 
 def checked(function: str, fields: Mapping[str, Any], names: Iterable[str]) -> Mapping[str, Any]:

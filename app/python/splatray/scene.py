@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Iterable
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -14,6 +14,11 @@ from .camera import Camera
 from .image import Image
 from .look import Light, Material
 from .request import OPENING, PICTURES, Request, checked, takes_fields
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._fields import OpeningFields, PictureFields
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -122,7 +127,7 @@ class Scene:
     @takes_fields(PICTURES)
     def render(self, camera: Optional[Camera] = None, size: Tuple[int, int] = (1280, 720), *, lights: Optional[Sequence[Light]] = None,
                materials: Optional[Mapping[str, Material]] = None, request: Optional[Request] = None,
-               progress: Optional[_check.Progress] = None, **fields: Any) -> Image:
+               progress: Optional[_check.Progress] = None, **fields: "Unpack[PictureFields]") -> Image:
         """The picture of the scene, the same as splatray-render's; the same arguments and device give the same bits.
 
         camera: None for what suits the scene (or eye, target, view ...). size: (width, height), pixels, to 32768. lights: None for the
@@ -164,7 +169,7 @@ def _check_objects(core: _core.Scene, materials: Optional[Mapping[str, Material]
 
 @takes_fields(OPENING)
 def open(files: Union[Path, Sequence[Path]], *, materials: Optional[Mapping[str, Material]] = None, request: Optional[Request] = None,
-         progress: Optional[_check.Progress] = None, **fields: Any) -> Scene:
+         progress: Optional[_check.Progress] = None, **fields: "Unpack[OpeningFields]") -> Scene:
     """Reads a scene, model or scan, or several in one scene, or a folder of scans.
 
     materials: by object's name, in place of the file's. request: what else is asked for of the scene.
@@ -207,7 +212,7 @@ def _linear_colors(colors: Any) -> np.ndarray:
 @takes_fields(OPENING)
 def points(xyz: Any, *, normals: Any = None, colors: Any = None, radii: Any = None, name: str = "points",
            material: Optional[Material] = None, scanned: Optional[bool] = None, progress: Optional[_check.Progress] = None,
-           **fields: Any) -> Scene:
+           **fields: "Unpack[OpeningFields]") -> Scene:
     """A scene of arrays, which are copied.
 
     xyz: (n, 3), world units; points that are masked or not finite are left out, and Scene.notes says so. normals: (n, 3), of any length; zero, masked or NaN:
