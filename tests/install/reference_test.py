@@ -17,11 +17,11 @@ override private public return static struct this true false unsigned using void
 
 def public_names(header):
     """The names of types, functions, parameters, members and enumerators: what is left of the code without comments, texts, what is
-    private, and the standard library."""
+    private (its members end in _), and the standard library."""
     code = re.sub(r"^#.*|//.*|\"[^\"]*\"", "", header, flags=re.MULTILINE)
     code = re.sub(r"private:.*?\n\};|struct Impl;", "};", code, flags=re.DOTALL)
     code = re.sub(r"std::(?:filesystem::)?\w+|SPLATRAY_API|(?<!\w)[\d.][\w.]*", "", code)
-    return set(re.findall(r"[A-Za-z_]\w*", code)) - NO_NAMES
+    return {name for name in re.findall(r"[A-Za-z_]\w*", code) if not name.endswith("_")} - NO_NAMES
 
 
 def names_on(pages):

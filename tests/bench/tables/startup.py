@@ -84,8 +84,9 @@ class Display:
         self.server.wait()
 
 
-def measure(program, runs):
-    """Records of one program, cold and warm; `program` = name and a function of environment and folder."""
+def measure(program, runs, like=None):
+    """Records of one program, cold and warm; `program` = name and a function of environment and folder. `like`: a record of the same
+    build and device, for a program whose statistics do not name them."""
     name, stages_of = program
     times = {"cold": [], "warm": []}
     for _ in range(runs):
@@ -95,9 +96,9 @@ def measure(program, runs):
                 stages, told = stages_of(environment, pathlib.Path(folder))
                 times[cache].append(stages)
     about = {
-        "commit": told["commit"],
+        "commit": (like or told)["commit"],
         "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
-        "device": {key: told["device"][key] for key in ("name", "driver")},
+        "device": {key: (like or told)["device"][key] for key in ("name", "driver")},
     }
     records = []
     for cache, measured in times.items():
@@ -120,7 +121,7 @@ def main():
     if shutil.which("Xvfb") and shutil.which("xdotool"):
         with Display() as display:
             os.environ["DISPLAY"] = display
-            records += measure(("splatray-view", lambda *where: measure_view(*places, *where)), options.runs)
+            records += measure(("splatray-view", lambda *where: measure_view(*places, *where)), options.runs, records[0])
     else:
         print("splatray-view: left out, Xvfb or xdotool is not installed")
     options.output.write_text(json.dumps(records, indent=1) + "\n")
