@@ -28,8 +28,9 @@ void OptionList::add_value(const std::string& name, const Read& read, const std:
 void OptionList::add_repeated(const std::string& name, const Read& read, const std::string& help,
                               const std::string& value_name) {
   if (name.starts_with('-'))
-    return void(
-        parser_->add_option_function<std::string>(name, read, help)->trigger_on_parse()->type_name(value_name));
+    return void(parser_->add_option_function<std::string>(name, read, help)
+                    ->trigger_on_parse()
+                    ->type_name(value_name));
   const auto read_all = [read](const Words& words) { std::for_each(words.begin(), words.end(), read); };
   parser_->add_option_function<Words>(name, read_all, help)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -52,8 +53,9 @@ void OptionList::add_switch(const std::string& name, const Read& read, const std
   const auto read_word = [read](const std::string& word) {
     read(word == "true" ? "on" : word == "false" ? "off" : word);
   };
-  parser_->add_flag_function(
-      name, [](std::int64_t) {}, help)
+  parser_
+      ->add_flag_function(
+          name, [](std::int64_t) {}, help)
       ->each(read_word);
 }
 

@@ -40,7 +40,8 @@ class OptionList {
   /// Adds a word that calls `read`, with "on"; or with "on" or "off" where that is said behind an equals sign.
   void add_switch(const std::string& name, const Read& read, const std::string& help);
   /// Adds a word that is answered by a text on stdout instead of the program's work.
-  void add_answer(const std::string& name, const std::function<std::string()>& answer, const std::string& help);
+  void add_answer(const std::string& name, const std::function<std::string()>& answer,
+                  const std::string& help);
 
   /// Makes an option that was added one that must be given.
   void require(const std::string& name);

@@ -17,7 +17,8 @@ namespace splatray {
 
 /// The number that `text` given to option `name` is, whole for a Number that is, in [least, most]; else refuses it.
 template <typename Number>
-[[nodiscard]] Number read_option(const std::string& name, const std::string& text, double least, double most) {
+[[nodiscard]] Number read_option(const std::string& name, const std::string& text, double least,
+                                 double most) {
   try {
     return static_cast<Number>(read_number(text, least, most, !std::is_floating_point_v<Number>));
   } catch (const Expected& expected) {

@@ -1,6 +1,5 @@
 #include "app/cli/options.h"
 
-
 namespace splatray {
 namespace {
 

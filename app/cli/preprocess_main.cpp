@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cstdio>
 
-#include "app/cli/options.h"
 #include "app/cli/option_types.h"
+#include "app/cli/options.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/memory.h"

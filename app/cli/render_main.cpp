@@ -4,10 +4,10 @@
 #include <future>
 
 #include "app/cli/render_options.h"
-#include "app/library/picture/picture_file.h"
-#include "app/library/picture/render_sequence.h"
 #include "app/cli/stats_json.h"
 #include "app/library/image_file.h"
+#include "app/library/picture/picture_file.h"
+#include "app/library/picture/render_sequence.h"
 #include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
@@ -34,16 +34,16 @@ int print_devices() {
 }
 
 LoadedScene load(const Request& request, ProgressLine& progress) {
-  LoadedScene loaded = load_scene(request, {[&](const char* stage, double share) {
-                                              progress.show(stage, share);
-                                              return !interrupted();
-                                            },
-                                            [&](const std::string& note) {
-                                              progress.clear();
-                                              if (!request.output.quiet)
-                                                std::fprintf(stderr, "splatray-render: note: %s\n",
-                                                             note.c_str());
-                                            }});
+  LoadedScene loaded =
+      load_scene(request, {[&](const char* stage, double share) {
+                             progress.show(stage, share);
+                             return !interrupted();
+                           },
+                           [&](const std::string& note) {
+                             progress.clear();
+                             if (!request.output.quiet)
+                               std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
+                           }});
   progress.clear();
   return loaded;
 }
@@ -112,7 +112,8 @@ int render(int argc, char** argv) {
   const Request& asked = given->request;
   if (asked.output.list_devices) return print_devices();
   if (!asked.output.quiet)
-    for (const std::string& note : given->notes) std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
+    for (const std::string& note : given->notes)
+      std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
 
   const Sequence sequence = plan_sequence(asked);
   if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);

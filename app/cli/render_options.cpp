@@ -22,12 +22,16 @@ void add_request_files(OptionList& list, RequestFiles& files) {
   list.set_group(group_title(FieldGroup::files));
   list.add_answer(
       "--version", [] { return SPLATRAY_VERSION; }, "print the version");
-  add_path(list, "--from", files.picture,
-           "make this picture again, from the request kept in it; options beside it replace parts of that, -o defaults to "
-           "its name with .again; relative paths in it are looked for here, then in its folder and those above");
+  add_path(
+      list, "--from", files.picture,
+      "make this picture again, from the request kept in it; options beside it replace parts of that, -o "
+      "defaults to "
+      "its name with .again; relative paths in it are looked for here, then in its folder and those above");
   add_path(list, "--request", files.request,
-           "a request (JSON: names of options without dashes, and their values); options beside it replace parts of it");
-  add_path(list, "--save-request", files.save_request, "write all that is asked for here, as --request reads it, and end");
+           "a request (JSON: names of options without dashes, and their values); options beside it replace "
+           "parts of it");
+  add_path(list, "--save-request", files.save_request,
+           "write all that is asked for here, as --request reads it, and end");
 }
 
 /// What the options stand on: the request of a picture or of a file.
@@ -60,8 +64,9 @@ std::optional<GivenRequest> parse_render_options(int argc, char** argv) {
   assign(request, given, DOOR_RENDER);
   if (!request.output.list_devices) {
     require_inputs(request.source);
-  require_consistent(request);
-    if (!files.save_request.empty()) return write_text_file(request_json(request), files.save_request), std::nullopt;
+    require_consistent(request);
+    if (!files.save_request.empty())
+      return write_text_file(request_json(request), files.save_request), std::nullopt;
     if (request.output.path.empty())
       throw Error(ExitCode::usage, "found no output, expected -o with a .png or .exr file");
   }

@@ -3,9 +3,9 @@
 
 #include "app/cli/option_list.h"
 #include "app/cli/option_types.h"
+#include "app/farm/join_tiles.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/reproduce.h"
-#include "app/farm/join_tiles.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/file/atomic_file.h"

@@ -70,9 +70,10 @@ struct Material {
   bool two_sided = true;                ///< both faces are seen; glass is one-sided
   bool hidden = false;                  ///< not hit by any ray
   // Of path tracing, in place of what follows from the above; unset = that.
-  std::optional<float> metallic{}, roughness{};   ///< 0..1 (glTF 2.0, "metallic-roughness")
-  std::optional<float> coat{}, coat_roughness{};  ///< a clear layer's share and roughness, 0..1 (KHR_materials_clearcoat)
-  std::optional<Float3> emission{};               ///< radiance sent out, 0..1e6
+  std::optional<float> metallic{}, roughness{};  ///< 0..1 (glTF 2.0, "metallic-roughness")
+  /// A clear layer's share and roughness, 0..1 (KHR_materials_clearcoat).
+  std::optional<float> coat{}, coat_roughness{};
+  std::optional<Float3> emission{};  ///< radiance sent out, 0..1e6
   bool operator==(const Material&) const = default;
 };
 /// The material of a name: matte, glossy, mirror, gold, copper, glass or ruby. Throws Error (usage) for another.
@@ -123,13 +124,13 @@ class SPLATRAY_API Value {
 
 /// What can be asked for, under one name.
 struct FieldInfo {
-  std::string name;      ///< as on a command line without dashes, "environment-strength"; in Python with _
-  std::string group;     ///< part of the help
-  std::string kind;      ///< "flag", "number", "whole" or "text"
-  std::string value;     ///< what the text is like, "X,Y,Z"; of a choice its names with | between
-  std::string help;      ///< what it is, its unit, range and default
-  bool repeated;         ///< several values count
-  double least, most;    ///< of numbers
+  std::string name;    ///< as on a command line without dashes, "environment-strength"; in Python with _
+  std::string group;   ///< part of the help
+  std::string kind;    ///< "flag", "number", "whole" or "text"
+  std::string value;   ///< what the text is like, "X,Y,Z"; of a choice its names with | between
+  std::string help;    ///< what it is, its unit, range and default
+  bool repeated;       ///< several values count
+  double least, most;  ///< of numbers
 };
 
 /// What is asked for of a scene and its picture: values of named fields, the same as the options of splatray-render, whose help says

@@ -131,7 +131,8 @@ using Vectors = nb::ndarray<const float, nb::shape<-1, -1, DEPTH>, nb::c_contig,
 
 /// The image of its channels, which are copied.
 api::Image* image_of(const Vectors<4>& pixels, const std::optional<Channel<float>>& depth,
-                     const std::optional<Vectors<3>>& normal, const std::optional<Channel<std::int32_t>>& object,
+                     const std::optional<Vectors<3>>& normal,
+                     const std::optional<Channel<std::int32_t>>& object,
                      const std::optional<Channel<float>>& error, double exposure, const std::string& tone) {
   auto image = std::make_unique<api::Image>();
   image->height = static_cast<std::uint32_t>(pixels.shape(0));

@@ -51,15 +51,18 @@ void add_request(nb::module_& module) {
       .def_ro("most", &api::FieldInfo::most);
   nb::class_<api::Request>(module, "Request")
       .def(nb::init<>())
-      .def("set", [](api::Request& request, const std::string& name, const std::string& text) { request.set(name, text); })
-      .def("add", [](api::Request& request, const std::string& name, const std::string& text) { request.add(name, text); })
+      .def("set", [](api::Request& request, const std::string& name,
+                     const std::string& text) { request.set(name, text); })
+      .def("add", [](api::Request& request, const std::string& name,
+                     const std::string& text) { request.add(name, text); })
       .def("set_camera", [](api::Request& request, const api::Camera& camera) { request.set_camera(camera); })
       .def("add_material", [](api::Request& request, const std::string& object,
                               const api::Material& material) { request.add_material(object, material); })
       .def("get", &api::Request::get)
       .def("json", &api::Request::json)
       .def("copy", [](const api::Request& request) { return new api::Request(request); })
-      .def_static("from_json", [](const std::string& text) { return new api::Request(api::Request::from_json(text)); })
+      .def_static("from_json",
+                  [](const std::string& text) { return new api::Request(api::Request::from_json(text)); })
       .def_static("of_picture", [](const std::filesystem::path& picture) {
         return new api::Request(api::Request::of_picture(picture));
       });

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/library/request/command_line.h"
 #include "app/library/picture/reproduce.h"
+#include "app/library/request/command_line.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/navigation.h"
@@ -79,7 +79,8 @@ void Viewer::run() {
 
 void Viewer::write_stats() {
   if (!request_.output.stats_json.empty())
-    stats_.write(request_.output.stats_json, presenter_.validation_messages() + renderer_.validation_messages());
+    stats_.write(request_.output.stats_json,
+                 presenter_.validation_messages() + renderer_.validation_messages());
 }
 
 /// While a drag changes the picture, the window waits for that picture: on a processor, drawing costs the tracer's time.

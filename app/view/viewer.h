@@ -61,7 +61,7 @@ class Viewer {
   UserMemory user_{user_state_path()};
   std::string unkept_;         ///< why the last change of user_ could not be kept; empty = it was
   glm::uvec2 window_kept_{0};  ///< size of the window that user_ was told last
-  Request request_;  ///< of the command line
+  Request request_;            ///< of the command line
   ViewStats stats_;
   Window window_;
   Presenter presenter_;

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/library/request/command_line.h"
-#include "app/library/picture/reproduce.h"
 #include "app/library/camera_file.h"
+#include "app/library/picture/reproduce.h"
+#include "app/library/request/command_line.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/viewer.h"

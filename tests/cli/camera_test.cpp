@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/library/picture/sequence.h"
 #include "app/library/camera_file.h"
+#include "app/library/picture/sequence.h"
 #include "engine/base/error.h"
 #include "tests/property/dice.h"
 #include "tests/temp_folder.h"

@@ -32,10 +32,23 @@ TEST(Fields, HaveOneNameASentenceAndTheirDoors) {
 /// What a field says of a request is what makes the request say it.
 TEST(Fields, ReadWhatTheyWrite) {
   Request request;
-  assign(request, {{"sun", "0,0,1"}, {"light", "1,2,3,4,5,6,0.5"}, {"area-light", "0,0,3,0,0,0,2,1"},
-                   {"object", "a:mirror=0.25"}, {"inputs", "a.ply"}, {"inputs", "b.ply"}, {"data-path", "c"},
-                   {"eye", "1,2,3"}, {"exposure", "0.5"}, {"frames", "0-3"}, {"crop", "1,2,3,4"}, {"tile", "1/2"},
-                   {"color-range", "0,1"}, {"hide-class", "7,18"}, {"delta", "0.25"}, {"smooth", "0.125"}},
+  assign(request,
+         {{"sun", "0,0,1"},
+          {"light", "1,2,3,4,5,6,0.5"},
+          {"area-light", "0,0,3,0,0,0,2,1"},
+          {"object", "a:mirror=0.25"},
+          {"inputs", "a.ply"},
+          {"inputs", "b.ply"},
+          {"data-path", "c"},
+          {"eye", "1,2,3"},
+          {"exposure", "0.5"},
+          {"frames", "0-3"},
+          {"crop", "1,2,3,4"},
+          {"tile", "1/2"},
+          {"color-range", "0,1"},
+          {"hide-class", "7,18"},
+          {"delta", "0.25"},
+          {"smooth", "0.125"}},
          DOORS_ALL);
   for (const Field& field : fields()) {
     if (!field.write) continue;
@@ -51,12 +64,19 @@ TEST(Fields, ReadWhatTheyWrite) {
 }
 
 TEST(Fields, AreReadWhateverTheOrder) {
-  const std::vector<FieldText> values = {{"samples", "4"}, {"up", "0,0,1"}, {"camera-up", "0,1,0"}, {"sun", "0,0,1"},
-                                         {"light", "1,2,3"}, {"samples", "9"}, {"eye", "1,2,3"}};
+  const std::vector<FieldText> values = {{"samples", "4"}, {"up", "0,0,1"},    {"camera-up", "0,1,0"},
+                                         {"sun", "0,0,1"}, {"light", "1,2,3"}, {"samples", "9"},
+                                         {"eye", "1,2,3"}};
   Request forwards, backwards;
   assign(forwards, values, DOOR_RENDER);
-  assign(backwards, {{"eye", "1,2,3"}, {"samples", "4"}, {"camera-up", "0,1,0"}, {"up", "0,0,1"}, {"sun", "0,0,1"},
-                     {"light", "1,2,3"}, {"samples", "9"}},
+  assign(backwards,
+         {{"eye", "1,2,3"},
+          {"samples", "4"},
+          {"camera-up", "0,1,0"},
+          {"up", "0,0,1"},
+          {"sun", "0,0,1"},
+          {"light", "1,2,3"},
+          {"samples", "9"}},
          DOOR_RENDER);
   EXPECT_EQ(forwards, backwards);
   EXPECT_EQ(forwards.settings.samples, 9U) << "the last holds";
@@ -71,7 +91,8 @@ TEST(Fields, RefuseInASentenceWithTheDoorsSpelling) {
     assign(request, {{"samples", "many"}}, DOOR_RENDER, {"--", " (see --help)"});
     ADD_FAILURE() << "taken";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "--samples: found 'many', expected a whole number from 1 to 65536 (see --help)");
+    EXPECT_STREQ(error.what(),
+                 "--samples: found 'many', expected a whole number from 1 to 65536 (see --help)");
   }
   EXPECT_THROW(assign(request, {{"no-such-field", "1"}}, DOOR_RENDER), Error);
   EXPECT_THROW(assign(request, {{"stats-json", "a.json"}}, DOOR_LIBRARY), Error) << "of another door";
@@ -79,7 +100,8 @@ TEST(Fields, RefuseInASentenceWithTheDoorsSpelling) {
 }
 
 TEST(Fields, OldNamesStillHold) {
-  const Request request = parse_command_line("splatray-render a.ply --env white --max-bounces=3 --points 5 --ortho=2 --eye 1,2,3");
+  const Request request = parse_command_line(
+      "splatray-render a.ply --env white --max-bounces=3 --points 5 --ortho=2 --eye 1,2,3");
   EXPECT_EQ(request.look.environment, "white");
   EXPECT_EQ(request.settings.max_bounces, 3U);
   EXPECT_EQ(request.source.params.samples, 5U);
@@ -89,9 +111,9 @@ TEST(Fields, OldNamesStillHold) {
 }
 
 TEST(RequestJson, RefusesWhatIsNoRequest) {
-  for (const char* text : {"", "[]", "{\"samples\": []}", "{\"samples\": \"many\"}", "{\"nothing\": 1}", "{\"lights\": 3}",
-                           "{\"lights\": [\"sun\"]}", "{\"lights\": [\"lamp=1,2,3\"]}", "{\"object\": [1]}", "{\"samples\": 1e999}",
-                           "{\"inputs\": \"a.ply\"}"}) {
+  for (const char* text : {"", "[]", "{\"samples\": []}", "{\"samples\": \"many\"}", "{\"nothing\": 1}",
+                           "{\"lights\": 3}", "{\"lights\": [\"sun\"]}", "{\"lights\": [\"lamp=1,2,3\"]}",
+                           "{\"object\": [1]}", "{\"samples\": 1e999}", "{\"inputs\": \"a.ply\"}"}) {
     try {
       (void)read_request_text(text, "the test");
       ADD_FAILURE() << "taken: " << text;

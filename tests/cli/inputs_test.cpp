@@ -28,12 +28,14 @@ class CliInputs : public CliTest {
 };
 
 TEST_F(CliInputs, MissingFile) {
-  for (const char* name : {"a.ply", "a.obj", "a.stl", "a.vtk", "a.vtp", "a.vtu", "a.pvtu", "a.gltf", "a.glb", "a.soct"})
+  for (const char* name :
+       {"a.ply", "a.obj", "a.stl", "a.vtk", "a.vtp", "a.vtu", "a.pvtu", "a.gltf", "a.glb", "a.soct"})
     expect_unreadable(file(name));
 }
 
 TEST_F(CliInputs, EmptyFile) {
-  for (const char* name : {"a.ply", "a.obj", "a.stl", "a.vtk", "a.vtp", "a.vtu", "a.pvtu", "a.gltf", "a.glb", "a.soct"})
+  for (const char* name :
+       {"a.ply", "a.obj", "a.stl", "a.vtk", "a.vtp", "a.vtu", "a.pvtu", "a.gltf", "a.glb", "a.soct"})
     expect_unreadable(write(name, ""));
 }
 

@@ -52,8 +52,7 @@ TEST(ObjectChange, ObjectsKeepTheirBit) {
   ObjectLooks looks = matte();
   const std::vector<Material>& materials = looks.materials;
   looks.materials[4].mask_bit = 3;
-  apply_object_changes({read_object_change("4:preset=glass"), read_object_change("4:ior=1.3")}, NAMES,
-                       looks);
+  apply_object_changes({read_object_change("4:preset=glass"), read_object_change("4:ior=1.3")}, NAMES, looks);
   EXPECT_NE(materials[4].flags & MATERIAL_DIELECTRIC, 0U);
   EXPECT_EQ(materials[4].mask_bit, 3U);
 }

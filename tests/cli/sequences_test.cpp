@@ -1,8 +1,8 @@
 /// Sequences of pictures, and pictures made again.
 #include <fstream>
 
-#include "app/library/request/frame_list.h"
 #include "app/library/image_file.h"
+#include "app/library/request/frame_list.h"
 #include "tests/cli/child_process.h"
 
 namespace splatray {

@@ -1,8 +1,8 @@
 // The targets that read small files of text: cameras, the viewer's state, a picture's command.
 #include <cmath>
 
-#include "app/library/request/command_line.h"
 #include "app/library/camera_file.h"
+#include "app/library/request/command_line.h"
 #include "app/view/model/user_files.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/require.h"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace splatray {
 namespace {
 
@@ -94,6 +96,23 @@ void GuiDriver::open_section(const char* title) {
 
 bool GuiDriver::can_click(const std::string& window, const ControlPath& path) {
   return point_at(window, path);
+}
+
+std::vector<bool> GuiDriver::are_there(const std::string& window, const std::vector<ControlPath>& paths) {
+  constexpr float INSIDE_PX = 60.0F;  // within check boxes' names and all wider controls
+  for (int i = 0; i < FRAMES_TO_SETTLE; ++i) frame();
+  std::set<ImGuiID> met;
+  const ImGuiWindow* found = find(window);
+  const ImRect area = found != nullptr ? found->Rect() : ImRect();
+  for (float y = area.Min.y + 1.0F; y < area.Max.y; y += STEP_PX) {
+    ImGui::GetIO().MousePos = {area.Min.x + INSIDE_PX, y};
+    frame();
+    met.insert(context_->HoveredId);
+  }
+  std::vector<bool> there;
+  for (const ControlPath& path : paths)
+    there.push_back(found != nullptr && met.contains(id_of(*found, path)));
+  return there;
 }
 
 float GuiDriver::width(const std::string& window, const ControlPath& path) {

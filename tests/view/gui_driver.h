@@ -32,6 +32,8 @@ class GuiDriver {
   void open_section(const char* title);
   /// Whether such a control can be clicked.
   [[nodiscard]] bool can_click(const std::string& window, const ControlPath& path);
+  /// Whether the mouse, led once down the window, was over such a control; `paths` each.
+  [[nodiscard]] std::vector<bool> are_there(const std::string& window, const std::vector<ControlPath>& paths);
   /// Width of a control that the mouse can be over, pixels; fails the test where there is none.
   [[nodiscard]] float width(const std::string& window, const ControlPath& path);
   /// Rectangle of the window whose name holds `window`, pixels; empty when it was not drawn.

@@ -7,8 +7,8 @@
 #include <memory>
 #include <random>
 
-#include "app/library/request/command_line.h"
 #include "app/library/image_file.h"
+#include "app/library/request/command_line.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/resolution.h"
 #include "app/view/window/display_table.h"

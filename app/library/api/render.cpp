@@ -35,7 +35,8 @@ splatray::Scene shown_looks(const splatray::Scene& scene, const splatray::Reques
 bool changes_materials(const splatray::Scene& scene, const splatray::Scene& shown) {
   std::vector<splatray::Material> materials = shown.materials;
   for (std::size_t i = 0; i < materials.size(); ++i)
-    materials[i].flags = (materials[i].flags & ~MATERIAL_HIDDEN) | (scene.materials[i].flags & MATERIAL_HIDDEN);
+    materials[i].flags =
+        (materials[i].flags & ~MATERIAL_HIDDEN) | (scene.materials[i].flags & MATERIAL_HIDDEN);
   return !same_looks({scene.materials, surfaces_of(scene)}, {materials, shown.surfaces});
 }
 
@@ -78,13 +79,15 @@ Image outer_image(const splatray::Image& made, const splatray::Request& request)
 
 /// Throws splatray::Error (out_of_memory) where there is not the memory for a picture in both forms.
 void require_both_images(const splatray::Request& request) {
-  const PixelWindow made = splatray::View{{}, request.view.width, request.view.height, request.view.window()}.made();
+  const PixelWindow made =
+      splatray::View{{}, request.view.width, request.view.height, request.view.window()}.made();
   const bool denoise = request.output.denoise;
   splatray::Settings settings = request.settings;
   settings.aov = settings.aov || denoise;
   settings.estimate_error = settings.estimate_error || denoise || request.settings.has_goal();
-  require_memory(std::uint64_t{made.width} * made.height * 2 * image_bytes(settings),
-                 "a picture of " + std::to_string(made.width) + "x" + std::to_string(made.height) + " pixels");
+  require_memory(
+      std::uint64_t{made.width} * made.height * 2 * image_bytes(settings),
+      "a picture of " + std::to_string(made.width) + "x" + std::to_string(made.height) + " pixels");
 }
 
 }  // namespace
@@ -99,7 +102,8 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
     require_both_images(request);
     const splatray::Camera camera = choose_camera(inner, request);
     // Refuses a camera and lights before a device is opened.
-    (void)make_frame_params(inner, {camera, request.view.width, request.view.height}, choose_settings(inner, request));
+    (void)make_frame_params(inner, {camera, request.view.width, request.view.height},
+                            choose_settings(inner, request));
     shown.lights = choose_lights(inner, request, camera);
     if (const auto defect = find_look_defect(shown)) refuse(defect->found, defect->expected);
     return impl->on_device(relay, [&](SceneOnDevice& there) {
@@ -108,8 +112,9 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
       there.show_looks(inner, shown);
       if (suits_exposure(inner, request)) {
         there.tracer->set_lights(shown.lights);
-        request.look.exposure_ev = preview_exposure_ev(*there.tracer, {camera, request.view.width, request.view.height},
-                                                       choose_settings(inner, request));
+        request.look.exposure_ev =
+            preview_exposure_ev(*there.tracer, {camera, request.view.width, request.view.height},
+                                choose_settings(inner, request));
       }
       const auto told = [&relay](double share) { return relay("tracing", share); };
       return outer_image(make_picture(request, inner, camera, *there.tracer, told).image, request);

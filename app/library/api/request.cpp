@@ -15,7 +15,8 @@ namespace {
 const Field& field_of(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
   const Field* field = find_field(name, DOOR_LIBRARY);
-  if (field == nullptr || field->name != name) refuse("'" + name + "'", "the name of a field (Request::fields)");
+  if (field == nullptr || field->name != name)
+    refuse("'" + name + "'", "the name of a field (Request::fields)");
   return *field;
 }
 
@@ -25,6 +26,18 @@ void read(const Field& field, const std::string& text, splatray::Request& reques
   } catch (const Expected& expected) {
     throw Error(ErrorKind::usage, field.name + ": found '" + text + "', expected " + expected.what);
   }
+}
+
+/// Takes the field's values out of the request; those of all its family where it is named as that.
+void take_out(const Field& field, splatray::Request& request) {
+  std::vector<FieldText> others;
+  for (const Field& member : splatray::fields())
+    if (member.family_name() == field.family_name() && member.write)
+      for (const FieldText& value : member.write(request))
+        if (value.name != field.name) others.push_back(value);
+  field.clear(request);
+  if (field.name == field.family_name()) return;
+  for (const FieldText& value : others) read(field_of(value.name), value.text, request);
 }
 
 const char* kind_name(FieldKind kind) {
@@ -74,7 +87,7 @@ Request& Request::set(const std::string& name, const Value& value) {
   guarded([&] {
     const Field& field = field_of(name);
     splatray::Request changed = impl_->request;
-    if (field.repeated) field.clear(changed);
+    if (field.repeated) take_out(field, changed);
     read(field, value.text(), changed);
     impl_->request = std::move(changed);
   });
@@ -100,9 +113,7 @@ Request& Request::set_camera(const Camera& camera) {
 }
 
 Request& Request::add_material(const std::string& object, const Material& material) {
-  guarded([&] {
-    impl_->request.look.objects.push_back(object_change(object, material));
-  });
+  guarded([&] { impl_->request.look.objects.push_back(object_change(object, material)); });
   return *this;
 }
 

@@ -43,7 +43,7 @@ Scene::Impl::InUse::InUse(const Impl& scene, SceneOnDevice& there) : there_(ther
   if (!there.tracer) {
     auto tracer = std::make_unique<Tracer>(
         there.device->context, TracerOptions{.pipeline_folder = scene.loaded.request.settings.cache,
-                                                .threads = scene.loaded.request.source.threads});
+                                             .threads = scene.loaded.request.source.threads});
     tracer->upload(scene.loaded.scene);
     there.tracer = std::move(tracer);
   }

@@ -2,10 +2,10 @@
 
 #include <cstdio>
 
-#include "app/library/request/command_line.h"
-#include "app/library/picture/reproduce.h"
 #include "app/library/commit.h"
 #include "app/library/compare.h"
+#include "app/library/picture/reproduce.h"
+#include "app/library/request/command_line.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/number_text.h"
@@ -76,7 +76,9 @@ void write_output(const Request& request, const Image& image, const Metadata& me
                   const std::filesystem::path& path) {
   if (is_png(path)) return write_png(display_image(image, display_of(request)), metadata, path);
   ExrPicture picture = exr_picture(
-      image, {request.output.aov_depth, request.output.aov_normal, request.output.aov_id, request.output.aov_error}, metadata);
+      image,
+      {request.output.aov_depth, request.output.aov_normal, request.output.aov_id, request.output.aov_error},
+      metadata);
   if (const PixelWindow window = request.view.window(); window.width > 0) {
     picture.width = request.view.width;
     picture.height = request.view.height;
@@ -86,13 +88,15 @@ void write_output(const Request& request, const Image& image, const Metadata& me
 }
 
 void require_match(const Request& request, const Image& image, const DisplayImage& reference) {
-  const Tolerance tolerance{request.output.reference_threshold, request.output.reference_share, request.output.reference_limit};
+  const Tolerance tolerance{request.output.reference_threshold, request.output.reference_share,
+                            request.output.reference_limit};
   DisplayImage picture = display_image(image, display_of(request));
   if (is_png(request.output.path)) quantise(picture);
   const Comparison comparison = compare(picture, reference, tolerance);
   const std::string numbers = describe(comparison, tolerance);
   if (comparison.passed) {
-    if (!request.output.quiet) std::fprintf(stderr, "splatray-render: matches the reference: %s\n", numbers.c_str());
+    if (!request.output.quiet)
+      std::fprintf(stderr, "splatray-render: matches the reference: %s\n", numbers.c_str());
     return;
   }
   std::filesystem::path difference = request.output.path;

@@ -2,8 +2,8 @@
 #pragma once
 #include <optional>
 
-#include "app/library/request/request.h"
 #include "app/library/image_file.h"
+#include "app/library/request/request.h"
 #include "engine/base/stopwatch.h"
 #include "engine/vulkan/context.h"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/library/request/command_line.h"
 #include "app/library/picture/make_picture.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/reproduce.h"
+#include "app/library/request/command_line.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/stopwatch.h"

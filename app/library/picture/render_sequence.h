@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/library/picture/sequence.h"
 #include "app/library/picture/scene_source.h"
+#include "app/library/picture/sequence.h"
 #include "engine/gpu/tracer.h"
 
 namespace splatray {

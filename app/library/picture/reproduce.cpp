@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "app/library/request/command_line.h"
 #include "app/library/image_file.h"
 #include "app/library/picture/scene_source.h"
+#include "app/library/request/command_line.h"
 #include "engine/base/error.h"
 
 namespace splatray {

@@ -30,9 +30,8 @@ void tell(const LoadListener& listener, const char* stage, double share) {
 Scene preprocess(const Request& request, const LoadListener& listener, BuildStats& stats) {
   const Progress progress = watching_memory(listener.progress);
   ReadOptions reading = read_options(request.source, progress);
-  reading.turn_outwards =
-      !request.look.material.empty() &&
-      (named_material(request.look.material).flags & MATERIAL_DIELECTRIC) != 0;
+  reading.turn_outwards = !request.look.material.empty() &&
+                          (named_material(request.look.material).flags & MATERIAL_DIELECTRIC) != 0;
   Input input = read_input(request.source.inputs, reading);
   const auto tell_notes = [&](const std::vector<std::string>& notes) {
     if (listener.note) std::for_each(notes.begin(), notes.end(), listener.note);
@@ -160,7 +159,8 @@ Camera choose_camera(const Scene& scene, const Request& request) {
             request.view.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG), request.view.ortho_height};
   }
   // A depth camera's view suits the picture's shape; a model's own camera is its author's.
-  if (!scene.camera || !scene.stations.empty() || request.look.up || request.view.viewpoint != Viewpoint::automatic)
+  if (!scene.camera || !scene.stations.empty() || request.look.up ||
+      request.view.viewpoint != Viewpoint::automatic)
     return viewpoint_camera(scene, request.view.viewpoint, aspect, request.view.fov_y_deg);
   Camera camera = *scene.camera;
   camera.fov_y_deg = request.view.fov_y_deg.value_or(camera.fov_y_deg);
@@ -175,8 +175,7 @@ std::string choose_environment_name(const Scene& scene, const Request& request) 
   return request.look.environment.empty() ? scene.environment_path : request.look.environment;
 }
 
-std::vector<SceneLight> choose_lights(const Scene& scene, const Request& request,
-                                      const Camera& camera) {
+std::vector<SceneLight> choose_lights(const Scene& scene, const Request& request, const Camera& camera) {
   if (request.look.lights) {
     if (request.look.lights->size() > LIGHTS_MOST)
       throw Error(ExitCode::usage, "found " + std::to_string(request.look.lights->size()) +
@@ -231,8 +230,8 @@ Environment choose_environment(const std::string& name) {
 
 std::uint32_t choose_look(const Scene& scene, const Request& request) {
   if (request.look.style) return *request.look.style;
-  const bool plain = scene.lights.empty() && request.look.environment.empty() && scene.environment_path.empty() &&
-                     !request.look.lights;
+  const bool plain = scene.lights.empty() && request.look.environment.empty() &&
+                     scene.environment_path.empty() && !request.look.lights;
   const bool materials = std::any_of(scene.materials.begin(), scene.materials.end(), is_chosen) ||
                          std::any_of(request.look.objects.begin(), request.look.objects.end(), changes_look);
   return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;

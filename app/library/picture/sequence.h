@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/library/request/request.h"
 #include "app/library/camera_path.h"
+#include "app/library/request/request.h"
 
 namespace splatray {
 

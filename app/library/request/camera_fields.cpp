@@ -2,7 +2,6 @@
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
 
-
 namespace splatray {
 namespace {
 
@@ -41,12 +40,13 @@ Field camera_path_row() {
 }
 
 Field camera_row() {
-  return with(value_row(
-                  "camera", CAMERA, "FILE",
-                  "camera file (JSON: eye, target, up, fov_y_deg or ortho_height); options beside it replace parts",
-                  [](Request& request, const std::string& file) { set_camera(request.view, read_camera(file)); }, {}),
-              {.doors = DOOR_RENDER | DOOR_VIEW,
-               .why_not = "the fields of its parts say the same; the library has Camera"});
+  return with(
+      value_row(
+          "camera", CAMERA, "FILE",
+          "camera file (JSON: eye, target, up, fov_y_deg or ortho_height); options beside it replace parts",
+          [](Request& request, const std::string& file) { set_camera(request.view, read_camera(file)); }, {}),
+      {.doors = DOOR_RENDER | DOOR_VIEW,
+       .why_not = "the fields of its parts say the same; the library has Camera"});
 }
 
 Field view_row() {
@@ -55,18 +55,18 @@ Field view_row() {
        {Viewpoint::automatic, Viewpoint::front, Viewpoint::oblique, Viewpoint::top, Viewpoint::inside,
         Viewpoint::dollhouse, Viewpoint::sensor})
     viewpoints.push_back({viewpoint_name(viewpoint), viewpoint});
-  return choice_row("view", CAMERA, MEMBER(view.viewpoint), viewpoints,
-                    "where a scene is looked at from without --eye; inside: from a scanner's place or the middle; "
-                    "dollhouse: into a room from above, without what faces away from the eye, with --eye from there; "
-                    "sensor: as a depth camera or scanner saw it; default auto: the scene's camera, of scans sensor, "
-                    "inside, dollhouse or oblique by what they are of, else front");
+  return choice_row(
+      "view", CAMERA, MEMBER(view.viewpoint), viewpoints,
+      "where a scene is looked at from without --eye; inside: from a scanner's place or the middle; "
+      "dollhouse: into a room from above, without what faces away from the eye, with --eye from there; "
+      "sensor: as a depth camera or scanner saw it; default auto: the scene's camera, of scans sensor, "
+      "inside, dollhouse or oblique by what they are of, else front");
 }
 
 /// It takes the place of an up direction that the camera has from a file or picture.
 Field up_row() {
   return value_row(
-      "up", CAMERA, "X,Y,Z",
-      "up direction of the scene, its environment and the camera; default the scene's",
+      "up", CAMERA, "X,Y,Z", "up direction of the scene, its environment and the camera; default the scene's",
       [](Request& request, const std::string& text) {
         request.look.up = read_vector(text);
         request.view.camera_up.reset();
@@ -126,27 +126,28 @@ Field tile_row() {
 }  // namespace
 
 std::vector<Field> camera_fields() {
-  return {resolution_row(),
-          camera_path_row(),
-          camera_row(),
-          view_row(),
-          vector_row("eye", CAMERA, MEMBER(view.eye),
-                     "camera position; default: the scene's camera, else a view of the whole scene"),
-          vector_row("target", CAMERA, MEMBER(view.target),
-                     "point looked at; default the scene's centre; needs --eye"),
-          up_row(),
-          vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
-                     "up direction of the camera alone; needs --eye"),
-          fov_row(),
-          with(number_row("ortho-height", CAMERA, MEMBER(view.ortho_height), 0.0, 1e30,
-                          "orthographic picture of this height, world units; 0 = perspective; needs --eye"),
-               {.old_names = {"ortho"}}),
-          number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
-                     "diameter of the lens, world units; default 0: all is sharp; not with --look paper"),
-          number_row("focus", CAMERA, MEMBER(settings.focus_world), 0.0, 1e30,
-                     "distance from the eye at which all is sharp, world units; default 0: the camera's target"),
-          crop_row(),
-          tile_row()};
+  return {
+      resolution_row(),
+      camera_path_row(),
+      camera_row(),
+      view_row(),
+      vector_row("eye", CAMERA, MEMBER(view.eye),
+                 "camera position; default: the scene's camera, else a view of the whole scene"),
+      vector_row("target", CAMERA, MEMBER(view.target),
+                 "point looked at; default the scene's centre; needs --eye"),
+      up_row(),
+      vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
+                 "up direction of the camera alone; needs --eye"),
+      fov_row(),
+      with(number_row("ortho-height", CAMERA, MEMBER(view.ortho_height), 0.0, 1e30,
+                      "orthographic picture of this height, world units; 0 = perspective; needs --eye"),
+           {.old_names = {"ortho"}}),
+      number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
+                 "diameter of the lens, world units; default 0: all is sharp; not with --look paper"),
+      number_row("focus", CAMERA, MEMBER(settings.focus_world), 0.0, 1e30,
+                 "distance from the eye at which all is sharp, world units; default 0: the camera's target"),
+      crop_row(),
+      tile_row()};
 }
 
 }  // namespace splatray

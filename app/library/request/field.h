@@ -40,22 +40,23 @@ struct FieldText {
 };
 
 struct Field {
-  std::string name;  ///< "env-strength"; of a command line with -- before it, in Python with _ for -
+  std::string name;  ///< "radius-scale"; of a command line with -- before it, in Python with _ for -
   FieldGroup group = FieldGroup::input;
   FieldKind kind = FieldKind::text;
-  std::string value;  ///< what stands for the value in help, such as "X,Y,Z"; of a choice its names with | between
-  std::string help;   ///< what it is, its unit, range and default
+  /// What stands for the value in help, such as "X,Y,Z"; of a choice its names with | between; of a switch nothing.
+  std::string value;
+  std::string help;  ///< what it is, its unit, range and default
   /// Reads a value; throws Expected for another text, and Error of what a file in it says.
   std::function<void(Request&, const std::string&)> read;
   /// The texts that read() makes the request's value of, nothing where it is unset; with the name of the field they are of, as those
   /// of a family are written together. Empty function: it has no text of its own.
   std::function<std::vector<FieldText>(const Request&)> write;
   FieldDoors doors = DOORS_OF_PICTURES;
-  std::string why_not;                   ///< why the other doors do not have it; empty where all that make pictures do
+  std::string why_not;  ///< why the other doors do not have it; empty where all that make pictures do
   std::vector<std::string> old_names{};  ///< names of before, which command lines still take
   std::string letter{};                  ///< of a command line: "-o"
   bool repeated = false;                 ///< each value given counts; else the last
-  std::string family{};                  ///< repeated fields whose values keep one order; empty = its own name
+  std::string family{};  ///< repeated fields whose values keep one order; empty = its own name
   std::function<void(Request&)> clear{};  ///< of repeated ones: takes out the values of the family
   bool adds = false;  ///< of repeated ones: values go behind those there were, instead of taking their place
   double least = 0.0, most = 0.0;  ///< of numbers
@@ -77,7 +78,8 @@ struct FieldExtras {
 [[nodiscard]] Field with(Field field, FieldExtras extras);
 
 /// A member of a request, for the kinds of rows: MEMBER(view.width).
-#define MEMBER(path) [](auto& request) -> auto& { return request.path; }
+#define MEMBER(path) \
+  [](auto& request) -> auto& { return request.path; }
 
 // Kinds of rows.
 
@@ -183,9 +185,9 @@ template <class Member>
 template <class Member>
 [[nodiscard]] Field paths_row(std::string name, FieldGroup group, Member member, std::string help,
                               std::string value) {
-  Field row = value_row(
-      name, group, std::move(value), std::move(help),
-      [=](Request& request, const std::string& text) { member(request).emplace_back(text); }, {});
+  Field row =
+      value_row(name, group, std::move(value), std::move(help),
+                [=](Request& request, const std::string& text) { member(request).emplace_back(text); }, {});
   row.repeated = true;
   row.clear = [=](Request& request) { member(request).clear(); };
   row.write = [=](const Request& request) {

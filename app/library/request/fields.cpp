@@ -25,9 +25,8 @@ struct Assignment {
 
 std::size_t rank_of(const Field& field) {
   const auto all = fields();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Field& other) {
-    return other.family_name() == field.family_name();
-  });
+  const auto found = std::find_if(
+      all.begin(), all.end(), [&](const Field& other) { return other.family_name() == field.family_name(); });
   return static_cast<std::size_t>(found - all.begin());
 }
 
@@ -70,8 +69,8 @@ void assign(Request& request, const std::vector<FieldText>& values, FieldDoors d
   for (const FieldText& value : values) {
     const Field* field = find_field(value.name, door);
     if (field == nullptr)
-      throw Error(ExitCode::usage,
-                  "found '" + spelling.before + value.name + "', expected the name of a field" + spelling.after);
+      throw Error(ExitCode::usage, "found '" + spelling.before + value.name +
+                                       "', expected the name of a field" + spelling.after);
     sorted.push_back({field, &value.text, rank_of(*field)});
   }
   std::stable_sort(sorted.begin(), sorted.end(),

@@ -22,7 +22,8 @@ struct FieldSpelling {
 
 /// Reads values into the request, whatever their order: in the order of the table, those of a family in theirs; of a field that is not
 /// repeated the last holds. Throws Error (usage), one sentence, for a name that the door does not have and for a value that is none.
-void assign(Request& request, const std::vector<FieldText>& values, FieldDoors door, const FieldSpelling& spelling = {});
+void assign(Request& request, const std::vector<FieldText>& values, FieldDoors door,
+            const FieldSpelling& spelling = {});
 
 /// The values of fields that differ from Request{}'s, in the order of the table. assign() makes an equal request of them.
 [[nodiscard]] std::vector<FieldText> changed_values(const Request& request);

@@ -2,7 +2,6 @@
 #include "engine/base/number_text.h"
 #include "preprocess/read/formats.h"
 
-
 namespace splatray {
 namespace {
 
@@ -13,7 +12,8 @@ Field smooth_row() {
   constexpr double MOST = 1e12;
   return value_row(
       "smooth", INPUT, "auto|off|RADIUS",
-      "noisy scans are smoothed as their noise asks for, not at all, or so far around each point (world units); "
+      "noisy scans are smoothed as their noise asks for, not at all, or so far around each point (world "
+      "units); "
       "default auto",
       [](Request& request, const std::string& text) {
         double& smooth_world = request.source.params.smooth_world;
@@ -43,7 +43,8 @@ Field attributes_row() {
 
 Field inputs_row() {
   return with(paths_row("inputs", INPUT, MEMBER(source.inputs),
-                        "a .soct scene alone, or files or folders with points, meshes or a scene: " + format_extensions(),
+                        "a .soct scene alone, or files or folders with points, meshes or a scene: " +
+                            format_extensions(),
                         "FILE"),
               {.doors = DOORS_ALL});
 }
@@ -61,11 +62,13 @@ std::vector<Field> input_fields() {
                  "points sampled on meshes by area; default 0 = their vertices where fine enough"),
       number_row("radius-scale", INPUT, MEMBER(source.params.radius_scale), 1e-6, 1e6,
                  "factor on every radius; default 1"),
-      number_row("crease", INPUT, MEMBER(source.params.crease_degrees), 0, 180,
-                 "degrees by which a surface turns at a crease, where a mesh is not shaded smoothly; default 30"),
+      number_row(
+          "crease", INPUT, MEMBER(source.params.crease_degrees), 0, 180,
+          "degrees by which a surface turns at a crease, where a mesh is not shaded smoothly; default 30"),
       switch_row("strict", INPUT, MEMBER(source.scans.strict), "refuse a scan that holds less than it says"),
-      vector_row("sensor", INPUT, MEMBER(source.scans.sensor_world),
-                 "where the scanner stood, for points whose file does not say; tells the sides of their normals"),
+      vector_row(
+          "sensor", INPUT, MEMBER(source.scans.sensor_world),
+          "where the scanner stood, for points whose file does not say; tells the sides of their normals"),
       path_row("trajectory", INPUT, MEMBER(source.scans.trajectory),
                "text of times and places (time, x, y, z) where the scanner moved, for points with times"),
       number_row("z-scale", INPUT, MEMBER(source.scans.z_scale), 1e-6, 1e6,
@@ -74,9 +77,10 @@ std::vector<Field> input_fields() {
                  "read an E57 with damaged pages"),
       switch_row("keep-withheld", INPUT, MEMBER(source.scans.keep_withheld),
                  "keep points that are marked as deleted or as noise (classes 7 and 18)"),
-      text_row("columns", INPUT, MEMBER(source.scans.columns),
-               "columns of text files, such as x,y,z,intensity,-,r,g,b; - is skipped; default by header or values",
-               "NAME,..."),
+      text_row(
+          "columns", INPUT, MEMBER(source.scans.columns),
+          "columns of text files, such as x,y,z,intensity,-,r,g,b; - is skipped; default by header or values",
+          "NAME,..."),
       attributes_row(),
       switch_row("keep-strays", INPUT, MEMBER(source.params.keep_strays),
                  "keep the points of scans that lie on no surface, but for those far from all others"),

@@ -4,7 +4,6 @@
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
 
-
 namespace splatray {
 namespace {
 
@@ -61,8 +60,8 @@ FieldText light_text(const LightRequest& light) {
   const bool rectangle = light.kind == LIGHT_RECTANGLE;
   std::string text = number_text(light.position);
   if (rectangle)
-    text += "," + number_text(light.target) + "," + number_text(light.edges.x) + "," +
-            number_text(light.edges.y);
+    text +=
+        "," + number_text(light.target) + "," + number_text(light.edges.x) + "," + number_text(light.edges.y);
   if (light.power) text += "," + number_text(*light.power);
   if (light.size > 0.0) text += "," + number_text(light.size);
   return {rectangle ? "area-light" : (light.kind == LIGHT_POINT ? "light" : "sun"), text};
@@ -70,12 +69,12 @@ FieldText light_text(const LightRequest& light) {
 
 /// One of the family of lights, which keeps the order in which they are given; the first replaces those there were.
 Field light_row(std::string name, std::uint32_t kind, std::string value, std::string help) {
-  Field row = value_row(
-      std::move(name), LIGHT, std::move(value), std::move(help),
-      [kind](Request& request, const std::string& text) {
-        request.look.lights->push_back(kind == LIGHT_RECTANGLE ? read_rectangle(text) : read_light(text, kind));
-      },
-      {});
+  Field row = value_row(std::move(name), LIGHT, std::move(value), std::move(help),
+                        [kind](Request& request, const std::string& text) {
+                          request.look.lights->push_back(kind == LIGHT_RECTANGLE ? read_rectangle(text)
+                                                                                 : read_light(text, kind));
+                        },
+                        {});
   row.repeated = true;
   row.family = "lights";
   row.clear = [](Request& request) { request.look.lights.emplace(); };
@@ -100,33 +99,40 @@ Field lights_row() {
 }
 
 Field environment_row() {
-  return with(text_row("environment", LIGHT, MEMBER(look.environment),
-                       "an HDR or EXR file (latitude-longitude), white, black, studio or a radiance r,g,b; default: the "
-                       "scene's, else studio with a key light over the viewer's left shoulder",
-                       "FILE|NAME"),
-              {.old_names = {"env"}});
+  return with(
+      text_row(
+          "environment", LIGHT, MEMBER(look.environment),
+          "an HDR or EXR file (latitude-longitude), white, black, studio or a radiance r,g,b; default: the "
+          "scene's, else studio with a key light over the viewer's left shoulder",
+          "FILE|NAME"),
+      {.old_names = {"env"}});
 }
 
 }  // namespace
 
 std::vector<Field> light_fields() {
-  return {light_row("light", LIGHT_POINT, "X,Y,Z[,R,G,B[,SIZE]]",
-                    "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at "
-                    "the scene's centre; SIZE: its radius, world units; repeatable"),
-          light_row("sun", LIGHT_DIRECTIONAL, "X,Y,Z[,R,G,B[,SIZE]]",
-                    "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, default pi; "
-                    "SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable"),
-          light_row("area-light", LIGHT_RECTANGLE, "X,Y,Z,TX,TY,TZ,W,H[,R,G,B]",
-                    "a rectangle of W x H here that shines towards TX,TY,TZ, instead of the scene's lights; R,G,B: its "
-                    "radiance, default irradiance pi there; with --look paper a point; repeatable"),
-          lights_row(),
-          environment_row(),
-          with(number_row("environment-strength", LIGHT, MEMBER(settings.environment_strength), 0.0, 1e6,
-                          "factor on the environment; default 1"),
-               {.old_names = {"env-strength"}}),
-          with(number_row("environment-turn", LIGHT, MEMBER(settings.environment_turn), -1e6, 1e6,
-                          "full turns of the environment about the up axis, counter-clockwise seen from above; default 0"),
-               {.old_names = {"env-turn"}})};
+  return {
+      light_row(
+          "light", LIGHT_POINT, "X,Y,Z[,R,G,B[,SIZE]]",
+          "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at "
+          "the scene's centre; SIZE: its radius, world units; repeatable"),
+      light_row(
+          "sun", LIGHT_DIRECTIONAL, "X,Y,Z[,R,G,B[,SIZE]]",
+          "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, default pi; "
+          "SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable"),
+      light_row(
+          "area-light", LIGHT_RECTANGLE, "X,Y,Z,TX,TY,TZ,W,H[,R,G,B]",
+          "a rectangle of W x H here that shines towards TX,TY,TZ, instead of the scene's lights; R,G,B: its "
+          "radiance, default irradiance pi there; with --look paper a point; repeatable"),
+      lights_row(),
+      environment_row(),
+      with(number_row("environment-strength", LIGHT, MEMBER(settings.environment_strength), 0.0, 1e6,
+                      "factor on the environment; default 1"),
+           {.old_names = {"env-strength"}}),
+      with(number_row("environment-turn", LIGHT, MEMBER(settings.environment_turn), -1e6, 1e6,
+                      "full turns of the environment about the up axis, counter-clockwise seen from above; "
+                      "default 0"),
+           {.old_names = {"env-turn"}})};
 }
 
 }  // namespace splatray

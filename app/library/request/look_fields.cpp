@@ -4,24 +4,24 @@
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
 
-
 namespace splatray {
 namespace {
 
 constexpr FieldGroup LOOK = FieldGroup::look;
 
 Field look_row() {
-  return choice_row<std::optional<std::uint32_t>>(
-      "look", LOOK, MEMBER(look.style),
-      {{"auto", std::nullopt},
-       {"lit", LOOK_LIT},
-       {"clay", LOOK_CLAY},
-       {"ao", LOOK_AO},
-       {"scan", LOOK_SCAN},
-       {"paper", LOOK_PAPER}},
-      "lit: path tracing; clay: the same, all of it white clay; ao: ambient occlusion; scan: the points' colours "
-      "under occlusion and a soft light; paper: Phong, hard shadows, mirrors and glass; default auto: scan for "
-      "points with colours and without materials, else lit");
+  return choice_row<std::optional<std::uint32_t>>("look", LOOK, MEMBER(look.style),
+                                                  {{"auto", std::nullopt},
+                                                   {"lit", LOOK_LIT},
+                                                   {"clay", LOOK_CLAY},
+                                                   {"ao", LOOK_AO},
+                                                   {"scan", LOOK_SCAN},
+                                                   {"paper", LOOK_PAPER}},
+                                                  "lit: path tracing; clay: the same, all of it white clay; "
+                                                  "ao: ambient occlusion; scan: the points' colours "
+                                                  "under occlusion and a soft light; paper: Phong, hard "
+                                                  "shadows, mirrors and glass; default auto: scan for "
+                                                  "points with colours and without materials, else lit");
 }
 
 Field material_row() {
@@ -35,8 +35,10 @@ Field object_row() {
   Field row = value_row(
       "object", LOOK, "OBJECT:KEY=VALUE,...",
       "change the material of one object, given by its index or name; keys: preset (a name of --material), "
-      "diffuse=r/g/b, specular, shininess, mirror, ior, tint=r/g/b, and glass, two-sided, hidden = on or off; of "
-      "what path tracing sees: metallic, roughness, coat, coat-roughness, emission=r/g/b; repeatable, the last "
+      "diffuse=r/g/b, specular, shininess, mirror, ior, tint=r/g/b, and glass, two-sided, hidden = on or "
+      "off; of "
+      "what path tracing sees: metallic, roughness, coat, coat-roughness, emission=r/g/b; repeatable, the "
+      "last "
       "change holds",
       [](Request& request, const std::string& text) {
         request.look.objects.push_back(read_object_change(text));
@@ -89,15 +91,17 @@ Field number_list_row(std::string name, Member member, std::string help) {
 Field tone_row() {
   std::vector<Choice<std::optional<Tone>>> tones = {{"auto", std::nullopt}};
   for (std::size_t i = 0; i < TONE_NAMES.size(); ++i) tones.push_back({TONE_NAMES[i], Tone(i)});
-  return choice_row("tone", LOOK, MEMBER(look.tone), tones,
-                    "how a PNG shows what is brighter than white: neutral (colours stay), agx (like film), soft "
-                    "(each channel alone), none (cut off); default auto: soft with --look paper, else neutral");
+  return choice_row(
+      "tone", LOOK, MEMBER(look.tone), tones,
+      "how a PNG shows what is brighter than white: neutral (colours stay), agx (like film), soft "
+      "(each channel alone), none (cut off); default auto: soft with --look paper, else neutral");
 }
 
 Field exposure_row() {
   return value_row(
       "exposure", LOOK, "EV|auto",
-      "brightness of a PNG in stops, or auto: what is seen becomes middle grey on the mean, less where it would be "
+      "brightness of a PNG in stops, or auto: what is seen becomes middle grey on the mean, less where it "
+      "would be "
       "too bright, as measured on a small picture of the same view; default auto for scans, else 0",
       [](Request& request, const std::string& text) {
         request.look.exposure_ev.reset();
@@ -113,29 +117,30 @@ Field exposure_row() {
 }  // namespace
 
 std::vector<Field> look_fields() {
-  return {look_row(),
-          text_row("color-by", LOOK, MEMBER(look.attributes.color_by),
-                   "colours of points: rgb (their own), plain (none), height (low to high: blue-green, green, ochre, "
-                   "rose), height+intensity (darker where that is low), normal, distance (from the scanner), or an "
-                   "attribute they have, such as intensity, class, return, source, scan, kind (surface, line or "
-                   "scatter); default rgb, of scans without colours intensity, of sites and rooms height with it",
-                   "NAME"),
-          color_range_row(),
-          number_list_row("hide-class", MEMBER(look.attributes.hidden_classes),
-                          "classes that are not shown, such as 7,18"),
-          number_list_row("hide-scan", MEMBER(look.attributes.hidden_scans),
-                          "scans that are not shown, from 0"),
-          material_row(),
-          object_row(),
-          exposure_row(),
-          tone_row(),
-          number_row("ao-radius", LOOK, MEMBER(settings.reach_world), 0.0, 1e30,
-                     "ao and scan: how far away something darkens a point, world units; default a tenth of the "
-                     "scene's diagonal"),
-          choice_row<bool>("glass-shadows", LOOK, MEMBER(settings.straight_shadows),
-                           {{"paths", false}, {"straight", true}},
-                           "lit: what glass leaves of the light of lights: what paths find, or tinted shadows, "
-                           "without refraction; default paths")};
+  return {
+      look_row(),
+      text_row(
+          "color-by", LOOK, MEMBER(look.attributes.color_by),
+          "colours of points: rgb (their own), plain (none), height (low to high: blue-green, green, ochre, "
+          "rose), height+intensity (darker where that is low), normal, distance (from the scanner), or an "
+          "attribute they have, such as intensity, class, return, source, scan, kind (surface, line or "
+          "scatter); default rgb, of scans without colours intensity, of sites and rooms height with it",
+          "NAME"),
+      color_range_row(),
+      number_list_row("hide-class", MEMBER(look.attributes.hidden_classes),
+                      "classes that are not shown, such as 7,18"),
+      number_list_row("hide-scan", MEMBER(look.attributes.hidden_scans), "scans that are not shown, from 0"),
+      material_row(),
+      object_row(),
+      exposure_row(),
+      tone_row(),
+      number_row("ao-radius", LOOK, MEMBER(settings.reach_world), 0.0, 1e30,
+                 "ao and scan: how far away something darkens a point, world units; default a tenth of the "
+                 "scene's diagonal"),
+      choice_row<bool>("glass-shadows", LOOK, MEMBER(settings.straight_shadows),
+                       {{"paths", false}, {"straight", true}},
+                       "lit: what glass leaves of the light of lights: what paths find, or tinted shadows, "
+                       "without refraction; default paths")};
 }
 
 }  // namespace splatray

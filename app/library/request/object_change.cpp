@@ -8,8 +8,8 @@
 #include <limits>
 #include <map>
 
-#include "app/cli/option_types.h"
 #include "app/library/materials.h"
+#include "app/library/request/value_text.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 #include "engine/scene/surface.h"
@@ -81,22 +81,21 @@ Key switch_key(const std::string& name, std::optional<bool> ObjectChange::*membe
 
 const std::vector<Key>& keys() {
   constexpr double MOST = 1e6, LEAST_IOR = 1e-3;
-  static const std::vector<Key> KEYS = {
-      preset_key(),
-      color_key("diffuse", &ObjectChange::diffuse),
-      number_key("specular", &ObjectChange::specular, 0.0, 1.0),
-      number_key("shininess", &ObjectChange::shininess, 1.0, MOST),
-      number_key("mirror", &ObjectChange::mirror, 0.0, 1.0),
-      number_key("ior", &ObjectChange::ior, LEAST_IOR, MOST),
-      color_key("tint", &ObjectChange::tint),
-      switch_key("glass", &ObjectChange::glass),
-      switch_key("two-sided", &ObjectChange::two_sided),
-      switch_key("hidden", &ObjectChange::hidden),
-      number_key("metallic", &ObjectChange::metallic, 0.0, 1.0),
-      number_key("roughness", &ObjectChange::roughness, 0.0, 1.0),
-      number_key("coat", &ObjectChange::coat, 0.0, 1.0),
-      number_key("coat-roughness", &ObjectChange::coat_roughness, 0.0, 1.0),
-      color_key("emission", &ObjectChange::emission, MOST)};
+  static const std::vector<Key> KEYS = {preset_key(),
+                                        color_key("diffuse", &ObjectChange::diffuse),
+                                        number_key("specular", &ObjectChange::specular, 0.0, 1.0),
+                                        number_key("shininess", &ObjectChange::shininess, 1.0, MOST),
+                                        number_key("mirror", &ObjectChange::mirror, 0.0, 1.0),
+                                        number_key("ior", &ObjectChange::ior, LEAST_IOR, MOST),
+                                        color_key("tint", &ObjectChange::tint),
+                                        switch_key("glass", &ObjectChange::glass),
+                                        switch_key("two-sided", &ObjectChange::two_sided),
+                                        switch_key("hidden", &ObjectChange::hidden),
+                                        number_key("metallic", &ObjectChange::metallic, 0.0, 1.0),
+                                        number_key("roughness", &ObjectChange::roughness, 0.0, 1.0),
+                                        number_key("coat", &ObjectChange::coat, 0.0, 1.0),
+                                        number_key("coat-roughness", &ObjectChange::coat_roughness, 0.0, 1.0),
+                                        color_key("emission", &ObjectChange::emission, MOST)};
   return KEYS;
 }
 
@@ -264,7 +263,7 @@ void apply_object_changes(const std::vector<ObjectChange>& options, const std::v
 }
 
 std::vector<ObjectChange> object_changes_between(const ObjectLooks& loaded, const ObjectLooks& shown,
-                                                  const std::vector<std::string>& names) {
+                                                 const std::vector<std::string>& names) {
   assert(loaded.materials.size() == shown.materials.size() && names.size() == shown.materials.size());
   std::vector<ObjectChange> changes;
   for (std::size_t i = 0; i < shown.materials.size(); ++i) {

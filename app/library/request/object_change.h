@@ -52,7 +52,7 @@ void apply_object_changes(const std::vector<ObjectChange>& options, const std::v
 
 /// The options that make `loaded` look like `shown`, one for each object that differs; mask_bit is not looked at.
 [[nodiscard]] std::vector<ObjectChange> object_changes_between(const ObjectLooks& loaded,
-                                                                const ObjectLooks& shown,
-                                                                const std::vector<std::string>& names);
+                                                               const ObjectLooks& shown,
+                                                               const std::vector<std::string>& names);
 
 }  // namespace splatray

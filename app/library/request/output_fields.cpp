@@ -4,7 +4,6 @@
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
 
-
 namespace splatray {
 namespace {
 
@@ -60,7 +59,8 @@ std::vector<Field> file_fields() {
   constexpr FieldGroup FILES = FieldGroup::files;
   std::vector<Field> rows = {
       path_row("stats-json", FILES, MEMBER(output.stats_json), "write times, counts, bytes and device here"),
-      path_row("reference", FILES, MEMBER(output.reference), "picture to compare with; exit 1 when they differ"),
+      path_row("reference", FILES, MEMBER(output.reference),
+               "picture to compare with; exit 1 when they differ"),
       number_row("reference-threshold", FILES, MEMBER(output.reference_threshold), 0.0, 1.0,
                  "allowed error of a pixel, 0..1; default 0.004"),
       number_row("reference-share", FILES, MEMBER(output.reference_share), 0.0, 1.0,
@@ -69,14 +69,14 @@ std::vector<Field> file_fields() {
                  "no pixel's error may exceed this; default 0.012"),
       switch_row("list-devices", FILES, MEMBER(output.list_devices), "list the Vulkan devices and end"),
       switch_row("quiet", FILES, MEMBER(output.quiet), "only errors on stderr"),
-      choice_row<ProgressStyle>(
-          "progress", FILES, MEMBER(output.progress),
-          {{"line", ProgressStyle::line},
-           {"plain", ProgressStyle::plain},
-           {"json", ProgressStyle::json},
-           {"openjd", ProgressStyle::openjd}},
-          "how progress is reported: a line on a terminal; lines; a JSON object a line; as Open Job Description has "
-          "it; default line")};
+      choice_row<ProgressStyle>("progress", FILES, MEMBER(output.progress),
+                                {{"line", ProgressStyle::line},
+                                 {"plain", ProgressStyle::plain},
+                                 {"json", ProgressStyle::json},
+                                 {"openjd", ProgressStyle::openjd}},
+                                "how progress is reported: a line on a terminal; lines; a JSON object a "
+                                "line; as Open Job Description has "
+                                "it; default line")};
   for (Field& row : rows) {
     row.doors = DOOR_RENDER;
     row.why_not = "of a run of the program, not of a picture";
@@ -90,14 +90,16 @@ std::vector<Field> file_fields() {
 std::vector<Field> output_fields() {
   std::vector<Field> rows = {
       with(path_row("output", OUTPUT, MEMBER(output.path),
-                    "the picture: .png (sRGB) or .exr (linear float); of a sequence with a run of # for the frame's "
+                    "the picture: .png (sRGB) or .exr (linear float); of a sequence with a run of # for the "
+                    "frame's "
                     "digits such as out.####.png"),
            {.letter = "-o"}),
       value_row("aov", OUTPUT, "depth,normal,id,error",
-                "more channels of an EXR picture: Z, N.X N.Y N.Z, id, error (estimated, of the radiance)", read_aovs,
-                aov_text),
-      number_row("turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
-                 "this many pictures of a full turn about the scene's up axis through the target; default 0 = none"),
+                "more channels of an EXR picture: Z, N.X N.Y N.Z, id, error (estimated, of the radiance)",
+                read_aovs, aov_text),
+      number_row(
+          "turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
+          "this many pictures of a full turn about the scene's up axis through the target; default 0 = none"),
       frames_row(),
       switch_row("skip-existing", OUTPUT, MEMBER(output.skip_existing),
                  "leave out pictures whose file is whole and was made by the same command")};

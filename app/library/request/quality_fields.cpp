@@ -1,7 +1,6 @@
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
 
-
 namespace splatray {
 namespace {
 
@@ -26,33 +25,37 @@ Field shadows_row() {
 }  // namespace
 
 std::vector<Field> quality_fields() {
-  return {number_row("samples", QUALITY, MEMBER(settings.samples), 1, 65536,
-                     "samples per pixel; default 16"),
-          number_row("sample-offset", QUALITY, MEMBER(settings.sample_offset), 0, 65535,
-                     "begin with this sample, not the first: splatray-merge adds up such parts of a picture, each of "
-                     "64, 128, 256 ... samples, the last of any number, this being a multiple of them; default 0"),
-          number_row("error", QUALITY, MEMBER(settings.error_goal), 0.0, 1e3,
-                     "render until the estimated relative error is below X in every 32 x 32 pixels, e.g. 0.02; replaces "
-                     "--samples; default 0 = none"),
-          number_row("time", QUALITY, MEMBER(settings.seconds_goal), 0.0, 1e9,
-                     "the best picture in X seconds of tracing, instead of --samples; beside --error the end of it; "
-                     "default 0 = none"),
-          switch_row("denoise", QUALITY, MEMBER(output.denoise),
-                     "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of our own; "
-                     "PNGs of scans whose look is not asked for go through it anyway"),
-          switch_row("keep-noise", QUALITY, MEMBER(output.keep_noise),
-                     "do not take the noise out of scans' pictures either"),
-          with(number_row("bounces", QUALITY, MEMBER(settings.max_bounces), 0, 64,
-                          "most secondary rays in a path; default 8"),
-               {.old_names = {"max-bounces"}}),
-          shadows_row(),
-          seed_row(),
-          text_row("device", QUALITY, MEMBER(settings.device),
-                   "device number or part of its name, or cpu: the processors without Vulkan; default the best",
-                   "N|NAME"),
-          with(path_row("cache", QUALITY, MEMBER(settings.cache),
-                        "folder that compiled pipelines are kept in between runs; default nowhere"),
-               {.doors = DOOR_LIBRARY, .why_not = "programs keep them in the user's cache folder"})};
+  return {
+      number_row("samples", QUALITY, MEMBER(settings.samples), 1, 65536, "samples per pixel; default 16"),
+      number_row(
+          "sample-offset", QUALITY, MEMBER(settings.sample_offset), 0, 65535,
+          "begin with this sample, not the first: splatray-merge adds up such parts of a picture, each of "
+          "64, 128, 256 ... samples, the last of any number, this being a multiple of them; default 0"),
+      number_row(
+          "error", QUALITY, MEMBER(settings.error_goal), 0.0, 1e3,
+          "render until the estimated relative error is below X in every 32 x 32 pixels, e.g. 0.02; replaces "
+          "--samples; default 0 = none"),
+      number_row(
+          "time", QUALITY, MEMBER(settings.seconds_goal), 0.0, 1e9,
+          "the best picture in X seconds of tracing, instead of --samples; beside --error the end of it; "
+          "default 0 = none"),
+      switch_row(
+          "denoise", QUALITY, MEMBER(output.denoise),
+          "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of our own; "
+          "PNGs of scans whose look is not asked for go through it anyway"),
+      switch_row("keep-noise", QUALITY, MEMBER(output.keep_noise),
+                 "do not take the noise out of scans' pictures either"),
+      with(number_row("bounces", QUALITY, MEMBER(settings.max_bounces), 0, 64,
+                      "most secondary rays in a path; default 8"),
+           {.old_names = {"max-bounces"}}),
+      shadows_row(),
+      seed_row(),
+      text_row("device", QUALITY, MEMBER(settings.device),
+               "device number or part of its name, or cpu: the processors without Vulkan; default the best",
+               "N|NAME"),
+      with(path_row("cache", QUALITY, MEMBER(settings.cache),
+                    "folder that compiled pipelines are kept in between runs; default nowhere"),
+           {.doors = DOOR_LIBRARY, .why_not = "programs keep them in the user's cache folder"})};
 }
 
 }  // namespace splatray

@@ -103,7 +103,8 @@ void require_scene_alone(const std::vector<std::filesystem::path>& inputs) {
 }
 
 void require_inputs(const Request::Source& source) {
-  if (source.inputs.empty()) fail("found no SCENE, expected a scene or model file (--help shows all options)");
+  if (source.inputs.empty())
+    fail("found no SCENE, expected a scene or model file (--help shows all options)");
   require_scene_alone(source.inputs);
 }
 

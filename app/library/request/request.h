@@ -46,16 +46,16 @@ struct Request {
 
   /// What the scene is shown as, and in what light.
   struct Look {
-    std::optional<std::uint32_t> style;                 ///< LOOK_*; unset: as choose_look has it
-    std::string material;                               ///< a name of materials.h; empty = as the input says
-    std::vector<ObjectChange> objects;                  ///< changes to materials, in this order
-    std::optional<std::vector<LightRequest>> lights;    ///< unset = the scene's, or the default ones
-    std::string environment;                            ///< as written; empty = the scene's, else the studio
-    AttributeOptions attributes;                        ///< what is shown of the points' attributes
-    std::optional<glm::dvec3> up;                       ///< world; of the scene, its environment and the camera
-    std::optional<Tone> tone;                           ///< unset: as choose_tone has it
-    std::optional<double> exposure_ev;                  ///< stops; unset = automatic for scans, else 0
-    bool exposure_auto = false;                         ///< unset = automatic for all
+    std::optional<std::uint32_t> style;               ///< LOOK_*; unset: as choose_look has it
+    std::string material;                             ///< a name of materials.h; empty = as the input says
+    std::vector<ObjectChange> objects;                ///< changes to materials, in this order
+    std::optional<std::vector<LightRequest>> lights;  ///< unset = the scene's, or the default ones
+    std::string environment;                          ///< as written; empty = the scene's, else the studio
+    AttributeOptions attributes;                      ///< what is shown of the points' attributes
+    std::optional<glm::dvec3> up;                     ///< world; of the scene, its environment and the camera
+    std::optional<Tone> tone;                         ///< unset: as choose_tone has it
+    std::optional<double> exposure_ev;                ///< stops; unset = automatic for scans, else 0
+    bool exposure_auto = false;                       ///< unset = automatic for all
 
     bool operator==(const Look&) const = default;
   };
@@ -83,7 +83,7 @@ struct Request {
     double error_goal = 0.0;                  ///< Goal::error; 0 = none
     double seconds_goal = 0.0;                ///< Goal::seconds; 0 = none
     std::string device;                       ///< number or part of a name; empty = best
-    std::filesystem::path cache;              ///< folder of compiled pipelines; empty = none, of programs the user's
+    std::filesystem::path cache;  ///< folder of compiled pipelines; empty = none, of programs the user's
 
     /// Whether a picture is traced until it is good enough, instead of by `samples`.
     [[nodiscard]] bool has_goal() const { return error_goal > 0.0 || seconds_goal > 0.0; }
@@ -96,10 +96,10 @@ struct Request {
     bool denoise = false;
     bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
     bool aov_depth = false, aov_normal = false, aov_id = false, aov_error = false;
-    std::filesystem::path camera_path;  ///< camera_file.h; empty = none
-    std::uint32_t turntable = 0;        ///< frames of a full turn, 0 .. turntable - 1; 0 = none
-    std::vector<FrameRange> frames;     ///< empty = all
-    bool skip_existing = false;         ///< leave out pictures that exist
+    std::filesystem::path camera_path;   ///< camera_file.h; empty = none
+    std::uint32_t turntable = 0;         ///< frames of a full turn, 0 .. turntable - 1; 0 = none
+    std::vector<FrameRange> frames;      ///< empty = all
+    bool skip_existing = false;          ///< leave out pictures that exist
     std::filesystem::path stats_json;    ///< empty = none
     std::filesystem::path reference;     ///< empty = no comparison
     double reference_threshold = 0.004;  ///< allowed error of a pixel, display-encoded 0..1

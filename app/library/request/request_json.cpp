@@ -106,12 +106,14 @@ std::string request_json(const Request& request, int indent) {
     const bool several = family(field.family_name()).size() > 1;
     Json& list = json[field.family_name()];
     if (list.is_null()) list = Json::array();
-    if (value != FieldText{"lights", "none"}) list.push_back(several ? value.name + "=" + value.text : value.text);
+    if (value != FieldText{"lights", "none"})
+      list.push_back(several ? value.name + "=" + value.text : value.text);
   }
   try {
     return json.dump(indent) + (indent < 0 ? "" : "\n");
   } catch (const Json::type_error&) {
-    throw Error(ExitCode::usage, "found a text that is no UTF-8 in a request, expected names that JSON can hold");
+    throw Error(ExitCode::usage,
+                "found a text that is no UTF-8 in a request, expected names that JSON can hold");
   }
 }
 

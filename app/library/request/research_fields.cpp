@@ -1,7 +1,6 @@
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
 
-
 namespace splatray {
 namespace {
 
@@ -11,7 +10,8 @@ constexpr FieldGroup RESEARCH = FieldGroup::research;
 std::vector<Field> build_fields() {
   std::vector<Field> rows = {
       number_row("leaf-size", RESEARCH, MEMBER(source.params.leaf_size), 0, 65536,
-                 "octree cells of more splat centres are divided; default 0 = 16, or 24 or 8 where that would take more "
+                 "octree cells of more splat centres are divided; default 0 = 16, or 24 or 8 where that "
+                 "would take more "
                  "than 64 bytes of GPU memory a splat"),
       choice_row<Insertion>(
           "insertion", RESEARCH, MEMBER(source.params.insertion),
@@ -48,8 +48,12 @@ std::vector<Field> research_fields() {
   std::vector<Field> rows = build_fields();
   for (Field& row : std::vector<Field>{
            choice_row<std::uint32_t>("blend", RESEARCH, MEMBER(settings.blend),
-                                     {{"window", BLEND_WINDOW}, {"paper", BLEND_PAPER}, {"nearest", BLEND_NEAREST}, {"leaf", BLEND_LEAF}},
-                                     "blending of the splats at a hit; leaf = the first leaf's only, which shows seams; default window"),
+                                     {{"window", BLEND_WINDOW},
+                                      {"paper", BLEND_PAPER},
+                                      {"nearest", BLEND_NEAREST},
+                                      {"leaf", BLEND_LEAF}},
+                                     "blending of the splats at a hit; leaf = the first leaf's only, which "
+                                     "shows seams; default window"),
            choice_row<std::uint32_t>("kernel", RESEARCH, MEMBER(settings.kernel),
                                      {{"rim", KERNEL_RIM}, {"gaussian", KERNEL_GAUSSIAN}},
                                      "weight of a splat over its disc; default rim (zero there)"),

@@ -45,15 +45,15 @@ Request request_of(const Document& document, std::uint32_t width, std::uint32_t 
 
 Document first_document(const Scene& scene, const Request& asked) {
   Document document;
-  document.loaded = std::make_shared<const LoadedPart>(
-      LoadedPart{asked,
-                 choose_look(scene, suited_picture(scene, asked).request),
-                 scene.object_names,
-                 {scene.materials, surfaces_of(scene)},
-                 color_sources(scene),
-                 categories_of(scene, COLUMN_CLASS),
-                 categories_of(scene, COLUMN_SCAN),
-                 !scene.stations.empty()});
+  document.loaded =
+      std::make_shared<const LoadedPart>(LoadedPart{asked,
+                                                    choose_look(scene, suited_picture(scene, asked).request),
+                                                    scene.object_names,
+                                                    {scene.materials, surfaces_of(scene)},
+                                                    color_sources(scene),
+                                                    categories_of(scene, COLUMN_CLASS),
+                                                    categories_of(scene, COLUMN_SCAN),
+                                                    !scene.stations.empty()});
   return shown_as(scene, document, asked);
 }
 

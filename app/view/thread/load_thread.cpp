@@ -81,8 +81,7 @@ void LoadThread::load_now(const Request& wish) {
   request.look.attributes = {};  // the render thread applies them
   request.look.attributes.color_by = "rgb";
   LoadedScene loaded = load_scene(request, listener);
-  if (const std::string told = suited_picture(loaded.scene, wish).told; !told.empty())
-    listener.note(told);
+  if (const std::string told = suited_picture(loaded.scene, wish).told; !told.empty()) listener.note(told);
   OpenedScene opened{nullptr, first_document(loaded.scene, wish)};
   opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));
   if (is_cancelled()) return;

@@ -60,16 +60,16 @@ bool single_control(const Field& field, Request& request, std::string& error) {
   const std::vector<std::string> texts = texts_of(field, request);
   std::string text = texts.empty() ? "" : texts.front();
   bool changed = false;
-  if (const std::vector<std::string> names = choices_of(field); !names.empty()) {
+  if (field.kind == FieldKind::flag) {
+    bool on = text == "on";
+    changed = ImGui::Checkbox(field.name.c_str(), &on);
+    text = on ? "on" : "off";
+  } else if (const std::vector<std::string> names = choices_of(field); !names.empty()) {
     if (ImGui::BeginCombo(field.name.c_str(), text.c_str())) {
       for (const std::string& name : names)
         if (ImGui::Selectable(name.c_str(), name == text)) changed = name != std::exchange(text, name);
       ImGui::EndCombo();
     }
-  } else if (field.kind == FieldKind::flag) {
-    bool on = text == "on";
-    changed = ImGui::Checkbox(field.name.c_str(), &on);
-    text = on ? "on" : "off";
   } else {
     changed = text_control(field.name.c_str(), field, text);
   }
@@ -106,7 +106,8 @@ bool repeated_control(const Field& field, Request& request, std::string& error) 
 }  // namespace
 
 bool is_of_files(const Field& field) {
-  constexpr std::array NAMES = {"resolution", "camera-path", "crop",   "tile", "samples", "sample-offset", "error", "time", "denoise", "keep-noise"};
+  constexpr std::array NAMES = {"resolution",    "camera-path", "crop", "tile",    "samples",
+                                "sample-offset", "error",       "time", "denoise", "keep-noise"};
   return field.group == FieldGroup::output || field.group == FieldGroup::files ||
          std::find(NAMES.begin(), NAMES.end(), field.name) != NAMES.end();
 }
@@ -119,7 +120,8 @@ void all_fields(const Document& document, PanelState& state, Requests& requests)
   Request request = request_of(document, 1, 1);
   bool changed = false;
   for (int group = 0; group <= static_cast<int>(FieldGroup::research); ++group) {
-    if (group == static_cast<int>(FieldGroup::output) || group == static_cast<int>(FieldGroup::files)) continue;
+    if (group == static_cast<int>(FieldGroup::output) || group == static_cast<int>(FieldGroup::files))
+      continue;
     if (!ImGui::TreeNode(group_title(static_cast<FieldGroup>(group)))) continue;
     for (const Field& field : fields())
       if (static_cast<int>(field.group) == group && field.in(DOOR_VIEW) && !is_of_files(field))

@@ -20,7 +20,7 @@ struct Requests {
   bool add = false;                ///< `open` goes beside what is shown
   std::optional<Request> save;     ///< a picture or several; only what is_of_files() is looked at
   std::optional<Request> change;   ///< the document becomes what this asks for
-  bool cancel = false;  ///< stop the work that PanelView::work shows
+  bool cancel = false;             ///< stop the work that PanelView::work shows
 };
 
 /// What the panels show beside the document.
