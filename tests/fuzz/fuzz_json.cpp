@@ -46,7 +46,7 @@ void fuzz_command_line(FuzzBytes bytes) {
   const std::string text(bytes.begin(), bytes.end());
   try {
     const Request request = parse_command_line(text);
-    const std::string again = command_line(options);
+    const std::string again = command_line(request);
     require(command_line(parse_command_line(again)) == again, "a command is read as it was written");
   } catch (const Error& error) {
     // --camera and --from read a file.

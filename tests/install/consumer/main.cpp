@@ -206,11 +206,11 @@ void check_requests(const sr::Scene& scene, const std::filesystem::path& folder)
   for (const sr::FieldInfo& field : sr::Request::fields()) {
     expect(!field.help.empty() && !field.group.empty(), field.name + " says nothing");
     const std::vector<std::string> texts = request.get(field.name);
+    sr::Request again = request;  // "light" replaces suns, too
     for (std::size_t i = 0; i < texts.size(); ++i)
-      i == 0 ? request.set(field.name, texts[i]) : request.add(field.name, texts[i]);
+      i == 0 ? again.set(field.name, texts[i]) : again.add(field.name, texts[i]);
+    expect(again.get(field.name) == texts, field.name + " set to what it is is another");
   }
-  expect(request.get("sun") == same.get("sun") && request.get("samples") == same.get("samples"),
-         "setting fields to what they are changed them");
   scene.save(folder / "request.soct");
   const sr::Request whole = sr::Request(request).set("inputs", (folder / "request.soct").string());
   expect(sr::make_picture(whole).pixels == sr::render(scene, request).pixels,
