@@ -19,7 +19,7 @@ void Tracer::begin(const View& wanted, const Settings& settings) {
     throw Error(ExitCode::out_of_memory, "found an image of " + std::to_string(bytes) +
                                              " bytes, expected at most " + std::to_string(most));
   impl.start();
-  Progressive& progressive = impl.progressive;
+  GrowingPicture& progressive = impl.progressive;
   Buffer accumulation = std::move(progressive.accumulation);
   reserve_storage(runner.context, accumulation, bytes);
   progressive = {.dispatch = runner.picture_dispatch(view, settings),
@@ -31,7 +31,7 @@ void Tracer::begin(const View& wanted, const Settings& settings) {
 
 bool Tracer::advance(double wanted_ms) {
   Impl& impl = *impl_;
-  Progressive& progressive = impl.progressive;
+  GrowingPicture& progressive = impl.progressive;
   if (progressive.upload == 0 || progressive.upload != impl.uploads)
     throw Error(ExitCode::failed,
                 "advance() was called without begin() after upload(), expected an image begun");
@@ -74,7 +74,7 @@ std::uint32_t Tracer::samples() const { return impl_->progressive.samples; }
 
 Image Tracer::picture() {
   Impl& impl = *impl_;
-  const Progressive& progressive = impl.progressive;
+  const GrowingPicture& progressive = impl.progressive;
   if (progressive.upload == 0)
     throw Error(ExitCode::failed, "picture() was called without begin(), expected an image begun");
   const FrameParams& frame = progressive.dispatch.frame;

@@ -11,7 +11,7 @@
 namespace splatray {
 
 /// An image that advance() adds to, in a buffer of its own.
-struct Progressive {
+struct GrowingPicture {
   Dispatch dispatch;
   Footprint footprint;
   Buffer accumulation;         ///< means of all pixels over the samples behind those of `before`, vec4
@@ -52,7 +52,7 @@ struct Tracer::Impl {
   [[nodiscard]] std::optional<std::vector<vec4>> read_means(const Buffer& accumulation, const Tile& tile);
 
   Runner runner;
-  Progressive progressive;
+  GrowingPicture progressive;
   RenderStats stats;
   std::uint32_t uploads = 0;
 };

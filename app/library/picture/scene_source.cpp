@@ -219,7 +219,7 @@ std::optional<Environment> built_in_environment(const std::string& name) {
   const vec3 radiance(numbers[0], numbers[1], numbers[2]);
   if (!(glm::all(glm::greaterThanEqual(radiance, vec3(0.0F))) &&
         std::isfinite(radiance.x + radiance.y + radiance.z)))
-    throw Error(ExitCode::usage, "--env: found '" + name + "', expected a radiance of finite numbers >= 0");
+    throw Error(ExitCode::usage, "--environment: found '" + name + "', expected a radiance of finite numbers >= 0");
   return Environment{0, 0, {}, radiance};
 }
 
