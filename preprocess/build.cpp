@@ -19,11 +19,12 @@
 #include "engine/scene/splat.h"
 #include "engine/scene/surface.h"
 #include "preprocess/base/append.h"
-#include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
+#include "preprocess/base/stage_memory.h"
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/clouds.h"
+#include "preprocess/pack_clouds.h"
 #include "preprocess/scan/grid/pinhole.h"
 #include "preprocess/scan/scan_surface.h"
 #include "preprocess/surface/cloud.h"
@@ -45,18 +46,6 @@ constexpr std::uint32_t MOST_EQUAL = 8;  // splats with the same words that are 
 
 /// Bytes a point that stages take at once beside what is there when they begin, as measured: in their middle nobody can refuse.
 constexpr std::uint64_t SEARCH_BYTES = 39, SCAN_BYTES = 92, RADII_BYTES = 51, ORDER_BYTES = 36;
-
-/// Throws Error (out_of_memory) unless there are so many bytes and, where they are many, what threads and allocators take for
-/// themselves.
-void require_room(std::uint64_t bytes, const std::string& what) {
-  constexpr std::uint64_t SPARE = std::uint64_t{8} << 20U;
-  require_memory(bytes > SPARE / 2 ? bytes + SPARE : bytes, what);
-}
-
-/// The same of a stage that takes them at once.
-void require_stage_memory(const char* stage, std::size_t count, std::uint64_t bytes_each) {
-  require_room(count * bytes_each, "the stage '" + std::string(stage) + "' of the build");
-}
 
 void check_counts(const Input& input) {
   if (input.objects.size() > OBJECT_MASK + 1) {
@@ -184,45 +173,6 @@ RootTransform fit_root(const std::vector<Cloud>& clouds) {
   return fit_root(bounds);
 }
 
-/// The normal field of a splat that has been packed.
-std::uint32_t packed_field(const Cloud& cloud, std::size_t i, const glm::dvec3& packed_normal) {
-  const TangentFrame frame(glm::normalize(glm::dvec3(cloud.normal[i])));
-  const glm::dvec3 slope = glm::dvec3(cloud.field[i]) * static_cast<double>(cloud.radius[i]);
-  const glm::dmat3 matrix =
-      slope.x * glm::outerProduct(frame.u, frame.u) + slope.z * glm::outerProduct(frame.v, frame.v) +
-      slope.y * (glm::outerProduct(frame.u, frame.v) + glm::outerProduct(frame.v, frame.u));
-  return pack_field(matrix, packed_normal);
-}
-
-/// The clip lines of a splat that has been packed.
-std::uint32_t packed_clip(const Cloud& cloud, std::size_t i, const RootTransform& root, const uvec4& words) {
-  if (cloud.clip.empty()) return CLIP_NONE;
-  const PointClip& clip = cloud.clip[i];
-  if (cloud.radius[i] > clip.reach) return CLIP_NONE;
-  std::array<ClipEdge, 2> edges;
-  for (std::size_t line = 0; line < clip.lines(); ++line) {
-    const glm::dvec3 dir(clip.dir[line]);
-    const glm::dvec3 to_line = dir * (clip.distance[line] * cloud.half_extent_world);
-    edges[line] = {dir, root.to_root(cloud.place_world(i) + to_line)};
-  }
-  return pack_clip(words, std::span(edges).first(clip.lines()));
-}
-
-/// The same with the ellipse of a point that lies on a line.
-std::uint32_t packed_shape(const Cloud& cloud, std::size_t i, const RootTransform& root, const uvec4& words) {
-  const std::uint32_t clip = packed_clip(cloud, i, root, words);
-  if (cloud.line.empty() || !(cloud.line[i].reach > 0.0F)) return clip;
-  return pack_ellipse(words, glm::normalize(glm::dvec3(cloud.line[i].along)), cloud.line[i].aspect, clip);
-}
-
-bool all_whole(const std::vector<std::uint32_t>& clips) {
-  return std::all_of(clips.begin(), clips.end(), [](std::uint32_t clip) { return clip == CLIP_NONE; });
-}
-
-bool all_flat(const std::vector<std::uint32_t>& fields) {
-  return std::all_of(fields.begin(), fields.end(), [](std::uint32_t field) { return field == FIELD_FLAT; });
-}
-
 /// Keeps what points are part of beside their other attributes; a file's own column of that name stays.
 void add_kind_column(Cloud& cloud) {
   if (cloud.kind.empty() || cloud.columns.size() >= COLUMNS_MOST || find_column(cloud.columns, COLUMN_KIND))
@@ -251,55 +201,6 @@ void place_columns(std::vector<Column> columns, const std::vector<std::uint32_t>
   for (Column& column : columns)
     std::visit([&](auto& values) { values = gather(values, point); }, column.values);
   scene.columns = std::move(columns);
-}
-
-/// Packs all objects' points, which are then freed. Objects without colours are white where others have some;
-/// normal fields are left out where all discs are flat, clip lines where all are whole.
-SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool number_points,
-                      const Stage& stage) {
-  std::size_t total = 0;
-  bool has_colors = false;
-  bool has_fields = false;
-  bool has_clips = false;
-  for (const Cloud& cloud : clouds) {
-    total += cloud.size();
-    has_fields = has_fields || !cloud.field.empty();
-    has_clips = has_clips || !cloud.clip.empty() || !cloud.line.empty();
-    has_colors = has_colors || !cloud.color.empty();
-  }
-  SplatList splats;
-  const std::uint64_t further = has_colors + has_fields + has_clips + number_points;
-  require_stage_memory(stage.name, total,
-                       sizeof(splats.key[0]) + sizeof(splats.words[0]) + further * sizeof(std::uint32_t));
-  splats.key.resize(total);
-  splats.words.resize(total);
-  if (has_colors) splats.color.resize(total, pack_color(glm::vec3(1.0F)));
-  if (has_fields) splats.field.resize(total, FIELD_FLAT);
-  if (has_clips) splats.clip.resize(total, CLIP_NONE);
-  if (number_points) {
-    splats.point.resize(total);
-    std::iota(splats.point.begin(), splats.point.end(), 0U);
-  }
-  std::size_t first = 0;
-  for (std::uint32_t object = 0; object < clouds.size(); ++object) {
-    const Cloud cloud = std::move(clouds[object]);
-    parallel_each(stage, cloud.size(), [&](std::size_t i) {
-      const double radius = cloud.radius[i] * cloud.half_extent_world / root.unit_world;
-      const uvec4 words = pack_splat({root.to_root(cloud.place_world(i)),
-                                      glm::normalize(glm::dvec3(cloud.normal[i])), radius * radius, object});
-      const Splat splat = unpack_splat(words);
-      splats.words[first + i] = words;
-      splats.key[first + i] = morton_key(glm::uvec3(splat.center));
-      if (!cloud.field.empty()) splats.field[first + i] = packed_field(cloud, i, splat.normal);
-      if (has_clips) splats.clip[first + i] = packed_shape(cloud, i, root, words);
-    });
-    std::copy(cloud.color.begin(), cloud.color.end(),
-              splats.color.begin() + static_cast<std::ptrdiff_t>(cloud.color.empty() ? 0 : first));
-    first += cloud.size();
-  }
-  if (all_flat(splats.field)) splats.field.clear();
-  if (all_whole(splats.clip)) splats.clip.clear();
-  return splats;
 }
 
 /// An octree and what its leaves list.

@@ -1,5 +1,8 @@
 /// splatray-scan-table [FOLDER [NAME]]: what preprocess makes of scans whose truth is known, a line each: of simulated ones,
-/// and of those of a data folder (SPLATRAY_DATA_DIR where none is named); only those whose names hold NAME.
+/// and of those of a data folder (SPLATRAY_DATA_DIR where none is named); only those whose names hold NAME. M/cpus: million points
+/// a second of processor time.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -88,6 +91,16 @@ Scores score(const SimulatedScan& scan, const Scene& scene) {
   return scores;
 }
 
+/// Seconds of processor time that this process has taken.
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 std::string rung_of(const BuildStats& stats) {
   for (std::size_t rung = 0; rung < SIDE_RUNGS; ++rung)
     if (stats.sides_by[rung] > 0) return std::string(name_of(static_cast<SideRung>(rung)));
@@ -105,13 +118,16 @@ void measure(ScanCase scan_case) {
   input.objects.push_back(std::move(object));
   input.up = scan_case.up;
   BuildStats stats;
+  const double before = processor_seconds();
   const Scene scene = build_scene(std::move(input), {}, 0, stats);
+  const double million_a_second =
+      1e-6 * static_cast<double>(scan_case.scan.size()) / (processor_seconds() - before);
   const Scores scores = score(scan_case.scan, scene);
-  std::printf("%-36s %8zu  %5.2f %6.1f  %6.2f %6.2f  %-6s %7.3f %7llu  %6.2f %6.2f  %6.3f %8.2f",
+  std::printf("%-36s %8zu  %5.2f %6.1f  %6.2f %6.2f  %-6s %7.3f %7llu  %6.2f %6.2f  %6.3f %8.2f %6.2f",
               scan_case.name.c_str(), scan_case.scan.size(), scores.lost_percent, scores.found_percent,
               scores.axis_median_deg, scores.axis_p95_deg, rung_of(stats).c_str(), scores.sides_percent,
               static_cast<unsigned long long>(stats.sides_unsure), scores.surface_percent,
-              scores.leaves_percent, stats.noise, stats.total_ms / 1e3);
+              scores.leaves_percent, stats.noise, stats.total_ms / 1e3, million_a_second);
   if (scan_case.mesh != nullptr) {
     const PictureErrors errors = picture_errors(scene, *scan_case.mesh, PIXELS);
     std::printf("  %6.2f %6.2f %9.2e %7.3f %7.3f", errors.normal_p95_deg, errors.normal_p99_deg,
@@ -132,9 +148,9 @@ void measure(ScanCase scan_case) {
 
 int main(int argc, char** argv) {
   using namespace splatray::testing;
-  std::printf("%-36s %8s  %5s %6s  %6s %6s  %-6s %7s %7s  %6s %6s  %6s %8s  %6s %6s %9s %7s %7s\n", "scan",
-              "points", "lost%", "found%", "axis50", "axis95", "sides", "right%", "unsure", "surf%", "leaf%",
-              "noise", "build s", "n95", "n99", "depth95", "beyond%", "holes%");
+  std::printf("%-36s %8s  %5s %6s  %6s %6s  %-6s %7s %7s  %6s %6s  %6s %8s %6s  %6s %6s %9s %7s %7s\n",
+              "scan", "points", "lost%", "found%", "axis50", "axis95", "sides", "right%", "unsure", "surf%",
+              "leaf%", "noise", "build s", "M/cpus", "n95", "n99", "depth95", "beyond%", "holes%");
   const std::string wanted = argc > 2 ? argv[2] : "";
   const auto measure_all = [&](std::vector<ScanCase> cases) {
     for (ScanCase& scan_case : cases)

@@ -52,7 +52,7 @@ void show_as_asked(const Request& request, LoadedScene& loaded);
 
 /// The up direction: --up, else the scene's.
 [[nodiscard]] glm::dvec3 choose_up(const Scene& scene, const Request& request);
-/// The environment's name: --env, else what the scene names; empty = none.
+/// The environment's name: --environment, else what the scene names; empty = none.
 [[nodiscard]] std::string choose_environment_name(const Scene& scene, const Request& request);
 
 /// The request that makes a light.
@@ -61,7 +61,7 @@ void show_as_asked(const Request& request, LoadedScene& loaded);
 /// The environment of a name that needs no file: white, black, studio or r,g,b, empty = studio; nothing for other names.
 /// Throws Error (usage) for a radiance that is negative or not finite.
 [[nodiscard]] std::optional<Environment> built_in_environment(const std::string& name);
-/// The environment `name` of --env: a file, white, black, studio, r,g,b; empty = studio. Throws Error
+/// The environment `name` of --environment: a file, white, black, studio, r,g,b; empty = studio. Throws Error
 /// (input_unreadable).
 [[nodiscard]] Environment choose_environment(const std::string& name);
 

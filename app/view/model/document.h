@@ -38,7 +38,7 @@ struct Document {
   std::shared_ptr<const LoadedPart> loaded = std::make_shared<const LoadedPart>();  ///< shared by all copies
   ObjectLooks looks;  ///< as shown; hidden objects have MATERIAL_HIDDEN
   std::vector<SceneLight> lights;
-  std::string environment;  ///< as --env has it
+  std::string environment;  ///< as --environment has it
   Camera camera;
   Settings settings;  ///< samples: where a still picture stops
   double exposure_ev = 0.0;

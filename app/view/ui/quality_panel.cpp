@@ -24,7 +24,7 @@ void choice(const char* label, std::uint32_t& value, const std::array<const char
     value = static_cast<std::uint32_t>(index);
 }
 
-/// The text of --env, taken over when it is complete.
+/// The text of --environment, taken over when it is complete.
 void environment_text(std::string& environment) {
   std::string text = environment;
   if (ImGui::InputTextWithHint("map", "file, name or r,g,b", &text, ImGuiInputTextFlags_EnterReturnsTrue))
