@@ -71,7 +71,7 @@ TEST_F(CliOptions, NonsenseIsRefused) {
 TEST_F(CliOptions, MissingPartsAreRefused) {
   const std::string grid = write("grid.ply", grid_ply(true));
   expect_refused([&] { return render({grid, "--eye=1,2,3", "--target=1,2,3"}); }, 2, "eye is its target");
-  expect_refused([&] { return render({grid, "--eye=9,9,9", "--up=0,0,0"}); }, 2, "up is zero");
+  expect_refused([&] { return render({grid, "--eye=9,9,9", "--up=0,0,0"}); }, 2, "--up");
   expect_refused([&] { return run_program({RENDER}); }, 2, "no SCENE");
   expect_refused([&] { return render({grid, "--denoise", "--samples=1"}); }, 2, "--denoise with one sample");
   expect_refused(

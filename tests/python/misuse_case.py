@@ -31,9 +31,9 @@ class Misuse(unittest.TestCase):
             self.refused(TypeError, sr.points, bad)
         for name, bad in (("normals", xyz[:5]), ("normals", xyz.ravel()), ("colors", xyz[:, :2]), ("colors", xyz * NAN), ("radii", xyz),
                           ("radii", np.ones(3)), ("radius_scale", 0.0), ("radius_scale", NAN), ("up", (0, 0, 0)), ("up", (0, NAN, 1)),
-                          ("threads", -1), ("threads", 10**9)):
+                          ("threads", -1), ("threads", 10**9), ("up", "z")):
             self.refused(ValueError, sr.points, xyz, **{name: bad})
-        for name, bad in (("normals", "a"), ("threads", 1.5), ("material", "gold"), ("progress", 3), ("name", 4), ("up", "z")):
+        for name, bad in (("normals", "a"), ("threads", 1.5), ("material", "gold"), ("progress", 3), ("name", 4)):
             self.refused(TypeError, sr.points, xyz, **{name: bad})
 
     def test_colors_of_other_kinds(self):

@@ -68,7 +68,9 @@ Field up_row() {
   return value_row(
       "up", CAMERA, "X,Y,Z", "up direction of the scene, its environment and the camera; default the scene's",
       [](Request& request, const std::string& text) {
-        request.look.up = read_vector(text);
+        const glm::dvec3 up = read_vector(text);
+        if (up == glm::dvec3(0.0)) throw Expected{"a direction other than 0,0,0"};
+        request.look.up = up;
         request.view.camera_up.reset();
       },
       [](const Request& request) { return request.look.up ? number_text(*request.look.up) : ""; });

@@ -22,7 +22,9 @@ def text_of(name: str, value: Any) -> str:
     if isinstance(value, (bool, np.bool_)):
         return "on" if value else "off"
     kind, words = FIELDS[name].kind, FIELDS[name].value
-    if isinstance(value, str) and kind == "text":
+    if isinstance(value, str):
+        if kind != "text":
+            raise TypeError(f"{name}: found {value!r}, expected a number")
         return value
     if isinstance(value, os.PathLike):
         return _check.path(name, value)
@@ -30,8 +32,6 @@ def text_of(name: str, value: Any) -> str:
         return SEPARATORS.get(name, ",").join(text_of(name, item) for item in value)
     if kind == "text" and ("FILE" in words or "NAME" in words):
         raise TypeError(f"{name}: found {value!r}, expected a text such as {words}")
-    if isinstance(value, str):
-        raise TypeError(f"{name}: found {value!r}, expected a number")
     number = _check.number(name, value)
     if kind == "whole":
         return str(_check.whole(name, value, int(FIELDS[name].least), int(FIELDS[name].most)))
