@@ -27,7 +27,7 @@ def entries(lines):
 
 def sections(text):
     """The first sentence, the usage and, by their titles, the other parts of a help text."""
-    head, *parts = re.split(r"\n\n", text.strip("\n"))
+    head, *parts = re.split(r"\n\n+", text.strip("\n"))
     summary, usage = re.match(r"(.*)\nUsage: (.*)", head, re.DOTALL).groups()
     return summary, usage, {part.split("\n")[0].rstrip(":"): entries(part.split("\n")[1:]) for part in parts}
 
