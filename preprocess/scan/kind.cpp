@@ -87,7 +87,7 @@ void make_scatter_discs(Cloud& cloud, const Survey& survey, const glm::dvec3& up
                  static_cast<double>(Survey::LISTED) * glm::dvec3(cloud.coord[listed[k]] - cloud.coord[i]);
     }
     const float usual = median_of(std::span<float>(rings));
-    cloud.radius_most[i] = BESIDE_SCATTER * usual;
+    cloud.radius_most[i] = std::min(cloud.radius_most[i], BESIDE_SCATTER * usual);
     if (cloud.on_surface(i)) return;
     cloud.radius[i] = share * std::min(ring[i], USUAL * usual);
     const glm::dvec3 normal = unit_or_zero(UPWARDS * up - unit_or_zero(inwards));

@@ -21,6 +21,29 @@ struct LaneSums {
   }
 };
 
+/// Sums c[0] + c[1] x + ... (Horner's rule).
+template <std::size_t COUNT>
+double polynomial(const double (&c)[COUNT], double x) {
+  double sum = c[COUNT - 1];
+  for (std::size_t i = COUNT - 1; i-- > 0;) sum = sum * x + c[i];
+  return sum;
+}
+
+/// Cosine and sine of a third of an angle between 0 and half a turn, given its cosine, to 4e-9. With s, the cosine of half the
+/// angle, they are cos(2/3 acos s) and sin(2/3 acos s); the first, and the second over the root of 1 - s, are smooth, so that
+/// polynomials (at Chebyshev's nodes) do.
+std::array<double, 2> third_of(double cosine) {
+  static constexpr double COSINE[] = {0.5000000033,  0.5773497198,   -0.1110956833,
+                                      0.05328865599, -0.0319612954,  0.01967571807,
+                                      -0.0103254929, 0.003707686365, -0.0006393143375};
+  static constexpr double SINE[] = {0.866025405,     0.09967915766,  -0.03435130508,
+                                    0.01847848993,   -0.01161663884, 0.007319808831,
+                                    -0.003887509444, 0.001404662775, -0.0002430302127};
+  const double s = std::sqrt(0.5 * (1.0 + cosine));
+  const double beyond = 0.5 * (1.0 - cosine) / (1.0 + s);  // 1 - s
+  return {polynomial(COSINE, s), std::sqrt(beyond) * polynomial(SINE, s)};
+}
+
 }  // namespace
 
 SPLATRAY_VECTOR_CLONES Covariance covariance_of(const Offsets& offsets, std::size_t count) {
@@ -53,10 +76,7 @@ glm::dvec3 variances_of(const Covariance& covariance) {
   if (!(p > 0.0)) return glm::dvec3(mean);
   const double determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
   const double cosine = std::clamp(determinant / (2.0 * p * p * p), -1.0, 1.0);  // of three times the angle
-  // float32 from here: the sine keeps small angles, and where it does not, eigenvalues do not depend on them.
-  const float angle =
-      std::atan2(static_cast<float>(std::sqrt(1.0 - cosine * cosine)), static_cast<float>(cosine)) / 3.0F;
-  const double along = std::cos(angle), across = std::sin(angle);
+  const auto [along, across] = third_of(cosine);
   const double largest = mean + 2.0 * p * along;
   const double least = mean - p * (along + std::numbers::sqrt3 * across);
   return {std::max(least, 0.0), std::max(3.0 * mean - largest - least, 0.0), largest};

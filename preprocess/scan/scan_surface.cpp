@@ -1,6 +1,7 @@
 #include "preprocess/scan/scan_surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "preprocess/scan/grid/grid_surface.h"
 #include "preprocess/scan/kind.h"
@@ -51,7 +52,8 @@ void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, Bui
   cloud.kind = find_kinds(cloud, survey);
   if (!cloud.kind.empty() && !cloud.line.empty())
     for (std::size_t i = 0; i < cloud.size(); ++i)
-      if (cloud.line[i].reach > 0.0F || cloud.line[i].most > 0.0F) cloud.kind[i] = ScanKind::surface;
+      if (cloud.line[i].reach > 0.0F || std::isfinite(cloud.radius_most[i]))
+        cloud.kind[i] = ScanKind::surface;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (survey.estimated[i] == 0) continue;
     ++stats.kinds[static_cast<std::size_t>(cloud.kind.empty() ? ScanKind::surface : cloud.kind[i])];

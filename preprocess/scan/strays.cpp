@@ -34,10 +34,11 @@ float median(std::vector<float>& values) { return values.empty() ? 0.0F : median
 /// Points that have no neighbour as near as their neighbours have.
 void mark_isolated(const Survey& survey, std::vector<Stray>& strays) {
   tbb::parallel_for(std::size_t{0}, strays.size(), [&](std::size_t i) {
-    std::array<float, Survey::LISTED> around;
-    for (std::size_t j = 0; j < around.size(); ++j) around[j] = survey.reach[survey.around(i)[j]];
-    std::nth_element(around.begin(), around.begin() + LEAST_RANK, around.end());
-    if (survey.reach[i] > APART * around[LEAST_RANK]) strays[i] = Stray::isolated;
+    // Whether that holds of the neighbour of LEAST_RANK: of more than so many.
+    std::size_t closer = 0;
+    for (const std::uint32_t j : survey.around(i))
+      closer += survey.reach[i] > APART * survey.reach[j] ? 1 : 0;
+    if (closer > LEAST_RANK) strays[i] = Stray::isolated;
   });
 }
 

@@ -28,9 +28,9 @@ constexpr float TOGETHER = 0.3F;   // extent of rough points that share a wider 
 constexpr double FLATTER = 0.5;    // roughness of a wider one that is better, over that
 constexpr double DRAWN_OUT = 0.3;  // second deviation / first: below this a neighbourhood tells of no surface
 constexpr std::size_t KIND_STRIDE =
-    STRIDES[0];  // of the wider neighbourhoods that tell what points are part of
-constexpr std::array<std::size_t, 2> KIND_SIZES{16, 32};  // and what is looked at of them
-constexpr float THICK = 1.0F;                             // flatness that tells of no line and no surface
+    STRIDES[0];                   // of the wider neighbourhoods that tell what points are part of
+constexpr std::size_t HALF = 16;  // of their places, that are looked at beside all
+constexpr float THICK = 1.0F;     // flatness that tells of no line and no surface
 constexpr double THICKER =
     1.4;  // deviation across a wider one that is still the noise of a surface, over that of 32
 
@@ -77,11 +77,11 @@ Offsets offsets_of(const Cloud& cloud, const glm::vec3& place, std::span<const N
   return offsets;
 }
 
-/// The plane of the whole neighbourhood where that is flat, else of the part with the least entropy; the roughness is the
+/// The plane of the `whole` neighbourhood where that is flat, else of the part with the least entropy; the roughness is the
 /// whole's.
-Plane best_plane(const Offsets& offsets) {
-  Covariance best = covariance_of(offsets, offsets.count);
-  glm::dvec3 variances = variances_of(best);
+Plane best_plane(const Offsets& offsets, const Covariance& whole, const glm::dvec3& its_variances) {
+  Covariance best = whole;
+  glm::dvec3 variances = its_variances;
   Plane plane{{}, roughness_of(variances), flatness_of(variances), std::sqrt(variances.x)};
   if (plane.flatness == std::numeric_limits<float>::infinity())
     plane.thickness = plane.flatness;  // one line of a scanner tells nothing of what is across
@@ -152,15 +152,8 @@ struct Rough {
   std::vector<float> roughness, thickness;  ///< of each point's plane
 };
 
-/// The variances of wider neighbourhoods that tell what points are part of.
-using WideVariances = std::array<glm::dvec3, KIND_SIZES.size()>;
-
-WideVariances wide_variances(const Offsets& offsets) {
-  WideVariances variances;
-  for (std::size_t n = 0; n < variances.size(); ++n)
-    variances[n] = variances_of(covariance_of(offsets, std::min(KIND_SIZES[n], offsets.count)));
-  return variances;
-}
+/// The variances of wider neighbourhoods that tell what points are part of: of HALF the places, and of all.
+using WideVariances = std::array<glm::dvec3, 2>;
 
 /// Survey::flatness with those of wider neighbourhoods that are hardly thicker than `thickness`; of a line only where the first
 /// of them is none.
@@ -190,8 +183,10 @@ void look_wider(Cloud& cloud, std::size_t stride, Survey& survey, Rough& of, con
   };
   const auto try_plane = [&](std::uint32_t n, std::span<const Neighbour> nearest) {
     const Offsets offsets = offsets_of(thin, bunches[n].middle, nearest);
-    const Plane plane = best_plane(offsets);
-    const WideVariances variances = kinds ? wide_variances(offsets) : WideVariances{};
+    const Covariance whole = covariance_of(offsets, offsets.count);
+    WideVariances variances{glm::dvec3(0.0), variances_of(whole)};
+    const Plane plane = best_plane(offsets, whole, variances[1]);
+    if (kinds) variances[0] = variances_of(covariance_of(offsets, std::min(HALF, offsets.count)));
     for (std::uint32_t r = bunches[n].begin; r < bunches[n].end; ++r) {
       const std::uint32_t i = rough[r];
       if (kinds) survey.flatness[i] = wide_flatness(survey.flatness[i], variances, of.thickness[i]);
@@ -221,7 +216,9 @@ void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& sur
     survey.wide[i] = nearest.size() == Survey::WIDE ? std::sqrt(nearest.back().distance_squared())
                                                     : EVEN * survey.reach[i];
     if (survey.estimated[i] == 0) return;
-    const Plane plane = best_plane(offsets_of(cloud, cloud.coord[i], nearest));
+    const Offsets offsets = offsets_of(cloud, cloud.coord[i], nearest);
+    const Covariance whole = covariance_of(offsets, offsets.count);
+    const Plane plane = best_plane(offsets, whole, variances_of(whole));
     rough.roughness[i] = static_cast<float>(plane.roughness);
     rough.thickness[i] = static_cast<float>(plane.thickness);
     survey.flatness[i] = plane.flatness;

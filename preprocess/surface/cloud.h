@@ -19,7 +19,6 @@ struct PointLine {
   glm::vec3 along{0.0F};  ///< the short axis of its splat, unit
   float aspect = 1.0F;    ///< half a splat's length over half its width
   float reach = 0.0F;     ///< half its length, across the line, to meet those of the next; 0 = a disc
-  float most = 0.0F;      ///< bounds a disc's radius; 0 = nothing does
 };
 
 /// Points of one object. All arrays that are not empty have the same length. Order: Morton key of the
@@ -30,17 +29,17 @@ struct Cloud {
   std::vector<glm::dvec3> position;  ///< world units; empty = as `coord` says
   std::vector<glm::vec3> coord;   ///< (position - center) / half_extent in [-1, 1], multiples of COORD_STEP
   std::vector<glm::vec3> normal;  ///< unit; zero = unknown
-  std::vector<std::uint32_t> color;    ///< pack_color; empty = none
-  std::vector<float> radius;           ///< in units of half_extent_world; zero = unknown; empty = all are
-  std::vector<glm::vec3> field;        ///< normal field: uu, uv, vv of the change of the unit normal per
-                                       ///< half_extent_world in TangentFrame(normal); empty = all flat
-  std::vector<PointClip> clip;         ///< in units of half_extent_world; empty = the surface ends nowhere
-  std::vector<PointLine> line;         ///< in units of half_extent_world; empty = no point is on a line
-  std::vector<ScanKind> kind;          ///< of points that were measured; empty = all are of surfaces
-  std::vector<float> radius_most;      ///< of unknown radii, in units of half_extent_world; empty = no limit
-  std::vector<Column> columns;         ///< further attributes
-  std::vector<Station> stations;       ///< where the points were measured from; empty = not known
-  std::vector<std::uint16_t> station;  ///< indices into `stations`; empty = all points are of the first
+  std::vector<std::uint32_t> color;      ///< pack_color; empty = none
+  std::vector<float> radius;             ///< in units of half_extent_world; zero = unknown; empty = all are
+  std::vector<glm::vec3> field;          ///< normal field: uu, uv, vv of the change of the unit normal per
+                                         ///< half_extent_world in TangentFrame(normal); empty = all flat
+  std::vector<PointClip> clip;           ///< in units of half_extent_world; empty = the surface ends nowhere
+  std::vector<PointLine> line;           ///< in units of half_extent_world; empty = no point is on a line
+  std::vector<ScanKind> kind;            ///< of points that were measured; empty = all are of surfaces
+  std::vector<float> radius_most;        ///< of unknown radii, the same units; empty or infinite = no limit
+  std::vector<Column> columns;           ///< further attributes
+  std::vector<Station> stations;         ///< where the points were measured from; empty = not known
+  std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< Points::grid_cell
   std::vector<TrackPlace> track;         ///< Points::track
   bool ends_known = false;               ///< the surface ends, or has a crease, only where `clip` says so

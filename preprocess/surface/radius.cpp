@@ -32,6 +32,8 @@ constexpr double NOISE_REACH = 4.0;      // of a noisy sheet's disc, in standard
 constexpr double NOISE_LIMIT = 2.0;      // the same at most, in units of the disc that covers
 constexpr float STRAY = 4.0F;            // largest radius in units of the surroundings' median
 constexpr std::size_t SURROUNDING = 16;  // neighbours that tell what distance is usual around a point
+// Of their squared distances over that of the RING-th on a surface, with some room.
+constexpr float SURROUNDING_OVER_RING = 1.3F * SURROUNDING / RING;
 constexpr float USUAL = 2.0F;   // most of it that a disc of an open cell follows, in units of their median
 constexpr float CLOSED = 2.2F;  // radius of a closed cell, at most, in units of it: no even sample has more
 
@@ -173,29 +175,30 @@ void look_further(Cloud& cloud, const NeighbourSearch& search, Rings& rings, con
 
 /// Keeps discs to the distances that are usual around them, those of open cells, whose reach nothing bounds, the most: none
 /// spans a hole of the scan.
-void bound_wide(Cloud& cloud, const NeighbourSearch& search, const Rings& rings) {
-  tbb::parallel_for(std::size_t{0}, rings.size(), [&](std::size_t i) {
-    const float ring = std::abs(rings[i]);
-    const bool open = rings[i] < 0.0F;
-    if (!open && cloud.radius[i] <= CLOSED * ring) return;
-    std::array<Neighbour, SURROUNDING> nearest;
-    std::array<float, SURROUNDING> around;
-    const std::size_t found = search.find(cloud.coord[i], nearest);
-    for (std::size_t j = 0; j < found; ++j) around[j] = std::abs(rings[nearest[j].index()]);
-    const float usual = found > 0 ? median_of(std::span(around).first(found)) : 0.0F;
-    if (!(usual > 0.0F)) return;
-    if (!open) {
-      cloud.radius[i] = std::min(cloud.radius[i], CLOSED * std::max(ring, usual));
-    } else if (ring > USUAL * usual) {
-      cloud.radius[i] = std::min(cloud.radius[i], static_cast<float>(KNN_FACTOR) * USUAL * usual);
-    }
+void bound_wide(Cloud& cloud, const NeighbourSearch& search, const Rings& rings, const Stage& stage) {
+  // What is on no surface has its disc already.
+  const auto wide = numbers_where(rings.size(), [&](std::size_t i) {
+    return cloud.on_surface(i) && (rings[i] < 0.0F || cloud.radius[i] > CLOSED * rings[i]);
   });
-}
-
-/// Keeps discs among lines to what lies between these.
-void bound_by_rings(Cloud& cloud, const std::vector<std::uint32_t>& computed) {
-  for (const std::uint32_t i : computed)
-    if (cloud.line[i].most > 0.0F) cloud.radius[i] = std::min(cloud.radius[i], cloud.line[i].most);
+  const auto query = [&](std::uint32_t n) -> NeighbourSearch::Query {
+    const float reach = rings[wide[n]] == 0.0F ? cloud.radius[wide[n]] : rings[wide[n]];
+    return {cloud.coord[wide[n]], SURROUNDING_OVER_RING * reach * reach,
+            std::numeric_limits<float>::infinity()};
+  };
+  search.find_each(
+      wide.size(), query, SURROUNDING, stage, [&](std::uint32_t n, std::span<Neighbour> nearest) {
+        const std::uint32_t i = wide[n];
+        const float ring = std::abs(rings[i]);
+        std::array<float, SURROUNDING> around;
+        for (std::size_t j = 0; j < nearest.size(); ++j) around[j] = std::abs(rings[nearest[j].index()]);
+        const float usual = nearest.empty() ? 0.0F : median_of(std::span(around).first(nearest.size()));
+        if (!(usual > 0.0F)) return;
+        if (!(rings[i] < 0.0F)) {
+          cloud.radius[i] = std::min(cloud.radius[i], CLOSED * std::max(ring, usual));
+        } else if (ring > USUAL * usual) {
+          cloud.radius[i] = std::min(cloud.radius[i], static_cast<float>(KNN_FACTOR) * USUAL * usual);
+        }
+      });
 }
 
 /// Keeps stray points from covering the scene with discs as wide as their distance to it.
@@ -244,10 +247,9 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
     } else {
       parallel_each(stage, cloud.size(), [&](std::size_t i) { fill(static_cast<std::uint32_t>(i), {}); });
     }
-    if (sheets) bound_wide(cloud, *sheets, rings);
+    if (sheets) bound_wide(cloud, *sheets, rings, stage);
     for (const std::uint32_t i : cloud.radius_most.empty() ? std::vector<std::uint32_t>{} : unknown)
       cloud.radius[i] = std::min(cloud.radius[i], cloud.radius_most[i]);
-    if (!cloud.line.empty()) bound_by_rings(cloud, unknown);
     if (!unknown.empty()) bound_strays(cloud, knn ? *places : *sheets, unknown);
   }
   tbb::parallel_for(std::size_t{0}, cloud.size(),

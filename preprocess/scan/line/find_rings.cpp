@@ -253,7 +253,6 @@ std::optional<Sweep> find_rings(const Cloud& cloud, const std::vector<std::uint3
 
 void settle_rest(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points,
                  const Sweep& sweep, bool bound, std::vector<LinePlace>& places) {
-  if (bound) cloud.line.resize(cloud.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t n) {
     const std::uint32_t i = points[n];
     const glm::vec3 to_sensor(sweep.sensor - glm::dvec3(cloud.coord[i]));
@@ -266,7 +265,7 @@ void settle_rest(Cloud& cloud, const Survey& survey, const std::vector<std::uint
     if (!bound || cloud.line[i].reach > 0.0F) return;
     const float sine = plane ? std::max(std::abs(glm::dot(normal, sight)), SIGHT) : 1.0F;
     const float most = COVERS_GAP * static_cast<float>(sweep.gap) * range / sine;
-    cloud.line[i].most = plane ? std::min(most, cloud.line[i].most) : most;
+    cloud.radius_most[i] = std::min(most, cloud.radius_most[i]);
   });
 }
 

@@ -84,12 +84,12 @@ glm::vec3 normal_of(const LinePlace& place, const LinePlane& plane, const glm::v
   return glm::dot(normal, before) < 0.0F ? -normal : normal;
 }
 
-/// The splat of a point on a line: long across to the next lines, however those are turned.
+/// The splat of a point on a line: long across to the next lines, however those are turned; a disc where these are near.
 PointLine ellipse_of(const LinePlace& place, const LinePlane& plane, const glm::vec3& normal) {
   const float way = std::max(plane.ways[0], plane.ways[1]);
   const glm::vec3 short_axis = glm::normalize(glm::cross(normal, plane.across));
   const float step = place.step * std::abs(glm::dot(short_axis, place.along));
-  if (!(way >= LEAST_LINE_ASPECT * step) || step == 0.0F) return {.most = COVERS * std::max(way, place.step)};
+  if (!(way >= LEAST_LINE_ASPECT * step) || step == 0.0F) return {};
   return {short_axis, COVERS * way / (COVERS_ALONG * step), COVERS * way};
 }
 
@@ -183,12 +183,16 @@ void join_lines(Cloud& cloud, const Survey& survey, bool ellipses, std::vector<L
   if (!ellipses) return;
   cloud.line.resize(cloud.size());
   cloud.clip.resize(cloud.size());
+  cloud.radius_most.resize(cloud.size(), std::numeric_limits<float>::infinity());
   const std::vector<float> widths = run_widths(cloud, places);
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
     if (!places[i].plane) return;
     for (float& way : planes[i].ways) way = std::min(way, MOST_SLIM * widths[i]);
     cloud.line[i] = ellipse_of(places[i], planes[i], cloud.normal[i]);
-    if (cloud.line[i].reach > 0.0F) cloud.clip[i] = end_of(planes[i], cloud.normal[i]);
+    if (cloud.line[i].reach > 0.0F)
+      cloud.clip[i] = end_of(planes[i], cloud.normal[i]);
+    else
+      cloud.radius_most[i] = COVERS * std::max({planes[i].ways[0], planes[i].ways[1], places[i].step});
   });
 }
 

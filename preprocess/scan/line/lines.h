@@ -33,8 +33,8 @@ struct LinePlace {
 [[nodiscard]] std::vector<LinePlace> find_lines(const Cloud& cloud, const Survey& survey, const Stage& stage);
 
 /// Lays a surface through lines that go on straight from one to the next: its normal, where that was estimated from one line
-/// alone, and with `ellipses` Cloud::line, and clip lines where the surface is known on one side alone or lines are closer
-/// there. Lines whose neighbours tell of no surface stay as they are.
+/// alone, and with `ellipses` Cloud::line, Cloud::radius_most of discs, and clip lines where the surface is known on one side
+/// alone or lines are closer there. Lines whose neighbours tell of no surface stay as they are.
 void join_lines(Cloud& cloud, const Survey& survey, bool ellipses, std::vector<LinePlace>& places);
 
 /// The scanner's place, cloud coordinates: where all steps along the lines are seen under the same angle, as those of a spinning
@@ -57,7 +57,7 @@ struct Sweep {
                                               const glm::dvec3& sensor, std::vector<LinePlace>& places);
 
 /// Of a sweep's points that lie on no surface through lines: makes normals face the scanner that noise has put along the line of
-/// sight, and, where `bound`, bounds discs by the way to the next ring.
+/// sight, and, where `bound`, bounds discs by the way to the next ring (Cloud::radius_most, which join_lines has made).
 void settle_rest(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points,
                  const Sweep& sweep, bool bound, std::vector<LinePlace>& places);
 
