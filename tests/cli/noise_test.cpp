@@ -36,8 +36,9 @@ class CliNoise : public CliTest {
 
 /// How two pictures with independent noise differ where the scan is, in the middle of them.
 struct Noise {
-  double deviation = 0.0;      ///< of one of them, of 255 levels
-  double visible_share = 0.0;  ///< of the pixels, that are more than 6 levels apart; a hundredth is asked for and missed
+  double deviation = 0.0;  ///< of one of them, of 255 levels
+  /// Of the pixels, that are more than 6 levels apart: 2.6 % at this size, 0.55 % at 1280x720, which takes too long here.
+  double visible_share = 0.0;
 };
 
 Noise noise_between(const DisplayImage& a, const DisplayImage& b) {
