@@ -36,6 +36,7 @@ TEST(LoadScene, NobodyNeedsToListen) {
   std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 1\n";
   Request request;
   request.source.inputs = {path};
+  request.source.params.samples = 400;
   const LoadedScene loaded = load_scene(request, {});
   EXPECT_GT(loaded.scene.data_pool.size(), 0U);
   write_scene(loaded.scene, scene_path);

@@ -43,11 +43,13 @@ TEST(PlyScan, AttributesBecomeColumns) {
 
 TEST(PlyScan, MeshesHaveNoColumns) {
   const TempFolder folder;
+  ReadOptions few;
+  few.samples = 50;
   const Input input =
       read_input({folder.write("m.ply", ply("comment sensor 0 0 1\n", "property float confidence\n",
                                             "element face 1\nproperty list uchar int vertex_indices\n",
                                             "0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n"))},
-                 {});
+                 few);
   EXPECT_TRUE(input.objects.at(0).points.columns.empty());
   EXPECT_TRUE(input.objects[0].points.stations.empty());
   EXPECT_TRUE(has_note(input, "skipped vertex properties 'confidence'"));
