@@ -161,8 +161,8 @@ TEST(Gltf, AnyShareOfTransmissionIsKept) {
     const std::string more =
         R"(,"materials":[{"extensions":{"KHR_materials_transmission":{"transmissionFactor":)" + share +
         "}}}]";
-    const Input input =
-        read_input({folder.write("t.gltf", embedded(R"({"mesh":0})", more, R"(,"material":0)"))}, keeping_meshes());
+    const Input input = read_input(
+        {folder.write("t.gltf", embedded(R"({"mesh":0})", more, R"(,"material":0)"))}, keeping_meshes());
     EXPECT_EQ(input.objects[0].material.flags, MATERIAL_DIELECTRIC);
     ASSERT_TRUE(input.objects[0].surface.has_value());
     EXPECT_FLOAT_EQ(input.objects[0].surface->transmission, std::stof(share));
