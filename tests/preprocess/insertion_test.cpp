@@ -69,7 +69,9 @@ SplatList surface_splats(std::size_t count, double least, double most) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   SplatList splats;
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random)));
+    const double z = gauss(random), y = gauss(random),
+                 x = gauss(random);  // in this order with every compiler
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(x, y, z));
     const double radius = least * std::pow(most / least, unit(random));
     const glm::dvec3 center =
         glm::round(1048576.0 + normal * (700000.0 + 20000.0 * std::sin(9.0 * normal.x)));
