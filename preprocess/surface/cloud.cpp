@@ -70,7 +70,9 @@ void normalise_coordinates(Cloud& cloud, const Bounds& bounds) {
   cloud.center_world = 0.5 * (bounds.low + bounds.high);
   const glm::dvec3 half = 0.5 * (bounds.high - bounds.low);
   const double longest = std::max({half.x, half.y, half.z});
-  cloud.half_extent_world = longest > 0.0 ? longest : 1.0;
+  // Points that lie no farther apart than this are at one place: smaller numbers have no inverse.
+  constexpr double LEAST_EXTENT = 1e-150;
+  cloud.half_extent_world = longest > LEAST_EXTENT ? longest : 1.0;
   find_coordinates(cloud);
   const auto unit = static_cast<float>(1.0 / cloud.half_extent_world);
   for (PointClip& clip : cloud.clip) clip.distance[0] *= unit, clip.distance[1] *= unit, clip.reach *= unit;

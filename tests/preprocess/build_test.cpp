@@ -338,6 +338,15 @@ TEST(Build, ProgressCanStopItInEveryStage) {
   }
 }
 
+TEST(Build, PointsADenormalApartAreAtOnePlace) {
+  InputObject object;
+  object.points.position = {{0.0, 0.0, 0.0}, {1e-320, 0.0, 0.0}};
+  BuildStats stats;
+  const Scene scene = build_scene(test::input_of(object), {}, 0, stats);
+  ASSERT_GT(scene.data_pool.size(), 0U);
+  for (const uvec4& words : scene.data_pool) EXPECT_TRUE(std::isfinite(unpack_splat(words).radius_squared));
+}
+
 /// Leaves the process so many more bytes of address space: as a control group that is nearly full, but for the kill.
 void leave_room(std::uint64_t bytes) {
   std::uint64_t pages = 0;
