@@ -90,12 +90,7 @@ TEST(ViewFields, WhatIsAskedForIsWhatIsShownAndSaved) {
     assign(asked, values, DOOR_VIEW);
     const Request made = is_of_files(field) ? save_job(loaded(scene), asked).request
                                             : request_of(first_document(scene, asked), 320, 200);
-    std::vector<FieldText> texts;
-    for (const Field& member : fields())
-      if (member.family_name() == field.family_name() && member.write)
-        for (const FieldText& value : member.write(made))
-          if (value.name == field.name) texts.push_back(value);
-    EXPECT_EQ(texts, (std::vector<FieldText>{{field.name, text}})) << field.name;
+    EXPECT_EQ(texts_of(field, made), std::vector{text}) << field.name;
   }
 }
 
@@ -104,10 +99,7 @@ ControlPath path_of(const Field& field, const Document& document) {
   ControlPath path = {std::string(group_title(field.group))};
   if (field.repeated) {
     const Request request = request_of(document, 1, 1);
-    std::size_t values = 0;
-    for (const Field& member : fields())
-      if (member.family_name() == field.family_name() && member.write) values += member.write(request).size();
-    path.push_back(static_cast<int>(values));
+    path.push_back(static_cast<int>(family_values(field, request).size()));
   }
   path.push_back(field.name);
   return path;

@@ -20,24 +20,13 @@ const Field& field_of(std::string name) {
   return *field;
 }
 
-void read(const Field& field, const std::string& text, splatray::Request& request) {
-  try {
-    field.read(request, text);
-  } catch (const Expected& expected) {
-    throw Error(ErrorKind::usage, field.name + ": found '" + text + "', expected " + expected.what);
-  }
-}
-
 /// Takes the field's values out of the request; those of all its family where it is named as that.
 void take_out(const Field& field, splatray::Request& request) {
-  std::vector<FieldText> others;
-  for (const Field& member : splatray::fields())
-    if (member.family_name() == field.family_name() && member.write)
-      for (const FieldText& value : member.write(request))
-        if (value.name != field.name) others.push_back(value);
+  const std::vector<FieldText> values = family_values(field, request);
   field.clear(request);
   if (field.name == field.family_name()) return;
-  for (const FieldText& value : others) read(field_of(value.name), value.text, request);
+  for (const FieldText& value : values)
+    if (value.name != field.name) read_value(field_of(value.name), value.text, request);
 }
 
 const char* kind_name(FieldKind kind) {
@@ -88,7 +77,7 @@ Request& Request::set(const std::string& name, const Value& value) {
     const Field& field = field_of(name);
     splatray::Request changed = impl_->request;
     if (field.repeated) take_out(field, changed);
-    read(field, value.text(), changed);
+    read_value(field, value.text(), changed);
     impl_->request = std::move(changed);
   });
   return *this;
@@ -99,8 +88,7 @@ Request& Request::add(const std::string& name, const Value& value) {
     const Field& field = field_of(name);
     if (!field.repeated) refuse("several values of '" + field.name + "'", "one, by set()");
     splatray::Request changed = impl_->request;
-    if (field.family_name() == "lights" && !changed.look.lights) field.clear(changed);
-    read(field, value.text(), changed);
+    read_value(field, value.text(), changed);
     impl_->request = std::move(changed);
   });
   return *this;
@@ -118,16 +106,7 @@ Request& Request::add_material(const std::string& object, const Material& materi
 }
 
 std::vector<std::string> Request::get(const std::string& name) const {
-  return guarded([&] {
-    const Field& wanted = field_of(name);
-    std::vector<std::string> texts;
-    for (const Field& field : splatray::fields()) {
-      if (field.family_name() != wanted.family_name() || !field.write) continue;
-      for (const FieldText& value : field.write(impl_->request))
-        if (value.name == wanted.name) texts.push_back(value.text);
-    }
-    return texts;
-  });
+  return guarded([&] { return texts_of(field_of(name), impl_->request); });
 }
 
 std::string Request::json() const {

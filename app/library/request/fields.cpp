@@ -37,15 +37,6 @@ bool is_overruled(const std::vector<Assignment>& values, std::size_t at) {
                      [&](const Assignment& later) { return later.field == values[at].field; });
 }
 
-void read(const Assignment& value, Request& request, const FieldSpelling& spelling) {
-  try {
-    value.field->read(request, *value.text);
-  } catch (const Expected& expected) {
-    throw Error(ExitCode::usage, spelling.before + value.field->name + ": found '" + *value.text +
-                                     "', expected " + expected.what + spelling.after);
-  }
-}
-
 }  // namespace
 
 std::span<const Field> fields() {
@@ -61,6 +52,31 @@ const Field* find_field(const std::string& name, FieldDoors door) {
     if (std::count(field.old_names.begin(), field.old_names.end(), name) > 0) old = &field;
   }
   return old;
+}
+
+void read_value(const Field& field, const std::string& text, Request& request,
+                const FieldSpelling& spelling) {
+  try {
+    field.read(request, text);
+  } catch (const Expected& expected) {
+    throw Error(ExitCode::usage, spelling.before + field.name + ": found '" + text + "', expected " +
+                                     expected.what + spelling.after);
+  }
+}
+
+std::vector<FieldText> family_values(const Field& field, const Request& request) {
+  std::vector<FieldText> values;
+  for (const Field& member : fields())
+    if (member.family_name() == field.family_name() && member.write)
+      for (const FieldText& value : member.write(request)) values.push_back(value);
+  return values;
+}
+
+std::vector<std::string> texts_of(const Field& field, const Request& request) {
+  std::vector<std::string> texts;
+  for (const FieldText& value : family_values(field, request))
+    if (value.name == field.name) texts.push_back(value.text);
+  return texts;
 }
 
 void assign(Request& request, const std::vector<FieldText>& values, FieldDoors door,
@@ -80,7 +96,7 @@ void assign(Request& request, const std::vector<FieldText>& values, FieldDoors d
     if (is_overruled(sorted, i)) continue;
     const Field& field = *sorted[i].field;
     if (field.repeated && begun.insert(sorted[i].rank).second && !field.adds) field.clear(request);
-    read(sorted[i], request, spelling);
+    read_value(field, *sorted[i].text, request, spelling);
   }
 }
 

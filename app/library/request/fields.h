@@ -25,6 +25,15 @@ struct FieldSpelling {
 void assign(Request& request, const std::vector<FieldText>& values, FieldDoors door,
             const FieldSpelling& spelling = {});
 
+/// Reads one value into the request, as assign() does, beside what the field's family has. Throws Error (usage), one sentence.
+void read_value(const Field& field, const std::string& text, Request& request,
+                const FieldSpelling& spelling = {});
+
+/// All values of the field's family in the request, in their order.
+[[nodiscard]] std::vector<FieldText> family_values(const Field& field, const Request& request);
+/// The texts of the field itself.
+[[nodiscard]] std::vector<std::string> texts_of(const Field& field, const Request& request);
+
 /// The values of fields that differ from Request{}'s, in the order of the table. assign() makes an equal request of them.
 [[nodiscard]] std::vector<FieldText> changed_values(const Request& request);
 

@@ -71,6 +71,7 @@ FieldText light_text(const LightRequest& light) {
 Field light_row(std::string name, std::uint32_t kind, std::string value, std::string help) {
   Field row = value_row(std::move(name), LIGHT, std::move(value), std::move(help),
                         [kind](Request& request, const std::string& text) {
+                          if (!request.look.lights) request.look.lights.emplace();
                           request.look.lights->push_back(kind == LIGHT_RECTANGLE ? read_rectangle(text)
                                                                                  : read_light(text, kind));
                         },

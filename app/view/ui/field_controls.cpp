@@ -28,17 +28,6 @@ std::vector<std::string> choices_of(const Field& field) {
   return all_names ? names : std::vector<std::string>();
 }
 
-/// The texts that the field itself has in the request, without those of its family.
-std::vector<std::string> texts_of(const Field& field, const Request& request) {
-  std::vector<std::string> texts;
-  for (const Field& member : fields()) {
-    if (member.family_name() != field.family_name() || !member.write) continue;
-    for (const FieldText& value : member.write(request))
-      if (value.name == field.name) texts.push_back(value.text);
-  }
-  return texts;
-}
-
 bool set(Request& request, const std::vector<FieldText>& values, std::string& error) {
   try {
     Request changed = request;
@@ -79,10 +68,7 @@ bool single_control(const Field& field, Request& request, std::string& error) {
 
 /// The values of the whole family are read again, with one of this field's replaced, added or, where its text is empty, left out.
 bool repeated_control(const Field& field, Request& request, std::string& error) {
-  std::vector<FieldText> values;
-  for (const Field& member : fields())
-    if (member.family_name() == field.family_name() && member.write)
-      for (const FieldText& value : member.write(request)) values.push_back(value);
+  std::vector<FieldText> values = family_values(field, request);
   std::erase(values, FieldText{"lights", "none"});
   values.push_back({field.name, ""});
   bool changed = false;
