@@ -77,19 +77,6 @@ Image outer_image(const splatray::Image& made, const splatray::Request& request)
   return image;
 }
 
-/// Throws splatray::Error (out_of_memory) where there is not the memory for a picture in both forms.
-void require_both_images(const splatray::Request& request) {
-  const PixelWindow made =
-      splatray::View{{}, request.view.width, request.view.height, request.view.window()}.made();
-  const bool denoise = request.output.denoise;
-  splatray::Settings settings = request.settings;
-  settings.aov = settings.aov || denoise;
-  settings.estimate_error = settings.estimate_error || denoise || request.settings.has_goal();
-  require_memory(
-      std::uint64_t{made.width} * made.height * 2 * image_bytes(settings),
-      "a picture of " + std::to_string(made.width) + "x" + std::to_string(made.height) + " pixels");
-}
-
 }  // namespace
 
 Image render(const Scene& scene, const Request& asked, const Progress& progress) {
@@ -99,7 +86,8 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
     splatray::Scene shown = shown_looks(inner, RequestAccess::inner(asked));
     splatray::Request request = request_for(impl->loaded, RequestAccess::inner(asked), shown);
     require_consistent(request);
-    require_both_images(request);
+    require_memory(2 * made_image_bytes(request), "a picture of " + std::to_string(request.view.width) + "x" +
+                                                      std::to_string(request.view.height) + " pixels");
     const splatray::Camera camera = choose_camera(inner, request);
     // Refuses a camera and lights before a device is opened.
     (void)make_frame_params(inner, {camera, request.view.width, request.view.height},

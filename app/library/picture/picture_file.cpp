@@ -25,17 +25,28 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
+PixelWindow made_window(const Request& request) {
+  return View{{}, request.view.width, request.view.height, request.view.window()}.made();
+}
+
 }  // namespace
 
-void require_picture_memory(const Request& request) {
-  const PixelWindow made = View{{}, request.view.width, request.view.height, request.view.window()}.made();
+std::uint64_t made_image_bytes(const Request& request) {
+  const PixelWindow made = made_window(request);
+  const bool denoise = request.output.denoise;
   Settings settings = request.settings;
-  settings.aov = settings.aov || request.output.denoise;
-  settings.estimate_error = settings.estimate_error || request.output.denoise || request.settings.has_goal();
-  const std::size_t channels = 4 + (request.output.aov_depth ? 1 : 0) + (request.output.aov_normal ? 3 : 0) +
-                               (request.output.aov_id ? 1 : 0) + (request.output.aov_error ? 1 : 0);
-  const std::uint64_t writing = is_png(request.output.path) ? PNG_WRITING_BYTES : exr_writing_bytes(channels);
-  require_memory(std::uint64_t{made.width} * made.height * (image_bytes(settings) + writing),
+  settings.aov = settings.aov || denoise;
+  settings.estimate_error = settings.estimate_error || denoise || request.settings.has_goal();
+  return std::uint64_t{made.width} * made.height * image_bytes(settings);
+}
+
+void require_picture_memory(const Request& request) {
+  const PixelWindow made = made_window(request);
+  const Request::Output& output = request.output;
+  const std::size_t channels = 4 + (output.aov_depth ? 1 : 0) + (output.aov_normal ? 3 : 0) +
+                               (output.aov_id ? 1 : 0) + (output.aov_error ? 1 : 0);
+  const std::uint64_t writing = is_png(output.path) ? PNG_WRITING_BYTES : exr_writing_bytes(channels);
+  require_memory(made_image_bytes(request) + std::uint64_t{made.width} * made.height * writing,
                  "a picture of " + size_text(made.width, made.height) + " pixels and its file");
 }
 

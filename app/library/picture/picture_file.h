@@ -9,6 +9,9 @@
 
 namespace splatray {
 
+/// Bytes of the image that is made, with the channels that denoising and goals need.
+[[nodiscard]] std::uint64_t made_image_bytes(const Request& request);
+
 /// Throws Error (out_of_memory) where there is less memory than a picture takes until it is written.
 void require_picture_memory(const Request& request);
 
