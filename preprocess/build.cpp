@@ -89,7 +89,7 @@ Scene describe_scene(Input& input, const BuildParams& params) {
   }
   if (!area_known) scene.surface_area_world = 0.0;
   scene.surfaces = input_surfaces(input);
-  if (const auto defect = find_look_defect(scene))
+  if (const auto defect = find_look_defect({scene.materials, scene.surfaces}, scene.lights))
     throw Error(ExitCode::input_unreadable,
                 "the input has " + defect->found + ", expected " + defect->expected);
   return scene;

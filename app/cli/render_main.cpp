@@ -49,14 +49,11 @@ LoadedScene load(const Request& request, ProgressLine& progress) {
 }
 
 /// Decides the exposure where that is left to the picture. Of EXR files too, which keep it for what makes PNGs of them.
-void expose(const Sequence& sequence, const Scene& scene, const Camera& still, Tracer& tracer,
-            Request& request) {
-  if (!suits_exposure(scene, request)) return;
+void expose(const Sequence& sequence, const ShownScene& shown, const Camera& still, Request& request) {
+  if (!suits_exposure(shown.scene, request)) return;
   const std::uint32_t first = sequence.path.empty() ? 0 : sequence.path.front().frame;
-  const Camera camera = frame_camera(sequence, first, still, choose_up(scene, request));
-  tracer.set_lights(choose_lights(scene, request, camera));
-  request.look.exposure_ev = preview_exposure_ev(tracer, {camera, request.view.width, request.view.height},
-                                                 choose_settings(scene, request));
+  const Camera camera = frame_camera(sequence, first, still, choose_up(shown.scene, request));
+  request.look.exposure_ev = preview_exposure_ev(request, shown, camera);
 }
 
 /// The request with what suits the scan where nothing is asked for.
@@ -133,21 +130,21 @@ int render(int argc, char** argv) {
   ProgressLine progress(asked.output.quiet, asked.output.progress);
   LoadedScene loaded = load(asked, progress);
   Request request = suited(asked, loaded);
-  const Environment environment = choose_environment(loaded.environment_name);
+  // What is asked of the pools, before they go.
+  Look look = look_of(loaded.scene);
+  look.environment = std::make_shared<const Environment>(choose_environment(loaded.environment_name));
+  const Camera still = choose_camera(loaded.scene, request);
+  const PoolCounts counts = pool_counts(loaded.scene);
 
   watch.lap_ms();
   Tracer tracer(context, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
-  // What is asked of the pools, before they go.
-  const Camera still = choose_camera(loaded.scene, request);
   tell_hidden_materials(request);
-  const PoolCounts counts = pool_counts(loaded.scene);
   tracer.upload_and_free(loaded.scene);
-  tracer.set_environment(environment);
-  expose(sequence, loaded.scene, still, tracer, request);
+  const ShownScene shown{loaded.scene, look, tracer, context};
+  expose(sequence, shown, still, request);
   tell_chosen(asked, request, loaded);
   times.upload_ms = watch.lap_ms();
-  const SequenceRecord record =
-      render_sequence(request, sequence, loaded.scene, still, context, tracer, told_on(progress, request));
+  const SequenceRecord record = render_sequence(request, sequence, shown, still, told_on(progress, request));
   progress.clear();
 
   if (!request.output.stats_json.empty())

@@ -173,7 +173,7 @@ class AdaptiveTile {
 
 }  // namespace
 
-Image Tracer::render_until(const View& view, const Settings& wanted, const Goal& goal,
+Image Tracer::render_until(const Look& look, const View& view, const Settings& wanted, const Goal& goal,
                            const Progress& progress) {
   Settings settings = wanted;
   settings.sample_offset = 0;
@@ -181,7 +181,7 @@ Image Tracer::render_until(const View& view, const Settings& wanted, const Goal&
   Runner& runner = impl.runner;
   runner.require_scene("render_until()");
   const Clock::time_point start = Clock::now();
-  Picture picture = impl.start_picture(view, settings, 2);
+  Picture picture = impl.start_picture(look, view, settings, 2);
   Image& image = picture.image;
   const std::size_t pixels = image.rgba.size();
   image.error.resize(pixels);

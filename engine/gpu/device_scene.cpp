@@ -2,26 +2,24 @@
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/scene/surface.h"
 #include "engine/table/albedo_table.h"
 
 namespace splatray {
 namespace {
 
-/// Emitters as the table of lights has them.
-std::vector<Light> balls_of(std::span<const Emitter> emitters) {
-  std::vector<Light> balls;
-  for (const Emitter& emitter : emitters) {
-    Light& ball = balls.emplace_back();
+/// Lights and emitters as their table has them, in root space.
+std::vector<Light> light_table(const Scene& outline, const Look& look) {
+  std::vector<Light> table = lights_in_root(outline, look.lights);
+  for (const Emitter& emitter : look.emitters) {
+    Light& ball = table.emplace_back();
     ball.position = vec3(emitter.center);
     ball.size = static_cast<float>(emitter.radius);
     ball.share = static_cast<float>(emitter.power);
   }
-  return balls;
+  return table;
 }
 
 }  // namespace
@@ -34,39 +32,47 @@ DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const Pool
 void DeviceScene::upload(const Scene& scene, Scene* spent) {
   bindings_.reset();
   pools_ = {};  // the device may not have room for two scenes
+  shows_look_ = false;
   cells_ = filled_cells(scene);
-  emitters_ = balls_of(find_emitters(scene, scene.surfaces));
   clip_content_ = clip_content(scene.clip_pool);
   pools_ = Pools(context_, queue_, scene, wish_, spent);
   bindings_.emplace(context_, pools_.paging);
   outline_ = {};
   outline_.root = scene.root;
-  outline_.up = scene.up;
   outline_.bounds_min_world = scene.bounds_min_world;
   outline_.bounds_max_world = scene.bounds_max_world;
-  materials_ = scene.materials;
-  set_materials(scene.materials, scene.surfaces);
-  set_lights(scene.lights);
+  object_count_ = scene.materials.size();
 }
 
-void DeviceScene::set_materials(std::span<const Material> materials, std::span<const Surface> surfaces) {
-  if (materials.size() != materials_.size())
-    throw Error(ExitCode::failed, "found " + std::to_string(materials.size()) +
-                                      " materials, expected the scene's " +
-                                      std::to_string(materials_.size()));
-  materials_.assign(materials.begin(), materials.end());
-  surfaces_.assign(surfaces.begin(), surfaces.end());
-  if (surfaces.empty())
-    std::transform(materials.begin(), materials.end(), std::back_inserter(surfaces_), surface_of);
-  material_content_ = material_content(materials);
-  surface_features_ = surface_features(surfaces_, materials);
-  reserve_storage(context_, material_buffer_, materials.size_bytes());
-  material_buffer_.upload(queue_, std::as_bytes(materials));
-  reserve_storage(context_, surface_buffer_, std::span(surfaces_).size_bytes());
-  surface_buffer_.upload(queue_, std::as_bytes(std::span(surfaces_)));
+void DeviceScene::show(const Look& look) {
+  const bool all = !shows_look_;
+  shows_look_ = false;  // should an Error fly
+  if (all || !same_looks(look.objects, shown_.objects)) show_objects(look.objects);
+  if (all || look.lights != shown_.lights || look.emitters != shown_.emitters) show_lights(look);
+  if (look.environment != shown_.environment)
+    show_environment(look.environment ? *look.environment : Environment{});
+  outline_.up = look.up;
+  shown_ = look;
+  shows_look_ = true;
 }
 
-void DeviceScene::set_lights(std::span<const SceneLight> lights) {
+void DeviceScene::show_objects(const ObjectLooks& objects) {
+  for (const std::size_t count : {objects.materials.size(), objects.surfaces.size()})
+    if (count != object_count_)
+      throw Error(ExitCode::failed, "found a look of " + std::to_string(count) +
+                                        " objects, expected the scene's " + std::to_string(object_count_));
+  material_content_ = material_content(objects.materials);
+  surface_features_ = surface_features(objects.surfaces, objects.materials);
+  const auto upload_table = [&](Buffer& buffer, std::span<const std::byte> bytes) {
+    reserve_storage(context_, buffer, bytes.size());
+    buffer.upload(queue_, bytes);
+  };
+  upload_table(material_buffer_, std::as_bytes(std::span(objects.materials)));
+  upload_table(surface_buffer_, std::as_bytes(std::span(objects.surfaces)));
+}
+
+void DeviceScene::show_lights(const Look& look) {
+  const std::vector<SceneLight>& lights = look.lights;
   if (lights.size() > LIGHTS_MOST)
     throw Error(ExitCode::failed, "found " + std::to_string(lights.size()) + " lights, expected at most " +
                                       std::to_string(LIGHTS_MOST));
@@ -75,25 +81,15 @@ void DeviceScene::set_lights(std::span<const SceneLight> lights) {
     throw Error(ExitCode::failed, "found " + std::to_string(sized) +
                                       " lights that have a size, expected at most " +
                                       std::to_string(LIGHTS_SIZED_MOST));
-  lights_ = lights_in_root(outline_, {lights.begin(), lights.end()});
+  lights_ = static_cast<std::uint32_t>(lights.size());
   lights_sized_ = sized;
-  light_irradiance_ = summed_irradiance(outline_, {lights.begin(), lights.end()});
-  upload_lights();
-}
-
-void DeviceScene::set_emitters(std::span<const Emitter> emitters) {
-  emitters_ = balls_of(emitters);
-  upload_lights();
-}
-
-void DeviceScene::upload_lights() {
-  std::vector<Light> table = lights_;
-  table.insert(table.end(), emitters_.begin(), emitters_.end());
+  light_irradiance_ = summed_irradiance(outline_, lights);
+  const std::vector<Light> table = light_table(outline_, look);
   reserve_storage(context_, light_buffer_, std::span(table).size_bytes());
   light_buffer_.upload(queue_, std::as_bytes(std::span(table)));
 }
 
-void DeviceScene::set_environment(const Environment& environment) {
+void DeviceScene::show_environment(const Environment& environment) {
   environment_ = EnvironmentTexture(context_, queue_, environment);
   environment_texture_ = !environment.texels.empty();
   environment_constant_ = environment.constant;
@@ -142,7 +138,7 @@ SceneContent DeviceScene::content() const {
           .pages = pools_.paging.pages_constant(),
           .page_shift = pools_.paging.page_shift,
           .surfaces = surface_features_,
-          .lights = !lights_.empty(),
+          .lights = lights_ > 0,
           .sized_lights = lights_sized_ > 0,
           .environment_texture = environment_texture_,
           .sky = sky_.width > 0};
@@ -153,11 +149,11 @@ FrameParams DeviceScene::picture_params(const View& view, const Settings& settin
   const bool traces = settings.look == LOOK_LIT || settings.look == LOOK_CLAY;
   const bool mirrors = settings.look == LOOK_PAPER && (material_content_.mirrors || material_content_.glass);
   if (!traces && !mirrors) frame.max_bounces = 0;
-  frame.light_end = static_cast<std::uint32_t>(lights_.size());
+  frame.light_end = lights_;
   frame.loop_probe = LOOP_PROBE;
-  set_media(frame, materials_, surfaces_);
+  set_media(frame, shown_.objects.materials, shown_.objects.surfaces);
   frame.lights_sized = lights_sized_;
-  frame.emitters = static_cast<std::uint32_t>(emitters_.size());
+  frame.emitters = static_cast<std::uint32_t>(shown_.emitters.size());
   set_sky(settings, frame);
   frame.environment =
       settings.environment_strength * (environment_texture_ ? glm::vec3(1.0F) : environment_constant_);
@@ -174,7 +170,7 @@ void DeviceScene::set_sky(const Settings& settings, FrameParams& frame) const {
   const double share = std::clamp(sky / std::max(sky + light_irradiance_, 1e-30), 0.1, 0.9);
   frame.sky_width = sky_.width;
   frame.sky_height = sky_.height;
-  frame.sky_share = lights_.empty() ? 1.0F : static_cast<float>(share);
+  frame.sky_share = lights_ == 0 ? 1.0F : static_cast<float>(share);
 }
 
 FrameParams DeviceScene::query_params(const Settings& settings) const {

@@ -9,12 +9,10 @@
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/pools.h"
-#include "engine/image/emitters.h"
 #include "engine/image/footprint.h"
+#include "engine/image/look.h"
 #include "engine/image/view.h"
 #include "engine/scene/clip.h"
-#include "engine/scene/environment.h"
-#include "engine/scene/scene.h"
 #include "engine/scene/sky_table.h"
 #include "engine/scene/tree.h"
 #include "engine/vulkan/command_queue.h"
@@ -31,11 +29,9 @@ class DeviceScene {
   /// As the tracer's functions of these names.
   void upload(const Scene& scene) { upload(scene, nullptr); }
   void upload_and_free(Scene& scene) { upload(scene, &scene); }
-  void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces);
-  void set_lights(std::span<const SceneLight> lights);
-  void set_emitters(std::span<const Emitter> emitters);
-  void set_environment(const Environment& environment);
-  void set_up(const glm::dvec3& up) { outline_.up = up; }
+  /// Uploads what of a look is another than the one before; the scene's pools are there. Throws Error (failed) for one of other
+  /// objects, or with too many lights.
+  void show(const Look& look);
 
   /// Whether there is a scene.
   [[nodiscard]] bool uploaded() const { return bindings_.has_value(); }
@@ -58,7 +54,9 @@ class DeviceScene {
   /// `spent`: as Pools has it.
   void upload(const Scene& scene, Scene* spent);
   void upload_tables(const SkyTable& sky);
-  void upload_lights();
+  void show_objects(const ObjectLooks& objects);
+  void show_lights(const Look& look);
+  void show_environment(const Environment& environment);
   void set_sky(const Settings& settings, FrameParams& frame) const;
 
   const Context& context_;
@@ -68,15 +66,16 @@ class DeviceScene {
   std::optional<BindingSet> bindings_;  ///< of the pools
 
   Scene outline_;  ///< the scene without its arrays: transform, bounds, up
+  std::size_t object_count_ = 0;
   Pools pools_;
   ClipContent clip_content_;
   std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
-  std::vector<Material> materials_;
-  std::vector<Surface> surfaces_;  ///< beside them, in world units
+  Look shown_;                     ///< as uploaded
+  bool shows_look_ = false;        ///< else the pools are another scene's
   std::uint32_t surface_features_ = 0;
   MaterialContent material_content_;
   Buffer material_buffer_, surface_buffer_, light_buffer_, table_buffer_;
-  std::vector<Light> lights_, emitters_;  ///< in root space; their table has them in this order
+  std::uint32_t lights_ = 0;  ///< their table has the emitters behind them
   std::uint32_t lights_sized_ = 0;
   double light_irradiance_ = 0.0;  ///< at the scene's centre, facing all, the mean of rgb
   EnvironmentTexture environment_;

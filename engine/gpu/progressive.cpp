@@ -7,7 +7,7 @@
 
 namespace splatray {
 
-void Tracer::begin(const View& wanted, const Settings& settings) {
+void Tracer::begin(const Look& look, const View& wanted, const Settings& settings) {
   View view = wanted;
   view.window = {};
   Impl& impl = *impl_;
@@ -19,10 +19,12 @@ void Tracer::begin(const View& wanted, const Settings& settings) {
     throw Error(ExitCode::out_of_memory, "found an image of " + std::to_string(bytes) +
                                              " bytes, expected at most " + std::to_string(most));
   impl.start();
+  runner.scene.show(look);
   GrowingPicture& progressive = impl.progressive;
   Buffer accumulation = std::move(progressive.accumulation);
   reserve_storage(runner.context, accumulation, bytes);
-  progressive = {.dispatch = runner.picture_dispatch(view, settings),
+  progressive = {.look = look,
+                 .dispatch = runner.picture_dispatch(view, settings),
                  .footprint = runner.scene.footprint(view, settings),
                  .accumulation = std::move(accumulation),
                  .before = {},
@@ -41,6 +43,7 @@ bool Tracer::advance(double wanted_ms) {
   const std::uint32_t rows = std::min(progressive.rows, frame.height - progressive.next_row);
   frame.tile_first = progressive.next_row * frame.width;
   const auto start = std::chrono::steady_clock::now();
+  impl.runner.scene.show(progressive.look);
   impl.runner.bind(progressive.accumulation);
   TileDispatch tile =
       aim(progressive.dispatch, {0, progressive.next_row, frame.width, rows}, progressive.footprint);

@@ -10,12 +10,14 @@ constexpr std::uint32_t QUERY_RAYS = 1U << 20U;  ///< in one dispatch
 
 }  // namespace
 
-std::vector<RayHit> Tracer::intersect(std::span<const RayQuery> rays, const Settings& settings) {
+std::vector<RayHit> Tracer::intersect(const Look& look, std::span<const RayQuery> rays,
+                                      const Settings& settings) {
   Impl& impl = *impl_;
   Runner& runner = impl.runner;
   runner.require_scene("intersect()");
   const auto start = std::chrono::steady_clock::now();
   impl.start();
+  runner.scene.show(look);
   const std::size_t most = std::min<std::size_t>(rays.size(), QUERY_RAYS);
   reserve_storage(runner.context, runner.rays, most * sizeof(RayQuery));
   reserve_storage(runner.context, runner.hits, most * sizeof(RayHit));

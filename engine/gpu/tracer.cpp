@@ -99,29 +99,10 @@ void Tracer::upload_and_free(Scene& scene) {
   ++impl_->uploads;
 }
 
-void Tracer::set_materials(std::span<const Material> materials, std::span<const Surface> surfaces) {
-  impl_->runner.require_scene("set_materials()");
-  impl_->runner.scene.set_materials(materials, surfaces);
-}
-
-void Tracer::set_lights(std::span<const SceneLight> lights) {
-  impl_->runner.require_scene("set_lights()");
-  impl_->runner.scene.set_lights(lights);
-}
-
-void Tracer::set_emitters(std::span<const Emitter> emitters) {
-  impl_->runner.require_scene("set_emitters()");
-  impl_->runner.scene.set_emitters(emitters);
-}
-
-void Tracer::set_up(const glm::dvec3& up) { impl_->runner.scene.set_up(up); }
-
-void Tracer::set_environment(const Environment& environment) {
-  impl_->runner.scene.set_environment(environment);
-}
-
-Picture Tracer::Impl::start_picture(const View& view, const Settings& settings, std::uint32_t means) {
+Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Settings& settings,
+                                    std::uint32_t means) {
   start();
+  runner.scene.show(look);
   const PixelWindow made = view.made();
   const std::uint64_t pixels = std::uint64_t{made.width} * made.height;
   require_memory(pixels * image_bytes(settings), "a picture of " + std::to_string(made.width) + "x" +
@@ -142,12 +123,12 @@ Picture Tracer::Impl::start_picture(const View& view, const Settings& settings, 
   return picture;
 }
 
-Image Tracer::render(const View& view, const Settings& settings, const Progress& progress) {
+Image Tracer::render(const Look& look, const View& view, const Settings& settings, const Progress& progress) {
   Impl& impl = *impl_;
   Runner& runner = impl.runner;
   runner.require_scene("render()");
   const Clock::time_point start = Clock::now();
-  Picture picture = impl.start_picture(view, settings, 1);
+  Picture picture = impl.start_picture(look, view, settings, 1);
   Image& image = picture.image;
   const std::size_t pixels = image.rgba.size();
   Image first_half{image.width, image.height, {}, {}};
@@ -178,13 +159,14 @@ Image Tracer::render(const View& view, const Settings& settings, const Progress&
   return std::move(image);
 }
 
-std::vector<AovPixel> Tracer::trace_aov(const View& view, const Settings& settings,
+std::vector<AovPixel> Tracer::trace_aov(const Look& look, const View& view, const Settings& settings,
                                         const Progress& progress) {
   Impl& impl = *impl_;
   Runner& runner = impl.runner;
   runner.require_scene("trace_aov()");
   const Clock::time_point start = Clock::now();
   impl.start();
+  runner.scene.show(look);
   const Dispatch dispatch = runner.aov_dispatch(view, settings);
   const Footprint footprint = runner.scene.footprint(view, settings);
   const PixelWindow made = view.made();

@@ -10,11 +10,9 @@
 
 #include "engine/gpu/device_profile.h"
 #include "engine/gpu/pools.h"
-#include "engine/image/emitters.h"
 #include "engine/image/image.h"
+#include "engine/image/look.h"
 #include "engine/image/view.h"
-#include "engine/scene/environment.h"
-#include "engine/scene/scene.h"
 #include "engine/vulkan/context.h"
 
 namespace splatray {
@@ -45,7 +43,8 @@ struct TracerOptions {
   unsigned threads = 0;                  ///< of a context that is the host; 0 = one a core
 };
 
-/// Calls that make no sense, such as images of no scene, throw Error (failed) with a sentence that says so.
+/// What it shows is given with each call; of a look, what equals that of the call before is not uploaded again. Calls that make no
+/// sense, such as images of no scene or a look of other objects, throw Error (failed) with a sentence that says so.
 class Tracer {
  public:
   /// The context must outlive the tracer.
@@ -54,51 +53,41 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  /// Uploads the pools, materials and lights. Throws Error (out_of_memory) with the sizes when a pool does
-  /// not fit the device.
+  /// Uploads the pools. Throws Error (out_of_memory) with the sizes when a pool does not fit the device.
   void upload(const Scene& scene);
   /// As upload, but frees the scene's pools, each as soon as it is on the device, also where that then throws: a host needs
   /// the memory of a large scene once, not twice. All else of the scene stays.
   void upload_and_free(Scene& scene);
-  /// Replaces all materials (as many as the scene has objects) and, beside them, surfaces (empty: surface_of the materials), or
-  /// the lights (at most LIGHTS_MOST), or the environment; no pool is touched. Before the first set_environment all is black.
-  void set_materials(std::span<const Material> materials, std::span<const Surface> surfaces = {});
-  void set_lights(std::span<const SceneLight> lights);
-  /// Where paths look for light that objects send out; upload() sets find_emitters() of the scene. Set new emitters after surfaces
-  /// change; old ones stay correct but noisier.
-  void set_emitters(std::span<const Emitter> emitters);
-  void set_environment(const Environment& environment);
-  /// Replaces the scene's up direction, about which the environment stands.
-  void set_up(const glm::dvec3& up);
 
   /// Called between dispatches with the share done, 0..1; returns false to stop (render then throws Error
   /// interrupted).
   using Progress = std::function<bool(double)>;
-  /// The picture of the uploaded scene.
-  [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {});
+  /// The image of the uploaded scene.
+  [[nodiscard]] Image render(const Look& look, const View& view, const Settings& settings,
+                             const Progress& progress = {});
   /// The picture whose error is as small as the goal asks for: regions get samples until they are good enough, at most
   /// Settings::samples in a pixel. Two pictures of independent samples are made, and the samples of each depend on the other
   /// alone, so that their mean is unbiased: where samples were counted until they look good, it would not be. Its error is half
   /// their difference.
-  [[nodiscard]] Image render_until(const View& view, const Settings& settings, const Goal& goal,
-                                   const Progress& progress = {});
+  [[nodiscard]] Image render_until(const Look& look, const View& view, const Settings& settings,
+                                   const Goal& goal, const Progress& progress = {});
   /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit what render()
-  /// gives, whatever other calls than upload() and set_...() happened between. Settings::aov and View::window are not looked at.
+  /// gives, whatever other calls than upload() happened between. Settings::aov and View::window are not looked at.
   /// Throws Error (out_of_memory) for more pixels than the device lets a buffer hold.
-  void begin(const View& view, const Settings& settings);
+  void begin(const Look& look, const View& view, const Settings& settings);
   /// Adds one sample to some rows of the picture begun, aiming at `wanted_ms` of work; returns whether all of
-  /// Settings::samples are in every pixel. What set_materials() and its like change belongs before begin(); after upload()
-  /// begin() must come first.
+  /// Settings::samples are in every pixel. After upload() begin() must come first.
   bool advance(double wanted_ms);
   [[nodiscard]] std::uint32_t samples() const;  ///< in every pixel of the picture begun
   /// The picture begun: each pixel the mean of its samples so far, black without one.
   [[nodiscard]] Image picture();
   /// What the ray through each pixel's centre hits, top row first. With `progress` in dispatches small enough for an
   /// answer within some tens of ms.
-  [[nodiscard]] std::vector<AovPixel> trace_aov(const View& view, const Settings& settings,
+  [[nodiscard]] std::vector<AovPixel> trace_aov(const Look& look, const View& view, const Settings& settings,
                                                 const Progress& progress = {});
-  /// Hits of arbitrary rays, one RayHit per query. Root space.
-  [[nodiscard]] std::vector<RayHit> intersect(std::span<const RayQuery> rays, const Settings& settings);
+  /// Hits of arbitrary rays, one RayHit per query. Root space. Of the look the materials count.
+  [[nodiscard]] std::vector<RayHit> intersect(const Look& look, std::span<const RayQuery> rays,
+                                              const Settings& settings);
 
   /// Of the last call of begin and advance, render, trace_aov or intersect.
   [[nodiscard]] const RenderStats& stats() const;

@@ -12,6 +12,7 @@ namespace splatray {
 
 /// An image that advance() adds to, in a buffer of its own.
 struct GrowingPicture {
+  Look look;
   Dispatch dispatch;
   Footprint footprint;
   Buffer accumulation;         ///< means of all pixels over the samples behind those of `before`, vec4
@@ -36,7 +37,8 @@ struct Tracer::Impl {
   /// Begins a call whose work is counted and timed.
   void start();
   /// Begins an image, `means` of each of whose pixels are traced at once; binds buffers with room for a tile of it.
-  [[nodiscard]] Picture start_picture(const View& view, const Settings& settings, std::uint32_t means);
+  [[nodiscard]] Picture start_picture(const Look& look, const View& view, const Settings& settings,
+                                      std::uint32_t means);
   /// Ends it.
   void finish(std::chrono::steady_clock::time_point start);
   /// Traces all samples of a tile, whose buffer is bound, with the work that each thread may do. `advance` hears of each batch, `take`

@@ -74,11 +74,13 @@ bool divide(const Part& part, int depth, std::vector<Part>& parts) {
 
 }  // namespace
 
-std::vector<Emitter> find_emitters(const Scene& scene, std::span<const Surface> surfaces) {
-  std::vector<double> radiance(scene.materials.size(), 0.0);
-  for (std::size_t i = 0; i < std::min(surfaces.size(), radiance.size()); ++i)
-    if ((scene.materials[i].flags & MATERIAL_HIDDEN) == 0)
-      radiance[i] = double(surfaces[i].emission.x + surfaces[i].emission.y + surfaces[i].emission.z) / 3.0;
+std::vector<Emitter> find_emitters(const Scene& scene, const ObjectLooks& objects) {
+  std::vector<double> radiance(objects.materials.size(), 0.0);
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    const vec3& emission = objects.surfaces[i].emission;
+    if ((objects.materials[i].flags & MATERIAL_HIDDEN) == 0)
+      radiance[i] = double(emission.x + emission.y + emission.z) / 3.0;
+  }
   if (std::all_of(radiance.begin(), radiance.end(), [](double one) { return one <= 0.0; })) return {};
   std::vector<Glow> glows;
   for (const uvec4& words : scene.data_pool) {

@@ -1,7 +1,9 @@
-/// What objects are seen with: their lights. Their materials are of shaders/layout.h.
+/// What objects look like, and the lights they are seen by. Materials and surfaces are of shaders/layout.h.
 #pragma once
 #include <cstdint>
+#include <cstring>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "shaders/layout.h"
 
@@ -23,6 +25,24 @@ struct SceneLight {
 /// Whether a light has a size.
 [[nodiscard]] inline bool is_sized(const SceneLight& light) {
   return light.kind == LIGHT_RECTANGLE || light.size > 0.0;
+}
+
+/// What objects look like: beside each other, one for each.
+struct ObjectLooks {
+  std::vector<Material> materials;
+  std::vector<Surface> surfaces;
+};
+
+/// Whether two lists are equal bit for bit.
+template <class Element>
+[[nodiscard]] bool same_bytes(const std::vector<Element>& a, const std::vector<Element>& b) {
+  if (a.size() != b.size()) return false;
+  return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0;
+}
+
+/// Whether the two are equal bit for bit.
+[[nodiscard]] inline bool same_looks(const ObjectLooks& a, const ObjectLooks& b) {
+  return same_bytes(a.materials, b.materials) && same_bytes(a.surfaces, b.surfaces);
 }
 
 /// Most dielectrics that a ray can be inside of at once.

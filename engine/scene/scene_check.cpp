@@ -283,28 +283,31 @@ std::optional<SceneDefect> find_tree_defect(std::span<const std::uint32_t> nodes
 }
 
 std::optional<SceneDefect> find_content_defect(const Scene& scene) {
+  const auto check_look = [](const Scene& of) {
+    return find_look_defect({of.materials, of.surfaces}, of.lights);
+  };
   for (const auto check :
-       {check_header, check_sizes, check_lists, check_slabs, check_splats, find_look_defect, check_camera})
+       {check_header, check_sizes, check_lists, check_slabs, check_splats, +check_look, check_camera})
     if (const Defect defect = check(scene)) return defect;
   return {};
 }
 
-std::optional<SceneDefect> find_look_defect(const Scene& scene) {
+std::optional<SceneDefect> find_look_defect(const ObjectLooks& objects,
+                                            const std::vector<SceneLight>& lights) {
   const auto in = [](const char* kind, std::size_t index, const SceneDefect& defect) {
     return SceneDefect{at(kind, index) + " with " + defect.found + " out of range", defect.expected};
   };
-  for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    if (const Defect defect = check_material(scene.materials[i])) return in("material", i, *defect);
-  if (!scene.surfaces.empty() && scene.surfaces.size() != scene.materials.size())
-    return SceneDefect{std::to_string(scene.surfaces.size()) + " surfaces",
-                       "none or the " + std::to_string(scene.materials.size()) + " of the objects"};
-  for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
-    if (const Defect defect = check_surface(scene.surfaces[i])) return in("surface", i, *defect);
-  if (scene.lights.size() > LIGHTS_MOST)
-    return SceneDefect{std::to_string(scene.lights.size()) + " lights",
-                       "at most " + std::to_string(LIGHTS_MOST)};
-  for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (const Defect defect = check_light(scene.lights[i])) return in("light", i, *defect);
+  for (std::size_t i = 0; i < objects.materials.size(); ++i)
+    if (const Defect defect = check_material(objects.materials[i])) return in("material", i, *defect);
+  if (!objects.surfaces.empty() && objects.surfaces.size() != objects.materials.size())
+    return SceneDefect{std::to_string(objects.surfaces.size()) + " surfaces",
+                       "none or the " + std::to_string(objects.materials.size()) + " of the objects"};
+  for (std::size_t i = 0; i < objects.surfaces.size(); ++i)
+    if (const Defect defect = check_surface(objects.surfaces[i])) return in("surface", i, *defect);
+  if (lights.size() > LIGHTS_MOST)
+    return SceneDefect{std::to_string(lights.size()) + " lights", "at most " + std::to_string(LIGHTS_MOST)};
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (const Defect defect = check_light(lights[i])) return in("light", i, *defect);
   return {};
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/gpu/tracer.h"
 #include "engine/scene/scene_check.h"
 #include "preprocess/build.h"
 #include "tests/fuzz/require.h"
+#include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
 namespace {
@@ -33,9 +33,9 @@ BuildParams params_of(std::uint64_t choice) {
 
 void show(const Scene& scene, std::uint32_t look) {
   static const Context context(HOST_DEVICE);
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.upload(scene);
-  tracer.set_lights(scene.lights);
+  tracer.look.lights = scene.lights;
   tracer.set_environment({0, 0, {}, vec3(1.0F)});
   View view{default_camera(scene, 1.0), 8, 8};
   Settings settings;

@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "engine/gpu/tracer.h"
 #include "engine/vulkan/command_queue.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -43,11 +43,11 @@ TEST_F(BufferTest, EmptyBufferIsStillABuffer) {
 
 TEST_F(BufferTest, StagedPictureIsTheSame) {
   const Scene scene = disc_scene();
-  Tracer direct(context);
+  ShownTracer direct(context);
   direct.upload(scene);
   const Image expected = direct.render(disc_view(40, 30), plain_settings());
   hide_host_memory(context);
-  Tracer staged(context);
+  ShownTracer staged(context);
   staged.upload(scene);
   EXPECT_TRUE(staged.render(disc_view(40, 30), plain_settings()).rgba == expected.rgba);
 }

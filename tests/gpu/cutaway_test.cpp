@@ -1,7 +1,7 @@
 // Settings::cutaway: what faces away from the eye is not there, for no ray.
 #include "engine/gpu/features.h"
-#include "engine/gpu/tracer.h"
 #include "engine/scene/splat.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -40,7 +40,7 @@ class CutawayTest : public DeviceTest {
     return {image.aov[at].object, image.rgba[at].x};
   }
 
-  Tracer tracer{context};
+  ShownTracer tracer{context};
 };
 
 TEST_F(CutawayTest, OpensARoomToTheEyeAndTheLight) {

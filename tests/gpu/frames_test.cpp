@@ -1,6 +1,6 @@
 // What changes between frames, and what that must not cost: neither a pipeline nor an upload of the pools.
-#include "engine/gpu/tracer.h"
 #include "engine/image/sample_mean.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -31,7 +31,7 @@ class FramesTest : public DeviceTest {
   Scene scene = disc_scene();
   View view = disc_view(9, 9);
   Settings settings = plain_settings();
-  Tracer tracer{context};
+  ShownTracer tracer{context};
   vec4 first{};
   std::uint32_t built = 0;
 };
@@ -61,7 +61,7 @@ TEST_F(FramesTest, MaterialsChange) {
 TEST_F(FramesTest, LightsChangeAndGrowInNumber) {
   scene.lights[0].power *= 0.25F;
   scene.lights.resize(5, scene.lights[0]);
-  tracer.set_lights(scene.lights);
+  tracer.look.lights = scene.lights;
   expect_changed_without_rebuilding();
 }
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
-#include "engine/gpu/tracer.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -28,7 +28,7 @@ class PictureTest : public DeviceTest {
     EXPECT_EQ(wrong, 0U) << view.width << "x" << view.height << ", order " << settings.order;
   }
 
-  Tracer tracer{context};
+  ShownTracer tracer{context};
 };
 
 TEST_F(PictureTest, OddSizesAreRightInBothOrders) {

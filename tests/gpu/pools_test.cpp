@@ -4,8 +4,8 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/gpu/tracer.h"
 #include "engine/scene/splat.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -142,7 +142,7 @@ TEST_F(PoolUpload, AllKernelsGiveTheSamePicture) {
   const Scene scene = disc_scene(3);
   std::vector<std::vector<vec4>> pictures;
   for (const Kernels kernels : all_kernels(context)) {
-    Tracer tracer(context, {.kernels = kernels});
+    ShownTracer tracer(context, {.kernels = kernels});
     tracer.upload(scene);
     EXPECT_EQ(tracer.pool_bytes().texel_buffers, kernels == Kernels::cpu);
     pictures.push_back(tracer.render(disc_view(50, 40), plain_settings()).rgba);
@@ -156,7 +156,7 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
   scene.color_pool = {pack_color({1.0F, 0.0F, 0.0F}), pack_color({0.0F, 1.0F, 0.0F}),
                       pack_color({0.0F, 0.0F, 1.0F})};
   const auto picture = [&](const TracerOptions& options, std::uint32_t pages) {
-    Tracer tracer(context, options);
+    ShownTracer tracer(context, options);
     tracer.upload(scene);
     EXPECT_EQ(tracer.pool_bytes().at(BIND_REFERENCE_POOL), options.pools.data == DataPool::copies ? 0U : 12U);
     EXPECT_EQ(tracer.pool_bytes().at(BIND_DATA_POOL), 48U);
@@ -177,7 +177,7 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
 }
 
 TEST_F(PoolUpload, ReportsBytesByPool) {
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.upload(disc_scene(3));
   EXPECT_EQ(tracer.pool_bytes().at(BIND_NODE_POOL), 4U);
   EXPECT_EQ(tracer.pool_bytes().at(BIND_BEGIN_END), 8U);
@@ -188,7 +188,7 @@ TEST_F(PoolUpload, ReportsBytesByPool) {
 }
 
 TEST_F(PoolUpload, ReportsBytesOfTheFrame) {
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.upload(disc_scene());
   const std::uint64_t before = tracer.pool_bytes().frame;
   static_cast<void>(tracer.render(disc_view(50, 40), plain_settings()));
@@ -208,14 +208,14 @@ TEST_F(PoolUpload, ReportsBytesOfTheFrame) {
 TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
   Scene scene = disc_scene();
   scene.node_pool.resize(2 * PAGES_MOST);
-  Tracer tracer(context, {.pools = {.page_elements = 1}});
+  ShownTracer tracer(context, {.pools = {.page_elements = 1}});
   EXPECT_THROW(tracer.upload(scene), Error);
   EXPECT_EQ(tracer.pools_uploaded(), 0U);
 }
 
 TEST_F(PoolUpload, UploadAndFreeLeavesTheSceneWithoutItsPools) {
   for (const DataPool data : {DataPool::copies, DataPool::references}) {
-    Tracer tracer(context, {.pools = {.data = data}});
+    ShownTracer tracer(context, {.pools = {.data = data}});
     Scene scene = disc_scene(3);
     tracer.upload(scene);
     const auto picture = tracer.render(disc_view(50, 40), plain_settings()).rgba;
@@ -243,7 +243,7 @@ TEST_F(PoolUpload, PoolBeyondTheLargestStorageBufferIsPaged) {
   scene.node_pool.resize(children);
   scene.node_pool[0] = NODE_INNER << NODE_TAG_SHIFT | children;
   scene.node_pool.insert(scene.node_pool.end(), 8, leaf);
-  Tracer tracer(context, {.kernels = Kernels::gpu});
+  ShownTracer tracer(context, {.kernels = Kernels::gpu});
   tracer.upload(scene);
   EXPECT_GT(tracer.pool_bytes().pages, 1U);
   const auto paged = tracer.render(disc_view(50, 40), plain_settings()).rgba;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/gpu/tracer.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -46,7 +46,7 @@ TEST_F(Validation, NothingIsSaidOfAWholeLifeAndNothingIsLeftBehind) {
   testing::internal::CaptureStderr();
   {
     const auto context = std::make_unique<Context>("", true);
-    Tracer tracer(*context);
+    ShownTracer tracer(*context);
     tracer.upload(disc_scene());
     tracer.set_environment({2, 1, std::vector<glm::vec3>(2, glm::vec3(0.5F)), {}});
     Settings settings = plain_settings();

@@ -33,7 +33,7 @@ class Adaptive : public ::testing::Test {
       scene_of({{sphere({.count = 2000, .even = true, .seed = 3}, 1.0), test_material(MATERIAL_TWO_SIDED)}});
   const Camera camera_;
   Context context_;
-  Tracer tracer_{context_};
+  ShownTracer tracer_{context_};
   Settings settings_;
   std::vector<vec4> truth_;
 };
@@ -64,7 +64,7 @@ TEST_F(Adaptive, UsesTheTimeItHas) {
 
 TEST_F(Adaptive, EndsWhereNothingIsToBeSeen) {
   tracer_.set_environment(Environment{0, 0, {}, vec3(0.0F)});
-  tracer_.set_lights({});
+  tracer_.look.lights = {};
   const Image image = tracer_.render_until(view(), settings_, {.seconds = 30.0});
   EXPECT_LT(tracer_.stats().wall_ms, 10000.0);
   EXPECT_EQ(tracer_.stats().error, 0.0);

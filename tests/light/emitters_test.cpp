@@ -20,7 +20,7 @@ Scene glowing(const std::vector<TestObject>& objects, const vec3& radiance) {
 
 std::vector<Emitter> emitters_of(const OrientedPoints& points) {
   const Scene scene = glowing({{points, grey(0.0F)}}, vec3(1.0F));
-  const std::vector<Emitter> emitters = find_emitters(scene, scene.surfaces);
+  const std::vector<Emitter> emitters = find_emitters(scene, {scene.materials, scene.surfaces});
   double power = 0.0, all = 0.0;
   for (const Emitter& emitter : emitters) power += emitter.power;
   for (const uvec4& words : scene.data_pool) {
@@ -49,10 +49,10 @@ TEST(Emitters, DividedWhereThatHelps) {
 TEST(Emitters, OnlyOfWhatIsSeenAndSendsOutLight) {
   Scene scene = glowing({{ball_at({}, 1.0, 50), grey(0.5F)}, {ball_at({3.0, 0.0, 0.0}, 0.1, 50), grey(0.5F)}},
                         vec3(1.0F));
-  EXPECT_TRUE(find_emitters(scene, {}).empty());
-  EXPECT_EQ(find_emitters(scene, scene.surfaces).size(), 1U);
-  scene.materials.back().flags |= MATERIAL_HIDDEN;
-  EXPECT_TRUE(find_emitters(scene, scene.surfaces).empty());
+  ObjectLooks objects{scene.materials, scene.surfaces};
+  EXPECT_EQ(find_emitters(scene, objects).size(), 1U);
+  objects.materials.back().flags |= MATERIAL_HIDDEN;
+  EXPECT_TRUE(find_emitters(scene, objects).empty());
 }
 
 /// A lamp above a plane.
@@ -83,7 +83,7 @@ TEST_F(Lamp, GivesWhatItShould) {
 TEST_F(Lamp, IsLookedFor) {
   show_lamp(constant(0.0F), {});
   const Mean guided = irradiance_shown(256);
-  tracer_.set_emitters({});
+  tracer_.look.emitters = {};
   const Mean by_chance = irradiance_shown(256);
   EXPECT_LT(5.0 * guided.error, by_chance.error);
   EXPECT_NEAR(by_chance.value, truth(), 4.0 * by_chance.error);
@@ -108,7 +108,7 @@ TEST_F(Lamp, OverAMirrorWithAMatteBase) {
   scene.surfaces.front().roughness = 0.0F;
   show(scene, constant(0.0F), {});
   const Mean guided = irradiance_shown(1024);
-  tracer_.set_emitters({});
+  tracer_.look.emitters = {};
   const Mean by_chance = irradiance_shown(4096);
   EXPECT_NEAR(guided.value, by_chance.value, 3.0 * (guided.error + by_chance.error));
 }

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "data/shapes.h"
-#include "engine/gpu/tracer.h"
 #include "engine/image/picture_error.h"
 #include "engine/scene/environment.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/trace/scenes.h"
 
 namespace splatray::testing {
@@ -71,7 +71,7 @@ class Lit : public ::testing::Test {
   void show(const Scene& scene, const Environment& environment, const std::vector<SceneLight>& lights) {
     tracer_.upload(scene);
     tracer_.set_environment(environment);
-    tracer_.set_lights(lights);
+    tracer_.look.lights = lights;
   }
   Image picture(const Camera& camera, const Settings& settings, std::uint32_t edge) {
     const Image image = tracer_.render({camera, edge, edge}, settings);
@@ -82,7 +82,7 @@ class Lit : public ::testing::Test {
   void TearDown() override { EXPECT_EQ(context_.validation_messages(), 0U); }
 
   Context context_;
-  Tracer tracer_{context_};
+  ShownTracer tracer_{context_};
 };
 
 /// A plane of splats, 4 x 4 in y = 0, seen from straight above at its middle.

@@ -17,7 +17,7 @@ namespace {
 
 TEST(PropertyProof, AMovedSplatIsNoticed) {
   const Context context;
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   RoundCounts good, spoilt;
   std::ostringstream said_good, said_spoilt;
   run_round(1, tracer, good, said_good);

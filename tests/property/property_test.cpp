@@ -33,7 +33,7 @@ int body(int argc, char** argv) {
   list.add_value("--seed", read_seed, "of the first round, or random; default 1", "N|random");
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   const Context context;
-  Tracer tracers[] = {Tracer(context), Tracer(context, {.kernels = Kernels::gpu})};
+  ShownTracer tracers[] = {ShownTracer(context), ShownTracer(context, {.kernels = Kernels::gpu})};
   RoundCounts counts;
   const auto start = std::chrono::steady_clock::now();
   do {

@@ -79,7 +79,7 @@ class Round {
   Round(std::uint64_t seed, RoundCounts& counts, std::ostream& out, bool spoil)
       : seed_(seed), dice_(seed), random_(random_scene(dice_)), counts_(counts), out_(out), spoil_(spoil) {}
 
-  void run(Tracer& tracer) {
+  void run(ShownTracer& tracer) {
     const Scene scene = built(random_, random_.leaf_sizes[0]);
     const Scene other = built(random_, random_.leaf_sizes[1]);
     BruteForce brute(scene);
@@ -150,7 +150,7 @@ class Round {
 
 }  // namespace
 
-void run_round(std::uint64_t seed, Tracer& tracer, RoundCounts& counts, std::ostream& out, bool spoil) {
+void run_round(std::uint64_t seed, ShownTracer& tracer, RoundCounts& counts, std::ostream& out, bool spoil) {
   Round(seed, counts, out, spoil).run(tracer);
 }
 

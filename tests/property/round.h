@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <ostream>
 
-#include "engine/gpu/tracer.h"
+#include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
 
@@ -19,7 +19,7 @@ struct RoundCounts {
 
 /// Runs the round of `seed`, adds to `counts` and describes exceptions on `out`; it ends at the fifth. `spoil` moves one splat of the
 /// truth, to prove that exceptions are found.
-void run_round(std::uint64_t seed, Tracer& tracer, RoundCounts& counts, std::ostream& out,
+void run_round(std::uint64_t seed, ShownTracer& tracer, RoundCounts& counts, std::ostream& out,
                bool spoil = false);
 
 }  // namespace splatray::testing

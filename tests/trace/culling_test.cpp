@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "data/shapes.h"
-#include "engine/gpu/tracer.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/trace/different_bits.h"
 #include "tests/trace/scenes.h"
 
@@ -42,7 +42,7 @@ class Culling : public ::testing::Test {
   }
 
   Context context;
-  Tracer tracer{context};
+  ShownTracer tracer{context};
   Camera camera;
   std::uint64_t leaves = 0, culled_leaves = 0;  ///< visited in all pictures of expect_same, without and with
 };

@@ -11,11 +11,11 @@
 #include <random>
 
 #include "data/shapes.h"
-#include "engine/gpu/tracer.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
 #include "preprocess/mesh/sample_mesh.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/trace/agreement.h"
 #include "tests/trace/different_bits.h"
 #include "tests/trace/rays.h"
@@ -64,7 +64,7 @@ void expect_exact(const Agreement& agreement, const std::string& what) {
 std::vector<RayHit> intersect_on(const Context& context, const Scene& scene,
                                  const std::vector<RayQuery>& rays, const Settings& settings,
                                  const TracerOptions& options = {}) {
-  Tracer tracer(context, options);
+  ShownTracer tracer(context, options);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
 }

@@ -5,8 +5,8 @@
 
 #include "data/shapes.h"
 #include "engine/base/error.h"
-#include "engine/gpu/tracer.h"
 #include "engine/scene/environment.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/trace/scenes.h"
 
 namespace splatray::testing {
@@ -31,7 +31,7 @@ class SharedSun {
   std::vector<vec4> picture(std::uint32_t suns, Settings settings, std::uint32_t edge = 24) {
     const SceneLight sun{LIGHT_DIRECTIONAL, glm::normalize(glm::dvec3(0.5, 1.0, 0.4)),
                          glm::vec3(3.0F / float(suns))};
-    tracer_.set_lights(std::vector<SceneLight>(suns, sun));
+    tracer_.look.lights = std::vector<SceneLight>(suns, sun);
     return tracer_.render({camera_, edge, edge}, settings).rgba;
   }
 
@@ -46,13 +46,13 @@ class SharedSun {
     return most;
   }
 
-  Tracer& tracer() { return tracer_; }
+  ShownTracer& tracer() { return tracer_; }
 
  private:
   const Scene scene_;
   const Camera camera_;
   Context context_;
-  Tracer tracer_{context_};
+  ShownTracer tracer_{context_};
 };
 
 /// Sums of 4000 float32 numbers differ from the whole by their rounding.
@@ -100,9 +100,9 @@ TEST(Lights, RaysAreCountedOnceHoweverManyDispatchesALightTakes) {
 
 TEST(Lights, MoreThanTheBoundAreRefused) {
   SharedSun scene(ball_scene(0));
-  scene.tracer().set_lights(std::vector<SceneLight>(LIGHTS_MOST));
+  static_cast<void>(scene.picture(LIGHTS_MOST, {.samples = 1}, 1));
   try {
-    scene.tracer().set_lights(std::vector<SceneLight>(LIGHTS_MOST + 1));
+    static_cast<void>(scene.picture(LIGHTS_MOST + 1, {.samples = 1}, 1));
     FAIL() << "4097 lights were taken";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("found 4097 lights, expected at most 4096"), std::string::npos);

@@ -11,8 +11,8 @@
 #include "app/library/compare.h"
 #include "app/library/image_file.h"
 #include "data/shapes.h"
-#include "engine/gpu/tracer.h"
 #include "engine/scene/splat.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/temp_folder.h"
 #include "tests/trace/reference_path.h"
 #include "tests/trace/scenes.h"
@@ -43,7 +43,7 @@ struct Made {
 };
 Made made_on(const Context& context, const Scene& scene, const View& view, const Settings& settings,
              const Environment& environment) {
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.upload(scene);
   tracer.set_environment(environment);
   Made made{tracer.render(view, settings), {}};
@@ -231,7 +231,7 @@ TEST(Picture, WhiteFurnaceReturnsAllEnergy) {
   for (const Material& material : {mirror, glass}) {
     const Scene scene = scene_of({{sphere({.count = 20000}, 1.0), material}});
     static Context context;
-    Tracer tracer(context);
+    ShownTracer tracer(context);
     tracer.upload(scene);
     tracer.set_environment({0, 0, {}, glm::vec3(1.0F)});
     Settings settings;

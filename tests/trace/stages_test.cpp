@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "data/shapes.h"
-#include "engine/gpu/tracer.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/trace/different_bits.h"
 #include "tests/trace/scenes.h"
 
@@ -52,7 +52,7 @@ class Stages : public ::testing::Test {
   }
 
   Context context;
-  Tracer tracer{context};
+  ShownTracer tracer{context};
   Camera camera;
   bool skipped = false;
 };

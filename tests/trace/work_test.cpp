@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "data/shapes.h"
-#include "engine/gpu/tracer.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/trace/scenes.h"
 
 namespace splatray::testing {
@@ -24,7 +24,7 @@ Work work_of(Scene scene) {
   const View view{default_camera(scene, 1.0), 256, 256};
   if (scene.lights.empty()) scene.lights = default_lights(scene, view.camera);
   const Context context;
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.upload(scene);
   static_cast<void>(tracer.render(view, settings));
   const auto& count = tracer.stats().counters;

@@ -5,6 +5,7 @@
 
 #include "app/library/picture/scene_source.h"
 #include "engine/base/error.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/view/live_documents.h"
 
 namespace splatray {
@@ -32,7 +33,7 @@ class ProgressiveTest : public DeviceTest {
 
   /// The picture that the headless program makes of the document.
   Image headless() {
-    Tracer tracer(context);
+    ShownTracer tracer(context);
     Scene shown = *scene;
     shown.materials = document.looks.materials;
     shown.surfaces = document.looks.surfaces;

@@ -8,6 +8,7 @@
 #include "app/view/thread/load_thread.h"
 #include "app/view/thread/render_thread.h"
 #include "tests/cli/child_process.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/view/live_documents.h"
 
 namespace splatray {
@@ -92,7 +93,7 @@ TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return !news.notice.empty(); });
   Context context;
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.upload(*scene);
   tracer.set_environment({0, 0, {}, vec3(1.0F)});
   document.settings.samples = 5;

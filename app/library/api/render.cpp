@@ -13,26 +13,8 @@
 namespace splatray::api {
 namespace {
 
-/// The scene's materials, surfaces and lights as a picture shows them.
-splatray::Scene shown_looks(const splatray::Scene& scene, const splatray::Request& request) {
-  splatray::Scene shown;
-  shown.object_names = scene.object_names;
-  ObjectLooks looks{scene.materials, surfaces_of(scene)};
-  std::vector<ObjectChange> changes;
-  if (!request.look.material.empty()) {
-    if (scene.materials.size() != 1)
-      refuse("material for a scene of " + std::to_string(scene.materials.size()) + " objects", "one object");
-    changes.push_back(read_object_change("0:preset=" + request.look.material));
-  }
-  changes.insert(changes.end(), request.look.objects.begin(), request.look.objects.end());
-  apply_object_changes(changes, scene.object_names, looks);
-  shown.materials = std::move(looks.materials);
-  shown.surfaces = std::move(looks.surfaces);
-  return shown;
-}
-
 /// Whether objects are shown of other materials than their own; one that is hidden, or no longer, is of the same.
-bool changes_materials(const splatray::Scene& scene, const splatray::Scene& shown) {
+bool changes_materials(const splatray::Scene& scene, const ObjectLooks& shown) {
   std::vector<splatray::Material> materials = shown.materials;
   for (std::size_t i = 0; i < materials.size(); ++i)
     materials[i].flags =
@@ -42,7 +24,7 @@ bool changes_materials(const splatray::Scene& scene, const splatray::Scene& show
 
 /// What is asked for, and for what that leaves open what suits the scene as it was opened.
 splatray::Request request_for(const LoadedScene& loaded, const splatray::Request& asked,
-                              const splatray::Scene& shown) {
+                              const ObjectLooks& shown) {
   const splatray::Request& suited = loaded.request;
   splatray::Request request = asked;
   if (!request.look.style && asked.look.environment.empty() && !asked.look.lights)
@@ -83,8 +65,8 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
   return guarded(progress, [&](ProgressRelay& relay) {
     const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
     const splatray::Scene& inner = impl->loaded.scene;
-    splatray::Scene shown = shown_looks(inner, RequestAccess::inner(asked));
-    splatray::Request request = request_for(impl->loaded, RequestAccess::inner(asked), shown);
+    ObjectLooks objects = choose_objects(inner, RequestAccess::inner(asked));
+    splatray::Request request = request_for(impl->loaded, RequestAccess::inner(asked), objects);
     require_consistent(request);
     require_memory(2 * made_image_bytes(request), "a picture of " + std::to_string(request.view.width) + "x" +
                                                       std::to_string(request.view.height) + " pixels");
@@ -92,20 +74,17 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
     // Refuses a camera and lights before a device is opened.
     (void)make_frame_params(inner, {camera, request.view.width, request.view.height},
                             choose_settings(inner, request));
-    shown.lights = choose_lights(inner, request, camera);
-    if (const auto defect = find_look_defect(shown)) refuse(defect->found, defect->expected);
+    if (const auto defect = find_look_defect(objects, choose_lights(inner, request, camera)))
+      refuse(defect->found, defect->expected);
     return impl->on_device(relay, [&](SceneOnDevice& there) {
       const std::string& environment = request.look.environment;
       there.show_environment(environment.empty() ? impl->loaded.environment_name : environment);
-      there.show_looks(inner, shown);
-      if (suits_exposure(inner, request)) {
-        there.tracer->set_lights(shown.lights);
-        request.look.exposure_ev =
-            preview_exposure_ev(*there.tracer, {camera, request.view.width, request.view.height},
-                                choose_settings(inner, request));
-      }
+      show_objects(inner, std::move(objects), there.look);
+      const ShownScene shown{inner, there.look, *there.tracer, there.device->context};
+      if (suits_exposure(inner, request))
+        request.look.exposure_ev = preview_exposure_ev(request, shown, camera);
       const auto told = [&relay](double share) { return relay("tracing", share); };
-      return outer_image(make_picture(request, inner, camera, *there.tracer, told).image, request);
+      return outer_image(make_picture(request, shown, camera, told).image, request);
     });
   });
 }

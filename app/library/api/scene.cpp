@@ -1,10 +1,7 @@
-#include <algorithm>
-
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/splat.h"
-#include "engine/scene/surface.h"
 
 namespace splatray::api {
 
@@ -45,6 +42,7 @@ Scene::Impl::InUse::InUse(const Impl& scene, SceneOnDevice& there) : there_(ther
         there.device->context, TracerOptions{.pipeline_folder = scene.loaded.request.settings.cache,
                                              .threads = scene.loaded.request.source.threads});
     tracer->upload(scene.loaded.scene);
+    there.look = look_of(scene.loaded.scene);
     there.tracer = std::move(tracer);
   }
   there.in_use = true;
@@ -53,18 +51,9 @@ Scene::Impl::InUse::InUse(const Impl& scene, SceneOnDevice& there) : there_(ther
 std::string Scene::Impl::device_name() { return open_device()->device->context.device_info().name; }
 
 void SceneOnDevice::show_environment(const std::string& name) {
-  if (environment_shown == name) return;
-  tracer->set_environment(choose_environment(name));
-  environment_shown = name;
-}
-
-void SceneOnDevice::show_looks(const splatray::Scene& scene, const splatray::Scene& shown) {
-  tracer->set_materials(shown.materials, shown.surfaces);
-  const std::vector<Surface> before = surfaces_shown.empty() ? surfaces_of(scene) : surfaces_shown;
-  const auto same = [](const Surface& a, const Surface& b) { return a.emission == b.emission; };
-  if (!std::equal(before.begin(), before.end(), shown.surfaces.begin(), shown.surfaces.end(), same))
-    tracer->set_emitters(find_emitters(scene, shown.surfaces));
-  surfaces_shown = shown.surfaces;
+  if (environment == name) return;
+  look.environment = std::make_shared<const Environment>(choose_environment(name));
+  environment = name;
 }
 
 std::size_t Scene::splats() const { return SceneAccess::impl(*this)->loaded.scene.data_pool.size(); }

@@ -21,15 +21,12 @@ inline constexpr std::string_view COLUMN_POINT = "point";
 struct SceneOnDevice {
   std::shared_ptr<SharedDevice> device;
   std::unique_ptr<Tracer> tracer{};
-  std::optional<std::string> environment_shown{};
+  Look look{};                               ///< of the last picture
+  std::optional<std::string> environment{};  ///< the name of its environment
   bool in_use = false;
 
-  std::vector<Surface> surfaces_shown{};  ///< empty = the scene's own
-
-  /// Gives the tracer the environment of this name.
+  /// Makes the look's environment the one of this name.
   void show_environment(const std::string& name);
-  /// Gives the tracer the materials and surfaces of `shown`, and where they send out light.
-  void show_looks(const splatray::Scene& scene, const splatray::Scene& shown);
 };
 
 struct Scene::Impl {

@@ -116,7 +116,7 @@ Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const
         starts.push_back(aimed->start);
       }
       const std::vector<RayHit> found = impl->on_device(relay, [&](SceneOnDevice& there) {
-        return there.tracer->intersect(queries, splatray::Settings{});
+        return there.tracer->intersect(there.look, queries, splatray::Settings{});
       });
       for (std::size_t i = 0; i < found.size(); ++i) keep(inner, points, found[i], starts[i], rays[i], hits);
     }

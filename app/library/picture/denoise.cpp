@@ -15,14 +15,14 @@ namespace {
 constexpr std::uint32_t BASE_SAMPLES = 16;  ///< enough for what base colours do within a pixel
 
 /// Base colours of a picture's pixels; of looks that have one for all, white.
-std::vector<vec4> base_colors(Tracer& tracer, const View& view, const Settings& settings) {
+std::vector<vec4> base_colors(Tracer& tracer, const Look& look, const View& view, const Settings& settings) {
   if (settings.look != LOOK_LIT && settings.look != LOOK_SCAN)
     return std::vector<vec4>(std::size_t{view.width} * view.height, vec4(1.0F));
   Settings plain = settings;
   plain.look = LOOK_BASE;
   plain.samples = std::min(settings.samples, BASE_SAMPLES);
   plain.aov = plain.estimate_error = plain.counters = false;
-  return tracer.render(view, plain).rgba;
+  return tracer.render(look, view, plain).rgba;
 }
 
 /// Open Image Denoise 2, by its C interface, which is stable within a major version.
@@ -108,8 +108,9 @@ class OpenImageDenoise {
 
 }  // namespace
 
-std::string remove_noise(Tracer& tracer, const View& view, const Settings& settings, Image& image) {
-  const std::vector<vec4> base = base_colors(tracer, view, settings);
+std::string remove_noise(Tracer& tracer, const Look& look, const View& view, const Settings& settings,
+                         Image& image) {
+  const std::vector<vec4> base = base_colors(tracer, look, view, settings);
   static const std::optional<OpenImageDenoise> library = OpenImageDenoise::find();
   if (library) return "Open Image Denoise " + library->run(image, base);
   image = denoised(image, base);

@@ -7,6 +7,14 @@
 
 namespace splatray {
 
+/// A scene on a device.
+struct ShownScene {
+  const Scene& scene;  ///< of it only what is small is looked at: the pools may be gone
+  const Look& look;    ///< its lights are each picture's
+  Tracer& tracer;
+  const Context& context;
+};
+
 /// A picture and what is known of it.
 struct MadePicture {
   Image image;
@@ -16,10 +24,14 @@ struct MadePicture {
   double denoise_ms = 0.0;  ///< 0 where none did
 };
 
-/// The picture of the scene that the tracer shows, with the scene's materials and the environment that the request asks for; sets the
-/// lights. Of the scene only what is small is looked at: the pools may be gone. By samples or until it is good enough, and without
-/// noise, as the request says. Throws Error: usage, interrupted when `progress` says so, failed.
-[[nodiscard]] MadePicture make_picture(const Request& request, const Scene& scene, const Camera& camera,
-                                       Tracer& tracer, const Tracer::Progress& progress);
+/// The picture in the lights that the request asks for: by samples or until it is good enough, and without noise, as it says. Throws
+/// Error: usage, interrupted when `progress` says so, failed.
+[[nodiscard]] MadePicture make_picture(const Request& request, const ShownScene& shown, const Camera& camera,
+                                       const Tracer::Progress& progress);
+
+/// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide and
+/// high. Parts of a picture, and all pictures of a run, have one exposure by it.
+[[nodiscard]] double preview_exposure_ev(const Request& request, const ShownScene& shown,
+                                         const Camera& camera);
 
 }  // namespace splatray

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/library/picture/make_picture.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/command_line.h"
@@ -17,9 +16,7 @@ namespace {
 /// What all pictures of a run share.
 struct Run {
   const Request& request;
-  const Scene& scene;
-  const Context& context;
-  Tracer& tracer;
+  const ShownScene& shown;
   const SequenceListener& listener;
 };
 
@@ -29,10 +26,10 @@ void write_picture(const Run& run, const Camera& camera, const SequenceFrame& fr
   const auto progress = [&](double share) {
     return run.listener.progress(frame, before, share) && !interrupted();
   };
-  MadePicture made = make_picture(run.request, run.scene, camera, run.tracer, progress);
+  MadePicture made = make_picture(run.request, run.shown, camera, progress);
   const Request::View& asked = run.request.view;
-  Metadata metadata = picture_metadata(run.request, run.scene,
-                                       {camera, asked.width, asked.height, asked.window()}, run.context);
+  Metadata metadata = picture_metadata(
+      run.request, run.shown.scene, {camera, asked.width, asked.height, asked.window()}, run.shown.context);
   if (!made.denoiser.empty()) {
     metadata.emplace_back("denoised", made.denoiser);
     run.listener.note("denoised by " + made.denoiser);
@@ -76,16 +73,15 @@ bool is_made(const Request& request, const Camera& camera, const std::filesystem
 
 }  // namespace
 
-SequenceRecord render_sequence(const Request& request, const Sequence& sequence, const Scene& scene,
-                               const Camera& still, const Context& context, Tracer& tracer,
-                               const SequenceListener& listener) {
-  const Run run{request, scene, context, tracer, listener};
+SequenceRecord render_sequence(const Request& request, const Sequence& sequence, const ShownScene& shown,
+                               const Camera& still, const SequenceListener& listener) {
+  const Run run{request, shown, listener};
   SequenceRecord record;
   std::size_t before = 0;
   for (const SequenceFrame& frame : sequence.frames) {
     stop_if_interrupted();
     try {
-      const Camera camera = frame_camera(sequence, frame.number, still, choose_up(scene, request));
+      const Camera camera = frame_camera(sequence, frame.number, still, choose_up(shown.scene, request));
       if (!request.output.skip_existing || !is_made(request, camera, frame.output))
         write_picture(run, camera, frame, before, record);
       else if (++record.skipped; !listener.progress(frame, before, 1.0))

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "app/library/picture/make_picture.h"
 #include "app/library/picture/scene_source.h"
 #include "app/library/picture/sequence.h"
-#include "engine/gpu/tracer.h"
 
 namespace splatray {
 
@@ -40,13 +40,12 @@ struct SequenceListener {
   std::function<void(const FailedPicture&)> failed;  ///< of several, as soon as one is
 };
 
-/// Makes the pictures with a tracer that shows the scene, of which only what is small is looked at: the pools may be gone. `still`:
-/// the camera without a sequence. Each is the still of its camera, default lights included; the tracer keeps the last one's lights.
+/// Makes the pictures of a scene. `still`: the camera without a sequence. Each is the still of its camera, default lights included.
 /// One of several that cannot be made is recorded, and the others go on; of a single one throws the Error. Throws Error
 /// (interrupted) when the listener stops it, and after a signal.
 [[nodiscard]] SequenceRecord render_sequence(const Request& request, const Sequence& sequence,
-                                             const Scene& scene, const Camera& still, const Context& context,
-                                             Tracer& tracer, const SequenceListener& listener);
+                                             const ShownScene& shown, const Camera& still,
+                                             const SequenceListener& listener);
 
 /// Throws Error (failed) when a picture failed.
 void require_all_made(const SequenceRecord& record);

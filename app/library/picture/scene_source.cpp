@@ -42,29 +42,11 @@ Scene preprocess(const Request& request, const LoadListener& listener, BuildStat
   return scene;
 }
 
-void apply_material(Scene& scene, const std::string& name) {
-  if (scene.materials.size() != 1)
-    throw Error(ExitCode::usage, "found --material with a scene of " +
-                                     std::to_string(scene.materials.size()) +
-                                     " objects, expected one object");
-  scene.materials[0] = named_material(name);
-  scene.surfaces.clear();
-}
-
 /// Whether a material is another than readers give to points, whose base colour alone depends on them.
 bool is_chosen(const Material& material) {
   const Material plain = default_material();
   return material.specular != plain.specular || material.shininess != plain.shininess ||
          material.mirror != plain.mirror || (material.flags & MATERIAL_DIELECTRIC) != 0;
-}
-
-/// Applies --object.
-void change_objects(const std::vector<ObjectChange>& changes, Scene& scene) {
-  if (changes.empty()) return;
-  ObjectLooks looks{scene.materials, surfaces_of(scene)};
-  apply_object_changes(changes, scene.object_names, looks);
-  scene.materials = std::move(looks.materials);
-  scene.surfaces = std::move(looks.surfaces);
 }
 
 /// Upwards in a picture, or across that where the camera looks straight up or down.
@@ -136,14 +118,32 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
 }
 
 void show_as_asked(const Request& request, LoadedScene& loaded) {
-  if (!request.look.material.empty()) apply_material(loaded.scene, request.look.material);
-  change_objects(request.look.objects, loaded.scene);
+  if (!request.look.material.empty() || !request.look.objects.empty()) {
+    ObjectLooks objects = choose_objects(loaded.scene, request);
+    loaded.scene.materials = std::move(objects.materials);
+    loaded.scene.surfaces = std::move(objects.surfaces);
+  }
   loaded.scene.up = request.look.up.value_or(upright(loaded.scene));
   SuitedPicture suited = suited_picture(loaded.scene, request);
   loaded.request = std::move(suited.request);
   loaded.told = std::move(suited.told);
   loaded.legend = show_attributes(loaded.scene, loaded.request.look.attributes);
   loaded.environment_name = choose_environment_name(loaded.scene, request);
+}
+
+ObjectLooks choose_objects(const Scene& scene, const Request& request) {
+  ObjectLooks objects{scene.materials, surfaces_of(scene)};
+  std::vector<ObjectChange> changes;
+  if (!request.look.material.empty()) {
+    if (scene.materials.size() != 1)
+      throw Error(ExitCode::usage, "found --material with a scene of " +
+                                       std::to_string(scene.materials.size()) +
+                                       " objects, expected one object");
+    changes.push_back(read_object_change("0:preset=" + request.look.material));
+  }
+  changes.insert(changes.end(), request.look.objects.begin(), request.look.objects.end());
+  apply_object_changes(changes, scene.object_names, objects);
+  return objects;
 }
 
 Tone choose_tone(const Request& request) {
@@ -219,7 +219,8 @@ std::optional<Environment> built_in_environment(const std::string& name) {
   const vec3 radiance(numbers[0], numbers[1], numbers[2]);
   if (!(glm::all(glm::greaterThanEqual(radiance, vec3(0.0F))) &&
         std::isfinite(radiance.x + radiance.y + radiance.z)))
-    throw Error(ExitCode::usage, "--environment: found '" + name + "', expected a radiance of finite numbers >= 0");
+    throw Error(ExitCode::usage,
+                "--environment: found '" + name + "', expected a radiance of finite numbers >= 0");
   return Environment{0, 0, {}, radiance};
 }
 

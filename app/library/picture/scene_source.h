@@ -9,8 +9,6 @@
 
 namespace splatray {
 
-class Tracer;
-
 /// A scene and how it came to be.
 struct LoadedScene {
   Scene scene;
@@ -35,6 +33,9 @@ void show_as_asked(const Request& request, LoadedScene& loaded);
 /// Reads or preprocesses the scene; applies --material, --object, --up (else upright of upright.h) and what is shown of
 /// attributes. Throws Error.
 [[nodiscard]] LoadedScene load_scene(const Request& request, const LoadListener& listener);
+
+/// What the scene's objects look like with --material and --object. Throws Error (usage).
+[[nodiscard]] ObjectLooks choose_objects(const Scene& scene, const Request& request);
 
 /// The tone curve: that of --tone, else Tone::soft with --look paper and Tone::neutral otherwise.
 [[nodiscard]] Tone choose_tone(const Request& request);
@@ -94,10 +95,5 @@ struct SuitedPicture {
 [[nodiscard]] bool suits_denoising(const Scene& scene, const Request& asked);
 /// Whether the exposure is left to the picture: asked for as auto, or of a scan that nothing is said of.
 [[nodiscard]] bool suits_exposure(const Scene& scene, const Request& asked);
-
-/// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide and
-/// high, with the tracer's lights and environment. Parts of a picture, and all pictures of a run, have one exposure by
-/// it.
-[[nodiscard]] double preview_exposure_ev(Tracer& tracer, View view, Settings settings);
 
 }  // namespace splatray

@@ -3,10 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "app/library/display_image.h"
 #include "app/library/picture/scene_source.h"
 #include "engine/base/rank.h"
-#include "engine/gpu/tracer.h"
 #include "engine/image/scan_kind.h"
 
 namespace splatray {
@@ -92,21 +90,6 @@ bool suits_denoising(const Scene& scene, const Request& asked) {
 
 bool suits_exposure(const Scene& scene, const Request& asked) {
   return !asked.look.exposure_ev && (asked.look.exposure_auto || !scene.stations.empty());
-}
-
-double preview_exposure_ev(Tracer& tracer, View view, Settings settings) {
-  constexpr std::uint32_t LONGEST = 160, SAMPLES = 4;
-  const std::uint32_t longest = std::max(view.width, view.height);
-  const auto scaled = [&](std::uint32_t side) {
-    return longest > LONGEST ? std::max(side * LONGEST / longest, 1U) : side;
-  };
-  view = {view.camera, scaled(view.width), scaled(view.height)};
-  settings.samples = SAMPLES;
-  settings.sample_offset = 0;
-  settings.aov = settings.estimate_error = settings.counters = false;
-  constexpr double MOST_STOPS = 60.0, STEPS = 100.0;
-  const double ev = automatic_exposure_ev(tracer.render(view, settings));
-  return std::clamp(std::round(STEPS * ev) / STEPS, -MOST_STOPS, MOST_STOPS);
 }
 
 }  // namespace splatray

@@ -201,12 +201,6 @@ ObjectChange difference(const Material& from, const Material& to) {
   return options;
 }
 
-template <class Element>
-bool same_bytes(const std::vector<Element>& a, const std::vector<Element>& b) {
-  if (a.size() != b.size()) return false;
-  return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0;
-}
-
 }  // namespace
 
 ObjectChange read_object_change(const std::string& text) {
@@ -227,10 +221,6 @@ std::string object_text(const ObjectChange& options) {
     if (!value.empty()) text += (text.empty() ? ":" : ",") + key.name + "=" + value;
   }
   return options.object + text;
-}
-
-bool same_looks(const ObjectLooks& a, const ObjectLooks& b) {
-  return same_bytes(a.materials, b.materials) && same_bytes(a.surfaces, b.surfaces);
 }
 
 Surface surface_after(const Material& before, const Surface& surface, const Material& after) {

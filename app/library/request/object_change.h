@@ -28,15 +28,6 @@ struct ObjectChange {
 /// The text that reads back to equal options.
 [[nodiscard]] std::string object_text(const ObjectChange& options);
 
-/// What objects look like: beside each other, one for each.
-struct ObjectLooks {
-  std::vector<Material> materials;
-  std::vector<Surface> surfaces;
-};
-
-/// Whether the two are equal bit for bit.
-[[nodiscard]] bool same_looks(const ObjectLooks& a, const ObjectLooks& b);
-
 /// What a surface becomes when its material changes: surface_of the material after, but for metallic, roughness, coat and emission
 /// where the surface said something else than its material before. As it is where surface_of does not see the change.
 [[nodiscard]] Surface surface_after(const Material& before, const Surface& surface, const Material& after);

@@ -25,26 +25,21 @@ class LiveScene {
   /// that cannot be read, once: the one before stays.
   void match(const Document& document, ViewMode mode);
 
-  /// After others have given the tracer lights.
-  void forget_lights() { lights_.reset(); }
-
   [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] const Look& look() const { return look_; }
   [[nodiscard]] const ColorLegend& legend() const { return legend_; }
   [[nodiscard]] Tracer& tracer() { return tracer_; }
 
  private:
-  void match_looks(const ObjectLooks& looks);
   void match_attributes(const AttributeOptions& attributes);
   void match_environment(const std::string& name);
 
   Tracer tracer_;
   SharedScene scene_;
-  ObjectLooks looks_;  ///< as uploaded, and so on
-  std::optional<std::vector<SceneLight>> lights_;
-  std::optional<std::string> environment_;
-  glm::dvec3 up_{0.0};
-  AttributeOptions attributes_;
+  Look look_;
+  std::optional<std::string> environment_;  ///< the name of the look's
+  AttributeOptions attributes_;             ///< as uploaded
   ColorLegend legend_;
 };
 

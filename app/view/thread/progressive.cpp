@@ -51,7 +51,7 @@ SharedFrame Progressive::work(const std::function<bool()>& stop) {
     return frame;
   }
   if (stage == Stage::settling && document_.mode == ViewMode::shaded) {
-    live_.tracer().begin({document_.camera, window_px_.x, window_px_.y}, settings());
+    live_.tracer().begin(live_.look(), {document_.camera, window_px_.x, window_px_.y}, settings());
     pass_start_ = Clock::now();
   }
   stage_ = Stage::fine;
@@ -66,7 +66,7 @@ SharedFrame Progressive::trace_coarse() {
   coarse.samples = 1;
   const Clock::time_point start = Clock::now();
   if (document_.mode == ViewMode::shaded)
-    frame.image = live_.tracer().render(frame.view, coarse);
+    frame.image = live_.tracer().render(live_.look(), frame.view, coarse);
   else
     trace_aovs(frame, coarse, {});
   frame.ms = milliseconds_since(start);
@@ -117,7 +117,7 @@ void Progressive::trace_aovs(Frame& frame, const Settings& settings, const std::
   if (stop) progress = [&stop](double) { return !stop(); };
   frame.image.width = frame.view.width;
   frame.image.height = frame.view.height;
-  frame.image.aov = live_.tracer().trace_aov(frame.view, settings, progress);
+  frame.image.aov = live_.tracer().trace_aov(live_.look(), frame.view, settings, progress);
 }
 
 Settings Progressive::settings() const {

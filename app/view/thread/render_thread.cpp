@@ -2,8 +2,9 @@
 
 #include <utility>
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/picture/make_picture.h"
 #include "app/view/model/attempt.h"
+#include "app/view/model/document_request.h"
 #include "app/view/model/inspect.h"
 
 namespace splatray {
@@ -102,7 +103,9 @@ void RenderThread::fulfil(const Wishes& wishes) {
 void RenderThread::expose() {
   const glm::uvec2 size = glm::max(progressive_.window_px(), glm::uvec2(1));
   live_.match(shown_, ViewMode::shaded);
-  const double ev = preview_exposure_ev(live_.tracer(), {shown_.camera, size.x, size.y}, shown_.settings);
+  const double ev =
+      preview_exposure_ev(request_of(shown_, size.x, size.y),
+                          {live_.scene(), live_.look(), live_.tracer(), context_}, shown_.camera);
   deliver([&](RenderNews& news) { news.exposure_ev = ev; });
 }
 
@@ -110,7 +113,7 @@ void RenderThread::answer(const PickRequest& request) {
   const View view{shown_.camera, request.size_px.x, request.size_px.y};
   live_.match(shown_, shown_.mode);
   const RayQuery query = cursor_query(live_.scene(), view, request.position_px);
-  const RayHit hit = live_.tracer().intersect({&query, 1}, shown_.settings).front();
+  const RayHit hit = live_.tracer().intersect(live_.look(), {&query, 1}, shown_.settings).front();
   Pick pick{inspect(live_.scene(), shown_.camera, query, hit), request.as_pivot};
   deliver([&](RenderNews& news) { news.pick = std::move(pick); });
 }

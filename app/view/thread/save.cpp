@@ -29,15 +29,14 @@ std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& co
   const Sequence sequence = plan_sequence(request);
   require_outputs_writable(request);
   live.match(job.document, ViewMode::shaded);
-  live.forget_lights();
   const auto pictures = static_cast<double>(sequence.frames.size());
   const SequenceListener listener{[&](const SequenceFrame& frame, std::size_t before, double share) {
                                     return progress({"saving " + frame.output.filename().string(),
                                                      (static_cast<double>(before) + share) / pictures});
                                   },
                                   [](const std::string&) {}, [](const FailedPicture&) {}};
-  const SequenceRecord record =
-      render_sequence(request, sequence, live.scene(), job.document.camera, context, live.tracer(), listener);
+  const SequenceRecord record = render_sequence(
+      request, sequence, {live.scene(), live.look(), live.tracer(), context}, job.document.camera, listener);
   require_all_made(record);
   const std::string saved = "saved '" + request.output.path.string() + "'";
   if (!request.output.many()) return saved;

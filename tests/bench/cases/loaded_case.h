@@ -5,18 +5,18 @@
 #include <memory>
 #include <string>
 
-#include "engine/gpu/tracer.h"
 #include "engine/vulkan/context.h"
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/cases.h"
 #include "tests/bench/measure/record.h"
+#include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
 
 /// One scene file of a case.
 struct LoadedVariant {
   PreparedVariant prepared;
-  Tracer tracer;  ///< holds the scene and its surroundings
+  ShownTracer tracer;  ///< holds the scene and its surroundings
   RootTransform root;
   std::uint64_t splats = 0;
   std::uint32_t leaf_size = 0;   ///< that the build took

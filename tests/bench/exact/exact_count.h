@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-#include "engine/gpu/tracer.h"
 #include "tests/bench/exact/exact_rays.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/trace/brute_force_tree.h"
 
 namespace splatray::testing {
@@ -58,7 +58,7 @@ class ExactScene {
                    ExactCount& count);
 
   Scene scene_;
-  Tracer tracer_;
+  ShownTracer tracer_;
   BruteForceTree brute_;
 };
 

@@ -28,7 +28,7 @@ RenderStats count_work(LoadedCase& loaded, const Run& run) {
   Settings settings = loaded.settings_of(run);
   settings.samples = 1;
   settings.counters = true;
-  Tracer& tracer = loaded.variant_of(run).tracer;
+  ShownTracer& tracer = loaded.variant_of(run).tracer;
   static_cast<void>(tracer.render(loaded.view(), settings));
   return tracer.stats();
 }
@@ -36,7 +36,7 @@ RenderStats count_work(LoadedCase& loaded, const Run& run) {
 double frame_ms(LoadedCase& loaded, const Run& run, std::uint32_t samples) {
   Settings settings = loaded.settings_of(run);
   settings.samples = samples;
-  Tracer& tracer = loaded.variant_of(run).tracer;
+  ShownTracer& tracer = loaded.variant_of(run).tracer;
   static_cast<void>(tracer.render(loaded.view(), settings));
   return tracer.stats().trace_ms;
 }

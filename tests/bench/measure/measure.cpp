@@ -53,7 +53,7 @@ void compare_with_brute_force(LoadedCase& loaded, std::vector<Json>& records) {
   rays.insert(rays.end(), secondary.begin(), secondary.end());
   const std::vector<TrueHit> truth = all_nearest(brute, rays, settings);
   for (std::size_t i = 0; i < records.size(); ++i) {
-    Tracer& tracer = loaded.variant_of(loaded.about().runs[i]).tracer;
+    ShownTracer& tracer = loaded.variant_of(loaded.about().runs[i]).tracer;
     const Agreement agreement = agreement_of(brute, truth, tracer.intersect(rays, settings));
     records[i]["error"]["truth"] = "brute force";
     records[i]["error"]["mismatch_ppm"] =
@@ -81,7 +81,7 @@ void count_leaks(LoadedCase& loaded, std::vector<Json>& records) {
     const Run& run = loaded.about().runs[i];
     Settings settings = loaded.settings_of(run);
     settings.counters = true;
-    Tracer& tracer = loaded.variant_of(run).tracer;
+    ShownTracer& tracer = loaded.variant_of(run).tracer;
     const Image image = tracer.render(loaded.view(), settings);
     double covered = 0.0;
     for (const vec4& pixel : image.rgba) covered += pixel.w;

@@ -4,11 +4,11 @@
 #include <numbers>
 
 #include "engine/file/scene_file.h"
-#include "engine/gpu/tracer.h"
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/random_rays.h"
 #include "tests/bench/measure/speed_record.h"
 #include "tests/bench/truth/pixel_rays.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/trace/agreement.h"
 #include "tests/trace/rays.h"
 
@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t ROUNDS = 25;
 constexpr int HALVINGS = 14;
 
-double coverage_of(Tracer& tracer, const View& view) {
+double coverage_of(ShownTracer& tracer, const View& view) {
   std::size_t hits = 0;
   const std::vector<AovPixel> pixels = tracer.trace_aov(view, {});
   for (const AovPixel& pixel : pixels) hits += pixel.object != NO_OBJECT ? 1 : 0;
@@ -26,7 +26,7 @@ double coverage_of(Tracer& tracer, const View& view) {
 }
 
 /// The view through a shorter or longer lens, of which `share` hits; more the longer it is.
-View with_coverage(Tracer& tracer, View view, double share) {
+View with_coverage(ShownTracer& tracer, View view, double share) {
   const double start = std::log(std::tan(view.camera.fov_y_deg * std::numbers::pi / 360.0));
   double low = start - 3.0, high = start + 3.0;
   for (int i = 0; i < HALVINGS; ++i) {
@@ -65,21 +65,21 @@ std::vector<RayQuery> compared_rays(const View& view, const RootTransform& root)
   return rays;
 }
 
-double mismatch_ppm(Tracer& tracer, const BruteForce& brute, const std::vector<RayQuery>& rays,
+double mismatch_ppm(ShownTracer& tracer, const BruteForce& brute, const std::vector<RayQuery>& rays,
                     const Settings& settings) {
   const Agreement agreement =
       agreement_of(brute, all_nearest(brute, rays, settings), tracer.intersect(rays, settings));
   return 1e6 * static_cast<double>(agreement.exceptions()) / static_cast<double>(agreement.rays);
 }
 
-RenderStats frame(Tracer& tracer, const View& view, Settings settings, bool counters) {
+RenderStats frame(ShownTracer& tracer, const View& view, Settings settings, bool counters) {
   settings.counters = counters;
   static_cast<void>(tracer.render(view, settings));
   return tracer.stats();
 }
 
 /// Milliseconds of ROUNDS frames of each run, after one of each that does not count.
-std::vector<std::vector<double>> times_in_turn(Tracer& tracer, const View& view,
+std::vector<std::vector<double>> times_in_turn(ShownTracer& tracer, const View& view,
                                                const std::vector<Settings>& runs) {
   std::vector<std::vector<double>> times(runs.size());
   for (std::size_t round = 0; round < 1 + ROUNDS; ++round)
@@ -97,7 +97,7 @@ std::vector<Json> measure_coverage(const Context& context, const Case& one,
   const PreparedCase prepared = read_case(folder);
   const Scene scene = read_scene(folder / file_name(one.runs.front().variant));
   const BruteForce brute(scene);
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.upload(scene);
   tracer.set_environment(read_environment_file(folder / "environment.bin"));
   const std::vector<Settings> runs = settings_of_runs();

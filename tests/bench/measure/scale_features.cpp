@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "engine/file/scene_file.h"
-#include "engine/gpu/tracer.h"
 #include "engine/scene/splat.h"
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/scale_cases.h"
 #include "tests/bench/measure/speed_record.h"
+#include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
 namespace {
@@ -148,7 +148,7 @@ class Stage {
     splats_ = scene.data_pool.size();
     for (const Entry& entry : entries_of(key_, behind_)) {
       if (tracers_.contains(entry.pools)) continue;
-      tracers_[entry.pools] = std::make_unique<Tracer>(context);
+      tracers_[entry.pools] = std::make_unique<ShownTracer>(context);
       tracers_[entry.pools]->upload(with_pools(scene, entry.pools, forward));
     }
   }
@@ -157,10 +157,10 @@ class Stage {
   [[nodiscard]] std::uint64_t splats() const { return splats_; }
 
   Image render(const Entry& entry, bool counters) {
-    Tracer& tracer = *tracers_.at(entry.pools);
+    ShownTracer& tracer = *tracers_.at(entry.pools);
     const std::vector<Material> materials{entry.near, entry.far};
     tracer.set_materials(materials);
-    tracer.set_lights(entry.lights);
+    tracer.look.lights = entry.lights;
     tracer.set_environment(environments_.at(entry.surroundings));
     Settings settings;
     settings.samples = 1;
@@ -178,7 +178,7 @@ class Stage {
   SceneLight key_, behind_;
   std::map<Surroundings, Environment> environments_;
   std::uint64_t splats_ = 0;
-  std::map<Pools, std::unique_ptr<Tracer>> tracers_;
+  std::map<Pools, std::unique_ptr<ShownTracer>> tracers_;
   RenderStats stats_;
 };
 

@@ -15,7 +15,7 @@ void append(std::vector<Json>& list, std::vector<Json> more) {
 std::vector<Json> measure_rays(const Context& context, const Case& one, const std::filesystem::path& folder,
                                const PeerMakers& makers) {
   const PreparedCase prepared = read_case(folder);
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.set_environment(read_environment_file(folder / "environment.bin"));
   std::optional<Course> course;
   std::vector<PeerMaker> peers;

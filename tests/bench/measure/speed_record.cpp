@@ -29,7 +29,7 @@ void add_work(Json& speed, const RenderStats& counted) {
   speed["leaves_per_ray"] = static_cast<double>(count[COUNT_LEAVES]) / rays;
 }
 
-double bytes_per_splat(const Tracer& tracer, std::size_t splats) {
+double bytes_per_splat(const ShownTracer& tracer, std::size_t splats) {
   return static_cast<double>(total_bytes(tracer.pool_bytes())) / static_cast<double>(splats);
 }
 

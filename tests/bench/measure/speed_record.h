@@ -2,9 +2,9 @@
 #pragma once
 #include <vector>
 
-#include "engine/gpu/tracer.h"
 #include "engine/vulkan/context.h"
 #include "tests/bench/measure/record.h"
+#include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
 
@@ -18,6 +18,6 @@ void add_times(Json& speed, const std::vector<double>& times_ms, double rays);
 void add_work(Json& speed, const RenderStats& counted);
 
 /// What a scene of so many splats takes on the device, all pools, bytes a splat.
-[[nodiscard]] double bytes_per_splat(const Tracer& tracer, std::size_t splats);
+[[nodiscard]] double bytes_per_splat(const ShownTracer& tracer, std::size_t splats);
 
 }  // namespace splatray::testing

@@ -16,7 +16,7 @@ bool is_outside(Frame frame) { return frame == Frame::primary || frame == Frame:
 
 }  // namespace
 
-SplatrayRacer::SplatrayRacer(const Context& context, Tracer& tracer, const Course& course,
+SplatrayRacer::SplatrayRacer(const Context& context, ShownTracer& tracer, const Course& course,
                              std::uint32_t blend)
     : context_(context), tracer_(tracer), course_(course), blend_(blend) {}
 
@@ -32,8 +32,8 @@ Settings SplatrayRacer::settings_of(Frame frame) const {
 
 Image SplatrayRacer::render(Frame frame, const Settings& settings) {
   tracer_.set_materials({{material_of(frame)}});
-  if (is_outside(frame)) tracer_.set_lights({{course_.light}});
-  if (!is_outside(frame)) tracer_.set_lights({});
+  if (is_outside(frame)) tracer_.look.lights = {course_.light};
+  if (!is_outside(frame)) tracer_.look.lights = {};
   return tracer_.render(is_outside(frame) ? course_.outside : course_.inside, settings);
 }
 

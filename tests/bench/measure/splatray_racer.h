@@ -1,8 +1,8 @@
 /// splatray in a race, on a device.
 #pragma once
-#include "engine/gpu/tracer.h"
 #include "engine/vulkan/context.h"
 #include "tests/bench/measure/racer.h"
+#include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
 
@@ -10,7 +10,7 @@ namespace splatray::testing {
 class SplatrayRacer : public Racer {
  public:
   /// `tracer` holds the course's sphere and its surroundings; both must outlive the racer.
-  SplatrayRacer(const Context& context, Tracer& tracer, const Course& course, std::uint32_t blend);
+  SplatrayRacer(const Context& context, ShownTracer& tracer, const Course& course, std::uint32_t blend);
 
   double run(Frame frame) override;
   [[nodiscard]] std::uint64_t count_rays(Frame frame) override;
@@ -25,7 +25,7 @@ class SplatrayRacer : public Racer {
   [[nodiscard]] Image render(Frame frame, const Settings& settings);
 
   const Context& context_;
-  Tracer& tracer_;
+  ShownTracer& tracer_;
   const Course& course_;
   std::uint32_t blend_;
 };

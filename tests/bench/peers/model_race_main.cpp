@@ -14,13 +14,13 @@
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/scene_file.h"
-#include "engine/gpu/tracer.h"
 #include "tests/bench/cases/statistics.h"
 #include "tests/bench/measure/processor.h"
 #include "tests/bench/measure/record.h"
 #include "tests/bench/peers/peer_embree_clusters.h"
 #include "tests/bench/peers/peer_embree_discs.h"
 #include "tests/bench/peers/peer_frame.h"
+#include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
 namespace {
@@ -43,7 +43,8 @@ Settings settings_of(std::uint32_t blend, bool cull) {
   return settings;
 }
 
-Entry own_entry(const Context& context, Tracer& tracer, const View& view, std::uint32_t blend, bool cull) {
+Entry own_entry(const Context& context, ShownTracer& tracer, const View& view, std::uint32_t blend,
+                bool cull) {
   const Settings settings = settings_of(blend, cull);
   Entry entry{{{"method", blend_word(blend)}, {"settings", {{"cull", cull}}}}, {}, {}};
   entry.record["device"] = {{"name", context.device_info().name}, {"driver", context.device_info().driver}};
@@ -111,7 +112,7 @@ void race(const std::string& name, const Context& context, const Scene& scene, s
   const View view{framing_camera(scene, 1.0), SIZE, SIZE};
   const Discs discs = discs_of(scene);
   const FrameParams frame = make_frame_params(scene, view, settings_of(BLEND_WINDOW, false));
-  Tracer tracer(context);
+  ShownTracer tracer(context);
   tracer.upload(scene);
   std::vector<Entry> entries;
   for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST})

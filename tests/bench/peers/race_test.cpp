@@ -29,7 +29,7 @@ struct SmallRace {
 
   std::vector<Json> run() {
     const Context context;
-    Tracer tracer(context);
+    ShownTracer tracer(context);
     tracer.upload(scene);
     const Course course(one, prepared, scene);
     SplatrayRacer own(context, tracer, course, BLEND_WINDOW);

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/tracer.h"
+#include "tests/gpu/shown_tracer.h"
 #include "tests/hard/support/case_table.h"
 #include "tests/trace/brute_force.h"
 #include "tests/trace/different_bits.h"
@@ -24,10 +24,10 @@ class DeviceScene {
  public:
   explicit DeviceScene(const Scene& scene, const Context& context = shared_context());
 
-  /// Tracer::intersect. Adds up lost rays and answers that are not finite: a hit whose t is not finite or
+  /// ShownTracer::intersect. Adds up lost rays and answers that are not finite: a hit whose t is not finite or
   /// whose normal is not of unit length within 1e-3.
   [[nodiscard]] std::vector<RayHit> intersect(std::span<const RayQuery> rays, Settings settings = {});
-  /// Tracer::render; lost rays and non-finite samples and pixels are added up.
+  /// ShownTracer::render; lost rays and non-finite samples and pixels are added up.
   [[nodiscard]] Image render(const View& view, Settings settings, const Environment& environment);
 
   /// A row with the lost rays and non-finite answers since the last call of row().
@@ -36,7 +36,7 @@ class DeviceScene {
   [[nodiscard]] std::uint64_t counter(std::uint32_t index) const { return tracer_.stats().counters[index]; }
 
  private:
-  Tracer tracer_;
+  ShownTracer tracer_;
   std::uint64_t lost_ = 0;
   std::uint64_t non_finite_ = 0;
 };

@@ -1,0 +1,28 @@
+/// What a scene is seen in. An image is a value of four: image = render(scene, look, view, settings).
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "engine/image/emitters.h"
+#include "engine/scene/environment.h"
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+struct Look {
+  ObjectLooks objects;             ///< one for each object of the scene
+  std::vector<SceneLight> lights;  ///< at most LIGHTS_MOST, of them LIGHTS_SIZED_MOST that have a size
+  /// Where paths look for light that objects send out: find_emitters() of the scene and the surfaces. Others are correct but noisier.
+  std::vector<Emitter> emitters;
+  /// Null: black all around. Shared, and told apart by its address, as it may be large.
+  std::shared_ptr<const Environment> environment;
+  glm::dvec3 up{0.0, 1.0, 0.0};  ///< the environment stands about it; any length > 0
+};
+
+/// A scene's own look, in a black environment. The scene has its pools.
+[[nodiscard]] Look look_of(const Scene& scene);
+
+/// Gives a look these objects, and their emitters where they send out other light than before. The scene has its pools.
+void show_objects(const Scene& scene, ObjectLooks objects, Look& look);
+
+}  // namespace splatray
