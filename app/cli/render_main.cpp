@@ -13,6 +13,7 @@
 #include "engine/base/interrupt.h"
 #include "engine/base/number_text.h"
 #include "engine/base/progress.h"
+#include "engine/scene/look_style.h"
 #include "preprocess/base/file_extension.h"
 
 namespace {
@@ -81,7 +82,7 @@ void tell_hidden_materials(const Request& request) {
   const Request::Look& look = request.look;
   const bool asked =
       !look.material.empty() || std::any_of(look.objects.begin(), look.objects.end(), changes_look);
-  if (request.output.quiet || !asked || !look.style || shows_materials(*look.style)) return;
+  if (request.output.quiet || !asked || !look.style || look_style(*look.style).surfaces) return;
   std::fputs("splatray-render: note: this --look shows no materials, --look lit does\n", stderr);
 }
 

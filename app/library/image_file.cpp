@@ -185,24 +185,19 @@ std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata&
   return encode(std::move(contents.header), metadata, contents.bytes.data(), "png", "a PNG");
 }
 
-ExrPicture exr_picture(const Image& image, AovChannels aovs, const Metadata& metadata) {
+ExrPicture exr_picture(const Image& image, AovSet aovs, const Metadata& metadata) {
   ExrPicture picture{image.width,          image.height, {0, 0, image.width, image.height},
                      {"R", "G", "B", "A"}, {},           metadata};
   std::vector<std::string>& names = picture.channels;
-  if (aovs.depth) names.emplace_back("Z");
-  if (aovs.normal) names.insert(names.end(), {"N.X", "N.Y", "N.Z"});
-  if (aovs.id) names.emplace_back("id");
-  if (aovs.error) names.emplace_back("error");
+  for (std::size_t i = 0; i < all_aovs().size(); ++i)
+    if (has_aov(aovs, i))
+      names.insert(names.end(), all_aovs()[i].channels.begin(), all_aovs()[i].channels.end());
   std::vector<float>& values = picture.values;
   values.reserve(image.rgba.size() * names.size());
-  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-    for (int channel = 0; channel < 4; ++channel) values.push_back(image.rgba[i][channel]);
-    if (aovs.depth) values.push_back(image.aov[i].z);
-    if (aovs.normal)
-      values.insert(values.end(), {image.aov[i].normal.x, image.aov[i].normal.y, image.aov[i].normal.z});
-    if (aovs.id)
-      values.push_back(image.aov[i].object == NO_OBJECT ? -1.0F : static_cast<float>(image.aov[i].object));
-    if (aovs.error) values.push_back(image.error[i]);
+  for (std::size_t pixel = 0; pixel < image.rgba.size(); ++pixel) {
+    for (int channel = 0; channel < 4; ++channel) values.push_back(image.rgba[pixel][channel]);
+    for (std::size_t i = 0; i < all_aovs().size(); ++i)
+      if (has_aov(aovs, i)) all_aovs()[i].put(image, pixel, values);
   }
   return picture;
 }
@@ -221,8 +216,7 @@ void write_exr(const ExrPicture& picture, const std::filesystem::path& path) {
   write_picture(std::move(header), picture.metadata, picture.values.data(), "openexr", path);
 }
 
-void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
-               const std::filesystem::path& path) {
+void write_exr(const Image& image, AovSet aovs, const Metadata& metadata, const std::filesystem::path& path) {
   write_exr(exr_picture(image, aovs, metadata), path);
 }
 

@@ -6,16 +6,13 @@
 #include <vector>
 
 #include "app/library/display_image.h"
+#include "engine/image/aovs.h"
 #include "engine/image/image.h"
 #include "engine/image/view.h"
 #include "engine/scene/environment.h"
 
 namespace splatray {
 
-/// Which auxiliary channels an EXR gets beside R G B A: Z; N.X N.Y N.Z; id; error.
-struct AovChannels {
-  bool depth = false, normal = false, id = false, error = false;
-};
 /// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, their names after "splatray.".
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
@@ -43,10 +40,9 @@ struct ExrPicture {
 /// Writes linear float EXR; a part as data window. Throws Error (failed) as write_png does.
 void write_exr(const ExrPicture& picture, const std::filesystem::path& path);
 /// Wraps an image that covers the whole picture; set `window` for a part.
-[[nodiscard]] ExrPicture exr_picture(const Image& image, AovChannels aovs, const Metadata& metadata);
+[[nodiscard]] ExrPicture exr_picture(const Image& image, AovSet aovs, const Metadata& metadata);
 /// The same of an image that is the whole picture.
-void write_exr(const Image& image, AovChannels aovs, const Metadata& metadata,
-               const std::filesystem::path& path);
+void write_exr(const Image& image, AovSet aovs, const Metadata& metadata, const std::filesystem::path& path);
 /// What write_exr wrote, without its values. Throws Error (input_unreadable) with path, found and expected.
 [[nodiscard]] ExrPicture read_exr_header(const std::filesystem::path& path);
 /// Reads it whole; Error (out_of_memory), too, where that would take more memory than there is.

@@ -73,7 +73,7 @@ struct Material {
   std::optional<float> metallic{}, roughness{};  ///< 0..1 (glTF 2.0, "metallic-roughness")
   /// A clear layer's share and roughness, 0..1 (KHR_materials_clearcoat).
   std::optional<float> coat{}, coat_roughness{};
-  std::optional<Float3> emission{};  ///< radiance sent out, 0..1e6
+  std::optional<Float3> emission{};  ///< radiance sent out, 0..1e9
   bool operator==(const Material&) const = default;
 };
 /// The material of a name: matte, glossy, mirror, gold, copper, glass or ruby. Throws Error (usage) for another.

@@ -18,31 +18,19 @@ __attribute__((tls_model("initial-exec"))) thread_local uint lane_now = 0;
 #define ORDER (bound->constants[SPEC_ORDER])
 #define STAGE (bound->constants[SPEC_STAGE])
 #define TOP_LEVELS (bound->constants[SPEC_TOP_LEVELS])
-#define HAS(feature) ((bound->constants[SPEC_FEATURES] & (feature)) != 0U)
-#define MIRRORS HAS(FEATURE_MIRRORS)
-#define GLASS HAS(FEATURE_GLASS)
-#define COLORS HAS(FEATURE_COLORS)
-#define FIELDS HAS(FEATURE_FIELDS)
-#define REFERENCES HAS(FEATURE_REFERENCES)
-#define LIGHTS HAS(FEATURE_LIGHTS)
-#define SHADOWS HAS(FEATURE_SHADOWS)
-#define ENVIRONMENT HAS(FEATURE_ENVIRONMENT)
-#define CLIPS HAS(FEATURE_CLIPS)
-#define ELLIPSES HAS(FEATURE_ELLIPSES)
-#define COUNTERS HAS(FEATURE_COUNTERS)
+
+/// Whether the pipeline has a feature.
+template <uint BIT>
+struct Feature {
+  operator bool() const {
+    return (bound->constants[SPEC_FEATURES] & BIT) != 0U;
+  }  // NOLINT: as a bool of GLSL
+};
+#define SPLATRAY_FEATURE(NAME, BIT) constexpr Feature<BIT> NAME;
+#include "scene/features.glsl"
 #ifdef LIT
 #define LOOK (bound->constants[SPEC_LOOK])
-#define SKY HAS(FEATURE_SKY)
-#define SIZES HAS(FEATURE_SIZES)
-#define EMISSION HAS(FEATURE_EMISSION)
-#define LENS HAS(FEATURE_LENS)
-#define STRAIGHT HAS(FEATURE_STRAIGHT)
 #define TINTED (STRAIGHT && GLASS)
-#define LOBE_DIFFUSE HAS(FEATURE_DIFFUSE)
-#define LOBE_SPECULAR HAS(FEATURE_SPECULAR)
-#define LOBE_METAL HAS(FEATURE_METAL)
-#define LOBE_TRANSMISSION GLASS
-#define LOBE_COAT HAS(FEATURE_COAT)
 #else
 #define TINTED GLASS
 #endif

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/scene/look_style.h"
 #include "engine/table/albedo_table.h"
 
 namespace splatray {
@@ -146,7 +147,7 @@ SceneContent DeviceScene::content() const {
 
 FrameParams DeviceScene::picture_params(const View& view, const Settings& settings) const {
   FrameParams frame = make_frame_params(outline_, view, settings);
-  const bool traces = settings.look == LOOK_LIT || settings.look == LOOK_CLAY;
+  const bool traces = look_style(settings.look).paths;
   const bool mirrors = settings.look == LOOK_PAPER && (material_content_.mirrors || material_content_.glass);
   if (!traces && !mirrors) frame.max_bounces = 0;
   frame.light_end = lights_;
@@ -164,8 +165,7 @@ FrameParams DeviceScene::picture_params(const View& view, const Settings& settin
 
 /// The environment is chosen as often as its light's share of all is, but neither it nor the lights less than one time in ten.
 void DeviceScene::set_sky(const Settings& settings, FrameParams& frame) const {
-  const bool traces = settings.look == LOOK_LIT || settings.look == LOOK_CLAY;
-  if (sky_.width == 0 || !traces) return;
+  if (sky_.width == 0 || !look_style(settings.look).paths) return;
   const double sky = sky_.irradiance_mean * settings.environment_strength;
   const double share = std::clamp(sky / std::max(sky + light_irradiance_, 1e-30), 0.1, 0.9);
   frame.sky_width = sky_.width;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/scene/look_style.h"
+
 namespace splatray {
 namespace {
 
@@ -52,14 +54,12 @@ namespace {
 
 /// FEATURE_* of a look other than LOOK_PAPER.
 std::uint32_t light_features(const SceneContent& content, const Settings& settings) {
-  const bool all = settings.look == LOOK_LIT, traces = all || settings.look == LOOK_CLAY;
-  const bool colored = all || settings.look == LOOK_SCAN || settings.look == LOOK_BASE;
-  const bool lights = content.lights && settings.look != LOOK_AO && settings.look != LOOK_BASE,
-             sky = content.sky && traces;
+  const LookStyle style = look_style(settings.look);
+  const bool all = style.surfaces, lights = content.lights && style.lights, sky = content.sky && style.paths;
   std::uint32_t features = all ? content.surfaces : FEATURE_DIFFUSE;
   const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
   add(all && content.materials.glass, FEATURE_GLASS);
-  add(content.colors && colored, FEATURE_COLORS);
+  add(content.colors && style.colors, FEATURE_COLORS);
   add(lights, FEATURE_LIGHTS);
   add(lights && content.sized_lights, FEATURE_SIZES);
   add(sky, FEATURE_SKY);
@@ -101,7 +101,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   constants[SPEC_KERNEL] = settings.kernel;
   constants[SPEC_SIDE] = settings.side;
   // Where nothing is looked through, what is behind glass is not to be seen: glass shows both of its sides.
-  const bool opaque = settings.look == LOOK_SCAN || settings.look == LOOK_CLAY || settings.look == LOOK_AO;
+  const bool opaque = look_style(settings.look).opaque;
   const std::uint32_t opaque_faces = content.materials.open ? FACES_BOTH : FACES_OPAQUE;
   constants[SPEC_FACES] = opaque && content.materials.glass ? opaque_faces : content.materials.faces;
   if (settings.cutaway && constants[SPEC_FACES] == FACES_BOTH) constants[SPEC_FACES] = FACES_CUT;

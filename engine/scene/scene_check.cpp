@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
+#include "engine/base/number_text.h"
 #include "engine/scene/leaf/empty_box.h"
 #include "engine/scene/leaf/slab.h"
 #include "engine/scene/pool_table.h"
+#include "engine/scene/surface_fields.h"
 
 namespace splatray {
 namespace {
@@ -163,24 +166,16 @@ Defect check_material(const Material& material) {
   return {};
 }
 
-/// Ranges: layout.h.
 Defect check_surface(const Surface& surface) {
-  const auto in_range = [](float value, float least, float most) { return value >= least && value <= most; };
-  const auto amount = [](const vec3& value) {
-    return finite(value) && !glm::any(glm::lessThan(value, vec3(0.0F)));
-  };
-  if (!is_share(surface.base)) return SceneDefect{"a base colour", "0 to 1"};
-  if (!in_range(surface.metallic, 0.0F, 1.0F)) return SceneDefect{"a metallic", "0 to 1"};
-  if (!in_range(surface.roughness, 0.0F, 1.0F)) return SceneDefect{"a roughness", "0 to 1"};
-  if (!in_range(surface.specular, 0.0F, 1.0F)) return SceneDefect{"a specular", "0 to 1"};
-  if (!amount(surface.specular_color)) return SceneDefect{"a specular colour", "finite numbers, 0 or more"};
-  if (!amount(surface.emission)) return SceneDefect{"an emission", "finite numbers, 0 or more"};
-  if (!amount(surface.absorption)) return SceneDefect{"an absorption", "finite numbers, 0 or more"};
-  if (!in_range(surface.transmission, 0.0F, 1.0F)) return SceneDefect{"a transmission", "0 to 1"};
-  if (!in_range(surface.coat, 0.0F, 1.0F)) return SceneDefect{"a clearcoat", "0 to 1"};
-  if (!in_range(surface.coat_roughness, 0.0F, 1.0F)) return SceneDefect{"a clearcoat roughness", "0 to 1"};
-  if (!finite(surface.ior) || !(surface.ior >= 1.0F))
-    return SceneDefect{"a surface's index of refraction", "1 or more"};
+  for (const SurfaceField& field : surface_fields()) {
+    const vec3 value = field.of(surface);
+    if (glm::all(glm::greaterThanEqual(value, vec3(field.least))) &&
+        glm::all(glm::lessThanEqual(value, vec3(field.most))))
+      continue;
+    const bool bounded = field.most < std::numeric_limits<float>::max();
+    return SceneDefect{field.what, number_text(field.least) +
+                                       (bounded ? " to " + number_text(field.most) : " or more, finite")};
+  }
   return {};
 }
 

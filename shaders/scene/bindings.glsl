@@ -23,31 +23,11 @@ layout(constant_id = SPEC_PAGES) const uint PAGES = 0u;
 layout(constant_id = SPEC_PAGE_SHIFT) const uint PAGE_SHIFT = 0u;
 #endif
 
-const bool MIRRORS = (FEATURES & FEATURE_MIRRORS) != 0u;
-const bool GLASS = (FEATURES & FEATURE_GLASS) != 0u;
-const bool COLORS = (FEATURES & FEATURE_COLORS) != 0u;
-const bool FIELDS = (FEATURES & FEATURE_FIELDS) != 0u;
-const bool REFERENCES = (FEATURES & FEATURE_REFERENCES) != 0u;
-const bool LIGHTS = (FEATURES & FEATURE_LIGHTS) != 0u;
-const bool SHADOWS = (FEATURES & FEATURE_SHADOWS) != 0u;
-const bool ENVIRONMENT = (FEATURES & FEATURE_ENVIRONMENT) != 0u;
-const bool CLIPS = (FEATURES & FEATURE_CLIPS) != 0u;
-const bool ELLIPSES = (FEATURES & FEATURE_ELLIPSES) != 0u;
-const bool COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
+#define SPLATRAY_FEATURE(NAME, BIT) const bool NAME = (FEATURES & BIT) != 0u;
+#include "scene/features.glsl"
 #ifdef LIT
 layout(constant_id = SPEC_LOOK) const uint LOOK = LOOK_LIT;
-
-const bool SKY = (FEATURES & FEATURE_SKY) != 0u;
-const bool SIZES = (FEATURES & FEATURE_SIZES) != 0u;
-const bool EMISSION = (FEATURES & FEATURE_EMISSION) != 0u;
-const bool LENS = (FEATURES & FEATURE_LENS) != 0u;
-const bool STRAIGHT = (FEATURES & FEATURE_STRAIGHT) != 0u;
 const bool TINTED = STRAIGHT && GLASS;
-const bool LOBE_DIFFUSE = (FEATURES & FEATURE_DIFFUSE) != 0u;
-const bool LOBE_SPECULAR = (FEATURES & FEATURE_SPECULAR) != 0u;
-const bool LOBE_METAL = (FEATURES & FEATURE_METAL) != 0u;
-const bool LOBE_TRANSMISSION = GLASS;
-const bool LOBE_COAT = (FEATURES & FEATURE_COAT) != 0u;
 #else
 const bool TINTED = GLASS;
 #endif

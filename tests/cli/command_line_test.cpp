@@ -41,16 +41,21 @@ std::string odd_text(Dice& dice) {
 ObjectChange random_object(Dice& dice) {
   ObjectChange object;
   object.object = odd_text(dice);
-  if (dice.chance(0.5)) object.preset = material_names()[dice.below(std::uint32_t(material_names().size()))];
-  maybe(dice, object.diffuse, color(dice));
-  maybe(dice, object.tint, color(dice));
-  maybe(dice, object.specular, small_float(dice));
-  maybe(dice, object.mirror, small_float(dice));
-  maybe(dice, object.shininess, static_cast<float>(number(dice, 1.0, 1e5)));
-  maybe(dice, object.ior, static_cast<float>(number(dice, 0.1, 10.0)));
-  maybe(dice, object.glass, dice.chance(0.5));
-  maybe(dice, object.two_sided, dice.chance(0.5));
-  object.hidden = dice.chance(0.5);  // no change at all cannot be written
+  const auto say = [&](const char* key, const std::string& value) {
+    if (dice.chance(0.5)) object.set(key, value);
+  };
+  const auto on_off = [&] { return dice.chance(0.5) ? "on" : "off"; };
+  say("preset", material_names()[dice.below(std::uint32_t(material_names().size()))]);
+  say("diffuse", number_text(color(dice), '/'));
+  say("tint", number_text(color(dice), '/'));
+  say("specular", number_text(small_float(dice)));
+  say("mirror", number_text(small_float(dice)));
+  say("shininess", number_text(static_cast<float>(number(dice, 1.0, 1e5))));
+  say("ior", number_text(static_cast<float>(number(dice, 0.1, 10.0))));
+  say("coat-roughness", number_text(small_float(dice)));
+  say("glass", on_off());
+  say("two-sided", on_off());
+  object.set("hidden", on_off());  // no change at all cannot be written
   return object;
 }
 
@@ -160,10 +165,8 @@ Request random_request(Dice& dice) {
   request.output = random_sequence(dice, request);
   request.output.path = odd_text(dice) + "/b##.exr";
   request.look.exposure_ev = dice.between(-60.0, 60.0);
-  request.output.aov_depth = dice.chance(0.5);
-  request.output.aov_normal = dice.chance(0.5);
-  request.output.aov_id = dice.chance(0.5);
-  request.settings.aov = request.output.aov_depth || request.output.aov_normal || request.output.aov_id;
+  request.output.aovs = dice.below(8);
+  request.settings.aov = request.output.aovs != 0;
   if (dice.chance(0.5)) request.output.stats_json = odd_text(dice);
   if (dice.chance(0.5) && !request.output.many()) request.output.reference = odd_text(dice);
   request.output.reference_threshold = dice.unit();

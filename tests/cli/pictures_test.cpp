@@ -100,7 +100,7 @@ TEST(ImageFile, PngRoundTrip) {
 TEST(ImageFile, ExrKeepsLinearValuesAndIsAnEnvironment) {
   const std::string path = temporary("round.exr");
   const Image image = gradient();
-  write_exr(image, {true, true, true}, {{"commit", "abc"}}, path);
+  write_exr(image, aovs_of(image), {{"commit", "abc"}}, path);
   const Environment copy = read_environment(path);
   ASSERT_EQ(copy.texels.size(), image.rgba.size());
   for (std::size_t i = 0; i < copy.texels.size(); ++i) EXPECT_EQ(copy.texels[i], vec3(image.rgba[i]));
@@ -115,7 +115,7 @@ TEST(ImageFile, KeepsMetadata) {
   };
   write_png(display_image(gradient(), 0.0), metadata, temporary("meta.png"));
   EXPECT_EQ(sorted(read_metadata(temporary("meta.png"))), metadata);
-  write_exr(gradient(), {}, metadata, temporary("meta.exr"));
+  write_exr(gradient(), 0, metadata, temporary("meta.exr"));
   EXPECT_EQ(sorted(read_metadata(temporary("meta.exr"))), metadata);
 }
 
@@ -178,13 +178,13 @@ TEST(ImageFile, PicturesOfOneColourAreReadHoweverSmallTheirFile) {
   write_png(black, {}, temporary("black.png"));
   EXPECT_EQ(read_display_image(temporary("black.png"), 0.0).width, 2048U);
   const Image dark{2048, 2048, std::vector<vec4>(2048 * 2048), {}};
-  write_exr(dark, {}, {}, temporary("dark.exr"));
+  write_exr(dark, 0, {}, temporary("dark.exr"));
   EXPECT_EQ(read_display_image(temporary("dark.exr"), 0.0).width, 2048U);
 }
 
 TEST(ImageFile, UnwritableIsAnError) {
   EXPECT_THROW(write_png(display_image(gradient(), 0.0), {}, temporary("missing/a.png")), Error);
-  EXPECT_THROW(write_exr(gradient(), {}, {}, temporary("missing/a.exr")), Error);
+  EXPECT_THROW(write_exr(gradient(), 0, {}, temporary("missing/a.exr")), Error);
 }
 
 TEST(Compare, CountsWhatIsBeyond) {

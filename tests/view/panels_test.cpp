@@ -242,7 +242,7 @@ TEST(PanelsTest, QualityAndEnvironmentChangeTheSettings) {
   gui.click("##column", {"black"});
   EXPECT_EQ(gui.document.environment, "black");
   gui.click("##column", {"blend"});
-  gui.click("##Combo", {2, "nearest"});
+  gui.click("##Combo", {"nearest"});
   EXPECT_EQ(gui.document.settings.blend, BLEND_NEAREST);
   gui.click("##column", {"view"});
   gui.click("##Combo", {"facing"});

@@ -61,7 +61,7 @@ void Image::save(const std::filesystem::path& file) const {
     require_pixel_memory(*this, png ? PNG_WRITING_BYTES : exr_writing_bytes(channels ? 10 : 5));
     const splatray::Image inner = inner_image(*this);
     if (png) return write_png(display_image(inner, inner_display(*this)), {}, file);
-    write_exr(inner, {channels, channels, channels, !error.empty()}, {}, file);
+    write_exr(inner, aovs_of(inner), {}, file);
   });
 }
 

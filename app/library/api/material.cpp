@@ -3,6 +3,7 @@
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
 #include "app/library/materials.h"
+#include "engine/base/number_text.h"
 
 namespace splatray::api {
 
@@ -17,23 +18,31 @@ Material named_material(const std::string& name) {
 }
 
 ObjectChange object_change(const std::string& object, const Material& material) {
-  ObjectChange change;
-  change.object = object;
-  change.diffuse = vector(material.diffuse);
-  change.specular = material.specular;
-  change.shininess = material.shininess;
-  change.tint = vector(material.tint);
-  change.mirror = material.mirror;
-  change.ior = material.ior;
-  change.glass = material.glass;
-  change.two_sided = material.two_sided && !material.glass;
-  change.hidden = material.hidden;
-  change.metallic = material.metallic;
-  change.roughness = material.roughness;
-  change.coat = material.coat;
-  change.coat_roughness = material.coat_roughness;
-  if (material.emission) change.emission = vector(*material.emission);
-  return read_object_change(object_text(change));  // which refuses what is out of range
+  ObjectChange change{object};
+  const auto set = [&change](const char* key, const auto& value) {
+    if constexpr (std::is_same_v<decltype(value), const bool&>)
+      change.set(key, value ? "on" : "off");
+    else
+      change.set(key, number_text(value));
+  };
+  const auto set_color = [&change](const char* key, const Float3& color) {
+    change.set(key, number_text(vector(color), '/'));
+  };
+  set_color("diffuse", material.diffuse);
+  set("specular", material.specular);
+  set("shininess", material.shininess);
+  set_color("tint", material.tint);
+  set("mirror", material.mirror);
+  set("ior", material.ior);
+  set("glass", material.glass);
+  set("two-sided", material.two_sided && !material.glass);
+  set("hidden", material.hidden);
+  if (material.metallic) set("metallic", *material.metallic);
+  if (material.roughness) set("roughness", *material.roughness);
+  if (material.coat) set("coat", *material.coat);
+  if (material.coat_roughness) set("coat-roughness", *material.coat_roughness);
+  if (material.emission) set_color("emission", *material.emission);
+  return change;
 }
 
 Material described(const splatray::Material& material) {

@@ -7,6 +7,7 @@
 #include "app/library/picture/make_picture.h"
 #include "app/library/picture/picture_file.h"
 #include "engine/base/memory.h"
+#include "engine/scene/look_style.h"
 #include "engine/scene/scene_check.h"
 #include "engine/scene/surface.h"
 
@@ -30,7 +31,8 @@ splatray::Request request_for(const LoadedScene& loaded, const splatray::Request
   if (!request.look.style && asked.look.environment.empty() && !asked.look.lights)
     request.look.style = suited.look.style;
   if (!request.look.style) request.look.style = choose_look(loaded.scene, request);
-  if (!asked.look.style && changes_materials(loaded.scene, shown) && !shows_materials(*request.look.style))
+  if (!asked.look.style && changes_materials(loaded.scene, shown) &&
+      !look_style(*request.look.style).surfaces)
     request.look.style = LOOK_LIT;
   if (!request.view.eye && request.view.viewpoint == Viewpoint::automatic && !request.look.up)
     request.view.viewpoint = suited.view.viewpoint;
@@ -47,7 +49,7 @@ Image outer_image(const splatray::Image& made, const splatray::Request& request)
   image.pixels.resize(made.rgba.size());
   static_assert(sizeof(vec4) == sizeof(std::array<float, 4>));
   std::memcpy(image.pixels.data(), made.rgba.data(), made.rgba.size() * sizeof(vec4));
-  if (request.output.aov_error) image.error = made.error;
+  if (needs_noise(request.output.aovs)) image.error = made.error;
   image.exposure = request.look.exposure_ev.value_or(0.0);
   image.tone = TONE_NAMES[static_cast<std::size_t>(choose_tone(request))];
   if (!request.settings.aov) return image;

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/image/denoise.h"
+#include "engine/scene/look_style.h"
 
 namespace splatray {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::uint32_t BASE_SAMPLES = 16;  ///< enough for what base colours do
 
 /// Base colours of a picture's pixels; of looks that have one for all, white.
 std::vector<vec4> base_colors(Tracer& tracer, const Look& look, const View& view, const Settings& settings) {
-  if (settings.look != LOOK_LIT && settings.look != LOOK_SCAN)
+  if (!look_style(settings.look).colors)
     return std::vector<vec4>(std::size_t{view.width} * view.height, vec4(1.0F));
   Settings plain = settings;
   plain.look = LOOK_BASE;

@@ -43,8 +43,7 @@ std::uint64_t made_image_bytes(const Request& request) {
 void require_picture_memory(const Request& request) {
   const PixelWindow made = made_window(request);
   const Request::Output& output = request.output;
-  const std::size_t channels = 4 + (output.aov_depth ? 1 : 0) + (output.aov_normal ? 3 : 0) +
-                               (output.aov_id ? 1 : 0) + (output.aov_error ? 1 : 0);
+  const std::size_t channels = 4 + count_channels(output.aovs);
   const std::uint64_t writing = is_png(output.path) ? PNG_WRITING_BYTES : exr_writing_bytes(channels);
   require_memory(made_image_bytes(request) + std::uint64_t{made.width} * made.height * writing,
                  "a picture of " + size_text(made.width, made.height) + " pixels and its file");
@@ -86,10 +85,7 @@ Metadata picture_metadata(const Request& request, const Scene& scene, const View
 void write_output(const Request& request, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path) {
   if (is_png(path)) return write_png(display_image(image, display_of(request)), metadata, path);
-  ExrPicture picture = exr_picture(
-      image,
-      {request.output.aov_depth, request.output.aov_normal, request.output.aov_id, request.output.aov_error},
-      metadata);
+  ExrPicture picture = exr_picture(image, request.output.aovs, metadata);
   if (const PixelWindow window = request.view.window(); window.width > 0) {
     picture.width = request.view.width;
     picture.height = request.view.height;

@@ -19,10 +19,7 @@ Request looks_only(const Request& request) {
   Request::Output& output = looks.output;
   output.denoise = from.denoise;
   output.keep_noise = from.keep_noise;
-  output.aov_depth = from.aov_depth;
-  output.aov_normal = from.aov_normal;
-  output.aov_id = from.aov_id;
-  output.aov_error = from.aov_error;
+  output.aovs = from.aovs;
   return looks;
 }
 

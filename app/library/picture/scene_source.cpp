@@ -238,8 +238,6 @@ std::uint32_t choose_look(const Scene& scene, const Request& request) {
   return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;
 }
 
-bool shows_materials(std::uint32_t look) { return look == LOOK_LIT || look == LOOK_PAPER; }
-
 Settings choose_settings(const Scene& scene, const Request& request) {
   Settings settings = request.settings;
   settings.look = choose_look(scene, request);

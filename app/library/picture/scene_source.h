@@ -69,8 +69,6 @@ void show_as_asked(const Request& request, LoadedScene& loaded);
 /// The look, LOOK_*: that of --look, else LOOK_SCAN for scans in no light of their own or of the options' and without
 /// materials of either, else LOOK_LIT.
 [[nodiscard]] std::uint32_t choose_look(const Scene& scene, const Request& request);
-/// Whether a look shows materials: LOOK_SCAN shows points' colours alone, clay and occlusion not even those.
-[[nodiscard]] bool shows_materials(std::uint32_t look);
 
 /// The settings, with defaults that depend on the scene filled in.
 [[nodiscard]] Settings choose_settings(const Scene& scene, const Request& request);

@@ -45,7 +45,8 @@ struct Field {
   FieldKind kind = FieldKind::text;
   /// What stands for the value in help, such as "X,Y,Z"; of a choice its names with | between; of a switch nothing.
   std::string value;
-  std::string help;  ///< what it is, its unit, range and default
+  std::string help;                    ///< what it is, its unit, range and default
+  std::vector<std::string> choices{};  ///< names of which it is one; empty for other fields
   /// Reads a value; throws Expected for another text, and Error of what a file in it says.
   std::function<void(Request&, const std::string&)> read;
   /// The texts that read() makes the request's value of, nothing where it is unset; with the name of the field they are of, as those
@@ -131,7 +132,7 @@ template <class Value, class Member>
                                std::vector<Choice<Value>> choices, std::string help) {
   std::string names;
   for (const Choice<Value>& choice : choices) names += (names.empty() ? "" : "|") + choice.name;
-  return value_row(
+  Field row = value_row(
       std::move(name), group, names, std::move(help),
       [=](Request& request, const std::string& text) {
         for (const Choice<Value>& choice : choices)
@@ -143,6 +144,8 @@ template <class Value, class Member>
           if (member(request) == choice.value) return choice.name;
         return "";
       });
+  for (const Choice<Value>& choice : choices) row.choices.push_back(choice.name);
+  return row;
 }
 
 /// on or off, where a command line says which: what is on by default.

@@ -32,18 +32,14 @@ Field material_row() {
 }
 
 Field object_row() {
-  Field row = value_row(
-      "object", LOOK, "OBJECT:KEY=VALUE,...",
-      "change the material of one object, given by its index or name; keys: preset (a name of --material), "
-      "diffuse=r/g/b, specular, shininess, mirror, ior, tint=r/g/b, and glass, two-sided, hidden = on or "
-      "off; of "
-      "what path tracing sees: metallic, roughness, coat, coat-roughness, emission=r/g/b; repeatable, the "
-      "last "
-      "change holds",
-      [](Request& request, const std::string& text) {
-        request.look.objects.push_back(read_object_change(text));
-      },
-      {});
+  Field row =
+      value_row("object", LOOK, "OBJECT:KEY=VALUE,...",
+                "change the material of one object, given by its index or name; keys: " + object_keys_help() +
+                    "; the last are of what path tracing sees; repeatable, the last change holds",
+                [](Request& request, const std::string& text) {
+                  request.look.objects.push_back(read_object_change(text));
+                },
+                {});
   row.repeated = row.adds = true;
   row.clear = [](Request& request) { request.look.objects.clear(); };
   row.write = [](const Request& request) {

@@ -5,14 +5,14 @@
 #include <charconv>
 #include <cstring>
 #include <functional>
-#include <limits>
-#include <map>
+#include <sstream>
 
 #include "app/library/materials.h"
 #include "app/library/request/value_text.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 #include "engine/scene/surface.h"
+#include "engine/scene/surface_fields.h"
 #include "preprocess/base/quoted_list.h"
 
 namespace splatray {
@@ -22,92 +22,137 @@ namespace {
   throw Error(ExitCode::usage, "--object: found '" + found + "', expected " + expected);
 }
 
-/// A key: how its value is read into options, and written, empty where it is unset.
+/// An object as it looks.
+struct ObjectLook {
+  Material material;
+  Surface surface;
+};
+
+/// What a key changes, in the order in which keys are applied: the surface follows the material.
+enum class Part { preset, material, surface };
+
 struct Key {
   std::string name;
-  std::function<void(const std::string& value, ObjectChange&)> read;
-  std::function<std::string(const ObjectChange&)> write;
+  std::string help;  ///< the name and what its values are like
+  Part part;
+  /// The value as text that reads back to the same; refuses what is out of range.
+  std::function<std::string(const std::string& value)> check;
+  std::function<void(ObjectLook&, const std::string& value)> set;
+  std::function<std::string(const ObjectLook&)> get;  ///< empty function: it cannot be told from a look
 };
 
 Key preset_key() {
-  const auto read = [](const std::string& value, ObjectChange& options) {
+  const auto check = [](const std::string& value) {
     const std::vector<std::string> names = material_names();
     if (std::find(names.begin(), names.end(), value) == names.end())
       refuse("preset=" + value, "one of " + quoted_list(names));
-    options.preset = value;
+    return value;
   };
-  return {"preset", read, [](const ObjectChange& options) { return options.preset; }};
+  const auto set = [](ObjectLook& look, const std::string& value) {
+    change_material(look.material, value);
+    look.surface = surface_of(look.material);
+  };
+  return {"preset", "preset (a name of --material)", Part::preset, check, set, {}};
 }
 
-Key color_key(const std::string& name, std::optional<glm::vec3> ObjectChange::*member, double most = 1.0) {
-  const auto read = [=](const std::string& value, ObjectChange& options) {
+vec3 read_color(const std::string& text) {
+  const auto numbers = split_numbers(text, '/', 3);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+float read_float(const std::string& text) { return static_cast<float>(split_numbers(text, '/', 1)[0]); }
+
+/// `member`: a colour of a look.
+template <class Member>
+Key color_key(const std::string& name, Part part, Member member, double most = 1.0) {
+  const auto check = [=](const std::string& value) {
     const auto numbers = split_numbers(value, '/', 3);
     const auto in_range = [most](double x) { return x >= 0.0 && x <= most; };
     if (numbers.empty() || !std::all_of(numbers.begin(), numbers.end(), in_range))
       refuse(name + "=" + value, "three numbers from 0 to " + number_text(most) + " such as 0.8/0.5/0.2");
-    options.*member = glm::vec3(numbers[0], numbers[1], numbers[2]);
+    return number_text(read_color(value), '/');
   };
-  const auto write = [=](const ObjectChange& options) {
-    return options.*member ? number_text(*(options.*member), '/') : "";
-  };
-  return {name, read, write};
+  return {name,
+          name + "=r/g/b",
+          part,
+          check,
+          [=](ObjectLook& look, const std::string& value) { member(look) = read_color(value); },
+          [=](const ObjectLook& look) { return number_text(member(look), '/'); }};
 }
 
-Key number_key(const std::string& name, std::optional<float> ObjectChange::*member, double least,
-               double most) {
-  const auto read = [=](const std::string& value, ObjectChange& options) {
+/// `member`: a number of a look.
+template <class Member>
+Key number_key(const std::string& name, Part part, Member member, double least, double most) {
+  const auto check = [=](const std::string& value) {
     const auto numbers = split_numbers(value, '/', 1);
     if (numbers.empty() || !(numbers[0] >= least && numbers[0] <= most))
       refuse(name + "=" + value, "a number from " + number_text(least) + " to " + number_text(most));
-    options.*member = static_cast<float>(numbers[0]);
+    return number_text(read_float(value));
   };
-  const auto write = [=](const ObjectChange& options) {
-    return options.*member ? number_text(*(options.*member)) : "";
-  };
-  return {name, read, write};
+  return {name,
+          name,
+          part,
+          check,
+          [=](ObjectLook& look, const std::string& value) { member(look) = read_float(value); },
+          [=](const ObjectLook& look) { return number_text(member(look)); }};
 }
 
-Key switch_key(const std::string& name, std::optional<bool> ObjectChange::*member) {
-  const auto read = [=](const std::string& value, ObjectChange& options) {
+Key flag_key(const std::string& name, std::uint32_t flag) {
+  const auto check = [=](const std::string& value) {
     if (value != "on" && value != "off") refuse(name + "=" + value, "on or off");
-    options.*member = value == "on";
+    return value;
   };
-  const auto write = [=](const ObjectChange& options) -> std::string {
-    if (!(options.*member)) return "";
-    return *(options.*member) ? "on" : "off";
+  const auto set = [=](ObjectLook& look, const std::string& value) {
+    std::uint32_t& flags = look.material.flags;
+    flags = value == "on" ? flags | flag : flags & ~flag;
   };
-  return {name, read, write};
+  const auto get = [=](const ObjectLook& look) -> std::string {
+    return (look.material.flags & flag) != 0 ? "on" : "off";
+  };
+  return {name, name + "=on|off", Part::material, check, set, get};
+}
+
+Key surface_key(const SurfaceField& field) {
+  if (field.number != nullptr)
+    return number_key(
+        field.key, Part::surface, [=](auto& look) -> auto& { return look.surface.*field.number; },
+        field.least, field.most);
+  return color_key(
+      field.key, Part::surface, [=](auto& look) -> auto& { return look.surface.*field.color; }, field.most);
+}
+
+std::vector<Key> make_keys() {
+  constexpr double MOST = 1e6, LEAST_IOR = 1e-3;
+  const auto of = [](auto member) {
+    return [=](auto& look) -> auto& { return look.material.*member; };
+  };
+  std::vector<Key> keys = {preset_key(),
+                           color_key("diffuse", Part::material, of(&Material::diffuse)),
+                           number_key("specular", Part::material, of(&Material::specular), 0.0, 1.0),
+                           number_key("shininess", Part::material, of(&Material::shininess), 1.0, MOST),
+                           number_key("mirror", Part::material, of(&Material::mirror), 0.0, 1.0),
+                           number_key("ior", Part::material, of(&Material::ior), LEAST_IOR, MOST),
+                           color_key("tint", Part::material, of(&Material::tint)),
+                           flag_key("glass", MATERIAL_DIELECTRIC),
+                           flag_key("two-sided", MATERIAL_TWO_SIDED),
+                           flag_key("hidden", MATERIAL_HIDDEN)};
+  for (const SurfaceField& field : surface_fields())
+    if (field.key != nullptr) keys.push_back(surface_key(field));
+  return keys;
 }
 
 const std::vector<Key>& keys() {
-  constexpr double MOST = 1e6, LEAST_IOR = 1e-3;
-  static const std::vector<Key> KEYS = {preset_key(),
-                                        color_key("diffuse", &ObjectChange::diffuse),
-                                        number_key("specular", &ObjectChange::specular, 0.0, 1.0),
-                                        number_key("shininess", &ObjectChange::shininess, 1.0, MOST),
-                                        number_key("mirror", &ObjectChange::mirror, 0.0, 1.0),
-                                        number_key("ior", &ObjectChange::ior, LEAST_IOR, MOST),
-                                        color_key("tint", &ObjectChange::tint),
-                                        switch_key("glass", &ObjectChange::glass),
-                                        switch_key("two-sided", &ObjectChange::two_sided),
-                                        switch_key("hidden", &ObjectChange::hidden),
-                                        number_key("metallic", &ObjectChange::metallic, 0.0, 1.0),
-                                        number_key("roughness", &ObjectChange::roughness, 0.0, 1.0),
-                                        number_key("coat", &ObjectChange::coat, 0.0, 1.0),
-                                        number_key("coat-roughness", &ObjectChange::coat_roughness, 0.0, 1.0),
-                                        color_key("emission", &ObjectChange::emission, MOST)};
+  static const std::vector<Key> KEYS = make_keys();
   return KEYS;
 }
 
-void read_pair(const std::string& pair, ObjectChange& options) {
-  const std::size_t equals = pair.find('=');
+const Key& find_key(const std::string& name, const std::string& said) {
   std::vector<std::string> names;
   for (const Key& key : keys()) {
+    if (key.name == name) return key;
     names.push_back(key.name);
-    if (equals != std::string::npos && pair.substr(0, equals) == key.name)
-      return key.read(pair.substr(equals + 1), options);
   }
-  refuse(pair, "key=value with a key of " + quoted_list(names));
+  refuse(said, "key=value with a key of " + quoted_list(names));
 }
 
 /// The index that a text is, if it is one.
@@ -139,117 +184,85 @@ std::string object_key(std::size_t object, const std::vector<std::string>& names
   return usable && std::count(names.begin(), names.end(), name) == 1 ? name : std::to_string(object);
 }
 
-void set_flag(Material& material, std::uint32_t flag, std::optional<bool> on) {
-  if (on) material.flags = *on ? material.flags | flag : material.flags & ~flag;
-}
-
-void apply(const ObjectChange& options, Material& material, Surface& surface) {
-  if (!options.preset.empty()) {
-    change_material(material, options.preset);
-    surface = surface_of(material);
+/// Sets the keys of a part that are said.
+void apply(Part part, const ObjectChange& change, ObjectLook& look) {
+  for (const Key& key : keys()) {
+    const auto value = change.values.find(key.name);
+    if (key.part == part && value != change.values.end()) key.set(look, value->second);
   }
-  const Material before = material;
-  material.diffuse = options.diffuse.value_or(material.diffuse);
-  material.specular = options.specular.value_or(material.specular);
-  material.tint = options.tint.value_or(material.tint);
-  material.shininess = options.shininess.value_or(material.shininess);
-  material.mirror = options.mirror.value_or(material.mirror);
-  material.ior = options.ior.value_or(material.ior);
-  set_flag(material, MATERIAL_DIELECTRIC, options.glass);
-  set_flag(material, MATERIAL_TWO_SIDED, options.two_sided);
-  set_flag(material, MATERIAL_HIDDEN, options.hidden);
-  surface = surface_after(before, surface, material);
-  surface.metallic = options.metallic.value_or(surface.metallic);
-  surface.roughness = options.roughness.value_or(surface.roughness);
-  surface.coat = options.coat.value_or(surface.coat);
-  surface.coat_roughness = options.coat_roughness.value_or(surface.coat_roughness);
-  surface.emission = options.emission.value_or(surface.emission);
 }
 
-/// Lays the keys that `change` has over those said before.
-void add(const ObjectChange& change, ObjectChange& said) {
+/// The keys of a part whose values differ.
+void add_difference(Part part, const ObjectLook& from, const ObjectLook& to, ObjectChange& change) {
   for (const Key& key : keys())
-    if (const std::string value = key.write(change); !value.empty()) key.read(value, said);
-}
-
-void set_difference(const Surface& from, const Surface& to, ObjectChange& options) {
-  const auto set = [](auto& option, const auto& before, const auto& after) {
-    if (before != after) option = after;
-  };
-  set(options.metallic, from.metallic, to.metallic);
-  set(options.roughness, from.roughness, to.roughness);
-  set(options.coat, from.coat, to.coat);
-  set(options.coat_roughness, from.coat_roughness, to.coat_roughness);
-  set(options.emission, from.emission, to.emission);
-}
-
-ObjectChange difference(const Material& from, const Material& to) {
-  ObjectChange options;
-  const auto set = [](auto& option, const auto& before, const auto& after) {
-    if (before != after) option = after;
-  };
-  const auto has = [](const Material& material, std::uint32_t flag) { return (material.flags & flag) != 0; };
-  set(options.diffuse, from.diffuse, to.diffuse);
-  set(options.specular, from.specular, to.specular);
-  set(options.tint, from.tint, to.tint);
-  set(options.shininess, from.shininess, to.shininess);
-  set(options.mirror, from.mirror, to.mirror);
-  set(options.ior, from.ior, to.ior);
-  set(options.glass, has(from, MATERIAL_DIELECTRIC), has(to, MATERIAL_DIELECTRIC));
-  set(options.two_sided, has(from, MATERIAL_TWO_SIDED), has(to, MATERIAL_TWO_SIDED));
-  set(options.hidden, has(from, MATERIAL_HIDDEN), has(to, MATERIAL_HIDDEN));
-  return options;
+    if (key.part == part && key.get(from) != key.get(to)) change.values[key.name] = key.get(to);
 }
 
 }  // namespace
+
+void ObjectChange::set(const std::string& key, const std::string& value) {
+  values[key] = find_key(key, key).check(value);
+}
+
+std::string object_keys_help() {
+  std::string help;
+  for (const Key& key : keys()) help += (help.empty() ? "" : ", ") + key.help;
+  return help;
+}
 
 ObjectChange read_object_change(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
     refuse(text, "OBJECT:key=value,... such as dragon:preset=gold");
-  ObjectChange options;
-  options.object = text.substr(0, colon);
+  ObjectChange change;
+  change.object = text.substr(0, colon);
   std::istringstream pairs(text.substr(colon + 1));
-  for (std::string pair; std::getline(pairs, pair, ',');) read_pair(pair, options);
-  return options;
+  for (std::string pair; std::getline(pairs, pair, ',');) {
+    const std::size_t equals = pair.find('=');
+    const Key& key = find_key(equals == std::string::npos ? "" : pair.substr(0, equals), pair);
+    change.values[key.name] = key.check(pair.substr(equals + 1));
+  }
+  return change;
 }
 
-std::string object_text(const ObjectChange& options) {
+std::string object_text(const ObjectChange& change) {
   std::string text;
-  for (const Key& key : keys()) {
-    const std::string value = key.write(options);
-    if (!value.empty()) text += (text.empty() ? ":" : ",") + key.name + "=" + value;
-  }
-  return options.object + text;
+  for (const Key& key : keys())
+    if (const auto value = change.values.find(key.name); value != change.values.end())
+      text += (text.empty() ? ":" : ",") + key.name + "=" + value->second;
+  return change.object + text;
 }
 
 Surface surface_after(const Material& before, const Surface& surface, const Material& after) {
   const Surface from = surface_of(before), to = surface_of(after);
   if (std::memcmp(&from, &to, sizeof(Surface)) == 0) return surface;
   Surface next = to;
-  const auto keep = [&](auto Surface::*member) {
-    if (surface.*member != from.*member) next.*member = surface.*member;
-  };
-  for (float Surface::*number :
-       {&Surface::metallic, &Surface::roughness, &Surface::coat, &Surface::coat_roughness})
-    keep(number);
-  keep(&Surface::emission);
+  for (const SurfaceField& field : surface_fields())
+    if (field.key != nullptr && field.of(surface) != field.of(from)) field.set(next, field.of(surface));
   return next;
 }
 
-bool changes_look(const ObjectChange& options) {
-  ObjectChange sides;
-  sides.object = options.object;
-  sides.two_sided = options.two_sided;
-  sides.hidden = options.hidden;
-  return options != sides;
+bool changes_look(const ObjectChange& change) {
+  return std::any_of(change.values.begin(), change.values.end(),
+                     [](const auto& value) { return value.first != "two-sided" && value.first != "hidden"; });
 }
 
-void apply_object_changes(const std::vector<ObjectChange>& options, const std::vector<std::string>& names,
+void apply_object_changes(const std::vector<ObjectChange>& changes, const std::vector<std::string>& names,
                           ObjectLooks& looks) {
   std::map<std::size_t, ObjectChange> said;
-  for (const ObjectChange& change : options) add(change, said[find_object(change.object, names)]);
-  for (const auto& [object, change] : said) apply(change, looks.materials[object], looks.surfaces[object]);
+  for (const ObjectChange& change : changes)
+    for (const auto& [key, value] : change.values)
+      said[find_object(change.object, names)].values[key] = value;
+  for (const auto& [object, change] : said) {
+    ObjectLook look{looks.materials[object], looks.surfaces[object]};
+    apply(Part::preset, change, look);
+    const Material before = look.material;
+    apply(Part::material, change, look);
+    look.surface = surface_after(before, look.surface, look.material);
+    apply(Part::surface, change, look);
+    looks.materials[object] = look.material;
+    looks.surfaces[object] = look.surface;
+  }
 }
 
 std::vector<ObjectChange> object_changes_between(const ObjectLooks& loaded, const ObjectLooks& shown,
@@ -257,12 +270,13 @@ std::vector<ObjectChange> object_changes_between(const ObjectLooks& loaded, cons
   assert(loaded.materials.size() == shown.materials.size() && names.size() == shown.materials.size());
   std::vector<ObjectChange> changes;
   for (std::size_t i = 0; i < shown.materials.size(); ++i) {
-    ObjectChange change = difference(loaded.materials[i], shown.materials[i]);
-    const Surface before = surface_after(loaded.materials[i], loaded.surfaces[i], shown.materials[i]);
-    set_difference(before, shown.surfaces[i], change);
-    if (change == ObjectChange{}) continue;
-    change.object = object_key(i, names);
-    changes.push_back(std::move(change));
+    ObjectLook from{loaded.materials[i], loaded.surfaces[i]};
+    const ObjectLook to{shown.materials[i], shown.surfaces[i]};
+    ObjectChange change{object_key(i, names)};
+    add_difference(Part::material, from, to, change);
+    from.surface = surface_after(from.material, from.surface, to.material);
+    add_difference(Part::surface, from, to, change);
+    if (!change.values.empty()) changes.push_back(std::move(change));
   }
   return changes;
 }

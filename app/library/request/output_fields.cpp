@@ -3,41 +3,47 @@
 
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
+#include "engine/image/aovs.h"
 
 namespace splatray {
 namespace {
 
 constexpr FieldGroup OUTPUT = FieldGroup::output;
 
-/// The channels by their names.
-struct AovName {
-  const char* name;
-  bool Request::Output::*member;
-};
-constexpr AovName AOV_NAMES[] = {{"depth", &Request::Output::aov_depth},
-                                 {"normal", &Request::Output::aov_normal},
-                                 {"id", &Request::Output::aov_id},
-                                 {"error", &Request::Output::aov_error}};
-
-void read_aovs(Request& request, const std::string& text) {
-  Request::Output& output = request.output;
-  for (const AovName& aov : AOV_NAMES) output.*aov.member = false;
-  std::istringstream names(text);
-  for (std::string name; std::getline(names, name, ',');) {
-    const auto found = std::find_if(std::begin(AOV_NAMES), std::end(AOV_NAMES),
-                                    [&](const AovName& aov) { return name == aov.name; });
-    if (found == std::end(AOV_NAMES)) throw Expected{"a list of depth, normal, id, error"};
-    output.*found->member = true;
-  }
-  request.settings.aov = output.aov_depth || output.aov_normal || output.aov_id;
-  request.settings.estimate_error = output.aov_error;
+std::string aov_names() {
+  std::string names;
+  for (const Aov& aov : all_aovs()) names += (names.empty() ? "" : ",") + std::string(aov.name);
+  return names;
 }
 
-std::string aov_text(const Request& request) {
-  std::string text;
-  for (const AovName& aov : AOV_NAMES)
-    if (request.output.*aov.member) text += (text.empty() ? "" : ",") + std::string(aov.name);
-  return text;
+Field aov_row() {
+  std::string help = "more channels of an EXR picture:";
+  for (const Aov& aov : all_aovs()) {
+    help += &aov == all_aovs().data() ? " " : "; ";
+    help += std::string(aov.name) + " (" + aov.help + ") as";
+    for (const char* channel : aov.channels) help += std::string(" ") + channel;
+  }
+  return value_row(
+      "aov", OUTPUT, aov_names(), help,
+      [](Request& request, const std::string& text) {
+        AovSet& set = request.output.aovs = 0;
+        std::istringstream names(text);
+        for (std::string name; std::getline(names, name, ',');) {
+          const auto found = std::find_if(all_aovs().begin(), all_aovs().end(),
+                                          [&](const Aov& aov) { return name == aov.name; });
+          if (found == all_aovs().end()) throw Expected{"a list of " + aov_names()};
+          set |= 1U << (found - all_aovs().begin());
+        }
+        request.settings.aov = needs_centre_rays(set);
+        request.settings.estimate_error = needs_noise(set);
+      },
+      [](const Request& request) {
+        std::string text;
+        for (std::size_t i = 0; i < all_aovs().size(); ++i)
+          if (has_aov(request.output.aovs, i))
+            text += (text.empty() ? "" : ",") + std::string(all_aovs()[i].name);
+        return text;
+      });
 }
 
 Field frames_row() {
@@ -94,9 +100,7 @@ std::vector<Field> output_fields() {
                     "frame's "
                     "digits such as out.####.png"),
            {.letter = "-o"}),
-      value_row("aov", OUTPUT, "depth,normal,id,error",
-                "more channels of an EXR picture: Z, N.X N.Y N.Z, id, error (estimated, of the radiance)",
-                read_aovs, aov_text),
+      aov_row(),
       number_row(
           "turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
           "this many pictures of a full turn about the scene's up axis through the target; default 0 = none"),

@@ -22,7 +22,7 @@ void check_sample_range(const Request& request) {
   if (offset % whole_range(samples) != 0)
     fail(found + ", expected a multiple of " + std::to_string(whole_range(samples)));
   if (offset + samples > MOST) fail(found + ", expected at most " + std::to_string(MOST) + " in all");
-  if (offset > 0 && request.output.aov_error)
+  if (offset > 0 && needs_noise(request.output.aovs))
     fail("found --aov error with --sample-offset, expected it for all samples of a picture");
 }
 
@@ -68,7 +68,8 @@ void check_camera(const Request::View& view) {
 void check_noise(const Request& request) {
   const Request::Output& output = request.output;
   const bool one_sample = !request.settings.has_goal() && request.settings.samples < 2;
-  if (output.aov_error && one_sample) fail("found --aov error with one sample, expected at least two");
+  if (needs_noise(output.aovs) && one_sample)
+    fail("found --aov error with one sample, expected at least two");
   if (!output.denoise) return;
   if (output.keep_noise) fail("found --denoise and --keep-noise, expected one of them");
   if (one_sample) fail("found --denoise with one sample, expected at least two");
@@ -113,7 +114,7 @@ void require_consistent(const Request& request) {
   const std::string extension = lower_extension(output.path);
   if (!output.path.empty() && extension != ".png" && extension != ".exr")
     fail("found output '" + output.path.string() + "', expected a name ending in .png or .exr");
-  if ((request.settings.aov || output.aov_error) && extension == ".png")
+  if ((request.settings.aov || needs_noise(output.aovs)) && extension == ".png")
     fail("found --aov with a .png output, expected .exr");
   check_camera(request.view);
   check_noise(request);

@@ -12,6 +12,7 @@
 #include "app/library/request/frame_list.h"
 #include "app/library/request/object_change.h"
 #include "engine/base/progress.h"
+#include "engine/image/aovs.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 #include "preprocess/points.h"
@@ -95,7 +96,7 @@ struct Request {
     std::filesystem::path path;  ///< empty = nowhere
     bool denoise = false;
     bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
-    bool aov_depth = false, aov_normal = false, aov_id = false, aov_error = false;
+    AovSet aovs = 0;
     std::filesystem::path camera_path;   ///< camera_file.h; empty = none
     std::uint32_t turntable = 0;         ///< frames of a full turn, 0 .. turntable - 1; 0 = none
     std::vector<FrameRange> frames;      ///< empty = all

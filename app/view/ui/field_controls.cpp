@@ -4,7 +4,6 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "app/view/model/document_request.h"
 #include "app/view/ui/panel_parts.h"
@@ -12,21 +11,6 @@
 
 namespace splatray {
 namespace {
-
-/// The names of a choice; none for other fields.
-std::vector<std::string> choices_of(const Field& field) {
-  std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= field.value.size();) {
-    const std::size_t end = std::min(field.value.find('|', begin), field.value.size());
-    names.push_back(field.value.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  const auto is_name = [](const std::string& name) {
-    return std::none_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c) != 0; });
-  };
-  const bool all_names = names.size() > 1 && std::all_of(names.begin(), names.end(), is_name);
-  return all_names ? names : std::vector<std::string>();
-}
 
 bool set(Request& request, const std::vector<FieldText>& values, std::string& error) {
   try {
@@ -53,9 +37,9 @@ bool single_control(const Field& field, Request& request, std::string& error) {
     bool on = text == "on";
     changed = ImGui::Checkbox(field.name.c_str(), &on);
     text = on ? "on" : "off";
-  } else if (const std::vector<std::string> names = choices_of(field); !names.empty()) {
+  } else if (!field.choices.empty()) {
     if (ImGui::BeginCombo(field.name.c_str(), text.c_str())) {
-      for (const std::string& name : names)
+      for (const std::string& name : field.choices)
         if (ImGui::Selectable(name.c_str(), name == text)) changed = name != std::exchange(text, name);
       ImGui::EndCombo();
     }

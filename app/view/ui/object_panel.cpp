@@ -6,14 +6,15 @@
 #include "app/library/materials.h"
 #include "app/library/picture/scene_source.h"
 #include "app/view/ui/panel_parts.h"
+#include "engine/scene/look_style.h"
 #include "engine/scene/surface.h"
+#include "engine/scene/surface_fields.h"
 
 namespace splatray {
 namespace {
 
 constexpr float LIST_EM = 8.0F;  ///< height of the list of objects
-constexpr float MOST_SHININESS = 1e4F, LEAST_IOR = 0.2F, MOST_IOR = 4.0F, GLASS_IOR = 1.52F,
-                MOST_EMISSION = 1e4F;
+constexpr float MOST_SHININESS = 1e4F, LEAST_IOR = 0.2F, MOST_IOR = 4.0F, GLASS_IOR = 1.52F;
 
 bool has(const Material& material, std::uint32_t flag) { return (material.flags & flag) != 0; }
 
@@ -95,18 +96,27 @@ void surface_controls(Material& material) {
   if (ImGui::Checkbox("two-sided", &two_sided)) set(material, MATERIAL_TWO_SIDED, two_sided);
 }
 
+/// A colour that may be brighter than white: strength and hue.
+void radiance_edit(const char* label, vec3& radiance, float most) {
+  float strength = std::max({radiance.x, radiance.y, radiance.z});
+  vec3 color = strength > 0.0F ? radiance / strength : vec3(1.0F);
+  bool changed = ImGui::DragFloat(label, &strength, 0.02F, 0.0F, most, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+  if (strength > 0.0F) changed |= color_edit("its colour", color);
+  if (changed) radiance = strength * color;
+}
+
 /// Of what path tracing sees.
 void light_controls(Surface& surface) {
-  share("metallic", surface.metallic);
-  share("roughness", surface.roughness);
-  share("coat", surface.coat);
-  if (surface.coat > 0.0F) share("coat roughness", surface.coat_roughness);
-  float strength = std::max({surface.emission.x, surface.emission.y, surface.emission.z});
-  vec3 color = strength > 0.0F ? surface.emission / strength : vec3(1.0F);
-  bool changed = ImGui::DragFloat("emission", &strength, 0.02F, 0.0F, MOST_EMISSION, "%.3g",
-                                  ImGuiSliderFlags_AlwaysClamp);
-  if (strength > 0.0F) changed |= color_edit("its colour", color);
-  if (changed) surface.emission = strength * color;
+  for (const SurfaceField& field : surface_fields()) {
+    if (field.key == nullptr) continue;
+    std::string label = field.key;
+    std::replace(label.begin(), label.end(), '-', ' ');
+    if (field.number != nullptr)
+      ImGui::SliderFloat(label.c_str(), &(surface.*field.number), field.least, field.most, "%.3f",
+                         ImGuiSliderFlags_AlwaysClamp);
+    else
+      radiance_edit(label.c_str(), surface.*field.color, field.most);
+  }
 }
 
 void material_controls(Material& material) {
@@ -122,7 +132,7 @@ void material_controls(Material& material) {
 
 /// Says where a look shows no materials, and offers one that does.
 void look_note(Settings& settings) {
-  if (shows_materials(settings.look)) return;
+  if (look_style(settings.look).surfaces) return;
   ImGui::TextWrapped("This look shows no materials.");
   if (ImGui::SmallButton("look lit")) settings.look = LOOK_LIT;
 }

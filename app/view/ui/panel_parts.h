@@ -10,7 +10,7 @@ void material_panel(Document& document, PanelState& state);
 void attribute_panel(Document& document, const PanelView& view);
 void light_panel(Document& document, PanelState& state);
 void environment_panel(Document& document);
-void quality_panel(Document& document);
+void quality_panel(Document& document, PanelState& state);
 void camera_panel(Document& document, PanelState& state, Requests& requests);
 void statistics_panel(const PanelView& view);
 void inspector_panel(const PanelView& view);

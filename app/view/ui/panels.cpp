@@ -47,7 +47,7 @@ void column(Document& document, PanelState& state, const PanelView& view, Reques
   if (section("Lights", false)) light_panel(document, state);
   if (section("Environment", false)) environment_panel(document);
   if (section("Camera", false)) camera_panel(document, state, requests);
-  if (section("Quality", false)) quality_panel(document);
+  if (section("Quality", false)) quality_panel(document, state);
   if (section("Splat under the cursor", true)) inspector_panel(view);
   if (section("Statistics", true)) statistics_panel(view);
   if (section("All options", false)) all_fields(document, state, requests);

@@ -2,8 +2,9 @@
 #include <imgui_stdlib.h>
 
 #include <array>
-#include <cmath>
 
+#include "app/library/picture/scene_source.h"
+#include "app/view/ui/field_controls.h"
 #include "app/view/ui/panel_parts.h"
 
 namespace splatray {
@@ -12,16 +13,20 @@ namespace {
 constexpr std::uint32_t LEAST_SAMPLES = 1, MOST_SAMPLES = 4096, LEAST_BOUNCES = 0, MOST_BOUNCES = 64;
 constexpr double LEAST_EXPOSURE_EV = -10.0, MOST_EXPOSURE_EV = 10.0;
 
-constexpr std::array BLENDS = {"window", "paper", "nearest", "leaf"};  // BLEND_*
-constexpr std::array KERNELS = {"rim", "gaussian"};                    // KERNEL_*
-constexpr std::array LOOKS = {"paper", "lit", "clay", "ao", "scan"};   // LOOK_*
 constexpr std::array ENVIRONMENTS = {"studio", "white", "black"};
 
-template <std::size_t N>
-void choice(const char* label, std::uint32_t& value, const std::array<const char*, N>& names) {
-  int index = static_cast<int>(value);
-  if (ImGui::Combo(label, &index, names.data(), static_cast<int>(N)))
-    value = static_cast<std::uint32_t>(index);
+/// The controls of some fields that documents have.
+void choices(Document& document, std::initializer_list<const char*> names, std::string& error) {
+  Request request;
+  static_cast<Settings&>(request.settings) = document.settings;
+  request.look.style = document.settings.look;
+  request.look.tone = document.tone;
+  bool changed = false;
+  for (const char* name : names) changed |= field_control(*find_field(name, DOOR_VIEW), request, error);
+  if (!changed) return;
+  document.settings = request.settings;
+  document.settings.look = request.look.style.value_or(document.loaded->look);
+  document.tone = choose_tone(request);
 }
 
 /// The text of --environment, taken over when it is complete.
@@ -48,12 +53,9 @@ void environment_panel(Document& document) {
     document.settings.environment_turn = degrees / 360.0F;
 }
 
-void quality_panel(Document& document) {
+void quality_panel(Document& document, PanelState& state) {
   Settings& settings = document.settings;
-  choice("look", settings.look, LOOKS);
-  tip("paper: Phong, hard shadows, mirrors and glass; lit: path tracing; clay: the same, white; ao: ambient "
-      "occlusion; scan: colours under "
-      "occlusion and a soft light");
+  choices(document, {"look"}, state.error);
   ImGui::SliderScalar("samples", ImGuiDataType_U32, &settings.samples, &LEAST_SAMPLES, &MOST_SAMPLES, "%u",
                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
   tip("per pixel, where a still picture stops");
@@ -62,12 +64,7 @@ void quality_panel(Document& document) {
   ImGui::Checkbox("shadows", &settings.shadows);
   ImGui::SliderScalar("exposure", ImGuiDataType_Double, &document.exposure_ev, &LEAST_EXPOSURE_EV,
                       &MOST_EXPOSURE_EV, "%+.2f EV", ImGuiSliderFlags_AlwaysClamp);
-  auto tone = static_cast<std::uint32_t>(document.tone);
-  choice("tone", tone, TONE_NAMES);
-  document.tone = static_cast<Tone>(tone);
-  choice("blend", settings.blend, BLENDS);
-  tip("how overlapping splats make one surface");
-  choice("kernel", settings.kernel, KERNELS);
+  choices(document, {"tone", "blend", "kernel"}, state.error);
   ImGui::SliderFloat("kappa", &settings.kappa, 0.05F, 4.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
   tip("depth of the blending window, in radii of the first splat");
 }

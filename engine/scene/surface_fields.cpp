@@ -1,0 +1,38 @@
+#include "engine/scene/surface_fields.h"
+
+#include <limits>
+
+namespace splatray {
+namespace {
+
+constexpr float ANY = std::numeric_limits<float>::max();
+/// Half as bright as the sun in candela per square metre; squares of it stay finite.
+constexpr float MOST_EMISSION = 1e9F;
+
+constexpr SurfaceField number(const char* what, float Surface::*member, float least, float most,
+                              const char* key = nullptr) {
+  return {what, member, nullptr, least, most, key};
+}
+constexpr SurfaceField color(const char* what, vec3 Surface::*member, float most, const char* key = nullptr) {
+  return {what, nullptr, member, 0.0F, most, key};
+}
+
+constexpr SurfaceField FIELDS[] = {
+    color("a base colour", &Surface::base, 1.0F),
+    number("a metallic", &Surface::metallic, 0.0F, 1.0F, "metallic"),
+    number("a roughness", &Surface::roughness, 0.0F, 1.0F, "roughness"),
+    number("a specular", &Surface::specular, 0.0F, 1.0F),
+    color("a specular colour", &Surface::specular_color, ANY),
+    number("a clearcoat", &Surface::coat, 0.0F, 1.0F, "coat"),
+    number("a clearcoat roughness", &Surface::coat_roughness, 0.0F, 1.0F, "coat-roughness"),
+    color("an emission", &Surface::emission, MOST_EMISSION, "emission"),
+    number("a transmission", &Surface::transmission, 0.0F, 1.0F),
+    color("an absorption", &Surface::absorption, ANY),
+    number("a surface's index of refraction", &Surface::ior, 1.0F, ANY),
+};
+
+}  // namespace
+
+std::span<const SurfaceField> surface_fields() { return FIELDS; }
+
+}  // namespace splatray
