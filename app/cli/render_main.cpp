@@ -50,10 +50,10 @@ LoadedScene load(const Request& request, ProgressLine& progress) {
 }
 
 /// Decides the exposure where that is left to the picture. Of EXR files too, which keep it for what makes PNGs of them.
-void expose(const Sequence& sequence, const ShownScene& shown, const Camera& still, Request& request) {
-  if (!suits_exposure(shown.scene, request)) return;
+void expose(const Sequence& sequence, SceneOnDevice& shown, const Camera& still, Request& request) {
+  if (!suits_exposure(shown.scene(), request)) return;
   const std::uint32_t first = sequence.path.empty() ? 0 : sequence.path.front().frame;
-  const Camera camera = frame_camera(sequence, first, still, choose_up(shown.scene, request));
+  const Camera camera = frame_camera(sequence, first, still, choose_up(shown.scene(), request));
   request.look.exposure_ev = preview_exposure_ev(request, shown, camera);
 }
 
@@ -132,16 +132,14 @@ int render(int argc, char** argv) {
   LoadedScene loaded = load(asked, progress);
   Request request = suited(asked, loaded);
   // What is asked of the pools, before they go.
-  Look look = look_of(loaded.scene);
-  look.environment = std::make_shared<const Environment>(choose_environment(loaded.environment_name));
   const Camera still = choose_camera(loaded.scene, request);
   const PoolCounts counts = pool_counts(loaded.scene);
 
   watch.lap_ms();
-  Tracer tracer(context, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
+  SceneOnDevice shown(context, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
+  shown.show_environment(loaded.environment_name);
   tell_hidden_materials(request);
-  tracer.upload_and_free(loaded.scene);
-  const ShownScene shown{loaded.scene, look, tracer, context};
+  shown.open_and_free(loaded.scene);
   expose(sequence, shown, still, request);
   tell_chosen(asked, request, loaded);
   times.upload_ms = watch.lap_ms();
@@ -149,7 +147,7 @@ int render(int argc, char** argv) {
   progress.clear();
 
   if (!request.output.stats_json.empty())
-    write_stats(request, loaded, counts, context, tracer.pool_bytes(), times, record);
+    write_stats(request, loaded, counts, context, shown.tracer().pool_bytes(), times, record);
   require_all_made(record);
   if (reference) require_match(request, record.last, *reference);
   return static_cast<int>(ExitCode::done);

@@ -16,6 +16,8 @@ ROOMS = ["shaders", "shaders/lang", "shaders/primitive", "shaders/scene", "shade
          "preprocess/scan", "preprocess/tree", "preprocess/read", "preprocess",
          "app/library/codec", "app/library", "app/library/request", "app/library/picture", "app/library/api", "app/cli", "app/farm", "app/python", "app/package",
          "app/view/model", "app/view/ui", "app/view/window", "app/view/thread", "app/view", "data", "tests"]
+# Rooms that only some may look into: programs, viewer and Python trace by app/library.
+ONLY_FOR = {"engine/gpu": ("engine/gpu", "app/library/picture", "tests")}
 # Rooms that look into one after them only for what is named.
 ALSO = {"data": {"app/cli/option_types.h"}}
 # Includes that close a circle and are let through: none, and none comes in.
@@ -63,6 +65,14 @@ def includes_upwards(root, files):
             yield f"{name}: includes {included}, expected only {', '.join(ALSO['data'])} of the rooms after the engine"
         elif other > own:
             yield f"{name}: includes {included}, expected nothing of a room after its own"
+
+
+def closed_rooms(root, files):
+    """Includes of rooms that only some may look into."""
+    for name, included in includes(root, files):
+        for room, allowed in ONLY_FOR.items():
+            if included.startswith(room + "/") and not name.startswith(allowed):
+                yield f"{name}: includes {included}, expected that only of {', '.join(allowed)}"
 
 
 def closed_circles(root, files):
@@ -168,7 +178,8 @@ def long_files(root, files):
 
 def findings(root):
     files = tracked(root)
-    return [*includes_upwards(root, files), *unranked(files), *circles(root, files), *closed_circles(root, files), *full_folders(files), *long_files(root, files),
+    return [*includes_upwards(root, files), *unranked(files), *circles(root, files), *closed_circles(root, files), *closed_rooms(root, files),
+            *full_folders(files), *long_files(root, files),
             *torn_lines(root, files), *kernel_counts(root)]
 
 
@@ -182,6 +193,7 @@ def prove():
         "no room": {"elsewhere/a.h": ""},
         "two folders of a room": {"preprocess/tree/a.h": '#include "preprocess/read/b.h"\n', "preprocess/read/b.h": ""},
         "library above the command line": {"app/library/a.h": '#include "app/cli/b.h"\n', "app/cli/b.h": ""},
+        "a room that only some look into": {"app/cli/a.cpp": '#include "engine/gpu/b.h"\n', "engine/gpu/b.h": ""},
         "torn at a brace": {"engine/base/a.h": "struct A {\n  int a{\n      1};  ///< a number\n};\n"},
         "torn at a comma": {"engine/base/a.h": "constexpr int A = 1,\n              B = 2;  ///< numbers\n"},
         "torn": {"engine/base/a.h": "struct A {\n  int\n      a;  ///< a number\n};\n"},

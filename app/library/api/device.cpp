@@ -26,10 +26,10 @@ DeviceList& device_list() {
 
 }  // namespace
 
-void SharedDevice::drop(std::unique_ptr<Tracer> tracer) {
+void SharedDevice::drop(std::unique_ptr<SceneOnDevice> scene) {
   {
     const std::lock_guard lock(dropping_);
-    dropped_.push_back(std::move(tracer));
+    dropped_.push_back(std::move(scene));
   }
   free_dropped();
 }
@@ -43,7 +43,7 @@ void SharedDevice::free_dropped() {
   while (has_dropped()) {  // asked after each turn: what was dropped in it waits for its end
     const std::unique_lock turn(turn_, std::try_to_lock);
     if (!turn) return;
-    std::vector<std::unique_ptr<Tracer>> now;
+    std::vector<std::unique_ptr<SceneOnDevice>> now;
     const std::lock_guard lock(dropping_);
     now.swap(dropped_);
   }

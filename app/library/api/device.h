@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/library/api/guard.h"
-#include "engine/gpu/tracer.h"
+#include "app/library/picture/scene_on_device.h"
 #include "engine/vulkan/context.h"
 
 namespace splatray::api {
@@ -21,8 +21,8 @@ class SharedDevice {
   /// Whether it was opened before this process was forked off: its threads and locks are another's, so that it can neither be
   /// used nor closed here.
   [[nodiscard]] bool is_of_parent() const { return process_ != getpid(); }
-  /// Ends a scene's tracer in this turn or, where another thread has it, at that one's end: nobody waits.
-  void drop(std::unique_ptr<Tracer> tracer);
+  /// Ends a scene's place in this turn or, where another thread has it, at that one's end: nobody waits.
+  void drop(std::unique_ptr<SceneOnDevice> scene);
 
   Context context;
 
@@ -34,7 +34,7 @@ class SharedDevice {
   const pid_t process_ = getpid();
   std::recursive_timed_mutex turn_;  ///< recursive: a progress function may use other scenes
   std::mutex dropping_;
-  std::vector<std::unique_ptr<Tracer>> dropped_;
+  std::vector<std::unique_ptr<SceneOnDevice>> dropped_;
 };
 
 /// Has the device to itself while it lives.

@@ -78,11 +78,10 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
                             choose_settings(inner, request));
     if (const auto defect = find_look_defect(objects, choose_lights(inner, request, camera)))
       refuse(defect->found, defect->expected);
-    return impl->on_device(relay, [&](SceneOnDevice& there) {
+    return impl->on_device(relay, [&](SceneOnDevice& shown) {
       const std::string& environment = request.look.environment;
-      there.show_environment(environment.empty() ? impl->loaded.environment_name : environment);
-      show_objects(inner, std::move(objects), there.look);
-      const ShownScene shown{inner, there.look, *there.tracer, there.device->context};
+      shown.show_environment(environment.empty() ? impl->loaded.environment_name : environment);
+      shown.show_objects(std::move(objects));
       if (suits_exposure(inner, request))
         request.look.exposure_ev = preview_exposure_ev(request, shown, camera);
       const auto told = [&relay](double share) { return relay("tracing", share); };

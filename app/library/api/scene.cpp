@@ -16,45 +16,38 @@ const std::shared_ptr<Scene::Impl>& SceneAccess::impl(const Scene& scene) {
 }
 
 Scene::Impl::~Impl() {
-  const std::shared_ptr<SceneOnDevice> there = there_.load();
-  if (!there || !there->tracer) return;
-  if (there->device->is_of_parent()) {
-    keep_for_good(there);
+  const std::shared_ptr<Place> place = place_.load();
+  if (!place || !place->scene) return;
+  if (place->device->is_of_parent()) {
+    keep_for_good(place);
   } else {
-    there->device->drop(std::move(there->tracer));
+    place->device->drop(std::move(place->scene));
   }
 }
 
-std::shared_ptr<SceneOnDevice> Scene::Impl::open_device() {
-  std::shared_ptr<SceneOnDevice> there = there_.load();
-  if (there && !there->device->is_of_parent()) return there;
-  auto opened = std::make_shared<SceneOnDevice>(SceneOnDevice{shared_device(loaded.request.settings.device)});
-  if (there) keep_for_good(there);
-  return there_.compare_exchange_strong(there, opened) ? opened : there;
+std::shared_ptr<Place> Scene::Impl::open_device() {
+  std::shared_ptr<Place> place = place_.load();
+  if (place && !place->device->is_of_parent()) return place;
+  auto opened = std::make_shared<Place>(Place{shared_device(loaded.request.settings.device)});
+  if (place) keep_for_good(place);
+  return place_.compare_exchange_strong(place, opened) ? opened : place;
 }
 
-Scene::Impl::InUse::InUse(const Impl& scene, SceneOnDevice& there) : there_(there) {
-  if (there.in_use)
+Scene::Impl::InUse::InUse(const Impl& scene, Place& place) : place_(place) {
+  if (place.in_use)
     refuse("a progress function that uses the scene whose work it hears of",
            "other scenes there, or this one afterwards");
-  if (!there.tracer) {
-    auto tracer = std::make_unique<Tracer>(
-        there.device->context, TracerOptions{.pipeline_folder = scene.loaded.request.settings.cache,
+  if (!place.scene) {
+    auto shown = std::make_unique<SceneOnDevice>(
+        place.device->context, TracerOptions{.pipeline_folder = scene.loaded.request.settings.cache,
                                              .threads = scene.loaded.request.source.threads});
-    tracer->upload(scene.loaded.scene);
-    there.look = look_of(scene.loaded.scene);
-    there.tracer = std::move(tracer);
+    shown->open(scene.loaded.scene);
+    place.scene = std::move(shown);
   }
-  there.in_use = true;
+  place.in_use = true;
 }
 
 std::string Scene::Impl::device_name() { return open_device()->device->context.device_info().name; }
-
-void SceneOnDevice::show_environment(const std::string& name) {
-  if (environment == name) return;
-  look.environment = std::make_shared<const Environment>(choose_environment(name));
-  environment = name;
-}
 
 std::size_t Scene::splats() const { return SceneAccess::impl(*this)->loaded.scene.data_pool.size(); }
 

@@ -7,26 +7,21 @@
 #include <vector>
 
 #include "app/library/api/device.h"
+#include "app/library/picture/scene_on_device.h"
 #include "app/library/picture/scene_source.h"
 #include "app/library/request/object_change.h"
 #include "app/library/splatray.h"
-#include "engine/gpu/tracer.h"
 
 namespace splatray::api {
 
 /// The column that keeps which of an object's Points a splat was.
 inline constexpr std::string_view COLUMN_POINT = "point";
 
-/// A scene on its device. All but `device` belong to whose turn it is.
-struct SceneOnDevice {
+/// A scene's place on a device. All but `device` belong to whose turn it is.
+struct Place {
   std::shared_ptr<SharedDevice> device;
-  std::unique_ptr<Tracer> tracer{};
-  Look look{};                               ///< of the last picture
-  std::optional<std::string> environment{};  ///< the name of its environment
+  std::unique_ptr<SceneOnDevice> scene{};
   bool in_use = false;
-
-  /// Makes the look's environment the one of this name.
-  void show_environment(const std::string& name);
 };
 
 struct Scene::Impl {
@@ -37,10 +32,10 @@ struct Scene::Impl {
   /// that is what the progress function of such a use does.
   template <typename Use>
   auto on_device(ProgressRelay& relay, const Use& use) {
-    const std::shared_ptr<SceneOnDevice> there = open_device();
-    const Turn turn(*there->device, relay);
-    const InUse in_use(*this, *there);
-    return use(*there);
+    const std::shared_ptr<Place> place = open_device();
+    const Turn turn(*place->device, relay);
+    const InUse in_use(*this, *place);
+    return use(*place->scene);
   }
   /// The device's name; opens it.
   [[nodiscard]] std::string device_name();
@@ -54,17 +49,17 @@ struct Scene::Impl {
   /// Puts the scene on the device where it is not yet, and keeps others from it.
   class InUse {
    public:
-    InUse(const Impl& scene, SceneOnDevice& there);
-    ~InUse() { there_.in_use = false; }
+    InUse(const Impl& scene, Place& place);
+    ~InUse() { place_.in_use = false; }
     InUse(const InUse&) = delete;
     InUse& operator=(const InUse&) = delete;
 
    private:
-    SceneOnDevice& there_;
+    Place& place_;
   };
-  [[nodiscard]] std::shared_ptr<SceneOnDevice> open_device();
+  [[nodiscard]] std::shared_ptr<Place> open_device();
 
-  std::atomic<std::shared_ptr<SceneOnDevice>> there_;  ///< null until it is needed
+  std::atomic<std::shared_ptr<Place>> place_;  ///< null until it is needed
 };
 
 /// Makes scenes, and looks into them.

@@ -115,8 +115,8 @@ Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const
         queries.push_back(aimed->query);
         starts.push_back(aimed->start);
       }
-      const std::vector<RayHit> found = impl->on_device(relay, [&](SceneOnDevice& there) {
-        return there.tracer->intersect(there.look, queries, splatray::Settings{});
+      const std::vector<RayHit> found = impl->on_device(relay, [&](SceneOnDevice& shown) {
+        return shown.tracer().intersect(shown.look(), queries, splatray::Settings{});
       });
       for (std::size_t i = 0; i < found.size(); ++i) keep(inner, points, found[i], starts[i], rays[i], hits);
     }

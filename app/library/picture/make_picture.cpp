@@ -14,20 +14,20 @@ namespace {
 /// Most samples of a pixel of a picture that is traced until it is good enough.
 constexpr std::uint32_t GOAL_SAMPLES = 65536;
 
-Look picture_look(const Request& request, const ShownScene& shown, const Camera& camera) {
-  Look look = shown.look;
-  look.lights = choose_lights(shown.scene, request, camera);
+Look picture_look(const Request& request, SceneOnDevice& shown, const Camera& camera) {
+  Look look = shown.look();
+  look.lights = choose_lights(shown.scene(), request, camera);
   return look;
 }
 
 }  // namespace
 
-MadePicture make_picture(const Request& request, const ShownScene& shown, const Camera& camera,
+MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
                          const Tracer::Progress& progress) {
   const View view{camera, request.view.width, request.view.height, request.view.window()};
   const Look look = picture_look(request, shown, camera);
   const bool denoise = request.output.denoise;
-  Settings settings = choose_settings(shown.scene, request);
+  Settings settings = choose_settings(shown.scene(), request);
   settings.aov = settings.aov || denoise;
   settings.estimate_error = settings.estimate_error || denoise;
   MadePicture made;
@@ -36,32 +36,32 @@ MadePicture make_picture(const Request& request, const ShownScene& shown, const 
     settings.samples = GOAL_SAMPLES;
     Goal goal{.error = request.settings.error_goal};
     if (request.settings.seconds_goal > 0.0) goal.seconds = request.settings.seconds_goal;
-    made.image = shown.tracer.render_until(look, view, settings, goal, progress);
+    made.image = shown.tracer().render_until(look, view, settings, goal, progress);
   } else {
-    made.image = shown.tracer.render(look, view, settings, progress);
+    made.image = shown.tracer().render(look, view, settings, progress);
   }
-  made.stats = shown.tracer.stats();
+  made.stats = shown.tracer().stats();
   if (!denoise) return made;
   Stopwatch watch;
-  made.denoiser = remove_noise(shown.tracer, look, view, settings, made.image);
+  made.denoiser = remove_noise(shown.tracer(), look, view, settings, made.image);
   made.denoise_ms = watch.lap_ms();
   return made;
 }
 
-double preview_exposure_ev(const Request& request, const ShownScene& shown, const Camera& camera) {
+double preview_exposure_ev(const Request& request, SceneOnDevice& shown, const Camera& camera) {
   constexpr std::uint32_t LONGEST = 160, SAMPLES = 4;
   const std::uint32_t longest = std::max(request.view.width, request.view.height);
   const auto scaled = [&](std::uint32_t side) {
     return longest > LONGEST ? std::max(side * LONGEST / longest, 1U) : side;
   };
   const View view{camera, scaled(request.view.width), scaled(request.view.height)};
-  Settings settings = choose_settings(shown.scene, request);
+  Settings settings = choose_settings(shown.scene(), request);
   settings.samples = SAMPLES;
   settings.sample_offset = 0;
   settings.aov = settings.estimate_error = settings.counters = false;
   constexpr double MOST_STOPS = 60.0, STEPS = 100.0;
   const double ev =
-      automatic_exposure_ev(shown.tracer.render(picture_look(request, shown, camera), view, settings));
+      automatic_exposure_ev(shown.tracer().render(picture_look(request, shown, camera), view, settings));
   return std::clamp(std::round(STEPS * ev) / STEPS, -MOST_STOPS, MOST_STOPS);
 }
 

@@ -2,18 +2,10 @@
 #pragma once
 #include <string>
 
+#include "app/library/picture/scene_on_device.h"
 #include "app/library/request/request.h"
-#include "engine/gpu/tracer.h"
 
 namespace splatray {
-
-/// A scene on a device.
-struct ShownScene {
-  const Scene& scene;  ///< of it only what is small is looked at: the pools may be gone
-  const Look& look;    ///< its lights are each picture's
-  Tracer& tracer;
-  const Context& context;
-};
 
 /// A picture and what is known of it.
 struct MadePicture {
@@ -26,12 +18,11 @@ struct MadePicture {
 
 /// The picture in the lights that the request asks for: by samples or until it is good enough, and without noise, as it says. Throws
 /// Error: usage, interrupted when `progress` says so, failed.
-[[nodiscard]] MadePicture make_picture(const Request& request, const ShownScene& shown, const Camera& camera,
+[[nodiscard]] MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
                                        const Tracer::Progress& progress);
 
 /// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide and
 /// high. Parts of a picture, and all pictures of a run, have one exposure by it.
-[[nodiscard]] double preview_exposure_ev(const Request& request, const ShownScene& shown,
-                                         const Camera& camera);
+[[nodiscard]] double preview_exposure_ev(const Request& request, SceneOnDevice& shown, const Camera& camera);
 
 }  // namespace splatray

@@ -16,7 +16,7 @@ namespace {
 /// What all pictures of a run share.
 struct Run {
   const Request& request;
-  const ShownScene& shown;
+  SceneOnDevice& shown;
   const SequenceListener& listener;
 };
 
@@ -28,8 +28,9 @@ void write_picture(const Run& run, const Camera& camera, const SequenceFrame& fr
   };
   MadePicture made = make_picture(run.request, run.shown, camera, progress);
   const Request::View& asked = run.request.view;
-  Metadata metadata = picture_metadata(
-      run.request, run.shown.scene, {camera, asked.width, asked.height, asked.window()}, run.shown.context);
+  Metadata metadata =
+      picture_metadata(run.request, run.shown.scene(), {camera, asked.width, asked.height, asked.window()},
+                       run.shown.context());
   if (!made.denoiser.empty()) {
     metadata.emplace_back("denoised", made.denoiser);
     run.listener.note("denoised by " + made.denoiser);
@@ -73,7 +74,7 @@ bool is_made(const Request& request, const Camera& camera, const std::filesystem
 
 }  // namespace
 
-SequenceRecord render_sequence(const Request& request, const Sequence& sequence, const ShownScene& shown,
+SequenceRecord render_sequence(const Request& request, const Sequence& sequence, SceneOnDevice& shown,
                                const Camera& still, const SequenceListener& listener) {
   const Run run{request, shown, listener};
   SequenceRecord record;
@@ -81,7 +82,7 @@ SequenceRecord render_sequence(const Request& request, const Sequence& sequence,
   for (const SequenceFrame& frame : sequence.frames) {
     stop_if_interrupted();
     try {
-      const Camera camera = frame_camera(sequence, frame.number, still, choose_up(shown.scene, request));
+      const Camera camera = frame_camera(sequence, frame.number, still, choose_up(shown.scene(), request));
       if (!request.output.skip_existing || !is_made(request, camera, frame.output))
         write_picture(run, camera, frame, before, record);
       else if (++record.skipped; !listener.progress(frame, before, 1.0))

@@ -44,7 +44,7 @@ struct SequenceListener {
 /// One of several that cannot be made is recorded, and the others go on; of a single one throws the Error. Throws Error
 /// (interrupted) when the listener stops it, and after a signal.
 [[nodiscard]] SequenceRecord render_sequence(const Request& request, const Sequence& sequence,
-                                             const ShownScene& shown, const Camera& still,
+                                             SceneOnDevice& shown, const Camera& still,
                                              const SequenceListener& listener);
 
 /// Throws Error (failed) when a picture failed.

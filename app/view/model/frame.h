@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "app/library/attributes.h"
+#include "app/library/picture/scene_on_device.h"
 #include "app/view/model/false_color.h"
-#include "engine/gpu/pools.h"
-#include "engine/gpu/tracer.h"
 #include "engine/image/image.h"
 #include "engine/image/view.h"
 

@@ -1,7 +1,5 @@
 #include "app/view/thread/live_scene.h"
 
-#include "app/library/picture/scene_source.h"
-
 namespace splatray {
 namespace {
 
@@ -16,34 +14,27 @@ ObjectLooks two_sided(ObjectLooks looks) {
 
 void LiveScene::open(SharedScene scene) {
   scene_.reset();
-  tracer_.upload(*scene);
+  shown_.open(*scene);
   scene_ = std::move(scene);
-  look_.objects = {};
   attributes_ = {};
   legend_ = {};
 }
 
 void LiveScene::match(const Document& document, ViewMode mode) {
   match_attributes(document.attributes);
-  show_objects(*scene_, mode == ViewMode::facing ? two_sided(document.looks) : document.looks, look_);
-  look_.lights = document.lights;
-  look_.up = document.up;
-  match_environment(document.environment);
+  shown_.show_objects(mode == ViewMode::facing ? two_sided(document.looks) : document.looks);
+  shown_.show_lights(document.lights);
+  shown_.show_up(document.up);
+  shown_.show_environment(document.environment);
 }
 
 /// The scene is uploaded again with other colours and radii: those of a copy that lives as long as that takes.
 void LiveScene::match_attributes(const AttributeOptions& attributes) {
   if (attributes == attributes_) return;
-  Scene shown = *scene_;
-  legend_ = show_attributes(shown, attributes);
+  Scene copy = *scene_;
+  legend_ = show_attributes(copy, attributes);
   attributes_ = attributes;
-  tracer_.upload_and_free(shown);
-}
-
-void LiveScene::match_environment(const std::string& name) {
-  if (environment_ == name) return;
-  environment_ = name;
-  look_.environment = std::make_shared<const Environment>(choose_environment(name));
+  shown_.replace_pools(copy);
 }
 
 }  // namespace splatray

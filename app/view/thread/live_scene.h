@@ -2,11 +2,10 @@
 /// hidden points change.
 #pragma once
 #include <memory>
-#include <optional>
 
+#include "app/library/picture/scene_on_device.h"
 #include "app/library/user_folders.h"
 #include "app/view/model/document.h"
-#include "engine/gpu/tracer.h"
 
 namespace splatray {
 
@@ -16,7 +15,7 @@ using SharedScene = std::shared_ptr<const Scene>;
 /// On the render thread. The context must outlive it.
 class LiveScene {
  public:
-  explicit LiveScene(const Context& context) : tracer_(context, {.pipeline_folder = user_cache_folder()}) {}
+  explicit LiveScene(const Context& context) : shown_(context, {.pipeline_folder = user_cache_folder()}) {}
 
   /// Uploads another scene. Throws Error.
   void open(SharedScene scene);
@@ -27,19 +26,17 @@ class LiveScene {
 
   [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
-  [[nodiscard]] const Look& look() const { return look_; }
+  [[nodiscard]] const Look& look() const { return shown_.look(); }
+  [[nodiscard]] SceneOnDevice& shown() { return shown_; }
   [[nodiscard]] const ColorLegend& legend() const { return legend_; }
-  [[nodiscard]] Tracer& tracer() { return tracer_; }
+  [[nodiscard]] Tracer& tracer() { return shown_.tracer(); }
 
  private:
   void match_attributes(const AttributeOptions& attributes);
-  void match_environment(const std::string& name);
 
-  Tracer tracer_;
+  SceneOnDevice shown_;
   SharedScene scene_;
-  Look look_;
-  std::optional<std::string> environment_;  ///< the name of the look's
-  AttributeOptions attributes_;             ///< as uploaded
+  AttributeOptions attributes_;  ///< as uploaded
   ColorLegend legend_;
 };
 

@@ -103,9 +103,7 @@ void RenderThread::fulfil(const Wishes& wishes) {
 void RenderThread::expose() {
   const glm::uvec2 size = glm::max(progressive_.window_px(), glm::uvec2(1));
   live_.match(shown_, ViewMode::shaded);
-  const double ev =
-      preview_exposure_ev(request_of(shown_, size.x, size.y),
-                          {live_.scene(), live_.look(), live_.tracer(), context_}, shown_.camera);
+  const double ev = preview_exposure_ev(request_of(shown_, size.x, size.y), live_.shown(), shown_.camera);
   deliver([&](RenderNews& news) { news.exposure_ev = ev; });
 }
 
@@ -121,7 +119,7 @@ void RenderThread::answer(const PickRequest& request) {
 void RenderThread::save_now(const SaveJob& job) {
   std::string notice;
   attempt_to("saving a picture", [&] {
-    notice = save_pictures(job, live_, context_, [this](const Work& work) {
+    notice = save_pictures(job, live_, [this](const Work& work) {
       deliver([&](RenderNews& news) { news.saving = work; });
       const std::lock_guard lock(mutex_);
       return !cancelled_ && !ending_;

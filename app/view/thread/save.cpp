@@ -22,8 +22,7 @@ SaveJob save_job(const Document& document, const Request& asked) {
   return job;
 }
 
-std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& context,
-                          const SaveProgress& progress) {
+std::string save_pictures(const SaveJob& job, LiveScene& live, const SaveProgress& progress) {
   const Request& request = job.request;
   require_consistent(request);
   const Sequence sequence = plan_sequence(request);
@@ -35,8 +34,8 @@ std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& co
                                                      (static_cast<double>(before) + share) / pictures});
                                   },
                                   [](const std::string&) {}, [](const FailedPicture&) {}};
-  const SequenceRecord record = render_sequence(
-      request, sequence, {live.scene(), live.look(), live.tracer(), context}, job.document.camera, listener);
+  const SequenceRecord record =
+      render_sequence(request, sequence, live.shown(), job.document.camera, listener);
   require_all_made(record);
   const std::string saved = "saved '" + request.output.path.string() + "'";
   if (!request.output.many()) return saved;

@@ -24,7 +24,6 @@ using SaveProgress = std::function<bool(const Work&)>;
 /// Traces the pictures and writes their files: bit for bit those of splatray-render with the same options. Returns a
 /// sentence about what was written. Throws Error: usage, input_unreadable for a camera path, failed, or interrupted when
 /// `progress` says so.
-[[nodiscard]] std::string save_pictures(const SaveJob& job, LiveScene& live, const Context& context,
-                                        const SaveProgress& progress);
+[[nodiscard]] std::string save_pictures(const SaveJob& job, LiveScene& live, const SaveProgress& progress);
 
 }  // namespace splatray

@@ -1,0 +1,34 @@
+#include "app/library/picture/scene_on_device.h"
+
+#include "app/library/picture/scene_source.h"
+
+namespace splatray {
+
+void SceneOnDevice::open(const Scene& scene) {
+  scene_ = nullptr;
+  tracer_.upload(scene);
+  take_look(scene);
+}
+
+void SceneOnDevice::open_and_free(Scene& scene) {
+  scene_ = nullptr;
+  take_look(scene);
+  tracer_.upload_and_free(scene);
+}
+
+void SceneOnDevice::replace_pools(Scene& copy) { tracer_.upload_and_free(copy); }
+
+void SceneOnDevice::take_look(const Scene& scene) {
+  auto environment = std::move(look_.environment);
+  look_ = look_of(scene);
+  look_.environment = std::move(environment);
+  scene_ = &scene;
+}
+
+void SceneOnDevice::show_environment(const std::string& name) {
+  if (environment_ == name) return;
+  environment_ = name;
+  look_.environment = std::make_shared<const Environment>(choose_environment(name));
+}
+
+}  // namespace splatray

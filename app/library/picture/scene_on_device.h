@@ -1,0 +1,48 @@
+/// A scene on a device, and the look it is shown in: what programs, viewer and library trace.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "engine/gpu/tracer.h"
+
+namespace splatray {
+
+/// For one thread at a time.
+class SceneOnDevice {
+ public:
+  /// The context must outlive it.
+  explicit SceneOnDevice(const Context& context, const TracerOptions& options = {})
+      : context_(context), tracer_(context, options) {}
+
+  /// Uploads a scene, which must outlive its stay here, and shows it in its own look. Throws Error.
+  void open(const Scene& scene);
+  /// As open, but frees the scene's pools, each as soon as it is on the device; all else of the scene stays.
+  void open_and_free(Scene& scene);
+  /// Uploads other pools of the scene opened, and frees them: those of a copy with other colours and radii.
+  void replace_pools(Scene& copy);
+  [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
+
+  /// Shows other materials; the scene has its pools.
+  void show_objects(ObjectLooks objects) { splatray::show_objects(*scene_, std::move(objects), look_); }
+  /// Shows the environment of a name, as choose_environment has it. Throws Error (input_unreadable), once: the one before stays.
+  void show_environment(const std::string& name);
+  void show_lights(std::vector<SceneLight> lights) { look_.lights = std::move(lights); }
+  void show_up(const glm::dvec3& up) { look_.up = up; }
+
+  /// Of it only what is small is there after open_and_free.
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] const Look& look() const { return look_; }
+  [[nodiscard]] Tracer& tracer() { return tracer_; }
+  [[nodiscard]] const Context& context() const { return context_; }
+
+ private:
+  void take_look(const Scene& scene);
+
+  const Context& context_;
+  Tracer tracer_;
+  const Scene* scene_ = nullptr;
+  Look look_;
+  std::optional<std::string> environment_;  ///< the name of the look's
+};
+
+}  // namespace splatray
