@@ -44,7 +44,7 @@ namespace {
 constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius where nothing else is known
 constexpr std::uint32_t MOST_EQUAL = 8;  // splats with the same words that are kept: more only add weight
 
-/// Bytes a point that stages take at once beside what is there when they begin, as measured: in their middle nobody can refuse.
+/// Bytes a point that stages take at once beside what is there when they begin, as measured: midway they cannot be refused.
 constexpr std::uint64_t SEARCH_BYTES = 39, SCAN_BYTES = 92, RADII_BYTES = 51, ORDER_BYTES = 36;
 
 void check_counts(const Input& input) {
@@ -280,7 +280,8 @@ void count_result(const Scene& scene, BuildStats& stats) {
   }
 }
 
-/// A build takes at least so many bytes a point beside the points themselves; 79 to 101 were measured, the least with normals.
+/// Throws Error (out_of_memory) unless there is the least that a build takes beside the points themselves: of each point 79 to
+/// 101 bytes were measured, the least with normals.
 void require_build_memory(const Input& input) {
   constexpr std::uint64_t POINT_BYTES = 64;
   std::uint64_t points = 0;

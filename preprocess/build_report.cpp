@@ -24,7 +24,7 @@ nlohmann::ordered_json kinds_json(const BuildStats& stats) {
 }
 
 /// What was repaired of scans, in a line each.
-void tell_scans(const BuildStats& stats, std::ostringstream& text) {
+void report_scans(const BuildStats& stats, std::ostringstream& text) {
   if (stats.dropped_isolated + stats.dropped_mixed + stats.dropped_unsupported > 0) {
     text << "  not drawn: " << stats.dropped_isolated << " isolated points, " << stats.dropped_mixed
          << " between two surfaces, " << stats.dropped_unsupported << " with too few neighbours\n";
@@ -46,7 +46,7 @@ void tell_scans(const BuildStats& stats, std::ostringstream& text) {
   }
   for (std::size_t rung = 0; rung < SIDE_RUNGS; ++rung) {
     if (stats.sides_by[rung] == 0) continue;
-    text << "  sides of normals told by: " << name_of(static_cast<SideRung>(rung));
+    text << "  sides of normals decided by: " << name_of(static_cast<SideRung>(rung));
     if (stats.sides_unsure > 0) text << " (" << stats.sides_unsure << " points unsure)";
     text << '\n';
   }
@@ -110,7 +110,7 @@ std::string build_summary(const BuildStats& stats, const std::filesystem::path& 
   repair(stats.dropped_far, "points dropped: far from all others");
   repair(stats.dropped_duplicates, "points dropped: copies of one splat beyond the most that are kept");
   repair(stats.normals_estimated, "normals estimated");
-  tell_scans(stats, text);
+  report_scans(stats, text);
   repair(stats.radii_repaired, "given radii computed anew: zero, negative or not finite");
   repair(stats.radii_isolated, "points without neighbours: radius relative to the scene");
   repair(stats.clipped, "splats end at a border or a crease");

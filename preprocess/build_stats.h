@@ -21,7 +21,7 @@ struct BuildStats {
   /// Of the noisiest scan without normals: heights off the surface over the distance to the 8th place.
   double noise = 0.0;
   double moved_median_world = 0.0;          ///< how far smoothing moved points
-  std::array<std::uint64_t, 5> sides_by{};  ///< scans without normals by what told their sides (SideRung)
+  std::array<std::uint64_t, 5> sides_by{};  ///< scans without normals by what decided their sides (SideRung)
   std::uint64_t sides_unsure = 0;           ///< points whose side is a guess
   std::uint64_t normals_given = 0;
   std::uint64_t normals_estimated = 0;  ///< of points without a usable normal

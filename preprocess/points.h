@@ -25,7 +25,7 @@ struct PointClip {
   /// Unit, square to the normal, out of the surface; zero = no line.
   glm::vec3 dir[2]{glm::vec3(0.0F), glm::vec3(0.0F)};
   float distance[2]{};  ///< from the point to the line, >= 0
-  /// Discs of larger radius are not clipped, as nobody looked so far for what they cover.
+  /// Discs of larger radius are not clipped, as what they cover was not searched so far away.
   float reach = 0.0F;
 
   [[nodiscard]] std::size_t lines() const {
@@ -60,7 +60,7 @@ struct Points {
   std::vector<Station> stations;         ///< where the points were measured from; empty = not known
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< row * columns + column in the station's grid; empty = no grids
-  /// Where points with COLUMN_TIME were measured from, by time; empty = not told
+  /// Where points with COLUMN_TIME were measured from, by time; empty = unknown
   std::vector<TrackPlace> track;
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
@@ -135,7 +135,7 @@ struct ScanOptions {
   /// Further ones to keep, by name (LAS's extra bytes, columns of text, PCD, PLY).
   std::vector<std::string> attributes;
 
-  /// Where the scanner stood, world units after z_scale, for points whose file does not say; it tells the sides of their normals.
+  /// Where the scanner stood, world units after z_scale, for points whose file does not say; it decides the sides of their normals.
   std::optional<glm::dvec3> sensor_world;
   /// Text of times and places, where the sensor of points with times moved; empty = not known.
   std::filesystem::path trajectory;

@@ -68,17 +68,17 @@ Request suited(const Request& asked, const LoadedScene& loaded) {
 }
 
 /// Says in a line what was chosen for a scan, as the options that would choose it.
-void tell_chosen(const Request& asked, const Request& request, const LoadedScene& loaded) {
-  if (request.output.quiet || loaded.told.empty()) return;
-  std::string told = loaded.told;
+void report_choices(const Request& asked, const Request& request, const LoadedScene& loaded) {
+  if (request.output.quiet || loaded.choices.empty()) return;
+  std::string choices = loaded.choices;
   if (request.look.exposure_ev && !asked.look.exposure_ev)
-    told += " --exposure " + number_text(*request.look.exposure_ev);
-  if (request.output.denoise && !asked.output.denoise) told += " --denoise";
-  std::fprintf(stderr, "splatray-render: %s\n", told.c_str());
+    choices += " --exposure " + number_text(*request.look.exposure_ev);
+  if (request.output.denoise && !asked.output.denoise) choices += " --denoise";
+  std::fprintf(stderr, "splatray-render: %s\n", choices.c_str());
 }
 
 /// Says that materials were asked for in a look that shows none.
-void tell_hidden_materials(const Request& request) {
+void note_hidden_materials(const Request& request) {
   const Request::Look& look = request.look;
   const bool asked =
       !look.material.empty() || std::any_of(look.objects.begin(), look.objects.end(), changes_look);
@@ -86,8 +86,8 @@ void tell_hidden_materials(const Request& request) {
   std::fputs("splatray-render: note: this --look shows no materials, --look lit does\n", stderr);
 }
 
-/// Tells the run's progress and sentences on stderr.
-SequenceListener told_on(ProgressLine& progress, const Request& request) {
+/// Writes the run's progress and sentences to stderr.
+SequenceListener reporting_on(ProgressLine& progress, const Request& request) {
   const auto say = [&progress](const std::string& sentence) {
     progress.clear();
     std::fprintf(stderr, "splatray-render: %s\n", sentence.c_str());
@@ -138,12 +138,13 @@ int render(int argc, char** argv) {
   watch.lap_ms();
   SceneOnDevice shown(context, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
   shown.show_environment(loaded.environment_name);
-  tell_hidden_materials(request);
+  note_hidden_materials(request);
   shown.open_and_free(loaded.scene);
   expose(sequence, shown, still, request);
-  tell_chosen(asked, request, loaded);
+  report_choices(asked, request, loaded);
   times.upload_ms = watch.lap_ms();
-  const SequenceRecord record = render_sequence(request, sequence, shown, still, told_on(progress, request));
+  const SequenceRecord record =
+      render_sequence(request, sequence, shown, still, reporting_on(progress, request));
   progress.clear();
 
   if (!request.output.stats_json.empty())

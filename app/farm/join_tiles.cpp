@@ -62,7 +62,7 @@ Part read_part_header(const std::filesystem::path& file) {
   return part;
 }
 
-/// The metadata of a part become those of the whole picture, of so many samples.
+/// Turns the metadata of a part into those of the whole picture, which has `samples` samples a pixel.
 void name_whole_picture(Part& part, std::uint32_t samples) {
   Request request = part.request;
   request.view.crop = {};
@@ -70,7 +70,7 @@ void name_whole_picture(Part& part, std::uint32_t samples) {
   request.settings.samples = samples;
   request.settings.sample_offset = 0;
   *find_value(part.header.metadata, "command_line") = command_line(request);
-  if (std::string* told = find_value(part.header.metadata, "samples")) *told = std::to_string(samples);
+  if (std::string* stored = find_value(part.header.metadata, "samples")) *stored = std::to_string(samples);
 }
 
 void require_same_picture(const Part& part, const Part& first_part) {

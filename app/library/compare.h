@@ -1,4 +1,4 @@
-/// Two pictures, told apart by three numbers.
+/// The difference between two pictures in three numbers.
 #pragma once
 #include <string>
 

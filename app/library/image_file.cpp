@@ -112,7 +112,7 @@ Picture read_picture(const std::filesystem::path& path) {
   return picture;
 }
 
-/// Whether the file has these bytes at so many from its start or, where negative, from its end.
+/// Whether the file has these bytes at offset `at`, counted from its start or, where negative, from its end.
 bool has_bytes(std::ifstream& file, std::streamoff at, const std::string& bytes) {
   std::string found(bytes.size(), '\0');
   file.clear();

@@ -16,7 +16,7 @@ namespace splatray {
 /// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, their names after "splatray.".
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-/// Bytes a pixel that writing a picture takes beside it, at most: a PNG, or an EXR of so many channels.
+/// Bytes a pixel that writing a picture takes beside it, at most: a PNG, or an EXR by its count of channels.
 inline constexpr std::uint64_t PNG_WRITING_BYTES = sizeof(vec3) + 3 * 3;
 [[nodiscard]] constexpr std::uint64_t exr_writing_bytes(std::size_t channels) {
   return 2 * sizeof(float) * channels;

@@ -53,9 +53,9 @@ class SPLATRAY_API Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// Hears the name of a stage and the share of it done, 0..1, on the thread that called, some times a second; returns false to
+/// Called with the stage's name and the fraction of it done, 0..1, on the calling thread, some times a second; returns false to
 /// cancel. What it throws ends the call likewise and reaches the caller. It may make, use and end scenes; where it uses the one
-/// whose picture or rays it hears of, that is an Error (usage).
+/// whose picture or rays are being made, that is an Error (usage).
 using Progress = std::function<bool(const char* stage, double share)>;
 
 /// What an object is made of.
@@ -85,7 +85,7 @@ struct Points {
   /// Any length > 0; zero or NaN = estimate this one. Empty = estimate all.
   std::span<const Float3> normals{};
   std::span<const Float3> colors{};  ///< linear, 0..1, clamped; NaN is 0. Empty = none
-  /// Of the discs, world units; zero, negative or NaN = choose. Empty = choose all.
+  /// Disc radii, world units. 0, negative or NaN: estimated. Empty: all estimated.
   std::span<const float> radii{};
   std::string name = "points";
   std::optional<Material> material{};  ///< unset = light grey, white where there are colours

@@ -31,7 +31,7 @@ void ViewStats::shown(const SharedFrame& frame, Clock::time_point now) {
   recent_.push_back(now);
 }
 
-void ViewStats::told(const std::string& error) {
+void ViewStats::add_error(const std::string& error) {
   if (!errors_.empty() && errors_.back() == error) return;
   errors_.push_back(error);
   has_news_ = true;

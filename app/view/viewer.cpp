@@ -83,7 +83,7 @@ void Viewer::write_stats() {
                  presenter_.validation_messages() + renderer_.validation_messages());
 }
 
-/// While a drag changes the picture, the window waits for that picture: on a processor, drawing costs the tracer's time.
+/// While a drag changes the picture, the window waits for that picture: on the CPU, drawing costs the tracer's time.
 bool Viewer::is_worth_drawing() {
   const Clock::time_point now = Clock::now();
   if (mouse_.is_held() && !has_new_frame_ && now - drawn_ < LONGEST_STANDSTILL) return false;
@@ -229,7 +229,7 @@ void Viewer::draw_controls() {
   view.frames_per_second = stats_.per_second(Clock::now());
   view.work = work_ ? &*work_ : nullptr;
   const Requests requests = draw_panels(document_, panels_, view);
-  if (!panels_.error.empty()) stats_.told(panels_.error);
+  if (!panels_.error.empty()) stats_.add_error(panels_.error);
   attempt_to("doing what was asked for", [&] { handle(requests); });
 }
 

@@ -115,7 +115,7 @@ void Viewer::paste() {
   take_files(pasted_files(text));
 }
 
-/// Keeps a change of what is remembered, and shows what other windows have added. Why it cannot be kept is told once.
+/// Keeps a change of what is remembered, and shows what other windows have added. Why it cannot be kept is reported once.
 void Viewer::remember(const UserChange& change) {
   const std::optional<Failure> failure = attempt("keeping the viewer's state", [&] { user_.change(change); });
   const std::string before = std::exchange(unkept_, failure ? failure->sentence : std::string());

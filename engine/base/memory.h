@@ -13,12 +13,12 @@ namespace splatray {
 /// where nothing is known. `root`: where /proc and /sys are looked for.
 [[nodiscard]] std::uint64_t available_memory(const std::filesystem::path& root = "/");
 
-/// Throws Error (out_of_memory), a sentence with the two sizes, unless so many bytes are available or free within this process;
+/// Throws Error (out_of_memory), a sentence with the two sizes, unless `bytes` are available or free within this process;
 /// `what` needs them, such as "a picture of 640x480 pixels".
 void require_memory(std::uint64_t bytes, const std::string& what);
 
 /// `progress`, which may be empty, as one that also looks some times a second how much memory there is, and throws Error
-/// (out_of_memory) where that comes to an end: for work whose needs nobody can tell before.
+/// (out_of_memory) where that comes to an end: for work whose needs are not known beforehand.
 [[nodiscard]] Progress watching_memory(Progress progress, const std::filesystem::path& root = "/");
 
 }  // namespace splatray

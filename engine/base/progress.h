@@ -1,4 +1,4 @@
-/// How far long work has come: who is told, and one line on a terminal.
+/// How far long work has come: the callback that hears it, and one line on a terminal.
 #pragma once
 #include <functional>
 #include <string>
@@ -9,7 +9,7 @@ namespace splatray {
 /// work, which then throws Error (interrupted).
 using Progress = std::function<bool(const char* stage, double share)>;
 
-/// How progress is told.
+/// How progress is reported.
 enum class ProgressStyle {
   line,    ///< on a terminal, a line on stderr that changes
   plain,   ///< lines on stderr
@@ -17,7 +17,7 @@ enum class ProgressStyle {
   openjd,  ///< on stdout as workers of Open Job Description read it (specification 2023-09, "openjd_progress")
 };
 
-/// Tells progress in a style; a line that changes, only on a terminal, is cleared on destruction.
+/// Reports progress in a style; a line that changes, only on a terminal, is cleared on destruction.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet, ProgressStyle style = ProgressStyle::line);

@@ -30,7 +30,7 @@ constexpr std::string_view LETTERS = "0123456789abcdefghijklmnopqrstuvwxyz";
 constexpr std::string_view NAME_BEGIN = ".splatray-", NAME_END = ".tmp";
 constexpr std::size_t NAME_LETTERS = 16;
 
-/// A name that nobody can foresee, so that nobody can have put a link there; as short for any target, so that it fits where
+/// A name that no one can foresee, so that no one can have put a link there; as short for any target, so that it fits where
 /// the target's does.
 std::string temporary_name() {
   std::random_device random;

@@ -10,7 +10,7 @@ namespace splatray {
 /// What is done where the target is a link.
 enum class Links {
   follow,  ///< its target is replaced: for files that the user named
-  refuse,  ///< an Error: for files that nobody asked for
+  refuse,  ///< an Error: for files that were not asked for
 };
 
 /// One output file in the making. Goes away without a trace unless committed.

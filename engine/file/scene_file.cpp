@@ -182,7 +182,7 @@ class Reader {
   void read_header() {
     if (size_ < sizeof MAGIC) refuse(std::to_string(size_) + " bytes", "a scene file starting with SOCT");
     file_.read(reinterpret_cast<char*>(&header_),
-               sizeof header_);  // fewer bytes than a header are told below
+               sizeof header_);  // fewer bytes than a header are refused below
     if (std::memcmp(header_.magic, MAGIC, sizeof MAGIC) != 0)
       refuse("another file type", "the letters SOCT at its start");
     if (size_ < sizeof header_)

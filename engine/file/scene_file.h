@@ -71,12 +71,12 @@ namespace splatray {
 inline constexpr std::uint32_t SCENE_FILE_VERSION = 11, PLAIN_SCENE_FILE_VERSION = 10;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot, (interrupted) when
-/// `progress`, told of the stage "writing", says so; leaves nothing behind.
+/// `progress`, called with the stage "writing", says so; leaves nothing behind.
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
 /// Reads and checks a whole scene file. Refuses, as Error (input_unreadable) with path, found and expected: wrong magic, another
 /// version (those before 10 are not read: build again), foreign endianness, truncation at any byte, extra bytes, checksum mismatch,
-/// and whatever find_scene_defect (scene_check.h) finds. Error (interrupted) when `progress`, told of the stage "reading", says
+/// and whatever find_scene_defect (scene_check.h) finds. Error (interrupted) when `progress`, called with the stage "reading", says
 /// so.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path, const Progress& progress = {});
 

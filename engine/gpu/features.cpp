@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/scene/look_style.h"
+#include "engine/scene/surface_fields.h"
 
 namespace splatray {
 namespace {
@@ -43,9 +44,8 @@ std::uint32_t surface_features(std::span<const Surface> surfaces, std::span<cons
     const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
     add(!all_metal && !all_clear, FEATURE_DIFFUSE);
     add(!all_metal && surface.specular > 0.0F, FEATURE_SPECULAR);
-    add(surface.metallic > 0.0F, FEATURE_METAL);
-    add(surface.coat > 0.0F, FEATURE_COAT);
-    add(glm::any(glm::greaterThan(surface.emission, vec3(0.0F))), FEATURE_EMISSION);
+    for (const SurfaceField& field : surface_fields())
+      add(glm::any(glm::greaterThan(field.of(surface), vec3(0.0F))), field.feature);
   }
   return features;
 }

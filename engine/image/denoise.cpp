@@ -54,7 +54,7 @@ class Filter {
   [[nodiscard]] bool is_surface(std::size_t i) const { return image_.aov[i].object != NO_OBJECT; }
   [[nodiscard]] vec3 base_of(std::size_t i) const { return glm::max(vec3(base_[i]), vec3(BASE_LEAST)); }
 
-  /// Calls work(row) for all rows, on all processors; what it writes is of its row alone.
+  /// Calls work(row) for all rows, on all cores; what it writes is of its row alone.
   template <class Work>
   void for_rows(const Work& work) const {
     std::atomic<int> next{0};
@@ -131,7 +131,7 @@ class Filter {
     return result;
   }
 
-  /// Two halves of the samples tell little of one pixel's noise: the mean over 7 x 7 of the same surface does.
+  /// Two halves of the samples say little about one pixel's noise; the mean over 7 x 7 of the same surface estimates it.
   [[nodiscard]] Light spread_variance(Light light) const {
     std::vector<float> spread(light.variance.size(), 0.0F);
     for_rows([&](int y) {

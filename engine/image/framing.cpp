@@ -15,7 +15,7 @@ namespace {
 
 constexpr double DEG = std::numbers::pi / 180.0;
 constexpr double OBLIQUE_DEG = 35.0;   ///< elevation of a look at terrain
-constexpr double STEEPEST_DEG = 89.9;  ///< beyond it the scene's up tells no picture's top
+constexpr double STEEPEST_DEG = 89.9;  ///< beyond it the scene's up does not define a picture's top
 constexpr double EYE_SHARE = 0.45;     ///< height of the eye inside, over the scan's height
 /// Of the diagonal: an eye that near the middle looks along the longer side.
 constexpr double CENTRAL = 0.05;

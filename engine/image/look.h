@@ -14,7 +14,7 @@ struct Look {
   std::vector<SceneLight> lights;  ///< at most LIGHTS_MOST, of them LIGHTS_SIZED_MOST that have a size
   /// Where paths look for light that objects send out: find_emitters() of the scene and the surfaces. Others are correct but noisier.
   std::vector<Emitter> emitters;
-  /// Null: black all around. Shared, and told apart by its address, as it may be large.
+  /// Null: black all around. Shared, and compared by its address, as it may be large.
   std::shared_ptr<const Environment> environment;
   glm::dvec3 up{0.0, 1.0, 0.0};  ///< the environment stands about it; any length > 0
 };

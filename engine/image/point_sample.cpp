@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t SAMPLE_MOST = 1U << 16;
 constexpr double PART_CELLS = 32.0;  ///< along the longest side of what holds most points
 constexpr double PART_OUTSIDE = 0.01;
-/// A part of less than one in so many of the largest one's points is left out.
+/// A part with less than 1 / SMALL_PART of the largest one's points is left out.
 constexpr std::size_t SMALL_PART = 10;
 
 /// Cells by their number along x, y and z.

@@ -1,4 +1,4 @@
-/// An even choice of a scene's splats, from which its shape is told and its picture framed.
+/// An even choice of a scene's splats, from which its shape is known and its picture framed.
 #pragma once
 #include <array>
 #include <vector>

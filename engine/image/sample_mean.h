@@ -11,7 +11,7 @@ namespace splatray {
 /// Samples of a pixel whose mean runs on the device, one after the other; more are joined by SampleMean.
 inline constexpr std::uint32_t BLOCK_SAMPLES = 64;
 
-/// Samples of the smallest whole range, BLOCK_SAMPLES times a power of two, that has room for so many.
+/// Samples of the smallest whole range, BLOCK_SAMPLES times a power of two, that has room for `samples`.
 [[nodiscard]] std::uint32_t whole_range(std::uint32_t samples);
 
 /// The means of a picture's pixels over more and more of its samples. Two whole ranges of the same length that make one twice as
@@ -21,7 +21,7 @@ class SampleMean {
  public:
   /// Adds the next samples' means: of a whole range that begins at a multiple of its length.
   void add(std::vector<vec4> means, std::uint32_t samples);
-  /// So many were added.
+  /// How many were added.
   [[nodiscard]] std::uint32_t samples() const;
   /// Makes `last`, the means of any `samples` further ones of the pixels from `first` on, the means of all.
   void join(std::span<vec4> last, std::size_t first, std::uint32_t samples) const;

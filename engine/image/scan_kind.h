@@ -1,4 +1,4 @@
-/// What a scan is of, as its points tell: by it a picture of which nothing is said gets its view, colours and light.
+/// What a scan is of, as its points show: by it a picture of which nothing is said gets its view, colours and light.
 #pragma once
 #include <optional>
 

@@ -20,7 +20,7 @@ constexpr double FAR_EDGES = 4.0;
 constexpr double MAX_DISTANCE_ROOT = 1e18;
 
 constexpr double ROOT_EDGE = 1U << LATTICE_BITS;
-/// From so many root edges away all of a root faces the same way.
+/// From this distance, in root edges, all of a root faces the same way.
 constexpr double PARALLEL_EDGES = 1e6;
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

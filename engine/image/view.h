@@ -43,7 +43,7 @@ struct ImagePlane {
 struct Settings {
   /// Per pixel, >= 1; with LOOK_PAPER one sample goes through the pixel's centre.
   std::uint32_t samples = 16;
-  /// The samples are the next ones behind so many of those that a picture of any number has: a range of a picture whose others are made
+  /// How many of the samples that a picture of any number has come before the first: a range of a picture whose others are made
   /// elsewhere (sample_mean.h). Not of Tracer::render_until.
   std::uint32_t sample_offset = 0;
   std::uint32_t look = LOOK_PAPER;  ///< LOOK_*
@@ -59,9 +59,9 @@ struct Settings {
   std::uint32_t side = SIDE_SIDE;
   double delta_world = 0.0;  ///< SIDE_DELTA: minimum distance, world units
   std::uint32_t order = ORDER_Z;
-  /// On processors: do not trace outside the footprint (footprint.h); pictures are the same.
+  /// On CPUs: do not trace outside the footprint (footprint.h); pictures are the same.
   bool cull = true;
-  /// On processors: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same.
+  /// On CPUs: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same.
   bool stages = true;
   bool counters = false;  ///< compile the counters in
   /// Also estimate the picture's error, by how much the second half of its samples changes what the first half showed: too high

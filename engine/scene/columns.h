@@ -21,7 +21,7 @@ inline constexpr std::string_view COLUMN_TIME = "time";  ///< GPS time, seconds
 /// What each point of a scan is part of (ScanKind); made by the build, and absent where all are of surfaces.
 inline constexpr std::string_view COLUMN_KIND = "kind";
 
-/// What a point of a scan is part of, as its neighbourhood tells.
+/// What a point of a scan is part of, as its neighbourhood shows.
 enum class ScanKind : std::uint8_t {
   surface,
   line,    ///< wires, poles: its neighbours spread in one direction

@@ -40,14 +40,14 @@ struct BuildParams {
   /// Fit a normal field to every splat of a curved scene; read from a file: it has them.
   bool normal_fields = true;
 
-  /// Discs end at borders and creases of meshes, of points where those are clear. Files do not tell.
+  /// Discs end at borders and creases of meshes, of points where those are clear. Not stored in files.
   bool clip = true;
   double crease_degrees = 30.0;  ///< edges that turn by more, and are not shaded smoothly, are creases
 
   /// How far around each point noisy scans are smoothed, world units; 0 = not at all, negative = as their noise asks for.
-  /// Files do not tell.
+  /// Not stored in files.
   double smooth_world = -1.0;
-  /// Points of scans on no surface stay, but for those far from all others. Files do not tell.
+  /// Points of scans on no surface stay, but for those far from all others. Not stored in files.
   bool keep_strays = false;
 
   bool operator==(const BuildParams&) const = default;

@@ -10,25 +10,26 @@ constexpr float ANY = std::numeric_limits<float>::max();
 constexpr float MOST_EMISSION = 1e9F;
 
 constexpr SurfaceField number(const char* what, float Surface::*member, float least, float most,
-                              const char* key = nullptr) {
-  return {what, member, nullptr, least, most, key};
+                              std::uint32_t feature, const char* key = nullptr) {
+  return {what, member, nullptr, least, most, feature, key};
 }
-constexpr SurfaceField color(const char* what, vec3 Surface::*member, float most, const char* key = nullptr) {
-  return {what, nullptr, member, 0.0F, most, key};
+constexpr SurfaceField color(const char* what, vec3 Surface::*member, float most, std::uint32_t feature,
+                             const char* key = nullptr) {
+  return {what, nullptr, member, 0.0F, most, feature, key};
 }
 
 constexpr SurfaceField FIELDS[] = {
-    color("a base colour", &Surface::base, 1.0F),
-    number("a metallic", &Surface::metallic, 0.0F, 1.0F, "metallic"),
-    number("a roughness", &Surface::roughness, 0.0F, 1.0F, "roughness"),
-    number("a specular", &Surface::specular, 0.0F, 1.0F),
-    color("a specular colour", &Surface::specular_color, ANY),
-    number("a clearcoat", &Surface::coat, 0.0F, 1.0F, "coat"),
-    number("a clearcoat roughness", &Surface::coat_roughness, 0.0F, 1.0F, "coat-roughness"),
-    color("an emission", &Surface::emission, MOST_EMISSION, "emission"),
-    number("a transmission", &Surface::transmission, 0.0F, 1.0F),
-    color("an absorption", &Surface::absorption, ANY),
-    number("a surface's index of refraction", &Surface::ior, 1.0F, ANY),
+    color("a base colour", &Surface::base, 1.0F, 0),
+    number("a metallic", &Surface::metallic, 0.0F, 1.0F, FEATURE_METAL, "metallic"),
+    number("a roughness", &Surface::roughness, 0.0F, 1.0F, 0, "roughness"),
+    number("a specular", &Surface::specular, 0.0F, 1.0F, 0),
+    color("a specular colour", &Surface::specular_color, ANY, 0),
+    number("a clearcoat", &Surface::coat, 0.0F, 1.0F, FEATURE_COAT, "coat"),
+    number("a clearcoat roughness", &Surface::coat_roughness, 0.0F, 1.0F, 0, "coat-roughness"),
+    color("an emission", &Surface::emission, MOST_EMISSION, FEATURE_EMISSION, "emission"),
+    number("a transmission", &Surface::transmission, 0.0F, 1.0F, 0),
+    color("an absorption", &Surface::absorption, ANY, 0),
+    number("a surface's index of refraction", &Surface::ior, 1.0F, ANY, 0),
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-/// The numbers of a Surface, one row each: files are checked by them, and the keys of --object and the viewer's sliders made of
-/// them. A lobe is its members in shaders/layout.h, their rows here, its text in shaders/light/bsdf.glsl and what needs it in
-/// engine/gpu/features.cpp.
+/// The numbers of a Surface, one row each: files are checked by them, and the keys of --object, the viewer's sliders and what
+/// kernels are compiled with are made of them. A lobe is its members and FEATURE_ bit in shaders/layout.h, their rows here, the bit's
+/// row in shaders/scene/features.glsl, its text in shaders/light/bsdf.glsl, and where glTF has it preprocess/read/gltf/gltf_material.cpp.
 #pragma once
 #include <span>
 
@@ -13,6 +13,8 @@ struct SurfaceField {
   float Surface::*number;  ///< a number, or
   vec3 Surface::*color;    ///< a colour, linear; the other is null
   float least, most;       ///< range, of a colour of each channel
+  /// FEATURE_* that kernels have where some surface's value is above zero; 0: none, or it is more than that.
+  std::uint32_t feature;
   /// In --object and panels, "coat-roughness"; null: files and the material say it.
   const char* key = nullptr;
 

@@ -132,7 +132,7 @@ DeviceInfo host_device_info() {
 #else
   constexpr const char* COMPILER = "C++ by GCC " __VERSION__;
 #endif
-  return {"the host's processors, without Vulkan", "CPU", COMPILER, "", ""};
+  return {"the host's CPU, without Vulkan", "CPU", COMPILER, "", ""};
 }
 
 Context::Context(const std::string& wanted, bool validation, const WindowNeeds& needs) {

@@ -1,4 +1,4 @@
-/// Instance, device and queue; headless unless told what a window needs. No extension is required; Vulkan 1.2.
+/// Instance, device and queue; headless unless given what a window needs. No extension is required; Vulkan 1.2.
 /// Or, without Vulkan, the host itself.
 #pragma once
 #include <atomic>
@@ -29,7 +29,7 @@ struct WindowNeeds {
   std::function<std::string(VkInstance, VkPhysicalDevice)> refusal;
 };
 
-/// What a user asks for who wants no Vulkan device but the host's processors (engine/cpu).
+/// What a user asks for who wants no Vulkan device but the host's CPU (engine/cpu).
 inline constexpr const char* HOST_DEVICE = "cpu";
 
 class Context {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double APART = 20.0;           // of far points, in units of the others' longest side
 constexpr std::size_t HANDFUL = 16;      // far places that any number of points may have ...
-constexpr std::size_t ONE_OF = 1000;     // ... or more, of so many points,
+constexpr std::size_t ONE_OF = 1000;     // ... or one of this many points,
 constexpr std::size_t LEAST_SHARE = 20;  // but not more than one of these
 
 using Positions = std::vector<glm::dvec3>;
@@ -130,7 +130,7 @@ FarPoints find_far_points(const Positions& positions) {
   std::sort(away.begin(), away.end());
   const Bounds most_of_it = box_without(positions, away);
   const double side = longest_side(most_of_it);
-  if (!(side > 0.0)) return far;  // one place alone tells of no scale
+  if (!(side > 0.0)) return far;  // one place alone has no scale
   std::erase_if(away,
                 [&](std::uint32_t i) { return !(distance_to(most_of_it, positions[i]) > APART * side); });
   if (away.empty()) return far;

@@ -14,7 +14,7 @@
 
 namespace splatray {
 
-/// A stage of the build: its name and who is told about its progress.
+/// A stage of the build: its name and the callback that hears its progress.
 struct Stage {
   const char* name;
   const Progress& progress;  ///< may be empty

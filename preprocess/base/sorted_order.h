@@ -19,7 +19,7 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-/// Entries whose keys ascend as far as the bits from `low_bit` on tell.
+/// Entries whose keys ascend in the bits from `low_bit` on.
 struct RoughlySorted {
   std::span<KeyedIndex> entries;
   int low_bit;
@@ -36,7 +36,7 @@ struct RoughlySorted {
                                          int bits);
 
 /// The numbers below `count`, ascending by key_of(i), a 64-bit number, and where keys are equal by less(i, j); it depends on
-/// threads only where neither tells two apart. Fastest where keys are Morton keys of points on surfaces.
+/// threads only where neither distinguishes two. Fastest where keys are Morton keys of points on surfaces.
 template <typename KeyOf, typename Less>
 [[nodiscard]] std::vector<std::uint32_t> sorted_order(std::size_t count, const KeyOf& key_of,
                                                       const Less& less) {

@@ -1,4 +1,4 @@
-/// Memory that stages of the build ask for before they take it: in their middle nobody can refuse.
+/// Memory that stages of the build ask for before they take it: midway it cannot be refused.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace splatray {
 
-/// Throws Error (out_of_memory) unless there are so many bytes and, where they are many, what threads and allocators take for
+/// Throws Error (out_of_memory) unless there are `bytes` and, where they are many, what threads and allocators take for
 /// themselves.
 inline void require_room(std::uint64_t bytes, const std::string& what) {
   constexpr std::uint64_t SPARE = std::uint64_t{8} << 20U;

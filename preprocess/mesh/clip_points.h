@@ -16,8 +16,8 @@ struct PointOnMesh {
   double reach_world;
 };
 
-/// Fills `points.clip` (ClipFinder); leaves it empty where no point is near an edge. `on_mesh` tells of a point by its number,
-/// for several threads at once; its first triangle tells where a texture's alpha cuts the mesh out (AlphaMask). Points without a
+/// Fills `points.clip` (ClipFinder); leaves it empty where no point is near an edge. `on_mesh` describes a point by its number,
+/// for several threads at once; its first triangle shows where a texture's alpha cuts the mesh out (AlphaMask). Points without a
 /// normal get no lines. `weld` is weld_positions of the vertices.
 void clip_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const MeshEdges& edges,
                  const std::function<PointOnMesh(std::size_t)>& on_mesh, Points& points);

@@ -18,7 +18,7 @@ struct MeshPlace {
 /// Samples by area miss faces that are narrower than their distance, and the tips of sharp corners; discs of the faces beside
 /// them end at the edge. These are the places along the edges, a little inside, that no sample is near of those on the same
 /// patch, the triangles joined smoothly; added one after the other, they leave none that has no sample within 0.75 of
-/// `spacing_world`. `triangle` and `position` tell of the samples; at most `most` places are found, and none where no
+/// `spacing_world`. `triangle` and `position` describe the samples; at most `most` places are found, and none where no
 /// disc would be clipped.
 [[nodiscard]] std::vector<MeshPlace> edge_sites(const Mesh& mesh, const MeshEdges& edges,
                                                 const std::vector<std::uint32_t>& triangle,

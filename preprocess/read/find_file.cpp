@@ -17,14 +17,14 @@ bool stays_inside(const std::filesystem::path& path) {
   return path.is_relative();
 }
 
-std::filesystem::path find_scene_file(const FileWish& wish,
+std::filesystem::path find_scene_file(const FileReference& file,
                                       const std::vector<std::filesystem::path>& data_paths) {
-  const std::filesystem::path name(wish.name);
+  const std::filesystem::path name(file.name);
   if (!stays_inside(name)) {
-    throw_unreadable(wish.scene, wish.what + ": found '" + wish.name +
+    throw_unreadable(file.scene, file.what + ": found '" + file.name +
                                      "', expected a file in the scene's folder or in a data path, or below");
   }
-  std::vector<std::filesystem::path> candidates{wish.scene.parent_path() / name};
+  std::vector<std::filesystem::path> candidates{file.scene.parent_path() / name};
   for (const std::filesystem::path& folder : data_paths) {
     candidates.push_back(folder / name);
     if (name.has_parent_path()) {
@@ -39,8 +39,8 @@ std::filesystem::path find_scene_file(const FileWish& wish,
     }
     looked += (looked.empty() ? "" : ", ") + candidate.string();
   }
-  throw_unreadable(wish.scene, wish.what + ": '" + wish.name + "' was not found, looked for " + looked +
-                                   (wish.hint.empty() ? "" : "; " + wish.hint));
+  throw_unreadable(file.scene, file.what + ": '" + file.name + "' was not found, looked for " + looked +
+                                   (file.hint.empty() ? "" : "; " + file.hint));
 }
 
 }  // namespace splatray

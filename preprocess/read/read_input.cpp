@@ -22,7 +22,7 @@ namespace {
 /// A file to read.
 struct NamedFile {
   std::filesystem::path path;
-  bool may_be_left_out;  ///< nobody named it, and it need not be a scan
+  bool may_be_left_out;  ///< it was not named, and it need not be a scan
 };
 
 Input read_geometry(const std::filesystem::path& path, const ReadOptions& options,

@@ -8,7 +8,7 @@
 namespace splatray {
 
 /// Reads a file of a format that is one object (formats.h); a mesh without triangles is a point set.
-/// Throws Error (input_unreadable); an unknown extension is told with those supported.
+/// Throws Error (input_unreadable); for an unknown extension its sentence lists those supported.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options,
                              const ReadListener& listener);
 

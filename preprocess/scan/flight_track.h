@@ -1,4 +1,4 @@
-/// Where an airborne scanner was, told by its pulses.
+/// Where an airborne scanner was, found from its pulses.
 #pragma once
 #include <glm/glm.hpp>
 #include <vector>

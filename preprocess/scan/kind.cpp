@@ -13,7 +13,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEWEST = 1000;    // points that tell surfaces from what is none
+constexpr std::size_t FEWEST = 1000;    // points that distinguish surfaces from what is none
 constexpr std::size_t RING = 6;         // the place whose distance a disc's radius follows
 constexpr float USUAL = 2.0F;           // most of that distance, in units of the median around
 constexpr float BESIDE_SCATTER = 1.0F;  // most of a surface's radius next to what is none, in the same units
@@ -56,8 +56,8 @@ std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey) {
   if (cloud.size() < FEWEST) return {};
   std::vector<ScanKind> kinds(cloud.size());
   tbb::parallel_for(std::size_t{0}, kinds.size(), [&](std::size_t i) {
-    const bool told = survey.estimated[i] != 0;
-    kinds[i] = told ? kind_of(survey, static_cast<std::uint32_t>(i)) : ScanKind::surface;
+    const bool estimated = survey.estimated[i] != 0;
+    kinds[i] = estimated ? kind_of(survey, static_cast<std::uint32_t>(i)) : ScanKind::surface;
   });
   for (int round = 0; round < ROUNDS; ++round) kinds = as_most_around(kinds, survey);
   const bool all =

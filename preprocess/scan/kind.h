@@ -10,7 +10,7 @@ namespace splatray {
 /// Sorts points by their neighbourhoods (Survey::flatness), as dimensionality features do (Demantke et al. 2011): those that
 /// lie along a line at every size are lines; those of which more than half are not flat, counting a point and its LISTED
 /// nearest places, are scatter, and in two rounds points do as most around them; all others, and all whose normals were given,
-/// are surface. Empty where all are surface, and for clouds of fewer than 1000 points, too few to tell.
+/// are surface. Empty where all are surface, and for clouds of fewer than 1000 points, which are too few.
 [[nodiscard]] std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey);
 
 /// Gives points that are of no surface small round discs: `share` of the distance to the 6th place, at most twice what is usual

@@ -11,9 +11,9 @@ namespace splatray {
 namespace {
 
 constexpr float ALIKE = 0.9F;               // cosine of normals of one smooth surface
-constexpr std::size_t MOST_ASKED = 200000;  // points that tell the median well enough
+constexpr std::size_t MOST_ASKED = 200000;  // points that give the median well enough
 
-constexpr std::size_t MOST_SORTED = 65536;  // coordinates that tell their step
+constexpr std::size_t MOST_SORTED = 65536;  // coordinates that show their step
 
 /// What a point and its nearest places disagree about, and what rounding hides of it.
 float disagreement(const Cloud& cloud, const Survey& survey, const glm::vec3& step, std::uint32_t i) {

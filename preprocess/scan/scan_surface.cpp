@@ -20,7 +20,7 @@ constexpr double NOISY = 0.05;  // noise (measure_noise) from which points are m
 constexpr double SHARP =
     0.05;  // share of points at creases that noise would have hidden: edges are what looks like it
 constexpr double WHOLE = 4.0;         // a radius, cloud coordinates, that reaches all points from each
-constexpr std::size_t FEWEST = 1000;  // points that tell noise from shape
+constexpr std::size_t FEWEST = 1000;  // points that distinguish noise from shape
 // Radius of discs on no surface over the distance to the 6th place.
 constexpr float LEAVES = 0.4F, CLUTTER = 0.3F;
 
@@ -44,7 +44,7 @@ void drop_strays(Cloud& cloud, const GridSurface& grids, Survey& survey, BuildSt
   survey.keep(kept, number);
 }
 
-/// Tells what points are part of; those at creases, which bend the planes around them, and on lines that make up a surface are of
+/// Finds what points are part of; those at creases, which bend the planes around them, and on lines that make up a surface are of
 /// surfaces.
 void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, BuildStats& stats) {
   for (const SharpSide& side : sharp)
@@ -86,7 +86,7 @@ void count_sharp(const std::vector<SharpSide>& sharp, BuildStats& stats) {
   }
 }
 
-/// The surface that grids tell.
+/// The surface that grids determine.
 GridSurface find_grids(Cloud& cloud, const BuildParams& params, const Stage& stage, BuildStats& stats) {
   GridSurface grids = find_grid_surface(cloud, params.smooth_world < 0.0, stage);
   stats.dropped_mixed += grids.mixed;
@@ -119,8 +119,8 @@ void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, do
 std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildParams& params,
                                 const Stage& stage, BuildStats& stats) {
   const GridSurface grids = params.keep_strays ? GridSurface{} : find_grids(cloud, params, stage, stats);
-  const bool all_told = grids.points > 0 && grids.points == cloud.size();
-  if (all_told && !(params.smooth_world > 0.0)) {
+  const bool all_in_grids = grids.points > 0 && grids.points == cloud.size();
+  if (all_in_grids && !(params.smooth_world > 0.0)) {
     if (grids.normals > 0) ++stats.sides_by[static_cast<std::size_t>(SideRung::sensor)];
     return grids.normals;
   }

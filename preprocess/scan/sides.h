@@ -10,7 +10,7 @@
 
 namespace splatray {
 
-/// What told the sides, best first.
+/// What decided the sides, best first.
 enum class SideRung : std::uint8_t {
   given,   ///< the input's own normals
   sensor,  ///< the scanner's place, given or found from its rings
@@ -36,7 +36,7 @@ SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<s
 [[nodiscard]] bool is_room(const Cloud& cloud, const Survey& survey);
 
 /// Sides where nothing is known: parts of smooth surface, joined over the neighbours by how little their normals differ (Hoppe
-/// et al. 1992, sec. 3.3, with Kruskal's tree), each turned to where rays tell that there is more room (Takayama et al. 2014,
+/// et al. 1992, sec. 3.3, with Kruskal's tree), each turned to where rays find more room (Takayama et al. 2014,
 /// "A simple method for correcting facet orientations in polygon meshes based on ray casting"). What lies beyond the cloud
 /// counts as room, but for rooms, which are seen from within: there it counts as none. Returns the points whose parts had less
 /// than two thirds of the votes and no neighbour that knew better. Points on no surface (Cloud::kind) take no part.

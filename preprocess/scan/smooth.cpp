@@ -162,7 +162,7 @@ class Projection {
     return stride;
   }
 
-  /// Whether a point may be moved: it is of a surface and, where nobody asks for a radius, its normal was not given.
+  /// Whether a point may be moved: it is of a surface and, where no radius is asked for, its normal was not given.
   [[nodiscard]] bool moves(std::size_t i) const {
     return cloud_.on_surface(i) && (radius_ > 0.0F || survey_.estimated[i] != 0);
   }

@@ -14,7 +14,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEWEST = 1000;  // points that tell what is usual
+constexpr std::size_t FEWEST = 1000;  // points that show what is usual
 constexpr float APART = 3.0F;         // of a stray's neighbours, in units of theirs
 constexpr std::size_t LEAST_RANK =
     2;                        // which of the neighbours' distances: other strays may be the first two
@@ -34,7 +34,7 @@ float median(std::vector<float>& values) { return values.empty() ? 0.0F : median
 /// Points that have no neighbour as near as their neighbours have.
 void mark_isolated(const Survey& survey, std::vector<Stray>& strays) {
   tbb::parallel_for(std::size_t{0}, strays.size(), [&](std::size_t i) {
-    // Whether that holds of the neighbour of LEAST_RANK: of more than so many.
+    // Whether that holds of the neighbour of LEAST_RANK: of more neighbours than that.
     std::size_t closer = 0;
     for (const std::uint32_t j : survey.around(i))
       closer += survey.reach[i] > APART * survey.reach[j] ? 1 : 0;
@@ -80,7 +80,7 @@ void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stra
   }
 }
 
-/// What one station, whose sensor is known, tells of its points.
+/// What one station, whose sensor is known, shows of its points.
 void mark_seen_from(const Cloud& cloud, const Survey& survey, const Station& station,
                     const std::vector<std::uint32_t>& points, std::vector<Stray>& strays) {
   const glm::dvec3 sensor = (*station.sensor_world - cloud.center_world) / cloud.half_extent_world;

@@ -21,8 +21,8 @@ enum class Stray : std::uint8_t {
 /// that are mostly four times as sparse as is usual; and where the sensor is known, a point whose 8th neighbour is
 /// farther than 4 times what the scanner's angular step, which is measured, makes of its range. Mixed: where the station has a
 /// grid too, a point that lies on none of the straight lines through the next two in the grid's 8 directions, or on one only
-/// and its plane is seen at less than 15 degrees. A cloud of fewer than 1000 points has none: too few to tell; nor
-/// have points whose surface their grid has told, as their own are left out already.
+/// and its plane is seen at less than 15 degrees. A cloud of fewer than 1000 points has none, as they are too few; nor
+/// have points whose surface their grid has determined, as their own are left out already.
 [[nodiscard]] std::vector<Stray> find_strays(const Cloud& cloud, const Survey& survey,
                                              const GridSurface& grids);
 

@@ -19,18 +19,18 @@ constexpr double LINE =
     0.02;  // second variance / first: below this the places of a neighbourhood lie on a line
 
 constexpr std::array<std::size_t, 2> STRIDES{8, 64};
-constexpr float ROUGH = 0.03F;  // of a neighbourhood that noise or edges tell more of than a plane does
+constexpr float ROUGH = 0.03F;  // of a neighbourhood that noise or edges describe better than a plane does
 constexpr double ROUGHEST =
     1.0 / 3.0;                     // of a line too: one ring with its noise makes a plane across the surface
 constexpr float EVEN = 2.0F;       // distance to the 32nd place over that to the 8th on a surface
 constexpr float ROOM = 1.3F;       // squared distance that is searched over what is expected
 constexpr float TOGETHER = 0.3F;   // extent of rough points that share a wider neighbourhood, over its radius
 constexpr double FLATTER = 0.5;    // roughness of a wider one that is better, over that
-constexpr double DRAWN_OUT = 0.3;  // second deviation / first: below this a neighbourhood tells of no surface
+constexpr double DRAWN_OUT = 0.3;  // second deviation / first: below this a neighbourhood shows no surface
 constexpr std::size_t KIND_STRIDE =
-    STRIDES[0];                   // of the wider neighbourhoods that tell what points are part of
+    STRIDES[0];                   // of the wider neighbourhoods that show what points are part of
 constexpr std::size_t HALF = 16;  // of their places, that are looked at beside all
-constexpr float THICK = 1.0F;     // flatness that tells of no line and no surface
+constexpr float THICK = 1.0F;     // flatness of what is neither line nor surface
 constexpr double THICKER =
     1.4;  // deviation across a wider one that is still the noise of a surface, over that of 32
 
@@ -84,7 +84,7 @@ Plane best_plane(const Offsets& offsets, const Covariance& whole, const glm::dve
   glm::dvec3 variances = its_variances;
   Plane plane{{}, roughness_of(variances), flatness_of(variances), std::sqrt(variances.x)};
   if (plane.flatness == std::numeric_limits<float>::infinity())
-    plane.thickness = plane.flatness;  // one line of a scanner tells nothing of what is across
+    plane.thickness = plane.flatness;  // one line of a scanner does not show what is across
   if (plane.roughness > ROUGH || plane.flatness > Survey::FLAT) {
     float least = order_of(variances);
     for (const std::size_t size : {SIZES[1], SIZES[0]}) {
@@ -152,7 +152,7 @@ struct Rough {
   std::vector<float> roughness, thickness;  ///< of each point's plane
 };
 
-/// The variances of wider neighbourhoods that tell what points are part of: of HALF the places, and of all.
+/// The variances of wider neighbourhoods that show what points are part of: of HALF the places, and of all.
 using WideVariances = std::array<glm::dvec3, 2>;
 
 /// Survey::flatness with those of wider neighbourhoods that are hardly thicker than `thickness`; of a line only where the first

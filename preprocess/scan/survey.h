@@ -9,10 +9,10 @@
 
 namespace splatray {
 
-/// The nearest places of every point, and what one search tells of them. In the cloud's coordinates and order.
+/// The nearest places of every point, and what one search finds of them. In the cloud's coordinates and order.
 struct Survey {
   static constexpr std::size_t LISTED = 12;  ///< nearest places kept of each point
-  static constexpr std::size_t RING = 8;     ///< the place whose distance tells the local spacing
+  static constexpr std::size_t RING = 8;     ///< the place whose distance gives the local spacing
 
   static constexpr std::size_t WIDE = 32;
 

@@ -37,7 +37,7 @@ class NeighbourSearch::Ball {
   [[nodiscard]] float reach_squared() const { return reach_squared_; }
 
   /// Finds as many of the nearest sites at a squared distance of at most `reach_squared`, itself at most the ball's, as there
-  /// are, at most nearest.size(), and returns how many; nothing where there are too many to tell. They ascend, but where there
+  /// are, at most nearest.size(), and returns how many; nothing where there are too many to count. They ascend, but where there
   /// are no more than asked for and `ordered` is false.
   [[nodiscard, gnu::always_inline]] std::optional<std::size_t> collect(const glm::vec3& query,
                                                                        std::span<Neighbour> nearest,

@@ -17,7 +17,7 @@ constexpr double THICKNESS = 0.05;  // of the spacing: farther points are on no 
 constexpr double BEND = 0.05;       // and as much more times the square of how far they are, as surfaces bend
 constexpr std::size_t OWN_LEAST = 3;      // points that a plane has alone
 constexpr double UNEXPLAINED_MOST = 0.1;  // of the neighbours, on no plane
-constexpr double LEAST_SINE = 0.3;        // of a triple's corner: thinner triples tell no plane
+constexpr double LEAST_SINE = 0.3;        // of a triple's corner: thinner triples determine no plane
 constexpr double PARALLEL_COSINE = 0.97;  // 14 degrees
 
 struct Plane {

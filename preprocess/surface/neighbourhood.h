@@ -51,7 +51,7 @@ struct Neighbourhood {
   glm::dvec3 normal;  ///< of the point, as the cloud has it
   bool oriented;      ///< Cloud::oriented
   bool ends_known;    ///< the surface ends, or has a crease, only where clip lines say so
-  /// Of this point: its clip lines were found among points, and neighbours tell of no others.
+  /// Of this point: its clip lines were found among points, and neighbours suggest no others.
   bool creases_known;
   PointClip clip;         ///< of the point
   std::size_t found;      ///< sites looked at, also beyond the clip lines

@@ -31,7 +31,7 @@ constexpr double PARALLEL = 0.9;         // cosine of normals of layers of one n
 constexpr double NOISE_REACH = 4.0;      // of a noisy sheet's disc, in standard deviations of its heights
 constexpr double NOISE_LIMIT = 2.0;      // the same at most, in units of the disc that covers
 constexpr float STRAY = 4.0F;            // largest radius in units of the surroundings' median
-constexpr std::size_t SURROUNDING = 16;  // neighbours that tell what distance is usual around a point
+constexpr std::size_t SURROUNDING = 16;  // neighbours that show what distance is usual around a point
 // Of their squared distances over that of the RING-th on a surface, with some room.
 constexpr float SURROUNDING_OVER_RING = 1.3F * SURROUNDING / RING;
 constexpr float USUAL = 2.0F;   // most of it that a disc of an open cell follows, in units of their median
@@ -232,7 +232,7 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
     const auto fill = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
       const Neighbourhood around(cloud, i, nearest);
       const bool on_line = !cloud.line.empty() && cloud.line[i].reach > 0.0F;
-      if (fields && !on_line) cloud.field[i] = fit_normal_field(around);  // a line alone tells none
+      if (fields && !on_line) cloud.field[i] = fit_normal_field(around);  // a line alone determines none
       if (cloud.radius[i] != 0.0F) return;
       if (on_line) {
         cloud.radius[i] = cloud.line[i].reach;

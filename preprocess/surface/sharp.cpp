@@ -23,18 +23,18 @@ constexpr std::size_t CLOSE = 12;                            // neighbours that 
 constexpr double GIVEN_COSINE = 0.95;  // 18 degrees: a given normal agrees with its plane
 constexpr double SMOOTH_SHARE =
     1.0 / 3.0;                     // of the crease's angle: normals that differ less have none among them
-constexpr std::size_t AGREED = 2;  // of the close neighbours, that must tell of the same
+constexpr std::size_t AGREED = 2;  // of the close neighbours, that must show the same
 constexpr double ALIKE_COSINE = 0.978;       // 12 degrees: two planes agree
 constexpr double BORDER_COSINE = 0.9;        // 26 degrees: two borders do
-constexpr std::size_t TRIALS = 2000;         // points that tell whether there is anything to find
+constexpr std::size_t TRIALS = 2000;         // points that show whether there is anything to find
 constexpr std::size_t TRIAL_NEIGHBOURS = 4;  // beside each of them
-constexpr std::size_t TRIAL_AGREED = 2;      // of which so many must agree
+constexpr std::size_t TRIAL_AGREED = 2;      // of which at least this many must agree
 constexpr double PROMISE = 0.06;             // of those that lie where the surface bends
 constexpr double BORDER_TRIALS = 4.0;  // times the root of all points: as many as a square has at its border
 constexpr double STRAIGHT_GAP = 160.0 * std::numbers::pi / 180.0;
 constexpr double CORNER_GAP = 200.0 * std::numbers::pi / 180.0;
 constexpr double ROUND_LEAST =
-    0.1;  // least variance in the plane / largest: neighbours on a line tell no border
+    0.1;  // least variance in the plane / largest: neighbours on a line show no border
 constexpr double EMPTY_REACH = 3.0;  // of the neighbourhood's radius: how far it is empty behind a border
 
 /// The direction into the widest gap between a point's neighbours, seen in a plane.
@@ -83,7 +83,7 @@ bool agree(const glm::dvec3& normal_a, const Line& a, const glm::dvec3& normal_b
          (alike(normal_a, b.other) && alike(a.other, normal_b));
 }
 
-/// Whether two points tell of the same crease or border.
+/// Whether two points show the same crease or border.
 bool agree(const Found& a, const Found& b) {
   if (a.crease != b.crease) return false;
   for (const Side& one : a.sides)
@@ -104,7 +104,7 @@ class SharpSearch {
         cos_smooth_(std::cos(SMOOTH_SHARE * crease_)),
         search_(cloud, Sites::positions) {}
 
-  /// Whether a few points, spread over the cloud, tell that there is something to find: noise bends surfaces everywhere, and
+  /// Whether a few points, spread over the cloud, show that there is something to find: noise bends surfaces everywhere, and
   /// where nothing bends there may be borders.
   [[nodiscard]] bool promises() const {
     std::atomic<std::size_t> bent = 0, agreed = 0;
@@ -158,7 +158,7 @@ class SharpSearch {
   }
 
  private:
-  /// Calls use(what was found at a point, its nearest sites) for about so many points, spread over the cloud.
+  /// Calls use(what was found at a point, its nearest sites) for about `trials` points, spread over the cloud.
   template <typename Use>
   void try_points(std::size_t trials, const Use& use) const {
     const std::size_t step = cloud_.size() / trials + 1;
@@ -168,7 +168,7 @@ class SharpSearch {
     });
   }
 
-  /// What a point's nearest sites, ascending, tell; `nearest` has them then.
+  /// What a point's nearest sites show; `nearest` has them then, ascending.
   [[nodiscard]] Found look_at(std::uint32_t point, std::array<Neighbour, Around::MOST>& nearest) const {
     const std::size_t count = search_.find(cloud_.coord[point], nearest);
     return look_at(point, std::span(nearest).first(count));

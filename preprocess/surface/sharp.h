@@ -18,7 +18,7 @@ struct SharpSide {
   PointClip clip;        ///< cloud coordinates
 };
 
-/// Where the evidence is clear, what a mesh would tell of the points' planes and lines; by point.
+/// Where the evidence is clear, what a mesh would say of the points' planes and lines; by point.
 /// Creases: the neighbourhood is two or three planes to within a twentieth of the spacing, each has points of its own, on one
 /// side of the line that two share, and they turn by more than `crease_degrees` there. A point has a side for each plane that
 /// it is on. A point whose normal came from the file (`estimated`, one for each point, is 0) keeps only the side that agrees with it.

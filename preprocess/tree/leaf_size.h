@@ -1,4 +1,4 @@
-/// How large leaves are where nobody says.
+/// How large leaves are by default.
 #pragma once
 #include "engine/scene/copies.h"
 #include "preprocess/tree/octree.h"
@@ -6,7 +6,7 @@
 namespace splatray {
 
 /// What a scene of splats would hold with leaves of this size and policy `overlap`: exact up to 32,768 splats, else estimated
-/// from so many, which are taken evenly from the list in pieces of 256.
+/// from 32,768, which are taken evenly from the list in pieces of 256.
 [[nodiscard]] PoolCounts estimate_counts(const SplatList& splats, std::uint32_t leaf_size);
 
 /// The first of 16 and 24 with which copies of the leaves' splats are estimated to fit (copies_fit), else 8: larger leaves list

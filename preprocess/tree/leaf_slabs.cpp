@@ -22,7 +22,7 @@ enum Side : std::uint8_t { LOWER, BOTH, UPPER };
 
 constexpr std::size_t LANES = 8;
 
-/// So many splats, one array for each number, for loops that take several splats at once.
+/// LANES splats, one array for each number, for loops that take several splats at once.
 struct SplatBlock {
   double x[LANES], y[LANES], z[LANES];
   double normal_x[LANES], normal_y[LANES], normal_z[LANES];

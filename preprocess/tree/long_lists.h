@@ -7,7 +7,7 @@
 
 namespace splatray {
 
-/// A list is long above so many times `leaf_size` splats, and asks for another octree above so many.
+/// A list of more than LONG_LIST * leaf_size splats is long; one of more than TOO_LONG_LIST * leaf_size needs another octree.
 inline constexpr std::uint32_t LONG_LIST = 4;
 inline constexpr std::uint32_t TOO_LONG_LIST = 8;
 

@@ -37,6 +37,23 @@ struct Bsdf {
   float layer_chosen;
 };
 
+/// What a surface and a splat's colour say; bsdf_seen() makes the rest.
+Bsdf bsdf_of(Surface surface, vec3 color, float eta) {
+  Bsdf bsdf;
+  bsdf.base = surface.base * color;
+  bsdf.metallic = surface.metallic;
+  float ior = LOBE_TRANSMISSION && surface.transmission > 0.0f ? eta : surface.ior;
+  float facing = (ior - 1.0f) / (ior + 1.0f);
+  bsdf.f0 = min(surface.specular_color * (facing * facing * surface.specular), vec3(1.0f));
+  bsdf.f90 = surface.specular;
+  bsdf.alpha = surface.roughness * surface.roughness;
+  bsdf.transmission = surface.transmission;
+  bsdf.eta = eta;
+  bsdf.coat = surface.coat;
+  bsdf.coat_alpha = surface.coat_roughness * surface.coat_roughness;
+  return bsdf;
+}
+
 float mean_of(vec3 color) { return (color.x + color.y + color.z) * (1.0f / 3.0f); }
 
 /// Works out what depends on the cosine of the eye's direction alone.

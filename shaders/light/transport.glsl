@@ -22,18 +22,7 @@ const float SCAN_SKY = 0.75f;
 
 /// What scatters light at a hit, seen at this cosine. `eta` as Bsdf has it.
 Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
-  Bsdf bsdf;
-  bsdf.base = surface.base * hit.color;
-  bsdf.metallic = surface.metallic;
-  float ior = GLASS && surface.transmission > 0.0f ? eta : surface.ior;
-  float facing = (ior - 1.0f) / (ior + 1.0f);
-  bsdf.f0 = min(surface.specular_color * (facing * facing * surface.specular), vec3(1.0f));
-  bsdf.f90 = surface.specular;
-  bsdf.alpha = surface.roughness * surface.roughness;
-  bsdf.transmission = surface.transmission;
-  bsdf.eta = eta;
-  bsdf.coat = surface.coat;
-  bsdf.coat_alpha = surface.coat_roughness * surface.coat_roughness;
+  Bsdf bsdf = bsdf_of(surface, hit.color, eta);
   if (LOOK == LOOK_SCAN) bsdf.base = hit.color;
   if (LOOK == LOOK_CLAY) bsdf.base = vec3(CLAY_ALBEDO);
   if (LOOK == LOOK_AO) bsdf.base = vec3(1.0f);

@@ -38,7 +38,7 @@ TEST_F(CliOptions, NonsenseIsRefused) {
                                                                {"--camera-up=0,1,0"},
                                                                {"--object=grid"},
                                                                {"--object=grid:glow=1"},
-                                                               {"--object=nobody:hidden=on"},
+                                                               {"--object=absent:hidden=on"},
                                                                {"--environment=-1,0,0"},
                                                                {"--bounces=65"},
                                                                {"--shadows=maybe"},

@@ -1,4 +1,4 @@
-/// Pictures made in parts, and what tells of progress.
+/// Pictures made in parts, and how progress is reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -221,14 +221,14 @@ TEST_F(CliParts, SkipExistingSkipsWhatTheSameCommandMade) {
   EXPECT_NE(time_of(), first) << "made by another command";
 }
 
-TEST_F(CliParts, ProgressIsToldAsAsked) {
-  const auto told = [&](const std::string& style) {
+TEST_F(CliParts, ProgressIsReportedAsAsked) {
+  const auto progress = [&](const std::string& style) {
     return run_program({RENDER, grid, "-o", file("p.png"), "--resolution=40x30", "--progress=" + style});
   };
-  EXPECT_NE(told("json").err.find("{\"stage\": \"tracing\", \"share\": 1.00}"), std::string::npos);
-  EXPECT_NE(told("plain").err.find("tracing 100 %\n"), std::string::npos);
-  EXPECT_NE(told("openjd").out.find("openjd_status: tracing\nopenjd_progress: 100\n"), std::string::npos);
-  EXPECT_EQ(told("line").err.find("100 %"), std::string::npos) << "no terminal";
+  EXPECT_NE(progress("json").err.find("{\"stage\": \"tracing\", \"share\": 1.00}"), std::string::npos);
+  EXPECT_NE(progress("plain").err.find("tracing 100 %\n"), std::string::npos);
+  EXPECT_NE(progress("openjd").out.find("openjd_status: tracing\nopenjd_progress: 100\n"), std::string::npos);
+  EXPECT_EQ(progress("line").err.find("100 %"), std::string::npos) << "no terminal";
 }
 
 }  // namespace

@@ -36,12 +36,12 @@ TEST(SuitedPicture, OfAModelIsAsAskedFor) {
   model.stations.clear();
   const SuitedPicture picture = suited_picture(model, {});
   EXPECT_EQ(picture.request, Request{});
-  EXPECT_EQ(picture.told, "");
+  EXPECT_EQ(picture.choices, "");
 }
 
 TEST(SuitedPicture, WithoutColoursShowsTheShapeInLight) {
   const SuitedPicture land = suited_picture(site(), {});
-  EXPECT_EQ(land.told, "a site: --view oblique --color-by height --look lit");
+  EXPECT_EQ(land.choices, "a site: --view oblique --color-by height --look lit");
   EXPECT_EQ(land.request.view.viewpoint, Viewpoint::oblique);
   EXPECT_EQ(land.request.look.attributes.color_by, "height");
   EXPECT_EQ(land.request.look.style, LOOK_LIT);
@@ -50,11 +50,11 @@ TEST(SuitedPicture, WithoutColoursShowsTheShapeInLight) {
 
 TEST(SuitedPicture, RoomsLieOpenUnlessAScannerStandsInThem) {
   Scene scene = room();
-  EXPECT_EQ(suited_picture(scene, {}).told, "a room: --view dollhouse --color-by height --look lit");
+  EXPECT_EQ(suited_picture(scene, {}).choices, "a room: --view dollhouse --color-by height --look lit");
   EXPECT_TRUE(suited(scene).settings.cutaway);
   scene.stations[0].sensor_world = glm::dvec3(0.0);
   const SuitedPicture inside = suited_picture(scene, {});
-  EXPECT_EQ(inside.told, "a room: --view inside --color-by height --look scan")
+  EXPECT_EQ(inside.choices, "a room: --view inside --color-by height --look scan")
       << "light comes from outside, which a closed room has none of";
   EXPECT_FALSE(inside.request.settings.cutaway);
 }
@@ -85,7 +85,7 @@ TEST(SuitedPicture, WhatIsAskedForStays) {
   asked.look.style = LOOK_CLAY;
   const SuitedPicture picture = suited_picture(room(), asked);
   EXPECT_EQ(picture.request, asked);
-  EXPECT_EQ(picture.told, "");
+  EXPECT_EQ(picture.choices, "");
   asked.look.style.reset();
   asked.look.environment = "white";
   EXPECT_FALSE(suited(room(), asked).look.style) << "an environment asks for its light";

@@ -187,7 +187,7 @@ TEST_F(SizedLights, ForgedOnesAreRefused) {
   says(forged, "light 2 with edges");
 }
 
-TEST_F(SceneFile, EllipsesAreToldOfInTheHeader) {
+TEST_F(SceneFile, EllipsesAreFlaggedInTheHeader) {
   EXPECT_EQ(get<std::uint32_t>(bytes, 72), 7U) << "without ellipses as before";
   Scene scene = tiny_scene();
   scene.clip_pool[1] = pack_ellipse(scene.data_pool[1], {1.0, 0.0, 0.0}, 5.0);

@@ -127,7 +127,7 @@ TEST_F(FramesTest, GrownPictureIsTheRenderedOne) {
     if (dispatches == 25) (void)tracer.render(disc_view(80, 80), plain_settings());
     if (dispatches == 30) (void)tracer.trace_aov(disc_view(20, 20), settings);
   }
-  EXPECT_EQ(dispatches, 7U * ((43 + 7) / 8)) << "a wish of no time takes the fewest rows, 8, each time";
+  EXPECT_EQ(dispatches, 7U * ((43 + 7) / 8)) << "a request for no time takes the fewest rows, 8, each time";
   EXPECT_EQ(tracer.samples(), 7U);
   const Image grown = tracer.picture();
   EXPECT_TRUE(grown.rgba == tracer.render(view, settings).rgba);

@@ -106,7 +106,7 @@ TEST(Paging, NeedsBuffersOfItsKind) {
             PoolAccess::storage);
 }
 
-/// Whether `automatic` takes references for a scene of so many splats, with so many references, where LIMITS hold.
+/// Whether `automatic` takes references for a scene of `splats` splats with `references` references, where LIMITS hold.
 bool automatic_references(std::size_t splats, std::size_t references,
                           PoolAccess access = PoolAccess::automatic) {
   return choose_references({splats, references, 1, 1, false, false}, LIMITS, access, DataPool::automatic);

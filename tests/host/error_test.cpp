@@ -18,12 +18,12 @@ TEST(RunMain, PassesTheBodysCode) {
   EXPECT_EQ(run_and_expect([](int, char**) { return 7; }, ""), 7);
 }
 
-TEST(RunMain, TellsAnErrorInOneLine) {
+TEST(RunMain, ReportsAnErrorInOneLine) {
   const auto body = [](int, char**) -> int { throw Error(ExitCode::input_unreadable, "no '\x1B\nfile'"); };
   EXPECT_EQ(run_and_expect(body, "program: error: no '??file'\n"), 3);
 }
 
-TEST(RunMain, TellsExhaustedMemory) {
+TEST(RunMain, ReportsExhaustedMemory) {
   const auto body = [](int, char**) -> int { throw std::bad_alloc(); };
   EXPECT_EQ(run_and_expect(body, "program: error: out of memory\n"), 5);
 }

@@ -72,7 +72,7 @@ TEST(Viewpoint, FollowsTheShapeOfAScan) {
   EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, true, true)), Viewpoint::inside);
   EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, false, true)), Viewpoint::front) << "a yard";
   EXPECT_EQ(choose_viewpoint(scanned_box({4.0, 5.0, 3.0}, true, false)), Viewpoint::dollhouse)
-      << "nobody was inside";
+      << "no scanner was inside";
   EXPECT_EQ(choose_viewpoint(scanned_box({400.0, 500.0, 30.0}, false, false)), Viewpoint::oblique);
 }
 

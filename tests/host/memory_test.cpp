@@ -65,7 +65,7 @@ TEST_F(MemoryTest, IsWatched) {
   write("proc/meminfo", "MemAvailable: 40000 kB\n");
   try {
     (void)watching_memory(hear, root.path())("a", 0.0);
-    FAIL() << "nobody looked";
+    FAIL() << "the memory was not looked at";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::out_of_memory);
   }

@@ -7,8 +7,8 @@
 namespace splatray {
 namespace {
 
-/// What is told of work that takes so long, on a stderr that is no terminal.
-std::string told(bool quiet, std::chrono::seconds wait) {
+/// What is reported of work that takes `wait`, on a stderr that is no terminal.
+std::string report_of(bool quiet, std::chrono::seconds wait) {
   testing::internal::CaptureStderr();
   {
     ProgressLine line(quiet);
@@ -20,9 +20,9 @@ std::string told(bool quiet, std::chrono::seconds wait) {
 }
 
 TEST(Progress, IsALineInSomeSecondsWithoutATerminal) {
-  EXPECT_EQ(told(false, std::chrono::seconds(0)), "") << "short work says nothing";
-  EXPECT_EQ(told(true, std::chrono::seconds(10)), "");
-  EXPECT_EQ(told(false, std::chrono::seconds(1)), "tracing 0 %\n");
+  EXPECT_EQ(report_of(false, std::chrono::seconds(0)), "") << "short work says nothing";
+  EXPECT_EQ(report_of(true, std::chrono::seconds(10)), "");
+  EXPECT_EQ(report_of(false, std::chrono::seconds(1)), "tracing 0 %\n");
 }
 
 }  // namespace

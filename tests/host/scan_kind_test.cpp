@@ -111,7 +111,7 @@ TEST(Upright, RoomsAndTerrainStayAsTheirFormatHasThem) {
   EXPECT_EQ(upright(scan_scene(wall)), glm::dvec3(0, 0, 1)) << "a wall is no floor";
 }
 
-TEST(Upright, ATurntablesRingTellsItsAxis) {
+TEST(Upright, ATurntablesRingShowsItsAxis) {
   OrientedPoints ball;
   for (int i = 0; i < 5000; ++i) {
     const double z = 2.0 * (i + 0.5) / 5000.0 - 1.0, level = std::sqrt(1.0 - z * z);

@@ -78,7 +78,7 @@ def end_in_the_middle(render, folder, scene, environment):
     begin = time.monotonic()
     code = worker.wait(timeout=60)
     if code != 130 or time.monotonic() - begin > 5.0:
-        sys.exit(f"a worker told to end: found {code} after {time.monotonic() - begin:.1f} s, expected 130 within 5 s")
+        sys.exit(f"a worker asked to end: found {code} after {time.monotonic() - begin:.1f} s, expected 130 within 5 s")
 
 
 def main():

@@ -1,4 +1,4 @@
-// Pictures that end when they are good enough, and the errors they tell, against pictures of many samples.
+// Pictures that end when they are good enough, and the errors they report, against pictures of many samples.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ class Adaptive : public ::testing::Test {
   std::vector<vec4> truth_;
 };
 
-TEST_F(Adaptive, TellsTheErrorItHas) {
+TEST_F(Adaptive, ReportsTheErrorItHas) {
   double samples_before = 0.0;
   for (const double error : {0.3, 0.1, 0.05}) {
     const Image image = tracer_.render_until(view(), settings_, {.error = error});
@@ -103,7 +103,7 @@ TEST_F(Adaptive, HardlyDarkensWhatIsRare) {
 }
 
 /// From the change that the second half of the samples made, which is the first half's error and so at least the whole's.
-TEST_F(Adaptive, FixedSamplesTellNoLessThanTheirError) {
+TEST_F(Adaptive, FixedSamplesReportNoLessThanTheirError) {
   settings_.samples = 32;
   settings_.estimate_error = true;
   const Image image = tracer_.render(view(), settings_);

@@ -181,7 +181,7 @@ std::vector<Case> chi_squared_cases() {
   return cases;
 }
 
-TEST(Bsdf, DirectionsComeAsOftenAsTold) {
+TEST(Bsdf, DirectionsComeAsOftenAsTheirDensitySays) {
   const std::vector<Case> cases = chi_squared_cases();
   const double significance = sidak(0.01, cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

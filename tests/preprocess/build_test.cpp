@@ -347,7 +347,7 @@ TEST(Build, PointsADenormalApartAreAtOnePlace) {
   for (const uvec4& words : scene.data_pool) EXPECT_TRUE(std::isfinite(unpack_splat(words).radius_squared));
 }
 
-/// Leaves the process so many more bytes of address space: as a control group that is nearly full, but for the kill.
+/// Leaves the process `bytes` more of address space: as a control group that is nearly full, but for the kill.
 void leave_room(std::uint64_t bytes) {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;

@@ -94,8 +94,8 @@ TEST(EmptySpace, WordsAreDecodedSideBySide) {
 TEST(EmptySpace, ARootWithoutLeavesIsLeftAsItIs) {
   Scene scene;
   scene.node_pool = {NODE_EMPTY << NODE_TAG_SHIFT};
-  const Progress nobody;
-  grow_empty_leaves(scene, {"empty space", nobody});
+  const Progress silent;
+  grow_empty_leaves(scene, {"empty space", silent});
   EXPECT_EQ(scene.node_pool, (std::vector<std::uint32_t>{NODE_EMPTY << NODE_TAG_SHIFT}));
 }
 

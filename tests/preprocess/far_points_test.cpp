@@ -134,7 +134,7 @@ TEST(FarPoints, AScanIsBuiltAsIfTheyWereNotThere) {
 }
 
 /// Two scans' worth of clouds, both whole.
-TEST(FarPoints, WhatNobodyMeasuredIsKeptAndTheLossTold) {
+TEST(FarPoints, WhatWasNotMeasuredIsKeptAndTheLossReported) {
   InputObject ball = test::even_sphere(2000);
   ball.points.position.emplace_back(1e5, 0.0, 0.0);
   ball.points.normal.emplace_back(1.0F, 0.0F, 0.0F);
@@ -146,7 +146,7 @@ TEST(FarPoints, WhatNobodyMeasuredIsKeptAndTheLossTold) {
       has_note(stats, "1 point lies 1e+05 away from all others, which are 2 across; it blurs the others"));
 }
 
-TEST(FarPoints, ObjectsTooSmallForTheSceneAreTold) {
+TEST(FarPoints, ObjectsTooSmallForTheSceneAreReported) {
   Input input = test::input_of(test::even_sphere(500));
   input.objects[0].name = "ball";
   InputObject field = test::square_lattice(30, 1e3);
@@ -229,7 +229,7 @@ TEST(FlightTrack, TimesInNanosecondsEnd) {
   EXPECT_GT(stats.splats, 0U);
 }
 
-/// Equal points are told apart by their attributes, of which some are no numbers.
+/// Equal points are distinguished by their attributes, of which some are no numbers.
 TEST(Build, AttributesThatAreNoNumbersHaveAnOrder) {
   const auto built = [](std::uint64_t seed) {
     InputObject object;

@@ -7,7 +7,7 @@
 
 namespace splatray::test {
 
-/// Nobody is told of the progress.
+/// Progress that is reported to no one.
 inline const Progress SILENT;
 
 /// `count` points on the unit sphere at `center`, with outward normals and its area. Even: a Fibonacci

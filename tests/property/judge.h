@@ -4,7 +4,7 @@
 /// size, normals within 0.01 degree, depths within 0.01 of the first splat's radius (and float32's own step at the distance
 /// from where the ray enters the root), and colours within a step of 8 bits. Only hit or miss and the first splat are
 /// compared for clusters of more than 500 splats, which the shaders do not sum up (MEMBERS_MOST), and where the ray comes
-/// within 2^-16 of lying in the plane of a disc near it: then float32 does not tell where it meets that disc.
+/// within 2^-16 of lying in the plane of a disc near it: then float32 does not resolve where it meets that disc.
 ///
 /// A tie is an answer that is right for splats moved by no more than the rounding that the shaders state, and nothing else:
 /// - what decides whether and where a disc is met is exact to 2^-42 of the distances involved (double-float, about 2^-44;

@@ -1,4 +1,4 @@
-// property_test [--seconds N] [--rounds N] [--seed S|random]: random scenes and random rays, for as long as it is told.
+// property_test [--seconds N] [--rounds N] [--seed S|random]: random scenes and random rays, for as long as asked.
 // The GPU, the shaders compiled as C++, and brute force must agree on every ray (judge.h says what that means), and the
 // GPU must answer the same bits for two leaf sizes; rounds of odd seeds decide hits in double-float, the others as the
 // device does by default. Round n has seed S + n; a round that fails prints its seed, its scene and its rays, and
@@ -25,7 +25,7 @@ int body(int argc, char** argv) {
   std::uint64_t seed = 1, rounds = 1;
   OptionList list("Random scenes and rays: GPU, C++ twin and brute force must agree.", "property_test");
   add_number(list, "--seconds", seconds, 0.0, 1e9, "how long; default 30");
-  add_number(list, "--rounds", rounds, 1, 1e9, "at least so many, however long they take; default 1");
+  add_number(list, "--rounds", rounds, 1, 1e9, "at least this many, however long they take; default 1");
   const auto read_seed = [&](const std::string& text) {
     seed =
         text == "random" ? std::random_device()() : read_option<std::uint64_t>("--seed", text, 0, MOST_SEED);

@@ -15,7 +15,7 @@ namespace splatray::testing {
 namespace {
 
 constexpr std::size_t PRIMARY_RAYS = 3000;
-constexpr std::uint64_t EXCEPTIONS_TOLD = 5;
+constexpr std::uint64_t EXCEPTIONS_PRINTED = 5;
 
 struct Asked {
   std::vector<RayQuery> rays;
@@ -41,7 +41,7 @@ std::ostream& operator<<(std::ostream& out, const vec3& v) {
   return out << '(' << v.x << ' ' << v.y << ' ' << v.z << ')';
 }
 
-void tell(std::ostream& out, const RayQuery& ray, const TrueHit& truth, const BruteForce& brute) {
+void print(std::ostream& out, const RayQuery& ray, const TrueHit& truth, const BruteForce& brute) {
   out << std::setprecision(9) << "  ray origin " << ray.origin << " direction " << ray.dir << " t_min "
       << ray.t_min << " inside " << ray.inside << " from object " << ray.from_object << ' ' << ray.from_normal
       << '\n';
@@ -56,7 +56,7 @@ void tell(std::ostream& out, const RayQuery& ray, const TrueHit& truth, const Br
   out << '\n';
 }
 
-void tell(std::ostream& out, const RayHit& answer) {
+void print(std::ostream& out, const RayHit& answer) {
   if (answer.object == NO_OBJECT) {
     out << "miss\n";
     return;
@@ -112,30 +112,30 @@ class Round {
 
   void judge_all(const BruteForce& brute, const Asked& asked, const Answers& answers) {
     const Judge judge(brute, random_.settings);
-    for (std::size_t i = 0; i < asked.rays.size() && told_ < EXCEPTIONS_TOLD; ++i) {
+    for (std::size_t i = 0; i < asked.rays.size() && printed_ < EXCEPTIONS_PRINTED; ++i) {
       const Verdict verdict = judge.judge(asked.rays[i], asked.truth[i], answers.hits[i]);
       counts_.ties += verdict == Verdict::tie ? 1 : 0;
       counts_.edge_on += verdict == Verdict::edge_on ? 1 : 0;
       if (verdict != Verdict::wrong) continue;
       count_exception("wrong answer");
-      tell(out_, asked.rays[i], asked.truth[i], brute);
-      tell(out_ << "  " << answers.who << ": ", answers.hits[i]);
+      print(out_, asked.rays[i], asked.truth[i], brute);
+      print(out_ << "  " << answers.who << ": ", answers.hits[i]);
     }
   }
 
   void compare_bits(const BruteForce& brute, const Asked& asked, const Answers& one, const Answers& two) {
-    for (std::size_t i = 0; i < asked.rays.size() && told_ < EXCEPTIONS_TOLD; ++i) {
+    for (std::size_t i = 0; i < asked.rays.size() && printed_ < EXCEPTIONS_PRINTED; ++i) {
       if (std::memcmp(&one.hits[i], &two.hits[i], sizeof(RayHit)) == 0) continue;
       count_exception("another leaf size, other bits");
-      tell(out_, asked.rays[i], asked.truth[i], brute);
-      tell(out_ << "  " << one.who << ": ", one.hits[i]);
-      tell(out_ << "  " << two.who << ": ", two.hits[i]);
+      print(out_, asked.rays[i], asked.truth[i], brute);
+      print(out_ << "  " << one.who << ": ", one.hits[i]);
+      print(out_ << "  " << two.who << ": ", two.hits[i]);
     }
   }
 
   void count_exception(const char* what) {
     ++counts_.exceptions;
-    ++told_;
+    ++printed_;
     out_ << what << " in the round of --seed " << seed_ << "; " << random_.description << '\n';
   }
 
@@ -145,7 +145,7 @@ class Round {
   RoundCounts& counts_;
   std::ostream& out_;
   bool spoil_;
-  std::uint64_t told_ = 0;
+  std::uint64_t printed_ = 0;
 };
 
 }  // namespace

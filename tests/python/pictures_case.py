@@ -85,12 +85,12 @@ class Pictures(unittest.TestCase):
                                   - self.scene.render(size=(32, 18), materials={"ball": rough}).pixels).max(), 0.01)
 
     def test_every_field_is_in_a_signature(self):
-        told = {name for call in (sr.open, sr.points, sr.Scene.render) for name in inspect.signature(call).parameters}
+        parameters = {name for call in (sr.open, sr.points, sr.Scene.render) for name in inspect.signature(call).parameters}
         from splatray._table import FIELDS, LIGHTS
         for name, field in FIELDS.items():
             if field.group == "Output" or name in LIGHTS or name in ("inputs", "resolution"):
                 continue  # of files, or there under another name: lights, files, size
-            self.assertIn(name, told)
+            self.assertIn(name, parameters)
             self.assertTrue(any(f"{name}: " in call.__doc__ for call in (sr.open, sr.Scene.render)), name)
 
     def test_pictures_are_pickled_and_copied(self):
@@ -120,7 +120,7 @@ class Pictures(unittest.TestCase):
         self.assertLess(np.abs(image.depth[inside] - expected).max(), 2e-3)
         normal = np.array([4.0, 0.0, 0.0]) + expected[:, None] * direction[inside]
         self.assertLess(np.abs(image.normal[inside] - normal).max(), 0.02)
-        self.assertGreater(np.abs(image.depth[inside] - expected - 0.01).max(), 2e-3)  # a centimetre off is told
+        self.assertGreater(np.abs(image.depth[inside] - expected - 0.01).max(), 2e-3)  # a centimetre off is found
 
     def test_look(self):
         size = (48, 27)

@@ -33,8 +33,8 @@ class Reentrance(unittest.TestCase):
     def test_progress_uses_and_drops_others(self):
         found = self.run_program(
             "others = [make()]\nothers[0].render(size=(9, 9))\n"
-            "def told(stage, share):\n    others.clear()\n    make().trace([[0, 0, 3]], [[0, 0, -1]])\n    scene.close()\n    gc.collect()\n"
-            "print(scene.render(size=(64, 64), progress=told).pixels.shape)\n")
+            "def hear(stage, share):\n    others.clear()\n    make().trace([[0, 0, 3]], [[0, 0, -1]])\n    scene.close()\n    gc.collect()\n"
+            "print(scene.render(size=(64, 64), progress=hear).pixels.shape)\n")
         self.assertEqual(found, "(64, 64, 4)\n")
 
     def test_forked_children(self):

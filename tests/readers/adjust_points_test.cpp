@@ -57,7 +57,7 @@ TEST(Trajectory, IsReadByHeaderOrInOrderAndGivenToPointsOfItsTimes) {
   EXPECT_EQ(read_input({points}, options).objects.at(0).points.track[0].sensor_world.z, 450.0);
 }
 
-TEST(Trajectory, ThatTellsNothingIsRefused) {
+TEST(Trajectory, ThatSaysNothingIsRefused) {
   const TempFolder folder;
   const auto points = folder.write("p.csv", "x,y,z,gps_time\n0,0,0,10\n1,0,0,11\n0,1,0,12\n");
   const auto refusal = [&](const std::filesystem::path& track) {

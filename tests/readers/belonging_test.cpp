@@ -68,7 +68,7 @@ TEST(Folder, PlyScansAreScans) {
   EXPECT_EQ(read_input({folder.path() / "scans"}, {}).objects.size(), 2U);
 }
 
-TEST(NoPoints, WhatBecameOfThemIsTold) {
+TEST(NoPoints, WhatBecameOfThemIsReported) {
   const TempFolder folder;
   LasFile file = tile(0.0, 0.0);
   for (std::size_t i = 0; i < file.records.size(); ++i) {

@@ -128,7 +128,7 @@ TEST(LasData, EveryFileHoldsWhatOtherReadersFind) {
   EXPECT_GE(pairs, 11U);
 }
 
-TEST(LasData, UnitsAreTold) {
+TEST(LasData, UnitsAreReported) {
   const char* const data = std::getenv("SPLATRAY_DATA_DIR");
   if (data == nullptr) GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: no LAS files to read";
   EXPECT_TRUE(

@@ -255,7 +255,7 @@ std::string geo_keys(const std::vector<std::array<std::uint16_t, 2>>& keys) {
   return las_vlr("LASF_Projection", 34735, text);
 }
 
-TEST(Las, UnitsThatDifferAreTold) {
+TEST(Las, UnitsThatDifferAreReported) {
   const auto notes = [](const std::string& vlr) {
     LasFile file = three_points();
     file.vlrs = {vlr};

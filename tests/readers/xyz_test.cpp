@@ -73,7 +73,7 @@ TEST_F(Xyz, HeadersStandInCommentsAndOrder) {
   }
 }
 
-TEST_F(Xyz, DegreesAreTold) {
+TEST_F(Xyz, DegreesAreReported) {
   EXPECT_TRUE(read("Lon,Lat,Altitude\n8.5,47.3,400\n").has_note("degrees of longitude and latitude"));
   EXPECT_FALSE(read("Easting,Northing,Elevation\n2600000,1200000,400\n").has_note("degrees"));
 }
@@ -107,7 +107,7 @@ TEST_F(Xyz, NumbersOfScansAreStations) {
   EXPECT_TRUE(read("x y z scan_id\n1 2 3 7.5\n").has_note("not whole"));
 }
 
-TEST_F(Xyz, ColumnsWithoutNamesAreGuessedAndTold) {
+TEST_F(Xyz, ColumnsWithoutNamesAreGuessedAndReported) {
   EXPECT_TRUE(read("1 2 3\n").notes.empty());
   EXPECT_EQ(value(read("1 2 3 0.5\n"), COLUMN_INTENSITY, 0), 0.5);
   const ReadScan six = read("1 2 3 255 0 9\n1 2 3 0 0 1\n");

@@ -1,4 +1,4 @@
-/// A scan as preprocess builds it, whose splats are still told apart.
+/// A scan as preprocess builds it, whose splats can still be matched to its points.
 #pragma once
 #include <string_view>
 

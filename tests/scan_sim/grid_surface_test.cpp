@@ -102,8 +102,8 @@ TEST(GridSurface, SparseGridsKeepTheirPoints) {
   EXPECT_GT(built.scene.data_pool.size(), sparse.size() * 97 / 100);
 }
 
-/// The wall behind has one depth: what lies before it tells the unit.
-TEST(GridSurface, OneStepOfDepthBehindTellsNothing) {
+/// The wall behind has one depth: what lies before it determines the unit.
+TEST(GridSurface, OneStepOfDepthBehindShowsNothing) {
   SimulatedScan scan = corner_by_depth_camera({.columns = 160, .rows = 120, .focal = 145.0});
   const glm::dvec3 sensor = *scan.points.stations[0].sensor_world;
   const glm::dvec3 ahead = glm::normalize(glm::dvec3(0.9, 1.0, 0.6) - sensor);

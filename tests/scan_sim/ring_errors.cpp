@@ -23,7 +23,7 @@ using glm::dvec3;
 constexpr double FARTHEST = 40.0;  // world units
 constexpr double WRONG_SHARE = 0.07, WRONG = 0.05;
 constexpr double LEAST_FACING =
-    0.05;  // cosine that a surface is seen at, as far as it tells what is in its plane
+    0.05;  // cosine that a surface is seen at, as far as it shows what is in its plane
 constexpr double ABOVE = 3.0;
 
 /// How far off a surface may be shown.
@@ -59,7 +59,7 @@ class Sights {
   }
 
   /// Whether the rings above and below and the columns beside see what lies in one plane, to within what counts as wrong: where
-  /// not, a surface ends or bends in between, and the rings do not tell where.
+  /// not, a surface ends or bends in between, and the rings do not show where.
   [[nodiscard]] bool goes_on(double azimuth, double elevation) const {
     const dvec3 sight = dir(azimuth, elevation);
     const auto hit = truth_.first_hit(spinner_.sensor, sight);

@@ -36,14 +36,14 @@ TEST(Rings, OfDiscsHaveStripesOrOverlap) {
       << discs.stripes_percent << ' ' << discs.overlap << ": the comparison above can fail";
 }
 
-TEST(Rings, TellTheScannersPlace) {
+TEST(Rings, ShowTheScannersPlace) {
   const ScanCase sweep = without_stations(street_sweep(32));
   const BuiltScan built = build_scan(sweep.scan.points);
   EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
 }
 
 /// From ever farther away straight rows look ever more alike: no scanner is there.
-TEST(Rings, RowsOfAGridTellNoPlaceAndEnd) {
+TEST(Rings, RowsOfAGridShowNoPlaceAndEnd) {
   for (const double apart : {0.5, 1.0, 2.0, 4.0}) {
     SimulatedScan rows;
     for (int n = 0; n < 1500; ++n) rows.points.position.emplace_back(0.2 * (n % 100), apart * (n / 100), 0.0);

@@ -20,7 +20,7 @@ struct ScanCase {
   std::shared_ptr<const TriangleTree> rings_of{};  ///< what they are of
 };
 
-/// One sweep of so many rings along a street.
+/// One sweep of `rings` rings along a street.
 [[nodiscard]] ScanCase street_sweep(int rings);
 
 /// The corner of corner_mesh as a depth camera sees it from 1.4 m above the floor, whose grid and rounding are `camera`'s.

@@ -77,19 +77,19 @@ TEST(ScanSurface, SensorsOnTheOtherSideTurnTheNormals) {
   EXPECT_LT(shares_of(scan, build_scan(scan.points).scene).right, 0.005);
 }
 
-TEST(ScanSurface, VotesTellOutsidesOfBodies) {
+TEST(ScanSurface, VotesFindOutsidesOfBodies) {
   const SimulatedScan scan = without_stations(ball_scan());
   const BuiltScan built = build_scan(scan.points);
   EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::votes)], 1U);
   EXPECT_GT(shares_of(scan, built.scene).right, 0.97);
 }
 
-TEST(ScanSurface, VotesTellInsidesOfRooms) {
+TEST(ScanSurface, VotesFindInsidesOfRooms) {
   const SimulatedScan scan = without_stations(room_scan());
   EXPECT_GT(shares_of(scan, build_scan(scan.points).scene).right, 0.9);
 }
 
-TEST(ScanSurface, PulsesTellTheTrack) {
+TEST(ScanSurface, PulsesShowTheTrack) {
   const SimulatedScan scan =
       scan_from_air(TriangleTree(terrain_mesh()), {.from_x = -45.0, .to_x = 45.0, .spacing = 0.8},
                     {.noise = 0.02, .divergence = 2e-3});
@@ -139,9 +139,9 @@ TEST(ScanKinds, LeavesAreScatterAndTheHillIsNot) {
   const BuiltScan built = build_scan(scan.points);
   EXPECT_GT(surface_share(scan, built.scene, PointKind::surface), 0.98);
   EXPECT_LT(surface_share(scan, built.scene, PointKind::leaf), 0.05);
-  std::uint64_t told = 0;
-  for (const std::uint64_t count : built.stats.kinds) told += count;
-  EXPECT_EQ(told,
+  std::uint64_t counted = 0;
+  for (const std::uint64_t count : built.stats.kinds) counted += count;
+  EXPECT_EQ(counted,
             built.scene.data_pool.size() + built.stats.dropped_duplicates + built.stats.dropped_unsupported);
 }
 
@@ -178,7 +178,7 @@ Glade glade_with_wire() {
   return glade;
 }
 
-TEST(ScanKinds, GroundLeavesAndWiresAreToldApart) {
+TEST(ScanKinds, GroundLeavesAndWiresAreDistinguished) {
   Input input;
   input.up = glm::dvec3(0.0, 0.0, 1.0);
   input.objects.push_back(glade_with_wire().object);

@@ -183,7 +183,7 @@ SimulatedScan scan_from_air(const TriangleTree& mesh, const Flight& flight, cons
         add(sensor, dir, *answer, 1, 1, at);
         continue;
       }
-      Return near = *answer, far = *answer;  // pulses tell the two surfaces of an edge apart
+      Return near = *answer, far = *answer;  // pulses separate the two surfaces of an edge
       near.kind = far.kind = PointKind::surface;
       near.range = near.true_range;
       far.range = far.true_range = far.last_range;

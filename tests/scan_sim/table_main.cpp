@@ -1,6 +1,6 @@
 /// splatray-scan-table [FOLDER [NAME]]: what preprocess makes of scans whose truth is known, a line each: of simulated ones,
 /// and of those of a data folder (SPLATRAY_DATA_DIR where none is named); only those whose names hold NAME. M/cpus: million points
-/// a second of processor time.
+/// a second of CPU time.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ bool grazes(const SimulatedScan& scan, std::size_t i) {
   return std::abs(90.0 - degrees(glm::dot(to_sensor, scan.normal[i]))) < GRAZING_DEG;
 }
 
-/// Tells whether the build sorted the points right.
+/// Scores whether the build sorted the points right.
 void score_kinds(const SimulatedScan& scan, const Scene& scene, Scores& scores) {
   const Column& number = *find_column(scene.columns, "number");
   const Column* kinds = find_column(scene.columns, COLUMN_KIND);
@@ -62,7 +62,7 @@ Scores score(const SimulatedScan& scan, const Scene& scene) {
   Scores scores;
   std::vector<std::uint8_t> drawn(scan.size());
   std::vector<double> angles;
-  double right = 0.0, told = 0.0;
+  double right = 0.0, judged = 0.0;
   const Column& number = *find_column(scene.columns, "number");
   for (std::size_t s = 0; s < scene.data_pool.size(); ++s) {
     const auto i = static_cast<std::size_t>(number.number(s));
@@ -71,7 +71,7 @@ Scores score(const SimulatedScan& scan, const Scene& scene) {
     const double cosine = glm::dot(unpack_splat(scene.data_pool[s]).normal, glm::normalize(scan.normal[i]));
     angles.push_back(degrees(std::abs(cosine)));
     if (grazes(scan, i)) continue;
-    told += 1.0;
+    judged += 1.0;
     right += cosine > 0.0 ? 1.0 : 0.0;
   }
   double good = 0.0, lost = 0.0, bad = 0.0, found = 0.0;
@@ -83,7 +83,7 @@ Scores score(const SimulatedScan& scan, const Scene& scene) {
   std::sort(angles.begin(), angles.end());
   scores.lost_percent = 100.0 * lost / std::max(good, 1.0);
   scores.found_percent = 100.0 * found / std::max(bad, 1.0);
-  scores.sides_percent = 100.0 * right / std::max(told, 1.0);
+  scores.sides_percent = 100.0 * right / std::max(judged, 1.0);
   if (!angles.empty())
     scores.axis_median_deg = angles[angles.size() / 2],
     scores.axis_p95_deg = angles[angles.size() * 95 / 100];
@@ -91,8 +91,8 @@ Scores score(const SimulatedScan& scan, const Scene& scene) {
   return scores;
 }
 
-/// Seconds of processor time that this process has taken.
-double processor_seconds() {
+/// Seconds of CPU time that this process has taken.
+double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const auto seconds = [](const timeval& time) {
@@ -118,10 +118,10 @@ void measure(ScanCase scan_case) {
   input.objects.push_back(std::move(object));
   input.up = scan_case.up;
   BuildStats stats;
-  const double before = processor_seconds();
+  const double before = cpu_seconds();
   const Scene scene = build_scene(std::move(input), {}, 0, stats);
   const double million_a_second =
-      1e-6 * static_cast<double>(scan_case.scan.size()) / (processor_seconds() - before);
+      1e-6 * static_cast<double>(scan_case.scan.size()) / (cpu_seconds() - before);
   const Scores scores = score(scan_case.scan, scene);
   std::printf("%-36s %8zu  %5.2f %6.1f  %6.2f %6.2f  %-6s %7.3f %7llu  %6.2f %6.2f  %6.3f %8.2f %6.2f",
               scan_case.name.c_str(), scan_case.scan.size(), scores.lost_percent, scores.found_percent,

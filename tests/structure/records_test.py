@@ -44,7 +44,7 @@ def said_on(page):
 
 
 def is_said(commit, said):
-    """Whether `said` holds the commit, clean or dirty as it is; 7 digits tell commits apart."""
+    """Whether `said` holds the commit, clean or dirty as it is; 7 digits identify a commit."""
     return any(one[:7] == commit[:7] and one.endswith("-dirty") == commit.endswith("-dirty") for one in said)
 
 
@@ -93,7 +93,7 @@ def prove():
         "old, said": ({hard: "of commit OLD"}, 0, 0),
         "young enough": ({hard: "commit OLD"}, 1, 0),
         "not clean": ({hard: "commit OLD-dirty"}, 1, 1),
-        "not clean, told as clean": ({runs: '[{"commit": "OLD-dirty"}]', page: "of OLD"}, 1, 1),
+        "not clean, named as clean": ({runs: '[{"commit": "OLD-dirty"}]', page: "of OLD"}, 1, 1),
         "not clean, said": ({runs: '[{"commit": "OLD-dirty"}]', page: "of OLD-dirty"}, 1, 0),
         "old, another said": ({runs: '[{"commit": "OLD"}]', page: "of 0123456"}, 0, 1),
         "old, said elsewhere": ({runs: '[{"commit": "OLD"}]', page: "of OLD"}, 0, 0),

@@ -1,4 +1,4 @@
-// Tells ThreadSanitizer which of TBB's calls come before which: Debian's libtbb is built without it, so its own atomic
+// Shows ThreadSanitizer which of TBB's calls come before which: Debian's libtbb is built without it, so its own atomic
 // operations are not seen, and every value handed to a task would be reported as a race. The linker puts these in the
 // places of TBB's functions (--wrap), so no race in our own code is suppressed.
 #include <oneapi/tbb/detail/_small_object_pool.h>

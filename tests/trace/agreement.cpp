@@ -23,7 +23,7 @@ Agreement agreement_of(const BruteForce& brute, const std::vector<TrueHit>& trut
       continue;
     }
     result.members += answer.members != expected.members ? 1 : 0;
-    // asin of the cross product: acos of float32 normals cannot tell angles below 0.03 degree.
+    // asin of the cross product: acos of float32 normals cannot resolve angles below 0.03 degree.
     const glm::dvec3 normal = glm::normalize(glm::dvec3(answer.normal));
     const double sine = glm::length(glm::cross(normal, expected.normal));
     const bool turned = glm::dot(normal, expected.normal) < 0.0;

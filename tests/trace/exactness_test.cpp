@@ -96,7 +96,7 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
         gpu_intersect(scene, truth.rays, settings, {.pools = {.data = DataPool::references}});
     EXPECT_EQ(different_bits(answers, through_references), 0U) << "other bits through references";
   }
-  // One pool more takes pages where there are clip lines, and a program has room for so many buffers.
+  // One pool more takes pages where there are clip lines, and a program's count of buffers is limited.
   const std::uint64_t pages = scenes.front().clip_pool.empty() ? PAGES_MOST : PAGES_MOST / 2;
   const std::uint64_t page = std::bit_ceil(scenes.front().reference_pool.size()) / pages;
   for (const DataPool data : {DataPool::copies, DataPool::references}) {

@@ -13,7 +13,7 @@ namespace splatray {
 /// Linux only: from /proc/stat, less what this process and the children that it has waited for took.
 class ForeignLoad {
  public:
-  /// Share of all processors that others took since the construction, 0..1.
+  /// Share of all CPUs that others took since the construction, 0..1.
   [[nodiscard]] double share() const {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
     return (foreign_s() - foreign_s_) / (elapsed_s * std::thread::hardware_concurrency());

@@ -1,4 +1,4 @@
-/// Dear ImGui without a window: frames of the panels, and a mouse that clicks what it is told to.
+/// Dear ImGui without a window: frames of the panels, and a mouse that clicks where asked.
 #pragma once
 #include <imgui.h>
 #include <imgui_internal.h>

@@ -75,7 +75,7 @@ TEST(InspectTest, TheCursorsRayGoesThroughWhatProjectsThere) {
   }
 }
 
-TEST(InspectTest, TellsTheSplatInWorldCoordinates) {
+TEST(InspectTest, DescribesTheSplatInWorldCoordinates) {
   const Scene scene = plane_scene();
   const View view = plane_view();
   const glm::dvec3 point = CENTER + SPACING * glm::dvec3(7, -4, 0);

@@ -27,7 +27,7 @@ TEST(KeysTest, EveryRowDispatchesToItsAction) {
     }
 }
 
-TEST(KeysTest, DigitsAndModifiersAreToldApart) {
+TEST(KeysTest, DigitsAndModifiersAreDistinguished) {
   EXPECT_EQ(command_for(InputKind::key, GLFW_KEY_1, 0)->action, Action::view_front);
   EXPECT_EQ(command_for(InputKind::key, GLFW_KEY_KP_7, GLFW_MOD_CONTROL)->action, Action::view_bottom);
   EXPECT_EQ(command_for(InputKind::key, GLFW_KEY_4, GLFW_MOD_SHIFT)->digit, 4);

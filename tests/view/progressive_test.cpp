@@ -147,7 +147,7 @@ TEST_F(ProgressiveTest, StoppedWorkGoesOn) {
   EXPECT_FALSE(progressive.next_work());
 }
 
-TEST_F(ProgressiveTest, EnvironmentThatCannotBeReadIsToldOnce) {
+TEST_F(ProgressiveTest, EnvironmentThatCannotBeReadIsReportedOnce) {
   document.environment = "/missing.hdr";
   EXPECT_THROW((void)finish(), Error);
   EXPECT_FALSE(progressive.next_work());

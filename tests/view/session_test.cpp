@@ -97,7 +97,7 @@ class ViewSession : public CliTest {
     await("a finished picture", [this] { return stats().value("samples", 0) == 2; });
   }
   /// Waits for the error that says `words`, sees it, closes it, and sees it gone.
-  void expect_told(unsigned long window, const std::string& words) {
+  void expect_error(unsigned long window, const std::string& words) {
     await(words.c_str(), [&] {
       const nlohmann::json errors = stats().value("errors", nlohmann::json::array());
       return !errors.empty() && errors.back().get<std::string>().find(words) != std::string::npos;
@@ -187,7 +187,7 @@ TEST_F(ViewSession, SavedPictureIsTheHeadlessOne) {
   EXPECT_TRUE(saved.rgb == read_display_image(file("out.png"), 0.0).rgb);
 }
 
-TEST_F(ViewSession, FilesThatCannotBeReadAreToldInTheWindow) {
+TEST_F(ViewSession, FilesThatCannotBeReadAreReportedInTheWindow) {
   start({});
   const unsigned long window = desktop.wait_for_window("splatray");
   ASSERT_NE(window, 0U);
@@ -197,10 +197,10 @@ TEST_F(ViewSession, FilesThatCannotBeReadAreToldInTheWindow) {
     return !resting.empty() && before == resting;
   });
   desktop.drop(window, file("missing.ply"));
-  expect_told(window, "missing.ply");
+  expect_error(window, "missing.ply");
   fs::create_directory(folder / "folder.ply");
   desktop.drop(window, file("folder.ply"));
-  expect_told(window, "folder.ply");
+  expect_error(window, "folder.ply");
   for (const auto& [name, text] : std::initializer_list<std::pair<const char*, std::string>>{
            {"empty.ply", ""},
            {"huge.ply",
@@ -215,7 +215,7 @@ TEST_F(ViewSession, FilesThatCannotBeReadAreToldInTheWindow) {
            {"bad.json", "[{"},
            {"bad.txt", "text"}}) {
     desktop.drop(window, write(name, text));
-    expect_told(window, name);
+    expect_error(window, name);
   }
   desktop.drop(window, first);
   EXPECT_EQ(desktop.wait_for_window("first.ply"), window) << "the viewer goes on";
@@ -288,7 +288,7 @@ TEST_F(ViewSession, InterruptEndsIt) {
 /// The dragon of a million points in each look: at once, and 15 pictures a second while moving.
 class ViewOfAMillion : public ViewSession {
  protected:
-  /// The median of three starts in which others took at most a third of the processors. Without the validation layers, which
+  /// The median of three starts in which others took at most a third of the CPUs. Without the validation layers, which
   /// take longer than the rest of a start. Skipped where nine starts have no three such.
   void expect_fluid(const std::string& look, double most_ms) {
     const char* const data = std::getenv("SPLATRAY_DATA_DIR");
@@ -312,7 +312,7 @@ class ViewOfAMillion : public ViewSession {
       first_picture_ms.push_back(run["first_picture_ms"]);
       per_second.push_back(run["moving"]["per_second"]);
     }
-    if (per_second.size() < 3) GTEST_SKIP() << "others take more than a third of the processors";
+    if (per_second.size() < 3) GTEST_SKIP() << "others take more than a third of the CPUs";
     std::sort(first_picture_ms.begin(), first_picture_ms.end());
     std::sort(per_second.begin(), per_second.end());
     std::cout << "first picture " << first_picture_ms[1] << " ms, " << per_second[1]

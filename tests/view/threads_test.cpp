@@ -192,7 +192,7 @@ TEST_F(LoadThreadTest, OpensWithADocumentThatShowsIt) {
   });
 }
 
-TEST_F(LoadThreadTest, TellsWhyAndGoesOn) {
+TEST_F(LoadThreadTest, ReportsWhyAndGoesOn) {
   load(file("missing.ply"));
   await([](const LoadNews& news) {
     return news.error.find("missing.ply") != std::string::npos && !news.progress;

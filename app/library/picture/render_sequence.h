@@ -34,7 +34,7 @@ struct SequenceRecord {
 
 /// Who hears of a run, on its thread.
 struct SequenceListener {
-  /// Told which picture is being made, how many came before it, and the share of it done, 0..1; returns false to stop.
+  /// Called with the picture being made, how many came before it, and the share of it done, 0..1; returns false to stop.
   std::function<bool(const SequenceFrame& frame, std::size_t before, double share)> progress;
   std::function<void(const std::string&)> note;      ///< a sentence
   std::function<void(const FailedPicture&)> failed;  ///< of several, as soon as one is

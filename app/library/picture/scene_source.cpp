@@ -22,7 +22,7 @@ glm::dvec3 bounds_center(const Scene& scene) {
   return 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
 }
 
-void tell(const LoadListener& listener, const char* stage, double share) {
+void report_progress(const LoadListener& listener, const char* stage, double share) {
   if (listener.progress && !listener.progress(stage, share))
     throw Error(ExitCode::interrupted, "loading was interrupted");
 }
@@ -33,12 +33,12 @@ Scene preprocess(const Request& request, const LoadListener& listener, BuildStat
   reading.turn_outwards = !request.look.material.empty() &&
                           (named_material(request.look.material).flags & MATERIAL_DIELECTRIC) != 0;
   Input input = read_input(request.source.inputs, reading);
-  const auto tell_notes = [&](const std::vector<std::string>& notes) {
+  const auto report_notes = [&](const std::vector<std::string>& notes) {
     if (listener.note) std::for_each(notes.begin(), notes.end(), listener.note);
   };
-  tell_notes(input.notes);
+  report_notes(input.notes);
   Scene scene = build_scene(std::move(input), request.source.params, request.source.threads, stats, progress);
-  tell_notes(stats.notes);
+  report_notes(stats.notes);
   return scene;
 }
 
@@ -104,7 +104,7 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   LoadedScene loaded;
-  tell(listener, "reading", 0.0);
+  report_progress(listener, "reading", 0.0);
   const std::vector<std::filesystem::path>& inputs = request.source.inputs;
   require_scene_alone(inputs);
   if (is_scene_file(inputs.front())) {
@@ -126,7 +126,7 @@ void show_as_asked(const Request& request, LoadedScene& loaded) {
   loaded.scene.up = request.look.up.value_or(upright(loaded.scene));
   SuitedPicture suited = suited_picture(loaded.scene, request);
   loaded.request = std::move(suited.request);
-  loaded.told = std::move(suited.told);
+  loaded.choices = std::move(suited.choices);
   loaded.legend = show_attributes(loaded.scene, loaded.request.look.attributes);
   loaded.environment_name = choose_environment_name(loaded.scene, request);
 }

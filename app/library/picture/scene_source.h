@@ -16,7 +16,7 @@ struct LoadedScene {
   double load_ms = 0.0;             ///< reading and preprocess
   std::optional<BuildStats> build;  ///< unless read from a .soct
   Request request{};                ///< with what suits the scan where nothing was asked for (suited_picture)
-  std::string told{};               ///< of these choices
+  std::string choices{};            ///< SuitedPicture::choices
   ColorLegend legend{};             ///< of Request::Look::attributes
 };
 
@@ -76,7 +76,7 @@ void show_as_asked(const Request& request, LoadedScene& loaded);
 /// Options of which nothing is left open that depends on what a scan is of.
 struct SuitedPicture {
   Request request;
-  std::string told;  ///< what was chosen, with the options that say the same; empty for what is no scan
+  std::string choices;  ///< what was chosen, with the options that say the same; empty for what is no scan
 };
 
 /// The picture with what suits the scan (kind_of_scan, with the scene's up direction as it is shown) where nothing is
@@ -89,7 +89,7 @@ struct SuitedPicture {
 /// Other scenes' options come back as they are, but for cutaway. The scene has its own colours.
 [[nodiscard]] SuitedPicture suited_picture(const Scene& scene, const Request& request);
 
-/// Whether a picture for looking at goes through denoising though nobody asked for it: that of a scan whose look was left open.
+/// Whether a picture for looking at is denoised without being asked for: that of a scan whose look was left open.
 [[nodiscard]] bool suits_denoising(const Scene& scene, const Request& asked);
 /// Whether the exposure is left to the picture: asked for as auto, or of a scan that nothing is said of.
 [[nodiscard]] bool suits_exposure(const Scene& scene, const Request& asked);

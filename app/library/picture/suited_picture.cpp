@@ -62,22 +62,22 @@ SuitedPicture suited_picture(const Scene& scene, const Request& asked) {
   request.settings.cutaway = request.view.viewpoint == Viewpoint::dollhouse;
   const SceneKind kind = kind_of_scan(scene);
   if (kind == SceneKind::none) return suited;
-  const auto tell = [&suited](const std::string& option) { suited.told += " " + option; };
+  const auto note = [&suited](const std::string& option) { suited.choices += " " + option; };
   if (!request.view.eye && request.view.viewpoint == Viewpoint::automatic) {
     request.view.viewpoint = choose_viewpoint(scene);
     request.settings.cutaway = request.view.viewpoint == Viewpoint::dollhouse;
-    tell(std::string("--view ") + viewpoint_name(request.view.viewpoint));
+    note(std::string("--view ") + viewpoint_name(request.view.viewpoint));
   }
   const bool inside = kind == SceneKind::room && request.view.viewpoint == Viewpoint::inside;
   if (request.look.attributes.color_by.empty()) {
     request.look.attributes.color_by = suited_colors(scene, kind, inside);
-    tell("--color-by " + request.look.attributes.color_by);
+    note("--color-by " + request.look.attributes.color_by);
   }
   if (!request.look.style && choose_look(scene, request) == LOOK_SCAN) {
     request.look.style = request.look.attributes.color_by == "rgb" || inside ? LOOK_SCAN : LOOK_LIT;
-    tell(*request.look.style == LOOK_LIT ? "--look lit" : "--look scan");
+    note(*request.look.style == LOOK_LIT ? "--look lit" : "--look scan");
   }
-  if (!suited.told.empty()) suited.told = std::string(scan_kind_name(kind)) + ":" + suited.told;
+  if (!suited.choices.empty()) suited.choices = std::string(scan_kind_name(kind)) + ":" + suited.choices;
   return suited;
 }
 

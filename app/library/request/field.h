@@ -1,4 +1,4 @@
-/// One thing that can be asked for: its name in every door, its text, and what people are told of it.
+/// One thing that can be asked for: its name in every door, its text, and its description for users.
 #pragma once
 #include <functional>
 #include <string>

@@ -68,7 +68,7 @@ std::vector<Field> input_fields() {
       switch_row("strict", INPUT, MEMBER(source.scans.strict), "refuse a scan that holds less than it says"),
       vector_row(
           "sensor", INPUT, MEMBER(source.scans.sensor_world),
-          "where the scanner stood, for points whose file does not say; tells the sides of their normals"),
+          "where the scanner stood, for points whose file does not say; decides the sides of their normals"),
       path_row("trajectory", INPUT, MEMBER(source.scans.trajectory),
                "text of times and places (time, x, y, z) where the scanner moved, for points with times"),
       number_row("z-scale", INPUT, MEMBER(source.scans.z_scale), 1e-6, 1e6,

@@ -38,7 +38,7 @@ struct Key {
   /// The value as text that reads back to the same; refuses what is out of range.
   std::function<std::string(const std::string& value)> check;
   std::function<void(ObjectLook&, const std::string& value)> set;
-  std::function<std::string(const ObjectLook&)> get;  ///< empty function: it cannot be told from a look
+  std::function<std::string(const ObjectLook&)> get;  ///< empty function: a look does not show it
 };
 
 Key preset_key() {

@@ -51,7 +51,7 @@ std::vector<Field> quality_fields() {
       shadows_row(),
       seed_row(),
       text_row("device", QUALITY, MEMBER(settings.device),
-               "device number or part of its name, or cpu: the processors without Vulkan; default the best",
+               "device number or part of its name, or cpu: the CPU without Vulkan; default the best",
                "N|NAME"),
       with(path_row("cache", QUALITY, MEMBER(settings.cache),
                     "folder that compiled pipelines are kept in between runs; default nowhere"),

@@ -61,7 +61,7 @@ bool is_of_scene(const Document& document, const Request& request) {
   const Request& asked = document.loaded->asked;
   if (plain(request.source) != plain(asked.source) || request.look.material != asked.look.material)
     return false;
-  // The scene has the up direction of its loading, which cameras and lights follow that are not told.
+  // The scene has the up direction of its loading, which cameras and lights follow where none are given.
   return request.look.up == asked.look.up || (request.look.up && request.view.eye && request.look.lights);
 }
 

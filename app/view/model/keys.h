@@ -56,7 +56,7 @@ struct Binding {
   int code;  ///< key: GLFW_KEY_*, by its place on a US keyboard; drag, click: GLFW_MOUSE_BUTTON_*; else 0
   int last_code;     ///< codes code..last_code are meant; equal but for digits
   int modifiers;     ///< GLFW_MOD_SHIFT, _CONTROL, _ALT; all that are held, no other
-  const char* does;  ///< in words; empty: told by the row before
+  const char* does;  ///< in words; empty: as in the row before
 };
 
 /// An action with its digit.

@@ -14,7 +14,7 @@ namespace splatray {
 enum class AxisView { front, back, right, left, top, bottom };
 
 /// Half the diagonal of the document's bounding box, world units; 1 for a single point, and never less than what float64
-/// tells apart there.
+/// resolves there.
 [[nodiscard]] double scene_radius_world(const Document& document);
 
 /// The point under `position_px` in the plane of the pivot across the view direction.

@@ -25,7 +25,7 @@ struct Work {
 };
 
 inline constexpr int BOOKMARK_COUNT = 9;
-inline constexpr double NOTICE_SECONDS = 10.0;  ///< after the work that they tell of
+inline constexpr double NOTICE_SECONDS = 10.0;  ///< after the work that they report
 
 /// What the panels remember, and what is open.
 struct PanelState {

@@ -29,7 +29,7 @@ LoadThread::~LoadThread() {
 
 void LoadThread::load(const Request& request) {
   const std::lock_guard lock(mutex_);
-  wish_ = request;
+  waiting_ = request;
   news_.progress = {stage_text("reading", request), 0.0};
   cancelled_ = true;  // what is being loaded
   changed_.notify_one();
@@ -38,7 +38,7 @@ void LoadThread::load(const Request& request) {
 void LoadThread::cancel() {
   const std::lock_guard lock(mutex_);
   cancelled_ = true;
-  if (std::exchange(wish_, {})) news_.progress.reset();
+  if (std::exchange(waiting_, {})) news_.progress.reset();
 }
 
 LoadNews LoadThread::take_news() {
@@ -50,39 +50,40 @@ LoadNews LoadThread::take_news() {
 
 void LoadThread::run() {
   while (true) {
-    Request wish;
+    Request asked;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return ending_ || wish_; });
+      changed_.wait(lock, [this] { return ending_ || waiting_; });
       if (ending_) return;
-      wish = std::move(*std::exchange(wish_, {}));
+      asked = std::move(*std::exchange(waiting_, {}));
       cancelled_ = false;
     }
     const std::optional<Failure> failure =
-        attempt("loading " + scene_title(wish.source.inputs), [&] { load_now(wish); });
+        attempt("loading " + scene_title(asked.source.inputs), [&] { load_now(asked); });
     deliver([&](LoadNews& news) {
-      if (!wish_) news.progress.reset();
+      if (!waiting_) news.progress.reset();
       if (failure && !failure->interrupted) news.error = failure->sentence;
     });
   }
 }
 
-void LoadThread::load_now(const Request& wish) {
+void LoadThread::load_now(const Request& asked) {
   const LoadListener listener{
       [&](const char* stage, double share) {
         deliver([&](LoadNews& news) {
-          if (!cancelled_) news.progress = {stage_text(stage, wish), share};
+          if (!cancelled_) news.progress = {stage_text(stage, asked), share};
         });
         return !is_cancelled();
       },
       [&](const std::string& note) { deliver([&](LoadNews& news) { add_line(news.notice, note); }); }};
-  Request request = wish;
+  Request request = asked;
   request.look.objects.clear();  // the document keeps the materials without them
   request.look.attributes = {};  // the render thread applies them
   request.look.attributes.color_by = "rgb";
   LoadedScene loaded = load_scene(request, listener);
-  if (const std::string told = suited_picture(loaded.scene, wish).told; !told.empty()) listener.note(told);
-  OpenedScene opened{nullptr, first_document(loaded.scene, wish)};
+  const std::string choices = suited_picture(loaded.scene, asked).choices;
+  if (!choices.empty()) listener.note(choices);
+  OpenedScene opened{nullptr, first_document(loaded.scene, asked)};
   opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));
   if (is_cancelled()) return;
   deliver([&](LoadNews& news) { news.opened = std::move(opened); });

@@ -50,20 +50,15 @@ class LoadThread {
   [[nodiscard]] LoadNews take_news();
 
  private:
-  struct Wish {
-    Request::Source scene;
-    Request request;
-  };
-
   void run();
-  void load_now(const Request& wish);
+  void load_now(const Request& asked);
   void deliver(const std::function<void(LoadNews&)>& change);
   [[nodiscard]] bool is_cancelled();
 
   std::function<void()> wake_;
   std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;
-  std::optional<Request> wish_;
+  std::optional<Request> waiting_;
   LoadNews news_;
   bool ending_ = false, cancelled_ = false;
   std::thread thread_;

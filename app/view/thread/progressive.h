@@ -23,7 +23,7 @@ class Progressive {
 
   explicit Progressive(LiveScene& live, std::string device) : live_(live), device_(std::move(device)) {}
 
-  /// Shows this from now on, in a window of so many pixels. A document equal to the last changes nothing; another starts
+  /// Shows this from now on, in a window of `window_px` pixels. A document equal to the last changes nothing; another starts
   /// the picture anew, with a coarse one until nothing has changed for a while. Only another exposure recolours it.
   void show(const Document& document, glm::uvec2 window_px);
   /// Traces anew what is shown: the live scene is another, or was used for something else.

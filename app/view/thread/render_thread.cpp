@@ -29,23 +29,23 @@ void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 
   std::optional<Document> copy(document);  // made, and the one before freed, without the mutex
   const std::lock_guard lock(mutex_);
   if (scene) {
-    wishes_.scene = std::move(scene);
-    wishes_.exposes = exposes;
+    pending_.scene = std::move(scene);
+    pending_.exposes = exposes;
   }
-  std::swap(wishes_.document, copy);
-  wishes_.window_px = window_px;
+  std::swap(pending_.document, copy);
+  pending_.window_px = window_px;
   changed_.notify_one();
 }
 
 void RenderThread::pick(const PickRequest& request) {
   const std::lock_guard lock(mutex_);
-  wishes_.pick = request;
+  pending_.pick = request;
   changed_.notify_one();
 }
 
 void RenderThread::save(SaveJob job) {
   const std::lock_guard lock(mutex_);
-  wishes_.save = std::move(job);
+  pending_.save = std::move(job);
   cancelled_ = false;
   changed_.notify_one();
 }
@@ -63,8 +63,8 @@ RenderNews RenderThread::take_news() {
 }
 
 void RenderThread::run() {
-  while (const std::optional<Wishes> wishes = wait_for_wishes()) {
-    attempt_to("showing the scene", [&] { fulfil(*wishes); });
+  while (const std::optional<Pending> pending = wait_for_requests()) {
+    attempt_to("showing the scene", [&] { fulfil(*pending); });
     const auto when = progressive_.next_work();
     if (!when || *when > Progressive::Clock::now()) continue;
     attempt_to("tracing the picture", [this] {
@@ -75,31 +75,31 @@ void RenderThread::run() {
 }
 
 /// Sleeps until there is something to do; returns what has been asked for, or nothing at the end.
-std::optional<RenderThread::Wishes> RenderThread::wait_for_wishes() {
+std::optional<RenderThread::Pending> RenderThread::wait_for_requests() {
   std::unique_lock lock(mutex_);
-  const auto awaited = [this] { return ending_ || wishes_.any(); };
+  const auto awaited = [this] { return ending_ || pending_.any(); };
   if (const auto when = progressive_.next_work())
     changed_.wait_until(lock, *when, awaited);
   else
     changed_.wait(lock, awaited);
   if (ending_) return {};
-  return std::exchange(wishes_, {});
+  return std::exchange(pending_, {});
 }
 
-void RenderThread::fulfil(const Wishes& wishes) {
-  if (wishes.scene) live_.open(wishes.scene);
-  if (wishes.document) {
-    shown_ = *wishes.document;
-    progressive_.show(shown_, wishes.window_px);
+void RenderThread::fulfil(const Pending& pending) {
+  if (pending.scene) live_.open(pending.scene);
+  if (pending.document) {
+    shown_ = *pending.document;
+    progressive_.show(shown_, pending.window_px);
   }
-  if (wishes.scene) progressive_.restart();
+  if (pending.scene) progressive_.restart();
   if (!live_.is_open()) return;
-  if (wishes.scene && wishes.exposes) expose();
-  if (wishes.pick) answer(*wishes.pick);
-  if (wishes.save) save_now(*wishes.save);
+  if (pending.scene && pending.exposes) expose();
+  if (pending.pick) answer(*pending.pick);
+  if (pending.save) save_now(*pending.save);
 }
 
-/// Tells how bright the scene opened should be shown.
+/// Reports the exposure that suits the scene opened.
 void RenderThread::expose() {
   const glm::uvec2 size = glm::max(progressive_.window_px(), glm::uvec2(1));
   live_.match(shown_, ViewMode::shaded);
@@ -154,7 +154,7 @@ void RenderThread::deliver(const std::function<void(RenderNews&)>& change) {
 
 bool RenderThread::something_waits() {
   const std::lock_guard lock(mutex_);
-  return ending_ || wishes_.any();
+  return ending_ || pending_.any();
 }
 
 }  // namespace splatray

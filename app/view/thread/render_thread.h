@@ -49,7 +49,7 @@ class RenderThread {
 
   /// From now on shows this document of the scene opened; the newest counts.
   void show(const Document& document, glm::uvec2 window_px);
-  /// As show, of another scene; `exposes`: its picture's exposure is told as soon as it is known.
+  /// As show, of another scene; `exposes`: its picture's exposure is reported as soon as it is known.
   void open(SharedScene scene, const Document& document, glm::uvec2 window_px, bool exposes = false);
   /// The newest counts.
   void pick(const PickRequest& request);
@@ -62,7 +62,7 @@ class RenderThread {
 
  private:
   /// What the window asked for and the thread has not yet taken.
-  struct Wishes {
+  struct Pending {
     SharedScene scene;
     std::optional<Document> document;
     glm::uvec2 window_px{0};
@@ -73,8 +73,8 @@ class RenderThread {
   };
 
   void run();
-  [[nodiscard]] std::optional<Wishes> wait_for_wishes();
-  void fulfil(const Wishes& wishes);
+  [[nodiscard]] std::optional<Pending> wait_for_requests();
+  void fulfil(const Pending& pending);
   void expose();
   void answer(const PickRequest& request);
   void save_now(const SaveJob& job);
@@ -90,7 +90,7 @@ class RenderThread {
 
   std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;
-  Wishes wishes_;
+  Pending pending_;
   RenderNews news_;
   bool ending_ = false, cancelled_ = false;
   std::thread thread_;

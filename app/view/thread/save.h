@@ -18,7 +18,7 @@ struct SaveJob {
 /// The document's pictures; of `asked` only what is_of_files (field_controls.h): size, part, samples or goal, denoising and output.
 [[nodiscard]] SaveJob save_job(const Document& document, const Request& asked);
 
-/// Told what is made and the share of the job done, 0..1; returns false to stop.
+/// Called with what is being made and the share of the job done, 0..1; returns false to stop.
 using SaveProgress = std::function<bool(const Work&)>;
 
 /// Traces the pictures and writes their files: bit for bit those of splatray-render with the same options. Returns a

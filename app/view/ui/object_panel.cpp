@@ -71,7 +71,7 @@ void preset_combo(Material& material, Surface& surface) {
   ImGui::EndCombo();
 }
 
-/// Glass is one-sided: inside and outside are told apart by the side that is hit.
+/// Glass is one-sided: the side that is hit distinguishes inside from outside.
 void glass_switch(Material& material) {
   bool glass = has(material, MATERIAL_DIELECTRIC);
   if (!ImGui::Checkbox("glass", &glass)) return;

@@ -20,7 +20,7 @@ struct ScanBox {
 
 /// Whether the origin of a scan's frame is credible as the scanner's place, so that the pose's translation is where it stood.
 /// E57 does not say so: registered clouds are stored as scans too, in world coordinates or shifted by a pose. The rule:
-/// - The points must be told to be in a frame of the scanner's own: they are spherical or in a grid (`is_measured_around`),
+/// - The file must say that the points are in a frame of the scanner's own: they are spherical or in a grid (`is_measured_around`),
 ///   or a pose turns them. A pose that only shifts counts when the origin is within the points' box: such poses are
 ///   also how programs store large coordinates.
 /// - The origin must be no further from the points' box than 20 of its diagonals. (A range camera sees an object from some

@@ -46,7 +46,7 @@ bool keep_image_bytes(tinygltf::Image* image, const int, std::string*, std::stri
   return true;
 }
 
-/// Where the files lie that a scene's uris name, as tinygltf's file functions are told.
+/// Where the files lie that a scene's uris name, as tinygltf's file functions take it.
 struct SceneFolder {
   std::string path;  ///< absolute
   const ReadListener& listener;

@@ -105,8 +105,8 @@ class SceneReader {
     scene_hint_ = text_in(scene()->extras, "hint");
     const std::string environment = text_in(scene()->extras, "environment");
     if (!environment.empty()) {
-      const FileWish wish{environment, "the scene's environment", scene_hint_, file_.path};
-      input_.environment_path = find_scene_file(wish, options_.data_paths).string();
+      const FileReference reference{environment, "the scene's environment", scene_hint_, file_.path};
+      input_.environment_path = find_scene_file(reference, options_.data_paths).string();
     }
   }
 
@@ -160,13 +160,13 @@ class SceneReader {
       object.material = materials_.material(material, colored);
       object.surface = materials_.surface(material, colored);
       object.meshes = std::move(meshes);
-      object.samples = by_material.size() == 1 ? samples_wished(node) : 0;
+      object.samples = by_material.size() == 1 ? requested_samples(node) : 0;
       input_.objects.push_back(std::move(object));
     }
   }
 
   /// extras.samples of a node; 0 = none.
-  static std::uint64_t samples_wished(const tinygltf::Node& node) {
+  static std::uint64_t requested_samples(const tinygltf::Node& node) {
     return static_cast<std::uint64_t>(std::clamp(number_in(node.extras, "samples").value_or(0.0), 0.0, 1e9));
   }
 
@@ -184,9 +184,9 @@ class SceneReader {
 
   void read_points_file(const tinygltf::Node& node, const glm::dmat4& to_world, const ReadListener& part) {
     const std::string source = text_in(node.extras, "source");
-    const FileWish wish{text_in(node.extras, "points"), "points of node '" + name_of(node) + "'",
-                        source.empty() ? scene_hint_ : source, file_.path};
-    Mesh mesh = read_mesh(find_scene_file(wish, options_.data_paths), options_, part);
+    const FileReference reference{text_in(node.extras, "points"), "points of node '" + name_of(node) + "'",
+                                  source.empty() ? scene_hint_ : source, file_.path};
+    Mesh mesh = read_mesh(find_scene_file(reference, options_.data_paths), options_, part);
     transform_mesh(mesh, to_world);
     int material = -1;
     if (const auto chosen = number_in(node.extras, "material")) {
@@ -203,7 +203,7 @@ class SceneReader {
     object.material = materials_.material(material, !mesh.vertices.color.empty());
     object.surface = materials_.surface(material, !mesh.vertices.color.empty());
     object.meshes.push_back(std::move(mesh));
-    object.samples = samples_wished(node);
+    object.samples = requested_samples(node);
     input_.objects.push_back(std::move(object));
   }
 

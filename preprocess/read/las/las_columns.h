@@ -26,7 +26,7 @@ class LasColumns {
   /// Which bytes of a record are of use.
   [[nodiscard]] std::vector<bool> used_bytes() const;
 
-  /// Expects so many points in all; nothing of it is touched yet.
+  /// Expects `count` points in all; nothing of it is touched yet.
   void reserve(std::size_t count);
   /// Makes room for `count` more points and returns the place of the first.
   std::size_t grow(std::size_t count);

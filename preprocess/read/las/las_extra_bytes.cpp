@@ -79,7 +79,7 @@ std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descri
       at += descriptor[3];
       continue;
     }
-    if (stored_type > 3 * TYPES) break;  // nobody knows how long these are
+    if (stored_type > 3 * TYPES) break;  // of unknown length
     const unsigned type = (stored_type - 1) % TYPES + 1;
     const unsigned width = (stored_type - 1) / TYPES + 1;
     std::string_view name(reinterpret_cast<const char*>(descriptor + 4), 32);

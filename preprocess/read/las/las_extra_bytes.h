@@ -23,7 +23,7 @@ struct LasExtraBytes {
   [[nodiscard]] double value(const unsigned char* record) const;
 };
 
-/// The attributes that `descriptors` (192 bytes each, of all such records of a file) tell of, in records whose extra bytes
+/// The attributes that `descriptors` (192 bytes each, of all such records of a file) describe, in records whose extra bytes
 /// begin at `begin`. Those that reach beyond the records' `end` are left out: the header's length rules.
 [[nodiscard]] std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descriptors,
                                                          std::size_t begin, std::size_t end);

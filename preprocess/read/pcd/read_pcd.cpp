@@ -150,7 +150,7 @@ ScanFile read_pcd(const std::filesystem::path& path, const ReadOptions& options,
   file.points = collected.take();
   if (is_camera_frame(header, file.points)) file.up = {0.0, -1.0, 0.0};
   file.points.stations = {make_station(header, file.points)};
-  tell_missing(path, file.counts, options.scans, listener);
+  report_missing(path, file.counts, options.scans, listener);
   if (const std::vector<std::string> unused = collected.unused(); !unused.empty())
     listener.note(path, "skipped fields " + quoted_list(unused));
   if (header.data != PcdData::ascii && header.find("x")->type == PcdType::float32)

@@ -1,4 +1,4 @@
-/// Captures of 3D Gaussians (Kerbl et al. 2023) are no points: where they are told apart.
+/// Captures of 3D Gaussians (Kerbl et al. 2023) are no points: how they are recognised.
 #pragma once
 #include <filesystem>
 #include <string>

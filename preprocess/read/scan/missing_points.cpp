@@ -4,8 +4,8 @@
 
 namespace splatray {
 
-void tell_missing(const std::filesystem::path& path, const ScanCounts& counts, const ScanOptions& options,
-                  const ReadListener& listener) {
+void report_missing(const std::filesystem::path& path, const ScanCounts& counts, const ScanOptions& options,
+                    const ReadListener& listener) {
   if (counts.missing == 0) return;
   const std::string found = "found " + std::to_string(counts.stored - counts.missing) + " points, expected " +
                             std::to_string(counts.stored) + " as the file says";

@@ -8,7 +8,7 @@
 namespace splatray {
 
 /// Says how many points a file is short of, where it is; throws Error (input_unreadable) where `options.strict` asks for it.
-void tell_missing(const std::filesystem::path& path, const ScanCounts& counts, const ScanOptions& options,
-                  const ReadListener& listener);
+void report_missing(const std::filesystem::path& path, const ScanCounts& counts, const ScanOptions& options,
+                    const ReadListener& listener);
 
 }  // namespace splatray

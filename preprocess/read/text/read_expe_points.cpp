@@ -101,7 +101,7 @@ ScanFile read_expe_points(const std::filesystem::path& path, const ReadOptions& 
     append_point(bytes, layout, file);
   }
   file.counts.missing = layout.count - present;
-  tell_missing(path, file.counts, options.scans, listener);
+  report_missing(path, file.counts, options.scans, listener);
   note_float_precision(file.points, path, listener);
   return file;
 }

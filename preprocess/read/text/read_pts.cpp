@@ -34,7 +34,7 @@ class PtsReader {
     ScanFile file;
     file.points = points_.take();
     file.counts = counts_;
-    tell_missing(path_, counts_, options_.scans, listener_);
+    report_missing(path_, counts_, options_.scans, listener_);
     return file;
   }
 

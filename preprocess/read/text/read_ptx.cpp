@@ -167,7 +167,7 @@ class PtxReader {
       file.points.grid_cell = std::move(grid_cell_);
     if (stations_.size() > 1) file.points.station = std::move(station_);
     file.points.stations = std::move(stations_);
-    tell_missing(path_, file.counts, options_.scans, listener_);
+    report_missing(path_, file.counts, options_.scans, listener_);
     return file;
   }
 

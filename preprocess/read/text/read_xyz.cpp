@@ -55,7 +55,7 @@ class XyzReader {
     count();
     if (layout_.columns.empty()) name_extras();
     take_attributes();
-    tell();
+    report();
     return std::move(file_);
   }
 
@@ -183,8 +183,8 @@ class XyzReader {
     }
   }
 
-  void tell() const {
-    tell_missing(path_, file_.counts, options_.scans, listener_);
+  void report() const {
+    report_missing(path_, file_.counts, options_.scans, listener_);
     if (!layout_.unused.empty()) listener_.note(path_, "skipped columns " + quoted_list(layout_.unused));
     if (layout_.degrees)
       listener_.note(

@@ -9,7 +9,7 @@
 
 namespace splatray {
 
-/// How the cells of a line are told apart.
+/// How a line is split into cells.
 struct CellForm {
   char separator = ' ';  ///< ' ' = any number of blanks and tabs; any other ends a cell, which may be empty
   bool decimal_comma = false;  ///< 1,5 is one and a half

@@ -14,7 +14,7 @@ class SurveyRows {
   static constexpr std::string_view EXPECTED =
       "x y z, or with intensity, with r g b, and with nx ny nz behind them";
 
-  /// Whether rows of so many cells are such.
+  /// Whether rows of `width` cells are such.
   [[nodiscard]] static bool is_width(std::size_t width) {
     return width == 3 || width == 4 || width == 7 || width == 10;
   }

@@ -157,7 +157,7 @@ class LegacyScan {
       if (next_word().empty()) fail("found its end within three numbers");
   }
 
-  /// Cells: offsets and connectivity, or, in files before version 5, a list of counts, each with so many numbers behind.
+  /// Cells: offsets and connectivity, or, in files before version 5, a list of counts, each followed by that many numbers.
   void skip_cells() {
     const std::uint64_t count = next_number("number of cells");
     const std::uint64_t size = next_number("size of the list of cells");

@@ -11,13 +11,13 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEWEST = 1000;      // points that tell what is usual
+constexpr std::size_t FEWEST = 1000;      // points that show what is usual
 constexpr std::uint64_t MOST_CELLS = 64;  // for each point: no allocation that the points do not justify
 constexpr double SAME = 1e-6;             // relative difference of values that rounding made two of
 constexpr double UNIT = 2.0 * std::numbers::sqrt3;  // a step over the standard deviation of what it rounds
-constexpr double KEPT = 0.75;                       // share of second differences, the least, that tell noise
+constexpr double KEPT = 0.75;                       // share of second differences, the least, that show noise
 constexpr double MEAN_OF_KEPT = 0.515;  // of their sizes, in standard deviations of the normal distribution
-constexpr std::int64_t NEAR = 4;        // cells within which rays tell how they change
+constexpr std::int64_t NEAR = 4;        // cells within which rays show how they change
 
 double median(std::vector<double>& values) { return values.empty() ? 0.0 : median_of(std::span(values)); }
 
@@ -127,7 +127,7 @@ DepthGrid make_depth_grid(const Cloud& cloud, const Station& station,
 }
 
 DepthUnit find_unit(const DepthGrid& grid) {
-  constexpr double APART = 1.1;  // ratio of inverse depths that tells how the unit depends on them
+  constexpr double APART = 1.1;  // ratio of inverse depths that shows how the unit depends on them
   std::vector<float> values;
   for (const float inverse : grid.inverse)
     if (inverse > 0.0F) values.push_back(inverse);

@@ -8,7 +8,7 @@
 
 namespace splatray {
 
-/// What of inverse depths cannot be told apart, as a power of them: 0 for steps of disparity, 2 for what is even in depth.
+/// The resolution of inverse depths, as a power of them: 0 for steps of disparity, 2 for what is even in depth.
 struct DepthUnit {
   double unit = 0.0;  ///< 1 / world units, at the inverse depth `at`
   double at = 1.0, power = 0.0;
@@ -52,7 +52,7 @@ struct DepthGrid {
 /// is (second differences along rows). Zero of fewer than 1000 points.
 [[nodiscard]] DepthUnit find_unit(const DepthGrid& grid);
 
-/// The standard deviation of depths, as the unit tells it, over the distance to the 8th place of a square grid: the median.
+/// The standard deviation of depths, as the unit gives it, over the distance to the 8th place of a square grid: the median.
 [[nodiscard]] double noise_of(const Cloud& cloud, const DepthGrid& grid, const DepthUnit& unit);
 
 }  // namespace splatray

@@ -21,7 +21,7 @@ constexpr double RIDGE = 0.01;        // cells^2: no slope where a window has no
 struct Pass {
   int stride;
   float units, wider;  ///< tolerance, and more of it for each cell between
-  bool mutual;  ///< the other's slope must tell this cell as well, so that nothing is taken across an edge
+  bool mutual;  ///< the other's slope must predict this cell as well, so that nothing is taken across an edge
   bool values;  ///< inverse depths change, else slopes alone
 };
 constexpr std::array<Pass, 4> PASSES{{{1, 2.0F, 0.2F, false, false},

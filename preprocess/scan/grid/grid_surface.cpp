@@ -12,7 +12,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEWEST = 1000;   // points that tell what is usual
+constexpr std::size_t FEWEST = 1000;   // points that show what is usual
 constexpr double NOISY = 0.05;         // noise_of a depth camera's grid from which its points are moved
 constexpr double LAYERS = 0.85;        // noise_of a grid over that in space, below which there are layers
 constexpr float LEAST_SUPPORT = 8.0F;  // weight of the cells that support a point: a quarter of a full window
@@ -25,29 +25,29 @@ std::vector<std::uint32_t> points_of(const Cloud& cloud, std::size_t station) {
 }
 
 /// What a grid says of one of its points.
-struct Told {
-  glm::dvec3 normal{0.0};  ///< towards the sensor; zero = the rays around do not tell
+struct GridPoint {
+  glm::dvec3 normal{0.0};  ///< towards the sensor; zero = the rays around do not determine it
   glm::dvec3 place_world{0.0};
   double radius_world = 0.0;  ///< that closes the grid
 };
 
 /// The plane g.p = 1 of a cell: its inverse depth is g.ray, and so are its slopes those of the rays.
-Told told_of(const Cloud& cloud, const DepthGrid& grid, std::size_t cell) {
+GridPoint grid_point(const Cloud& cloud, const DepthGrid& grid, std::size_t cell) {
   const glm::dvec3 ray = grid.ray(cloud, cell);
   const double depth = 1.0 / double{grid.inverse[cell]};
-  Told told;
-  told.place_world = grid.sensor_world + depth * ray;
+  GridPoint result;
+  result.place_world = grid.sensor_world + depth * ray;
   const glm::dvec3 right = grid.ray_slope(cloud, cell, 0), down = grid.ray_slope(cloud, cell, 1);
   const glm::dmat3 rays = glm::transpose(glm::dmat3(ray, right, down));
   const double wide = glm::length(right), high = glm::length(down);
   constexpr double SQUARE = 0.05;  // sine between rows and columns that make a grid
-  if (!(std::abs(glm::determinant(rays)) > SQUARE * wide * high)) return told;
+  if (!(std::abs(glm::determinant(rays)) > SQUARE * wide * high)) return result;
   const glm::dvec3 plane =
       glm::inverse(rays) * glm::dvec3(grid.inverse[cell], grid.slope[cell].x, grid.slope[cell].y);
-  told.normal = -glm::normalize(plane);
-  const double cosine = -glm::dot(told.normal, glm::normalize(ray));
-  told.radius_world = REACH / std::max(cosine, LEAST_COSINE) * depth * std::max(wide, high);
-  return told;
+  result.normal = -glm::normalize(plane);
+  const double cosine = -glm::dot(result.normal, glm::normalize(ray));
+  result.radius_world = REACH / std::max(cosine, LEAST_COSINE) * depth * std::max(wide, high);
+  return result;
 }
 
 /// Empties cells that few others support, as usual for the grid; their points.
@@ -82,29 +82,29 @@ double median_move(const Cloud& cloud, const std::vector<glm::dvec3>& places) {
   return moves.empty() ? 0.0 : median_of(std::span(moves));
 }
 
-std::vector<Told> all_told(const Cloud& cloud, const DepthGrid& grid) {
-  std::vector<Told> told(grid.size());
+std::vector<GridPoint> grid_points(const Cloud& cloud, const DepthGrid& grid) {
+  std::vector<GridPoint> points(grid.size());
   tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t cell) {
-    if (grid.point[cell] != NO_CELL) told[cell] = told_of(cloud, grid, cell);
+    if (grid.point[cell] != NO_CELL) points[cell] = grid_point(cloud, grid, cell);
   });
-  return told;
+  return points;
 }
 
-/// Gives a depth camera's points what their grid says; what it does not tell is in no grid from then on.
+/// Gives a depth camera's points what their grid says; what it does not determine is in no grid from then on.
 void settle(Cloud& cloud, const DepthGrid& grid, std::vector<glm::dvec3>& places, GridSurface& surface) {
-  const std::vector<Told> told = all_told(cloud, grid);
+  const std::vector<GridPoint> points = grid_points(cloud, grid);
   cloud.radius.resize(cloud.size(), 0.0F);
   std::fill(cloud.grid_cell.begin(), cloud.grid_cell.end(), NO_CELL);
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
     const std::uint32_t i = grid.point[cell];
-    if (i == NO_CELL || told[cell].normal == glm::dvec3(0.0)) continue;
+    if (i == NO_CELL || points[cell].normal == glm::dvec3(0.0)) continue;
     cloud.grid_cell[i] = static_cast<std::uint32_t>(cell);
-    places[i] = told[cell].place_world;
+    places[i] = points[cell].place_world;
     ++surface.points;
     if (!(cloud.radius[i] > 0.0F))
-      cloud.radius[i] = static_cast<float>(told[cell].radius_world / cloud.half_extent_world);
+      cloud.radius[i] = static_cast<float>(points[cell].radius_world / cloud.half_extent_world);
     if (cloud.normal[i] != glm::vec3(0.0F)) continue;
-    cloud.normal[i] = glm::vec3(told[cell].normal);
+    cloud.normal[i] = glm::vec3(points[cell].normal);
     ++surface.normals;
   }
 }
@@ -165,12 +165,12 @@ Smoothed smooth_by_grids(Cloud& cloud, const std::vector<std::uint8_t>& estimate
     const DepthUnit unit = find_unit(grid);
     take_unsupported(grid, find_first_slopes(grid, unit, stage));
     fit_planes(grid, unit, stage);
-    const std::vector<Told> told = all_told(cloud, grid);
+    const std::vector<GridPoint> points = grid_points(cloud, grid);
     for (std::size_t cell = 0; cell < grid.size(); ++cell) {
       const std::uint32_t i = grid.point[cell];
-      if (i == NO_CELL || estimated[i] == 0 || told[cell].normal == glm::dvec3(0.0)) continue;
-      cloud.normal[i] = glm::vec3(told[cell].normal);
-      places[i] = told[cell].place_world;
+      if (i == NO_CELL || estimated[i] == 0 || points[cell].normal == glm::dvec3(0.0)) continue;
+      cloud.normal[i] = glm::vec3(points[cell].normal);
+      places[i] = points[cell].place_world;
       ++smoothed.moved;
     }
   }

@@ -9,9 +9,9 @@
 
 namespace splatray {
 
-/// What a depth camera's grid told.
+/// What a depth camera's grid determined.
 struct GridSurface {
-  std::uint64_t points = 0;   ///< whose surface it tells; they are in the grid, all others are in none
+  std::uint64_t points = 0;   ///< whose surface it determines; they are in the grid, all others are in none
   std::uint64_t normals = 0;  ///< of these, whose normals were unknown
   std::uint64_t mixed = 0;    ///< left out: between two surfaces, or on none
   std::uint64_t moved = 0;

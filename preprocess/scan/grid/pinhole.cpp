@@ -14,7 +14,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST_ASKED = 8192;  // points that tell a camera well enough
+constexpr std::size_t MOST_ASKED = 8192;  // points that determine a camera well enough
 constexpr std::size_t FEWEST = 100;
 constexpr double MOST_OFF = 0.5;        // of half of the points, in cells
 constexpr double MOST_BEHIND = 0.01;    // share of points

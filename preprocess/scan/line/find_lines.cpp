@@ -13,16 +13,16 @@ namespace splatray {
 namespace {
 
 constexpr double THIN = 0.12;         // second variance / first of places on a line
-constexpr std::size_t FEW = 6;        // places that may tell a line where more reach the next line
+constexpr std::size_t FEW = 6;        // places that may make a line where more reach the next line
 constexpr double THINNEST = 0.03;     // of so few, of which some lie so by chance
-constexpr std::size_t ASKED = 20000;  // points that tell whether there are lines
+constexpr std::size_t ASKED = 20000;  // points that show whether there are lines
 constexpr float FEWEST = 0.1F;        // share of a cloud's points on lines that is worth a look
 constexpr float UNEVEN = 2.5F;        // one step over the other, of steps that are alike
 constexpr float LIKE = 3.0F;          // the steps of lines beside each other
 constexpr float PARALLEL = 0.8F;      // cosine of their directions
 constexpr float OPPOSITE = -0.2F;     // cosine of the ways to lines on either side
 constexpr float LEAST_GAP = 1.5F;     // steps
-constexpr float MOST_GAP = 40.0F;     // steps: further lines tell of no surface in between
+constexpr float MOST_GAP = 40.0F;     // steps: there is no surface between lines further apart
 constexpr std::array<std::size_t, 3> STRIDES{4, 16, 64};
 constexpr std::size_t LOOKED_AT = 48;
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float STRAIGHT = 0.966F;  // cosine of the turn between ways that one surface goes: 15 degrees
 constexpr float STRAIGHTER =
-    3.0F;                         // of turns: one side alone tells of a surface that turns so many times less
+    3.0F;  // of turns: one side alone decides where its surface turns by this factor less
 constexpr float SLIGHT = 0.05F;   // turn, radians: below, lines on both sides are of one surface
 constexpr float MISFIT = 0.35F;   // sine of the angle between a normal's plane and the way to the next line
 constexpr float SURVEYED = 0.7F;  // of the survey's reach: lines that near had their part in its normal
@@ -59,7 +59,7 @@ LinePlane on_both_sides(const LinePlace& place) {
   return {place.beside[0] - place.beside[1], gap, place.other};
 }
 
-/// The surface that ways to the lines beside a point tell of, if any. `normal` is the point's, of a neighbourhood that reaches so far.
+/// The surface that ways to the lines beside a point suggest, if any. `normal` is the point's, of a neighbourhood of reach `surveyed`.
 LinePlane plane_of(const std::vector<LinePlace>& places, const LinePlace& place, const glm::vec3& normal,
                    float surveyed) {
   const std::array<float, 2> gap{glm::length(place.beside[0]), glm::length(place.beside[1])};

@@ -6,7 +6,7 @@
 namespace splatray {
 namespace {
 
-/// The scanner's place, where nobody tells it but its rings do, as a station.
+/// The scanner's place, where only its rings show it, as a station.
 void find_station(Cloud& cloud, const std::vector<LinePlace>& lines) {
   if (lines.empty() || std::any_of(cloud.stations.begin(), cloud.stations.end(),
                                    [](const Station& station) { return station.sensor_world.has_value(); }))

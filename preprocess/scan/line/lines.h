@@ -34,7 +34,7 @@ struct LinePlace {
 
 /// Lays a surface through lines that go on straight from one to the next: its normal, where that was estimated from one line
 /// alone, and with `ellipses` Cloud::line, Cloud::radius_most of discs, and clip lines where the surface is known on one side
-/// alone or lines are closer there. Lines whose neighbours tell of no surface stay as they are.
+/// alone or lines are closer there. Lines whose neighbours suggest no surface stay as they are.
 void join_lines(Cloud& cloud, const Survey& survey, bool ellipses, std::vector<LinePlace>& places);
 
 /// The scanner's place, cloud coordinates: where all steps along the lines are seen under the same angle, as those of a spinning
@@ -61,7 +61,7 @@ struct Sweep {
 void settle_rest(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points,
                  const Sweep& sweep, bool bound, std::vector<LinePlace>& places);
 
-/// All of this: finds lines, the scanner's place where its rings alone tell it (which the cloud then has as its station), and lays
+/// All of this: finds lines, the scanner's place where its rings alone show it (which the cloud then has as its station), and lays
 /// surfaces through what was found; where `splats`, these are ellipses (Cloud::line) and bounds of discs.
 void lay_line_surfaces(Cloud& cloud, const Survey& survey, bool splats, const Stage& stage);
 

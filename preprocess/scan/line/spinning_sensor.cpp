@@ -11,11 +11,11 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t STEPS_ASKED = 1000;  // that tell how alike they look from a place
+constexpr std::size_t STEPS_ASKED = 1000;  // that show how alike they look from a place
 constexpr std::size_t STARTS = 400;        // points that the place may be near: most lie around the scanner
 constexpr std::size_t BEST = 6;            // of them that are looked around
 constexpr double FIRST_MOVE = 0.1, LAST_MOVE = 1e-5;  // cloud coordinates
-constexpr int MOST_MOVES = 200;                       // so many cross the cloud ten times
+constexpr int MOST_MOVES = 200;                       // enough to cross the cloud ten times
 constexpr double MOST_UNLIKE =
     0.06;  // median deviation of the angles over their median: rings are 0.02, scans by rows 0.2 and more
 

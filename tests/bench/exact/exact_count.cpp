@@ -85,29 +85,29 @@ void ExactScene::count_paths(const Traced& first, Next next, std::size_t rays, c
   }
 }
 
-void ExactScene::count(std::size_t rays, std::uint64_t seed, const Told& told) {
+void ExactScene::count(std::size_t rays, std::uint64_t seed, const Report& report) {
   Dice dice(seed);
   look(materials_with(scene_, seed % 2 == 0 ? Sides::one : Sides::both));
   ExactCount primary, shadow, mirrored, refracted, random;
   const Traced first = compare(random_primary_rays(scene_, rays, dice.seed()), primary);
-  told("primary", primary);
+  report("primary", primary);
   for (int light = 0; light < MOST_BOUNCES && shadow.rays < rays; ++light)
     count_paths(first, Next::shadow, rays, dice.direction(), shadow);
-  told("shadow", shadow);
+  report("shadow", shadow);
   count_paths(first, Next::mirrored, rays, {}, mirrored);
-  told("mirrored", mirrored);
+  report("mirrored", mirrored);
   compare(rays_from_anywhere(rays, dice), random);
-  told("random", random);
+  report("random", random);
   for (const std::string_view kind : ADVERSARIAL) {
     ExactCount adversarial;
     compare(adversarial_rays(kind, brute_, rays / 10, dice), adversarial);
-    told(std::string(kind), adversarial);
+    report(std::string(kind), adversarial);
   }
   look(materials_with(scene_, Sides::glass));
   ExactCount seen;
   count_paths(compare(random_primary_rays(scene_, rays, dice.seed()), seen), Next::refracted, rays, {},
               refracted);
-  told("refracted", refracted);
+  report("refracted", refracted);
 }
 
 }  // namespace splatray::testing

@@ -41,10 +41,10 @@ class ExactScene {
   [[nodiscard]] std::uint64_t splats() const { return scene_.data_pool.size(); }
 
   /// Counts by kind: about `rays` each of primary, shadow, mirrored, refracted and random, and rays / 10 of each of ADVERSARIAL.
-  /// Other rays for each seed. Objects are one- or two-sided by the seed; for refracted rays they are of glass. `told` is
+  /// Other rays for each seed. Objects are one- or two-sided by the seed; for refracted rays they are of glass. `report` is
   /// called with each kind's count as it is known.
-  using Told = std::function<void(const std::string& kind, const ExactCount& count)>;
-  void count(std::size_t rays, std::uint64_t seed, const Told& told);
+  using Report = std::function<void(const std::string& kind, const ExactCount& count)>;
+  void count(std::size_t rays, std::uint64_t seed, const Report& report);
 
  private:
   /// Rays and what they truly hit.

@@ -1,5 +1,5 @@
 /// One line of the report as JSON. A key that was not measured is absent.
-/// Keys of the report of scale alone are told in race.h, scale_features.h and scale_coverage.h.
+/// Keys of the report of scale alone are described in race.h, scale_features.h and scale_coverage.h.
 ///   case, scene, method (blending, or a peer's name), varied (the knob not at its default, a key of settings; "" = none)
 ///   settings: splats, sampling (even | random | vertices), radius_rule, radius_scale, normal_fields, leaf_size (0: automatic),
 ///     insertion, probes, blend, kernel, kappa, side, samples, shadows, threads (of software devices), width, height

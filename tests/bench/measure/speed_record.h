@@ -17,7 +17,7 @@ void add_times(Json& speed, const std::vector<double>& times_ms, double rays);
 /// Adds tests_per_ray, steps_per_ray and leaves_per_ray, of all classes, as counted.
 void add_work(Json& speed, const RenderStats& counted);
 
-/// What a scene of so many splats takes on the device, all pools, bytes a splat.
+/// What a scene of `splats` splats takes on the device, all pools, bytes a splat.
 [[nodiscard]] double bytes_per_splat(const ShownTracer& tracer, std::size_t splats);
 
 }  // namespace splatray::testing

@@ -19,7 +19,7 @@ class Peer {
   virtual void trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const = 0;
   /// Whether anything lies on each of up to BUNDLE such rays: 1 or 0. Any hit will do, so that the first found ends a ray.
   virtual void occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const = 0;
-  /// Tells whether the next rays of a bundle go about the same way, as they do at first.
+  /// Says whether the next rays of a bundle go about the same way, as they do at first.
   virtual void expect_coherent(bool /*coherent*/) {}
 
   /// Memory of the data structure and of what it refers to.

@@ -1,4 +1,4 @@
-// A race must tell when its runners do not answer alike, or its times compare different things.
+// A race must report that its runners do not answer alike, or its times compare different things.
 #include <gtest/gtest.h>
 
 #include "data/models.h"

@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter
 
 from report_records import ON_CURVE, OURS, PEERS, front, splats_text
 
-#: Colours that colour-blind people can tell apart (Okabe and Ito 2008), and markers.
+#: Colours that colour-blind people can distinguish (Okabe and Ito 2008), and markers.
 STYLE = {
     "window": ("#0072B2", "o"),
     "paper": ("#E69F00", "s"),

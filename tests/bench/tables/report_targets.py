@@ -100,7 +100,7 @@ def path_targets(records):
 
 
 def exact_targets(counts):
-    """`counts`: what splatray-bench-exact counted, of which those of the last commit and device are told. A kind with fewer rays
+    """`counts`: what splatray-bench-exact counted, of which those of the last commit and device are reported. A kind with fewer rays
     than asked for is not reached."""
     kinds = {}
     for record in counts:
@@ -121,7 +121,7 @@ def hard_rows(text):
 
 
 def hard_targets(text):
-    """Lines that only the hard cases measure; `text` is their table. What is told as "measured" or "at most" there was asked to
+    """Lines that only the hard cases measure; `text` is their table. What is reported as "measured" or "at most" there was asked to
     be 0."""
     unbiased = 0
     for test, compared, count, exceptions in hard_rows(text):

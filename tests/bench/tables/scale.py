@@ -41,7 +41,7 @@ NOTES = """
 - Models: splatray's ratio is of every pixel's ray, as Embree traces; with culling it leaves out the pixels that no leaf
   projects to. "wall" is the whole call, with shading and read-back.
 - Embree's shadow and mirrored rays start 0.1 median radii off the surface; splatray's know the sheet that they leave.
-  Embree's rays are traced in bundles of eight (of models: see the table), told to be incoherent in the random class.
+  Embree's rays are traced in bundles of eight (of models: see the table), declared incoherent in the random class.
 - Errors are measured in the same run: of primary rays against the exact sphere's picture, of random rays against the
   exact sphere, of mirrored rays by further paths of 16 bounces (a bounce is wrong that misses or ends more than 2 median
   radii off), of shadow rays by those that are blocked, as truly none is. "Unlike" are answers that differ from splatray's

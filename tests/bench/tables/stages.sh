@@ -11,7 +11,7 @@ find_models() {  # exports SPLATRAY_DATA_DIR where there are models
   fi
 }
 
-stage() {  # stage TITLE COMMAND...: runs the command and tells how long it took
+stage() {  # stage TITLE COMMAND...: runs the command and prints how long it took
   local title=$1 begin=$SECONDS
   shift
   printf '\n== %s\n' "$title"

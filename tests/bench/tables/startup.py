@@ -2,8 +2,8 @@
 for splatray-render and splatray-view as they are, with the driver's shader cache empty (cold) and filled (warm). Medians of
 N runs of each, cold and warm in turn; each run's cache lies in a folder of its own (XDG_CACHE_HOME). The viewer needs Xvfb;
 without it it is left out. JSON: a list of {"program", "cache", "runs", "commit", "date", "device": {"name", "driver"}, "ms": {stage: median}, "ms_min": {..}}. Stages in
-milliseconds: load_program, from exec to the program's own code and back (its --help); what --stats-json tells; wall; and
-other, the wall time that no stage tells of."""
+milliseconds: load_program, from exec to the program's own code and back (its --help); what --stats-json reports; wall; and
+other, the wall time that no stage reports."""
 
 import argparse
 import datetime
@@ -35,13 +35,13 @@ def measure_render(binaries, scene, environment, folder):
     stats = folder / "stats.json"
     words = [program, str(scene), "--quiet", "-o", str(folder / "a.png"), "--resolution", SIZE, "--samples", "1"]
     wall = run(words + ["--stats-json", str(stats)], environment)
-    told = json.loads(stats.read_text())
-    times = told["times_ms"]
+    reported = json.loads(stats.read_text())
+    times = reported["times_ms"]
     # `trace` is the dispatch, which compiles on its first use on some drivers; `render` is all of the frame.
     stages = {name: times[name] for name in ("device", "load", "upload", "trace", "write")}
     stages["render_besides_trace"] = times["render"] - times["trace"]
     rest = {"other": wall - help_ms - sum(stages.values()), "wall": wall}
-    return {"load_program": help_ms} | stages | rest, told
+    return {"load_program": help_ms} | stages | rest, reported
 
 
 def measure_view(binaries, scene, environment, folder):
@@ -56,8 +56,8 @@ def measure_view(binaries, scene, environment, folder):
         viewer.wait(VIEWER_SECONDS)
     finally:
         viewer.kill()
-    told = json.loads(stats.read_text())
-    return {"load_program": help_ms, "first_picture": told["first_picture_ms"]}, told
+    reported = json.loads(stats.read_text())
+    return {"load_program": help_ms, "first_picture": reported["first_picture_ms"]}, reported
 
 
 def close_when_shown(environment):
@@ -93,12 +93,12 @@ def measure(program, runs, like=None):
         with tempfile.TemporaryDirectory() as folder:
             environment = os.environ | {"XDG_CACHE_HOME": folder}
             for cache in ("cold", "warm"):
-                stages, told = stages_of(environment, pathlib.Path(folder))
+                stages, reported = stages_of(environment, pathlib.Path(folder))
                 times[cache].append(stages)
     about = {
-        "commit": (like or told)["commit"],
+        "commit": (like or reported)["commit"],
         "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
-        "device": {key: (like or told)["device"][key] for key in ("name", "driver")},
+        "device": {key: (like or reported)["device"][key] for key in ("name", "driver")},
     }
     records = []
     for cache, measured in times.items():

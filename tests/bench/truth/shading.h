@@ -1,5 +1,5 @@
-/// The light in which pictures of different methods are compared: one fixed Phong light, so that nothing but geometry tells
-/// them apart.
+/// The light in which pictures of different methods are compared: one fixed Phong light, so that nothing but geometry
+/// distinguishes them.
 #pragma once
 #include <functional>
 #include <optional>

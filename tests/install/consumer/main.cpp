@@ -93,7 +93,7 @@ void check_rays() {
     expect(plane_error(Plane(5e5, 4e6, 250.0), 250.0, distance) < BOUND, "t is off on a plane far out");
   }
   expect(plane_error(Plane(0.0, 0.0, 0.0), 1e-5, 3.0) > BOUND,
-         "a plane 1e-5 lower was not told from the right one");
+         "a plane 1e-5 lower was not distinguished from the right one");
   const sr::Scene scene = sr::make_scene(Plane(0.0, 0.0, 0.0).points());
   const std::vector<sr::Double3> origins = {{0, 0, 1}, {9, 9, 1}, {0, 0, -1}},
                                  directions = {{0, 0, 1}, {0, 0, -1}, {0, 0, -1}};

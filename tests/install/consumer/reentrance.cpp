@@ -103,7 +103,7 @@ std::string find_defect_in_threads(const sr::Scene& scene) {
             return !end;
           },
           65536);
-    } catch (const sr::Error&) {  // as it is told to
+    } catch (const sr::Error&) {  // as it should
     }
   });
   while (!begun) std::this_thread::yield();

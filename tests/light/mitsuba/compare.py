@@ -54,7 +54,7 @@ def mitsuba_pictures(scene):
 
 
 def passing(ours, theirs, seen):
-    """The share of those pixels whose means are the same, and all distances in standard errors. Variances are smoothed over 3 x 3 pixels: few pictures tell little of each."""
+    """The share of those pixels whose means are the same, and all distances in standard errors. Variances are smoothed over 3 x 3 pixels: few pictures say little about each."""
 
     def smooth(image):
         padded = np.pad(image, 1, mode="edge")

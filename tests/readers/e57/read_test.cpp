@@ -240,8 +240,7 @@ TEST(E57, TheScannersPlaceIsOnlyBelievedWhereItIsCredible) {
   EXPECT_TRUE(is_sensor(true, straight, glm::dvec3(0.0), low, high)) << "a grid about the scanner";
   EXPECT_TRUE(is_sensor(false, turned, moved, low, high));
   EXPECT_TRUE(is_sensor(false, straight, moved, low, high)) << "shifted, the scanner amid its points";
-  EXPECT_FALSE(is_sensor(false, straight, glm::dvec3(0.0), low, high))
-      << "nothing tells of a scanner's frame";
+  EXPECT_FALSE(is_sensor(false, straight, glm::dvec3(0.0), low, high)) << "nothing shows a scanner's frame";
   EXPECT_FALSE(is_sensor(false, straight, moved, low + 2.0, high + 2.0))
       << "large coordinates that were shifted";
   EXPECT_TRUE(is_sensor(true, turned, moved, low + 12.0, high + 12.0)) << "an object seen from afar";

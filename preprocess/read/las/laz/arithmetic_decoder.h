@@ -10,7 +10,7 @@
 namespace splatray {
 
 /// A. Said's decoder (Introduction to Arithmetic Coding, HPL-2004-76, 2004) of 32 bits, renormalised by bytes. Bytes that
-/// were not coded by its like decode to something too: is_damaged() then tells in most cases.
+/// were not coded by its like decode to something too: is_damaged() then finds it in most cases.
 class ArithmeticDecoder {
  public:
   /// Begins with the first byte of `bytes`, which must outlive the decoding.

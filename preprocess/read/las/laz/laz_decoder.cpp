@@ -125,7 +125,7 @@ class LayeredDecoder final : public LazDecoder {
   struct Part {
     std::size_t at;  ///< bytes from the record's begin
     std::size_t first_layer;
-    std::unique_ptr<LayeredItem> item;  ///< null = nobody needs it
+    std::unique_ptr<LayeredItem> item;  ///< null = not needed
   };
 
   static std::unique_ptr<LayeredItem> make(const LazItem& item, const std::vector<bool>& wanted) {

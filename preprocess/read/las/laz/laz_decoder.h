@@ -21,7 +21,7 @@ class LazDecoder {
   /// Begins a chunk of at least `points` > 0 points, whose bytes must outlive its decoding; false where they are no such
   /// chunk.
   [[nodiscard]] virtual bool start(std::span<const unsigned char> chunk, std::size_t points) = 0;
-  /// Writes the next `count` records; in all no more than `points`. Bytes that nobody needs may stay as they are.
+  /// Writes the next `count` records; in all no more than `points`. Bytes that are not needed may stay as they are.
   virtual void read(unsigned char* records, std::size_t count) = 0;
   /// Whether what was read is known to be wrong.
   [[nodiscard]] virtual bool is_damaged() const = 0;
@@ -41,7 +41,7 @@ struct LayeredChunk {
   std::uint64_t bytes = 0;  ///< of the whole chunk
 };
 
-/// Bytes at the begin of a layered chunk that tell of it: a record, a count and the layers' sizes.
+/// Bytes at the begin of a layered chunk that describe it: a record, a count and the layers' sizes.
 [[nodiscard]] std::size_t layered_head_bytes(const LazLayout& layout);
 /// Of a layered chunk's first layered_head_bytes().
 [[nodiscard]] LayeredChunk layered_chunk(const LazLayout& layout, const unsigned char* head);

@@ -169,7 +169,7 @@ class Point14Item final : public LayeredItem {
     return {&position_, &z_, &classification_, &flags_, &intensity_, &source_, &time_};
   }
 
-  /// The channel that other parts of the record are told. Versions before 4 say 0 but where it changes.
+  /// The channel for the record's other parts. Versions before 4 say 0 but where it changes.
   unsigned read_point() {
     Channel* channel = &channels_[current_];
     const bool was_first = channel->last.return_number == 1;

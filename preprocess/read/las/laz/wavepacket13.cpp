@@ -7,7 +7,7 @@
 namespace splatray {
 namespace {
 
-/// Nobody uses what this decodes, but what follows it in a record can be decoded only behind it.
+/// What this decodes is not used, but what follows it in a record can be decoded only behind it.
 class Wavepacket13 final : public PointwiseItem {
  public:
   void start(const unsigned char* first) override {
