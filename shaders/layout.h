@@ -204,13 +204,15 @@ struct FrameParams {
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
   vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
+  vec3 background;  ///< what primary rays that meet nothing see; x < 0: the environment
+  float clamp;      ///< LOOK_LIT: most that light after the first bounce adds to a channel; 0: any
   // The rest is for LOOK_LIT and its like.
   vec3 lens_u;  ///< half axes of the lens, root units
   float focus;  ///< distance of the sharp plane from the eye, root units
   vec3 lens_v;
   float reach;        ///< LOOK_AO, LOOK_SCAN: how far away something darkens a point, root units
   uint lights_sized;  ///< lights that have a size
-  uint sky_width;     ///< cells of the sky table (engine/scene/sky_table.h)
+  uint sky_width;     ///< cells of the sky table (engine/scene/sky/sky_table.h)
   uint sky_height;
   float sky_share;  ///< how often a path's vertex chooses the environment, 0..1; else a light
   vec3 cut_eye;     ///< FACES_CUT: splats that face away from here are left out
@@ -391,7 +393,7 @@ SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixel
 #ifdef __cplusplus
 static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 64 &&
               sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
-              sizeof(FrameParams) == 1056 && sizeof(PathState) == 16 * PATH_TEXELS);
+              sizeof(FrameParams) == 1072 && sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif
 #endif

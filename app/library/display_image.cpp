@@ -72,7 +72,11 @@ vec3 display_value(vec3 radiance, const Display& display) {
 DisplayImage display_image(const Image& image, const Display& display) {
   DisplayImage shown{image.width, image.height, {}};
   shown.rgb.reserve(image.rgba.size());
-  for (const vec4& pixel : image.rgba) shown.rgb.push_back(display_value(vec3(pixel), display));
+  for (const vec4& pixel : image.rgba) {
+    const float alpha = display.transparent ? std::clamp(pixel.w, 0.0F, 1.0F) : 1.0F;
+    shown.rgb.push_back(alpha > 0.0F ? display_value(vec3(pixel) / alpha, display) : vec3(0.0F));
+    if (display.transparent) shown.alpha.push_back(alpha);
+  }
   return shown;
 }
 

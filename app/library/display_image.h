@@ -13,6 +13,7 @@ struct DisplayImage {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<vec3> rgb;
+  std::vector<float> alpha{};  ///< coverage, with colours that are not multiplied by it; empty: opaque
 };
 
 /// How what is brighter than a display can be is brought below 1.
@@ -26,11 +27,12 @@ inline constexpr std::array TONE_NAMES = {"soft", "neutral", "agx", "none"};  //
 
 /// What stands between a picture and a display.
 struct Display {
-  Display(double ev = 0.0, Tone curve = Tone::soft)
-      : exposure_ev(ev), tone(curve) {}  // NOLINT: a number of stops alone will do
+  Display(double ev = 0.0, Tone curve = Tone::soft, bool covers = false)
+      : exposure_ev(ev), tone(curve), transparent(covers) {}  // NOLINT: a number of stops alone will do
 
   double exposure_ev;  ///< brightness, stops
   Tone tone;
+  bool transparent;  ///< what nothing covers shows through
 
   bool operator==(const Display&) const = default;
 };

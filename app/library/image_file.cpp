@@ -164,10 +164,15 @@ PngContents png_contents(const DisplayImage& image) {
                         .integers = true,
                         .attributes = {{"oiio:ColorSpace", "sRGB"}}},
                        {}};
-  contents.bytes.reserve(3 * image.rgb.size());
-  for (const vec3& pixel : image.rgb)
-    for (int channel = 0; channel < 3; ++channel)
-      contents.bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * pixel[channel])));
+  const auto put = [&contents](float value) {
+    contents.bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * value)));
+  };
+  if (!image.alpha.empty()) contents.header.channels.emplace_back("A");
+  contents.bytes.reserve(contents.header.channels.size() * image.rgb.size());
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) put(image.rgb[i][channel]);
+    if (!image.alpha.empty()) put(image.alpha[i]);
+  }
   return contents;
 }
 

@@ -17,12 +17,12 @@ namespace splatray {
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 /// Bytes a pixel that writing a picture takes beside it, at most: a PNG, or an EXR by its count of channels.
-inline constexpr std::uint64_t PNG_WRITING_BYTES = sizeof(vec3) + 3 * 3;
+inline constexpr std::uint64_t PNG_WRITING_BYTES = sizeof(vec3) + sizeof(float) + 3 * 4;
 [[nodiscard]] constexpr std::uint64_t exr_writing_bytes(std::size_t channels) {
   return 2 * sizeof(float) * channels;
 }
 
-/// Writes sRGB PNG, 8 bit, opaque. Throws Error (failed); then an older file of that name is as it was.
+/// Writes sRGB PNG, 8 bit, with an alpha channel where the picture has one. Throws Error (failed); then an older file of that name is as it was.
 void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path);
 
 /// The bytes that write_png writes.

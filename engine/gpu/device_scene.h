@@ -13,7 +13,7 @@
 #include "engine/image/look.h"
 #include "engine/image/view.h"
 #include "engine/scene/clip.h"
-#include "engine/scene/sky_table.h"
+#include "engine/scene/sky/sky_table.h"
 #include "engine/scene/tree.h"
 #include "engine/vulkan/command_queue.h"
 #include "engine/vulkan/texture.h"

@@ -137,6 +137,8 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   frame.sample_end = settings.sample_offset + settings.samples;
   frame.seed = settings.seed;
   frame.max_bounces = settings.max_bounces;
+  frame.background = settings.transparent ? vec3(0.0F) : settings.background.value_or(vec3(-1.0F));
+  frame.clamp = settings.clamp;
   frame.kappa = settings.kappa;
   frame.delta = static_cast<float>(settings.delta_world / scene.root.unit_world);
 

@@ -69,7 +69,13 @@ struct Settings {
   bool estimate_error = false;
   bool aov = false;  ///< also trace the centre rays' normal, depth, object
   float environment_strength = 1.0F;
+  /// What is seen where nothing is met, radiance >= 0; unset: the environment.
+  std::optional<glm::vec3> background{};
+  /// Nothing is seen there: black, for pictures with coverage.
+  bool transparent = false;
   // Of the other looks than LOOK_PAPER alone:
+  /// LOOK_LIT: most that a path's light after the first bounce adds to a channel; 0: any. Biased: pictures lose light.
+  float clamp = 0.0F;
   /// LOOK_AO, LOOK_SCAN: how far away something darkens a point; 0 = a tenth of the scene's diagonal.
   double reach_world = 0.0;
   /// Light of lights passes dielectrics unbent, tinted; else only where paths find it.

@@ -30,6 +30,11 @@ vec3 environment_radiance(vec3 dir) {
   return frame.environment;
 }
 
+/// What a primary ray that meets nothing sees.
+vec3 background_radiance(vec3 dir) {
+  return frame.background.x < 0.0f ? environment_radiance(dir) : frame.background;
+}
+
 /// What a white diffuse surface of this normal sends out under the environment alone (Ramamoorthi and Hanrahan 2001, "An
 /// Efficient Representation for Irradiance Environment Maps").
 vec3 environment_diffuse(vec3 normal) {

@@ -55,7 +55,8 @@ void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) t
         path.bounce += 1u;
       }
     } else {
-      path.radiance += path.throughput * environment_radiance(path.ray.dir);
+      path.radiance += path.throughput * (path.bounce == 0u ? background_radiance(path.ray.dir)
+                                                             : environment_radiance(path.ray.dir));
       path.leaked = path.ray.inside != 0u ? 1u : 0u;
       path.alive = false;
     }

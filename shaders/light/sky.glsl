@@ -1,5 +1,5 @@
 // Directions towards the environment, chosen as often as light comes from them. Needs `frame`, environment.glsl and
-// sky_word(index) of the sky table (engine/scene/sky_table.h): for each row of cells how often, of 2^32 times, a row above it is
+// sky_word(index) of the sky table (engine/scene/sky/sky_table.h): for each row of cells how often, of 2^32 times, a row above it is
 // chosen; then for each cell how often, of 2^32 times that its row is, one to its left.
 #ifndef SPLATRAY_SKY_GLSL
 #define SPLATRAY_SKY_GLSL

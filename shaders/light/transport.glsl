@@ -30,6 +30,13 @@ Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
   return bsdf;
 }
 
+/// Light that a path brings back which has met `bounces` surfaces behind the first: not more than frame.clamp, which loses light
+/// but takes out the few bright dots of paths that are seldom found.
+vec3 clamped(vec3 light, uint bounces) {
+  float most = max(light.x, max(light.y, light.z));
+  return frame.clamp > 0.0f && bounces > 0u && most > frame.clamp ? light * (frame.clamp / most) : light;
+}
+
 /// How often a path goes on from a hit towards objects that send out light.
 float guided_share(Bsdf bsdf) { return EMISSION && frame.emitters > 0u ? GUIDED * bsdf_scatters(bsdf) : 0.0f; }
 
@@ -88,7 +95,7 @@ void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_e
       probe.light *= trace_shadow(probe.ray, tally);
       path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
     }
-    path.radiance += path.throughput * probe.light;
+    path.radiance += clamped(path.throughput * probe.light, path.bounce);
     sky = false;
   } while (to_lights);
 }
@@ -154,7 +161,11 @@ void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 
 void meet_environment(INOUT(Path) path) {
   float share = path.pdf < 0.0f ? 0.0f : 1.0f;
   if (SKY) share = met_share(path.pdf, path.pdf > 0.0f ? sky_pdf(path.ray.dir) * frame.sky_share : 0.0f);
-  path.radiance += path.throughput * environment_radiance(path.ray.dir) * share;
+  if (path.bounce == 0u) {
+    path.radiance += path.throughput * background_radiance(path.ray.dir);
+  } else {
+    path.radiance += clamped(path.throughput * environment_radiance(path.ray.dir) * share, path.bounce - 1u);
+  }
   path.leaked = path.ray.inside != 0u ? 1u : 0u;
   path.alive = false;
 }
@@ -172,7 +183,7 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
       path.throughput *= exp(-depth);
     }
   }
-  if (EMISSION) path.radiance += path.pdf < 0.0f ? vec3(0.0f) : path.throughput * surface.emission * hit.color;
+  if (EMISSION) path.radiance += clamped(path.pdf < 0.0f ? vec3(0.0f) : path.throughput * surface.emission * hit.color, max(path.bounce, 1u) - 1u);
   Basis basis = basis_of(hit.normal);
   vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
@@ -194,7 +205,7 @@ void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) t
     bool light_first = false;
     if (SIZES && LOOK != LOOK_SCAN) {
       float t = hit.t;
-      path.radiance += path.throughput * met_light(path.ray, path.pdf, t);
+      path.radiance += clamped(path.throughput * met_light(path.ray, path.pdf, t), max(path.bounce, 1u) - 1u);
       light_first = t < hit.t;
     }
     if (light_first) {

@@ -17,7 +17,7 @@ void add_misses(uvec2 pixel, uint index) {
   vec4 mean = mean_before(place);
   uint sample_index = frame.sample_begin;
   do {
-    vec3 radiance = environment_radiance(sample_ray(pixel, sample_index).dir);
+    vec3 radiance = background_radiance(sample_ray(pixel, sample_index).dir);
     mean = add_to_mean(mean, radiance, 0.0f, sample_index);
     if (COUNTERS) count(COUNT_PRIMARY, 1u);
     sample_index += 1u;

@@ -18,7 +18,7 @@ namespace {
 bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
 
 Display display_of(const Request& request) {
-  return {request.look.exposure_ev.value_or(0.0), choose_tone(request)};
+  return {request.look.exposure_ev.value_or(0.0), choose_tone(request), request.settings.transparent};
 }
 
 std::string size_text(std::uint32_t width, std::uint32_t height) {

@@ -59,7 +59,7 @@ void show_as_asked(const Request& request, LoadedScene& loaded);
 /// The request that makes a light.
 [[nodiscard]] LightRequest light_request(const SceneLight& light);
 
-/// The environment of a name that needs no file: white, black, studio or r,g,b, empty = studio; nothing for other names.
+/// The environment of a name that needs no file: white, black, studio, sky:... or r,g,b, empty = studio; nothing for other names.
 /// Throws Error (usage) for a radiance that is negative or not finite.
 [[nodiscard]] std::optional<Environment> built_in_environment(const std::string& name);
 /// The environment `name` of --environment: a file, white, black, studio, r,g,b; empty = studio. Throws Error

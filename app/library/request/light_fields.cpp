@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -103,10 +104,37 @@ Field environment_row() {
   return with(
       text_row(
           "environment", LIGHT, MEMBER(look.environment),
-          "an HDR or EXR file (latitude-longitude), white, black, studio or a radiance r,g,b; default: the "
-          "scene's, else studio with a key light over the viewer's left shoulder",
+          "an HDR or EXR file (latitude-longitude), white, black, studio, sky:ELEVATION,AZIMUTH[,TURBIDITY] "
+          "(daylight: where the sun stands, degrees above the horizon and clockwise from north, and how hazy "
+          "it is, 2 to 10, default 3) or a radiance r,g,b; default: the scene's, else studio with a key "
+          "light "
+          "over the viewer's left shoulder",
           "FILE|NAME"),
       {.old_names = {"env"}});
+}
+
+Field background_row() {
+  return value_row(
+      "background", LIGHT, "environment|transparent|R,G,B",
+      "what is seen where nothing is met: the environment, nothing (a PNG gets an alpha channel), or a "
+      "radiance; light comes from the environment all the same; default environment",
+      [](Request& request, const std::string& text) {
+        Request::Settings& settings = request.settings;
+        std::optional<glm::vec3> radiance;
+        if (text != "environment" && text != "transparent") {
+          const std::vector<double> numbers = split_numbers(text, ',', 3);
+          const auto usable = [](double x) { return x >= 0.0 && x <= 1e9; };
+          if (numbers.empty() || !std::all_of(numbers.begin(), numbers.end(), usable))
+            throw Expected{"environment, transparent or three numbers from 0 to 1e9"};
+          radiance = glm::vec3(numbers[0], numbers[1], numbers[2]);
+        }
+        settings.transparent = text == "transparent";
+        settings.background = radiance;
+      },
+      [](const Request& request) -> std::string {
+        if (request.settings.transparent) return "transparent";
+        return request.settings.background ? number_text(*request.settings.background) : "environment";
+      });
 }
 
 }  // namespace
@@ -127,6 +155,7 @@ std::vector<Field> light_fields() {
           "radiance, default irradiance pi there; with --look paper a point; repeatable"),
       lights_row(),
       environment_row(),
+      background_row(),
       with(number_row("environment-strength", LIGHT, MEMBER(settings.environment_strength), 0.0, 1e6,
                       "factor on the environment; default 1"),
            {.old_names = {"env-strength"}}),

@@ -48,6 +48,10 @@ std::vector<Field> quality_fields() {
       with(number_row("bounces", QUALITY, MEMBER(settings.max_bounces), 0, 64,
                       "most secondary rays in a path; default 8"),
            {.old_names = {"max-bounces"}}),
+      number_row(
+          "clamp", QUALITY, MEMBER(settings.clamp), 0.0, 1e9,
+          "lit: most that a path's light after its first bounce adds to a channel, e.g. 10: fewer bright "
+          "dots, but light is lost; default 0 = any"),
       shadows_row(),
       seed_row(),
       text_row("device", QUALITY, MEMBER(settings.device),

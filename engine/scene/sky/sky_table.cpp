@@ -1,4 +1,4 @@
-#include "engine/scene/sky_table.h"
+#include "engine/scene/sky/sky_table.h"
 
 #include <algorithm>
 #include <cmath>
