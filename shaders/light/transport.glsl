@@ -183,7 +183,7 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
       path.throughput *= exp(-depth);
     }
   }
-  if (EMISSION) path.radiance += path.pdf < 0.0f ? vec3(0.0f) : path.throughput * surface.emission * hit.color;
+  if (EMISSION) path.radiance += path.pdf < 0.0f ? vec3(0.0f) : path.throughput * surface.emission;
   Basis basis = basis_of(hit.normal);
   vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
