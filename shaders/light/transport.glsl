@@ -65,6 +65,7 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec2 random, uin
   if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
   probe.ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
   probe.ray.t_max = LOOK == LOOK_SCAN ? min(chosen.distance, frame.reach) : chosen.distance;
+  if (SIZES && SHADOWS && LOOK != LOOK_SCAN && light_hides(probe.ray, chosen.light)) probe.light = vec3(0.0f);
   if (max(probe.light.x, max(probe.light.y, probe.light.z)) <= 0.0f) probe.ray.t_max = -1.0f;
   return probe;
 }
