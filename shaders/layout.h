@@ -138,7 +138,7 @@ struct Surface {
   float metallic;       ///< 0..1
   vec3 specular_color;  ///< factor on the reflectance of what is no metal, seen face on
   float roughness;      ///< perceptual: the square root of GGX's alpha, 0..1
-  vec3 emission;        ///< radiance sent out, >= 0
+  vec3 emission;        ///< radiance sent out, >= 0, whatever the splat's colour
   float specular;       ///< factor on all of the reflectance of what is no metal, 0..1
   vec3 absorption;      ///< of dielectrics, per world unit (on the device: lattice unit), >= 0
   float transmission;   ///< of dielectrics: share of light not mirrored that goes through, 0..1

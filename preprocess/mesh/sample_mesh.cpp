@@ -162,18 +162,33 @@ class SampleWriter {
   std::vector<glm::vec3> weights_;        ///< beside points_ where vertices have attributes, else empty
 };
 
-/// Index of the corner opposite the longest edge: the lattice's rows are then short.
-int apex_of(const std::array<glm::dvec3, 3>& corners) {
+/// Samples in a triangle whose lattice makes rows; fewer lie anywhere.
+constexpr double ROWS = 4.0;
+
+/// Sine of the least angle between the side opposite a corner and the lines that the corner's lattice fans out along to it.
+double least_slant(const std::array<glm::dvec3, 3>& corners, int apex) {
+  const auto at = [&](int corner) { return corners[static_cast<std::size_t>(corner % 3)]; };
+  const double twice_area = 2.0 * triangle_area(corners);
+  const double longest =
+      std::max(glm::distance(at(apex), at(apex + 1)), glm::distance(at(apex), at(apex + 2)));
+  return twice_area / (longest * glm::distance(at(apex + 1), at(apex + 2)));
+}
+
+/// Index of the corner that a triangle's lattice fans out from: that opposite the longest edge, or, where so many samples lie in
+/// it that they make rows, the one whose lattice is least slanted. A Kronecker lattice of the golden ratio is even however it is
+/// stretched, but where it is slanted its rows part.
+int apex_of(const std::array<glm::dvec3, 3>& corners, double samples) {
+  const auto opposite = [&](int corner) {
+    return glm::distance(corners[static_cast<std::size_t>((corner + 1) % 3)],
+                         corners[static_cast<std::size_t>((corner + 2) % 3)]);
+  };
   int apex = 0;
-  double longest = -1.0;
-  for (int i = 0; i < 3; ++i) {
-    const auto at = [&](int corner) { return corners[static_cast<std::size_t>(corner % 3)]; };
-    const double length = glm::distance(at(i + 1), at(i + 2));
-    if (length > longest) {
-      longest = length;
-      apex = i;
-    }
-  }
+  for (const int corner : {1, 2})
+    if (opposite(corner) > opposite(apex)) apex = corner;
+  if (samples < ROWS) return apex;
+  const int longest = apex;
+  for (const int corner : {(longest + 1) % 3, (longest + 2) % 3})
+    if (least_slant(corners, corner) > 1.001 * least_slant(corners, apex)) apex = corner;
   return apex;
 }
 
@@ -323,7 +338,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
       continue;
     }
     last_proper = index;
-    const int apex = apex_of(corners);
+    const int apex = apex_of(corners, area / step);
     while (written < count) {
       const double at = (static_cast<double>(written) + share_offset) * step;
       if (at >= passed + area) {

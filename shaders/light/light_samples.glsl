@@ -6,12 +6,15 @@
 #include "light/sky.glsl"
 #include "primitive/disc.glsl"
 
+const uint NO_LIGHT = 0xFFFFFFFFu;
+
 /// Light that may come from one direction.
 struct LightSample {
   vec3 dir;
   float distance;  ///< of its source
   vec3 radiance;   ///< over the probability of its choice
   float pdf;       ///< that probability, per solid angle; 0 of lights without a size
+  uint light;      ///< index of its source, NO_LIGHT of the environment
 };
 
 /// What a light without a size sends to a point, or one with a size from one of its points.
@@ -75,14 +78,17 @@ LightSample light_sample(vec3 position, vec2 random) {
     chosen.pdf *= frame.sky_share;
     chosen.radiance = environment_radiance(chosen.dir) / chosen.pdf;
     chosen.distance = INFINITY_F;
+    chosen.light = NO_LIGHT;
   } else {
     float at = SKY ? (random.x - frame.sky_share) / (1.0f - frame.sky_share) : random.x;
-    Light light = light_at(find_light(at));
+    uint index = find_light(at);
+    Light light = light_at(index);
     vec2 within = vec2(clamp((at - light.before) / light.share, 0.0f, 0.99999994f), random.y);
     float share = light.share * (1.0f - frame.sky_share);
     chosen = one_light_sample(light, position, within);
     chosen.radiance /= share;
     chosen.pdf *= share;
+    chosen.light = index;
   }
   return chosen;
 }
@@ -92,6 +98,51 @@ LightSample light_sample(vec3 position, vec2 random) {
 float met_share(float pdf, float light_pdf) {
   if (pdf < 0.0f) return 0.0f;
   return pdf == 0.0f ? 1.0f : pdf * pdf / (pdf * pdf + light_pdf * light_pdf);
+}
+
+/// Where a ray meets a ball or rectangle of light: where it enters a ball or, from inside, leaves it. `pdf`: one_light_sample's
+/// probability of the ray's direction.
+struct LightMeeting {
+  bool met;
+  float t;
+  float pdf;
+};
+LightMeeting meet_light(Light light, Ray ray) {
+  LightMeeting meeting;
+  vec3 to_light = light.position - ray.origin;
+  if (light.kind == LIGHT_POINT) {
+    float along = dot(to_light, ray.dir);
+    vec3 beside = to_light - ray.dir * along;
+    float inside_squared = light.size * light.size - dot(beside, beside);
+    float root = sqrt(max(inside_squared, 0.0f));
+    float sine_squared = light.size * light.size / max(dot(to_light, to_light), 1.0f);
+    meeting.t = sine_squared < 1.0f ? along - root : along + root;
+    meeting.met = inside_squared > 0.0f;
+    meeting.pdf = 1.0f / (TWO_PI * cone_height(sine_squared));
+  } else {
+    vec3 across = cross(light.edge_u, light.edge_v);
+    float facing = -dot(ray.dir, across);
+    meeting.t = -dot(to_light, across) / facing;
+    vec3 at = ray.dir * meeting.t - to_light;
+    meeting.met = facing > 0.0f && abs(dot(at, light.edge_u)) < dot(light.edge_u, light.edge_u) &&
+                  abs(dot(at, light.edge_v)) < dot(light.edge_v, light.edge_v);
+    meeting.pdf = meeting.t * meeting.t / (4.0f * facing);
+  }
+  meeting.met = meeting.met && meeting.t > 0.0f && meeting.t < ray.t_max;
+  return meeting;
+}
+
+/// Whether a ball or rectangle of light, other than the light with this index, is met by the ray: it hides what is behind it, as
+/// paths find.
+bool light_hides(Ray ray, uint but_for) {
+  bool hides = false;
+  uint index = 0u;
+  do {
+    Light light = light_at(index);
+    if (light.kind != LIGHT_DIRECTIONAL && index != but_for) hides = hides || meet_light(light, ray).met;
+    index += 1u;
+  } while (index < frame.lights_sized);
+  return hides;
 }
 
 /// Light of the lights with a size that the ray meets before t_max, which becomes where. Those at infinity come last in the
@@ -109,33 +160,12 @@ vec3 met_light(Ray ray, float pdf, INOUT(float) t_max) {
       bool met = t_max == INFINITY_F && 0.5f * dot(apart, apart) < height;
       light_met += met ? light.power / (PI * sine * sine) * met_share(pdf, share / (TWO_PI * height)) : vec3(0.0f);
     } else {
-      vec3 to_light = light.position - ray.origin;
-      bool met = false;
-      float t = 0.0f;
-      float light_pdf = 0.0f;
+      ray.t_max = t_max;
+      LightMeeting meeting = meet_light(light, ray);
       vec3 radiance = light.power;
-      if (light.kind == LIGHT_POINT) {
-        float along = dot(to_light, ray.dir);
-        vec3 beside = to_light - ray.dir * along;
-        float inside_squared = light.size * light.size - dot(beside, beside);
-        float root = sqrt(max(inside_squared, 0.0f));
-        float sine_squared = light.size * light.size / max(dot(to_light, to_light), 1.0f);
-        t = sine_squared < 1.0f ? along - root : along + root;
-        met = inside_squared > 0.0f;
-        radiance /= PI * light.size * light.size;
-        light_pdf = 1.0f / (TWO_PI * cone_height(sine_squared));
-      } else {
-        vec3 across = cross(light.edge_u, light.edge_v);
-        float facing = -dot(ray.dir, across);
-        t = -dot(to_light, across) / facing;
-        vec3 at = ray.dir * t - to_light;
-        met = facing > 0.0f && abs(dot(at, light.edge_u)) < dot(light.edge_u, light.edge_u) &&
-              abs(dot(at, light.edge_v)) < dot(light.edge_v, light.edge_v);
-        light_pdf = t * t / (4.0f * facing);
-      }
-      met = met && t > 0.0f && t < t_max;
-      light_met = met ? radiance * met_share(pdf, light_pdf * share) : light_met;
-      t_max = met ? t : t_max;
+      if (light.kind == LIGHT_POINT) radiance /= PI * light.size * light.size;
+      light_met = meeting.met ? radiance * met_share(pdf, meeting.pdf * share) : light_met;
+      t_max = meeting.met ? meeting.t : t_max;
     }
     index += 1u;
   } while (index < frame.lights_sized);

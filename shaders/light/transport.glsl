@@ -61,6 +61,7 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec2 random, uin
   if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
   probe.ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
   probe.ray.t_max = LOOK == LOOK_SCAN ? min(chosen.distance, frame.reach) : chosen.distance;
+  if (SIZES && SHADOWS && LOOK != LOOK_SCAN && light_hides(probe.ray, chosen.light)) probe.light = vec3(0.0f);
   if (max(probe.light.x, max(probe.light.y, probe.light.z)) <= 0.0f) probe.ray.t_max = -1.0f;
   return probe;
 }
@@ -183,7 +184,10 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
       path.throughput *= exp(-depth);
     }
   }
-  if (EMISSION) path.radiance += clamped(path.pdf < 0.0f ? vec3(0.0f) : path.throughput * surface.emission * hit.color, max(path.bounce, 1u) - 1u);
+  if (EMISSION) {
+    vec3 sent = path.pdf < 0.0f ? vec3(0.0f) : path.throughput * surface.emission;
+    path.radiance += clamped(sent, max(path.bounce, 1u) - 1u);
+  }
   Basis basis = basis_of(hit.normal);
   vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);

@@ -112,11 +112,41 @@ TEST_F(Plane, RectangleOfLight) {
   EXPECT_NEAR(found.value, pi * 5.0 * form_factor, 1e-3 * found.value + 3.0 * found.error);
 }
 
+/// From the plane's middle all of one light lies behind another, which has a size.
+TEST_F(Plane, LightsHideWhatIsBehindThem) {
+  SceneLight before{LIGHT_POINT, {0.5, 0.5, 0.0}, vec3(1.0F)},
+      behind{LIGHT_POINT, {1.0, 1.0, 0.0}, vec3(8.0F)};
+  before.size = 0.3;
+  behind.size = 0.2;
+  SceneLight panel{LIGHT_RECTANGLE, {-0.8, 0.8, 0.0}, vec3(5.0F)}, hidden = behind;
+  panel.edge_u = {0.0, 0.0, 0.6};
+  panel.edge_v = {-0.6, -0.6, 0.0};  // cross(u, v) points to +x, -y
+  hidden.position = {-1.2, 1.2, 0.0};
+  SceneLight sun{LIGHT_DIRECTIONAL, {1.0, 1.0, 0.0}, vec3(3.0F)};
+  for (const auto& [seen, unseen] :
+       {std::pair(before, behind), std::pair(panel, hidden), std::pair(before, sun)}) {
+    const Mean alone = irradiance({seen}, 1024), both = irradiance({seen, unseen}, 1024);
+    EXPECT_NEAR(both.value, alone.value, 1e-3 * alone.value + 3.0 * (alone.error + both.error));
+  }
+}
+
+TEST_F(Plane, LightsHideThePartOfAnotherThatIsBehindThem) {
+  // Seen from the plane's middle both are discs about one direction, the farther one wider.
+  const dvec3 towards(0.6, 0.8, 0.0);
+  SceneLight before{LIGHT_POINT, towards, vec3(1.0F)}, behind{LIGHT_POINT, 3.0 * towards, vec3(9.0F)};
+  before.size = 0.2;
+  behind.size = 0.9;
+  const Mean found = irradiance({before, behind}, 4096);
+  const double hidden = 0.2 * 0.2, wide = 0.3 * 0.3;  // squared sines
+  const double expected = towards.y * (1.0 + 1.0 - hidden / wide);
+  EXPECT_NEAR(found.value, expected, 1e-3 * expected + 3.0 * found.error);
+}
+
 TEST_F(Plane, ManyLightsOfAllKinds) {
   std::vector<SceneLight> lights;
   double expected = 0.0;
   for (int i = 0; i < 40; ++i) {
-    const double angle = 0.7 * i, height = 1.0 + 0.05 * i;
+    const double angle = 2.4 * i, height = 1.0 + 0.05 * i;  // none is in another's way
     SceneLight light{
         i % 2 == 0 ? LIGHT_POINT : LIGHT_DIRECTIONAL, {std::cos(angle), height, std::sin(angle)}, vec3(0.1F)};
     light.size = i % 3 == 0 ? 0.05 : 0.0;

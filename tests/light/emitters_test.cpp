@@ -80,6 +80,15 @@ TEST_F(Lamp, GivesWhatItShould) {
   EXPECT_LT(found.error, 5e-3 * truth());
 }
 
+TEST_F(Lamp, GivesTheSameWhateverItsColour) {
+  OrientedPoints points = ball_at(CENTER, RADIUS, 4000), white_floor = floor().points;
+  points.color.assign(points.position.size(), dvec3(20.0 / 255.0, 0.0, 0.0));
+  white_floor.color.assign(white_floor.position.size(), dvec3(1.0));
+  show(glowing({{white_floor, grey(1.0F)}, {points, grey(0.0F)}}, vec3(float(RADIANCE))), constant(0.0F), {});
+  const Mean found = irradiance_shown(1024);
+  EXPECT_NEAR(found.value, truth(), 3e-3 * truth() + 3.0 * found.error);
+}
+
 TEST_F(Lamp, IsLookedFor) {
   show_lamp(constant(0.0F), {});
   const Mean guided = irradiance_shown(256);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "engine/scene/clip.h"
 #include "engine/scene/scene.h"
@@ -71,6 +72,51 @@ class Discs {
   }
 
   const Scene& scene_;
+};
+
+/// The discs of a scene that is flat, in z = 0, found by their places along x.
+class FlatDiscs {
+ public:
+  explicit FlatDiscs(const Scene& scene) : scene_(scene) {
+    for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+      const Splat splat = unpack_splat(scene.data_pool[i]);
+      discs_.push_back({splat, clip_lines(i)});
+      widest_ = std::max(widest_, std::sqrt(splat.radius_squared));
+    }
+    std::sort(discs_.begin(), discs_.end(),
+              [](const Disc& a, const Disc& b) { return a.splat.center.x < b.splat.center.x; });
+  }
+
+  /// Whether some disc, where it has not ended, holds the place.
+  [[nodiscard]] bool cover(const dvec3& place) const {
+    const dvec3 point = scene_.root.to_root(place);
+    auto disc = std::lower_bound(discs_.begin(), discs_.end(), point.x - widest_,
+                                 [](const Disc& one, double x) { return one.splat.center.x < x; });
+    for (; disc != discs_.end() && disc->splat.center.x <= point.x + widest_; ++disc) {
+      const dvec3 offset = point - disc->splat.center;
+      const auto before = [&](const ClipLine& line) { return glm::dot(line.across, offset) <= line.limit; };
+      if (offset.x * offset.x + offset.y * offset.y <= disc->splat.radius_squared &&
+          std::all_of(disc->lines.begin(), disc->lines.end(), before))
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Disc {
+    Splat splat;
+    std::vector<ClipLine> lines;
+  };
+
+  [[nodiscard]] std::vector<ClipLine> clip_lines(std::size_t i) const {
+    if (scene_.clip_pool.empty()) return {};
+    const auto lines = unpack_clip(scene_.clip_pool[i], scene_.data_pool[i]);
+    return {lines.begin(), lines.end()};
+  }
+
+  const Scene& scene_;
+  std::vector<Disc> discs_;
+  double widest_ = 0.0;
 };
 
 }  // namespace splatray::test
