@@ -166,6 +166,10 @@ struct ReadOptions {
 /// with path, found and expected, or (interrupted) when `options.progress` says so.
 [[nodiscard]] Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options);
 
+/// What read_input does with objects once they are read: points with times get the options' trajectory, heights and scanners are
+/// adjusted, meshes become points (mesh/mesh_points.h). Throws Error as read_input does.
+void finish_objects(Input& input, const ReadOptions& options);
+
 /// The material of an object whose file says nothing: light grey, a soft highlight, two-sided.
 [[nodiscard]] Material default_material();
 

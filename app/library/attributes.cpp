@@ -86,11 +86,7 @@ bool is_kinds(const Column& column) {
   return column.name == COLUMN_KIND && std::holds_alternative<std::vector<std::uint8_t>>(column.values);
 }
 
-bool is_category(const Column& column) {
-  const std::string_view name = column.name;
-  return name == COLUMN_CLASS || name == COLUMN_RETURN || name == COLUMN_RETURNS || name == COLUMN_SOURCE ||
-         name == COLUMN_SCAN || is_kinds(column);
-}
+bool has_categories(const Column& column) { return is_category(column.name) || is_kinds(column); }
 
 /// Surfaces grey, lines orange, scatter green: display-encoded, 0..255.
 glm::vec3 kind_color(ScanKind kind) {
@@ -238,6 +234,11 @@ void hide(Scene& scene, std::string_view name, const std::vector<std::uint32_t>&
 
 }  // namespace
 
+bool is_category(std::string_view column) {
+  return column == COLUMN_CLASS || column == COLUMN_RETURN || column == COLUMN_RETURNS ||
+         column == COLUMN_SOURCE || column == COLUMN_SCAN;
+}
+
 std::vector<std::string> color_sources(const Scene& scene) {
   std::vector<std::string> names;
   if (!scene.color_pool.empty()) names.emplace_back("rgb");
@@ -259,14 +260,14 @@ AttributeColors color_by(const Scene& scene, const AttributeOptions& options) {
                                      "', expected what the scene's points have: " + joined(sources));
   if (options.color_by == "normal") return normal_colors(scene);
   if (options.color_by == HEIGHT_AND_INTENSITY) return relief_colors(scene, options);
-  if (const Column* column = find_column(scene.columns, options.color_by); column && is_category(*column))
+  if (const Column* column = find_column(scene.columns, options.color_by); column && has_categories(*column))
     return category_colors(scene, *column);
   return ramp_colors(scene, options);
 }
 
 std::vector<Category> categories_of(const Scene& scene, std::string_view name) {
   const Column* column = find_column(scene.columns, name);
-  if (column == nullptr || !is_category(*column)) return {};
+  if (column == nullptr || !has_categories(*column)) return {};
   std::map<std::uint32_t, std::uint64_t> points;
   for (std::size_t i = 0; i < column->size(); ++i) ++points[static_cast<std::uint32_t>(column->number(i))];
   std::vector<Category> categories;

@@ -53,6 +53,9 @@ struct AttributeColors {
 /// the scene does not have.
 [[nodiscard]] AttributeColors color_by(const Scene& scene, const AttributeOptions& options);
 
+/// Whether values of the attribute of this name stand for themselves: class, return, returns, source and scan.
+[[nodiscard]] bool is_category(std::string_view column);
+
 /// The categories of a column, with the points that have each; none where there is no such column
 /// of categories.
 [[nodiscard]] std::vector<Category> categories_of(const Scene& scene, std::string_view column);

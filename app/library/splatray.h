@@ -23,6 +23,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #define SPLATRAY_API __attribute__((visibility("default")))
@@ -79,20 +80,49 @@ struct Material {
 /// The material of a name: matte, glossy, mirror, gold, copper, glass or ruby. Throws Error (usage) for another.
 [[nodiscard]] SPLATRAY_API Material named_material(const std::string& name);
 
-/// One object as arrays, which are copied. Those that are not empty have as many elements as `positions`.
+/// A number for each point or vertex, kept beside it: "intensity", "class" or any other name. The request's "color-by" shows it, and
+/// "hide-class" and "hide-scan" look at "class" and "scan", which as "return", "returns" and "source" have whole numbers from 0 on. A
+/// number that is not finite is 0; "point" and "kind" are splatray's own names.
+struct Attribute {
+  std::string name;
+  std::span<const double> values;  ///< as many as there are points or vertices
+};
+
+/// An object of points as arrays, which are copied. Those that are not empty have as many elements as `positions`.
 struct Points {
   std::span<const Double3> positions{};  ///< world; points that are not finite are left out
   /// Any length > 0; zero or NaN = estimate this one. Empty = estimate all.
   std::span<const Float3> normals{};
-  std::span<const Float3> colors{};  ///< linear, 0..1, clamped; NaN is 0. Empty = none
+  /// Linear, 0..1: up to 1.01 and below 0 they are clamped, NaN is 0, and more is refused. Empty = none.
+  std::span<const Float3> colors{};
   /// Disc radii, world units. 0, negative or NaN: estimated. Empty: all estimated.
   std::span<const float> radii{};
+  std::vector<Attribute> attributes{};  ///< at most 31, of different names
   std::string name = "points";
   std::optional<Material> material{};  ///< unset = light grey, white where there are colours
   /// Whether they come from a scanner: strays are left out, noise is smoothed and unknown normals turned to the side the
   /// scanner was on. Unset = where `normals` is empty.
   std::optional<bool> scanned{};
 };
+
+/// An object of triangles as arrays, which are copied; the same as a file of it. Points lie at the vertices, or by area where triangles
+/// are large or the request has "mesh-points". Arrays that are not empty have as many elements as `vertices`.
+struct Mesh {
+  std::span<const Double3> vertices{};  ///< world; triangles with one that is not finite are left out
+  /// Three vertices each, below their number, anticlockwise seen from outside; at least one triangle.
+  std::span<const std::array<std::uint32_t, 3>> triangles{};
+  /// Any length > 0; zero or NaN = of the triangles. Empty = of the triangles.
+  std::span<const Float3> normals{};
+  std::span<const Float3> colors{};  ///< as of Points, interpolated
+  /// As of Points; interpolated, whole numbers up to 65535 of the nearest corner.
+  std::vector<Attribute> attributes{};
+  std::string name = "mesh";
+  /// Unset = light grey, white where there are colours. Closed glass is turned outwards.
+  std::optional<Material> material{};
+};
+
+/// What scenes are made of.
+using Object = std::variant<Points, Mesh>;
 
 /// A camera. The picture's top is towards `up`.
 struct Camera {
@@ -182,10 +212,13 @@ class Scene;
                                       const Request& request = {}, const Progress& progress = {});
 [[nodiscard]] SPLATRAY_API Scene open(const std::filesystem::path& file, const Request& request = {},
                                       const Progress& progress = {});
-/// A scene of one or several objects. Throws Error (input) when no point is usable, and as open().
-[[nodiscard]] SPLATRAY_API Scene make_scene(std::span<const Points> objects, const Request& request = {},
+/// A scene of one or several objects, up z unless the request has "up". Of the request: as open(), but for what files alone have. Throws
+/// Error (usage) where arrays do not fit each other, (input) when no point is usable, and as open().
+[[nodiscard]] SPLATRAY_API Scene make_scene(std::span<const Object> objects, const Request& request = {},
                                             const Progress& progress = {});
 [[nodiscard]] SPLATRAY_API Scene make_scene(const Points& object, const Request& request = {},
+                                            const Progress& progress = {});
+[[nodiscard]] SPLATRAY_API Scene make_scene(const Mesh& object, const Request& request = {},
                                             const Progress& progress = {});
 
 /// A scene of splats, oriented discs in an octree; it never changes. Its device is opened with the first picture or ray.
@@ -267,7 +300,7 @@ struct Hits {
   std::vector<Float3> normal{};        ///< unit, against the ray; 0 on a miss
   std::vector<std::int32_t> object{};  ///< -1 on a miss
   std::vector<std::int64_t> splat{};   ///< the first disc hit, as in Scene::splat(); -1 on a miss
-  /// Which of the object's Points that disc is; -1 on a miss and for files.
+  /// Which of the object's Points that disc is; -1 on a miss, for meshes and for files.
   std::vector<std::int64_t> point{};
 };
 /// Traces rays exactly: a ray hits what brute force over all discs finds, of the ray rounded to float32 in a cube about the scene

@@ -202,6 +202,13 @@ Material default_material() {
   return material;
 }
 
+void finish_objects(Input& input, const ReadOptions& options) {
+  const ThreadLimit limit(options.threads);
+  if (!options.scans.trajectory.empty()) add_track(input, options);
+  for (InputObject& object : input.objects) adjust_points(object, options.scans);
+  points_from_meshes(input, options);
+}
+
 Input read_input(const std::vector<std::filesystem::path>& named, const ReadOptions& options) {
   if (named.empty()) {
     throw Error(ExitCode::usage, "no input file was named");
@@ -230,9 +237,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   if (left_out && scans.empty() && input.objects.empty()) throw Error(*left_out);
   require_one_system(scans);
   if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
-  if (!options.scans.trajectory.empty()) add_track(input, options);
-  for (InputObject& object : input.objects) adjust_points(object, options.scans);
-  points_from_meshes(input, options);
+  finish_objects(input, options);
   drop_empty_objects(input);
   if (input.objects.empty()) {
     refuse_no_points(files, input.scan_counts);

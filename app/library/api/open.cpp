@@ -1,48 +1,27 @@
-#include <algorithm>
-#include <numeric>
-
+#include "app/library/api/arrays.h"
 #include "app/library/api/guard.h"
 #include "app/library/api/request_impl.h"
 #include "app/library/api/scene_impl.h"
-#include "engine/base/memory.h"
+#include "engine/base/one_line.h"
 
 namespace splatray::api {
 namespace {
 
-/// An array in the type that preprocess works on.
-template <typename To, typename From>
-std::vector<To> copied(const std::span<const From>& values) {
-  std::vector<To> list(values.size());
-  std::transform(values.begin(), values.end(), list.begin(), [](const From& v) { return vector(v); });
-  return list;
-}
-
-void check_sizes(const Points& points) {
-  const auto check = [&](const char* name, std::size_t size) {
-    if (size != 0 && size != points.positions.size())
-      refuse(std::to_string(size) + " " + name,
-             "none or as many as the " + std::to_string(points.positions.size()) + " positions");
-  };
-  check("normals", points.normals.size());
-  check("colors", points.colors.size());
-  check("radii", points.radii.size());
-}
-
-InputObject input_object(const Points& points) {
-  check_sizes(points);
-  InputObject object;
-  object.name = points.name;
-  object.measured = points.scanned.value_or(points.normals.empty());
-  object.material = default_material();
-  if (!points.colors.empty()) object.material.diffuse = COLORED_DIFFUSE;
-  object.points.position = copied<glm::dvec3>(points.positions);
-  object.points.normal = copied<glm::vec3>(points.normals);
-  object.points.color = copied<glm::vec3>(points.colors);
-  object.points.radius.assign(points.radii.begin(), points.radii.end());
-  std::vector<double> number(points.positions.size());
-  std::iota(number.begin(), number.end(), 0.0);
-  object.points.columns.push_back({std::string(COLUMN_POINT), std::move(number)});
-  return object;
+/// The objects, and after them what they look like.
+Input input_of(std::span<const Object> objects, splatray::Request& request) {
+  Input input;
+  input.up = request.look.up ? glm::normalize(*request.look.up) : glm::dvec3(0.0, 0.0, 1.0);
+  std::vector<ObjectChange> materials;
+  for (const Object& object : objects)
+    std::visit(
+        [&](const auto& given) {
+          if (given.material)
+            materials.push_back(object_change(std::to_string(input.objects.size()), *given.material));
+          input.objects.push_back(input_object(given));
+        },
+        object);
+  request.look.objects.insert(request.look.objects.begin(), materials.begin(), materials.end());
+  return input;
 }
 
 }  // namespace
@@ -65,33 +44,29 @@ Scene open(const std::filesystem::path& file, const Request& request, const Prog
   return open(std::span(&file, 1), request, progress);
 }
 
-Scene make_scene(std::span<const Points> objects, const Request& asked, const Progress& progress) {
+Scene make_scene(std::span<const Object> objects, const Request& asked, const Progress& progress) {
   return guarded(progress, [&](ProgressRelay& relay) {
     splatray::Request request = RequestAccess::inner(asked);
-    Input input;
-    input.up = request.look.up ? glm::normalize(*request.look.up) : glm::dvec3(0.0, 0.0, 1.0);
-    std::vector<ObjectChange> materials;
-    for (const Points& object : objects) {
-      if (object.material)
-        materials.push_back(object_change(std::to_string(input.objects.size()), *object.material));
-      input.objects.push_back(input_object(object));
-    }
-    request.look.objects.insert(request.look.objects.begin(), materials.begin(), materials.end());
+    Input input = input_of(objects, request);
     auto impl = std::make_shared<Scene::Impl>();
-    BuildStats& stats = impl->loaded.build.emplace();
-    impl->loaded.scene = build_scene(std::move(input), request.source.params, request.source.threads, stats,
-                                     watching_memory(std::ref(relay)));
-    if (stats.dropped_non_finite > 0)
-      impl->notes.push_back(std::to_string(stats.dropped_non_finite) +
-                            " points that are not finite were left out");
-    impl->notes.insert(impl->notes.end(), stats.notes.begin(), stats.notes.end());
-    show_as_asked(request, impl->loaded);
+    const LoadListener listener{std::ref(relay),
+                                [&](const std::string& note) { impl->notes.push_back(one_line(note)); }};
+    impl->loaded = load_objects(std::move(input), request, listener);
+    if (const std::uint64_t dropped = impl->loaded.build->dropped_non_finite; dropped > 0)
+      impl->notes.push_back(std::to_string(dropped) + " points that are not finite were left out");
+    for (const Object& object : objects) impl->has_points.push_back(std::holds_alternative<Points>(object));
     return SceneAccess::make(std::move(impl));
   });
 }
 
 Scene make_scene(const Points& object, const Request& request, const Progress& progress) {
-  return make_scene(std::span(&object, 1), request, progress);
+  const Object one = object;
+  return make_scene(std::span(&one, 1), request, progress);
+}
+
+Scene make_scene(const Mesh& object, const Request& request, const Progress& progress) {
+  const Object one = object;
+  return make_scene(std::span(&one, 1), request, progress);
 }
 
 }  // namespace splatray::api

@@ -80,15 +80,16 @@ void reserve(Hits& hits, std::size_t count) {
   hits.point.resize(count, -1);
 }
 
-void keep(const splatray::Scene& scene, const Column* points, const RayHit& hit, double start,
-          std::size_t ray, Hits& hits) {
+void keep(const Scene::Impl& impl, const RayHit& hit, double start, std::size_t ray, Hits& hits) {
   if (hit.object == NO_OBJECT) return;
+  const splatray::Scene& scene = impl.loaded.scene;
   hits.t[ray] = (start + static_cast<double>(hit.t)) * scene.root.unit_world;
   hits.normal[ray] = array(hit.normal);
   hits.object[ray] = static_cast<std::int32_t>(hit.object);
   hits.splat[ray] = find_splat(scene, hit.first);
-  if (points != nullptr && hits.splat[ray] >= 0)
-    hits.point[ray] = static_cast<std::int64_t>(points->number(static_cast<std::size_t>(hits.splat[ray])));
+  if (hits.splat[ray] >= 0 && hit.object < impl.has_points.size() && impl.has_points[hit.object])
+    hits.point[ray] = static_cast<std::int64_t>(
+        find_column(scene.columns, COLUMN_POINT)->number(static_cast<std::size_t>(hits.splat[ray])));
 }
 
 }  // namespace
@@ -99,7 +100,6 @@ Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const
     const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
     const splatray::Scene& inner = impl->loaded.scene;
     check_rays(origins, directions);
-    const Column* points = impl->loaded.build ? find_column(inner.columns, COLUMN_POINT) : nullptr;
     Hits hits;
     reserve(hits, origins.size());
     for (std::size_t begin = 0; begin < origins.size(); begin += RAYS_AT_ONCE) {
@@ -118,7 +118,7 @@ Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const
       const std::vector<RayHit> found = impl->on_device(relay, [&](SceneOnDevice& shown) {
         return shown.tracer().intersect(shown.look(), queries, splatray::Settings{});
       });
-      for (std::size_t i = 0; i < found.size(); ++i) keep(inner, points, found[i], starts[i], rays[i], hits);
+      for (std::size_t i = 0; i < found.size(); ++i) keep(*impl, found[i], starts[i], rays[i], hits);
     }
     return hits;
   });

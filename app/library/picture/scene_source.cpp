@@ -28,19 +28,24 @@ void report_progress(const LoadListener& listener, const char* stage, double sha
     throw Error(ExitCode::interrupted, "loading was interrupted");
 }
 
-Scene preprocess(const Request& request, const LoadListener& listener, BuildStats& stats) {
-  const Progress progress = watching_memory(listener.progress);
+ReadOptions reading_of(const Request& request, const Progress& progress) {
   ReadOptions reading = read_options(request.source, progress);
   reading.turn_outwards = !request.look.material.empty() &&
                           (named_material(request.look.material).flags & MATERIAL_DIELECTRIC) != 0;
-  Input input = read_input(request.source.inputs, reading);
+  return reading;
+}
+
+/// Builds the scene of objects whose points are there.
+void build(Input input, const Request& request, const LoadListener& listener, const Progress& progress,
+           LoadedScene& loaded) {
   const auto report_notes = [&](const std::vector<std::string>& notes) {
     if (listener.note) std::for_each(notes.begin(), notes.end(), listener.note);
   };
   report_notes(input.notes);
-  Scene scene = build_scene(std::move(input), request.source.params, request.source.threads, stats, progress);
+  BuildStats& stats = loaded.build.emplace();
+  loaded.scene =
+      build_scene(std::move(input), request.source.params, request.source.threads, stats, progress);
   report_notes(stats.notes);
-  return scene;
 }
 
 /// Whether a material is another than readers give to points, whose base colour alone depends on them.
@@ -119,25 +124,7 @@ std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLigh
 
 bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
 
-}  // namespace
-
-LoadedScene load_scene(const Request& request, const LoadListener& listener) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  LoadedScene loaded;
-  report_progress(listener, "reading", 0.0);
-  const std::vector<std::filesystem::path>& inputs = request.source.inputs;
-  require_scene_alone(inputs);
-  if (is_scene_file(inputs.front())) {
-    loaded.scene = read_scene(inputs.front(), listener.progress);
-  } else {
-    loaded.scene = preprocess(request, listener, loaded.build.emplace());
-  }
-  loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  show_as_asked(request, loaded);
-  return loaded;
-}
-
+/// Applies --material, --object, --up (else upright of upright.h) and what is shown of attributes, and keeps what suits the scene.
 void show_as_asked(const Request& request, LoadedScene& loaded) {
   if (!request.look.material.empty() || !request.look.objects.empty()) {
     ObjectLooks objects = choose_objects(loaded.scene, request);
@@ -150,6 +137,35 @@ void show_as_asked(const Request& request, LoadedScene& loaded) {
   loaded.choices = std::move(suited.choices);
   loaded.legend = show_attributes(loaded.scene, loaded.request.look.attributes);
   loaded.environment_name = choose_environment_name(loaded.scene, request);
+}
+
+}  // namespace
+
+LoadedScene load_scene(const Request& request, const LoadListener& listener) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  LoadedScene loaded;
+  report_progress(listener, "reading", 0.0);
+  const std::vector<std::filesystem::path>& inputs = request.source.inputs;
+  require_scene_alone(inputs);
+  if (is_scene_file(inputs.front())) {
+    loaded.scene = read_scene(inputs.front(), listener.progress);
+  } else {
+    const Progress progress = watching_memory(listener.progress);
+    build(read_input(inputs, reading_of(request, progress)), request, listener, progress, loaded);
+  }
+  loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  show_as_asked(request, loaded);
+  return loaded;
+}
+
+LoadedScene load_objects(Input input, const Request& request, const LoadListener& listener) {
+  LoadedScene loaded;
+  const Progress progress = watching_memory(listener.progress);
+  finish_objects(input, reading_of(request, progress));
+  build(std::move(input), request, listener, progress, loaded);
+  show_as_asked(request, loaded);
+  return loaded;
 }
 
 ObjectLooks choose_objects(const Scene& scene, const Request& request) {

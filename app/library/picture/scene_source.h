@@ -26,13 +26,12 @@ struct LoadListener {
   std::function<void(const std::string&)> note;  ///< a sentence about something odd in the files
 };
 
-/// Applies --material, --object, --up (else upright of upright.h) and what is shown of attributes to a scene that is there, and keeps
-/// what suits it. Throws Error (usage).
-void show_as_asked(const Request& request, LoadedScene& loaded);
-
 /// Reads or preprocesses the scene; applies --material, --object, --up (else upright of upright.h) and what is shown of
 /// attributes. Throws Error.
 [[nodiscard]] LoadedScene load_scene(const Request& request, const LoadListener& listener);
+
+/// The same of objects that are in memory, without what files alone have; their numbers stay. Throws Error.
+[[nodiscard]] LoadedScene load_objects(Input input, const Request& request, const LoadListener& listener);
 
 /// What the scene's objects look like with --material and --object. Throws Error (usage).
 [[nodiscard]] ObjectLooks choose_objects(const Scene& scene, const Request& request);
