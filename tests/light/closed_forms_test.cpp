@@ -182,5 +182,40 @@ TEST_F(Plane, EnvironmentWithABrightSpot) {
   EXPECT_LT(found.error, 0.01 * expected);
 }
 
+/// A ball is lit by the environment as before whatever is seen beside it.
+TEST_F(Lit, BackgroundsAreSeenAndGiveNoLight) {
+  show(ball(0.5F, 2000), constant(1.0F), {});
+  const Camera camera{{0.0, 0.0, 5.0}, {}, {0.0, 1.0, 0.0}, 60.0, 0.0};
+  Settings settings = lit(4);
+  const Image before = picture(camera, settings, 32);
+  settings.background = vec3(0.25F, 0.5F, 2.0F);
+  const Image colored = picture(camera, settings, 32);
+  settings.background.reset();
+  settings.transparent = true;
+  const Image transparent = picture(camera, settings, 32);
+  EXPECT_EQ(vec3(before.rgba[0]), vec3(1.0F));
+  EXPECT_EQ(vec3(colored.rgba[0]), vec3(0.25F, 0.5F, 2.0F));
+  EXPECT_EQ(transparent.rgba[0], vec4(0.0F));
+  const std::size_t middle = 16 * 32 + 16;
+  EXPECT_EQ(transparent.rgba[middle], before.rgba[middle]);
+  for (std::size_t i = 0; i < before.rgba.size(); ++i)
+    EXPECT_NEAR(before.rgba[i].x, transparent.rgba[i].x + (1.0F - transparent.rgba[i].w), 1e-5F);
+}
+
+/// A path's light after its first bounce is bounded, what comes before is as it was.
+TEST_F(Lit, ClampBoundsWhatComesAfterTheFirstBounce) {
+  show(ball(0.8F, 2000), constant(0.0F), {{LIGHT_POINT, dvec3(0.3, 0.2, 0.25), vec3(1.0F)}});
+  const Camera inside{{}, {0.0, 0.0, -1.0}, {0.0, 1.0, 0.0}, 60.0, 0.0};
+  Settings settings = lit(16);
+  const double all = mean_of(picture(inside, settings, 8)).value;
+  settings.clamp = 1e-6F;
+  const double bounded = mean_of(picture(inside, settings, 8)).value;
+  settings.clamp = 0.0F;
+  settings.max_bounces = 0;
+  const double direct = mean_of(picture(inside, settings, 8)).value;
+  EXPECT_NEAR(bounded, direct, 1e-4 * direct);
+  EXPECT_GT(all, 2.0 * direct);
+}
+
 }  // namespace
 }  // namespace splatray::testing
