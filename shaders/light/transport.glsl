@@ -32,6 +32,7 @@ Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
   bsdf.alpha = surface.roughness * surface.roughness;
   bsdf.transmission = surface.transmission;
   bsdf.eta = eta;
+  bsdf.tint = hit.front ? bsdf.base : vec3(1.0f);  // once, in and out together: a pane's two sides are one pane
   bsdf.coat = surface.coat;
   bsdf.coat_alpha = surface.coat_roughness * surface.coat_roughness;
   if (LOOK == LOOK_SCAN) bsdf.base = hit.color;
