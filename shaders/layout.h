@@ -134,7 +134,9 @@ struct Material {
 /// KHR_materials_ior, _specular, _clearcoat, _transmission, _volume and _emissive_strength. Colours are linear, 0..1. Dielectrics
 /// (MATERIAL_DIELECTRIC) transmit; the index of refraction inside is then the Material's.
 struct Surface {
-  vec3 base;            ///< base colour; multiplied by the splat's colour where the scene has colours
+  /// Base colour, times the splat's colour where the scene has colours. Light that goes into a dielectric and out again is tinted
+  /// by it once.
+  vec3 base;
   float metallic;       ///< 0..1
   vec3 specular_color;  ///< factor on the reflectance of what is no metal, seen face on
   float roughness;      ///< perceptual: the square root of GGX's alpha, 0..1

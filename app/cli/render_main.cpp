@@ -7,13 +7,13 @@
 #include "app/cli/stats_json.h"
 #include "app/library/image_file.h"
 #include "app/library/picture/picture_file.h"
+#include "app/library/picture/picture_notes.h"
 #include "app/library/picture/render_sequence.h"
 #include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/number_text.h"
 #include "engine/base/progress.h"
-#include "engine/scene/look_style.h"
 #include "preprocess/base/file_extension.h"
 
 namespace {
@@ -77,15 +77,6 @@ void report_choices(const Request& asked, const Request& request, const LoadedSc
   std::fprintf(stderr, "splatray-render: %s\n", choices.c_str());
 }
 
-/// Says that materials were asked for in a look that shows none.
-void note_hidden_materials(const Request& request) {
-  const Request::Look& look = request.look;
-  const bool asked =
-      !look.material.empty() || std::any_of(look.objects.begin(), look.objects.end(), changes_look);
-  if (request.output.quiet || !asked || !look.style || look_style(*look.style).surfaces) return;
-  std::fputs("splatray-render: note: this --look shows no materials, --look lit does\n", stderr);
-}
-
 /// Writes the run's progress and sentences to stderr.
 SequenceListener reporting_on(ProgressLine& progress, const Request& request) {
   const auto say = [&progress](const std::string& sentence) {
@@ -109,9 +100,10 @@ int render(int argc, char** argv) {
   if (!given) return static_cast<int>(ExitCode::done);
   const Request& asked = given->request;
   if (asked.output.list_devices) return print_devices();
-  if (!asked.output.quiet)
-    for (const std::string& note : given->notes)
-      std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
+  const auto note = [&asked](const std::string& sentence) {
+    if (!asked.output.quiet) std::fprintf(stderr, "splatray-render: note: %s\n", sentence.c_str());
+  };
+  std::for_each(given->notes.begin(), given->notes.end(), note);
 
   const Sequence sequence = plan_sequence(asked);
   if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
@@ -131,14 +123,15 @@ int render(int argc, char** argv) {
   ProgressLine progress(asked.output.quiet, asked.output.progress);
   LoadedScene loaded = load(asked, progress);
   Request request = suited(asked, loaded);
+  for (const std::string& sentence : ignored_options(asked, choose_look(loaded.scene, request)))
+    note(sentence);
   // What is asked of the pools, before they go.
   const Camera still = choose_camera(loaded.scene, request);
   const PoolCounts counts = pool_counts(loaded.scene);
 
   watch.lap_ms();
   SceneOnDevice shown(context, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
-  shown.show_environment(loaded.environment_name);
-  note_hidden_materials(request);
+  shown.show_environment(loaded.environment_name, note);
   shown.open_and_free(loaded.scene);
   expose(sequence, shown, still, request);
   report_choices(asked, request, loaded);

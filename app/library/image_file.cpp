@@ -280,13 +280,25 @@ DisplayImage read_display_image(const std::filesystem::path& path, const Display
   return {picture.width, picture.height, std::move(picture.rgb)};
 }
 
-Environment read_environment(const std::filesystem::path& path) {
+Environment read_environment(const std::filesystem::path& path,
+                             const std::function<void(const std::string&)>& note) {
+  constexpr float LARGEST_HALF = 65504.0F;  // beyond it half floats are infinite
   Picture picture = read_picture(path);
+  std::size_t dark = 0, infinite = 0;
   for (vec3& pixel : picture.rgb)
     for (int channel = 0; channel < 3; ++channel) {
       const float value = picture.encoded ? srgb_to_linear(pixel[channel]) : pixel[channel];
-      pixel[channel] = std::isfinite(value) && value > 0.0F ? value : 0.0F;
+      dark += value >= 0.0F ? 0 : 1;
+      infinite += std::isinf(value) && value > 0.0F ? 1 : 0;
+      pixel[channel] = value >= 0.0F ? (std::isinf(value) ? LARGEST_HALF : value) : 0.0F;
     }
+  const auto say = [&](std::size_t count, const std::string& found, const std::string& taken) {
+    if (count > 0 && note)
+      note("'" + path.string() + "': found " + std::to_string(count) + " values " + found +
+           ", expected radiance; taken as " + taken);
+  };
+  say(dark, "that are negative or NaN", "0");
+  say(infinite, "that are infinite", "65504");
   return {picture.width, picture.height, std::move(picture.rgb), vec3(0.0F)};
 }
 

@@ -1,6 +1,7 @@
 /// Pictures in files: PNG and EXR out, pictures and environment maps in.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,9 +63,11 @@ void write_exr(const Image& image, AovSet aovs, const Metadata& metadata, const 
 
 /// Reads a latitude-longitude environment, any format: EXR, PNG, HDR and JPEG by
 /// ourselves, others by OpenImageIO; 8 and 16 bit files are taken as
-/// sRGB. Values that are negative or not finite become 0. Throws Error (input_unreadable) with path, found
-/// and expected.
-[[nodiscard]] Environment read_environment(const std::filesystem::path& path);
+/// sRGB. Values that are negative or NaN become 0, infinite ones
+/// 65504, half float's largest; `note` hears how many there were of each. Throws Error (input_unreadable) with
+/// path, found and expected.
+[[nodiscard]] Environment read_environment(const std::filesystem::path& path,
+                                           const std::function<void(const std::string&)>& note = {});
 
 /// Loads what writes pictures, as the first of the functions above would; any thread. Throws Error (failed) where that
 /// fails.

@@ -23,7 +23,7 @@ Surface surface_of(const Material& material) {
   surface.roughness = 1.0F;
   surface.ior = PLASTIC_IOR;
   if ((material.flags & MATERIAL_DIELECTRIC) != 0) {
-    surface.base = material.tint;
+    surface.base = material.tint * material.tint;  // of both sides
     surface.transmission = surface.specular = 1.0F;
     surface.roughness = 0.0F;
   } else if (material.mirror >= 0.5F) {

@@ -25,6 +25,7 @@ struct Bsdf {
   float alpha;         ///< GGX roughness, 0..1
   float transmission;  ///< share of what is no metal that is glass, 0..1
   float eta;           ///< index of refraction on the eye's side over that behind
+  vec3 tint;           ///< of light that goes through the glass, 0..1
   float coat;          ///< clearcoat, 0..1
   float coat_alpha;
   // bsdf_seen() makes the rest.
@@ -49,6 +50,7 @@ Bsdf bsdf_of(Surface surface, vec3 color, float eta) {
   bsdf.alpha = surface.roughness * surface.roughness;
   bsdf.transmission = surface.transmission;
   bsdf.eta = eta;
+  bsdf.tint = bsdf.base;
   bsdf.coat = surface.coat;
   bsdf.coat_alpha = surface.coat_roughness * surface.coat_roughness;
   return bsdf;
@@ -128,7 +130,7 @@ vec3 bsdf_value(Bsdf bsdf, vec3 to_eye, vec3 to_light, OUT(float) pdf) {
     if (bsdf.glass_chosen > 0.0f && !glass_is_clear(bsdf.alpha, bsdf.eta)) {
       float glass_pdf = 0.0f;
       float glass = glass_value(to_eye, to_light, bsdf.alpha, bsdf.eta, glass_pdf);
-      vec3 tint = above ? vec3(1.0f) : bsdf.base;
+      vec3 tint = above ? vec3(1.0f) : bsdf.tint;
       value += tint * (glass * bsdf.glass_chosen / albedo_of_glass(to_eye.z, bsdf.alpha, bsdf.eta));
       pdf += bsdf.glass_chosen * glass_pdf;
     }
@@ -203,7 +205,7 @@ BsdfSample bsdf_direction(Bsdf bsdf, vec3 to_eye, vec3 random) {
     bool back = true;
     chosen.dir = glass_sample(to_eye, alpha, bsdf.eta, within, random.z, back);
     chosen.event = back ? BSDF_REFLECTED : BSDF_TRANSMITTED;
-    chosen.weight = back ? vec3(1.0f) : bsdf.base;
+    chosen.weight = back ? vec3(1.0f) : bsdf.tint;
   }
   if (smooth_lobe) chosen.event |= BSDF_DELTA;
   return chosen;

@@ -106,6 +106,25 @@ TEST(ImageFile, ExrKeepsLinearValuesAndIsAnEnvironment) {
   for (std::size_t i = 0; i < copy.texels.size(); ++i) EXPECT_EQ(copy.texels[i], vec3(image.rgba[i]));
 }
 
+TEST(ImageFile, AnEnvironmentsNonsenseIsCountedAndTakenAsDarkOrBright) {
+  Image image = gradient();
+  image.rgba[0].x = -1.0F;
+  image.rgba[1].y = NAN;
+  image.rgba[2].z = INFINITY;
+  image.rgba[3].x = 1e6F;
+  const std::string path = temporary("odd.exr");
+  write_exr(image, 0, {}, path);
+  std::string notes;
+  const Environment sky = read_environment(path, [&notes](const std::string& note) { notes += note + '\n'; });
+  EXPECT_EQ(sky.texels[0].x, 0.0F);
+  EXPECT_EQ(sky.texels[1].y, 0.0F);
+  EXPECT_EQ(sky.texels[2].z, 65504.0F);
+  EXPECT_EQ(sky.texels[3].x, 1e6F);
+  EXPECT_NE(notes.find("odd.exr': found 2 values that are negative or NaN"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("found 1 values that are infinite, expected radiance; taken as 65504"),
+            std::string::npos);
+}
+
 TEST(ImageFile, KeepsMetadata) {
   const Metadata metadata = {{"command_line", "splatray-render 'a\xC3\xA9 \n\"b' --eye=1,2,3"},
                              {"seed", "1"}};

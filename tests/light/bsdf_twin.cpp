@@ -27,7 +27,7 @@ float albedo_at(uint index) { return ALBEDO_TABLE[index]; }
 
 glsl::Bsdf bsdf_of(const TwinSurface& surface, float cosine) {
   glsl::Bsdf bsdf{};
-  bsdf.base = surface.base;
+  bsdf.base = bsdf.tint = surface.base;
   bsdf.metallic = surface.metallic;
   bsdf.f0 = surface.f0;
   bsdf.f90 = surface.f90;

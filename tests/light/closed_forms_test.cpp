@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/scene/surface.h"
 #include "tests/light/lit.h"
 
 namespace splatray::testing {
@@ -38,6 +39,43 @@ TEST_F(Lit, WhiteBallUnderAWhitePictureIsWhiteOnTheMean) {
   const Mean mean = mean_of(picture(default_camera(scene, 1.0), lit(32), 48));
   EXPECT_NEAR(mean.value, 1.0, 4.0 * mean.error);
   EXPECT_LT(mean.error, 2e-3);
+}
+
+/// Light through the middle of a dielectric that does not bend it, before a white sky.
+class Pane : public Lit {
+ protected:
+  double light_through(const Scene& scene) {
+    show(scene, constant(1.0F), {});
+    const Camera before{dvec3(0.0, 0.0, 3.0), dvec3(0.0), dvec3(0.0, 1.0, 0.0), 30.0, 0.1};
+    return mean_of(picture(before, lit(4), 4)).value;
+  }
+  /// Two sheets, a thousandth of their width apart.
+  static Scene pane(const Material& material) {
+    OrientedPoints points;
+    for (const double z : {-0.0005, 0.0005}) {
+      const double x = z < 0.0 ? -1.0 : 1.0;
+      append(points, rectangle_surface("side", {-0.5 * x, -0.5, z}, {x, 0.0, 0.0}, {0.0, 1.0, 0.0})
+                         .make({.count = 2000, .even = true}));
+    }
+    return scene_of({{points, material}});
+  }
+  static Material clear(float tint) {
+    Material material = test_material(MATERIAL_DIELECTRIC);
+    material.ior = 1.0F;
+    material.tint = vec3(tint);
+    return material;
+  }
+};
+
+TEST_F(Pane, TintsLightOnce) {
+  for (const bool thin : {true, false}) {
+    Scene scene = thin ? pane(clear(1.0F))
+                       : scene_of({{sphere({.count = 5000, .even = true, .seed = 3}, 1.0), clear(1.0F)}});
+    scene.surfaces = surfaces_of(scene);
+    scene.surfaces.front().base = vec3(0.4F);
+    EXPECT_NEAR(light_through(scene), 0.4, 1e-6) << (thin ? "a pane" : "a ball");
+  }
+  EXPECT_NEAR(light_through(pane(clear(0.7F))), 0.49, 1e-6) << "the paper's tint is of each side";
 }
 
 /// All bounces at once: the light that a wall gets from the rest of a ball does not depend on where it is.

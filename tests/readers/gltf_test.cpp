@@ -169,6 +169,27 @@ TEST(Gltf, AnyShareOfTransmissionIsKept) {
   }
 }
 
+TEST(Gltf, NumbersOutOfRangeAreNotedAndTheNearestTaken) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& material) {
+    return read_input({folder.write("n.gltf", embedded(R"({"mesh":0})", R"(,"materials":[)" + material + "]",
+                                                       R"(,"material":0)"))},
+                      keeping_meshes());
+  };
+  const Input odd = read(
+      R"({"name":"odd","pbrMetallicRoughness":{"roughnessFactor":-3},"emissiveFactor":[1,1,1],"extensions":{)"
+      R"("KHR_materials_ior":{"ior":0.5},"KHR_materials_emissive_strength":{"emissiveStrength":1e38}}})");
+  ASSERT_TRUE(odd.objects[0].surface.has_value());
+  EXPECT_EQ(odd.objects[0].surface->roughness, 0.0F);
+  EXPECT_EQ(odd.objects[0].surface->ior, 1.0F);
+  EXPECT_EQ(odd.objects[0].surface->emission, glm::vec3(1e9F));
+  EXPECT_TRUE(
+      has_note(odd, "material odd: roughnessFactor: found -3, expected 0 to 1; the nearest is taken"));
+  EXPECT_TRUE(has_note(odd, "ior: found 0.5, expected 1 or more"));
+  EXPECT_TRUE(has_note(odd, "emissiveStrength: found 1e+38, expected 0 to"));
+  EXPECT_FALSE(has_note(read(R"({"pbrMetallicRoughness":{"roughnessFactor":1}})"), "expected"));
+}
+
 TEST(Gltf, WhatIsBlendedAllOverLetsLightThrough) {
   const TempFolder folder;
   const std::string veil =

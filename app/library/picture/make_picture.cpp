@@ -5,6 +5,8 @@
 
 #include "app/library/display_image.h"
 #include "app/library/picture/denoise.h"
+#include "app/library/picture/eye_light.h"
+#include "app/library/picture/picture_notes.h"
 #include "app/library/picture/scene_source.h"
 #include "engine/base/stopwatch.h"
 
@@ -14,10 +16,22 @@ namespace {
 /// Most samples of a pixel of a picture that is traced until it is good enough.
 constexpr std::uint32_t GOAL_SAMPLES = 65536;
 
-Look picture_look(const Request& request, SceneOnDevice& shown, const Camera& camera) {
-  Look look = shown.look();
-  look.lights = choose_lights(shown.scene(), request, camera);
-  return look;
+/// The scene's look in the picture's lights, and what is to be said of them.
+struct LitLook {
+  Look look;
+  std::vector<std::string> notes{};
+};
+LitLook picture_look(const Request& request, SceneOnDevice& shown, const Camera& camera,
+                     const Settings& settings) {
+  LitLook lit{shown.look()};
+  lit.look.lights = choose_lights(shown.scene(), request, camera);
+  const auto at_eye = request.look.lights ? std::nullopt : eye_light(shown, camera, settings);
+  if (at_eye) {
+    lit.look.lights = {*at_eye};
+    lit.notes.emplace_back("no light enters where the camera is, one is put there; --light says others");
+  }
+  for (std::string& note : missing_light(lit.look, settings)) lit.notes.push_back(std::move(note));
+  return lit;
 }
 
 }  // namespace
@@ -25,13 +39,15 @@ Look picture_look(const Request& request, SceneOnDevice& shown, const Camera& ca
 MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
                          const Tracer::Progress& progress) {
   const View view{camera, request.view.width, request.view.height, request.view.window()};
-  const Look look = picture_look(request, shown, camera);
-  const bool denoise = request.output.denoise;
   Settings settings = choose_settings(shown.scene(), request);
+  LitLook lit = picture_look(request, shown, camera, settings);
+  const Look& look = lit.look;
+  const bool denoise = request.output.denoise;
   settings.aov = settings.aov || denoise;
   settings.estimate_error = settings.estimate_error || denoise;
   MadePicture made;
   made.lights = look.lights.size();
+  made.notes = std::move(lit.notes);
   if (request.settings.has_goal()) {
     settings.samples = GOAL_SAMPLES;
     Goal goal{.error = request.settings.error_goal};
@@ -60,8 +76,8 @@ double preview_exposure_ev(const Request& request, SceneOnDevice& shown, const C
   settings.sample_offset = 0;
   settings.aov = settings.estimate_error = settings.counters = false;
   constexpr double MOST_STOPS = 60.0, STEPS = 100.0;
-  const double ev =
-      automatic_exposure_ev(shown.tracer().render(picture_look(request, shown, camera), view, settings));
+  const double ev = automatic_exposure_ev(
+      shown.tracer().render(picture_look(request, shown, camera, settings).look, view, settings));
   return std::clamp(std::round(STEPS * ev) / STEPS, -MOST_STOPS, MOST_STOPS);
 }
 

@@ -1,6 +1,7 @@
 /// The one way from a request and a scene on a device to a picture.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "app/library/picture/scene_on_device.h"
 #include "app/library/request/request.h"
@@ -12,11 +13,12 @@ struct MadePicture {
   Image image;
   RenderStats stats;
   std::size_t lights = 0;
-  std::string denoiser;     ///< which took the noise out; empty where none did
-  double denoise_ms = 0.0;  ///< 0 where none did
+  std::vector<std::string> notes;  ///< sentences about its light
+  std::string denoiser;            ///< which took the noise out; empty where none did
+  double denoise_ms = 0.0;         ///< 0 where none did
 };
 
-/// The picture in the lights that the request asks for: by samples or until it is good enough, and without noise, as it says. Throws
+/// The picture in the lights that the request asks for, or where it asks for none and none enters in that of the camera (eye_light.h): by samples or until it is good enough, and without noise, as it says. Throws
 /// Error: usage, interrupted when `progress` says so, failed.
 [[nodiscard]] MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
                                        const Tracer::Progress& progress);

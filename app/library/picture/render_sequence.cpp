@@ -27,6 +27,7 @@ void write_picture(const Run& run, const Camera& camera, const SequenceFrame& fr
     return run.listener.progress(frame, before, share) && !interrupted();
   };
   MadePicture made = make_picture(run.request, run.shown, camera, progress);
+  for (const std::string& note : made.notes) run.listener.note("note: " + note);
   const Request::View& asked = run.request.view;
   Metadata metadata =
       picture_metadata(run.request, run.shown.scene(), {camera, asked.width, asked.height, asked.window()},

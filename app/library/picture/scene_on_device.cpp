@@ -25,10 +25,11 @@ void SceneOnDevice::take_look(const Scene& scene) {
   scene_ = &scene;
 }
 
-void SceneOnDevice::show_environment(const std::string& name) {
+void SceneOnDevice::show_environment(const std::string& name,
+                                     const std::function<void(const std::string&)>& note) {
   if (environment_ == name) return;
   environment_ = name;
-  look_.environment = std::make_shared<const Environment>(choose_environment(name));
+  look_.environment = std::make_shared<const Environment>(choose_environment(name, note));
 }
 
 }  // namespace splatray

@@ -25,7 +25,8 @@ class SceneOnDevice {
   /// Shows other materials; the scene has its pools.
   void show_objects(ObjectLooks objects) { splatray::show_objects(*scene_, std::move(objects), look_); }
   /// Shows the environment of a name, as choose_environment has it. Throws Error (input_unreadable), once: the one before stays.
-  void show_environment(const std::string& name);
+  /// `note` hears of what is odd in its file.
+  void show_environment(const std::string& name, const std::function<void(const std::string&)>& note = {});
   void show_lights(std::vector<SceneLight> lights) { look_.lights = std::move(lights); }
   void show_up(const glm::dvec3& up) { look_.up = up; }
 

@@ -262,9 +262,9 @@ std::optional<Environment> built_in_environment(const std::string& name) {
   return Environment{0, 0, {}, radiance};
 }
 
-Environment choose_environment(const std::string& name) {
+Environment choose_environment(const std::string& name, const std::function<void(const std::string&)>& note) {
   auto environment = built_in_environment(name);
-  return environment ? *std::move(environment) : read_environment(name);
+  return environment ? *std::move(environment) : read_environment(name, note);
 }
 
 std::uint32_t choose_look(const Scene& scene, const Request& request) {

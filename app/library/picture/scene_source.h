@@ -61,9 +61,10 @@ struct LoadListener {
 /// The environment of a name that needs no file: white, black, studio, sky:... or r,g,b, empty = studio; nothing for other names.
 /// Throws Error (usage) for a radiance that is negative or not finite.
 [[nodiscard]] std::optional<Environment> built_in_environment(const std::string& name);
-/// The environment `name` of --environment: a file, white, black, studio, r,g,b; empty = studio. Throws Error
-/// (input_unreadable).
-[[nodiscard]] Environment choose_environment(const std::string& name);
+/// The environment `name` of --environment: a file, white, black, studio, r,g,b; empty = studio. `note` hears what is odd about
+/// the file. Throws Error (input_unreadable).
+[[nodiscard]] Environment choose_environment(const std::string& name,
+                                             const std::function<void(const std::string&)>& note = {});
 
 /// The look, LOOK_*: that of --look, else LOOK_SCAN for scans in no light of their own or of the options' and without
 /// materials of either, else LOOK_LIT.

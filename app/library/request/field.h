@@ -112,6 +112,17 @@ template <class Member>
   return row;
 }
 
+/// A number in [least, most], least > 0, that need not be said: the request then has 0.
+template <class Member>
+[[nodiscard]] Field unset_number_row(std::string name, FieldGroup group, Member member, double least,
+                                     double most, std::string help) {
+  Field row = number_row(std::move(name), group, member, least, most, std::move(help));
+  row.write = [=, write = row.write](const Request& request) {
+    return member(request) == 0 ? std::vector<FieldText>{} : write(request);
+  };
+  return row;
+}
+
 /// On or off; a switch of command lines.
 template <class Member>
 [[nodiscard]] Field switch_row(std::string name, FieldGroup group, Member member, std::string help) {

@@ -130,9 +130,10 @@ std::vector<Field> look_fields() {
       object_row(),
       exposure_row(),
       tone_row(),
-      number_row("ao-radius", LOOK, MEMBER(settings.reach_world), 0.0, 1e30,
-                 "ao and scan: how far away something darkens a point, world units; default a tenth of the "
-                 "scene's diagonal"),
+      unset_number_row(
+          "ao-radius", LOOK, MEMBER(settings.reach_world), 1e-30, 1e30,
+          "ao and scan: how far away something darkens a point, world units; default a tenth of the "
+          "scene's diagonal"),
       choice_row<bool>("glass-shadows", LOOK, MEMBER(settings.straight_shadows),
                        {{"paths", false}, {"straight", true}},
                        "lit: what glass leaves of the light of lights: what paths find, or tinted shadows, "

@@ -31,14 +31,14 @@ std::vector<Field> quality_fields() {
           "sample-offset", QUALITY, MEMBER(settings.sample_offset), 0, 65535,
           "begin with this sample, not the first: splatray-merge adds up such parts of a picture, each of "
           "64, 128, 256 ... samples, the last of any number, this being a multiple of them; default 0"),
-      number_row(
-          "error", QUALITY, MEMBER(settings.error_goal), 0.0, 1e3,
+      unset_number_row(
+          "error", QUALITY, MEMBER(settings.error_goal), 1e-6, 1e3,
           "render until the estimated relative error is below X in every 32 x 32 pixels, e.g. 0.02; replaces "
-          "--samples; default 0 = none"),
-      number_row(
-          "time", QUALITY, MEMBER(settings.seconds_goal), 0.0, 1e9,
+          "--samples; default none"),
+      unset_number_row(
+          "time", QUALITY, MEMBER(settings.seconds_goal), 1e-3, 1e9,
           "the best picture in X seconds of tracing, instead of --samples; beside --error the end of it; "
-          "default 0 = none"),
+          "default none"),
       switch_row(
           "denoise", QUALITY, MEMBER(output.denoise),
           "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of our own; "

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "engine/base/number_text.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
 #include "preprocess/read/gltf/image_size.h"
 
@@ -122,6 +124,33 @@ glm::vec3 volume_absorption(const tinygltf::Value* volume) {
   return distance > 0.0F && std::isfinite(distance) ? -glm::log(color) / distance : glm::vec3(0.0F);
 }
 
+/// Squares of it stay finite.
+constexpr float MOST_EMISSION = 1e9F;
+
+/// A number of a material, in an extension or, where that is null, in pbrMetallicRoughness.
+struct RangedNumber {
+  const char *extension, *name;
+  double least, most;
+};
+constexpr RangedNumber RANGED_NUMBERS[] = {
+    {nullptr, "metallicFactor", 0.0, 1.0},
+    {nullptr, "roughnessFactor", 0.0, 1.0},
+    {"KHR_materials_ior", "ior", 1.0, INFINITY},
+    {"KHR_materials_specular", "specularFactor", 0.0, 1.0},
+    {"KHR_materials_clearcoat", "clearcoatFactor", 0.0, 1.0},
+    {"KHR_materials_clearcoat", "clearcoatRoughnessFactor", 0.0, 1.0},
+    {"KHR_materials_transmission", "transmissionFactor", 0.0, 1.0},
+    {"KHR_materials_emissive_strength", "emissiveStrength", 0.0, MOST_EMISSION},
+};
+
+std::optional<double> number_of(const tinygltf::Material& from, const RangedNumber& ranged) {
+  const auto& pbr = from.pbrMetallicRoughness;
+  if (ranged.extension == nullptr)
+    return std::string_view(ranged.name) == "metallicFactor" ? pbr.metallicFactor : pbr.roughnessFactor;
+  const tinygltf::Value* extension = find_extension(from.extensions, ranged.extension);
+  return extension == nullptr ? std::nullopt : number_in(*extension, ranged.name);
+}
+
 /// What a material's emission and extensions say.
 Surface extension_surface(const tinygltf::Material& from) {
   const auto extension = [&](const char* name) { return find_extension(from.extensions, name); };
@@ -138,10 +167,11 @@ Surface extension_surface(const tinygltf::Material& from) {
   surface.absorption = volume_absorption(extension("KHR_materials_volume"));
   const float strength =
       std::max(number_of(extension("KHR_materials_emissive_strength"), "emissiveStrength", 1.0), 0.0F);
-  if (from.emissiveFactor.size() == 3)
+  if (from.emissiveFactor.size() == 3) {
+    const glm::vec3 factor(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]);
     surface.emission =
-        strength * glm::max(glm::vec3(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]),
-                            glm::vec3(0.0F));
+        glm::clamp(std::min(strength, MOST_EMISSION) * factor, glm::vec3(0.0F), glm::vec3(MOST_EMISSION));
+  }
   return surface;
 }
 
@@ -200,6 +230,17 @@ void GltfMaterials::note_once(int index, const std::string& what) {
   }
 }
 
+void GltfMaterials::note_ranges(int index) {
+  for (const RangedNumber& ranged : RANGED_NUMBERS) {
+    const std::optional<double> found = number_of(source(index), ranged);
+    if (!found || (*found >= ranged.least && *found <= ranged.most)) continue;
+    note_once(index, std::string(ranged.name) + ": found " + number_text(*found) + ", expected " +
+                         number_text(ranged.least) +
+                         (std::isinf(ranged.most) ? " or more" : " to " + number_text(ranged.most)) +
+                         "; the nearest is taken");
+  }
+}
+
 Material GltfMaterials::material(int index, bool colored) {
   Material material = default_material();
   if (index < 0) {
@@ -207,6 +248,7 @@ Material GltfMaterials::material(int index, bool colored) {
     return material;
   }
   const tinygltf::Material& from = source(index);
+  note_ranges(index);
   material.flags = from.doubleSided ? MATERIAL_TWO_SIDED : 0U;
   material.diffuse = glm::vec3(0.0F);
   GltfSurface surface{color_factor(from), unit_clamp(from.pbrMetallicRoughness.metallicFactor),

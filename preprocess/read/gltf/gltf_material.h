@@ -59,6 +59,8 @@ class GltfMaterials {
   [[nodiscard]] std::shared_ptr<const TextureImage> image(int texture);
   [[nodiscard]] std::shared_ptr<const TextureImage> decode(std::size_t image);
   [[nodiscard]] std::optional<glm::vec4> texture_mean(int texture);
+  /// Notes numbers out of their range.
+  void note_ranges(int index);
   void note_once(int index, const std::string& what);
 
   const GltfFile& file_;
