@@ -39,6 +39,7 @@ std::vector<std::string> ignored_options(const Request& request, std::uint32_t l
        "the others do, beside --aperture");
   note(request.settings.max_bounces != plain.max_bounces, style.paths || look == LOOK_PAPER, "--bounces",
        "--look lit, clay and paper do");
+  note(request.settings.clamp > 0.0F, style.paths, "--clamp", "--look lit and clay do");
   return notes;
 }
 
