@@ -32,8 +32,8 @@ struct SceneOnDevice {
 struct Scene::Impl {
   LoadedScene loaded;
   std::vector<std::string> notes;
-  std::vector<bool>
-      has_points{};  ///< by object, whether it was made of Points, which COLUMN_POINT numbers; empty: none was
+  /// By object, whether it was made of Points, which COLUMN_POINT numbers; empty: none was.
+  std::vector<bool> has_points{};
 
   /// Calls use(scene on its device), with the device to itself; asks `relay` while it waits for that. Throws Error (usage) where
   /// that is what the progress function of such a use does.
