@@ -1,5 +1,6 @@
 #include "app/library/camera_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "engine/base/json_depth.h"
 #include "engine/base/number_text.h"
 #include "engine/file/atomic_file.h"
+#include "engine/image/view.h"
 
 namespace splatray {
 namespace {
@@ -35,12 +37,16 @@ std::string found_member(const Json& object, const char* name) {
   return std::string(name) + " " + (text.size() > MOST ? text.substr(0, MOST) + "..." : text);
 }
 
-glm::dvec3 json_vector(const Json& object, const char* name, const Source& source) {
+template <glm::length_t COUNT>
+glm::vec<COUNT, double> json_numbers(const Json& object, const char* name, const Source& source) {
   const Json& value = object.contains(name) ? object[name] : Json();
-  const bool three = value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() &&
-                     value[2].is_number();
-  if (!three) source.refuse(found_member(object, name), std::string(name) + " of three numbers");
-  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+  const auto is_number = [](const Json& element) { return element.is_number(); };
+  if (!value.is_array() || value.size() != COUNT || !std::all_of(value.begin(), value.end(), is_number))
+    source.refuse(found_member(object, name),
+                  std::string(name) + (COUNT == 2 ? " of two numbers" : " of three numbers"));
+  glm::vec<COUNT, double> numbers;
+  for (glm::length_t i = 0; i < COUNT; ++i) numbers[i] = value[static_cast<std::size_t>(i)].get<double>();
+  return numbers;
 }
 
 double json_number(const Json& object, const char* name, double most, const Source& source) {
@@ -55,9 +61,9 @@ Camera camera_of(const Json& json, const Source& source) {
     source.refuse(json.is_object() ? "a camera path" : "no camera",
                   "an object with eye, target, up and fov_y_deg");
   Camera camera;
-  camera.eye = json_vector(json, "eye", source);
-  camera.target = json_vector(json, "target", source);
-  camera.up = json_vector(json, "up", source);
+  camera.eye = json_numbers<3>(json, "eye", source);
+  camera.target = json_numbers<3>(json, "target", source);
+  camera.up = json_numbers<3>(json, "up", source);
   if (json.contains("fov_y_deg") == json.contains("ortho_height"))
     source.refuse(
         json.contains("fov_y_deg") ? "fov_y_deg and ortho_height" : "no fov_y_deg and no ortho_height",
@@ -66,6 +72,9 @@ Camera camera_of(const Json& json, const Source& source) {
     camera.fov_y_deg = json_number(json, "fov_y_deg", 180.0, source);
   else
     camera.ortho_height = json_number(json, "ortho_height", 1e30, source);
+  if (json.contains("lens_shift")) camera.lens_shift = json_numbers<2>(json, "lens_shift", source);
+  if (json.contains("pixel_aspect"))
+    camera.pixel_aspect = json_number(json, "pixel_aspect", MOST_PIXEL_ASPECT, source);
   return camera;
 }
 
@@ -109,6 +118,9 @@ Json to_json(const Camera& camera) {
     json["ortho_height"] = camera.ortho_height;
   else
     json["fov_y_deg"] = camera.fov_y_deg;
+  if (camera.lens_shift != glm::dvec2(0.0))
+    json["lens_shift"] = Json::array({camera.lens_shift.x, camera.lens_shift.y});
+  if (camera.pixel_aspect != 1.0) json["pixel_aspect"] = camera.pixel_aspect;
   return json;
 }
 

@@ -36,9 +36,10 @@ Camera camera_at(const CameraPath& path, std::uint32_t frame) {
   if (next->frame == frame) return next->camera;
   const auto key = static_cast<std::size_t>(next - path.begin()) - 1;
   const double s = double(frame - path[key].frame) / (next->frame - path[key].frame);
-  return {interpolate(path, key, s, &Camera::eye), interpolate(path, key, s, &Camera::target),
-          interpolate(path, key, s, &Camera::up), interpolate(path, key, s, &Camera::fov_y_deg),
-          interpolate(path, key, s, &Camera::ortho_height)};
+  return {interpolate(path, key, s, &Camera::eye),          interpolate(path, key, s, &Camera::target),
+          interpolate(path, key, s, &Camera::up),           interpolate(path, key, s, &Camera::fov_y_deg),
+          interpolate(path, key, s, &Camera::ortho_height), interpolate(path, key, s, &Camera::lens_shift),
+          interpolate(path, key, s, &Camera::pixel_aspect)};
 }
 
 Camera turned_camera(const Camera& camera, const glm::dvec3& up, double turns) {

@@ -10,6 +10,10 @@
 /// functions may be called from several threads at once, with the same scene too: what needs the device waits its turn. A process
 /// that is forked off after the first use of a Vulkan device gets an Error (no_device) where it uses one; all else works there, the
 /// device "cpu" too.
+///
+/// Scene and Request hide what they hold; all other structs are plain values of the standard library's types, so that programs need GCC's
+/// libstdc++. Layouts and names stay within a MINOR version, which the soname carries. All that comes in is checked first: what makes no
+/// sense is an Error (usage).
 #pragma once
 #include <array>
 #include <cstddef>
@@ -111,10 +115,11 @@ struct Mesh {
   std::span<const Double3> vertices{};  ///< world; triangles with one that is not finite are left out
   /// Three vertices each, below their number, anticlockwise seen from outside; at least one triangle.
   std::span<const std::array<std::uint32_t, 3>> triangles{};
-  /// Any length > 0; zero or NaN = of the triangles. Empty = of the triangles.
+  /// Any length > 0; zero or NaN = of the triangles. Empty = all are.
   std::span<const Float3> normals{};
-  std::span<const Float3> colors{};  ///< as of Points, interpolated
-  /// As of Points; interpolated, whole numbers up to 65535 of the nearest corner.
+  /// As of Points; interpolated.
+  std::span<const Float3> colors{};
+  /// As of Points; interpolated, but of those whose values are all whole and at most 65535 a point has the nearest corner's.
   std::vector<Attribute> attributes{};
   std::string name = "mesh";
   /// Unset = light grey, white where there are colours. Closed glass is turned outwards.
@@ -131,7 +136,19 @@ struct Camera {
   Double3 up{0.0, 1.0, 0.0};  ///< not parallel to the view direction
   double fov_y_deg = 30.0;    ///< vertical field of view, between 0 and 180
   double ortho_height = 0.0;  ///< > 0: orthographic, of this height in world units
+  /// Where the point straight ahead lies, from the picture's middle to the right and down, in widths and heights of the picture.
+  std::array<double, 2> lens_shift{0.0, 0.0};
+  double pixel_aspect = 1.0;  ///< a pixel's width over its height, 0.01 to 100
 };
+/// The camera of a pose and intrinsics as OpenCV has them: `pose`, rows of a 4 x 4 matrix, takes camera coordinates (x right, y down, z
+/// ahead) to the world and is a rotation and a translation; `k`, rows of fx 0 cx, 0 fy cy, 0 0 1, is in pixels, the centre of the top left
+/// one at (0, 0), for pictures of width x height. Their shape is part of the camera: other sizes of the same shape show the same. The
+/// target is 1 ahead. For OpenGL's cameras (y up, z back), negate the pose's second and third column; of COLMAP, whose corner is at (0, 0),
+/// subtract 0.5 from cx and cy. Exact off-centre and with fx other than fy. Throws Error (usage) for a pose that is none, skew, or sizes
+/// and focal lengths that are not above 0.
+[[nodiscard]] SPLATRAY_API Camera camera_from_pose(const std::array<std::array<double, 4>, 4>& pose,
+                                                   const std::array<Double3, 3>& k, std::uint32_t width,
+                                                   std::uint32_t height);
 
 /// A value of a field: a text as on a command line, or what has such a text.
 class SPLATRAY_API Value {
@@ -180,7 +197,7 @@ class SPLATRAY_API Request {
   Request& set(const std::string& name, const Value& value);
   /// Adds a value to a repeated field, such as "light", "sun", "area-light", "object". Throws Error (usage).
   Request& add(const std::string& name, const Value& value);
-  /// Sets eye, target, camera-up, and fov or ortho-height.
+  /// Sets eye, target, camera-up, fov or ortho-height, lens-shift and pixel-aspect.
   Request& set_camera(const Camera& camera);
   /// Adds an object's material; `object`: its name or index.
   Request& add_material(const std::string& object, const Material& material);

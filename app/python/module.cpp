@@ -14,48 +14,10 @@
 namespace splatray::python {
 namespace {
 
-template <typename Value>
-using Rows = nb::ndarray<const Value, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using Column = nb::ndarray<const float, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-
-/// Rows of three as the interface takes them, without a copy.
-template <typename Value>
-std::span<const std::array<Value, 3>> rows(const Rows<Value>& array) {
-  return {reinterpret_cast<const std::array<Value, 3>*>(array.data()), array.shape(0)};
-}
-
-template <typename Value>
-std::span<const std::array<Value, 3>> rows(const std::optional<Rows<Value>>& array) {
-  return array ? rows(*array) : std::span<const std::array<Value, 3>>{};
-}
-
-/// Runs body() without the interpreter's lock.
-template <typename Body>
-auto unlocked(const Body& body) {
-  const nb::gil_scoped_release release;
-  return body();
-}
-
 api::Scene* open(const std::vector<std::filesystem::path>& files, const api::Request& request,
                  const nb::object& progress) {
   const api::Progress relay = progress_of(progress);
   return unlocked([&] { return new api::Scene(api::open(files, request, relay)); });
-}
-
-api::Scene* make_scene(const Rows<double>& positions, const std::optional<Rows<float>>& normals,
-                       const std::optional<Rows<float>>& colors, const std::optional<Column>& radii,
-                       const std::string& name, const std::optional<api::Material>& material,
-                       std::optional<bool> scanned, const api::Request& request, const nb::object& progress) {
-  api::Points points;
-  points.positions = rows(positions);
-  points.normals = rows(normals);
-  points.colors = rows(colors);
-  if (radii) points.radii = {radii->data(), radii->shape(0)};
-  points.name = name;
-  points.material = material;
-  points.scanned = scanned;
-  const api::Progress relay = progress_of(progress);
-  return unlocked([&] { return new api::Scene(api::make_scene(points, request, relay)); });
 }
 
 api::Camera frame(const api::Scene& scene, std::optional<double> azimuth, std::optional<double> elevation,
@@ -175,9 +137,6 @@ void add_scene(nb::module_& module) {
       .def("render", render, nb::arg("request"), nb::arg("progress").none())
       .def("trace", trace, nb::arg("origins"), nb::arg("directions"), nb::arg("progress").none());
   module.def("open", open, nb::arg("files"), nb::arg("request"), nb::arg("progress").none());
-  module.def("make_scene", make_scene, nb::arg("positions"), nb::arg("normals").none(),
-             nb::arg("colors").none(), nb::arg("radii").none(), nb::arg("name"), nb::arg("material").none(),
-             nb::arg("scanned").none(), nb::arg("request"), nb::arg("progress").none());
   module.def("make_picture", make_picture, nb::arg("request"), nb::arg("progress").none());
 }
 
@@ -245,6 +204,7 @@ NB_MODULE(_core, module) {
   namespace python = splatray::python;
   python::add_exceptions(module);
   python::add_values(module);
+  python::add_arrays(module);
   python::add_scene(module);
   python::add_image(module);
   module.def("named_material", splatray::api::named_material);

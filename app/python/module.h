@@ -20,6 +20,27 @@ namespace nb = nanobind;
 
 /// The values that a scene is opened, lit and shown with.
 void add_values(nb::module_& module);
+/// What makes scenes of arrays.
+void add_arrays(nb::module_& module);
+
+/// Arrays (n, 3) and (n,) as the interface takes them.
+template <typename Value>
+using Rows = nb::ndarray<const Value, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+template <typename Value>
+using Numbers = nb::ndarray<const Value, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+/// Rows of three, without a copy.
+template <typename Value>
+std::span<const std::array<Value, 3>> rows(const Rows<Value>& array) {
+  return {reinterpret_cast<const std::array<Value, 3>*>(array.data()), array.shape(0)};
+}
+
+/// Runs body() without the interpreter's lock.
+template <typename Body>
+auto unlocked(const Body& body) {
+  const nb::gil_scoped_release release;
+  return body();
+}
 
 /// A vector as an array that owns it, without a copy.
 template <typename Value, typename Element>

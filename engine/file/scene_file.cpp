@@ -41,6 +41,10 @@ std::vector<char> light_bytes(const std::vector<SceneLight>& lights, bool sized)
   return bytes;
 }
 
+CameraRecord camera_record(const Camera& camera) {
+  return {camera.eye, camera.target, camera.up, camera.fov_y_deg, camera.ortho_height};
+}
+
 std::vector<StationRecord> station_records(const std::vector<Station>& stations) {
   std::vector<StationRecord> records;
   for (const Station& station : stations)
@@ -314,12 +318,13 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
   Header header = describe(scene, strings.size());
   lay_out(header);
   const std::vector<char> lights = light_bytes(scene.lights, has_sized_lights(header));
+  const CameraRecord camera = camera_record(scene.camera.value_or(Camera{}));
   std::array<const void*, SECTION_COUNT> contents{};
   std::size_t section = 0;
   for_each_pool([&](const auto& row) { contents[section++] = (scene.*row.pool).data(); });
   contents[MATERIALS] = scene.materials.data();
   contents[LIGHTS] = lights.data();
-  contents[CAMERA] = scene.camera ? &*scene.camera : nullptr;
+  contents[CAMERA] = scene.camera ? &camera : nullptr;
   contents[STATIONS] = stations.data();
   contents[STRINGS] = strings.data();
   contents[SURFACES] = scene.surfaces.data();
@@ -351,7 +356,8 @@ Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
   scene.build.normal_fields = !scene.field_pool.empty();
   scene.materials = reader.section<Material>(MATERIALS);
   read_lights(reader, scene);
-  if (const auto cameras = reader.section<Camera>(CAMERA); !cameras.empty()) scene.camera = cameras.front();
+  for (const auto& [eye, target, up, fov_y_deg, ortho_height] : reader.section<CameraRecord>(CAMERA))
+    scene.camera = Camera{eye, target, up, fov_y_deg, ortho_height};
   read_stations(reader, scene);
   read_strings(reader, scene);
   scene.surfaces = reader.section<Surface>(SURFACES);

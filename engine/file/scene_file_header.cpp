@@ -37,7 +37,7 @@ std::array<SectionShape, SECTION_COUNT> section_shapes(const Header& header) {
   shapes[MATERIALS] = {header.objects, sizeof(Material)};
   shapes[LIGHTS] = {header.lights, sizeof(LightRecord)};
   if (has_sized_lights(header)) shapes[LIGHTS].element_bytes = sizeof(SizedLightRecord);
-  shapes[CAMERA] = {header.has_camera, sizeof(Camera)};
+  shapes[CAMERA] = {header.has_camera, sizeof(CameraRecord)};
   shapes[STATIONS] = {header.stations, sizeof(StationRecord)};
   shapes[STRINGS] = {header.string_bytes, 1};
   shapes[SURFACES] = {header.surfaces, sizeof(Surface)};

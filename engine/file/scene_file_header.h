@@ -65,6 +65,12 @@ struct SizedLightRecord {
   glm::dvec3 edge_u, edge_v;
 };
 
+/// Scenes' own cameras have no lens shift and square pixels.
+struct CameraRecord {
+  glm::dvec3 eye, target, up;
+  double fov_y_deg, ortho_height;
+};
+
 struct StationRecord {
   glm::dvec3 sensor;
   std::uint32_t has_sensor, rows, columns, zero;
@@ -72,7 +78,7 @@ struct StationRecord {
 
 inline constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
 static_assert(HEADER_BYTES == 1760 && sizeof(LightRecord) == 48 && sizeof(SizedLightRecord) == 104 &&
-              sizeof(Camera) == 88 && sizeof(StationRecord) == 40);
+              sizeof(CameraRecord) == 88 && sizeof(StationRecord) == 40);
 
 /// Bytes of a value of each column type.
 inline constexpr std::uint32_t COLUMN_BYTES[] = {0, sizeof(std::uint8_t), sizeof(std::uint16_t),

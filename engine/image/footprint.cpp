@@ -27,9 +27,9 @@ class Projection {
  public:
   Projection(const RootTransform& root, const View& view) : ortho_(view.camera.ortho_height > 0.0) {
     const ImagePlane plane = image_plane(root, view);
-    const double pixel = glm::length(plane.dx);
-    to_picture_ =
-        glm::transpose(glm::dmat3(plane.dx / (pixel * pixel), plane.dy / (pixel * pixel), plane.forward));
+    const double pixel = std::min(glm::length(plane.dx), glm::length(plane.dy));
+    to_picture_ = glm::transpose(glm::dmat3(plane.dx / glm::dot(plane.dx, plane.dx),
+                                            plane.dy / glm::dot(plane.dy, plane.dy), plane.forward));
     eye_ = plane.eye;
     corner_ = to_picture_ * plane.corner;
     const double reach = ortho_ ? glm::length(plane.eye) + 2.0 * (1U << LATTICE_BITS) : 1.0;

@@ -36,6 +36,11 @@ void check_view(const View& view) {
   if (camera.eye == camera.target) refuse("the camera's eye is its target, expected two different points");
   if (!std::isfinite(camera.ortho_height) || camera.ortho_height < 0.0)
     refuse("the camera's orthographic height is negative or not finite, expected 0 or more");
+  if (!(glm::length(camera.lens_shift) <= MOST_LENS_SHIFT))
+    refuse(
+        "the camera's lens shift is not finite or beyond 100 pictures, expected two numbers such as 0.1,0");
+  if (!(camera.pixel_aspect >= 1.0 / MOST_PIXEL_ASPECT && camera.pixel_aspect <= MOST_PIXEL_ASPECT))
+    refuse("the camera's pixel aspect is outside 0.01 to 100, expected for example 1");
   if (camera.ortho_height == 0.0 && !(camera.fov_y_deg > 0.0 && camera.fov_y_deg < 180.0))
     refuse("the field of view is outside (0, 180) degrees, expected for example 40");
   const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
@@ -109,8 +114,10 @@ ImagePlane image_plane(const RootTransform& root, const View& view) {
   const double height = ortho ? camera.ortho_height / root.unit_world
                               : 2.0 * std::tan(camera.fov_y_deg * std::numbers::pi / 360.0);
   const double pixel = height / view.height;
-  ImagePlane plane{root.to_root(camera.eye), forward, {}, right * pixel, down * pixel};
-  plane.corner = -0.5 * (double(view.width) * plane.dx + double(view.height) * plane.dy);
+  ImagePlane plane{
+      root.to_root(camera.eye), forward, {}, right * (pixel * camera.pixel_aspect), down * pixel};
+  const glm::dvec2 ahead = (0.5 + camera.lens_shift) * glm::dvec2(view.width, view.height);
+  plane.corner = -(ahead.x * plane.dx + ahead.y * plane.dy);
   return plane;
 }
 

@@ -30,6 +30,9 @@ struct View {
   }
 };
 
+/// What make_frame_params accepts of Camera::lens_shift (its length) and Camera::pixel_aspect (and its inverse).
+inline constexpr double MOST_LENS_SHIFT = 100.0, MOST_PIXEL_ASPECT = 100.0;
+
 /// The image plane in root space, float64: position of (px, py) = corner + px * dx + py * dy, relative to the
 /// eye, for a plane at unit distance (perspective) or through the eye (orthographic). dx and dy, per pixel, are perpendicular.
 struct ImagePlane {
@@ -158,7 +161,7 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 /// Everything a frame needs of View, Settings and Scene, in root space, computed in float64. Tile and sample
 /// range cover the whole picture; `environment` and `irradiance` are left zero (the tracer fills them from
 /// its Environment). Throws Error (usage) for a camera that sees nothing: eye == target, up parallel to the
-/// view, non-finite values, fov outside (0, 180), zero sizes.
+/// view, non-finite values, fov outside (0, 180), a lens shift or pixel aspect beyond the above, zero sizes.
 [[nodiscard]] FrameParams make_frame_params(const Scene& scene, const View& view, const Settings& settings);
 
 /// FrameParams::media of these materials, and the absorption of their surfaces, which are beside them.

@@ -24,6 +24,8 @@ std::string temporary(const char* name) {
 Camera random_camera(Dice& dice, bool ortho) {
   Camera camera{dice.in_cube() * 1e7, dice.in_cube(), dice.direction(), Camera{}.fov_y_deg, 0.0};
   (ortho ? camera.ortho_height : camera.fov_y_deg) = dice.between(1.0, 179.0);
+  camera.lens_shift = {dice.between(-1.0, 1.0), dice.between(-1.0, 1.0)};
+  camera.pixel_aspect = dice.between(0.5, 2.0);
   return camera;
 }
 
@@ -33,6 +35,8 @@ void expect_equal(const Camera& a, const Camera& b) {
   EXPECT_EQ(a.up, b.up);
   EXPECT_EQ(a.fov_y_deg, b.fov_y_deg);
   EXPECT_EQ(a.ortho_height, b.ortho_height);
+  EXPECT_EQ(a.lens_shift, b.lens_shift);
+  EXPECT_EQ(a.pixel_aspect, b.pixel_aspect);
 }
 
 TEST(CameraFile, ComesBackBitForBit) {
@@ -77,6 +81,10 @@ TEST(CameraFile, RefusesWithASentence) {
   EXPECT_NE(camera("{" + vectors + R"(, "fov_y_deg": 180})").find("fov_y_deg 180"), std::string::npos);
   EXPECT_NE(camera("{" + vectors + R"(, "fov_y_deg": "wide"})").find("wide"), std::string::npos);
   EXPECT_NE(camera("{" + vectors + R"(, "ortho_height": 0})").find("ortho_height 0"), std::string::npos);
+  EXPECT_NE(camera("{" + vectors + R"(, "fov_y_deg": 30, "lens_shift": [1]})").find("lens_shift [1]"),
+            std::string::npos);
+  EXPECT_NE(camera("{" + vectors + R"(, "fov_y_deg": 30, "pixel_aspect": 0})").find("pixel_aspect 0"),
+            std::string::npos);
   EXPECT_NE(camera(R"({"eye": [0, 0], "fov_y_deg": 30})").find("eye [0,0]"), std::string::npos);
   EXPECT_NE(camera(R"({"eye": [0, 0, 1e999], "fov_y_deg": 30})").find("beyond float64"), std::string::npos);
   EXPECT_NE(camera(R"({"keys": []})").find("path"), std::string::npos);

@@ -41,6 +41,8 @@ TEST(Fields, ReadWhatTheyWrite) {
           {"inputs", "b.ply"},
           {"data-path", "c"},
           {"eye", "1,2,3"},
+          {"lens-shift", "0.25,-0.5"},
+          {"pixel-aspect", "1.25"},
           {"exposure", "0.5"},
           {"frames", "0-3"},
           {"crop", "1,2,3,4"},

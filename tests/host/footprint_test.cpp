@@ -76,12 +76,24 @@ View view_of(const glm::dvec3& eye, double fov_y_deg, double ortho_height = 0.0)
   return {{eye, {0.1, -0.1, 0.2}, {0.1, 1.0, 0.0}, fov_y_deg, ortho_height}, WIDTH, HEIGHT};
 }
 
+View shifted(View view) {
+  view.camera.lens_shift = {0.4, -0.3};
+  view.camera.pixel_aspect = 1.5;
+  return view;
+}
+
 std::vector<View> views() {
-  return {view_of({1.0, 0.7, 3.0}, 40.0),          view_of({0.2, 0.3, 0.1}, 90.0),
-          view_of({1.3, 0.0, 0.0}, 130.0),         view_of({1.0, 0.7, 3.0}, 3.0),
-          view_of({30.0, 20.0, 200.0}, 0.8),       view_of({3e5, 2e5, 2e6}, 1e-4),
-          view_of({1.0, 0.7, 3.0}, 40.0, 2.0),     view_of({0.2, 0.3, 0.1}, 40.0, 2.0),
-          view_of({0.0, 0.0, 1.0e4}, 40.0, 1.0e-1)};
+  return {view_of({1.0, 0.7, 3.0}, 40.0),
+          view_of({0.2, 0.3, 0.1}, 90.0),
+          view_of({1.3, 0.0, 0.0}, 130.0),
+          view_of({1.0, 0.7, 3.0}, 3.0),
+          view_of({30.0, 20.0, 200.0}, 0.8),
+          view_of({3e5, 2e5, 2e6}, 1e-4),
+          view_of({1.0, 0.7, 3.0}, 40.0, 2.0),
+          view_of({0.2, 0.3, 0.1}, 40.0, 2.0),
+          view_of({0.0, 0.0, 1.0e4}, 40.0, 1.0e-1),
+          shifted(view_of({1.0, 0.7, 3.0}, 40.0)),
+          shifted(view_of({1.0, 0.7, 3.0}, 40.0, 2.0))};
 }
 
 TEST(Footprint, HoldsEveryRayThatMeetsACell) {

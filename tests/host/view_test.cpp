@@ -22,8 +22,8 @@ glm::dvec2 project(const View& view, const glm::dvec3& world) {
   const double focal = 0.5 * view.height / std::tan(camera.fov_y_deg * M_PI / 360.0);
   const double scale =
       camera.ortho_height > 0.0 ? view.height / camera.ortho_height : focal / glm::dot(q, forward);
-  return {0.5 * view.width + scale * glm::dot(q, right),
-          0.5 * view.height - scale * glm::dot(q, glm::cross(right, forward))};
+  return {(0.5 + camera.lens_shift.x) * view.width + scale / camera.pixel_aspect * glm::dot(q, right),
+          (0.5 + camera.lens_shift.y) * view.height - scale * glm::dot(q, glm::cross(right, forward))};
 }
 
 /// Distance of the point from the ray, lattice units; checks the depth along the ray too.
@@ -70,6 +70,32 @@ TEST(FrameParams, TopLeftIsUpAndLeft) {
 TEST(FrameParams, NearRaysMeetTheirPoints) {
   for (const glm::dvec3& point : POINTS)
     EXPECT_LT(miss_distance(box_scene(), view_from({2.0, 1.0, 4.0}, 35.0), point), 2.0);
+}
+
+TEST(FrameParams, ShiftedLensesAndWidePixelsMeetTheirPoints) {
+  for (const double distance : {1.0, 20.0, 1e4})
+    for (const double ortho_height : {0.0, 3.0}) {
+      View view = view_from(distance * glm::dvec3(2.0, 1.0, 4.0), 35.0 / distance);
+      view.camera.ortho_height = ortho_height;
+      view.camera.lens_shift = {0.3, -0.2};
+      view.camera.pixel_aspect = 1.25;
+      const double limit = ortho_height > 0.0 ? 4.0 : 2.0;
+      for (const glm::dvec3& point : POINTS)
+        EXPECT_LT(miss_distance(box_scene(), view, point), limit) << distance;
+    }
+}
+
+TEST(FrameParams, RefusesLensesThatAreNone) {
+  View view = view_from({2.0, 1.0, 4.0}, 35.0);
+  for (const double shift : {101.0, std::nan("")}) {
+    view.camera.lens_shift = {shift, 0.0};
+    EXPECT_THROW((void)make_frame_params(box_scene(), view, {}), Error) << shift;
+  }
+  view.camera.lens_shift = {0.0, 0.0};
+  for (const double aspect : {0.0, -1.0, 1e3, std::nan("")}) {
+    view.camera.pixel_aspect = aspect;
+    EXPECT_THROW((void)make_frame_params(box_scene(), view, {}), Error) << aspect;
+  }
 }
 
 /// The same direction of view across the switch between rays from the eye and rays from a plane.

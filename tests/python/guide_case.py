@@ -1,4 +1,4 @@
-"""The guide's page of rays: its code runs from top to bottom and finds what is there. The module's reference has all its names."""
+"""The guide's pages of rays and arrays: their code runs from top to bottom and finds what is there. The module's reference has all its names."""
 
 import os
 import pathlib
@@ -23,13 +23,27 @@ class Guide(unittest.TestCase):
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder.name)
 
-    def test_rays(self):
-        pathlib.Path("survey.laz").write_bytes(page_inputs.survey())
-        blocks = re.findall(r"```python\n(.*?)```", (ROOT / "app/guide/rays.md").read_text(), re.DOTALL)
-        self.assertGreaterEqual(len(blocks), 6)
+    def run_page(self, page, least):
+        """The names that the page's code makes; of `least` blocks or more."""
+        blocks = re.findall(r"```python\n(.*?)```", (ROOT / "app/guide" / page).read_text(), re.DOTALL)
+        self.assertGreaterEqual(len(blocks), least)
         names = {}
         for block in blocks:
-            exec(compile(block, "rays.md", "exec"), names)
+            exec(compile(block, page, "exec"), names)
+        return names
+
+    def test_arrays(self):
+        names = self.run_page("arrays.md", 4)
+        self.assertEqual(names["scene"].objects, ["hill", "coil"])
+        u, v, w = names["u"], names["v"], names["w"]
+        depth = names["photo"].depth[round(v / w), round(u / w)]
+        self.assertAlmostEqual(depth, np.linalg.norm([0.5, 0.5, 0.25 * np.sin(1.5) * 0.5 - 3]), delta=0.03)
+        seen = [scene.render(size=(32, 18), samples=1).pixels[..., 3].mean() for scene in (names["pressure"], names["ground"])]
+        self.assertGreater(seen[0], seen[1])
+
+    def test_rays(self):
+        pathlib.Path("survey.laz").write_bytes(page_inputs.survey())
+        names = self.run_page("rays.md", 6)
         # The survey is a hill of 6 m on a plain at 300 m, with a house of 5 m on it; the tower stands in its corner.
         self.assertAlmostEqual(np.nanmin(names["heights"]), 300.0, delta=0.5)
         self.assertAlmostEqual(np.nanmax(names["heights"]), 311.0, delta=0.7)

@@ -92,9 +92,12 @@ class Misuse(unittest.TestCase):
         for names in ({"size": 5}, {"size": (5, 5.5)}, {"samples": "3"}, {"camera": (1, 2, 3)}, {"lights": [3]}, {"materials": [1]},
                       {"environment": 4}, {"progress": "x"}, {"materials": {"points": "gold"}}):
             self.refused(TypeError, render, **({"size": (8, 8)} | names))
-        for camera in (sr.Camera((0, 0, 1), (0, 0, 1)), sr.Camera((0, 0, 1), (0, 0, 0)), sr.Camera((NAN, 0, 1), (0, 0, 0)),
-                       sr.Camera((1, 0, 1), (0, 0, 0), fov=180), sr.Camera((1, 0, 1), (0, 0, 0), ortho_height=-1), sr.Camera((1, 2), (0, 0, 0))):
+        for camera in (sr.Camera((0, 0, 1), (0, 0, 1)), sr.Camera((0, 0, 1), (0, 0, 0)), sr.Camera((1, 0, 1), (0, 0, 0), fov=180),
+                       sr.Camera((1, 0, 1), (0, 0, 0), ortho_height=-1), sr.Camera((1, 0, 1), (0, 0, 0), pixel_aspect=0),
+                       sr.Camera((1, 0, 1), (0, 0, 0), lens_shift=(1000, 0))):
             self.refused(ValueError, render, camera, (8, 8))
+        for eye in ((NAN, 0, 1), (1, 2)):
+            self.refused(ValueError, sr.Camera, eye, (0, 0, 0))
         self.refused(ValueError, sr.frame, self.scene, elevation=100)
         self.refused(TypeError, sr.frame, self.scene, azimuth="north")
         self.refused(ValueError, sr.material, "wood")

@@ -95,8 +95,13 @@ Request& Request::add(const std::string& name, const Value& value) {
 }
 
 Request& Request::set_camera(const Camera& camera) {
-  splatray::set_camera(impl_->request.view, {vector(camera.eye), vector(camera.target), vector(camera.up),
-                                             camera.fov_y_deg, camera.ortho_height});
+  splatray::set_camera(impl_->request.view, {vector(camera.eye),
+                                             vector(camera.target),
+                                             vector(camera.up),
+                                             camera.fov_y_deg,
+                                             camera.ortho_height,
+                                             {camera.lens_shift[0], camera.lens_shift[1]},
+                                             camera.pixel_aspect});
   return *this;
 }
 

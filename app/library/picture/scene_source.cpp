@@ -139,6 +139,24 @@ void show_as_asked(const Request& request, LoadedScene& loaded) {
   loaded.environment_name = choose_environment_name(loaded.scene, request);
 }
 
+/// The camera but for what lens and pixels have.
+Camera placed_camera(const Scene& scene, const Request& request) {
+  const double aspect = request.view.pixel_aspect * request.view.width / request.view.height;
+  if (request.view.eye) {
+    const glm::dvec3 target = request.view.target.value_or(bounds_center(scene));
+    const auto up = request.view.camera_up ? request.view.camera_up : request.look.up;
+    return {*request.view.eye, target, up.value_or(up_across(scene.up, target - *request.view.eye)),
+            request.view.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG), request.view.ortho_height};
+  }
+  // A depth camera's view suits the picture's shape; a model's own camera is its author's.
+  if (!scene.camera || !scene.stations.empty() || request.look.up ||
+      request.view.viewpoint != Viewpoint::automatic)
+    return viewpoint_camera(scene, request.view.viewpoint, aspect, request.view.fov_y_deg);
+  Camera camera = *scene.camera;
+  camera.fov_y_deg = request.view.fov_y_deg.value_or(camera.fov_y_deg);
+  return camera;
+}
+
 }  // namespace
 
 LoadedScene load_scene(const Request& request, const LoadListener& listener) {
@@ -188,19 +206,9 @@ Tone choose_tone(const Request& request) {
 }
 
 Camera choose_camera(const Scene& scene, const Request& request) {
-  const double aspect = static_cast<double>(request.view.width) / request.view.height;
-  if (request.view.eye) {
-    const glm::dvec3 target = request.view.target.value_or(bounds_center(scene));
-    const auto up = request.view.camera_up ? request.view.camera_up : request.look.up;
-    return {*request.view.eye, target, up.value_or(up_across(scene.up, target - *request.view.eye)),
-            request.view.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG), request.view.ortho_height};
-  }
-  // A depth camera's view suits the picture's shape; a model's own camera is its author's.
-  if (!scene.camera || !scene.stations.empty() || request.look.up ||
-      request.view.viewpoint != Viewpoint::automatic)
-    return viewpoint_camera(scene, request.view.viewpoint, aspect, request.view.fov_y_deg);
-  Camera camera = *scene.camera;
-  camera.fov_y_deg = request.view.fov_y_deg.value_or(camera.fov_y_deg);
+  Camera camera = placed_camera(scene, request);
+  camera.lens_shift = request.view.lens_shift;
+  camera.pixel_aspect = request.view.pixel_aspect;
   return camera;
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "app/library/camera_file.h"
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
@@ -32,6 +34,8 @@ Field camera_path_row() {
         request.view.eye = request.view.target = request.view.camera_up = std::nullopt;
         request.view.fov_y_deg.reset();
         request.view.ortho_height = 0.0;
+        request.view.lens_shift = glm::dvec2(0.0);
+        request.view.pixel_aspect = 1.0;
       },
       [](const Request& request) { return request.output.camera_path.string(); });
   row.doors = DOOR_RENDER | DOOR_VIEW;
@@ -43,7 +47,8 @@ Field camera_row() {
   return with(
       value_row(
           "camera", CAMERA, "FILE",
-          "camera file (JSON: eye, target, up, fov_y_deg or ortho_height); options beside it replace parts",
+          "camera file (JSON: eye, target, up, fov_y_deg or ortho_height, maybe lens_shift and "
+          "pixel_aspect); options beside it replace parts",
           [](Request& request, const std::string& file) { set_camera(request.view, read_camera(file)); }, {}),
       {.doors = DOOR_RENDER | DOOR_VIEW,
        .why_not = "the fields of its parts say the same; the library has Camera"});
@@ -90,6 +95,24 @@ Field fov_row() {
       });
 }
 
+Field lens_shift_row() {
+  return value_row(
+      "lens-shift", CAMERA, "X,Y",
+      "where the point straight ahead lies, to the right of the picture's middle and below it, in widths and "
+      "heights of the picture; "
+      "default 0,0",
+      [](Request& request, const std::string& text) {
+        const auto numbers = split_numbers(text, ',', 2);
+        if (numbers.empty() || !(std::hypot(numbers[0], numbers[1]) <= MOST_LENS_SHIFT))
+          throw Expected{"two numbers up to 100 such as 0.1,0"};
+        request.view.lens_shift = {numbers[0], numbers[1]};
+      },
+      [](const Request& request) {
+        const glm::dvec2& shift = request.view.lens_shift;
+        return number_text(shift.x) + ',' + number_text(shift.y);
+      });
+}
+
 Field crop_row() {
   return value_row(
       "crop", CAMERA, "X,Y,WIDTH,HEIGHT",
@@ -128,28 +151,31 @@ Field tile_row() {
 }  // namespace
 
 std::vector<Field> camera_fields() {
-  return {resolution_row(),
-          camera_path_row(),
-          camera_row(),
-          view_row(),
-          vector_row("eye", CAMERA, MEMBER(view.eye),
-                     "camera position; default: the scene's camera, else a view of the whole scene"),
-          vector_row("target", CAMERA, MEMBER(view.target),
-                     "point looked at; default the scene's centre; needs --eye"),
-          up_row(),
-          vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
-                     "up direction of the camera alone; needs --eye"),
-          fov_row(),
-          with(number_row("ortho-height", CAMERA, MEMBER(view.ortho_height), 0.0, 1e30,
-                          "orthographic picture of this height, world units; 0 = perspective; needs --eye"),
-               {.old_names = {"ortho"}}),
-          number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
-                     "diameter of the lens, world units; default 0: all is sharp; not with --look paper"),
-          unset_number_row(
-              "focus", CAMERA, MEMBER(settings.focus_world), 1e-30, 1e30,
-              "distance from the eye at which all is sharp, world units; default the camera's target"),
-          crop_row(),
-          tile_row()};
+  return {
+      resolution_row(),
+      camera_path_row(),
+      camera_row(),
+      view_row(),
+      vector_row("eye", CAMERA, MEMBER(view.eye),
+                 "camera position; default: the scene's camera, else a view of the whole scene"),
+      vector_row("target", CAMERA, MEMBER(view.target),
+                 "point looked at; default the scene's centre; needs --eye"),
+      up_row(),
+      vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
+                 "up direction of the camera alone; needs --eye"),
+      fov_row(),
+      with(number_row("ortho-height", CAMERA, MEMBER(view.ortho_height), 0.0, 1e30,
+                      "orthographic picture of this height, world units; 0 = perspective; needs --eye"),
+           {.old_names = {"ortho"}}),
+      lens_shift_row(),
+      number_row("pixel-aspect", CAMERA, MEMBER(view.pixel_aspect), 1.0 / MOST_PIXEL_ASPECT,
+                 MOST_PIXEL_ASPECT, "width of a pixel over its height; default 1"),
+      number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
+                 "diameter of the lens, world units; default 0: all is sharp; not with --look paper"),
+      number_row("focus", CAMERA, MEMBER(settings.focus_world), 0.0, 1e30,
+                 "distance from the eye at which all is sharp, world units; default 0: the camera's target"),
+      crop_row(),
+      tile_row()};
 }
 
 }  // namespace splatray

@@ -46,13 +46,18 @@ void check_part(const Request& request) {
     fail("found --reference with " + part + ", expected a whole picture");
 }
 
+/// Whether anything is said of the camera.
+bool has_camera(const Request::View& view) {
+  return view.eye || view.fov_y_deg || view.lens_shift != glm::dvec2(0.0) || view.pixel_aspect != 1.0;
+}
+
 void check_sequence(const Request& request) {
   const Request::Output& output = request.output;
   if (!output.frames.empty() && !output.many())
     fail("found --frames alone, expected --camera-path or --turntable beside it");
   if (output.turntable > 0 && !output.camera_path.empty())
     fail("found --turntable and --camera-path, expected one of them");
-  if (!output.camera_path.empty() && (request.view.eye || request.view.fov_y_deg))
+  if (!output.camera_path.empty() && has_camera(request.view))
     fail("found a camera beside --camera-path, expected only the path");
   if (output.many() && !output.reference.empty())
     fail("found --reference with a sequence of pictures, expected a single one");
@@ -96,6 +101,8 @@ void set_camera(Request::View& view, const Camera& camera) {
   view.fov_y_deg.reset();
   if (camera.ortho_height == 0.0) view.fov_y_deg = camera.fov_y_deg;
   view.ortho_height = camera.ortho_height;
+  view.lens_shift = camera.lens_shift;
+  view.pixel_aspect = camera.pixel_aspect;
 }
 
 void require_scene_alone(const std::vector<std::filesystem::path>& inputs) {

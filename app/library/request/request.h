@@ -69,6 +69,8 @@ struct Request {
     std::optional<double> fov_y_deg;
     Viewpoint viewpoint = Viewpoint::automatic;  ///< where no eye is given
     double ortho_height = 0.0;                   ///< world units; 0 = perspective
+    glm::dvec2 lens_shift{0.0};                  ///< Camera::lens_shift
+    double pixel_aspect = 1.0;                   ///< Camera::pixel_aspect
     double aperture_world = 0.0;                 ///< diameter of the lens
     PixelWindow crop{};                          ///< without pixels: all
     std::uint32_t tile = 0, tiles = 0;           ///< of `tiles` bands of rows this one, from 1 on; 0 = all

@@ -21,9 +21,10 @@ from .camera import Camera, frame
 from .device import Device, devices
 from .image import Image
 from .look import Light, Material, material, point_light, sun
+from .objects import Mesh, Points
 from .request import Request
-from .scene import Hits, Scene, Splats, make_picture, open, points
+from .scene import Hits, Scene, Splats, make_picture, make_scene, open, points
 
 __version__ = _version()
-__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Material", "NoDeviceError", "Request", "Scene", "Splats", "devices", "frame",
-           "make_picture", "material", "open", "point_light", "points", "sun"]
+__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Material", "Mesh", "NoDeviceError", "Points", "Request", "Scene", "Splats", "devices",
+           "frame", "make_picture", "make_scene", "material", "open", "point_light", "points", "sun"]

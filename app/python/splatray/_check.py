@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import os
-from typing import Any, Callable, Optional, Tuple
+from typing import Any, Callable, List, Optional, Tuple
 
 import numpy as np
 
@@ -72,17 +72,33 @@ def rows(name: str, value: Any, dtype: type) -> np.ndarray:
     return found
 
 
-def vector(name: str, value: Any) -> Tuple[float, float, float]:
-    """Three finite numbers."""
+def vector(name: str, value: Any, length: int = 3) -> Tuple[float, ...]:
+    """This many finite numbers."""
     found = array(name, value, np.float64)
-    if found.shape != (3,):
-        raise ValueError(f"{name}: found an array of shape {found.shape}, expected 3 numbers")
+    if found.shape != (length,):
+        raise ValueError(f"{name}: found an array of shape {found.shape}, expected {length} numbers")
     if not np.isfinite(found).all():
         raise ValueError(f"{name}: found {value!r}, expected finite numbers")
     return tuple(found.tolist())
 
 
-def color(name: str, value: Any) -> Tuple[float, float, float]:
+def numbers(name: str, value: Any, dtype: type) -> np.ndarray:
+    """An array (n,)."""
+    found = array(name, value, dtype)
+    if found.ndim != 1:
+        raise ValueError(f"{name}: found an array of shape {found.shape}, expected (n,)")
+    return found
+
+
+def matrix(name: str, value: Any, side: int) -> List[List[float]]:
+    """A square matrix as rows."""
+    found = array(name, value, np.float64)
+    if found.shape != (side, side):
+        raise ValueError(f"{name}: found an array of shape {found.shape}, expected ({side}, {side})")
+    return found.tolist()
+
+
+def color(name: str, value: Any) -> Tuple[float, ...]:
     """Three finite numbers, or one for all three."""
     return vector(name, [value] * 3 if np.ndim(value) == 0 else value)
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Optional, Tuple
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, Optional, Tuple
 
 from . import _check, _core
 
@@ -19,6 +19,8 @@ class Camera:
 
     eye, target: where it is and what it looks at. up: direction towards the picture's top, not parallel to the view. fov: vertical
     field of view, degrees, between 0 and 180. ortho_height: above 0 for an orthographic picture of this height in world units.
+    lens_shift: where the point straight ahead lies, from the picture's middle to the right and down, in widths and heights of the
+    picture. pixel_aspect: a pixel's width over its height, 0.01 to 100. Arrays become tuples of floats.
     """
 
     eye: Vector
@@ -26,13 +28,36 @@ class Camera:
     up: Vector = (0.0, 0.0, 1.0)
     fov: float = 30.0
     ortho_height: float = 0.0
+    lens_shift: Tuple[float, float] = (0.0, 0.0)
+    pixel_aspect: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name in ("eye", "target", "up"):
+            object.__setattr__(self, name, _check.vector(name, getattr(self, name)))
+        for name in ("fov", "ortho_height", "pixel_aspect"):
+            object.__setattr__(self, name, _check.number(name, getattr(self, name)))
+        object.__setattr__(self, "lens_shift", _check.vector("lens_shift", self.lens_shift, 2))
+
+    @classmethod
+    def from_pose(cls, pose: Any, K: Any, size: Tuple[int, int]) -> "Camera":
+        """The camera of a pose and intrinsics as OpenCV has them, for pictures of this size or its shape.
+
+        pose: (4, 4), camera to world, a rotation and a translation; the camera looks along its z, x is right and y down. K: (3, 3), rows
+        of fx 0 cx, 0 fy cy, 0 0 1, pixels; the centre of the top left one is at (0, 0). size: (width, height), pixels. Exact off-centre
+        and with fx other than fy. For cameras of OpenGL, Blender and NeRF (y up, z back) give `pose @ np.diag([1, -1, -1, 1])`; of
+        COLMAP, whose corner of the top left pixel is at (0, 0), subtract 0.5 from cx and cy. The target is 1 ahead.
+        """
+        width, height = _check.size(size)
+        return cls._of_core(_core.camera_from_pose(_check.matrix("pose", pose, 4), _check.matrix("K", K, 3), width, height))
+
+    @classmethod
+    def _of_core(cls, core: _core.Camera) -> "Camera":
+        return cls(*(getattr(core, field.name) for field in fields(cls)))
 
     def _to_core(self) -> _core.Camera:
         camera = _core.Camera()
-        for name in ("eye", "target", "up"):
-            setattr(camera, name, _check.vector(name, getattr(self, name)))
-        for name in ("fov", "ortho_height"):
-            setattr(camera, name, _check.number(name, getattr(self, name)))
+        for field in fields(self):
+            setattr(camera, field.name, getattr(self, field.name))
         return camera
 
 
@@ -47,5 +72,4 @@ def frame(scene: Scene, *, azimuth: Optional[float] = None, elevation: Optional[
     core = scene._open_core()
     angles = [None if value is None else _check.number(name, value)
               for name, value in (("azimuth", azimuth), ("elevation", elevation), ("fov", fov))]
-    camera = core.frame(*angles, _check.number("aspect", aspect))
-    return Camera(tuple(camera.eye), tuple(camera.target), tuple(camera.up), camera.fov, camera.ortho_height)
+    return Camera._of_core(core.frame(*angles, _check.number("aspect", aspect)))

@@ -36,11 +36,10 @@ class Material:
     coat_roughness: Optional[float] = None
     emission: Optional[Color] = None
 
-    def _to_core(self) -> _core.Material:
-        core = _core.Material()
+    def __post_init__(self) -> None:
         for field in fields(self):
             value = getattr(self, field.name)
-            if value is None:
+            if value is None and field.default is None:
                 continue
             if field.name in ("diffuse", "tint", "emission"):
                 value = _check.color(field.name, value)
@@ -48,13 +47,17 @@ class Material:
                 value = bool(value)
             else:
                 value = _check.number(field.name, value)
-            setattr(core, field.name, value)
+            object.__setattr__(self, field.name, value)
+
+    def _to_core(self) -> _core.Material:
+        core = _core.Material()
+        for field in fields(self):
+            setattr(core, field.name, getattr(self, field.name))
         return core
 
     @classmethod
     def _of_core(cls, core: _core.Material) -> "Material":
-        values = {field.name: getattr(core, field.name) for field in fields(cls)}
-        return cls(**{name: tuple(value) if isinstance(value, (list, tuple)) else value for name, value in values.items()})
+        return cls(**{field.name: getattr(core, field.name) for field in fields(cls)})
 
 
 def material(name: str) -> Material:
@@ -73,16 +76,21 @@ class Light:
     point: bool = False
     size: float = 0.0
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "position", _check.vector("position", self.position))
+        object.__setattr__(self, "power", _check.color("power", self.power))
+        object.__setattr__(self, "size", _check.number("size", self.size))
+
     def _to_field(self) -> Tuple[str, str]:
-        numbers = [*_check.vector("position", self.position), *_check.color("power", self.power), _check.number("size", self.size)]
+        numbers = [*self.position, *self.power, self.size]
         return ("light" if self.point else "sun"), ",".join(map(repr, numbers))
 
 
 def point_light(position: Vector, power: Color, radius: float = 0.0) -> Light:
     """A light at a place; power: irradiance times distance^2, a number or r, g, b. radius: world units; above 0 shadows are soft."""
-    return Light(_check.vector("position", position), _check.color("power", power), True, _check.number("radius", radius))
+    return Light(position, power, True, radius)
 
 
 def sun(direction: Vector, power: Color = (3.14, 3.14, 3.14), diameter: float = 0.0) -> Light:
     """Light from `direction`, of any length; power: irradiance of what faces it, a number or r, g, b. diameter: degrees, the real sun's is 0.5."""
-    return Light(_check.vector("direction", direction), _check.color("power", power), False, _check.number("diameter", diameter))
+    return Light(direction, power, False, diameter)

@@ -13,6 +13,7 @@ from . import _check, _core
 from .camera import Camera
 from .image import Image
 from .look import Light, Material
+from .objects import Mesh, Points
 from .request import OPENING, PICTURES, Request, checked, takes_fields
 
 if TYPE_CHECKING:
@@ -22,15 +23,13 @@ if TYPE_CHECKING:
 
 Path = Union[str, "os.PathLike[str]"]
 
-MOST_COLOR = 1.01  # more than rounding makes of 1
-
 
 class Hits(NamedTuple):
     """What rays hit, an element a ray.
 
     t: float64 (n,), distance from the origin in world units, inf on a miss. normal: float32 (n, 3), unit, against the ray, 0 on a miss.
     object: int32 (n,), index into Scene.objects. splat: int64 (n,), the first disc hit, index into Scene.splats. point: int64 (n,), which
-    of the points given to points() that disc is, -1 for files. The last three are -1 on a miss.
+    of its object's Points that disc is, -1 for meshes and files. The last three are -1 on a miss.
     """
 
     t: np.ndarray
@@ -50,11 +49,11 @@ class Splats(NamedTuple):
 
 
 class Scene:
-    """Splats in an octree; it never changes. open() and points() make scenes. Usable from several threads at once, and in `with`."""
+    """Splats in an octree; it never changes. open(), make_scene() and points() make scenes. Usable from several threads at once, and in `with`."""
 
     def __init__(self, core: _core.Scene) -> None:
         if not isinstance(core, _core.Scene):
-            raise TypeError("scenes are made by splatray.open and splatray.points")
+            raise TypeError("scenes are made by splatray.open, splatray.make_scene and splatray.points")
         self._core: Optional[_core.Scene] = core
 
     def _open_core(self) -> _core.Scene:
@@ -195,47 +194,29 @@ def make_picture(request: Request, *, progress: Optional[_check.Progress] = None
     return Image(_core.make_picture(request._core, _check.progress(progress)))
 
 
-def _linear_colors(colors: Any) -> np.ndarray:
-    """float32 (n, 3), linear; uint8 and uint16 are sRGB, as files have them."""
-    given = np.asarray(colors)
-    linear = _check.rows("colors", colors, np.float32)
-    if given.dtype in (np.uint8, np.uint16):
-        encoded = linear / np.float32(np.iinfo(given.dtype).max)
-        linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-    if not np.isfinite(linear).all():
-        raise ValueError("colors: found some that are masked or not finite, expected 0 to 1")
-    if linear.size and linear.max() > MOST_COLOR:
-        raise ValueError(f"colors: found {given.dtype} up to {linear.max():g}, expected linear values of 0 to 1, or uint8 or uint16, which are sRGB")
-    return np.ascontiguousarray(linear, dtype=np.float32)
+@takes_fields(OPENING)
+def make_scene(objects: Union[Points, Mesh, Sequence[Union[Points, Mesh]]], *, materials: Optional[Mapping[str, Material]] = None,
+               request: Optional[Request] = None, progress: Optional[_check.Progress] = None, **fields: "Unpack[OpeningFields]") -> Scene:
+    """A scene of arrays, which are copied: one object or several, points and meshes. up: z unless given.
+
+    materials: by object's name, in place of the objects' own. request: what else is asked for of the scene.
+    """
+    listed = [objects] if isinstance(objects, (Points, Mesh)) else objects
+    if isinstance(listed, (str, bytes)) or not isinstance(listed, Iterable):
+        raise TypeError(f"objects: found {objects!r}, expected splatray.Points or splatray.Mesh, one or several")
+    arrays = []
+    for item in listed:
+        if not isinstance(item, (Points, Mesh)):
+            raise TypeError(f"objects: found {item!r}, expected splatray.Points or splatray.Mesh")
+        arrays.append(item._to_core())
+    asked = _opening("make_scene", request, fields | {"materials": materials})
+    return Scene(_core.make_scene(arrays, asked._core, _check.progress(progress)))
 
 
 @takes_fields(OPENING)
-def points(xyz: Any, *, normals: Any = None, colors: Any = None, radii: Any = None, name: str = "points",
-           material: Optional[Material] = None, scanned: Optional[bool] = None, progress: Optional[_check.Progress] = None,
-           **fields: "Unpack[OpeningFields]") -> Scene:
-    """A scene of arrays, which are copied.
-
-    xyz: (n, 3), world units; points that are masked or not finite are left out, and Scene.notes says so. normals: (n, 3), of any length; zero, masked or NaN:
-    estimated. colors: (n, 3), linear in 0..1, or uint8 and uint16, which are sRGB. radii: (n,), world units; zero, negative or NaN: chosen.
-    scanned: whether they come from a scanner, whose strays are left out and noise is smoothed; None where there are no normals. up: z unless
-    given.
-    """
-    request = _opening("points", None, fields)
-    positions = _check.rows("xyz", xyz, np.float64)
-    given_radii = None if radii is None else _check.array("radii", radii, np.float32)
-    if given_radii is not None and given_radii.ndim != 1:
-        raise ValueError(f"radii: found an array of shape {given_radii.shape}, expected (n,)")
-    rows = {"normals": None if normals is None else _check.rows("normals", normals, np.float32),
-            "colors": None if colors is None else _linear_colors(colors), "radii": given_radii}
-    for kind, values in rows.items():
-        if values is not None and len(values) != len(positions):
-            raise ValueError(f"{kind}: found {len(values)}, expected as many as the {len(positions)} points")
-    return Scene(_core.make_scene(positions, rows["normals"], rows["colors"], rows["radii"], _check.text("name", name),
-                                  None if material is None else _material(material),
-                                  None if scanned is None else bool(scanned), request._core, _check.progress(progress)))
-
-
-def _material(value: Any) -> _core.Material:
-    if not isinstance(value, Material):
-        raise TypeError(f"material: found {value!r}, expected a splatray.Material")
-    return value._to_core()
+def points(xyz: Any, *, normals: Any = None, colors: Any = None, radii: Any = None, attributes: Optional[Mapping[str, Any]] = None,
+           name: str = "points", material: Optional[Material] = None, scanned: Optional[bool] = None,
+           progress: Optional[_check.Progress] = None, **fields: "Unpack[OpeningFields]") -> Scene:
+    """A scene of one object of points: make_scene(Points(...)), which says what the arrays are. up: z unless given."""
+    return make_scene(Points(xyz, normals, colors, radii, attributes, name, material, scanned), progress=progress,
+                      request=_opening("points", None, fields))

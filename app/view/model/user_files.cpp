@@ -32,7 +32,9 @@ json to_json(const Camera& camera) {
           {"target", to_json(camera.target)},
           {"up", to_json(camera.up)},
           {"fov_y_deg", camera.fov_y_deg},
-          {"ortho_height", camera.ortho_height}};
+          {"ortho_height", camera.ortho_height},
+          {"lens_shift", {camera.lens_shift.x, camera.lens_shift.y}},
+          {"pixel_aspect", camera.pixel_aspect}};
 }
 
 /// Throws json::exception unless the member is three numbers.
@@ -49,6 +51,9 @@ Camera camera_of(const json& object) {
   camera.up = vector_of(object, "up");
   camera.fov_y_deg = object.at("fov_y_deg").get<double>();
   camera.ortho_height = object.at("ortho_height").get<double>();
+  if (object.contains("lens_shift"))
+    camera.lens_shift = {object["lens_shift"].at(0).get<double>(), object["lens_shift"].at(1).get<double>()};
+  camera.pixel_aspect = object.value("pixel_aspect", 1.0);
   return camera;
 }
 

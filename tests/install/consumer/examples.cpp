@@ -32,6 +32,37 @@ sr::Scene scene_of_arrays() {
 }
 //! [arrays]
 
+//! [mesh]
+/// A floor of two triangles, coloured by an attribute of its vertices, and a ball of points on it: one scene of several objects.
+sr::Scene ball_on_a_floor() {
+  const std::vector<sr::Double3> corners = {{-3, -3, -1}, {3, -3, -1}, {3, 3, -1}, {-3, 3, -1}};
+  const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}, {0, 2, 3}};
+  const std::vector<double> distance = {0.0, 6.0, 8.5, 6.0};
+  sr::Mesh floor{.vertices = corners, .triangles = triangles, .name = "floor"};
+  floor.attributes = {{"distance from the corner", distance}};
+  std::vector<sr::Double3> ball;
+  for (int i = 0; i < 5000; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / 5000, turn = 2.4 * i, r = std::sqrt(1.0 - z * z);
+    ball.push_back({r * std::cos(turn), r * std::sin(turn), z});
+  }
+  const std::vector<sr::Float3> white(ball.size(), {0.9F, 0.9F, 0.9F});
+  const sr::Points points{.positions = ball, .colors = white, .name = "ball", .scanned = false};
+  const std::vector<sr::Object> objects = {floor, points};
+  return sr::make_scene(objects, {{"mesh-points", 20000}, {"color-by", "distance from the corner"}});
+}
+//! [mesh]
+
+//! [pose]
+/// What a calibrated photograph shows: pose and intrinsics as OpenCV has them, off-centre and with pixels that are not square.
+sr::Image as_photographed(const sr::Scene& scene) {
+  const std::array<std::array<double, 4>, 4> camera_to_world = {
+      {{1, 0, 0, 0.5}, {0, 0, 1, -8}, {0, -1, 0, 0}, {0, 0, 0, 1}}};  // looks along +y, down is -z
+  const std::array<sr::Double3, 3> k = {{{200.0, 0, 90.5}, {0, 180.0, 60.25}, {0, 0, 1}}};
+  sr::Request request = {{"resolution", "160x120"}, {"samples", 4}};
+  return sr::render(scene, request.set_camera(sr::camera_from_pose(camera_to_world, k, 160, 120)));
+}
+//! [pose]
+
 //! [look]
 /// Other light and another material; the scene itself stays as it is.
 sr::Image gold_at_night(const sr::Scene& scene) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <thread>
 
+#include "arrays.h"
 #include "examples.h"
 #include "reentrance.h"
 
@@ -242,6 +243,21 @@ void check_pictures(const std::filesystem::path& folder) {
   expect(!give_up_after(scene, 0.0).empty() && give_up_after(scene, 0.0) != "done", "cancelling did nothing");
 }
 
+/// The ball's middle lies at the world's origin: the pose and K of the example project it to (78, 60).
+void check_photograph() {
+  const sr::Scene scene = ball_on_a_floor();
+  const sr::Image photo = as_photographed(scene);
+  double low = 1e9, high = -1e9;
+  const std::size_t row = 60;
+  for (std::size_t x = 0; x < photo.width; ++x)
+    if (photo.pixels[row * photo.width + x][3] > 0.5F)
+      low = std::min(low, double(x)), high = std::max(high, double(x));
+  // Of a ball, the silhouette's middle lies a little farther out than its own.
+  expect(std::abs((low + high) / 2.0 - 78.0) < 1.0, "the ball is photographed elsewhere than K says");
+  expect(std::abs((high - low) / 2.0 - 200.0 / std::sqrt(64.25 - 1.0)) < 1.5,
+         "the ball is photographed in another size");
+}
+
 /// A scan is shown in a look without materials, until it is given one.
 void check_materials_of_scans() {
   const Plane plane(0.0, 0.0, 0.0);
@@ -286,7 +302,9 @@ int main(int argc, char** argv) {
     check_errors(folder);
     check_pictures(folder);
     check_materials_of_scans();
+    check_photograph();
     check_depth_and_ranges();
+    for (const std::string& defect : find_array_defects(folder)) expect(false, defect);
     alarm(240);  // a defect may be a call that never ends
     const std::string defect = find_reentrance_defect();
     expect(defect.empty(), defect);
