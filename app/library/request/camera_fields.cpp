@@ -151,31 +151,31 @@ Field tile_row() {
 }  // namespace
 
 std::vector<Field> camera_fields() {
-  return {
-      resolution_row(),
-      camera_path_row(),
-      camera_row(),
-      view_row(),
-      vector_row("eye", CAMERA, MEMBER(view.eye),
-                 "camera position; default: the scene's camera, else a view of the whole scene"),
-      vector_row("target", CAMERA, MEMBER(view.target),
-                 "point looked at; default the scene's centre; needs --eye"),
-      up_row(),
-      vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
-                 "up direction of the camera alone; needs --eye"),
-      fov_row(),
-      with(number_row("ortho-height", CAMERA, MEMBER(view.ortho_height), 0.0, 1e30,
-                      "orthographic picture of this height, world units; 0 = perspective; needs --eye"),
-           {.old_names = {"ortho"}}),
-      lens_shift_row(),
-      number_row("pixel-aspect", CAMERA, MEMBER(view.pixel_aspect), 1.0 / MOST_PIXEL_ASPECT,
-                 MOST_PIXEL_ASPECT, "width of a pixel over its height; default 1"),
-      number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
-                 "diameter of the lens, world units; default 0: all is sharp; not with --look paper"),
-      number_row("focus", CAMERA, MEMBER(settings.focus_world), 0.0, 1e30,
-                 "distance from the eye at which all is sharp, world units; default 0: the camera's target"),
-      crop_row(),
-      tile_row()};
+  return {resolution_row(),
+          camera_path_row(),
+          camera_row(),
+          view_row(),
+          vector_row("eye", CAMERA, MEMBER(view.eye),
+                     "camera position; default: the scene's camera, else a view of the whole scene"),
+          vector_row("target", CAMERA, MEMBER(view.target),
+                     "point looked at; default the scene's centre; needs --eye"),
+          up_row(),
+          vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
+                     "up direction of the camera alone; needs --eye"),
+          fov_row(),
+          with(number_row("ortho-height", CAMERA, MEMBER(view.ortho_height), 0.0, 1e30,
+                          "orthographic picture of this height, world units; 0 = perspective; needs --eye"),
+               {.old_names = {"ortho"}}),
+          lens_shift_row(),
+          number_row("pixel-aspect", CAMERA, MEMBER(view.pixel_aspect), 1.0 / MOST_PIXEL_ASPECT,
+                     MOST_PIXEL_ASPECT, "width of a pixel over its height; default 1"),
+          number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
+                     "diameter of the lens, world units; default 0: all is sharp; not with --look paper"),
+          unset_number_row(
+              "focus", CAMERA, MEMBER(settings.focus_world), 1e-30, 1e30,
+              "distance from the eye at which all is sharp, world units; default the camera's target"),
+          crop_row(),
+          tile_row()};
 }
 
 }  // namespace splatray
