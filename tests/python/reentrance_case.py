@@ -39,6 +39,7 @@ class Reentrance(unittest.TestCase):
 
     def test_forked_children(self):
         found = self.run_program(
+            "import warnings\nwarnings.filterwarnings('ignore', 'This process .* is multi-threaded', DeprecationWarning)\n"  # since Python 3.12
             "host = make(device='cpu')\nexpected = host.render(size=(9, 9)).pixels\nscene.render(size=(9, 9))\n"
             "child = os.fork()\n"
             "if child == 0:\n"

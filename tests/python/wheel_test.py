@@ -3,7 +3,6 @@ nothing else is and runs the tests beside this file there. Exit 77 with a senten
 
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -13,7 +12,7 @@ import zipfile
 SOURCE, WORK = map(pathlib.Path, sys.argv[1:3])
 sys.path += [str(SOURCE / "tests/install"), str(SOURCE / "app/python")]
 from install_test import run  # noqa: E402  (lies in a folder just named)
-from make_wheels import WHEELS, interpreters  # noqa: E402
+from make_wheels import WHEELS, build_requirements, interpreters  # noqa: E402
 from packages_test import check_with_lintian  # noqa: E402
 
 BUILD = WORK / "wheels/build"  # of make_wheels.py, and of Debian's package before
@@ -32,8 +31,7 @@ def skip(reason):
 
 def make_tools():
     """A virtual environment with what the module's build needs, of the versions that pyproject.toml pins, and what checks a wheel."""
-    pinned = re.search(r"requires = \[(.*)\]", (SOURCE / "app/python/pyproject.toml").read_text()).group(1)
-    packages = [name.strip(' "') for name in pinned.split(",")]
+    packages = build_requirements()
     made = subprocess.run([sys.executable, "-m", "venv", WORK / "tools"], capture_output=True)
     if made.returncode != 0:
         skip("Python has no venv (Debian's package python3-venv)")
