@@ -109,7 +109,7 @@ int render(int argc, char** argv) {
   if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
   require_outputs_writable(asked);
   require_picture_memory(asked);
-  const std::optional<DisplayImage> reference = read_reference(asked);
+  static_cast<void>(read_reference(asked));  // refused before any work
   catch_interrupts();
   StageTimes times;
   Stopwatch watch;
@@ -143,7 +143,8 @@ int render(int argc, char** argv) {
   if (!request.output.stats_json.empty())
     write_stats(request, loaded, counts, context, shown.tracer().pool_bytes(), times, record);
   require_all_made(record);
-  if (reference) require_match(request, record.last, *reference);
+  // In the exposure of the picture, which is known by now.
+  if (const auto reference = read_reference(request)) require_match(request, record.last, *reference);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -74,7 +74,7 @@ TEST_F(CliOutputs, MaterialsOfScansAreShownOrALineSaysWhyNot) {
   for (int i = 0; i < 400; ++i)
     sheet += std::to_string(i % 20) + ' ' + std::to_string(i / 20) + " 0 " + std::to_string(i % 20 * 12) +
              " 90 40\n";
-  const std::string scan = write("sheet.xyz", sheet), note = "note: this --look shows no materials";
+  const std::string scan = write("sheet.xyz", sheet), note = "note: this --look does not use materials";
   const std::string gold = "--object=0:preset=gold";
   const auto says_so = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {RENDER,       scan, "-o", file("out.png"), "--resolution=16x16",
@@ -84,6 +84,12 @@ TEST_F(CliOutputs, MaterialsOfScansAreShownOrALineSaysWhyNot) {
     EXPECT_EQ(result.code, 0) << result.err;
     return result.err.find(note) != std::string::npos;
   };
+  ASSERT_EQ(run_program({RENDER, scan, "-o", file("scan.exr"), "--resolution=16x16", "--samples=1"}).code, 0);
+  EXPECT_EQ(run_program({RENDER, scan, "-o", file("again.exr"), "--resolution=16x16", "--samples=1",
+                         "--reference", file("scan.exr"), "--reference-limit=0.001"})
+                .code,
+            0)
+      << "its reference is seen in its exposure";
   EXPECT_FALSE(says_so({}));
   std::filesystem::rename(file("out.png"), file("plain.png"));
   EXPECT_EQ(render({scan, gold, "--reference", file("plain.png")}).code, 1)

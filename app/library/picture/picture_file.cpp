@@ -56,7 +56,6 @@ void require_outputs_writable(const Request& request) {
 
 std::optional<DisplayImage> read_reference(const Request& request) {
   if (request.output.reference.empty()) return {};
-  // An exposure that the picture itself decides cannot be that of a float reference: it is taken as it is.
   DisplayImage reference = read_display_image(request.output.reference, display_of(request));
   if (reference.width != request.view.width || reference.height != request.view.height)
     throw Error(ExitCode::failed, "reference '" + request.output.reference.string() + "' is " +
