@@ -36,7 +36,7 @@ def make_tools():
     if made.returncode != 0:
         skip("Python has no venv (Debian's package python3-venv)")
     tools = WORK / "tools/bin"
-    got = subprocess.run([tools / "pip", "install", "-q", *packages, "twine", "numpy"], capture_output=True, text=True)
+    got = subprocess.run([tools / "pip", "install", "-q", *packages, "twine", "numpy", "mypy==1.18.2"], capture_output=True, text=True)
     if got.returncode != 0:
         skip(f"pip cannot get {', '.join(packages)}: {got.stderr[-300:]}")
     if not any(interpreters(names)[0] for names in WHEELS.values()):
@@ -102,12 +102,23 @@ def run_cases(python, pattern, folder, **changes):
     print(run(python, "-m", "unittest", "discover", "-s", SOURCE / "tests/python", "-p", pattern, "-v", cwd=folder, env=environment))
 
 
-def use_wheel(wheel, python):
+def check_types(tools, python):
+    """A type checker passes and refuses what it should of the module that `python` has installed."""
+    page = pathlib.Path(__file__).parent / "typed_use.py"
+    shown = subprocess.run([tools / "mypy", "--strict", "--python-executable", python, "--cache-dir", os.devnull, page], capture_output=True, text=True).stdout
+    found = {int(line) for line in re.findall(r"typed_use\.py:(\d+): error", shown)}
+    expected = {i for i, line in enumerate(page.read_text().split("\n"), 1) if line.endswith("# refused")}
+    if found != expected:
+        sys.exit(f"{page.name}: found errors in the lines {sorted(found)}, expected {sorted(expected)}:\n{shown}")
+
+
+def use_wheel(wheel, python, tools):
     with tempfile.TemporaryDirectory() as fresh:
         run(python, "-m", "venv", fresh)
         run(pathlib.Path(fresh) / "bin/pip", "install", "-q", wheel)
         print(f"{wheel.name} in {python}")
         run_cases(pathlib.Path(fresh) / "bin/python", "*_case.py", fresh)
+        check_types(tools, pathlib.Path(fresh) / "bin/python")
 
 
 def use_package(package, library, tools):
@@ -139,7 +150,7 @@ def main():
         check_wheel(wheel, tools)
         versions = next(names for names in WHEELS.values() if names[0].replace("python3.", "cp3") in wheel.name)
         for python in interpreters(versions)[0]:
-            use_wheel(wheel, python)
+            use_wheel(wheel, python, tools)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any, Callable, List
+from typing import Any, Callable, List, TypeVar
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ._table import FIELDS, OPENING, PICTURES, annotation_of
 from .camera import Camera
 from .look import Light, Material
 
+Function = TypeVar("Function", bound=Callable[..., Any])
 SEPARATORS = {"resolution": "x", "tile": "/"}
 
 
@@ -132,10 +133,10 @@ def _check_type(kind: type, name: str, value: Any) -> Any:
     return value
 
 
-def takes_fields(names: List[str]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def takes_fields(names: List[str]) -> Callable[[Function], Function]:
     """Makes these fields part of what a function's signature and docstring say of its last parameter, `**fields`."""
 
-    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+    def decorate(function: Function) -> Function:
         signature = inspect.signature(function)
         own = [parameter for parameter in signature.parameters.values() if parameter.kind != inspect.Parameter.VAR_KEYWORD]
         ours = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation_of(FIELDS[name]))
