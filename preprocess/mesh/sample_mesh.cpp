@@ -164,6 +164,7 @@ class SampleWriter {
 
 /// Samples in a triangle whose lattice makes rows; fewer lie anywhere.
 constexpr double ROWS = 4.0;
+constexpr double SLANTED = 0.3;  ///< sine of an angle below which a lattice's rows part
 
 /// Sine of the least angle between the side opposite a corner and the lines that the corner's lattice fans out along to it.
 double least_slant(const std::array<glm::dvec3, 3>& corners, int apex) {
@@ -174,9 +175,9 @@ double least_slant(const std::array<glm::dvec3, 3>& corners, int apex) {
   return twice_area / (longest * glm::distance(at(apex + 1), at(apex + 2)));
 }
 
-/// Index of the corner that a triangle's lattice fans out from: that opposite the longest edge, or, where so many samples lie in
-/// it that they make rows, the one whose lattice is least slanted. A Kronecker lattice of the golden ratio is even however it is
-/// stretched, but where it is slanted its rows part.
+/// Index of the corner that a triangle's lattice fans out from: that opposite the longest edge, or, where that lattice is slanted and
+/// so many samples lie in it that they make rows, the one whose lattice is least slanted. A Kronecker lattice of the golden ratio is
+/// even however it is stretched, but where it is slanted its rows part.
 int apex_of(const std::array<glm::dvec3, 3>& corners, double samples) {
   const auto opposite = [&](int corner) {
     return glm::distance(corners[static_cast<std::size_t>((corner + 1) % 3)],
@@ -185,7 +186,7 @@ int apex_of(const std::array<glm::dvec3, 3>& corners, double samples) {
   int apex = 0;
   for (const int corner : {1, 2})
     if (opposite(corner) > opposite(apex)) apex = corner;
-  if (samples < ROWS) return apex;
+  if (samples < ROWS || least_slant(corners, apex) > SLANTED) return apex;
   const int longest = apex;
   for (const int corner : {(longest + 1) % 3, (longest + 2) % 3})
     if (least_slant(corners, corner) > 1.001 * least_slant(corners, apex)) apex = corner;
