@@ -45,7 +45,9 @@ inline Scene tiny_scene() {
   scene.materials = {glass, matte};
   Surface lamp = surface_of(matte);
   lamp.emission = vec3(2.0F, 1.5F, 1.0F);
-  scene.surfaces = {surface_of(glass), lamp};
+  Surface pane = surface_of(glass);
+  pane.base = glass.tint;
+  scene.surfaces = {pane, lamp};
   scene.object_names = {"glass", ""};
   scene.lights = {{LIGHT_POINT, {1.0, 2.0, 3.0}, vec3(4.0F, 5.0F, 6.0F)}};
   scene.camera = Camera{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, {0.0, 0.0, 1.0}, 35.0, 0.0};
