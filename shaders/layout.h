@@ -167,7 +167,7 @@ struct Light {
   float before;  ///< sum of the shares of the lights before it
 };
 
-/// What a dispatch is told; std140: every vec3 is followed by a scalar. Root space unless said.
+/// Parameters of a dispatch; std140: every vec3 is followed by a scalar. Root space unless said.
 struct FrameParams {
   vec3 origin_00;  ///< primary ray through pixel position (0, 0) (top left corner): point on the ray
   uint width;      ///< image size, pixels
@@ -264,7 +264,7 @@ struct AovPixel {
   vec3 normal;  ///< blended unit normal, world space; 0 on a miss
   float z;      ///< distance from the eye, world units; +inf on a miss
   uint object;  ///< NO_OBJECT on a miss
-  /// Bit 0: the first splat's front face was hit; bits 31..1 tell splats apart (a hash of its words).
+  /// Bit 0: the first splat's front face was hit; bits 31..1 distinguish splats (a hash of its words).
   uint splat;
   uint tests;  ///< splat tests of this ray; 0 without COUNTERS
   uint steps;  ///< node words read by this ray; 0 without COUNTERS
@@ -366,7 +366,7 @@ SPLATRAY_CONST STAGE_FIRST = 1u;  ///< primary rays; paths that go on are queued
 SPLATRAY_CONST STAGE_NEXT = 2u;   ///< one ray of each path queued before
 SPLATRAY_CONST STAGE_AOV = 3u;    ///< no paths: AovPixel of the ray through each pixel's centre
 
-/// Iterations of a loop that tells whether a driver cuts loops short (stage/paths.glsl).
+/// Iterations of a loop that shows whether a driver cuts loops short (stage/paths.glsl).
 SPLATRAY_CONST LOOP_PROBE = 8u;
 
 /// Most lights of a scene.

@@ -128,8 +128,8 @@ void add_scene(nb::module_& module) {
       .def("splats", splats)
       .def("save",
            [](const api::Scene& scene, const std::filesystem::path& file) {
-             const nb::object nobody = nb::none();
-             const api::Progress signals = progress_of(nobody);
+             const nb::object no_progress = nb::none();
+             const api::Progress signals = progress_of(no_progress);
              unlocked([&] { scene.save(file, signals); });
            })
       .def("frame", frame, nb::arg("azimuth").none(), nb::arg("elevation").none(), nb::arg("fov").none(),

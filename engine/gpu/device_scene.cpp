@@ -25,8 +25,8 @@ std::vector<Light> light_table(const Scene& outline, const Look& look) {
 
 }  // namespace
 
-DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish, bool culls)
-    : context_(context), queue_(queue), wish_(wish), culls_(culls), environment_(context, queue, {}) {
+DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolRequest& request, bool culls)
+    : context_(context), queue_(queue), request_(request), culls_(culls), environment_(context, queue, {}) {
   upload_tables({});
 }
 
@@ -36,7 +36,7 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   shows_look_ = false;
   cells_ = filled_cells(scene);
   clip_content_ = clip_content(scene.clip_pool);
-  pools_ = Pools(context_, queue_, scene, wish_, spent);
+  pools_ = Pools(context_, queue_, scene, request_, spent);
   bindings_.emplace(context_, pools_.paging);
   outline_ = {};
   outline_.root = scene.root;

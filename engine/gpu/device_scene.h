@@ -24,7 +24,7 @@ class DeviceScene {
  public:
   /// Nothing yet, black all around. The context and the queue must outlive it.
   /// `culls`: footprint() leaves out pixels that no leaf projects to.
-  DeviceScene(const Context& context, CommandQueue& queue, const PoolWish& wish, bool culls);
+  DeviceScene(const Context& context, CommandQueue& queue, const PoolRequest& request, bool culls);
 
   /// As the tracer's functions of these names.
   void upload(const Scene& scene) { upload(scene, nullptr); }
@@ -61,7 +61,7 @@ class DeviceScene {
 
   const Context& context_;
   CommandQueue& queue_;
-  const PoolWish wish_;
+  const PoolRequest request_;
   const bool culls_;
   std::optional<BindingSet> bindings_;  ///< of the pools
 

@@ -62,7 +62,7 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolL
   return paging;
 }
 
-/// The way to read them that choose_paging tells, or why there is none.
+/// What choose_paging chooses, or why there is no way.
 std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const PoolLimits& limits,
                                               PoolAccess wanted) {
   if (wanted != PoolAccess::automatic) return try_paging(bytes, limits, wanted);
@@ -157,15 +157,16 @@ Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAcces
   return std::get<Paging>(best);
 }
 
-Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish,
+Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolRequest& request,
              Scene* spent) {
   assert(spent == nullptr || spent == &scene);
   top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
   std::vector<std::uint32_t> top = top_table(scene, top_levels);
   PoolLimits limits = pool_limits(context);
-  limits.texel_elements = std::min(limits.texel_elements, wish.page_elements);
-  limits.storage_bytes = std::min(limits.storage_bytes / sizeof(uvec4), wish.page_elements) * sizeof(uvec4);
-  references = choose_references(pool_counts(scene), limits, wish.access, wish.data);
+  limits.texel_elements = std::min(limits.texel_elements, request.page_elements);
+  limits.storage_bytes =
+      std::min(limits.storage_bytes / sizeof(uvec4), request.page_elements) * sizeof(uvec4);
+  references = choose_references(pool_counts(scene), limits, request.access, request.data);
   const bool lists = !references && !scene.reference_pool.empty();
   std::uint32_t binding = BIND_NODE_POOL;
   for_each_pool([&](const auto& row) {
@@ -175,7 +176,7 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
     bytes.at(binding++) = elements * sizeof(pool.front());
   });
   bytes.at(BIND_TOP_TABLE) = std::span(top).size_bytes();
-  paging = choose_paging(bytes, limits, wish.access);
+  paging = choose_paging(bytes, limits, request.access);
   bytes.texel_buffers = paging.access == PoolAccess::texel;
   bytes.pages = *std::max_element(paging.pages.begin(), paging.pages.end());
   const VkBufferUsageFlags usage =

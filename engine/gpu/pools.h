@@ -25,7 +25,7 @@ enum class DataPool {
 };
 
 /// How the pools are to be held. Anything but automatic is for tests and benchmarks.
-struct PoolWish {
+struct PoolRequest {
   PoolAccess access = PoolAccess::automatic;
   DataPool data = DataPool::automatic;
   std::uint64_t page_elements = UINT64_MAX;  ///< most elements of the data pool in a page
@@ -74,7 +74,7 @@ struct Paging {
   [[nodiscard]] std::uint32_t pages_constant() const;  ///< SPEC_PAGES
 };
 
-/// Whether the data pool of such a scene is read through references, where `access` tells how pools may be read.
+/// Whether the data pool of such a scene is read through references, `access`: how pools may be read.
 [[nodiscard]] bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
                                      DataPool wanted);
 
@@ -87,7 +87,7 @@ struct Pools {
   Pools() = default;
   /// Uploads and waits; throws as choose_paging does. `spent` is null or the scene itself, whose pools are then freed, each as
   /// soon as it is on the device; after an Error some of them may be gone.
-  Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolWish& wish,
+  Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolRequest& request,
         Scene* spent = nullptr);
 
   Paging paging;

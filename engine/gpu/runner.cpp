@@ -12,8 +12,8 @@ namespace {
 /// Most groups of pixels whose paths are traced in stages together: their queues take 42 MB.
 constexpr std::uint32_t STAGED_GROUPS = 4096;
 
-PoolWish pool_request(const TracerOptions& options, const DeviceProfile& profile) {
-  PoolWish request = options.pools;
+PoolRequest pool_request(const TracerOptions& options, const DeviceProfile& profile) {
+  PoolRequest request = options.pools;
   request.access = profile.access();
   return request;
 }

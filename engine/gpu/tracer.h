@@ -38,7 +38,7 @@ struct RenderStats {
 struct TracerOptions {
   /// Where compiled pipelines are kept between runs; empty = nowhere.
   std::filesystem::path pipeline_folder{};
-  PoolWish pools{};                      ///< for tests and benchmarks
+  PoolRequest pools{};                   ///< for tests and benchmarks
   Kernels kernels = Kernels::automatic;  ///< for tests and benchmarks
   unsigned threads = 0;                  ///< of a context that is the host; 0 = one a core
 };

@@ -1,5 +1,5 @@
 // Directions towards objects that send out light, in which paths may go on beside those that surfaces choose: such light is found
-// where a ray arrives, so that no splat of an object need be chosen, nor overlapping ones told apart. Needs `frame` and
+// where a ray arrives, so that no splat of an object need be chosen, nor overlapping ones distinguished. Needs `frame` and
 // light_at(index).
 #ifndef SPLATRAY_GUIDE_GLSL
 #define SPLATRAY_GUIDE_GLSL

@@ -51,7 +51,7 @@ bool loops_were_cut() {
   return iterations < LOOP_PROBE / 2u;
 }
 
-/// Keeps a pixel's mean. A coverage that is not finite, and stays so, tells the host that it is wrong.
+/// Keeps a pixel's mean. A coverage that is not finite, and stays so, shows the host that it is wrong.
 void keep_mean(uint place, vec4 mean) {
   accumulation[place] = loops_were_cut() ? vec4(vec3(mean), -INFINITY_F) : mean;
 }

@@ -4,7 +4,7 @@
 #include "stage/paths.glsl"
 
 #ifndef LIT
-/// A number that tells splats apart.
+/// A number that distinguishes splats.
 uint hash_words(uvec4 words) {
   return hash_uint(words.x ^ hash_uint(words.y ^ hash_uint(words.z ^ hash_uint(words.w))));
 }

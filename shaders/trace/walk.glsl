@@ -22,7 +22,7 @@ struct Walk {
   bool inside;     ///< the ray is still in the root and before its end
   vec3 inverse;    ///< 1 / direction
   bvec3 parallel;  ///< to the planes of an axis, so that `inverse` is unused there
-  uint ahead;      ///< the bits of an empty leaf's word that tell of the space ahead
+  uint ahead;      ///< the bits of an empty leaf's word that hold the space ahead
   uvec3 cell;      ///< a lattice cell inside the next leaf; one coordinate is >= CELL_LIMIT outside the root
   float t_in;      ///< the current leaf's interval; t_in never decreases
   float t_out;

@@ -21,7 +21,7 @@ class SharedDevice {
   /// Whether it was opened before this process was forked off: its threads and locks are another's, so that it can neither be
   /// used nor closed here.
   [[nodiscard]] bool is_of_parent() const { return process_ != getpid(); }
-  /// Ends a scene's place in this turn or, where another thread has it, at that one's end: nobody waits.
+  /// Ends a scene's place in this turn or, where another thread has it, at that one's end: no one waits.
   void drop(std::unique_ptr<SceneOnDevice> scene);
 
   Context context;

@@ -84,8 +84,8 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
       shown.show_objects(std::move(objects));
       if (suits_exposure(inner, request))
         request.look.exposure_ev = preview_exposure_ev(request, shown, camera);
-      const auto told = [&relay](double share) { return relay("tracing", share); };
-      return outer_image(make_picture(request, shown, camera, told).image, request);
+      const auto progressed = [&relay](double share) { return relay("tracing", share); };
+      return outer_image(make_picture(request, shown, camera, progressed).image, request);
     });
   });
 }
