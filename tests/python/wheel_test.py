@@ -4,6 +4,7 @@ Exit 77 with a sentence where tools are missing."""
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
