@@ -23,7 +23,8 @@ inline constexpr std::uint64_t PNG_WRITING_BYTES = sizeof(vec3) + sizeof(float) 
   return 2 * sizeof(float) * channels;
 }
 
-/// Writes sRGB PNG, 8 bit, with an alpha channel where the picture has one. Throws Error (failed); then an older file of that name is as it was.
+/// Writes sRGB PNG, 8 bit, with an alpha channel where the picture has one. Throws Error (failed); then an older file of that
+/// name is as it was.
 void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path);
 
 /// The bytes that write_png writes.

@@ -8,12 +8,12 @@
 /// World space is right-handed, in the units of the input, float64. Colours and radiances are linear sRGB. Lengths are world
 /// units, angles degrees. Nothing is printed, and no file is written but those that are named. Every failure is an Error. All
 /// functions may be called from several threads at once, with the same scene too: what needs the device waits its turn. A process
-/// that is forked off after the first use of a Vulkan device gets an Error (no_device) where it uses one; all else works there, the
-/// device "cpu" too.
+/// that is forked off after the first use of a Vulkan device gets an Error (no_device) where it uses one; all else works there,
+/// the device "cpu" too.
 ///
-/// Scene and Request hide what they hold; all other structs are plain values of the standard library's types, so that programs need GCC's
-/// libstdc++. Layouts and names stay within a MINOR version, which the soname carries. All that comes in is checked first: what makes no
-/// sense is an Error (usage).
+/// Scene and Request hide what they hold; all other structs are plain values of the standard library's types, so that programs
+/// need GCC's libstdc++. Layouts and names stay within a MINOR version, which the soname carries. All that comes in is checked
+/// first: what makes no sense is an Error (usage).
 #pragma once
 #include <array>
 #include <cstddef>
@@ -84,9 +84,9 @@ struct Material {
 /// The material of a name: matte, glossy, mirror, gold, copper, glass or ruby. Throws Error (usage) for another.
 [[nodiscard]] SPLATRAY_API Material named_material(const std::string& name);
 
-/// A number for each point or vertex, kept beside it: "intensity", "class" or any other name. The request's "color-by" shows it, and
-/// "hide-class" and "hide-scan" look at "class" and "scan", which as "return", "returns" and "source" have whole numbers from 0 on. A
-/// number that is not finite is 0; "point" and "kind" are splatray's own names.
+/// A number for each point or vertex, kept beside it: "intensity", "class" or any other name. The request's "color-by" shows it,
+/// and "hide-class" and "hide-scan" look at "class" and "scan", which as "return", "returns" and "source" have whole numbers from
+/// 0 on. A number that is not finite is 0; "point" and "kind" are splatray's own names.
 struct Attribute {
   std::string name;
   std::span<const double> values;  ///< as many as there are points or vertices
@@ -109,8 +109,8 @@ struct Points {
   std::optional<bool> scanned{};
 };
 
-/// An object of triangles as arrays, which are copied; the same as a file of it. Points lie at the vertices, or by area where triangles
-/// are large or the request has "mesh-points". Arrays that are not empty have as many elements as `vertices`.
+/// An object of triangles as arrays, which are copied; the same as a file of it. Points lie at the vertices, or by area where
+/// triangles are large or the request has "mesh-points". Arrays that are not empty have as many elements as `vertices`.
 struct Mesh {
   std::span<const Double3> vertices{};  ///< world; triangles with one that is not finite are left out
   /// Three vertices each, below their number, anticlockwise seen from outside; at least one triangle.
@@ -140,12 +140,12 @@ struct Camera {
   std::array<double, 2> lens_shift{0.0, 0.0};
   double pixel_aspect = 1.0;  ///< a pixel's width over its height, 0.01 to 100
 };
-/// The camera of a pose and intrinsics as OpenCV has them: `pose`, rows of a 4 x 4 matrix, takes camera coordinates (x right, y down, z
-/// ahead) to the world and is a rotation and a translation; `k`, rows of fx 0 cx, 0 fy cy, 0 0 1, is in pixels, the centre of the top left
-/// one at (0, 0), for pictures of width x height. Their shape is part of the camera: other sizes of the same shape show the same. The
-/// target is 1 ahead. For OpenGL's cameras (y up, z back), negate the pose's second and third column; of COLMAP, whose corner is at (0, 0),
-/// subtract 0.5 from cx and cy. Exact off-centre and with fx other than fy. Throws Error (usage) for a pose that is none, skew, or sizes
-/// and focal lengths that are not above 0.
+/// The camera of a pose and intrinsics as OpenCV has them: `pose`, rows of a 4 x 4 matrix, takes camera coordinates (x right, y
+/// down, z ahead) to the world and is a rotation and a translation; `k`, rows of fx 0 cx, 0 fy cy, 0 0 1, is in pixels, the
+/// centre of the top left one at (0, 0), for pictures of width x height. Their shape is part of the camera: other sizes of the
+/// same shape show the same. The target is 1 ahead. For OpenGL's cameras (y up, z back), negate the pose's second and third
+/// column; of COLMAP, whose corner is at (0, 0), subtract 0.5 from cx and cy. Exact off-centre and with fx other than fy. Throws
+/// Error (usage) for a pose that is none, skew, or sizes and focal lengths that are not above 0.
 [[nodiscard]] SPLATRAY_API Camera camera_from_pose(const std::array<std::array<double, 4>, 4>& pose,
                                                    const std::array<Double3, 3>& k, std::uint32_t width,
                                                    std::uint32_t height);
@@ -180,8 +180,9 @@ struct FieldInfo {
   double least, most;  ///< of numbers
 };
 
-/// What is asked for of a scene and its picture: values of named fields, the same as the options of splatray-render, whose help says
-/// what each is; fields() has them all. Names may have _ for -. It is a value; all that is not set is left to what suits the scene.
+/// What is asked for of a scene and its picture: values of named fields, the same as the options of splatray-render, whose help
+/// says what each is; fields() has them all. Names may have _ for -. It is a value; all that is not set is left to what suits the
+/// scene.
 class SPLATRAY_API Request {
  public:
   Request();
@@ -222,15 +223,16 @@ class SPLATRAY_API Request {
 };
 
 class Scene;
-/// Reads scenes, models and scans: .ply .obj .stl .vtk .vtp .vtu .pvtp .pvtu .gltf .glb .las .laz .e57 .pcd .ptx .pts .xyz .csv .txt .asc .bin, folders
-/// of scans, or one .soct alone. Of the request: how they are read and built, device, threads, colours, materials, up direction; what is
-/// left open about pictures is kept for those of this scene. Throws Error (input, usage, cancelled, out_of_memory).
+/// Reads scenes, models and scans: .ply .obj .stl .vtk .vtp .vtu .pvtp .pvtu .gltf .glb .las .laz .e57 .pcd .ptx .pts .xyz .csv
+/// .txt .asc .bin, folders of scans, or one .soct alone. Of the request: how they are read and built, device, threads, colours,
+/// materials, up direction; what is left open about pictures is kept for those of this scene. Throws Error (input, usage,
+/// cancelled, out_of_memory).
 [[nodiscard]] SPLATRAY_API Scene open(std::span<const std::filesystem::path> files,
                                       const Request& request = {}, const Progress& progress = {});
 [[nodiscard]] SPLATRAY_API Scene open(const std::filesystem::path& file, const Request& request = {},
                                       const Progress& progress = {});
-/// A scene of one or several objects, up z unless the request has "up". Of the request: as open(), but for what files alone have. Throws
-/// Error (usage) where arrays do not fit each other, (input) when no point is usable, and as open().
+/// A scene of one or several objects, up z unless the request has "up". Of the request: as open(), but for what files alone have.
+/// Throws Error (usage) where arrays do not fit each other, (input) when no point is usable, and as open().
 [[nodiscard]] SPLATRAY_API Scene make_scene(std::span<const Object> objects, const Request& request = {},
                                             const Progress& progress = {});
 [[nodiscard]] SPLATRAY_API Scene make_scene(const Points& object, const Request& request = {},
@@ -260,7 +262,8 @@ class SPLATRAY_API Scene {
     std::uint32_t object;
   };
   [[nodiscard]] Splat splat(std::size_t index) const;
-  /// Writes splatray's scene file (.soct), which opens without preprocess. Throws Error (failed, cancelled); then there is no file.
+  /// Writes splatray's scene file (.soct), which opens without preprocess. Throws Error (failed, cancelled); then there is no
+  /// file.
   void save(const std::filesystem::path& file, const Progress& progress = {}) const;
 
   struct Impl;  ///< not for users
@@ -293,19 +296,20 @@ struct SPLATRAY_API Image {
   std::vector<std::int32_t> object{};  ///< -1 on a miss; likewise
   /// Estimated error of the radiance, the root of the mean square of r, g, b; empty unless "aov" has error.
   std::vector<float> error{};
-  /// Brightness of a .png, stops, and its tone curve, "neutral", "agx", "soft" or "none": as asked for, or what suits the picture.
+  /// Brightness of a .png, stops, and its tone curve, "neutral", "agx", "soft" or "none": as asked for, or what suits the
+  /// picture.
   double exposure = 0.0;
   std::string tone = "neutral";
 
-  /// Writes .png (sRGB, 8 bit, through exposure and tone) or .exr (linear float; with Z, N.X N.Y N.Z, id and error where there are such
-  /// channels). Throws Error (usage, failed); an older file then stays as it was.
+  /// Writes .png (sRGB, 8 bit, through exposure and tone) or .exr (linear float; with Z, N.X N.Y N.Z, id and error where there
+  /// are such channels). Throws Error (usage, failed); an older file then stays as it was.
   void save(const std::filesystem::path& file) const;
   /// The bytes of the .png.
   [[nodiscard]] std::vector<unsigned char> png() const;
 };
 
-/// The picture of a scene that a request asks for, the same as splatray-render's: the same scene, request and device give the same bits
-/// (but for "time"). How the scene is read is not looked at. Throws Error.
+/// The picture of a scene that a request asks for, the same as splatray-render's: the same scene, request and device give the
+/// same bits (but for "time"). How the scene is read is not looked at. Throws Error.
 [[nodiscard]] SPLATRAY_API Image render(const Scene& scene, const Request& request = {},
                                         const Progress& progress = {});
 /// The picture of the files that the request names as "inputs". Throws Error.

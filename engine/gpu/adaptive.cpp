@@ -94,7 +94,7 @@ class AdaptiveTile {
   /// Of a half in a region, about.
   [[nodiscard]] std::uint32_t most_samples() const { return dispatch_.frame.sample_end / 2; }
 
-  /// Regions of a half that have `samples` and are worse than wanted, as what the other half says lets expect of so many: a
+  /// Regions of a half that have `samples` and are worse than wanted, as what the other half says lets expect of that many: a
   /// half's own samples must not decide how many they are.
   [[nodiscard]] std::vector<bool> regions_above(std::uint32_t half, std::uint32_t samples,
                                                 double wanted) const {

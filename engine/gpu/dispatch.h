@@ -20,7 +20,7 @@ struct Dispatch {
   std::uint32_t groups_x = 1;
   std::uint32_t groups_y = 1;
 
-  /// Over at least so many groups; none of 0.
+  /// Sets the numbers of groups so that there are at least `count`; none for 0.
   void set_groups(std::uint32_t count);
 };
 

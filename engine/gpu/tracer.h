@@ -43,8 +43,8 @@ struct TracerOptions {
   unsigned threads = 0;                  ///< of a context that is the host; 0 = one a core
 };
 
-/// What it shows is given with each call; of a look, what equals that of the call before is not uploaded again. Calls that make no
-/// sense, such as images of no scene or a look of other objects, throw Error (failed) with a sentence that says so.
+/// What it shows is given with each call; of a look, what equals that of the call before is not uploaded again. Calls that make
+/// no sense, such as images of no scene or a look of other objects, throw Error (failed) with a sentence that says so.
 class Tracer {
  public:
   /// The context must outlive the tracer.

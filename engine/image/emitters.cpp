@@ -74,12 +74,16 @@ bool divide(const Part& part, int depth, std::vector<Part>& parts) {
 
 }  // namespace
 
+vec3 shown_emission(const ObjectLooks& objects, std::size_t object) {
+  const bool hidden = (objects.materials[object].flags & MATERIAL_HIDDEN) != 0;
+  return hidden ? vec3(0.0F) : objects.surfaces[object].emission;
+}
+
 std::vector<Emitter> find_emitters(const Scene& scene, const ObjectLooks& objects) {
   std::vector<double> radiance(objects.materials.size(), 0.0);
   for (std::size_t i = 0; i < radiance.size(); ++i) {
-    const vec3& emission = objects.surfaces[i].emission;
-    if ((objects.materials[i].flags & MATERIAL_HIDDEN) == 0)
-      radiance[i] = double(emission.x + emission.y + emission.z) / 3.0;
+    const vec3 emission = shown_emission(objects, i);
+    radiance[i] = double(emission.x + emission.y + emission.z) / 3.0;
   }
   if (std::all_of(radiance.begin(), radiance.end(), [](double one) { return one <= 0.0; })) return {};
   std::vector<Glow> glows;

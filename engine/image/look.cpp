@@ -5,11 +5,6 @@
 namespace splatray {
 namespace {
 
-/// What of an object find_emitters() looks at.
-vec3 shown_emission(const ObjectLooks& objects, std::size_t i) {
-  return (objects.materials[i].flags & MATERIAL_HIDDEN) != 0 ? vec3(0.0F) : objects.surfaces[i].emission;
-}
-
 bool same_emission(const ObjectLooks& a, const ObjectLooks& b) {
   if (a.surfaces.size() != b.surfaces.size()) return false;
   for (std::size_t i = 0; i < a.surfaces.size(); ++i)

@@ -12,7 +12,8 @@ namespace splatray {
 struct Look {
   ObjectLooks objects;             ///< one for each object of the scene
   std::vector<SceneLight> lights;  ///< at most LIGHTS_MOST, of them LIGHTS_SIZED_MOST that have a size
-  /// Where paths look for light that objects send out: find_emitters() of the scene and the surfaces. Others are correct but noisier.
+  /// Where paths look for light that objects send out: find_emitters() of the scene and the surfaces. Others are correct but
+  /// noisier.
   std::vector<Emitter> emitters;
   /// Null: black all around. Shared, and compared by its address, as it may be large.
   std::shared_ptr<const Environment> environment;

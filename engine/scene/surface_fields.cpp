@@ -6,8 +6,6 @@ namespace splatray {
 namespace {
 
 constexpr float ANY = std::numeric_limits<float>::max();
-/// Half as bright as the sun in candela per square metre; squares of it stay finite.
-constexpr float MOST_EMISSION = 1e9F;
 
 constexpr SurfaceField number(const char* what, float Surface::*member, float least, float most,
                               std::uint32_t feature, const char* key = nullptr) {
@@ -26,7 +24,7 @@ constexpr SurfaceField FIELDS[] = {
     color("a specular colour", &Surface::specular_color, ANY, 0),
     number("a clearcoat", &Surface::coat, 0.0F, 1.0F, FEATURE_COAT, "coat"),
     number("a clearcoat roughness", &Surface::coat_roughness, 0.0F, 1.0F, 0, "coat-roughness"),
-    color("an emission", &Surface::emission, MOST_EMISSION, FEATURE_EMISSION, "emission"),
+    color("an emission", &Surface::emission, EMISSION_MOST, FEATURE_EMISSION, "emission"),
     number("a transmission", &Surface::transmission, 0.0F, 1.0F, 0),
     color("an absorption", &Surface::absorption, ANY, 0),
     number("a surface's index of refraction", &Surface::ior, 1.0F, ANY, 0),

@@ -1,12 +1,16 @@
 /// The numbers of a Surface, one row each: files are checked by them, and the keys of --object, the viewer's sliders and what
-/// kernels are compiled with are made of them. A lobe is its members and FEATURE_ bit in shaders/layout.h, their rows here, the bit's
-/// row in shaders/scene/features.glsl, its text in shaders/light/bsdf.glsl, and where glTF has it preprocess/read/gltf/gltf_material.cpp.
+/// kernels are compiled with are made of them. A lobe is its members and FEATURE_ bit in shaders/layout.h, their rows here, the
+/// bit's row in shaders/scene/features.glsl, its text in shaders/light/bsdf.glsl, and where glTF has it
+/// preprocess/read/gltf/gltf_material.cpp.
 #pragma once
 #include <span>
 
 #include "shaders/layout.h"
 
 namespace splatray {
+
+/// Largest emission: half as bright as the sun in candela per square metre; squares of it stay finite.
+inline constexpr float EMISSION_MOST = 1e9F;
 
 struct SurfaceField {
   const char* what;        ///< in sentences: "a clearcoat roughness"

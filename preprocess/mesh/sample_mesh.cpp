@@ -175,8 +175,8 @@ double least_slant(const std::array<glm::dvec3, 3>& corners, int apex) {
   return twice_area / (longest * glm::distance(at(apex + 1), at(apex + 2)));
 }
 
-/// Index of the corner that a triangle's lattice fans out from: that opposite the longest edge, or, where that lattice is slanted and
-/// so many samples lie in it that they make rows, the one whose lattice is least slanted. A Kronecker lattice of the golden ratio is
+/// Index of the corner that a triangle's lattice fans out from: that opposite the longest edge, or, where that lattice is slanted
+/// and enough samples lie in it to make rows, the one whose lattice is least slanted. A Kronecker lattice of the golden ratio is
 /// even however it is stretched, but where it is slanted its rows part.
 int apex_of(const std::array<glm::dvec3, 3>& corners, double samples) {
   const auto opposite = [&](int corner) {

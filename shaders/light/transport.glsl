@@ -23,7 +23,7 @@ const float SCAN_SKY = 0.75f;
 /// What scatters light at a hit, seen at this cosine. `eta` as Bsdf has it.
 Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
   Bsdf bsdf = bsdf_of(surface, hit.color, eta);
-  bsdf.tint = hit.front ? bsdf.base : vec3(1.0f);  // once, in and out together: a pane's two sides are one pane
+  if (!hit.front) bsdf.tint = vec3(1.0f);  // once, in and out together: a pane's two sides are one pane
   if (LOOK == LOOK_SCAN) bsdf.base = hit.color;
   if (LOOK == LOOK_CLAY) bsdf.base = vec3(CLAY_ALBEDO);
   if (LOOK == LOOK_AO) bsdf.base = vec3(1.0f);

@@ -18,13 +18,14 @@ struct MadePicture {
   double denoise_ms = 0.0;         ///< 0 where none did
 };
 
-/// The picture in the lights that the request asks for, or where it asks for none and none enters in that of the camera (eye_light.h): by samples or until it is good enough, and without noise, as it says. Throws
-/// Error: usage, interrupted when `progress` says so, failed.
+/// The picture in the lights that the request asks for, or where it asks for none and none enters in that of the camera
+/// (eye_light.h): by samples or until it is good enough, and without noise, as it says. Throws Error: usage, interrupted when
+/// `progress` says so, failed.
 [[nodiscard]] MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
                                        const Tracer::Progress& progress);
 
-/// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide and
-/// high. Parts of a picture, and all pictures of a run, have one exposure by it.
+/// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide
+/// and high. Parts of a picture, and all pictures of a run, have one exposure by it.
 [[nodiscard]] double preview_exposure_ev(const Request& request, SceneOnDevice& shown, const Camera& camera);
 
 }  // namespace splatray

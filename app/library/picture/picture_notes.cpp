@@ -45,8 +45,7 @@ std::vector<std::string> ignored_options(const Request& request, std::uint32_t l
 
 bool sends_out_light(const ObjectLooks& objects) {
   for (std::size_t i = 0; i < objects.surfaces.size(); ++i)
-    if ((objects.materials[i].flags & MATERIAL_HIDDEN) == 0 && !is_black(objects.surfaces[i].emission))
-      return true;
+    if (!is_black(shown_emission(objects, i))) return true;
   return false;
 }
 

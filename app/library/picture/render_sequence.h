@@ -40,8 +40,8 @@ struct SequenceListener {
   std::function<void(const FailedPicture&)> failed;  ///< of several, as soon as one is
 };
 
-/// Makes the pictures of a scene. `still`: the camera without a sequence. Each is the still of its camera, default lights included.
-/// One of several that cannot be made is recorded, and the others go on; of a single one throws the Error. Throws Error
+/// Makes the pictures of a scene. `still`: the camera without a sequence. Each is the still of its camera, default lights
+/// included. One of several that cannot be made is recorded, and the others go on; of a single one throws the Error. Throws Error
 /// (interrupted) when the listener stops it, and after a signal.
 [[nodiscard]] SequenceRecord render_sequence(const Request& request, const Sequence& sequence,
                                              SceneOnDevice& shown, const Camera& still,

@@ -124,7 +124,8 @@ std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLigh
 
 bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
 
-/// Applies --material, --object, --up (else upright of upright.h) and what is shown of attributes, and keeps what suits the scene.
+/// Applies --material, --object, --up (else upright of upright.h) and what is shown of attributes, and keeps what suits the
+/// scene.
 void show_as_asked(const Request& request, LoadedScene& loaded) {
   if (!request.look.material.empty() || !request.look.objects.empty()) {
     ObjectLooks objects = choose_objects(loaded.scene, request);

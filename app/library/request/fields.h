@@ -1,5 +1,5 @@
-/// The table of all that can be asked for. Help, man pages, the viewer's panels, C++, Python, JSON and what a picture keeps of its
-/// command come from it.
+/// The table of all that can be asked for. Help, man pages, the viewer's panels, C++, Python, JSON and what a picture keeps of
+/// its command come from it.
 #pragma once
 #include <span>
 #include <string>
@@ -12,7 +12,8 @@ namespace splatray {
 /// All fields, in the order of the help and of reading: those after `camera` change parts of its camera.
 [[nodiscard]] std::span<const Field> fields();
 
-/// The field of this name, or of this old name where no field of `door` has that as its name; null where there is none in the door.
+/// The field of this name, or of this old name where no field of `door` has that as its name; null where there is none in the
+/// door.
 [[nodiscard]] const Field* find_field(const std::string& name, FieldDoors door);
 
 /// How a door spells the name of a field, and what its sentences end with.
@@ -20,8 +21,9 @@ struct FieldSpelling {
   std::string before{}, after{};
 };
 
-/// Reads values into the request, whatever their order: in the order of the table, those of a family in theirs; of a field that is not
-/// repeated the last holds. Throws Error (usage), one sentence, for a name that the door does not have and for a value that is none.
+/// Reads values into the request, whatever their order: in the order of the table, those of a family in theirs; of a field that
+/// is not repeated the last holds. Throws Error (usage), one sentence, for a name that the door does not have and for a value
+/// that is none.
 void assign(Request& request, const std::vector<FieldText>& values, FieldDoors door,
             const FieldSpelling& spelling = {});
 

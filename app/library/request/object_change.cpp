@@ -250,9 +250,10 @@ bool changes_look(const ObjectChange& change) {
 void apply_object_changes(const std::vector<ObjectChange>& changes, const std::vector<std::string>& names,
                           ObjectLooks& looks) {
   std::map<std::size_t, ObjectChange> said;
-  for (const ObjectChange& change : changes)
-    for (const auto& [key, value] : change.values)
-      said[find_object(change.object, names)].values[key] = value;
+  for (const ObjectChange& change : changes) {
+    ObjectChange& all = said[find_object(change.object, names)];
+    for (const auto& [key, value] : change.values) all.values[key] = value;
+  }
   for (const auto& [object, change] : said) {
     ObjectLook look{looks.materials[object], looks.surfaces[object]};
     apply(Part::preset, change, look);

@@ -13,9 +13,9 @@ struct Daylight {
   double turbidity = 3.0;
 };
 
-/// 1024 x 512 texels of the sky's radiance, the sun among them, over a grey ground that reflects a fifth of their light: Preetham,
-/// Shirley and Smits 1999, "A Practical Analytic Model for Daylight", appendix A.2 (sky), A.1 (sunlight at 610, 550 and 465 nm).
-/// As bright as makes the irradiance of a level surface pi, in luminance: white ground then sends out 1.
+/// 1024 x 512 texels of the sky's radiance, the sun among them, over a grey ground that reflects a fifth of their light:
+/// Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight", appendix A.2 (sky), A.1 (sunlight at 610, 550 and
+/// 465 nm). As bright as makes the irradiance of a level surface pi, in luminance: white ground then sends out 1.
 [[nodiscard]] Environment daylight_environment(const Daylight& daylight);
 
 }  // namespace splatray

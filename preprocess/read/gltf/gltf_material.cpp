@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine/base/number_text.h"
+#include "engine/scene/surface_fields.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
 #include "preprocess/read/gltf/image_size.h"
 
@@ -124,9 +125,6 @@ glm::vec3 volume_absorption(const tinygltf::Value* volume) {
   return distance > 0.0F && std::isfinite(distance) ? -glm::log(color) / distance : glm::vec3(0.0F);
 }
 
-/// Squares of it stay finite.
-constexpr float MOST_EMISSION = 1e9F;
-
 /// A number of a material, in an extension or, where that is null, in pbrMetallicRoughness.
 struct RangedNumber {
   const char *extension, *name;
@@ -140,7 +138,7 @@ constexpr RangedNumber RANGED_NUMBERS[] = {
     {"KHR_materials_clearcoat", "clearcoatFactor", 0.0, 1.0},
     {"KHR_materials_clearcoat", "clearcoatRoughnessFactor", 0.0, 1.0},
     {"KHR_materials_transmission", "transmissionFactor", 0.0, 1.0},
-    {"KHR_materials_emissive_strength", "emissiveStrength", 0.0, MOST_EMISSION},
+    {"KHR_materials_emissive_strength", "emissiveStrength", 0.0, EMISSION_MOST},
 };
 
 std::optional<double> number_of(const tinygltf::Material& from, const RangedNumber& ranged) {
@@ -170,7 +168,7 @@ Surface extension_surface(const tinygltf::Material& from) {
   if (from.emissiveFactor.size() == 3) {
     const glm::vec3 factor(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]);
     surface.emission =
-        glm::clamp(std::min(strength, MOST_EMISSION) * factor, glm::vec3(0.0F), glm::vec3(MOST_EMISSION));
+        glm::clamp(std::min(strength, EMISSION_MOST) * factor, glm::vec3(0.0F), glm::vec3(EMISSION_MOST));
   }
   return surface;
 }

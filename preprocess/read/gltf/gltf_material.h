@@ -17,7 +17,8 @@ namespace splatray {
 /// is refused before it is decoded.
 ///
 /// pbrMetallicRoughness becomes diffuse + Phong specular, mirror or dielectric, whichever is nearest:
-/// - transmissionFactor > 0: dielectric, which path tracing shows as the mixture that it is; ior of KHR_materials_ior (1.5), or 1 when neither that nor
+/// - transmissionFactor > 0: dielectric, which path tracing shows as the mixture that it is; ior of KHR_materials_ior (1.5), or 1
+/// when neither that nor
 ///   KHR_materials_volume is there (a thin pane, which does not bend light); tint = base colour, times the
 ///   attenuation colour of KHR_materials_volume to the power of thickness / (2 attenuation distance) (the
 ///   ray crosses the surface twice).
