@@ -50,9 +50,9 @@ class Reentrance(unittest.TestCase):
         self.assertRegex(found, "forked off after Vulkan was used.*\nTrue True\n")
 
     def test_control_c_ends_what_waits(self):
-        program = START + ("def work():\n    try:\n        scene.render(size=(1920, 1080), samples=65536, progress=lambda *_: not stop)\n"
+        program = START + ("def work():\n    try:\n        scene.render(size=(1920, 1080), samples=65536, progress=lambda *_: busy.set() or not stop)\n"
                            "    except sr.Cancelled:\n        pass\n"
-                           "stop = []\nthread = threading.Thread(target=work)\nthread.start()\nother = make()\n"
+                           "stop = []\nbusy = threading.Event()\nother = make()\nthread = threading.Thread(target=work)\nthread.start()\nbusy.wait()\n"
                            "print('ready', flush=True)\n"
                            "try:\n    other.render(size=(9, 9))\nexcept KeyboardInterrupt:\n    print('ended', flush=True)\n"
                            "stop.append(1)\nthread.join()\n")
