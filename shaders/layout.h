@@ -154,18 +154,40 @@ SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
 SPLATRAY_CONST LIGHT_POINT = 1u;
 SPLATRAY_CONST LIGHT_RECTANGLE = 2u;
 
-/// Lights that have a size come first in their table. Behind all lights: balls (position, size) that hold what objects send out
-/// light with, `share` in proportion to its power.
+/// Lights that have a size come first in their table, of them those at infinity last.
 struct Light {
   vec3 position;  ///< root space; directional: unit vector towards the light
   uint kind;      ///< LIGHT_*
   vec3 power;     ///< irradiance, intensity (of lattice units) or, rectangle, radiance
   float size;     ///< point: radius, lattice units; directional: angular, radians; 0: none
   vec3 edge_u;    ///< rectangle: half its edges, perpendicular, lattice units; it shines towards cross(u, v)
-  float share;    ///< how often a path's vertex chooses it, 0..1
+  uint node;      ///< its leaf of the light tree
   vec3 edge_v;
-  float before;  ///< sum of the shares of the lights before it
+  float range_scale;  ///< point: 1 / range^4 of KHR_lights_punctual, lattice units; 0: no end
+  vec3 spot_axis;     ///< point: unit vector in which a spot shines
+  float spot_scale;   ///< 1 / (cosine of its inner angle - cosine of its outer); 0: in all directions
+  float spot_cosine;  ///< of its outer angle
+  uint unused_0, unused_1, unused_2;
 };
+
+/// A node of the light tree (engine/light/light_tree.h), depth first: an inner node's first child follows it, its second is the one
+/// that the first's `skip` leads to. Three texels.
+struct LightNode {
+  vec3 center;   ///< of a ball that holds all below it, lattice units; distant: unit vector into the middle of all of them
+  float radius;  ///< distant: sine of the angle about that which holds them, 1 and more: no bound
+  vec3 axis;     ///< unit axis of a cone that holds the directions in which they shine straight ahead
+  float cos_axis;  ///< cosine of its angle
+  float power;     ///< radiance times area, intensity or, distant, irradiance of all below it; mean of rgb
+  float cos_edge;  ///< cosine of how far from straight ahead any of them shines
+  uint skip;       ///< the node behind all below this one
+  uint content;    ///< LIGHT_NODE_*; of leaves the index of a light, or of an emitter, in bits 27..0
+};
+SPLATRAY_CONST LIGHT_NODE_TEXELS = 3u;
+SPLATRAY_CONST LIGHT_NODE_LEAF = 0x80000000u;
+SPLATRAY_CONST LIGHT_NODE_EMITTER = 0x40000000u;    ///< of leaves: a splat, else a light
+SPLATRAY_CONST LIGHT_NODE_TWO_SIDED = 0x20000000u;  ///< something below it shines to both sides
+SPLATRAY_CONST LIGHT_NODE_DISTANT = 0x10000000u;    ///< all below it are at infinity
+SPLATRAY_CONST LIGHT_NODE_INDEX = 0x0FFFFFFFu;
 
 /// Parameters of a dispatch; std140: every vec3 is followed by a scalar. Root space unless said.
 struct FrameParams {
@@ -218,7 +240,11 @@ struct FrameParams {
   uint sky_height;
   float sky_share;  ///< how often a path's vertex chooses the environment, 0..1; else a light
   vec3 cut_eye;     ///< FACES_CUT: splats that face away from here are left out
-  uint emitters;    ///< balls that hold what objects send out light with, in the table behind light_end
+  uint light_nodes;        ///< of the light tree; 0: there is none
+  uint emitters;           ///< splats that send out light
+  uint nodes_sized_begin;  ///< where the light tree has the lights that have a size and are not at infinity
+  uint nodes_sized_end;
+  uint lights_met;         ///< how many of the lights that have a size are not at infinity
   vec4 absorption[32];  ///< per lattice unit, inside each bit of a ray's mask
 };
 
@@ -311,9 +337,11 @@ SPLATRAY_CONST BIND_HITS = 17u;
 SPLATRAY_CONST BIND_GROUPS = 18u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
 SPLATRAY_CONST BIND_PATHS = 19u;   ///< of this stage
 SPLATRAY_CONST BIND_PATHS_QUEUED = 20u;  ///< of the next
-// Of path tracing, in the place of what it does not use, as devices bound how many buffers a program has:
+// Read as the pools are:
+SPLATRAY_CONST BIND_LIGHT_TABLES = 21u;  ///< words: the albedo table, then the sky table
+SPLATRAY_CONST BIND_LIGHT_TREE = 22u;    ///< texels: the light tree, then the words of the splats that send out light
+// Of path tracing, in the place of what it does not use:
 SPLATRAY_CONST BIND_SURFACES = BIND_RAYS;
-SPLATRAY_CONST BIND_LIGHT_TABLES = BIND_HITS;  ///< words: the albedo table, then the sky table
 
 /// Specialization constants of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_FEATURES = 0u;    ///< sum of FEATURE_*
@@ -393,9 +421,9 @@ SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
 
 #ifdef __cplusplus
-static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 64 &&
+static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 96 && sizeof(LightNode) == 16 * LIGHT_NODE_TEXELS &&
               sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
-              sizeof(FrameParams) == 1072 && sizeof(PathState) == 16 * PATH_TEXELS);
+              sizeof(FrameParams) == 1088 && sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif
 #endif

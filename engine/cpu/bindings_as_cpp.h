@@ -31,8 +31,10 @@ struct Feature {
 #ifdef LIT
 #define LOOK (bound->constants[SPEC_LOOK])
 #define TINTED (STRAIGHT && GLASS)
+#define WATCHES EMISSION
 #else
 #define TINTED GLASS
+#define WATCHES false
 #endif
 
 /// An array as the shaders index it.
@@ -58,6 +60,7 @@ constexpr Bound<vec4, BIND_ENVIRONMENT> environment_texels;
 #ifdef LIT
 constexpr Bound<Surface, BIND_SURFACES> surfaces;
 constexpr Bound<uint, BIND_LIGHT_TABLES> light_tables;
+constexpr Bound<uvec4, BIND_LIGHT_TREE> light_tree;
 #else
 constexpr Bound<RayQuery, BIND_RAYS> rays;
 constexpr Bound<RayHit, BIND_HITS> hits;
@@ -81,6 +84,7 @@ vec3 color_at(uint index) { return unpack_color(color_pool[index]); }
 Surface surface_at(uint object) { return surfaces[object]; }
 float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
 uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
+uvec4 light_texel(uint index) { return light_tree[index]; }
 #endif
 
 /// Bilinear; columns repeat, rows are clamped (engine/vulkan/texture.h).

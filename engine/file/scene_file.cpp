@@ -29,16 +29,28 @@ namespace {
 constexpr std::uint64_t PIECE_BYTES = 1ULL << 24;  ///< read or written between two looks at whether to go on
 constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, and would overflow sizes
 
-/// The bytes of the lights' section.
-std::vector<char> light_bytes(const std::vector<SceneLight>& lights, bool sized) {
+/// The bytes of the lights' section, so many each.
+std::vector<char> light_bytes(const std::vector<SceneLight>& lights, std::uint32_t record_bytes) {
   std::vector<char> bytes;
   for (const SceneLight& light : lights) {
-    const SizedLightRecord record{
-        {light.kind, 0, light.position, light.power, 0}, light.size, light.edge_u, light.edge_v};
+    const AimedLightRecord record{
+        {{light.kind, 0, light.position, light.power, 0}, light.size, light.edge_u, light.edge_v},
+        light.spot_axis,
+        light.spot_inner,
+        light.spot_outer,
+        light.range};
     const char* begin = reinterpret_cast<const char*>(&record);
-    bytes.insert(bytes.end(), begin, begin + (sized ? sizeof record : sizeof record.light));
+    bytes.insert(bytes.end(), begin, begin + record_bytes);
   }
   return bytes;
+}
+
+/// The oldest version that knows all that these lights have.
+std::uint32_t version_of(const std::vector<SceneLight>& lights) {
+  const auto any = [&lights](auto has) { return std::any_of(lights.begin(), lights.end(), has); };
+  if (any([](const SceneLight& light) { return is_spot(light) || light.range > 0.0; }))
+    return SCENE_FILE_VERSION;
+  return any(is_sized) ? SIZED_SCENE_FILE_VERSION : PLAIN_SCENE_FILE_VERSION;
 }
 
 CameraRecord camera_record(const Camera& camera) {
@@ -68,8 +80,7 @@ Header describe(const Scene& scene, std::size_t string_bytes) {
   const BuildParams& build = scene.build;
   Header header{};
   std::memcpy(header.magic, MAGIC, sizeof MAGIC);
-  header.version = std::any_of(scene.lights.begin(), scene.lights.end(), is_sized) ? SCENE_FILE_VERSION
-                                                                                   : PLAIN_SCENE_FILE_VERSION;
+  header.version = version_of(scene.lights);
   header.endianness = ENDIANNESS;
   header.header_size = sizeof(Header);
   header.splats = scene.data_pool.size();
@@ -197,7 +208,7 @@ class Reader {
     if (header_.version < PLAIN_SCENE_FILE_VERSION || header_.version > SCENE_FILE_VERSION)
       refuse("version " + std::to_string(header_.version), "version " +
                                                                std::to_string(PLAIN_SCENE_FILE_VERSION) +
-                                                               " or " + std::to_string(SCENE_FILE_VERSION));
+                                                               " to " + std::to_string(SCENE_FILE_VERSION));
     if (header_.file_size != size_)
       refuse(std::to_string(size_) + " bytes",
              std::to_string(header_.file_size) +
@@ -237,12 +248,15 @@ class Reader {
 };
 
 void read_lights(Reader& reader, Scene& scene) {
-  if (has_sized_lights(reader.header())) {
-    for (const auto& [light, size, edge_u, edge_v] : reader.section<SizedLightRecord>(LIGHTS))
-      scene.lights.push_back({light.kind, light.position, light.power, size, edge_u, edge_v});
-  } else {
-    for (const LightRecord& record : reader.section<LightRecord>(LIGHTS))
-      scene.lights.push_back({record.kind, record.position, record.power});
+  const std::uint32_t record_bytes = light_record_bytes(reader.header());
+  const std::vector<char> bytes = reader.section<char>(LIGHTS);
+  for (std::size_t at = 0; at < bytes.size(); at += record_bytes) {
+    AimedLightRecord record{};
+    std::memcpy(&record, bytes.data() + at, record_bytes);
+    const auto& [sized, spot_axis, spot_inner, spot_outer, range] = record;
+    const LightRecord& light = sized.light;
+    scene.lights.push_back({light.kind, light.position, light.power, sized.size, sized.edge_u, sized.edge_v,
+                            spot_axis, spot_inner, spot_outer, range});
   }
 }
 
@@ -317,7 +331,7 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
   const std::string strings = joined_strings(scene);
   Header header = describe(scene, strings.size());
   lay_out(header);
-  const std::vector<char> lights = light_bytes(scene.lights, has_sized_lights(header));
+  const std::vector<char> lights = light_bytes(scene.lights, light_record_bytes(header));
   const CameraRecord camera = camera_record(scene.camera.value_or(Camera{}));
   std::array<const void*, SECTION_COUNT> contents{};
   std::size_t section = 0;

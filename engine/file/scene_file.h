@@ -51,6 +51,7 @@
 ///    9 | Material                      |    48 | materials
 ///   10 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world (SceneLight)
 ///      | in version 11 also float64 size, float64[3] half edges u, v |   104 |
+///      | in version 12 also float64[3] spot's axis, float64 inner angle, outer angle, range | 152 |
 ///   11 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
 ///   12 | float64[3] the scanner's place, uint32 is it known, uint32 rows, columns of its grid, uint32 zero | 40 | stations
 ///   13 | char                          |     1 | names, each ended by a zero byte: objects', the environment's path,
@@ -67,8 +68,10 @@
 
 namespace splatray {
 
-/// The version of files with what version 10 does not know, lights that have a size; all others are of version 10, byte for byte.
-inline constexpr std::uint32_t SCENE_FILE_VERSION = 11, PLAIN_SCENE_FILE_VERSION = 10;
+/// The versions of files with spots, or lights with a range, of those with lights that have a size, and of all others: files are of
+/// the oldest version that knows what is in them.
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 12, SIZED_SCENE_FILE_VERSION = 11,
+                               PLAIN_SCENE_FILE_VERSION = 10;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot, (interrupted) when
 /// `progress`, called with the stage "writing", says so; leaves nothing behind.

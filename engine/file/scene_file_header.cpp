@@ -35,8 +35,7 @@ std::array<SectionShape, SECTION_COUNT> section_shapes(const Header& header) {
     shapes[section++] = {absent ? 0 : lengths[static_cast<std::size_t>(row.length)], sizeof(Value)};
   });
   shapes[MATERIALS] = {header.objects, sizeof(Material)};
-  shapes[LIGHTS] = {header.lights, sizeof(LightRecord)};
-  if (has_sized_lights(header)) shapes[LIGHTS].element_bytes = sizeof(SizedLightRecord);
+  shapes[LIGHTS] = {header.lights, light_record_bytes(header)};
   shapes[CAMERA] = {header.has_camera, sizeof(CameraRecord)};
   shapes[STATIONS] = {header.stations, sizeof(StationRecord)};
   shapes[STRINGS] = {header.string_bytes, 1};

@@ -65,6 +65,13 @@ struct SizedLightRecord {
   glm::dvec3 edge_u, edge_v;
 };
 
+/// That of version 12.
+struct AimedLightRecord {
+  SizedLightRecord light;
+  glm::dvec3 spot_axis;
+  double spot_inner, spot_outer, range;
+};
+
 /// Scenes' own cameras have no lens shift and square pixels.
 struct CameraRecord {
   glm::dvec3 eye, target, up;
@@ -78,15 +85,18 @@ struct StationRecord {
 
 inline constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
 static_assert(HEADER_BYTES == 1760 && sizeof(LightRecord) == 48 && sizeof(SizedLightRecord) == 104 &&
-              sizeof(CameraRecord) == 88 && sizeof(StationRecord) == 40);
+              sizeof(AimedLightRecord) == 152 && sizeof(CameraRecord) == 88 && sizeof(StationRecord) == 40);
 
 /// Bytes of a value of each column type.
 inline constexpr std::uint32_t COLUMN_BYTES[] = {0, sizeof(std::uint8_t), sizeof(std::uint16_t),
                                                  sizeof(float), sizeof(double)};
 static_assert(std::variant_size_v<Column::Values> + 1 == std::size(COLUMN_BYTES));
 
-/// Whether the file's lights are SizedLightRecords.
-[[nodiscard]] inline bool has_sized_lights(const Header& header) { return header.version >= 11; }
+/// Bytes of the file's light records: AimedLightRecord, or as much of its beginning as the version knows.
+[[nodiscard]] inline std::uint32_t light_record_bytes(const Header& header) {
+  return header.version >= 12 ? sizeof(AimedLightRecord)
+                              : (header.version >= 11 ? sizeof(SizedLightRecord) : sizeof(LightRecord));
+}
 
 /// The section table (but for checksums) and the file's size follow from the header's counts.
 void lay_out(Header& header);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <string>
 
 #include "engine/base/error.h"
@@ -11,16 +12,12 @@
 namespace splatray {
 namespace {
 
-/// Lights and emitters as their table has them, in root space.
-std::vector<Light> light_table(const Scene& outline, const Look& look) {
-  std::vector<Light> table = lights_in_root(outline, look.lights);
-  for (const Emitter& emitter : look.emitters) {
-    Light& ball = table.emplace_back();
-    ball.position = vec3(emitter.center);
-    ball.size = static_cast<float>(emitter.radius);
-    ball.share = static_cast<float>(emitter.power);
-  }
-  return table;
+/// Of each object, whether light that it sends out leaves both of its faces.
+std::vector<bool> two_sided_objects(std::span<const Material> materials) {
+  std::vector<bool> two_sided;
+  for (const Material& material : materials)
+    two_sided.push_back((material.flags & (MATERIAL_TWO_SIDED | MATERIAL_DIELECTRIC)) != 0);
+  return two_sided;
 }
 
 }  // namespace
@@ -49,7 +46,9 @@ void DeviceScene::show(const Look& look) {
   const bool all = !shows_look_;
   shows_look_ = false;  // should an Error fly
   if (all || !same_looks(look.objects, shown_.objects)) show_objects(look.objects);
-  if (all || look.lights != shown_.lights || look.emitters != shown_.emitters) show_lights(look);
+  std::vector<bool> two_sided = two_sided_objects(look.objects.materials);
+  if (all || look.lights != shown_.lights || look.emitters != shown_.emitters || two_sided != two_sided_)
+    show_lights(look, std::move(two_sided));
   if (look.environment != shown_.environment)
     show_environment(look.environment ? *look.environment : Environment{});
   outline_.up = look.up;
@@ -72,7 +71,7 @@ void DeviceScene::show_objects(const ObjectLooks& objects) {
   upload_table(surface_buffer_, std::as_bytes(std::span(objects.surfaces)));
 }
 
-void DeviceScene::show_lights(const Look& look) {
+void DeviceScene::show_lights(const Look& look, std::vector<bool> two_sided) {
   const std::vector<SceneLight>& lights = look.lights;
   if (lights.size() > LIGHTS_MOST)
     throw Error(ExitCode::failed, "found " + std::to_string(lights.size()) + " lights, expected at most " +
@@ -84,10 +83,26 @@ void DeviceScene::show_lights(const Look& look) {
                                       std::to_string(LIGHTS_SIZED_MOST));
   lights_ = static_cast<std::uint32_t>(lights.size());
   lights_sized_ = sized;
-  light_irradiance_ = summed_irradiance(outline_, lights);
-  const std::vector<Light> table = light_table(outline_, look);
+  light_irradiance_ = summed_irradiance(outline_, lights) + emitted_irradiance(outline_, look.emitters);
+  std::vector<Light> table = lights_in_root(outline_, lights);
+  lights_met_ = static_cast<std::uint32_t>(std::count_if(table.begin(), table.end(), is_met));
+  two_sided_ = std::move(two_sided);
+  tree_ = light_tree(table, look.emitters, two_sided_);
   reserve_storage(context_, light_buffer_, std::span(table).size_bytes());
   light_buffer_.upload(queue_, std::as_bytes(std::span(table)));
+  upload_tree(look.emitters);
+}
+
+/// The light tree, then the words of emitters.
+void DeviceScene::upload_tree(const Emitters& emitters) {
+  std::vector<uvec4> texels(LIGHT_NODE_TEXELS * tree_.nodes.size());
+  if (!texels.empty()) std::memcpy(texels.data(), tree_.nodes.data(), std::span(tree_.nodes).size_bytes());
+  if (emitters)
+    for (const Emitter& emitter : *emitters) texels.push_back(emitter.words);
+  reserve_read(tree_buffer_, std::span(texels).size_bytes(), VK_FORMAT_R32G32B32A32_UINT);
+  tree_buffer_.upload(queue_, std::as_bytes(std::span(texels)));
+  tree_nodes_ = static_cast<std::uint32_t>(tree_.nodes.size());
+  tree_.nodes = {};
 }
 
 void DeviceScene::show_environment(const Environment& environment) {
@@ -100,12 +115,18 @@ void DeviceScene::show_environment(const Environment& environment) {
   sky_.words = {};
 }
 
+/// As reserve_storage, of what is read as the pools are.
+void DeviceScene::reserve_read(Buffer& buffer, VkDeviceSize bytes, VkFormat format) {
+  const bool texel = !context_.is_host() && request_.access == PoolAccess::texel;
+  reserve_storage(context_, buffer, bytes, texel ? format : VK_FORMAT_UNDEFINED);
+}
+
 /// What path tracing reads beside the scene.
 void DeviceScene::upload_tables(const SkyTable& sky) {
   std::vector<std::uint32_t> words;
   for (const float albedo : ALBEDO_TABLE) words.push_back(std::bit_cast<std::uint32_t>(albedo));
   words.insert(words.end(), sky.words.begin(), sky.words.end());
-  reserve_storage(context_, table_buffer_, std::span(words).size_bytes());
+  reserve_read(table_buffer_, std::span(words).size_bytes(), VK_FORMAT_R32_UINT);
   table_buffer_.upload(queue_, std::as_bytes(std::span(words)));
 }
 
@@ -114,13 +135,12 @@ void DeviceScene::bind() {
     bindings_->bind(BIND_NODE_POOL + i, pools_.buffers[i]);
   bindings_->bind(BIND_MATERIALS, material_buffer_);
   bindings_->bind(BIND_LIGHTS, light_buffer_);
+  bindings_->bind(BIND_LIGHT_TABLES, table_buffer_);
+  bindings_->bind(BIND_LIGHT_TREE, tree_buffer_);
   bindings_->bind(environment_);
 }
 
-void DeviceScene::bind_light() {
-  bindings_->bind(BIND_SURFACES, surface_buffer_);
-  bindings_->bind(BIND_LIGHT_TABLES, table_buffer_);
-}
+void DeviceScene::bind_light() { bindings_->bind(BIND_SURFACES, surface_buffer_); }
 
 PoolBytes DeviceScene::bytes() const {
   PoolBytes bytes = pools_.bytes;
@@ -154,7 +174,11 @@ FrameParams DeviceScene::picture_params(const View& view, const Settings& settin
   frame.loop_probe = LOOP_PROBE;
   set_media(frame, shown_.objects.materials, shown_.objects.surfaces);
   frame.lights_sized = lights_sized_;
-  frame.emitters = static_cast<std::uint32_t>(shown_.emitters.size());
+  frame.lights_met = lights_met_;
+  frame.light_nodes = tree_nodes_;
+  frame.emitters = shown_.emitters ? static_cast<std::uint32_t>(shown_.emitters->size()) : 0;
+  frame.nodes_sized_begin = tree_.sized_begin;
+  frame.nodes_sized_end = tree_.sized_end;
   set_sky(settings, frame);
   frame.environment =
       settings.environment_strength * (environment_texture_ ? glm::vec3(1.0F) : environment_constant_);
@@ -170,7 +194,7 @@ void DeviceScene::set_sky(const Settings& settings, FrameParams& frame) const {
   const double share = std::clamp(sky / std::max(sky + light_irradiance_, 1e-30), 0.1, 0.9);
   frame.sky_width = sky_.width;
   frame.sky_height = sky_.height;
-  frame.sky_share = lights_ == 0 ? 1.0F : static_cast<float>(share);
+  frame.sky_share = tree_nodes_ == 0 ? 1.0F : static_cast<float>(share);
 }
 
 FrameParams DeviceScene::query_params(const Settings& settings) const {

@@ -12,6 +12,7 @@
 #include "engine/image/footprint.h"
 #include "engine/image/look.h"
 #include "engine/image/view.h"
+#include "engine/light/light_tree.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/sky/sky_table.h"
 #include "engine/scene/tree.h"
@@ -53,9 +54,11 @@ class DeviceScene {
  private:
   /// `spent`: as Pools has it.
   void upload(const Scene& scene, Scene* spent);
+  void reserve_read(Buffer& buffer, VkDeviceSize bytes, VkFormat format);
   void upload_tables(const SkyTable& sky);
   void show_objects(const ObjectLooks& objects);
-  void show_lights(const Look& look);
+  void show_lights(const Look& look, std::vector<bool> two_sided);
+  void upload_tree(const Emitters& emitters);
   void show_environment(const Environment& environment);
   void set_sky(const Settings& settings, FrameParams& frame) const;
 
@@ -74,9 +77,12 @@ class DeviceScene {
   bool shows_look_ = false;        ///< else the pools are another scene's
   std::uint32_t surface_features_ = 0;
   MaterialContent material_content_;
-  Buffer material_buffer_, surface_buffer_, light_buffer_, table_buffer_;
-  std::uint32_t lights_ = 0;  ///< their table has the emitters behind them
-  std::uint32_t lights_sized_ = 0;
+  Buffer material_buffer_, surface_buffer_, light_buffer_, table_buffer_, tree_buffer_;
+  std::uint32_t lights_ = 0;
+  std::uint32_t lights_sized_ = 0, lights_met_ = 0;
+  LightTree tree_;  ///< without its arrays
+  std::uint32_t tree_nodes_ = 0;
+  std::vector<bool> two_sided_;    ///< as the tree has the objects
   double light_irradiance_ = 0.0;  ///< at the scene's centre, facing all, the mean of rgb
   EnvironmentTexture environment_;
   bool environment_texture_ = false;

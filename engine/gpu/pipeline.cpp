@@ -9,7 +9,7 @@ namespace {
 bool is_pool(std::uint32_t binding) { return binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE; }
 
 VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
-  if (binding == BIND_PATHS || (is_pool(binding) && access == PoolAccess::texel))
+  if (binding == BIND_PATHS || (is_read_as_pools(binding) && access == PoolAccess::texel))
     return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
   if (binding == BIND_ENVIRONMENT) return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
   return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;

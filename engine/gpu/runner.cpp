@@ -71,6 +71,7 @@ void Runner::bind(const Buffer& accumulation_buffer) {
   bindings.bind(BIND_FRAME, frame_buffer_);
   bindings.bind(BIND_ACCUMULATION, accumulation_buffer);
   bindings.bind(BIND_AOV, aov);
+  bindings.bind(BIND_HITS, hits);
   bindings.bind(BIND_COUNTERS, counters_);
   bindings.bind(BIND_GROUPS, groups_);
   bindings.bind(BIND_PATHS, paths_);
@@ -83,7 +84,6 @@ double Runner::run(const Dispatch& dispatch) {
     scene.bind_light();
   } else {
     bindings.bind(BIND_RAYS, rays);
-    bindings.bind(BIND_HITS, hits);
   }
   if (context.is_host()) return run_on_host(dispatch);
   const bool reads_counters = counts_work(dispatch) || is_staged(dispatch);

@@ -13,12 +13,27 @@ glm::dvec3 bounds_center(const Scene& scene) {
   return 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
 }
 
+/// What is left of a point light's intensity (shaders/light/falloff.glsl).
+double falloff(const SceneLight& light, const glm::dvec3& to_light, double distance_squared) {
+  double left = 1.0;
+  if (light.range > 0.0) {
+    const double share = distance_squared / (light.range * light.range);
+    left = std::clamp(1.0 - share * share, 0.0, 1.0);
+  }
+  if (!is_spot(light)) return left;
+  const double cosine = -glm::dot(glm::normalize(light.spot_axis), to_light) / std::sqrt(distance_squared);
+  const double outer = std::cos(light.spot_outer);
+  const double cone = std::clamp((cosine - outer) / (std::cos(light.spot_inner) - outer), 0.0, 1.0);
+  return left * cone * cone;
+}
+
 /// Irradiance of a surface at `position` that faces the light, for rectangles as if all of them were in their centre.
 glm::dvec3 irradiance_of(const SceneLight& light, const glm::dvec3& position) {
   const glm::dvec3 to_light = light.position - position;
   const double distance_squared = glm::dot(to_light, to_light);
   if (light.kind == LIGHT_DIRECTIONAL) return light.power;
-  if (light.kind == LIGHT_POINT) return glm::dvec3(light.power) / distance_squared;
+  if (light.kind == LIGHT_POINT)
+    return glm::dvec3(light.power) * (falloff(light, to_light, distance_squared) / distance_squared);
   const glm::dvec3 across = glm::cross(light.edge_u, light.edge_v);
   const double facing = std::max(-glm::dot(across, to_light), 0.0) / std::sqrt(distance_squared);
   return glm::dvec3(light.power) * (4.0 * facing / distance_squared);
@@ -36,21 +51,6 @@ int table_order(const SceneLight& light) {
   return !is_sized(light) ? 2 : (light.kind == LIGHT_DIRECTIONAL ? 1 : 0);
 }
 
-/// How often each light is chosen: half as often as it is bright at the scene's centre, half as often as any other.
-std::vector<double> light_shares(const std::vector<SceneLight>& lights, const glm::dvec3& center) {
-  std::vector<double> shares;
-  double sum = 0.0;
-  for (const SceneLight& light : lights) {
-    const glm::dvec3 irradiance = irradiance_of(light, center);
-    shares.push_back(irradiance.x + irradiance.y + irradiance.z);
-    sum += shares.back();
-  }
-  const double even = 1.0 / static_cast<double>(lights.size());
-  const bool known = std::isfinite(sum) && sum > 0.0;
-  for (double& share : shares) share = known ? 0.5 * (share / sum + even) : even;
-  return shares;
-}
-
 Light light_in_root(const SceneLight& light, const RootTransform& root) {
   const bool directional = light.kind == LIGHT_DIRECTIONAL, point = light.kind == LIGHT_POINT;
   const double unit = root.unit_world;
@@ -61,6 +61,14 @@ Light light_in_root(const SceneLight& light, const RootTransform& root) {
   in_root.size = static_cast<float>(directional ? light.size : (point ? light.size / unit : 1.0));
   in_root.edge_u = light.edge_u / unit;
   in_root.edge_v = light.edge_v / unit;
+  const double range = light.range / unit;
+  if (range > 0.0) in_root.range_scale = static_cast<float>(1.0 / (range * range * range * range));
+  if (is_spot(light)) {
+    const double outer = std::cos(light.spot_outer);
+    in_root.spot_axis = glm::normalize(light.spot_axis);
+    in_root.spot_cosine = static_cast<float>(outer);
+    in_root.spot_scale = static_cast<float>(1.0 / std::max(std::cos(light.spot_inner) - outer, 1e-6));
+  }
   return in_root;
 }
 
@@ -100,16 +108,9 @@ std::vector<Light> lights_in_root(const Scene& scene, const std::vector<SceneLig
   std::vector<SceneLight> sorted = lights;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const SceneLight& a, const SceneLight& b) { return table_order(a) < table_order(b); });
-  const std::vector<double> shares = light_shares(sorted, bounds_center(scene));
   std::vector<Light> in_root;
   in_root.reserve(sorted.size());
-  double before = 0.0;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    in_root.push_back(light_in_root(sorted[i], scene.root));
-    in_root.back().share = static_cast<float>(shares[i]);
-    in_root.back().before = static_cast<float>(before);
-    before += shares[i];
-  }
+  for (const SceneLight& light : sorted) in_root.push_back(light_in_root(light, scene.root));
   return in_root;
 }
 

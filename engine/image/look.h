@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/image/emitters.h"
+#include "engine/light/emitters.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/scene.h"
 
@@ -12,9 +12,9 @@ namespace splatray {
 struct Look {
   ObjectLooks objects;             ///< one for each object of the scene
   std::vector<SceneLight> lights;  ///< at most LIGHTS_MOST, of them LIGHTS_SIZED_MOST that have a size
-  /// Where paths look for light that objects send out: find_emitters() of the scene and the surfaces. Others are correct but
-  /// noisier.
-  std::vector<Emitter> emitters;
+  /// Where paths look for light that objects send out: find_emitters() of the scene and the objects, or null, where such light is
+  /// met by chance alone: correct, but noisier.
+  Emitters emitters;
   /// Null: black all around. Shared, and compared by its address, as it may be large.
   std::shared_ptr<const Environment> environment;
   glm::dvec3 up{0.0, 1.0, 0.0};  ///< the environment stands about it; any length > 0

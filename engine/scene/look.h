@@ -19,6 +19,12 @@ struct SceneLight {
   double size = 0.0;
   /// Rectangle: half its edges, world units, perpendicular; it shines towards cross(u, v).
   glm::dvec3 edge_u{0.0}, edge_v{0.0};
+  /// Point: where it shines if it is a spot, any length > 0; zero: all around.
+  glm::dvec3 spot_axis{0.0};
+  /// Spot: angles about its axis within which it is as bright as ahead, and without which it is dark; radians, 0 <= inner < outer <=
+  /// pi / 2. Between, and at its range, light falls off as KHR_lights_punctual has it.
+  double spot_inner = 0.0, spot_outer = 0.0;
+  double range = 0.0;  ///< point: how far it shines, world units; 0: as far as there is anything
   bool operator==(const SceneLight&) const = default;
 };
 
@@ -26,6 +32,9 @@ struct SceneLight {
 [[nodiscard]] inline bool is_sized(const SceneLight& light) {
   return light.kind == LIGHT_RECTANGLE || light.size > 0.0;
 }
+
+/// Whether a light is a spot.
+[[nodiscard]] inline bool is_spot(const SceneLight& light) { return light.spot_axis != glm::dvec3(0.0); }
 
 /// What objects look like: beside each other, one for each.
 struct ObjectLooks {

@@ -187,18 +187,23 @@ bool are_edges(const glm::dvec3& u, const glm::dvec3& v) {
 }
 
 Defect check_light(const SceneLight& light) {
-  constexpr double WHOLE_SKY = 1.571, LARGEST = 1e30;  // a quarter turn, rounded up
+  constexpr double QUARTER_TURN = 1.571, LARGEST = 1e30;  // rounded up
   if (light.kind > LIGHT_RECTANGLE)
     return SceneDefect{"a kind", "a directional light, a point light or a rectangle"};
   const bool aimed = light.kind != LIGHT_DIRECTIONAL || glm::dot(light.position, light.position) > 0.0;
   if (!finite(light.position) || !aimed) return SceneDefect{"a position or direction", "finite numbers"};
-  if (!(light.size >= 0.0 && light.size <= (light.kind == LIGHT_DIRECTIONAL ? WHOLE_SKY : LARGEST)))
+  if (!(light.size >= 0.0 && light.size <= (light.kind == LIGHT_DIRECTIONAL ? QUARTER_TURN : LARGEST)))
     return SceneDefect{"a size", "0 or more, of directional ones at most a quarter turn"};
   const bool rectangle = light.kind == LIGHT_RECTANGLE;
   if (!finite(light.edge_u) || !finite(light.edge_v) || (rectangle && !are_edges(light.edge_u, light.edge_v)))
     return SceneDefect{"edges", "two that are perpendicular and have a length"};
   if (!finite(light.power) || glm::any(glm::lessThan(light.power, glm::vec3(0.0F))))
     return SceneDefect{"a power", "finite numbers, 0 or more"};
+  const bool cone =
+      light.spot_inner >= 0.0 && light.spot_inner < light.spot_outer && light.spot_outer <= QUARTER_TURN;
+  if (!finite(light.spot_axis) || (is_spot(light) && (light.kind != LIGHT_POINT || !cone)))
+    return SceneDefect{"a spot's cone", "an axis, and 0 <= inner angle < outer angle <= a quarter turn"};
+  if (!(light.range >= 0.0 && light.range <= LARGEST)) return SceneDefect{"a range", "0 or more, finite"};
   return {};
 }
 

@@ -6,10 +6,15 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t BINDINGS = BIND_PATHS_QUEUED + 1;
+inline constexpr std::uint32_t BINDINGS = BIND_LIGHT_TREE + 1;
 inline constexpr std::uint32_t POOLS = BIND_TOP_TABLE - BIND_NODE_POOL + 1;
-/// Of a program's bindings, beside the pools: the environment and the paths of stages, and storage buffers.
-inline constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 2;
-inline constexpr std::uint32_t OTHER_STORAGE_BUFFERS = BINDINGS - POOLS - OTHER_SAMPLED_IMAGES;
+/// Whether a binding is read as the scene's pools are: in texel buffers or storage buffers.
+[[nodiscard]] constexpr bool is_read_as_pools(std::uint32_t binding) {
+  return (binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE) || binding >= BIND_LIGHT_TABLES;
+}
+/// Of a program's bindings, beside the pools: at most so many sampled images, with the environment and the paths of stages, and
+/// storage buffers.
+inline constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 4;
+inline constexpr std::uint32_t OTHER_STORAGE_BUFFERS = BINDINGS - POOLS - 2;
 
 }  // namespace splatray

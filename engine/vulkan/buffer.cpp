@@ -123,9 +123,11 @@ void Buffer::download(CommandQueue& queue, std::span<std::byte> bytes) const {
   }
 }
 
-void reserve_storage(const Context& context, Buffer& buffer, VkDeviceSize bytes) {
+void reserve_storage(const Context& context, Buffer& buffer, VkDeviceSize bytes, VkFormat texel_format) {
+  const bool texels = texel_format != VK_FORMAT_UNDEFINED;
+  const VkBufferUsageFlags texel_usage = texels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
   if (buffer.size() < std::max(bytes, LEAST_BYTES))
-    buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    buffer = Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | texel_usage, texel_format);
 }
 
 }  // namespace splatray

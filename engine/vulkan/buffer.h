@@ -58,6 +58,7 @@ class Buffer {
 };
 
 /// Makes a storage buffer at least that large; keeps it when it is.
-void reserve_storage(const Context& context, Buffer& buffer, VkDeviceSize bytes);
+void reserve_storage(const Context& context, Buffer& buffer, VkDeviceSize bytes,
+                     VkFormat texel_format = VK_FORMAT_UNDEFINED);
 
 }  // namespace splatray

@@ -1,10 +1,10 @@
-// Lights as a path's vertex looks for them, and as a ray meets them. Needs `frame`, light_at(index), and the constants LIGHTS,
-// SKY, SIZES, ENVIRONMENT.
+// Lights as a path's vertex looks for them, and as a ray meets them. Needs `frame`, light_at(index), what emitters.glsl needs, and
+// the constants LIGHTS, SKY, SIZES, ENVIRONMENT, EMISSION.
 #ifndef SPLATRAY_LIGHT_SAMPLES_GLSL
 #define SPLATRAY_LIGHT_SAMPLES_GLSL
-#include "light/sampling.glsl"
+#include "light/emitters.glsl"
+#include "light/falloff.glsl"
 #include "light/sky.glsl"
-#include "primitive/disc.glsl"
 
 const uint NO_LIGHT = 0xFFFFFFFFu;
 
@@ -14,7 +14,8 @@ struct LightSample {
   float distance;  ///< of its source
   vec3 radiance;   ///< over the probability of its choice
   float pdf;       ///< that probability, per solid angle; 0 of lights without a size
-  uint light;      ///< index of its source, NO_LIGHT of the environment
+  uint light;      ///< index of its source, NO_LIGHT of the environment and of splats
+  uvec4 splat;     ///< words of one that sends out light; NO_SPLAT of other sources. Its radiance is that of what is hit
 };
 
 /// What a light without a size sends to a point, or one with a size from one of its points.
@@ -25,8 +26,10 @@ LightSample one_light_sample(Light light, vec3 position, vec2 random) {
   float distance_squared = max(dot(to_light, to_light), 1.0f);
   chosen.distance = sqrt(distance_squared);
   chosen.dir = to_light * (1.0f / chosen.distance);
-  chosen.radiance = light.power / (directional ? 1.0f : distance_squared);
+  float falloff = light.kind == LIGHT_POINT ? light_falloff(light, chosen.dir, distance_squared) : 1.0f;
+  chosen.radiance = light.power * (falloff / (directional ? 1.0f : distance_squared));
   chosen.pdf = 0.0f;
+  chosen.splat = NO_SPLAT;
   if (SIZES && light.size > 0.0f) {
     if (light.kind == LIGHT_RECTANGLE) {
       to_light += light.edge_u * (2.0f * random.x - 1.0f) + light.edge_v * (2.0f * random.y - 1.0f);
@@ -45,7 +48,7 @@ LightSample one_light_sample(Light light, vec3 position, vec2 random) {
       chosen.dir = cone_sample(axis, height, random);
       chosen.pdf = 1.0f / (TWO_PI * height);
       float area = directional ? PI * sine * sine : PI * light.size * light.size;
-      chosen.radiance = light.power / (area * chosen.pdf);
+      chosen.radiance = light.power * (falloff / (area * chosen.pdf));
       // Where the ray enters the ball; inside it, where it leaves.
       float along = dot(axis, chosen.dir) * chosen.distance;
       float root = sqrt(max(along * along - distance_squared + light.size * light.size, 0.0f));
@@ -56,39 +59,41 @@ LightSample one_light_sample(Light light, vec3 position, vec2 random) {
   return chosen;
 }
 
-/// The light of the table whose part of [0, 1) holds `at`.
-uint find_light(float at) {
-  uint low = 0u;
-  uint high = frame.light_end;
-  do {
-    uint middle = (low + high) >> 1u;
-    bool above = light_at(middle).before > at;
-    low = above ? low : middle;
-    high = above ? middle : high;
-  } while (high - low > 1u);
-  return low;
-}
-
-/// Light of one light, or of the environment, at a point. The first number chooses which, and what is left of it is used again,
-/// so that the samples of each are even, too.
-LightSample light_sample(vec3 position, vec2 random) {
+/// Light of one light, splat or of the environment at a point. The third number chooses which, and what is left of it is used
+/// again, so that the samples of each are even, too.
+LightSample light_sample(Receiver receiver, vec3 random) {
   LightSample chosen;
-  if (SKY && (!LIGHTS || random.x < frame.sky_share)) {
-    chosen.dir = sky_sample(vec2(min(random.x / frame.sky_share, 0.99999994f), random.y), chosen.pdf);
+  float choice = random.z;
+  bool sky = SKY && (frame.light_nodes == 0u || choice < frame.sky_share);
+  if (sky) {
+    chosen.dir = sky_sample(vec2(random), chosen.pdf);
     chosen.pdf *= frame.sky_share;
     chosen.radiance = environment_radiance(chosen.dir) / chosen.pdf;
     chosen.distance = INFINITY_F;
     chosen.light = NO_LIGHT;
+    chosen.splat = NO_SPLAT;
   } else {
-    float at = SKY ? (random.x - frame.sky_share) / (1.0f - frame.sky_share) : random.x;
-    uint index = find_light(at);
-    Light light = light_at(index);
-    vec2 within = vec2(clamp((at - light.before) / light.share, 0.0f, 0.99999994f), random.y);
-    float share = light.share * (1.0f - frame.sky_share);
-    chosen = one_light_sample(light, position, within);
-    chosen.radiance /= share;
+    choice = SKY ? min((choice - frame.sky_share) / (1.0f - frame.sky_share), 0.99999994f) : choice;
+    uint leaf = NO_NODE;
+    float share = light_share(receiver, leaf, choice) * (1.0f - frame.sky_share);
+    uint content = leaf != NO_NODE ? light_node_at(leaf).content : 0u;
+    uint index = content & LIGHT_NODE_INDEX;
+    bool emitter = EMISSION && (content & LIGHT_NODE_EMITTER) != 0u;
+    if (emitter) {
+      EmitterSample point = emitter_sample(index, receiver.position, vec2(random));
+      chosen.dir = point.dir;
+      chosen.pdf = point.pdf;
+      chosen.radiance = vec3(1.0f / point.pdf);
+      chosen.distance = INFINITY_F;
+      chosen.light = NO_LIGHT;
+      chosen.splat = point.words;
+    } else {
+      chosen = one_light_sample(light_at(index), receiver.position, vec2(random));
+      chosen.light = index;
+    }
+    bool shines = leaf != NO_NODE && (emitter || (LIGHTS && (content & LIGHT_NODE_EMITTER) == 0u));
+    chosen.radiance = shines ? chosen.radiance / share : vec3(0.0f);
     chosen.pdf *= share;
-    chosen.light = index;
   }
   return chosen;
 }
@@ -132,43 +137,79 @@ LightMeeting meet_light(Light light, Ray ray) {
   return meeting;
 }
 
+/// The node of the light tree that comes after this one, on the way past all lights with a size that a ray may meet, and whether it
+/// is the leaf of one.
+uint next_sized_node(uint at, Ray ray, OUT(uint) light) {
+  LightNode node = light_node_at(at);
+  vec3 to_center = node.center - ray.origin;
+  vec3 beside = to_center - ray.dir * dot(to_center, ray.dir);
+  bool may_meet = dot(beside, beside) <= node.radius * node.radius * 1.0001f;
+  bool leaf = (node.content & LIGHT_NODE_LEAF) != 0u;
+  light = may_meet && leaf ? node.content & LIGHT_NODE_INDEX : NO_LIGHT;
+  return may_meet && !leaf ? at + 1u : node.skip;
+}
+
 /// Whether a ball or rectangle of light, other than the light with this index, is met by the ray: it hides what is behind it, as
 /// paths find.
 bool light_hides(Ray ray, uint but_for) {
   bool hides = false;
-  uint index = 0u;
-  do {
-    Light light = light_at(index);
-    if (light.kind != LIGHT_DIRECTIONAL && index != but_for) hides = hides || meet_light(light, ray).met;
-    index += 1u;
-  } while (index < frame.lights_sized);
+  uint node = frame.nodes_sized_begin;
+  while (node < frame.nodes_sized_end && !hides) {
+    uint light = NO_LIGHT;
+    node = next_sized_node(node, ray, light);
+    if (light != NO_LIGHT && light != but_for) hides = meet_light(light_at(light), ray).met;
+  }
   return hides;
+}
+
+/// How often a ray that left a surface was looked for in the direction of a light with a size, of all times that light was.
+float light_chosen(Ray ray, float pdf, Light light) {
+  if (pdf <= 0.0f) return 0.0f;
+  return light_share_of(receiver_left(ray), light.node) * (1.0f - frame.sky_share);
 }
 
 /// Light of the lights with a size that the ray meets before t_max, which becomes where. Those at infinity come last in the
 /// table, and count where nothing else is met. `pdf` as Path has it.
 vec3 met_light(Ray ray, float pdf, INOUT(float) t_max) {
   vec3 light_met = vec3(0.0f);
-  uint index = 0u;
-  do {
+  uint nearest = NO_LIGHT;
+  float nearest_pdf = 0.0f;
+  ray.t_max = t_max;
+  uint node = frame.nodes_sized_begin;
+  while (node < frame.nodes_sized_end) {
+    uint light = NO_LIGHT;
+    node = next_sized_node(node, ray, light);
+    if (light != NO_LIGHT) {
+      LightMeeting meeting = meet_light(light_at(light), ray);
+      nearest = meeting.met ? light : nearest;
+      nearest_pdf = meeting.met ? meeting.pdf : nearest_pdf;
+      ray.t_max = meeting.met ? meeting.t : ray.t_max;
+    }
+  }
+  if (nearest != NO_LIGHT) {
+    Light light = light_at(nearest);
+    vec3 radiance = light.power;
+    if (light.kind == LIGHT_POINT) {
+      vec3 to_light = light.position - ray.origin;
+      float distance_squared = max(dot(to_light, to_light), 1.0f);
+      radiance *= light_falloff(light, to_light * inversesqrt(distance_squared), distance_squared) /
+                  (PI * light.size * light.size);
+    }
+    light_met = radiance * met_share(pdf, nearest_pdf * light_chosen(ray, pdf, light));
+  }
+  uint index = frame.lights_met;
+  while (index < frame.lights_sized && ray.t_max == INFINITY_F) {
     Light light = light_at(index);
-    float share = light.share * (1.0f - frame.sky_share);
-    if (light.kind == LIGHT_DIRECTIONAL) {
-      float sine = sin(light.size);
-      float height = cone_height(sine * sine);
-      vec3 apart = ray.dir - light.position;
-      bool met = t_max == INFINITY_F && 0.5f * dot(apart, apart) < height;
-      light_met += met ? light.power / (PI * sine * sine) * met_share(pdf, share / (TWO_PI * height)) : vec3(0.0f);
-    } else {
-      ray.t_max = t_max;
-      LightMeeting meeting = meet_light(light, ray);
-      vec3 radiance = light.power;
-      if (light.kind == LIGHT_POINT) radiance /= PI * light.size * light.size;
-      light_met = meeting.met ? radiance * met_share(pdf, meeting.pdf * share) : light_met;
-      t_max = meeting.met ? meeting.t : t_max;
+    float sine = sin(light.size);
+    float height = cone_height(sine * sine);
+    vec3 apart = ray.dir - light.position;
+    if (0.5f * dot(apart, apart) < height) {
+      float share = met_share(pdf, light_chosen(ray, pdf, light) / (TWO_PI * height));
+      light_met += light.power / (PI * sine * sine) * share;
     }
     index += 1u;
-  } while (index < frame.lights_sized);
+  }
+  t_max = ray.t_max;
   return light_met;
 }
 

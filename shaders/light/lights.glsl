@@ -1,6 +1,7 @@
 // Light of the scene's lights at a hit, with shadows: Phong. Needs `frame`, light_at(index) and the constant SHADOWS.
 #ifndef SPLATRAY_LIGHTS_GLSL
 #define SPLATRAY_LIGHTS_GLSL
+#include "light/falloff.glsl"
 #include "light/material.glsl"
 #include "light/sampling.glsl"
 #include "trace/shadow.glsl"
@@ -29,7 +30,8 @@ vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Material material, uint 
       visible *= trace_shadow(ray, tally);
       shadow_rays += lit ? 1u : 0u;
     }
-    vec3 irradiance = light.power * (max(cosine, 0.0f) / distance_squared);
+    float falloff = point ? light_falloff(light, dir, distance_squared) : 1.0f;
+    vec3 irradiance = light.power * (falloff * max(cosine, 0.0f) / distance_squared);
     float lobe = pow(max(dot(mirrored, dir), 1e-4f), material.shininess) * (material.shininess + 2.0f) * 0.5f;
     sum += visible * irradiance * (diffuse + vec3(material.specular * lobe)) * (1.0f / PI);
     index += 1u;

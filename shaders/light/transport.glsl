@@ -7,7 +7,6 @@
 #define SPLATRAY_TRANSPORT_GLSL
 #include "lang/sobol.glsl"
 #include "light/bsdf.glsl"
-#include "light/guide.glsl"
 #include "light/light_samples.glsl"
 #include "light/material.glsl"
 #include "light/path.glsl"
@@ -38,33 +37,66 @@ vec3 clamped(vec3 light, uint bounces) {
   return frame.clamp > 0.0f && bounces > 0u && most > frame.clamp ? light * (frame.clamp / most) : light;
 }
 
-/// How often a path goes on from a hit towards objects that send out light.
-float guided_share(Bsdf bsdf) { return EMISSION && frame.emitters > 0u ? GUIDED * bsdf_scatters(bsdf) : 0.0f; }
-
 /// A ray that is worth tracing for the light it brings where nothing is in its way.
 struct Probe {
-  Ray ray;     ///< ends before it starts where it brings none
-  vec3 light;  ///< sent on to the eye from a hit
+  Ray ray;      ///< ends before it starts where it brings none
+  vec3 light;   ///< sent on to the eye from a hit; of splats that send out light: where they send out 1
+  uvec4 splat;  ///< words of one, which the ray looks for; else NO_SPLAT
+  float pdf;    ///< how often the path would go on that way, per solid angle
 };
 
-/// Towards one of the lights, or the environment.
-Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec2 random, uint inside) {
-  LightSample chosen = light_sample(hit.position, random);
-  float pdf = 0.0f;
-  vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
-  vec3 value = bsdf_value(bsdf, to_eye, to_light, pdf);
-  float guided = guided_share(bsdf);
-  if (EMISSION && guided > 0.0f) pdf += guided * (guide_pdf(hit.position, chosen.dir) - pdf);
-  float share = LOOK == LOOK_SCAN ? 1.0f : met_share(chosen.pdf, pdf);
+/// Towards one of the lights, splats that send out light, or the environment.
+Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside) {
+  Receiver receiver;
+  receiver.position = hit.position;
+  receiver.normal = hit.normal;
+  receiver.through = GLASS && (material_at(hit.object).flags & MATERIAL_DIELECTRIC) != 0u;
+  LightSample chosen = light_sample(receiver, random);
   Probe probe;
+  vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
+  vec3 value = bsdf_value(bsdf, to_eye, to_light, probe.pdf);
+  probe.splat = chosen.splat;
+  bool emitter = EMISSION && probe.splat != NO_SPLAT;
+  float share = LOOK == LOOK_SCAN || emitter ? 1.0f : met_share(chosen.pdf, probe.pdf);
   probe.light = value * chosen.radiance * share;
   uint object_bit = 0u;
   if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
   probe.ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
   probe.ray.t_max = LOOK == LOOK_SCAN ? min(chosen.distance, frame.reach) : chosen.distance;
-  if (SIZES && SHADOWS && LOOK != LOOK_SCAN && light_hides(probe.ray, chosen.light)) probe.light = vec3(0.0f);
+  if (SIZES && SHADOWS && LOOK != LOOK_SCAN && !emitter && light_hides(probe.ray, chosen.light)) probe.light = vec3(0.0f);
   if (max(probe.light.x, max(probe.light.y, probe.light.z)) <= 0.0f) probe.ray.t_max = -1.0f;
   return probe;
+}
+
+/// What surfaces send out, as seen in a hit.
+vec3 emitted_radiance(Hit hit) { return surface_at(hit.object).emission; }
+
+/// The part of the light that splats send out and a path meets which counts beside what was looked for. `pdf` of its direction, > 0.
+float emitter_share(float pdf, Ray ray, vec3 sent) {
+  float radiance = (sent.x + sent.y + sent.z) / 3.0f;
+  if (frame.emitters == 0u || radiance <= 0.0f) return 1.0f;
+  return met_share(pdf, emitters_pdf(receiver_left(ray), ray, radiance) * (1.0f - frame.sky_share));
+}
+
+/// How much light that runs this far is left of it.
+vec3 medium_left(uint inside, float t) {
+  if (!GLASS || inside == 0u) return vec3(1.0f);
+  return exp(-(absorption_at(uint(findMSB(inside))) * t));
+}
+
+/// What of a probe for the light of a splat arrives: the splat's share in what its ray hits. What a path would have found that way
+/// itself is left to it.
+vec3 emitter_light(Probe probe, INOUT(Tally) tally) {
+  Ray ray = probe.ray;
+  ray.t_max = probe.splat != NO_SPLAT ? ray.t_max : -1.0f;
+  Hit hit = trace_watching(ray, frame.kappa, probe.splat, tally);
+  bool seen = hit.found && hit.watched > 0.0f;
+  ray.t_max = hit.t;
+  if (SIZES && seen && light_hides(ray, NO_LIGHT)) seen = false;
+  if (!seen) return vec3(0.0f);
+  vec3 sent = emitted_radiance(hit);
+  float share = hit.watched * (1.0f - emitter_share(max(probe.pdf, 1e-30f), ray, sent));
+  return probe.light * sent * medium_left(ray.inside, hit.t) * share;
 }
 
 /// Towards a white sky, whose light is weighted by cosine.
@@ -75,60 +107,45 @@ Probe sky_probe(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
   probe.light = bsdf.base * (LOOK == LOOK_SCAN ? SCAN_SKY : 1.0f);
   probe.ray = ray_from_hit(hit, basis.u * at.x + basis.v * at.y + hit.normal * height, inside);
   probe.ray.t_max = frame.reach;
+  probe.splat = NO_SPLAT;
+  probe.pdf = 0.0f;
   return probe;
 }
 
 /// The light found from a hit by LOOK's rays: to a light, to the sky or both, one after the other, so that programs hold one walk
-/// for them.
+/// for them; but for splats that send out light, which a ray must hit as paths do.
 void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
                 INOUT(Tally) tally) {
   bool sky = LOOK == LOOK_AO || LOOK == LOOK_SCAN;
-  bool to_lights = LIGHTS || SKY;
+  bool to_lights = LIGHTS || SKY || EMISSION;
   do {
     Probe probe;
     if (sky) {
       vec4 random_sky = sobol_sample(pixel, sample_index, 2u, frame.seed);
       probe = sky_probe(hit, bsdf, basis, vec2(random_sky), path.ray.inside);
     } else {
-      probe = light_probe(hit, bsdf, basis, to_eye, vec2(random), path.ray.inside);
+      probe = light_probe(hit, bsdf, basis, to_eye, vec3(random), path.ray.inside);
       to_lights = false;
     }
-    if (SHADOWS || sky) {
+    if (SHADOWS || sky || EMISSION) path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
+    if (EMISSION) {
+      vec3 sent = emitter_light(probe, tally);
+      bool emitter = probe.splat != NO_SPLAT;
+      probe.light = emitter ? sent : probe.light;
+      probe.ray.t_max = emitter ? -1.0f : probe.ray.t_max;
+      if (SHADOWS) probe.light *= emitter ? vec3(1.0f) : trace_shadow(probe.ray, tally);
+    } else if (SHADOWS || sky) {
       probe.light *= trace_shadow(probe.ray, tally);
-      path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
     }
     path.radiance += clamped(path.throughput * probe.light, path.bounce);
     sky = false;
   } while (to_lights);
 }
 
-/// A direction in which a path goes on from a hit, in the hit's frame: one that the surface chooses or one towards light, both
-/// with the probability of either.
-BsdfSample next_direction(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random) {
-  float share = guided_share(bsdf);
-  bool guided = random.x < share;
-  if (EMISSION) random.x = used_again(random.x, share, guided);
-  BsdfSample chosen = bsdf_direction(bsdf, to_eye, random);
-  if (EMISSION && guided) {
-    vec3 dir = guide_sample(hit.position, random.z, vec2(random));
-    chosen.dir = vec3(dot(dir, basis.u), dot(dir, basis.v), dot(dir, hit.normal));
-    chosen.event = chosen.dir.z > 0.0f ? BSDF_REFLECTED : BSDF_TRANSMITTED;
-  }
-  bsdf_weigh(bsdf, to_eye, chosen);
-  if (EMISSION && (chosen.event & BSDF_DELTA) != 0u) {
-    chosen.weight /= 1.0f - share;
-  } else if (EMISSION && share > 0.0f) {
-    vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
-    float either = chosen.pdf + share * (guide_pdf(hit.position, dir) - chosen.pdf);
-    chosen.weight *= either > 0.0f ? chosen.pdf / either : 0.0f;
-    chosen.pdf = either;
-  }
-  return chosen;
-}
-
 /// Has the path go on from a hit.
 void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
-  BsdfSample chosen = next_direction(hit, bsdf, basis, to_eye, vec3(random));
+  BsdfSample chosen = bsdf_direction(bsdf, to_eye, vec3(random));
+  bsdf_weigh(bsdf, to_eye, chosen);
   vec3 throughput = path.throughput * chosen.weight;
   float most = max(throughput.x, max(throughput.y, throughput.z));
   path.alive = most > 0.0f;
@@ -180,20 +197,18 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   if (GLASS) {
     if ((material_at(hit.object).flags & MATERIAL_DIELECTRIC) != 0u)
       eta = eta_at(hit, path.ray.inside, material_at(hit.object));
-    if (path.ray.inside != 0u) {
-      vec3 depth = absorption_at(uint(findMSB(path.ray.inside))) * hit.t;
-      path.throughput *= exp(-depth);
-    }
+    path.throughput *= medium_left(path.ray.inside, hit.t);
   }
   if (EMISSION) {
-    vec3 sent = path.pdf < 0.0f ? vec3(0.0f) : path.throughput * surface.emission;
-    path.radiance += clamped(sent, max(path.bounce, 1u) - 1u);
+    vec3 sent = emitted_radiance(hit);
+    float share = path.pdf > 0.0f ? emitter_share(path.pdf, path.ray, sent) : 1.0f;
+    path.radiance += clamped(path.throughput * sent * share, max(path.bounce, 1u) - 1u);
   }
   Basis basis = basis_of(hit.normal);
   vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
-  if (LIGHTS || SKY || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
+  if (LIGHTS || SKY || EMISSION || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
     look_for_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, tally);
   if (LOOK == LOOK_BASE) path.radiance = bsdf.base;
   if (LOOK == LOOK_AO || LOOK == LOOK_SCAN || LOOK == LOOK_BASE) {

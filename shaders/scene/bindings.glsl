@@ -28,8 +28,10 @@ layout(constant_id = SPEC_PAGE_SHIFT) const uint PAGE_SHIFT = 0u;
 #ifdef LIT
 layout(constant_id = SPEC_LOOK) const uint LOOK = LOOK_LIT;
 const bool TINTED = STRAIGHT && GLASS;
+const bool WATCHES = EMISSION;
 #else
 const bool TINTED = GLASS;
+const bool WATCHES = false;
 #endif
 
 layout(local_size_x = GROUP_SIZE) in;
@@ -64,7 +66,6 @@ layout(std430, binding = BIND_AOV) writeonly buffer AovTable { AovPixel aov[]; }
 layout(binding = BIND_ENVIRONMENT) uniform sampler2D environment_map;
 #ifdef LIT
 layout(std430, binding = BIND_SURFACES) readonly buffer SurfaceTable { Surface surfaces[]; };
-layout(std430, binding = BIND_LIGHT_TABLES) readonly buffer LightTables { uint light_tables[]; };
 #else
 layout(std430, binding = BIND_RAYS) readonly buffer RayTable { RayQuery rays[]; };
 layout(std430, binding = BIND_HITS) writeonly buffer HitTable { RayHit hits[]; };
@@ -125,8 +126,16 @@ Material material_at(uint object) { return materials[object]; }
 Light light_at(uint index) { return lights[index]; }
 #ifdef LIT
 Surface surface_at(uint object) { return surfaces[object]; }
-float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
-uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
+#ifdef CPU
+layout(binding = BIND_LIGHT_TABLES) uniform usamplerBuffer light_tables;
+layout(binding = BIND_LIGHT_TREE) uniform usamplerBuffer light_tree;
+#else
+layout(std430, binding = BIND_LIGHT_TABLES) readonly buffer LightTables { uint values[]; } light_tables;
+layout(std430, binding = BIND_LIGHT_TREE) readonly buffer LightTree { uvec4 values[]; } light_tree;
+#endif
+float albedo_at(uint index) { return uintBitsToFloat(READ_WORD(light_tables, index)); }
+uint sky_word(uint index) { return READ_WORD(light_tables, ALBEDO_WORDS + index); }
+uvec4 light_texel(uint index) { return READ_TEXEL(light_tree, index); }
 #endif
 
 /// Where splats must face to be there at all (FACES_CUT), root space.

@@ -1,6 +1,6 @@
 // The first splat that a ray hits, and the blend of its cluster: the splats of the same object with like normals in a window of
 // depth behind it. Sums are integers, so the blend does not depend on the order in which splats are found. Needs, beside
-// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS.
+// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS, WATCHES.
 #ifndef SPLATRAY_BLEND_GLSL
 #define SPLATRAY_BLEND_GLSL
 #include "trace/accept.glsl"
@@ -18,7 +18,11 @@ struct Cluster {
   int depth;
   ivec3 color;
   uint members;
+  uint watched;  ///< members with the words watched
 };
+
+/// Words of no splat.
+const uvec4 NO_SPLAT = uvec4(0u, 0u, 0u, 0u);
 
 Cluster empty_cluster() {
   Cluster cluster;
@@ -27,6 +31,7 @@ Cluster empty_cluster() {
   cluster.depth = 0;
   cluster.color = ivec3(0);
   cluster.members = 0u;
+  cluster.watched = 0u;
   return cluster;
 }
 
@@ -85,7 +90,7 @@ Facet facet_at(uvec4 words, uint splat, vec3 from_center, float inverse_radius, 
 /// Adds the candidates that are hits and belong to the first splat's cluster: bit i of x is splat chunk + i, of y splat
 /// chunk + CHUNK + i. Where each is met is computed anew in double-float, so that grazing rays and small discs far away have
 /// exact weights.
-void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, First first, float depth,
+void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, First first, float depth, uvec4 watched,
                            INOUT(Cluster) cluster) {
   vec3 first_normal = normal_against(first.words, ray.dir);
   float inverse_depth = 1.0f / depth;
@@ -114,6 +119,7 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       cluster.normal += ivec3(floor(normal + vec3(0.5f)));
       cluster.depth += int(floor(weight * share + 0.5f));
       if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
+      if (WATCHES) cluster.watched += member && words == watched ? 1u : 0u;
       cluster.members += member ? 1u : 0u;
     }
   } while ((candidates.x | candidates.y) != 0u);
@@ -121,13 +127,14 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
 
 /// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds
 /// no member). `shift` is what clip_to_root took from t.
-Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) {
+Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, uvec4 watched) {
   Hit hit;
   hit.found = first.measure.x < INFINITY_F;
   hit.first = first.words;
   hit.object = hit.found ? splat_object(first.words) : NO_OBJECT;
   hit.front = first.front;
   hit.members = cluster.members;
+  hit.watched = WATCHES && hit.found && first.words == watched ? 1.0f : 0.0f;
   vec2 t = first.t;
   vec3 normal = normal_against(first.words, ray.dir);
   hit.color = vec3(1.0f);
@@ -136,6 +143,7 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
     t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
     normal = vec3(cluster.normal);
     normal *= inversesqrt(dot(normal, normal));
+    if (WATCHES) hit.watched = float(cluster.watched) / float(cluster.members);
     if (COLORS) hit.color = vec3(cluster.color) * inverse;
   } else if (hit.found) {
     if (COLORS) hit.color = color_at(first.splat);
@@ -151,12 +159,14 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
   return hit;
 }
 
-/// What the ray sees first. The ray may start anywhere. The leaf with the first hit is looked through to its end before
-/// any of its splats is accumulated; one of more than two CHUNKs is then gone through again.
-Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
+/// What the ray sees first, and whether a splat is a member of it. The ray may start anywhere; one that ends before it starts is not
+/// traced. The leaf with the first hit is looked through to its end before any of its splats is accumulated; one of more than two
+/// CHUNKs is then gone through again.
+Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);
+  if (WATCHES) enters = enters && ray.t_max >= 0.0f;
   Walk walk = walk_start(ray, t_start, enters);
   First first = no_first();
   uint chunk = 0u;
@@ -180,13 +190,18 @@ Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
     hits = again ? uvec2(0u, 0u) : hits;
     chunk = walk.begin;
     do {
-      accumulate_candidates(chunk, hits, ray, walk, first, depth, cluster);
+      accumulate_candidates(chunk, hits, ray, walk, first, depth, watched, cluster);
       bool more = walk.next < walk.end || (walk.leaves < last_leaf && walk.t_out <= t_end);
       walk.inside = walk.inside && more;
       hits = uvec2(walk_candidates(walk, ray, t_end, false, chunk, tally), 0u);
     } while (hits.x != 0u);
   }
-  return finish_hit(ray, first, cluster, depth, shift);
+  return finish_hit(ray, first, cluster, depth, shift, watched);
+}
+
+/// What the ray sees first.
+Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {
+  return trace_watching(ray, kappa, NO_SPLAT, tally);
 }
 
 #endif

@@ -15,6 +15,7 @@ struct Hit {
   uint members;
   float t_first;
   uvec4 first;      ///< words of the first splat (BLEND_PAPER, BLEND_LEAF: the reference splat)
+  float watched;    ///< share of the splat watched in its members, 0..1
 };
 
 /// Work done by this invocation; kept only with COUNTERS.

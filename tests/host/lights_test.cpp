@@ -29,6 +29,21 @@ TEST(LightsInRoot, DirectionalBecomesUnit) {
   EXPECT_EQ(light.power, sun.power);
 }
 
+TEST(LightsInRoot, SpotsAndTheirRange) {
+  const Scene scene = box_scene();
+  SceneLight spot{.kind = LIGHT_POINT, .position = {0.0, 2.0, 0.0}};
+  spot.spot_axis = {0.0, -3.0, 0.0};
+  spot.spot_inner = 0.2;
+  spot.spot_outer = 0.5;
+  spot.range = 4.0;
+  const Light light = lights_in_root(scene, {spot}).front();
+  EXPECT_EQ(light.spot_axis, glm::vec3(0.0F, -1.0F, 0.0F));
+  EXPECT_NEAR(light.spot_cosine, std::cos(0.5), 1e-6);
+  EXPECT_NEAR(light.spot_scale, 1.0 / (std::cos(0.2) - std::cos(0.5)), 1e-5);
+  EXPECT_NEAR(light.range_scale * std::pow(4.0 / scene.root.unit_world, 4.0), 1.0, 1e-5);
+  EXPECT_EQ(lights_in_root(scene, {SceneLight{}}).front().spot_scale, 0.0F);
+}
+
 TEST(DefaultLights, ComeOverTheViewersLeftShoulder) {
   const Scene scene = box_scene();
   Camera camera;

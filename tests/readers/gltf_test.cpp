@@ -230,7 +230,7 @@ TEST(Gltf, CamerasAndLights) {
       R"(,"cameras":[{"type":"orthographic","orthographic":{"xmag":1,"ymag":2,"zfar":9,"znear":0.1}},)"
       R"({"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],"extensionsUsed":["KHR_lights_punctual"],)"
       R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional","intensity":3,"color":[1,0.5,0]},)"
-      R"({"type":"spot","intensity":5,"spot":{}}]}})";
+      R"({"type":"spot","intensity":5,"range":9,"spot":{"innerConeAngle":0.125,"outerConeAngle":0.5}}]}})";
   const std::string nodes =
       R"({"mesh":0,"children":[1,2,3]},{"camera":0,"translation":[0,0,5]},)"
       R"({"rotation":[-0.70710678118654752,0,0,0.70710678118654752],"extensions":{"KHR_lights_punctual":{"light":0}}},)"
@@ -248,7 +248,10 @@ TEST(Gltf, CamerasAndLights) {
   EXPECT_FLOAT_EQ(input.lights[0].power.y, 1.5F);
   EXPECT_EQ(input.lights[1].kind, LIGHT_POINT);
   EXPECT_DOUBLE_EQ(input.lights[1].position.z, 3.0);
-  EXPECT_TRUE(has_note(input, "spot light"));
+  EXPECT_EQ(input.lights[1].spot_axis, glm::dvec3(0.0, 0.0, -1.0));
+  EXPECT_EQ(input.lights[1].spot_inner, 0.125);
+  EXPECT_EQ(input.lights[1].spot_outer, 0.5);
+  EXPECT_EQ(input.lights[1].range, 9.0);
 }
 
 TEST(Gltf, LightsHaveTheSizesOfExtras) {

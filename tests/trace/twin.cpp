@@ -32,6 +32,7 @@ namespace glsl {
 #define COUNTERS ((features[SPEC_FEATURES] & FEATURE_COUNTERS) != 0)
 #define FIELDS ((features[SPEC_FEATURES] & FEATURE_FIELDS) != 0)
 #define CLIPS (!bound->clip_pool.empty())
+#define WATCHES false
 #define ELLIPSES ((features[SPEC_FEATURES] & FEATURE_ELLIPSES) != 0)
 
 uint top_entry(uint index) { return top.at(index); }

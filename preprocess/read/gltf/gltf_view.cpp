@@ -75,7 +75,7 @@ void apply_size(const tinygltf::Value& extras, const glm::dmat4& to_world, Scene
 }  // namespace
 
 std::optional<SceneLight> read_light(const GltfFile& file, const tinygltf::Node& node,
-                                     const glm::dmat4& to_world, std::vector<std::string>& notes) {
+                                     const glm::dmat4& to_world) {
   const tinygltf::Value* extension = find_extension(node.extensions, "KHR_lights_punctual");
   if (extension == nullptr) {
     return std::nullopt;
@@ -97,8 +97,11 @@ std::optional<SceneLight> read_light(const GltfFile& file, const tinygltf::Node&
     light.position = glm::dvec3(to_world[3]);
   }
   apply_size(node.extras, to_world, light);
+  if (light.kind == LIGHT_POINT) light.range = std::max(source.range, 0.0);
   if (source.type == "spot" && light.kind == LIGHT_POINT) {
-    notes.push_back(file.path.string() + ": spot light '" + source.name + "' shines in all directions here");
+    light.spot_axis = unit_axis(to_world, 2, -1.0);
+    light.spot_inner = source.spot.innerConeAngle;
+    light.spot_outer = source.spot.outerConeAngle;
   }
   return light;
 }

@@ -111,7 +111,7 @@ class SceneReader {
   }
 
   void read_node(const tinygltf::Node& node, const glm::dmat4& to_world, const ReadListener& part) {
-    if (const auto light = read_light(file_, node, to_world, listener_.notes)) {
+    if (const auto light = read_light(file_, node, to_world)) {
       if (input_.lights.size() == LIGHTS_MOST)
         file_.fail("found more than " + std::to_string(LIGHTS_MOST) + " lights, expected at most as many");
       input_.lights.push_back(*light);

@@ -1,0 +1,66 @@
+#include "engine/light/emitters.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "engine/light/emitter_area.h"
+#include "engine/scene/splat.h"
+
+namespace splatray {
+namespace {
+
+auto order(const uvec4& words) { return std::tuple(words.w, words.z, words.x, words.y); }
+
+}  // namespace
+
+vec3 shown_emission(const ObjectLooks& objects, std::size_t object) {
+  const bool hidden = (objects.materials[object].flags & MATERIAL_HIDDEN) != 0;
+  return hidden ? vec3(0.0F) : objects.surfaces[object].emission;
+}
+
+Emitters find_emitters(const Scene& scene, const ObjectLooks& objects) {
+  std::vector<float> radiance(objects.materials.size(), 0.0F);
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    const vec3 emission = shown_emission(objects, i);
+    radiance[i] = (emission.x + emission.y + emission.z) / 3.0F;
+  }
+  if (std::all_of(radiance.begin(), radiance.end(), [](float one) { return one <= 0.0F; })) return {};
+  std::vector<std::size_t> indices;  // in the data pool
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i)
+    if (radiance[scene.data_pool[i].w & OBJECT_MASK] > 0.0F) indices.push_back(i);
+  const auto words = [&scene](std::size_t index) { return scene.data_pool[index]; };
+  std::sort(indices.begin(), indices.end(),
+            [&](std::size_t a, std::size_t b) { return order(words(a)) < order(words(b)); });
+  // Rays cannot distinguish splats of the same words: together they are one.
+  const auto end = std::unique(indices.begin(), indices.end(),
+                               [&](std::size_t a, std::size_t b) { return words(a) == words(b); });
+  indices.erase(end, indices.end());
+  if (indices.empty()) return {};
+  std::vector<Splat> splats;
+  std::vector<std::uint32_t> clips;
+  for (const std::size_t index : indices) {
+    splats.push_back(unpack_splat(words(index)));
+    if (!scene.clip_pool.empty()) clips.push_back(scene.clip_pool[index]);
+  }
+  const std::vector<float> areas = areas_alone(splats, clips);
+  std::vector<Emitter> emitters;
+  for (std::size_t i = 0; i < splats.size(); ++i)
+    emitters.push_back({words(indices[i]), areas[i] * radiance[splats[i].object]});
+  return std::make_shared<const std::vector<Emitter>>(std::move(emitters));
+}
+
+double emitted_irradiance(const Scene& scene, const Emitters& emitters) {
+  if (!emitters) return 0.0;
+  const glm::dvec3 center = scene.root.to_root(0.5 * (scene.bounds_min_world + scene.bounds_max_world));
+  const double size = glm::distance(scene.bounds_min_world, scene.bounds_max_world) / scene.root.unit_world;
+  double sum = 0.0;
+  for (const Emitter& emitter : *emitters) {
+    const Splat splat = unpack_splat(emitter.words);
+    const glm::dvec3 apart = splat.center - center;
+    const double distance_squared = std::max(glm::dot(apart, apart), 0.01 * size * size);
+    sum += 0.25 * double(emitter.power) / distance_squared;
+  }
+  return sum;
+}
+
+}  // namespace splatray
