@@ -35,6 +35,13 @@
 /// shrinks along m.
 ///   k = (8 + (f & 7)) 2^((f >> 3) - 45)
 ///
+/// Texture words, up to four beside a splat, only in scenes with textures beside the base colour's: what its surface's values are
+/// multiplied by, q / 255, of colours' channels (q / 255)^2. A splat has those whose FEATURE_TEXTURE_* there is, in this order:
+///   LAYER  7..0 metallic, 15..8 roughness, 23..16 transmission, 31..24 255
+///   GLOW   7..0 emission's red, 15..8 green, 23..16 blue, 31..24 specular
+///   COLOR  7..0 specular colour's red, 15..8 green, 23..16 blue, 31..24 clearcoat
+///   NORMAL 31..24 clearcoat roughness, 23..0 zero
+///
 /// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
 /// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them
 /// if low h <= a.(p - c) <= (low + thickness) h, where a is the axis, |x| + |y| + |z| = 1, x >= 0.
@@ -299,18 +306,19 @@ SPLATRAY_CONST BIND_DATA_POOL = 5u;
 SPLATRAY_CONST BIND_COLOR_POOL = 6u;
 SPLATRAY_CONST BIND_FIELD_POOL = 7u;
 SPLATRAY_CONST BIND_CLIP_POOL = 8u;
-SPLATRAY_CONST BIND_TOP_TABLE = 9u;
-SPLATRAY_CONST BIND_MATERIALS = 10u;
-SPLATRAY_CONST BIND_LIGHTS = 11u;
-SPLATRAY_CONST BIND_ENVIRONMENT = 12u;
-SPLATRAY_CONST BIND_ACCUMULATION = 13u;
-SPLATRAY_CONST BIND_AOV = 14u;
-SPLATRAY_CONST BIND_COUNTERS = 15u;
-SPLATRAY_CONST BIND_RAYS = 16u;
-SPLATRAY_CONST BIND_HITS = 17u;
-SPLATRAY_CONST BIND_GROUPS = 18u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
-SPLATRAY_CONST BIND_PATHS = 19u;   ///< of this stage
-SPLATRAY_CONST BIND_PATHS_QUEUED = 20u;  ///< of the next
+SPLATRAY_CONST BIND_TEXTURE_POOL = 9u;  ///< texture words
+SPLATRAY_CONST BIND_TOP_TABLE = 10u;
+SPLATRAY_CONST BIND_MATERIALS = 11u;
+SPLATRAY_CONST BIND_LIGHTS = 12u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 13u;
+SPLATRAY_CONST BIND_ACCUMULATION = 14u;
+SPLATRAY_CONST BIND_AOV = 15u;
+SPLATRAY_CONST BIND_COUNTERS = 16u;
+SPLATRAY_CONST BIND_RAYS = 17u;
+SPLATRAY_CONST BIND_HITS = 18u;
+SPLATRAY_CONST BIND_GROUPS = 19u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
+SPLATRAY_CONST BIND_PATHS = 20u;   ///< of this stage
+SPLATRAY_CONST BIND_PATHS_QUEUED = 21u;  ///< of the next
 // Of path tracing, in the place of what it does not use, as devices bound how many buffers a program has:
 SPLATRAY_CONST BIND_SURFACES = BIND_RAYS;
 SPLATRAY_CONST BIND_LIGHT_TABLES = BIND_HITS;  ///< words: the albedo table, then the sky table
@@ -351,6 +359,10 @@ SPLATRAY_CONST FEATURE_COAT = 16384u;       ///< some surface has a clearcoat
 SPLATRAY_CONST FEATURE_EMISSION = 32768u;   ///< some surface sends out light
 SPLATRAY_CONST FEATURE_LENS = 65536u;       ///< the lens has a size
 SPLATRAY_CONST FEATURE_STRAIGHT = 131072u;  ///< light of lights passes dielectrics unbent, tinted
+SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word
+SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;
+SPLATRAY_CONST FEATURE_TEXTURE_COLOR = 4194304u;
+SPLATRAY_CONST FEATURE_TEXTURE_NORMAL = 8388608u;
 
 SPLATRAY_CONST LOOK_PAPER = 0u;  ///< Phong, hard shadows, mirrors and glass (Goradia et al. 2010)
 SPLATRAY_CONST LOOK_LIT = 1u;    ///< path tracing

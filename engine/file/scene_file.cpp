@@ -19,6 +19,7 @@
 #include "engine/file/scene_file_header.h"
 #include "engine/scene/pool_table.h"
 #include "engine/scene/scene_check.h"
+#include "engine/scene/texture_factors.h"
 
 namespace splatray {
 
@@ -63,13 +64,19 @@ std::string joined_strings(const Scene& scene) {
   return strings;
 }
 
+/// The least version that knows all that the scene has.
+std::uint32_t version_of(const Scene& scene) {
+  if (texture_features(scene.columns) != 0) return SCENE_FILE_VERSION;
+  const bool sized = std::any_of(scene.lights.begin(), scene.lights.end(), is_sized);
+  return sized ? SIZED_SCENE_FILE_VERSION : PLAIN_SCENE_FILE_VERSION;
+}
+
 /// The header of a scene, all but sections, file size and checksums.
 Header describe(const Scene& scene, std::size_t string_bytes) {
   const BuildParams& build = scene.build;
   Header header{};
   std::memcpy(header.magic, MAGIC, sizeof MAGIC);
-  header.version = std::any_of(scene.lights.begin(), scene.lights.end(), is_sized) ? SCENE_FILE_VERSION
-                                                                                   : PLAIN_SCENE_FILE_VERSION;
+  header.version = version_of(scene);
   header.endianness = ENDIANNESS;
   header.header_size = sizeof(Header);
   header.splats = scene.data_pool.size();
@@ -197,7 +204,7 @@ class Reader {
     if (header_.version < PLAIN_SCENE_FILE_VERSION || header_.version > SCENE_FILE_VERSION)
       refuse("version " + std::to_string(header_.version), "version " +
                                                                std::to_string(PLAIN_SCENE_FILE_VERSION) +
-                                                               " or " + std::to_string(SCENE_FILE_VERSION));
+                                                               " to " + std::to_string(SCENE_FILE_VERSION));
     if (header_.file_size != size_)
       refuse(std::to_string(size_) + " bytes",
              std::to_string(header_.file_size) +

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <variant>
 
+#include "engine/file/scene_file.h"
 #include "engine/scene/pool_table.h"
 #include "engine/scene/scene.h"
 
@@ -86,7 +87,9 @@ inline constexpr std::uint32_t COLUMN_BYTES[] = {0, sizeof(std::uint8_t), sizeof
 static_assert(std::variant_size_v<Column::Values> + 1 == std::size(COLUMN_BYTES));
 
 /// Whether the file's lights are SizedLightRecords.
-[[nodiscard]] inline bool has_sized_lights(const Header& header) { return header.version >= 11; }
+[[nodiscard]] inline bool has_sized_lights(const Header& header) {
+  return header.version >= SIZED_SCENE_FILE_VERSION;
+}
 
 /// The section table (but for checksums) and the file's size follow from the header's counts.
 void lay_out(Header& header);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/scene/splat.h"
+#include "engine/scene/texture_factors.h"
 
 namespace splatray {
 namespace {
@@ -80,18 +81,19 @@ vec3 shown_emission(const ObjectLooks& objects, std::size_t object) {
 }
 
 std::vector<Emitter> find_emitters(const Scene& scene, const ObjectLooks& objects) {
-  std::vector<double> radiance(objects.materials.size(), 0.0);
-  for (std::size_t i = 0; i < radiance.size(); ++i) {
-    const vec3 emission = shown_emission(objects, i);
-    radiance[i] = double(emission.x + emission.y + emission.z) / 3.0;
-  }
-  if (std::all_of(radiance.begin(), radiance.end(), [](double one) { return one <= 0.0; })) return {};
+  std::vector<vec3> radiance(objects.materials.size());
+  for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = shown_emission(objects, i);
+  if (std::all_of(radiance.begin(), radiance.end(), [](const vec3& one) { return one == vec3(0.0F); }))
+    return {};
+  const SplatEmission emission(scene);
   std::vector<Glow> glows;
-  for (const uvec4& words : scene.data_pool) {
-    const Splat splat = unpack_splat(words);
-    if (radiance[splat.object] <= 0.0) continue;
-    glows.push_back({splat.center, std::sqrt(splat.radius_squared),
-                     std::numbers::pi * splat.radius_squared * radiance[splat.object]});
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const Splat splat = unpack_splat(scene.data_pool[i]);
+    const vec3 sent = emission.of(i, radiance[splat.object]);
+    const double mean = double(sent.x + sent.y + sent.z) / 3.0;
+    if (mean <= 0.0) continue;
+    glows.push_back(
+        {splat.center, std::sqrt(splat.radius_squared), std::numbers::pi * splat.radius_squared * mean});
   }
   if (glows.empty()) return {};
   std::vector<Part> parts;

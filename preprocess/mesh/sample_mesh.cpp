@@ -22,6 +22,7 @@
 #include "preprocess/mesh/edge_sites.h"
 #include "preprocess/mesh/mesh_edges.h"
 #include "preprocess/mesh/mesh_normals.h"
+#include "preprocess/mesh/surface_maps.h"
 #include "preprocess/mesh/texture.h"
 
 namespace splatray {
@@ -79,7 +80,7 @@ class SampleWriter {
  public:
   SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
                double crease_cosine)
-      : mesh_(mesh), mask_(mesh), normals_(corner_normals(mesh, weld, crease_cosine)) {
+      : mesh_(mesh), mask_(mesh), maps_(mesh), normals_(corner_normals(mesh, weld, crease_cosine)) {
     triangles_.reserve(count);
     points_.position.reserve(count);
     points_.normal.reserve(count);
@@ -93,6 +94,7 @@ class SampleWriter {
     triangles_.push_back(static_cast<std::uint32_t>(triangle_index));
     const glm::vec3 w(weights);
     if (!mesh_.vertices.columns.empty()) weights_.push_back(w);
+    maps_.add(triangle, w);
     const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
     points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
     points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
@@ -127,6 +129,7 @@ class SampleWriter {
 
   Points finish() {
     for (const Column& column : mesh_.vertices.columns) points_.columns.push_back(on_samples(column));
+    for (Column& column : maps_.take()) points_.columns.push_back(std::move(column));
     return std::move(points_);
   }
 
@@ -156,6 +159,7 @@ class SampleWriter {
 
   const Mesh& mesh_;
   AlphaMask mask_;
+  MapSamples maps_;
   std::vector<glm::vec3> normals_;
   Points points_;
   std::vector<std::uint32_t> triangles_;  ///< beside points_
@@ -289,6 +293,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
   Points points;
   std::vector<glm::uint> kept;
   const AlphaMask mask(mesh);
+  MapSamples maps(mesh);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     glm::uint other = first_kept[weld[i]];
     while (other != NONE && glm::dot(normals[other], normals[i]) < COS_SAME) {
@@ -301,6 +306,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
     kept.push_back(static_cast<glm::uint>(i));
     points.position.push_back(mesh.vertices.position[i]);
     points.normal.push_back(normals[i]);
+    maps.add(static_cast<glm::uint>(i));
     if (!mesh.vertices.color.empty() || mesh.texture) {
       const glm::vec3 own = mesh.vertices.color.empty() ? glm::vec3(1.0F) : mesh.vertices.color[i];
       points.color.push_back(mesh.texture ? own * mesh.texture->color(mesh.texcoord[i]) : own);
@@ -313,6 +319,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
     const auto take = [&kept](const auto& values) { return Column::Values(gather(values, kept)); };
     points.columns.push_back({column.name, std::visit(take, column.values)});
   }
+  for (Column& column : maps.take()) points.columns.push_back(std::move(column));
   if (creases.clip) clip_vertices(mesh, weld, normals, creases.cosine, kept, points);
   return points;
 }

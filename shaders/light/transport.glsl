@@ -175,7 +175,7 @@ void meet_environment(INOUT(Path) path) {
 /// What a path finds at a hit, and whether and how it goes on.
 void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Tally) tally) {
   path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
-  Surface surface = surface_at(hit.object);
+  Surface surface = textured(surface_at(hit.object), hit.factors);
   float eta = 1.0f;
   if (GLASS) {
     if ((material_at(hit.object).flags & MATERIAL_DIELECTRIC) != 0u)

@@ -1,6 +1,6 @@
 // The first splat that a ray hits, and the blend of its cluster: the splats of the same object with like normals in a window of
 // depth behind it. Sums are integers, so the blend does not depend on the order in which splats are found. Needs, beside
-// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS.
+// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS; with LIT what factors.glsl needs.
 #ifndef SPLATRAY_BLEND_GLSL
 #define SPLATRAY_BLEND_GLSL
 #include "trace/accept.glsl"
@@ -18,6 +18,9 @@ struct Cluster {
   int depth;
   ivec3 color;
   uint members;
+#ifdef LIT
+  FactorSums factors;
+#endif
 };
 
 Cluster empty_cluster() {
@@ -27,6 +30,9 @@ Cluster empty_cluster() {
   cluster.depth = 0;
   cluster.color = ivec3(0);
   cluster.members = 0u;
+#ifdef LIT
+  cluster.factors = no_factor_sums();
+#endif
   return cluster;
 }
 
@@ -114,6 +120,9 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       cluster.normal += ivec3(floor(normal + vec3(0.5f)));
       cluster.depth += int(floor(weight * share + 0.5f));
       if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
+#ifdef LIT
+      add_factors(cluster.factors, factors_at(splat), weight);
+#endif
       cluster.members += member ? 1u : 0u;
     }
   } while ((candidates.x | candidates.y) != 0u);
@@ -131,14 +140,23 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift) 
   vec2 t = first.t;
   vec3 normal = normal_against(first.words, ray.dir);
   hit.color = vec3(1.0f);
+#ifdef LIT
+  hit.factors = no_factors();
+#endif
   if (BLEND != BLEND_NEAREST && cluster.weight > 0) {
     float inverse = 1.0f / float(cluster.weight);
     t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
     normal = vec3(cluster.normal);
     normal *= inversesqrt(dot(normal, normal));
     if (COLORS) hit.color = vec3(cluster.color) * inverse;
+#ifdef LIT
+    hit.factors = mean_factors(cluster.factors, inverse);
+#endif
   } else if (hit.found) {
     if (COLORS) hit.color = color_at(first.splat);
+#ifdef LIT
+    hit.factors = factors_at(first.splat);
+#endif
     float inverse_radius = inversesqrt(splat_radius_squared(first.words));
     Facet facet = facet_at(first.words, first.splat, first.from_center, inverse_radius, ray.dir);
     normal = facet.normal;

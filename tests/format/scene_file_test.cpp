@@ -140,7 +140,7 @@ class SizedLights : public SceneFile {
 };
 
 TEST_F(SizedLights, AreKeptAsTheyAre) {
-  EXPECT_EQ(get<std::uint32_t>(bytes, 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), SIZED_SCENE_FILE_VERSION);
   EXPECT_EQ(get<std::uint32_t>(bytes, TABLE + 9 * ENTRY + 4), 104U);
   const std::size_t lights = section_offset(bytes, 10);
   EXPECT_EQ(get<double>(bytes, lights + 48), 0.25);
@@ -152,6 +152,20 @@ TEST_F(SizedLights, AreKeptAsTheyAre) {
   EXPECT_EQ(copy.surfaces[1].emission, scene.surfaces[1].emission);
   write_scene(copy, path);
   EXPECT_EQ(load(), bytes);
+}
+
+TEST_F(SceneFile, OfTextureFactorsIsOfTheirVersion) {
+  Scene scene = tiny_scene();
+  scene.columns = {{"texture-emission-g", std::vector<std::uint8_t>(scene.data_pool.size(), 17)}};
+  write_scene(scene, path);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(read_scene(path).columns[0].number(0), 17.0);
+  scene.columns[0].name = "emission-g";
+  write_scene(scene, path);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), PLAIN_SCENE_FILE_VERSION) << "any attribute of points";
+  scene.columns = {{"texture-emission-g", std::vector<float>(scene.data_pool.size(), 1.0F)}};
+  write_scene(scene, path);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), PLAIN_SCENE_FILE_VERSION) << "of a type that factors are not of";
 }
 
 TEST_F(SizedLights, TruncatedOrDamagedAreRefused) {
@@ -170,10 +184,10 @@ TEST_F(SizedLights, ForgedOnesAreRefused) {
     const std::string sentence = refusal(forged);
     EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
   };
-  for (const std::uint32_t version : {9U, 12U}) {
+  for (const std::uint32_t version : {9U, 13U}) {
     Bytes forged = bytes;
     put<std::uint32_t>(forged, 4, version);
-    says(forged, "expected version 10 or 11");
+    says(forged, "expected version 10 to 12");
   }
   Bytes forged = bytes;
   put<std::uint32_t>(forged, 4, PLAIN_SCENE_FILE_VERSION);
@@ -248,7 +262,7 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
   put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 10 or 11");
+  says(other, "found version 2, expected version 10 to 12");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");

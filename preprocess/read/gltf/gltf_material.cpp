@@ -6,6 +6,7 @@
 
 #include "engine/base/number_text.h"
 #include "engine/scene/surface_fields.h"
+#include "engine/scene/texture_factors.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
 #include "preprocess/read/gltf/image_size.h"
 
@@ -200,6 +201,61 @@ glm::mat3 uv_transform_of(const tinygltf::TextureInfo& info) {
                               offset[1], 1.0));
 }
 
+/// TEXCOORD_n of a texture; KHR_texture_transform may name another.
+int texcoord_of(const tinygltf::TextureInfo& info) {
+  const tinygltf::Value* transform = find_extension(info.extensions, "KHR_texture_transform");
+  const auto replaced = transform == nullptr ? std::nullopt : number_in(*transform, "texCoord");
+  return replaced ? static_cast<int>(std::clamp(*replaced, 0.0, 1000.0)) : info.texCoord;
+}
+
+/// A textureInfo that tinygltf leaves in an extension's JSON; its index is -1 where there is none.
+tinygltf::TextureInfo texture_in(const tinygltf::Material& from, const char* extension, const char* name) {
+  tinygltf::TextureInfo info;
+  const tinygltf::Value* found = find_extension(from.extensions, extension);
+  if (found == nullptr || !found->IsObject() || !found->Get(name).IsObject()) return info;
+  const tinygltf::Value& texture = found->Get(name);
+  info.index = static_cast<int>(std::clamp(number_in(texture, "index").value_or(-1.0), -1.0, 1e9));
+  info.texCoord = static_cast<int>(std::clamp(number_in(texture, "texCoord").value_or(0.0), 0.0, 1000.0));
+  const tinygltf::Value& extensions = texture.Get("extensions");
+  if (extensions.IsObject() && extensions.Has("KHR_texture_transform"))
+    info.extensions["KHR_texture_transform"] = extensions.Get("KHR_texture_transform");
+  return info;
+}
+
+/// A texture that glTF knows, and the columns that its channels fill; "" where it has no such channel.
+struct KnownMap {
+  const char* extension;  ///< null: the material itself
+  const char* name;
+  std::string_view columns[4];
+};
+constexpr KnownMap KNOWN_MAPS[] = {
+    {nullptr, "metallicRoughnessTexture", {"", "texture-roughness", "texture-metallic", ""}},
+    {nullptr, "emissiveTexture", {"texture-emission-r", "texture-emission-g", "texture-emission-b", ""}},
+    {"KHR_materials_transmission", "transmissionTexture", {"texture-transmission", "", "", ""}},
+    {"KHR_materials_specular", "specularTexture", {"", "", "", "texture-specular"}},
+    {"KHR_materials_specular",
+     "specularColorTexture",
+     {"texture-specular-r", "texture-specular-g", "texture-specular-b", ""}},
+    {"KHR_materials_clearcoat", "clearcoatTexture", {"texture-coat", "", "", ""}},
+    {"KHR_materials_clearcoat", "clearcoatRoughnessTexture", {"", "texture-coat-roughness", "", ""}},
+};
+
+tinygltf::TextureInfo info_of(const tinygltf::Material& from, const KnownMap& known) {
+  if (known.extension != nullptr) return texture_in(from, known.extension, known.name);
+  return std::string_view(known.name) == "emissiveTexture"
+             ? from.emissiveTexture
+             : from.pbrMetallicRoughness.metallicRoughnessTexture;
+}
+
+/// The channels that a texture fills.
+std::vector<MapChannel> channels_of(const KnownMap& known) {
+  std::vector<MapChannel> channels;
+  for (int channel = 0; channel < 4; ++channel)
+    for (const TextureFactor& factor : texture_factors())
+      if (factor.column == known.columns[channel]) channels.push_back({&factor, channel});
+  return channels;
+}
+
 /// Bytes of all buffers and of images that are files of their own.
 std::uint64_t stored_bytes(const tinygltf::Model& model) {
   std::uint64_t bytes = 0;
@@ -273,13 +329,20 @@ Material GltfMaterials::material(int index, bool colored) {
   return material;
 }
 
-std::optional<glm::vec4> GltfMaterials::texture_mean(int texture) {
-  if (texture < 0) return {};
-  const auto picture = image(texture);
-  return picture ? std::optional(picture->mean()) : std::nullopt;
+const std::vector<GltfMaterials::Map>& GltfMaterials::maps(int index) {
+  static const std::vector<Map> NONE;
+  if (index < 0 || changes_look(source(index).extras) || is_veil(source(index))) return NONE;
+  const auto [found, is_new] = maps_.try_emplace(index);
+  if (!is_new) return found->second;
+  for (const KnownMap& known : KNOWN_MAPS) {
+    const tinygltf::TextureInfo info = info_of(source(index), known);
+    if (auto texture = laid(index, info, known.name))
+      found->second.push_back({{std::move(texture), channels_of(known), nullptr}, texcoord_of(info)});
+  }
+  return found->second;
 }
 
-std::optional<Surface> GltfMaterials::surface(int index, bool colored) {
+std::optional<Surface> GltfMaterials::surface(int index, bool colored, const std::vector<bool>& sampled) {
   if (index < 0 || changes_look(source(index).extras) || is_veil(source(index))) return {};
   const tinygltf::Material& from = source(index);
   const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
@@ -287,11 +350,12 @@ std::optional<Surface> GltfMaterials::surface(int index, bool colored) {
   surface.base = colored ? glm::vec3(1.0F) : color_factor(from);
   surface.metallic = unit_clamp(pbr.metallicFactor);
   surface.roughness = unit_clamp(pbr.roughnessFactor);
-  if (const auto mean = texture_mean(pbr.metallicRoughnessTexture.index)) {
-    surface.metallic *= mean->z;
-    surface.roughness *= mean->y;
+  const std::vector<Map>& known = maps(index);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (i < sampled.size() && sampled[i]) continue;
+    const glm::vec4 mean = known[i].map.texture->image->mean();
+    for (const auto& [factor, channel] : known[i].map.channels) multiply(*factor, mean[channel], surface);
   }
-  if (const auto mean = texture_mean(from.emissiveTexture.index)) surface.emission *= glm::vec3(*mean);
   return surface;
 }
 
@@ -300,10 +364,7 @@ glm::vec3 GltfMaterials::base_color(int index) const {
 }
 
 int GltfMaterials::base_texcoord(int index) const {
-  const tinygltf::TextureInfo& info = source(index).pbrMetallicRoughness.baseColorTexture;
-  const tinygltf::Value* transform = find_extension(info.extensions, "KHR_texture_transform");
-  const auto replaced = transform == nullptr ? std::nullopt : number_in(*transform, "texCoord");
-  return replaced ? static_cast<int>(std::clamp(*replaced, 0.0, 1000.0)) : info.texCoord;
+  return texcoord_of(source(index).pbrMetallicRoughness.baseColorTexture);
 }
 
 std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
@@ -313,14 +374,27 @@ std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
   if (const auto known = textures_.find(index); known != textures_.end()) {
     return known->second;
   }
-  const tinygltf::TextureInfo& info = source(index).pbrMetallicRoughness.baseColorTexture;
+  const std::shared_ptr<Texture> texture =
+      laid(index, source(index).pbrMetallicRoughness.baseColorTexture, "the base colour texture");
+  if (texture) {
+    texture->factor = base_color(index);
+    texture->alpha_factor = alpha_of(source(index));
+    if (source(index).alphaMode == "MASK") texture->alpha_cutoff = unit_clamp(source(index).alphaCutoff);
+    if (source(index).alphaMode == "BLEND") texture->alpha_cutoff = 0.5F;
+  }
+  textures_[index] = texture;
+  return texture;
+}
+
+std::shared_ptr<Texture> GltfMaterials::laid(int index, const tinygltf::TextureInfo& info, const char* what) {
+  if (info.index < 0) return nullptr;
   auto texture = std::make_shared<Texture>();
   texture->image = image(info.index);
+  if (!texture->image) {
+    note_once(index, std::string(what) + " cannot be decoded, its factor is shown");
+    return nullptr;
+  }
   texture->uv_transform = uv_transform_of(info);
-  texture->factor = base_color(index);
-  texture->alpha_factor = alpha_of(source(index));
-  if (source(index).alphaMode == "MASK") texture->alpha_cutoff = unit_clamp(source(index).alphaCutoff);
-  if (source(index).alphaMode == "BLEND") texture->alpha_cutoff = 0.5F;
   const int sampler = file_.model.textures[static_cast<std::size_t>(info.index)].sampler;
   if (sampler >= 0) {
     const tinygltf::Sampler& found =
@@ -328,11 +402,6 @@ std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
     texture->wrap_s = wrap_of(found.wrapS);
     texture->wrap_t = wrap_of(found.wrapT);
   }
-  if (!texture->image) {
-    note_once(index, "the base colour texture cannot be decoded, its factor is shown");
-    texture = nullptr;
-  }
-  textures_[index] = texture;
   return texture;
 }
 

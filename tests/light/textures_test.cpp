@@ -1,0 +1,120 @@
+/// Texture factors: a floor, half of which has them, looks there as one whose surface has these values.
+#include "engine/scene/splat.h"
+#include "engine/scene/surface.h"
+#include "engine/scene/texture_factors.h"
+#include "tests/light/lit.h"
+
+namespace splatray::testing {
+namespace {
+
+constexpr std::uint8_t FACTOR = 100;
+
+/// Something of each lobe.
+Surface rich_surface() {
+  Surface surface{};
+  surface.base = {0.8F, 0.5F, 0.2F};
+  surface.metallic = 0.6F;
+  surface.specular_color = {0.9F, 0.6F, 0.8F};
+  surface.roughness = 0.6F;
+  surface.emission = {2.0F, 1.0F, 0.5F};
+  surface.specular = 0.9F;
+  surface.transmission = 0.8F;
+  surface.coat = 0.8F;
+  surface.coat_roughness = 0.6F;
+  surface.ior = 2.0F;
+  return surface;
+}
+
+class Textures : public Plane {
+ protected:
+  /// The floor; where x < 0 its splats have FACTOR in this column.
+  static Scene scene_with(std::uint32_t flags, const Surface& surface, std::string_view column) {
+    TestObject object = floor();
+    object.material.flags = flags;
+    Scene scene = scene_of({object});
+    scene.surfaces = {surface};
+    if (column.empty()) return scene;
+    std::vector<std::uint8_t> bytes;
+    for (const uvec4& words : scene.data_pool)
+      bytes.push_back(scene.root.to_world(unpack_splat(words).center).x < 0.0 ? FACTOR : 255);
+    scene.columns.push_back({std::string(column), bytes});
+    return scene;
+  }
+  /// Mean radiance of rgb that is sent from around (x, 0, 0) to an eye at the side.
+  vec3 radiance(const Scene& scene, double x) {
+    const std::vector<SceneLight> sun = {{LIGHT_DIRECTIONAL, {0.6, 1.0, 0.2}, vec3(3.0F)}};
+    show(scene, constant(0.3F), sun);
+    const Camera camera{dvec3(x - 0.8, 1.0, 0.0), dvec3(x, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), 10.0, 0.001};
+    vec3 sum(0.0F);
+    const Image image = picture(camera, lit(16), 8);
+    for (const vec4& pixel : image.rgba) sum += vec3(pixel) / float(image.rgba.size());
+    return sum;
+  }
+};
+
+TEST_F(Textures, MultiplyTheirSurfacesValues) {
+  for (const TextureFactor& factor : texture_factors()) {
+    SCOPED_TRACE(factor.column);
+    const bool glass = factor.number == &Surface::transmission;
+    const std::uint32_t flags = glass ? MATERIAL_DIELECTRIC : MATERIAL_TWO_SIDED;
+    const float value = float(FACTOR) / 255.0F;
+    Surface changed = rich_surface();
+    multiply(factor, factor.color != nullptr ? value * value : value, changed);
+    const vec3 plain = radiance(scene_with(flags, rich_surface(), ""), -1.0);
+    const vec3 truth = radiance(scene_with(flags, changed, ""), -1.0);
+    const Scene halves = scene_with(flags, rich_surface(), factor.column);
+    const vec3 left = radiance(halves, -1.0), right = radiance(halves, 1.0);
+    EXPECT_LT(glm::distance(left, truth), 1e-3F * glm::length(truth));
+    EXPECT_LT(glm::distance(right, plain), 2e-2F * glm::length(plain)) << "another part of the floor";
+    EXPECT_GT(glm::distance(plain, truth), 5e-3F * glm::length(truth)) << "the factor is of no effect";
+  }
+}
+
+TEST_F(Textures, EmissionIsTheSurfacesTimesTheFactor) {
+  Surface lamp{};
+  lamp.ior = 1.5F;
+  lamp.emission = {2.0F, 1.0F, 0.5F};
+  const Scene scene = scene_with(MATERIAL_TWO_SIDED, lamp, "texture-emission-g");
+  const float value = float(FACTOR) / 255.0F;
+  show(scene, constant(0.0F), {});
+  const Camera camera{dvec3(-1.0, 1.0, 0.0), dvec3(-1.0, 0.0, 0.0), dvec3(0.0, 0.0, -1.0), 10.0, 0.001};
+  for (const vec4& pixel : picture(camera, lit(1), 4).rgba) {
+    EXPECT_FLOAT_EQ(pixel.x, 2.0F);
+    EXPECT_NEAR(pixel.y, value * value, 1e-5F);
+    EXPECT_FLOAT_EQ(pixel.z, 0.5F);
+  }
+  const SplatEmission emission(scene);
+  const ObjectLooks objects{scene.materials, scene.surfaces};
+  double power = 0.0, expected = 0.0;
+  for (const Emitter& emitter : find_emitters(scene, objects)) power += emitter.power;
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const Splat splat = unpack_splat(scene.data_pool[i]);
+    const bool left = scene.root.to_world(splat.center).x < 0.0;
+    const vec3 sent(2.0F, left ? value * value : 1.0F, 0.5F);
+    EXPECT_EQ(emission.of(i, lamp.emission), sent);
+    expected += pi * splat.radius_squared * double(sent.x + sent.y + sent.z) / 3.0;
+  }
+  EXPECT_NEAR(power, expected, 1e-6 * expected);
+}
+
+/// All data pools, with and without pages, give the same picture.
+TEST_F(Textures, AreTheSplatsOwnWhereverTheyLie) {
+  Scene scene = scene_with(MATERIAL_TWO_SIDED, rich_surface(), "texture-roughness");
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i)
+    bytes.push_back(static_cast<std::uint8_t>(i * 37 % 256));
+  scene.columns.push_back({"texture-emission-r", bytes});
+  std::vector<std::vector<vec4>> pictures;
+  for (const DataPool data : {DataPool::copies, DataPool::references})
+    for (const std::uint64_t page : {std::uint64_t{UINT64_MAX}, std::uint64_t{4096}}) {
+      ShownTracer tracer(context_, {.pools = {.data = data, .page_elements = page}});
+      tracer.upload(scene);
+      EXPECT_GT(tracer.pool_bytes().at(BIND_TEXTURE_POOL), 0U);
+      const Camera camera{dvec3(0.0, 3.0, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 40.0, 0.001};
+      pictures.push_back(tracer.render({camera, 16, 16}, lit(2)).rgba);
+    }
+  for (const auto& picture : pictures) EXPECT_TRUE(picture == pictures.front());
+}
+
+}  // namespace
+}  // namespace splatray::testing
