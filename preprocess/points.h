@@ -76,7 +76,7 @@ struct MapChannel {
 /// A texture whose channels are factors of the surface (glTF 2.0: metallic-roughness, emissive and the like). Those of colours
 /// are read as sRGB, all others as they are stored.
 struct SurfaceMap {
-  std::shared_ptr<const Texture> texture;  ///< never null; without a factor
+  std::shared_ptr<const Texture> texture;  ///< never null; its factor is 1, but alpha's may be less
   std::vector<MapChannel> channels;
   std::shared_ptr<const std::vector<glm::vec2>> texcoord;  ///< beside the mesh's vertices
 };

@@ -37,7 +37,7 @@
 ///
 /// Texture words, up to four beside a splat, only in scenes with textures beside the base colour's: what its surface's values are
 /// multiplied by, q / 255, of colours' channels (q / 255)^2. A splat has those whose FEATURE_TEXTURE_* there is, in this order:
-///   LAYER  7..0 metallic, 15..8 roughness, 23..16 transmission, 31..24 255
+///   LAYER  7..0 metallic, 15..8 roughness, 23..16 transmission, 31..24 opacity
 ///   GLOW   7..0 emission's red, 15..8 green, 23..16 blue, 31..24 specular
 ///   COLOR  7..0 specular colour's red, 15..8 green, 23..16 blue, 31..24 clearcoat
 ///   NORMAL 31..24 clearcoat roughness, 23..0 zero
@@ -349,6 +349,11 @@ SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, e
 SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
 SPLATRAY_CONST FEATURE_CLIPS = 262144u;     ///< some splat has clip lines
 SPLATRAY_CONST FEATURE_ELLIPSES = 524288u; ///< some splat is an ellipse
+SPLATRAY_CONST FEATURE_OPACITY = 16777216u;  ///< some splat is see-through, and has the texture word LAYER
+SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word
+SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;
+SPLATRAY_CONST FEATURE_TEXTURE_COLOR = 4194304u;
+SPLATRAY_CONST FEATURE_TEXTURE_NORMAL = 8388608u;
 // Of LOOK_LIT and its like alone:
 SPLATRAY_CONST FEATURE_SKY = 512u;          ///< the environment is chosen among the lights, by the sky table
 SPLATRAY_CONST FEATURE_SIZES = 1024u;       ///< some light has a size, and can be met
@@ -359,10 +364,6 @@ SPLATRAY_CONST FEATURE_COAT = 16384u;       ///< some surface has a clearcoat
 SPLATRAY_CONST FEATURE_EMISSION = 32768u;   ///< some surface sends out light
 SPLATRAY_CONST FEATURE_LENS = 65536u;       ///< the lens has a size
 SPLATRAY_CONST FEATURE_STRAIGHT = 131072u;  ///< light of lights passes dielectrics unbent, tinted
-SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word
-SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;
-SPLATRAY_CONST FEATURE_TEXTURE_COLOR = 4194304u;
-SPLATRAY_CONST FEATURE_TEXTURE_NORMAL = 8388608u;
 
 SPLATRAY_CONST LOOK_PAPER = 0u;  ///< Phong, hard shadows, mirrors and glass (Goradia et al. 2010)
 SPLATRAY_CONST LOOK_LIT = 1u;    ///< path tracing

@@ -62,7 +62,6 @@ std::uint32_t light_features(const SceneContent& content, const Settings& settin
   std::uint32_t features = all ? content.surfaces : FEATURE_DIFFUSE;
   const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
   add(all && content.materials.glass, FEATURE_GLASS);
-  features |= all ? content.textures : 0;
   add(content.colors && style.colors, FEATURE_COLORS);
   add(lights, FEATURE_LIGHTS);
   add(lights && content.sized_lights, FEATURE_SIZES);
@@ -98,6 +97,8 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   add(content.fields && !flat_blend, FEATURE_FIELDS);
   add(content.clips, FEATURE_CLIPS);
   add(content.ellipses, FEATURE_ELLIPSES);
+  const bool textured = settings.look != LOOK_PAPER && look_style(settings.look).surfaces;
+  add(textured || (content.textures & FEATURE_OPACITY) != 0, content.textures);
   add(content.references, FEATURE_REFERENCES);
   add(content.environment_texture, FEATURE_ENVIRONMENT);
   add(settings.counters, FEATURE_COUNTERS);

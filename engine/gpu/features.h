@@ -35,7 +35,7 @@ struct SceneContent {
   std::uint32_t pages = 0;           ///< Paging::pages_constant
   std::uint32_t page_shift = 0;      ///< Paging::page_shift
   std::uint32_t surfaces = 0;        ///< surface_features
-  std::uint32_t textures = 0;        ///< FEATURE_TEXTURE_*
+  std::uint32_t textures = 0;        ///< texture_features()
   bool lights = false;               ///< there are lights
   bool sized_lights = false;         ///< some light has a size
   bool environment_texture = false;  ///< the environment is not constant

@@ -198,8 +198,7 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   });
   texture_features = splatray::texture_features(scene.columns);
   bytes.at(BIND_TEXTURE_POOL) = (lists ? scene.reference_pool.size() : scene.data_pool.size()) *
-                                static_cast<std::size_t>(std::popcount(texture_features)) *
-                                sizeof(std::uint32_t);
+                                texture_word_count(texture_features) * sizeof(std::uint32_t);
   bytes.at(BIND_TOP_TABLE) = std::span(top).size_bytes();
   paging = choose_paging(bytes, limits, request.access);
   bytes.texel_buffers = paging.access == PoolAccess::texel;

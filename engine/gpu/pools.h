@@ -95,7 +95,7 @@ struct Pools {
   PoolBytes bytes;                         ///< without environment and frame
   bool references = false;                 ///< the data pool is read through the reference pool
   std::uint32_t top_levels = 0;            ///< of the top table
-  std::uint32_t texture_features = 0;      ///< FEATURE_TEXTURE_* of the scene
+  std::uint32_t texture_features = 0;      ///< texture_features() of the scene
   std::array<PagedBuffer, POOLS> buffers;  ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 

@@ -1,18 +1,15 @@
 #include "engine/scene/copies.h"
 
-#include <bit>
-
 #include "engine/scene/texture_factors.h"
 #include "engine/scene/tree.h"
 
 namespace splatray {
 
 PoolCounts pool_counts(const Scene& scene) {
-  return {
-      scene.data_pool.size(),    scene.reference_pool.size(),
-      scene.node_pool.size(),    scene.begin_end.size() - 1,
-      !scene.color_pool.empty(), !scene.field_pool.empty(),
-      !scene.clip_pool.empty(),  static_cast<std::uint32_t>(std::popcount(texture_features(scene.columns)))};
+  return {scene.data_pool.size(),    scene.reference_pool.size(),
+          scene.node_pool.size(),    scene.begin_end.size() - 1,
+          !scene.color_pool.empty(), !scene.field_pool.empty(),
+          !scene.clip_pool.empty(),  texture_word_count(texture_features(scene.columns))};
 }
 
 bool copies_fit(const PoolCounts& counts) {

@@ -20,6 +20,7 @@ constexpr TextureFactor FACTORS[] = {
     number("texture-metallic", FEATURE_TEXTURE_LAYER, 0, &Surface::metallic),
     number("texture-roughness", FEATURE_TEXTURE_LAYER, 8, &Surface::roughness),
     number("texture-transmission", FEATURE_TEXTURE_LAYER, 16, &Surface::transmission),
+    number(COLUMN_OPACITY, FEATURE_TEXTURE_LAYER, 24, nullptr),
     color("texture-emission-r", FEATURE_TEXTURE_GLOW, 0, &Surface::emission, 0),
     color("texture-emission-g", FEATURE_TEXTURE_GLOW, 8, &Surface::emission, 1),
     color("texture-emission-b", FEATURE_TEXTURE_GLOW, 16, &Surface::emission, 2),
@@ -30,6 +31,9 @@ constexpr TextureFactor FACTORS[] = {
     number("texture-coat", FEATURE_TEXTURE_COLOR, 24, &Surface::coat),
     number("texture-coat-roughness", FEATURE_TEXTURE_NORMAL, 24, &Surface::coat_roughness),
 };
+
+constexpr std::uint32_t WORDS =
+    FEATURE_TEXTURE_LAYER | FEATURE_TEXTURE_GLOW | FEATURE_TEXTURE_COLOR | FEATURE_TEXTURE_NORMAL;
 
 /// A factor's column; empty where there is none, or it is of another type and so none of ours.
 std::span<const std::uint8_t> bytes_of(const std::vector<Column>& columns, std::string_view name) {
@@ -51,7 +55,7 @@ std::uint8_t encode_factor(const TextureFactor& factor, float value) {
 void multiply(const TextureFactor& factor, float value, Surface& surface) {
   if (factor.number != nullptr)
     surface.*factor.number *= value;
-  else
+  else if (factor.color != nullptr)
     (surface.*factor.color)[factor.channel] *= value;
 }
 
@@ -65,18 +69,22 @@ std::uint32_t texture_features(const std::vector<Column>& columns) {
   std::uint32_t features = 0;
   for (const TextureFactor& factor : FACTORS)
     if (!bytes_of(columns, factor.column).empty()) features |= factor.word;
-  return features;
+  return bytes_of(columns, COLUMN_OPACITY).empty() ? features : features | FEATURE_OPACITY;
+}
+
+std::uint32_t texture_word_count(std::uint32_t features) {
+  return static_cast<std::uint32_t>(std::popcount(features & WORDS));
 }
 
 std::vector<std::uint32_t> texture_words(const std::vector<Column>& columns,
                                          std::span<const std::uint32_t> splats) {
   const std::uint32_t features = texture_features(columns);
-  const auto stride = static_cast<std::size_t>(std::popcount(features));
+  const std::size_t stride = texture_word_count(features);
   std::vector<std::uint32_t> words(stride * splats.size(), 0);
   for (const TextureFactor& factor : FACTORS) {
     if ((features & factor.word) == 0) continue;
     const std::span<const std::uint8_t> bytes = bytes_of(columns, factor.column);
-    auto word = static_cast<std::size_t>(std::popcount(features & (factor.word - 1)));
+    auto word = static_cast<std::size_t>(std::popcount(features & WORDS & (factor.word - 1)));
     for (const std::uint32_t splat : splats) {
       words[word] |= std::uint32_t{bytes.empty() ? absent_value(factor.column) : bytes[splat]}
                      << factor.shift;

@@ -18,9 +18,12 @@ struct TextureFactor {
   std::uint32_t word;      ///< FEATURE_TEXTURE_*: the device's word
   std::uint32_t shift;     ///< of its lowest bit there
   float Surface::*number;  ///< the value that it multiplies, or
-  vec3 Surface::*color;    ///< a channel of this one
+  vec3 Surface::*color;    ///< a channel of this one; both null: how opaque the splat is
   int channel;             ///< of the colour
 };
+
+/// How much of a splat is there: 0 nothing, 255 all of it. Paths meet it by chance, light is weakened by it.
+inline constexpr std::string_view COLUMN_OPACITY = "texture-opacity";
 
 /// All that there are, in no order that matters.
 [[nodiscard]] std::span<const TextureFactor> texture_factors();
@@ -34,11 +37,14 @@ void multiply(const TextureFactor& factor, float value, Surface& surface);
 /// The byte of points that have no such column, where others have: 255 of a texture factor, else 0.
 [[nodiscard]] std::uint8_t absent_value(std::string_view column);
 
-/// FEATURE_TEXTURE_* of a scene's columns; 0 for scenes without texture factors.
+/// FEATURE_TEXTURE_* of a scene's columns, and FEATURE_OPACITY; 0 for scenes without texture factors.
 [[nodiscard]] std::uint32_t texture_features(const std::vector<Column>& columns);
 
-/// The device's words of these splats, one splat after the other: for each the words that texture_features() names, the lowest
-/// bit's first.
+/// How many words a splat has with these features.
+[[nodiscard]] std::uint32_t texture_word_count(std::uint32_t features);
+
+/// The device's words of these splats, one splat after the other: for each texture_word_count() of them, the lowest feature's
+/// first.
 [[nodiscard]] std::vector<std::uint32_t> texture_words(const std::vector<Column>& columns,
                                                        std::span<const std::uint32_t> splats);
 

@@ -8,8 +8,9 @@ namespace splatray {
 
 float map_value(const SurfaceMap& map, const MapChannel& channel, glm::vec2 texcoord) {
   const bool is_color = channel.factor->color != nullptr;
-  return is_color ? map.texture->color(texcoord)[channel.channel]
-                  : map.texture->numbers(texcoord)[channel.channel];
+  if (is_color) return map.texture->color(texcoord)[channel.channel];
+  const float factor = channel.channel == 3 ? map.texture->alpha_factor : 1.0F;
+  return factor * map.texture->numbers(texcoord)[channel.channel];
 }
 
 MapSamples::MapSamples(const Mesh& mesh) : maps_(mesh.maps) {

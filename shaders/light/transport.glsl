@@ -203,10 +203,35 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   }
 }
 
+/// What a path's ray sees first. A sheet that is see-through is there as often as its opacity says, by a hash of the ray and of the
+/// sheet's first splat (stochastic transparency: Enderton et al. 2010), which no order of splats changes.
+Hit trace_seen(Path path, uint pixel, uint sample_index, INOUT(Tally) tally) {
+  Ray ray = path.ray;
+  float passed = 0.0f;
+  bool passes = false;
+  Hit hit;
+  do {
+    hit = trace_nearest(ray, frame.kappa, tally);
+    passes = false;
+    if (OPACITY) {
+      uint of_ray = hash_uint(pixel ^ hash_uint(sample_index ^ hash_uint(path.bounce + 0x9e3779b9u * frame.seed)));
+      // The mean of what is all opaque may be a rounding below 1.
+      float opacity = hit.factors.layer.w > 0.999999f ? 2.0f : hit.factors.layer.w;
+      passes = hit.found && unit_float(hash_uint(of_ray ^ hash_words(hit.first))) >= opacity;
+      ray = ray_from_hit(hit, ray.dir, ray.inside);
+      float t = hit.t;
+      hit.t += passed;
+      hit.t_first += passed;
+      passed += t;
+    }
+  } while (passes);
+  return hit;
+}
+
 /// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture.
 void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) tally) {
   do {
-    Hit hit = trace_nearest(path.ray, frame.kappa, tally);
+    Hit hit = trace_seen(path, pixel, sample_index, tally);
     bool light_first = false;
     if (SIZES && LOOK != LOOK_SCAN) {
       float t = hit.t;

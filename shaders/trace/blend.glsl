@@ -1,6 +1,6 @@
 // The first splat that a ray hits, and the blend of its cluster: the splats of the same object with like normals in a window of
 // depth behind it. Sums are integers, so the blend does not depend on the order in which splats are found. Needs, beside
-// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS; with LIT what factors.glsl needs.
+// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS.
 #ifndef SPLATRAY_BLEND_GLSL
 #define SPLATRAY_BLEND_GLSL
 #include "trace/accept.glsl"

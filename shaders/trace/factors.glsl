@@ -1,12 +1,12 @@
 // What textures make of a splat's surface, as layout.h draws it: factors on the surface's values, blended over a cluster as colours
-// are. Needs texture_word(index) and the constants TEXTURE_LAYER, TEXTURE_GLOW, TEXTURE_COLOR, TEXTURE_NORMAL: words that no splat
-// has are neither read nor summed.
+// are. Needs texture_word(index) and the constants OPACITY, TEXTURE_LAYER, TEXTURE_GLOW, TEXTURE_COLOR, TEXTURE_NORMAL: words that
+// no splat has are neither read nor summed.
 #ifndef SPLATRAY_FACTORS_GLSL
 #define SPLATRAY_FACTORS_GLSL
 #include "lang/language.glsl"
 
 struct Factors {
-  vec4 layer;  ///< metallic, roughness, transmission, 1
+  vec4 layer;  ///< metallic, roughness, transmission, opacity
   vec4 glow;   ///< emission, specular
   vec4 color;  ///< specular colour, clearcoat
   float coat_roughness;
@@ -50,11 +50,20 @@ vec4 color_bytes(uint word) {
   return value * vec4(value.x, value.y, value.z, 1.0f);
 }
 
+/// Where the texture pool has a splat's first word.
+uint texture_place(uint splat) {
+  return splat * ((TEXTURE_LAYER ? 1u : 0u) + (TEXTURE_GLOW ? 1u : 0u) + (TEXTURE_COLOR ? 1u : 0u) +
+                  (TEXTURE_NORMAL ? 1u : 0u));
+}
+
+/// A splat's own opacity, 0..1. With OPACITY alone.
+float opacity_at(uint splat) { return float(texture_word(texture_place(splat)) >> 24u) * (1.0f / 255.0f); }
+
 /// Of one splat.
 Factors factors_at(uint splat) {
   Factors factors = no_factors();
   uint layer = TEXTURE_LAYER ? 1u : 0u, glow = TEXTURE_GLOW ? 1u : 0u, color = TEXTURE_COLOR ? 1u : 0u;
-  uint at = splat * (layer + glow + color + (TEXTURE_NORMAL ? 1u : 0u));
+  uint at = texture_place(splat);
   if (TEXTURE_LAYER) factors.layer = word_bytes(texture_word(at));
   if (TEXTURE_GLOW) factors.glow = color_bytes(texture_word(at + layer));
   if (TEXTURE_COLOR) factors.color = color_bytes(texture_word(at + layer + glow));

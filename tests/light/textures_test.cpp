@@ -54,6 +54,7 @@ class Textures : public Plane {
 
 TEST_F(Textures, MultiplyTheirSurfacesValues) {
   for (const TextureFactor& factor : texture_factors()) {
+    if (factor.column == COLUMN_OPACITY) continue;
     SCOPED_TRACE(factor.column);
     const bool glass = factor.number == &Surface::transmission;
     const std::uint32_t flags = glass ? MATERIAL_DIELECTRIC : MATERIAL_TWO_SIDED;
@@ -95,6 +96,83 @@ TEST_F(Textures, EmissionIsTheSurfacesTimesTheFactor) {
     expected += pi * splat.radius_squared * double(sent.x + sent.y + sent.z) / 3.0;
   }
   EXPECT_NEAR(power, expected, 1e-6 * expected);
+}
+
+/// Sheets of one opacity one above the other, over a floor that sends out light.
+class SeeThrough : public Lit {
+ protected:
+  static constexpr double OPACITY = 153.0 / 255.0;
+
+  /// Three sheets over the floor; objects of their own may lie closer than their splats are wide.
+  static std::vector<double> heights(bool joined) {
+    return joined ? std::vector{0.0, 0.5, 1.0, 1.5} : std::vector{0.0, 0.5, 0.51, 1.0};
+  }
+  /// Sheets 4 x 4 at these heights, each an object of its own unless `joined`; the lowest is opaque.
+  static Scene sheets(const std::vector<double>& heights, bool joined) {
+    std::vector<TestObject> objects;
+    for (const double height : heights) {
+      const SurfacePatch patch =
+          rectangle_surface("sheet", {-2.0, height, 2.0}, {4.0, 0.0, 0.0}, {0.0, 0.0, -4.0});
+      OrientedPoints points = patch.make({.count = 4000, .even = true});
+      if (joined && objects.size() == 2)
+        append(objects.back().points, std::move(points));
+      else
+        objects.push_back({std::move(points), grey(0.0F)});
+    }
+    Scene scene = scene_of(objects);
+    scene.surfaces = surfaces_of(scene);
+    for (Surface& surface : scene.surfaces) surface.specular = 0.0F;
+    std::vector<std::uint8_t> bytes;
+    for (const uvec4& words : scene.data_pool)
+      bytes.push_back(unpack_splat(words).object == 0 ? 255 : std::uint8_t(255.0 * OPACITY));
+    scene.columns.push_back({std::string(COLUMN_OPACITY), bytes});
+    return scene;
+  }
+};
+
+TEST_F(SeeThrough, PathsPassEachSheetAsOftenAsItsOpacitySays) {
+  for (const bool joined : {false, true}) {
+    Scene scene = sheets(heights(joined), joined);
+    scene.surfaces[0].emission = vec3(1.0F);
+    show(scene, constant(0.0F), {});
+    for (const dvec3 eye : {dvec3(0.0, 3.0, 0.0), dvec3(1.5, 3.0, 0.0)}) {
+      const Camera camera{eye, dvec3(0.0), dvec3(0.0, 0.0, -1.0), 10.0, 0.001};
+      const Mean seen = mean_of(picture(camera, lit(1024), 8));
+      EXPECT_NEAR(seen.value, std::pow(1.0 - OPACITY, 3), 4.0 * seen.error + 1e-3) << joined;
+      EXPECT_LT(seen.error, 2e-3);
+    }
+  }
+}
+
+TEST_F(SeeThrough, LightOfLightsIsWeakenedByEachSheet) {
+  for (const bool joined : {false, true}) {
+    Scene scene = sheets(heights(joined), joined);
+    scene.surfaces[0].base = vec3(1.0F);
+    show(scene, constant(0.0F), {{LIGHT_DIRECTIONAL, {0.5, 1.0, 0.0}, vec3(float(pi))}});
+    const double cosine = 1.0 / std::sqrt(1.25);
+    // From below all sheets, so that nothing but the shadow rays meets them.
+    const Camera camera{dvec3(0.2, 0.4, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 10.0, 0.001};
+    const Mean seen = mean_of(picture(camera, lit(16), 8));
+    EXPECT_NEAR(seen.value, cosine * std::pow(1.0 - OPACITY, 3), 1e-3) << joined;
+  }
+}
+
+TEST_F(SeeThrough, IsCutOutByThePapersLookAndByQueries) {
+  Scene scene = sheets({0.0, 0.5}, false);
+  const auto seen_object = [&](std::uint8_t opacity) {
+    std::vector<std::uint8_t> bytes(scene.data_pool.size(), 255);
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      if (unpack_splat(scene.data_pool[i]).object == 1) bytes[i] = opacity;
+    scene.columns = {{std::string(COLUMN_OPACITY), bytes}};
+    show(scene, constant(0.0F), {});
+    Settings settings;
+    settings.look = LOOK_PAPER;
+    settings.aov = true;
+    const Camera camera{dvec3(0.0, 3.0, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 10.0, 0.001};
+    return picture(camera, settings, 1).aov[0].object;
+  };
+  EXPECT_EQ(seen_object(127), 0U);
+  EXPECT_EQ(seen_object(128), 1U);
 }
 
 /// All data pools, with and without pages, give the same picture.

@@ -91,6 +91,19 @@ TEST(GltfTextures, CountByTheirMeanWithoutCoordinates) {
   EXPECT_FLOAT_EQ(bare.objects[0].surface->emission.z, 0.5F);
 }
 
+TEST(GltfTextures, AlphaThatBlendsIsOpacity) {
+  const auto read = [](const std::string& more) {
+    return read_quad(
+        quad(R"("alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0})" + more + "}"));
+  };
+  EXPECT_EQ(halves_of(read("").objects[0], "texture-opacity"), (Halves{255, 102}));
+  const Input half = read(R"(,"baseColorFactor":[1,1,1,0.4])");
+  EXPECT_EQ(halves_of(half.objects[0], "texture-opacity"), (Halves{102, 41}));
+  EXPECT_TRUE(half.notes.empty());
+  const Input solid = read_quad(quad(R"("alphaMode":"BLEND")"));
+  EXPECT_TRUE(solid.objects[0].points.columns.empty()) << "opaque all over";
+}
+
 TEST(GltfTextures, ThatAreNotThereCostNothing) {
   const Input input = read_quad(quad(R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}})"));
   EXPECT_TRUE(input.objects[0].points.columns.empty());

@@ -63,19 +63,6 @@ float alpha_of(const tinygltf::Material& from) {
   return factor.size() == 4 ? unit_clamp(factor[3]) : 1.0F;
 }
 
-/// Whether alpha is below one all over: what is behind shows through.
-bool is_veil(const tinygltf::Material& from) {
-  return from.alphaMode == "BLEND" && from.pbrMetallicRoughness.baseColorTexture.index < 0 &&
-         alpha_of(from) < 1.0F;
-}
-
-/// Lets light pass unbent, less by alpha at each crossing.
-void make_veil(Material& material, float alpha) {
-  material.flags |= MATERIAL_DIELECTRIC;
-  material.ior = 1.0F;
-  material.tint = glm::vec3(1.0F - alpha);
-}
-
 void make_opaque(Material& material, const GltfSurface& surface, bool colored) {
   const glm::vec3 base = colored ? glm::vec3(1.0F) : surface.base;
   const float smooth = 1.0F - surface.roughness;
@@ -102,6 +89,9 @@ void apply_extras(Material& material, const tinygltf::Value& extras) {
     material.shininess = static_cast<float>(std::max(*shininess, 1.0));
   }
 }
+
+/// Of alphaMode BLEND: below it, a byte of opacity would be 0, and nothing is there.
+constexpr float LEAST_ALPHA = 0.5F / 255.0F;
 
 /// Whether a material's extras, which are for the paper's look, change it.
 bool changes_look(const tinygltf::Value& extras) {
@@ -316,24 +306,22 @@ Material GltfMaterials::material(int index, bool colored) {
   }
   const tinygltf::Value* transmission = find_extension(from.extensions, "KHR_materials_transmission");
   material.shininess = phong_exponent(surface.roughness);
-  if (is_veil(from)) {
-    make_veil(material, alpha_of(from));
-  } else if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.0) {
+  if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.0) {
     make_dielectric(material, from, surface);
   } else {
     make_opaque(material, surface, colored);
   }
   apply_extras(material, from.extras);
-  if (from.alphaMode == "BLEND" && !is_veil(from))
-    note_once(index, "alphaMode BLEND is shown cut out where alpha is below one half");
   return material;
 }
 
 const std::vector<GltfMaterials::Map>& GltfMaterials::maps(int index) {
   static const std::vector<Map> NONE;
-  if (index < 0 || changes_look(source(index).extras) || is_veil(source(index))) return NONE;
+  if (index < 0) return NONE;
   const auto [found, is_new] = maps_.try_emplace(index);
   if (!is_new) return found->second;
+  if (const auto map = opacity(index)) found->second.push_back(*map);
+  if (changes_look(source(index).extras)) return found->second;
   for (const KnownMap& known : KNOWN_MAPS) {
     const tinygltf::TextureInfo info = info_of(source(index), known);
     if (auto texture = laid(index, info, known.name))
@@ -342,8 +330,29 @@ const std::vector<GltfMaterials::Map>& GltfMaterials::maps(int index) {
   return found->second;
 }
 
+std::optional<GltfMaterials::Map> GltfMaterials::opacity(int index) {
+  const tinygltf::Material& from = source(index);
+  const tinygltf::TextureInfo& info = from.pbrMetallicRoughness.baseColorTexture;
+  if (from.alphaMode != "BLEND") return {};
+  auto texture = laid(index, info, "the base colour texture");
+  const bool is_even = texture == nullptr;
+  if (is_even) {
+    texture = std::make_shared<Texture>();
+    texture->image = std::make_shared<TextureImage>(TextureImage{1, 1, {glm::u8vec4(255)}});
+  }
+  texture->alpha_factor = alpha_of(from);
+  const std::vector<glm::u8vec4>& texels = texture->image->texels;
+  const bool is_opaque =
+      texture->alpha_factor == 1.0F &&
+      std::all_of(texels.begin(), texels.end(), [](const auto& texel) { return texel.w == 255; });
+  if (is_opaque) return {};
+  const TextureFactor& factor = *std::find_if(texture_factors().begin(), texture_factors().end(),
+                                              [](const auto& one) { return one.column == COLUMN_OPACITY; });
+  return Map{{std::move(texture), {{&factor, 3}}, nullptr}, is_even ? -1 : texcoord_of(info)};
+}
+
 std::optional<Surface> GltfMaterials::surface(int index, bool colored, const std::vector<bool>& sampled) {
-  if (index < 0 || changes_look(source(index).extras) || is_veil(source(index))) return {};
+  if (index < 0 || changes_look(source(index).extras)) return {};
   const tinygltf::Material& from = source(index);
   const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
   Surface surface = extension_surface(from);
@@ -380,7 +389,7 @@ std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
     texture->factor = base_color(index);
     texture->alpha_factor = alpha_of(source(index));
     if (source(index).alphaMode == "MASK") texture->alpha_cutoff = unit_clamp(source(index).alphaCutoff);
-    if (source(index).alphaMode == "BLEND") texture->alpha_cutoff = 0.5F;
+    if (source(index).alphaMode == "BLEND") texture->alpha_cutoff = LEAST_ALPHA;
   }
   textures_[index] = texture;
   return texture;

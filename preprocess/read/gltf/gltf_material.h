@@ -28,6 +28,7 @@ namespace splatray {
 /// Phong exponent: (2 / alpha^2 - 2) / 4 with alpha = roughness^2, 1 to 1000 (Blinn-Phong's for a Beckmann
 /// slope, Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces"; Phong's lobe is
 /// about 4 times as wide). There metallic and roughness textures count by their mean. doubleSided: two-sided.
+/// alphaMode BLEND: opacity of each point; what alpha leaves nothing of is not there.
 /// extras.mirror (0..1), extras.specular (0..1) and extras.shininess (>= 1) set those fields.
 class GltfMaterials {
  public:
@@ -47,7 +48,7 @@ class GltfMaterials {
   [[nodiscard]] std::optional<Surface> surface(int index, bool colored,
                                                const std::vector<bool>& sampled = {});
 
-  /// A texture of factors, and which TEXCOORD_n it uses.
+  /// A texture of factors, and which TEXCOORD_n it uses; -1: none, as it is the same all over.
   struct Map {
     SurfaceMap map;  ///< without coordinates
     int texcoord = 0;
@@ -69,6 +70,8 @@ class GltfMaterials {
   [[nodiscard]] std::shared_ptr<const TextureImage> image(int texture);
   [[nodiscard]] std::shared_ptr<const TextureImage> decode(std::size_t image);
   /// A texture as it is laid on the surface; nullptr when there is none or it cannot be decoded, which is noted as `what`.
+  /// Opacity of a material with alphaMode BLEND; nothing where it is opaque all over.
+  [[nodiscard]] std::optional<Map> opacity(int index);
   [[nodiscard]] std::shared_ptr<Texture> laid(int index, const tinygltf::TextureInfo& info, const char* what);
   /// Notes numbers out of their range.
   void note_ranges(int index);

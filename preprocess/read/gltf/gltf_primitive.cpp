@@ -81,7 +81,9 @@ void add_maps(const GltfFile& file, const tinygltf::Primitive& primitive, GltfMa
               Mesh& mesh) {
   std::map<int, std::shared_ptr<const std::vector<glm::vec2>>> sets;
   for (const auto& [map, set] : materials.maps(primitive.material)) {
-    if (sets.count(set) == 0)
+    if (set < 0)
+      sets[set] = std::make_shared<const std::vector<glm::vec2>>(mesh.vertices.size(), glm::vec2(0.0F));
+    else if (sets.count(set) == 0)
       sets[set] = std::make_shared<const std::vector<glm::vec2>>(read_attribute<glm::vec2>(
           file, primitive, "TEXCOORD_" + std::to_string(set), mesh.vertices.size()));
     if (sets[set]->empty()) continue;
