@@ -24,6 +24,7 @@
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/surface_maps.h"
 #include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture_detail.h"
 
 namespace splatray {
 namespace {
@@ -36,6 +37,16 @@ constexpr double VERTEX_EDGE_REACH = 1.2;  // of a vertex, in units of its longe
 std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
   const std::vector<glm::dvec3>& positions = mesh.vertices.position;
   return {positions[triangle.x], positions[triangle.y], positions[triangle.z]};
+}
+
+/// Of a piece of a triangle.
+std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const SamplePiece& piece) {
+  const std::array<glm::dvec3, 3> whole = corners_of(mesh, mesh.triangles[piece.triangle]);
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i)
+    corners[i] =
+        piece.corners[i].x * whole[0] + piece.corners[i].y * whole[1] + piece.corners[i].z * whole[2];
+  return corners;
 }
 
 double triangle_area(const std::array<glm::dvec3, 3>& corners) {
@@ -333,19 +344,25 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   std::mt19937_64 random(seed);
   const double share_offset = 0.1 + 0.8 * static_cast<double>(random() >> 11U) * 0x1p-53;
   double side = static_cast<double>(random() >> 11U) * 0x1p-53;
-  const double step = surface_area(mesh) / static_cast<double>(count);
+  const std::vector<SamplePiece> pieces = sample_pieces(mesh, morton_order(mesh), count);
+  double total = surface_area(mesh), least_density = 1.0;
+  for (const SamplePiece& piece : pieces) {
+    total += (piece.density - 1.0) * triangle_area(corners_of(mesh, piece));
+    least_density = std::min(least_density, piece.density);
+  }
+  const double step = total / static_cast<double>(count);
   assert(step > 0.0 && std::isfinite(step));
   SampleWriter writer(mesh, weld, count, creases.cosine);
   std::uint64_t written = 0;
   double passed = 0.0;
   std::size_t last_proper = 0;
-  for (const std::uint32_t index : morton_order(mesh)) {
-    const std::array<glm::dvec3, 3> corners = corners_of(mesh, mesh.triangles[index]);
-    const double area = triangle_area(corners);
+  for (const SamplePiece& piece : pieces) {
+    const std::array<glm::dvec3, 3> corners = corners_of(mesh, piece);
+    const double area = piece.density * triangle_area(corners);
     if (!(area > 0.0)) {
       continue;
     }
-    last_proper = index;
+    last_proper = piece.triangle;
     const int apex = apex_of(corners, area / step);
     while (written < count) {
       const double at = (static_cast<double>(written) + share_offset) * step;
@@ -358,7 +375,8 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
       weights[apex] = 1.0 - height;
       weights[(apex + 1) % 3] = height * (1.0 - side);
       weights[(apex + 2) % 3] = height * side;
-      writer.add(index, weights);
+      writer.add(piece.triangle,
+                 weights.x * piece.corners[0] + weights.y * piece.corners[1] + weights.z * piece.corners[2]);
       side += GOLDEN_RATIO_PART;
       ++written;
     }
@@ -367,7 +385,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   for (; written < count; ++written) {  // rounding of the summed area may leave the last share over
     writer.add(last_proper, glm::dvec3(1.0 / 3.0));
   }
-  if (creases.clip) writer.clip(weld, creases.cosine, std::sqrt(step));
+  if (creases.clip) writer.clip(weld, creases.cosine, std::sqrt(step / least_density));
   return writer.finish();
 }
 

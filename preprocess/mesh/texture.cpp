@@ -62,14 +62,18 @@ glm::vec4 Texture::texel(glm::vec2 texcoord) const {
   });
 }
 
-template <class Decode>
-glm::vec4 Texture::filtered(glm::vec2 texcoord, const Decode& decode) const {
+glm::vec2 Texture::place(glm::vec2 texcoord) const {
   constexpr float FARTHEST = 1.0e6F;
   glm::vec2 uv(uv_transform * glm::vec3(texcoord, 1.0F));
   for (int axis = 0; axis < 2; ++axis) {
     uv[axis] = std::isfinite(uv[axis]) ? glm::clamp(uv[axis], -FARTHEST, FARTHEST) : 0.0F;
   }
-  const glm::dvec2 at = glm::dvec2(uv) * glm::dvec2(image->width, image->height) - 0.5;
+  return uv;
+}
+
+template <class Decode>
+glm::vec4 Texture::filtered(glm::vec2 texcoord, const Decode& decode) const {
+  const glm::dvec2 at = glm::dvec2(place(texcoord)) * glm::dvec2(image->width, image->height) - 0.5;
   const glm::dvec2 base = glm::floor(at);
   const glm::vec2 weight(at - base);
   glm::vec4 sum{0.0F};

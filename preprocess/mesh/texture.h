@@ -35,6 +35,8 @@ struct Texture {
   [[nodiscard]] glm::vec3 color(glm::vec2 texcoord) const;
   /// The stored values, 0..1, in the same way, without factors: what is no colour.
   [[nodiscard]] glm::vec4 numbers(glm::vec2 texcoord) const;
+  /// Where in the picture a texture coordinate lies: (0, 0) to (1, 1) is all of it.
+  [[nodiscard]] glm::vec2 place(glm::vec2 texcoord) const;
   /// Whether there is no surface at a texture coordinate.
   [[nodiscard]] bool cut_out(glm::vec2 texcoord) const;
 
