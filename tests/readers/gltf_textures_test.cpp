@@ -104,6 +104,16 @@ TEST(GltfTextures, AlphaThatBlendsIsOpacity) {
   EXPECT_TRUE(solid.objects[0].points.columns.empty()) << "opaque all over";
 }
 
+TEST(GltfTextures, ThatAreNotModelledAreNotedOnce) {
+  const Input input = read_quad(quad(
+      R"("normalTexture":{"index":0},"occlusionTexture":{"index":0},"extensions":{"KHR_materials_clearcoat":{
+"clearcoatFactor":1,"clearcoatNormalTexture":{"index":0}}}},{"normalTexture":{"index":0})"));
+  ASSERT_EQ(input.notes.size(), 1U);
+  EXPECT_TRUE(
+      has_note(input, "ignored textures 'normalTexture', 'clearcoatNormalTexture', which are not modelled"));
+  EXPECT_TRUE(read_quad(quad(R"("doubleSided":true)")).notes.empty());
+}
+
 TEST(GltfTextures, ThatAreNotThereCostNothing) {
   const Input input = read_quad(quad(R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}})"));
   EXPECT_TRUE(input.objects[0].points.columns.empty());
