@@ -78,6 +78,7 @@ struct MapChannel {
 struct SurfaceMap {
   std::shared_ptr<const Texture> texture;  ///< never null; its factor is 1, but alpha's may be less
   std::vector<MapChannel> channels;
+  float normal_scale = 0.0F;  ///< of a normal map: factor on its normals' x and y; 0: it is none
   std::shared_ptr<const std::vector<glm::vec2>> texcoord;  ///< beside the mesh's vertices
 };
 

@@ -40,7 +40,8 @@
 ///   LAYER  7..0 metallic, 15..8 roughness, 23..16 transmission, 31..24 opacity
 ///   GLOW   7..0 emission's red, 15..8 green, 23..16 blue, 31..24 specular
 ///   COLOR  7..0 specular colour's red, 15..8 green, 23..16 blue, 31..24 clearcoat
-///   NORMAL 31..24 clearcoat roughness, 23..0 zero
+///   NORMAL 31..24 clearcoat roughness; a normal map's normal, octahedral: 11..0 u + 2047, 23..12 v + 2047, u, v in [-2047, 2047];
+///          23..0 all ones: the splat's own
 ///
 /// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
 /// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them

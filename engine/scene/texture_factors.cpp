@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace splatray {
 namespace {
@@ -36,10 +37,17 @@ constexpr std::uint32_t WORDS =
     FEATURE_TEXTURE_LAYER | FEATURE_TEXTURE_GLOW | FEATURE_TEXTURE_COLOR | FEATURE_TEXTURE_NORMAL;
 
 /// A factor's column; empty where there is none, or it is of another type and so none of ours.
-std::span<const std::uint8_t> bytes_of(const std::vector<Column>& columns, std::string_view name) {
+template <class Value = std::uint8_t>
+std::span<const Value> bytes_of(const std::vector<Column>& columns, std::string_view name) {
   const Column* column = find_column(columns, name);
-  const auto* bytes = column == nullptr ? nullptr : std::get_if<std::vector<std::uint8_t>>(&column->values);
-  return bytes == nullptr ? std::span<const std::uint8_t>() : *bytes;
+  const auto* values = column == nullptr ? nullptr : std::get_if<std::vector<Value>>(&column->values);
+  return values == nullptr ? std::span<const Value>() : *values;
+}
+
+/// Whether there are normals of maps.
+bool has_normals(const std::vector<Column>& columns) {
+  return !bytes_of<std::uint16_t>(columns, COLUMN_NORMAL_U).empty() &&
+         !bytes_of<std::uint16_t>(columns, COLUMN_NORMAL_V).empty();
 }
 
 }  // namespace
@@ -59,7 +67,8 @@ void multiply(const TextureFactor& factor, float value, Surface& surface) {
     (surface.*factor.color)[factor.channel] *= value;
 }
 
-std::uint8_t absent_value(std::string_view column) {
+std::uint16_t absent_value(std::string_view column) {
+  if (column == COLUMN_NORMAL_U || column == COLUMN_NORMAL_V) return ABSENT_NORMAL;
   const bool factor = std::any_of(std::begin(FACTORS), std::end(FACTORS),
                                   [&](const TextureFactor& one) { return one.column == column; });
   return factor ? 255 : 0;
@@ -69,6 +78,7 @@ std::uint32_t texture_features(const std::vector<Column>& columns) {
   std::uint32_t features = 0;
   for (const TextureFactor& factor : FACTORS)
     if (!bytes_of(columns, factor.column).empty()) features |= factor.word;
+  if (has_normals(columns)) features |= FEATURE_TEXTURE_NORMAL;
   return bytes_of(columns, COLUMN_OPACITY).empty() ? features : features | FEATURE_OPACITY;
 }
 
@@ -81,16 +91,25 @@ std::vector<std::uint32_t> texture_words(const std::vector<Column>& columns,
   const std::uint32_t features = texture_features(columns);
   const std::size_t stride = texture_word_count(features);
   std::vector<std::uint32_t> words(stride * splats.size(), 0);
-  for (const TextureFactor& factor : FACTORS) {
-    if ((features & factor.word) == 0) continue;
-    const std::span<const std::uint8_t> bytes = bytes_of(columns, factor.column);
-    auto word = static_cast<std::size_t>(std::popcount(features & WORDS & (factor.word - 1)));
+  // Sets bits of each splat's word to its value in a column, which may be empty; files may hold more than a normal's 12 bits.
+  const auto fill = [&](std::string_view name, const auto& values, std::uint32_t feature,
+                        std::uint32_t shift) {
+    const std::uint32_t most = absent_value(name);
+    auto word = static_cast<std::size_t>(std::popcount(features & WORDS & (feature - 1)));
     for (const std::uint32_t splat : splats) {
-      words[word] |= std::uint32_t{bytes.empty() ? absent_value(factor.column) : bytes[splat]}
-                     << factor.shift;
+      const std::uint32_t value = values.empty() ? most : std::uint32_t{values[splat]};
+      words[word] |= std::min(value, most) << shift;
       word += stride;
     }
-  }
+  };
+  for (const TextureFactor& factor : FACTORS)
+    if ((features & factor.word) != 0)
+      fill(factor.column, bytes_of(columns, factor.column), factor.word, factor.shift);
+  if ((features & FEATURE_TEXTURE_NORMAL) == 0) return words;
+  const bool maps = has_normals(columns);
+  for (const auto& [name, shift] : {std::pair{COLUMN_NORMAL_U, 0U}, std::pair{COLUMN_NORMAL_V, 12U}})
+    fill(name, maps ? bytes_of<std::uint16_t>(columns, name) : std::span<const std::uint16_t>(),
+         FEATURE_TEXTURE_NORMAL, shift);
   return words;
 }
 

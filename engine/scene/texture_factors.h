@@ -34,8 +34,13 @@ inline constexpr std::string_view COLUMN_OPACITY = "texture-opacity";
 /// Multiplies what a factor is of.
 void multiply(const TextureFactor& factor, float value, Surface& surface);
 
-/// The byte of points that have no such column, where others have: 255 of a texture factor, else 0.
-[[nodiscard]] std::uint8_t absent_value(std::string_view column);
+/// Columns of uint16 with a normal map's normal, octahedral: u + NORMAL_MAP_SCALE and v, world axes. ABSENT_NORMAL: the splat's own.
+inline constexpr std::string_view COLUMN_NORMAL_U = "texture-normal-u", COLUMN_NORMAL_V = "texture-normal-v";
+inline constexpr int NORMAL_MAP_SCALE = 2047;
+inline constexpr std::uint16_t ABSENT_NORMAL = 4095;
+
+/// The value of points that have no such column, where others have: 255 of a texture factor, ABSENT_NORMAL, else 0.
+[[nodiscard]] std::uint16_t absent_value(std::string_view column);
 
 /// FEATURE_TEXTURE_* of a scene's columns, and FEATURE_OPACITY; 0 for scenes without texture factors.
 [[nodiscard]] std::uint32_t texture_features(const std::vector<Column>& columns);

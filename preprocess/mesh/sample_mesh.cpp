@@ -105,10 +105,10 @@ class SampleWriter {
     triangles_.push_back(static_cast<std::uint32_t>(triangle_index));
     const glm::vec3 w(weights);
     if (!mesh_.vertices.columns.empty()) weights_.push_back(w);
-    maps_.add(triangle, w);
     const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
     points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
     points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
+    maps_.add(triangle, w, points_.normal.back());
     if (mesh_.vertices.color.empty() && !mesh_.texture) {
       return;
     }
@@ -317,7 +317,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
     kept.push_back(static_cast<glm::uint>(i));
     points.position.push_back(mesh.vertices.position[i]);
     points.normal.push_back(normals[i]);
-    maps.add(static_cast<glm::uint>(i));
+    maps.add(static_cast<glm::uint>(i), normals[i]);
     if (!mesh.vertices.color.empty() || mesh.texture) {
       const glm::vec3 own = mesh.vertices.color.empty() ? glm::vec3(1.0F) : mesh.vertices.color[i];
       points.color.push_back(mesh.texture ? own * mesh.texture->color(mesh.texcoord[i]) : own);

@@ -18,19 +18,24 @@ class MapSamples {
   /// The mesh must outlive it.
   explicit MapSamples(const Mesh& mesh);
 
-  /// Of the point of a triangle with these barycentric weights, and of a vertex.
-  void add(const glm::uvec3& triangle, const glm::vec3& weights);
-  void add(glm::uint vertex);
+  /// Of the point of a triangle with these barycentric weights, and of a vertex; the surface's normal there, of any length.
+  void add(const glm::uvec3& triangle, const glm::vec3& weights, const glm::vec3& normal);
+  void add(glm::uint vertex, const glm::vec3& normal);
 
   /// A column for each factor, which is then gone from here.
   [[nodiscard]] std::vector<Column> take();
 
  private:
   template <class TexcoordOf>
-  void add_at(const TexcoordOf& texcoord_of);
+  void add_at(const TexcoordOf& texcoord_of, const glm::uvec3* triangle, const glm::vec3& normal);
+  /// `triangle`: one at the point, whose texture coordinates say where the map's x and y lead; null: there is none.
+  void add_normal(const SurfaceMap& map, glm::vec2 texcoord, const glm::uvec3* triangle,
+                  const glm::vec3& normal);
 
-  const std::vector<SurfaceMap>& maps_;
-  std::vector<std::vector<std::uint8_t>> bytes_;  ///< one for each channel of each map
+  const Mesh& mesh_;
+  std::vector<std::vector<std::uint8_t>> bytes_;    ///< one for each channel of each map
+  std::vector<std::uint16_t> normal_u_, normal_v_;  ///< of a normal map
+  std::vector<const glm::uvec3*> triangle_at_;      ///< beside the vertices, where they are asked for
 };
 
 }  // namespace splatray

@@ -50,6 +50,7 @@ class MeshDetail {
     // A mask's border is cut along lines, whatever the samples.
     if (mesh.texture) layers_.push_back({TextureDetail(*mesh.texture, std::array{0, 1, 2}), &mesh.texcoord});
     for (const SurfaceMap& map : mesh.maps) {
+      if (map.channels.empty()) continue;
       std::vector<int> channels;
       for (const MapChannel& channel : map.channels) channels.push_back(channel.channel);
       layers_.push_back({TextureDetail(*map.texture, channels), map.texcoord.get()});

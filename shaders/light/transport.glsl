@@ -1,7 +1,7 @@
 // Path tracing (Kajiya 1986, "The Rendering Equation"): at each of a path's vertices light is looked for and one direction
 // followed, both joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
-// ch. 9). The blended normal is the geometric one too: discs stand in for the smooth surface that it estimates, not the other way
-// round. Needs surface_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK, LIGHTS, SHADOWS, EMISSION, GLASS,
+// ch. 9). The blended normal is the geometric one too, but for normal maps: discs stand in for the smooth surface that it estimates,
+// not the other way round. Needs surface_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK, LIGHTS, SHADOWS, EMISSION, GLASS,
 // STRAIGHT, STAGE and those of bsdf.glsl.
 #ifndef SPLATRAY_TRANSPORT_GLSL
 #define SPLATRAY_TRANSPORT_GLSL
@@ -41,6 +41,9 @@ vec3 clamped(vec3 light, uint bounces) {
 /// How often a path goes on from a hit towards objects that send out light.
 float guided_share(Bsdf bsdf) { return EMISSION && frame.emitters > 0u ? GUIDED * bsdf_scatters(bsdf) : 0.0f; }
 
+/// Whether a direction is on one side of a normal map's normal and on the other of the surface, so that no light takes it.
+bool through_plane(Hit hit, vec3 dir, float cosine) { return TEXTURE_NORMAL && dot(dir, hit.plane) * cosine <= 0.0f; }
+
 /// A ray that is worth tracing for the light it brings where nothing is in its way.
 struct Probe {
   Ray ray;     ///< ends before it starts where it brings none
@@ -58,6 +61,7 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec2 random, uin
   float share = LOOK == LOOK_SCAN ? 1.0f : met_share(chosen.pdf, pdf);
   Probe probe;
   probe.light = value * chosen.radiance * share;
+  if (through_plane(hit, chosen.dir, to_light.z)) probe.light = vec3(0.0f);
   uint object_bit = 0u;
   if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
   probe.ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
@@ -129,7 +133,9 @@ BsdfSample next_direction(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 ran
 /// Has the path go on from a hit.
 void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
   BsdfSample chosen = next_direction(hit, bsdf, basis, to_eye, vec3(random));
+  vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
   vec3 throughput = path.throughput * chosen.weight;
+  if (through_plane(hit, dir, chosen.dir.z)) throughput = vec3(0.0f);
   float most = max(throughput.x, max(throughput.y, throughput.z));
   path.alive = most > 0.0f;
   if (COUNTERS && !path.alive && (chosen.event & BSDF_REFLECTED) != 0u &&
@@ -149,7 +155,6 @@ void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 
   bool transmitted = (chosen.event & BSDF_TRANSMITTED) != 0u;
   uint inside = path.ray.inside;
   if (GLASS && transmitted) inside ^= 1u << material_at(hit.object).mask_bit;
-  vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
   bool found_straight = STRAIGHT && transmitted && path.pdf != 0.0f;
   path.pdf = found_straight ? -1.0f : ((chosen.event & BSDF_DELTA) != 0u ? 0.0f : chosen.pdf);
   path.ray = ray_from_hit(hit, dir * inversesqrt(dot(dir, dir)), inside);

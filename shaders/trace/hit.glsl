@@ -19,6 +19,7 @@ struct Hit {
   float t_first;
 #ifdef LIT
   Factors factors;  ///< blended
+  vec3 plane;       ///< blended unit normal without normal maps, which `normal` has
 #endif
   uvec4 first;      ///< words of the first splat (BLEND_PAPER, BLEND_LEAF: the reference splat)
 };

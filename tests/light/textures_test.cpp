@@ -1,4 +1,5 @@
 /// Texture factors: a floor, half of which has them, looks there as one whose surface has these values.
+#include "engine/scene/octahedral.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/surface.h"
 #include "engine/scene/texture_factors.h"
@@ -173,6 +174,28 @@ TEST_F(SeeThrough, IsCutOutByThePapersLookAndByQueries) {
   };
   EXPECT_EQ(seen_object(127), 0U);
   EXPECT_EQ(seen_object(128), 1U);
+}
+
+/// A floor whose normal map tilts all of it by the same: a Lambertian surface is lit by the cosine to the map's normal, from
+/// where it faces the light as from where the plane alone does not.
+TEST_F(Textures, NormalMapsTurnTheNormalAndNotThePlane) {
+  const dvec3 tilted = glm::normalize(dvec3(0.5, 1.0, 0.3));
+  const glm::ivec2 code = octahedral_nearest(tilted, NORMAL_MAP_SCALE) + NORMAL_MAP_SCALE;
+  Scene scene = scene_with(MATERIAL_TWO_SIDED, {}, "");
+  scene.surfaces[0].base = vec3(1.0F);
+  scene.surfaces[0].ior = 1.5F;
+  const std::size_t splats = scene.data_pool.size();
+  scene.columns = {{std::string(COLUMN_NORMAL_U), std::vector<std::uint16_t>(splats, std::uint16_t(code.x))},
+                   {std::string(COLUMN_NORMAL_V), std::vector<std::uint16_t>(splats, std::uint16_t(code.y))}};
+  const Camera camera{dvec3(0.0, 1.0, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 10.0, 0.001};
+  const auto seen = [&](const dvec3& to_sun) {
+    show(scene, constant(0.0F), {{LIGHT_DIRECTIONAL, to_sun, vec3(float(pi))}});
+    return mean_of(picture(camera, lit(16), 4)).value;
+  };
+  for (const dvec3 to_sun : {dvec3(0.0, 1.0, 0.0), dvec3(0.5, 1.0, 0.3), dvec3(1.0, 0.1, 0.0)})
+    EXPECT_NEAR(seen(to_sun), glm::dot(glm::normalize(to_sun), tilted), 2e-3);
+  EXPECT_EQ(seen({1.0, -0.1, 0.3}), 0.0) << "above the map's plane, below the surface";
+  EXPECT_EQ(seen({-1.0, 0.1, 0.0}), 0.0) << "above the surface, below the map's plane";
 }
 
 /// All data pools, with and without pages, give the same picture.

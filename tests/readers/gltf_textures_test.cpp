@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/scene/octahedral.h"
 #include "tests/readers/read_error.h"
 
 namespace splatray {
@@ -104,13 +105,25 @@ TEST(GltfTextures, AlphaThatBlendsIsOpacity) {
   EXPECT_TRUE(solid.objects[0].points.columns.empty()) << "opaque all over";
 }
 
+TEST(GltfTextures, NormalMapsTiltWhereTheirPictureSays) {
+  const Input input = read_quad(quad(R"("normalTexture":{"index":0,"scale":0.5})"));
+  const InputObject& object = input.objects[0];
+  // On the left 255, 128, 0: x 1, y 0, z none. On the right 51, 0, 255: x -0.6, y -1, z 1. v leads along y, the map's y against it.
+  const auto normal = [](double x, double y, double z) {
+    return glm::dvec2(octahedral_nearest(glm::normalize(glm::dvec3(x, y, z)), 2047) + 2047);
+  };
+  const double zero = 2.0 * 128.0 / 255.0 - 1.0;
+  const glm::dvec2 left = normal(0.5, -0.5 * zero, 0.0), right = normal(-0.3, 0.5, 1.0);
+  EXPECT_EQ(halves_of(object, "texture-normal-u"), (Halves{left.x, right.x}));
+  EXPECT_EQ(halves_of(object, "texture-normal-v"), (Halves{left.y, right.y}));
+}
+
 TEST(GltfTextures, ThatAreNotModelledAreNotedOnce) {
   const Input input = read_quad(quad(
       R"("normalTexture":{"index":0},"occlusionTexture":{"index":0},"extensions":{"KHR_materials_clearcoat":{
 "clearcoatFactor":1,"clearcoatNormalTexture":{"index":0}}}},{"normalTexture":{"index":0})"));
   ASSERT_EQ(input.notes.size(), 1U);
-  EXPECT_TRUE(
-      has_note(input, "ignored textures 'normalTexture', 'clearcoatNormalTexture', which are not modelled"));
+  EXPECT_TRUE(has_note(input, "ignored textures 'clearcoatNormalTexture', which are not modelled"));
   EXPECT_TRUE(read_quad(quad(R"("doubleSided":true)")).notes.empty());
 }
 

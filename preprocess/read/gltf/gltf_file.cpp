@@ -208,7 +208,6 @@ std::vector<std::string> ignored_textures(const tinygltf::Model& model) {
     if (std::find(ignored.begin(), ignored.end(), name) == ignored.end()) ignored.emplace_back(name);
   };
   for (const tinygltf::Material& material : model.materials) {
-    if (material.normalTexture.index >= 0) add("normalTexture");
     for (const auto& [extension, name] : IN_EXTENSIONS) {
       const tinygltf::Value* found = find_extension(material.extensions, extension);
       if (found != nullptr && found->IsObject() && found->Has(name)) add(name);

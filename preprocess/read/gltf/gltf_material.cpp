@@ -325,8 +325,16 @@ const std::vector<GltfMaterials::Map>& GltfMaterials::maps(int index) {
   for (const KnownMap& known : KNOWN_MAPS) {
     const tinygltf::TextureInfo info = info_of(source(index), known);
     if (auto texture = laid(index, info, known.name))
-      found->second.push_back({{std::move(texture), channels_of(known), nullptr}, texcoord_of(info)});
+      found->second.push_back({{std::move(texture), channels_of(known), 0.0F, nullptr}, texcoord_of(info)});
   }
+  const tinygltf::NormalTextureInfo& normal = source(index).normalTexture;
+  tinygltf::TextureInfo info;
+  info.index = normal.index;
+  info.texCoord = normal.texCoord;
+  info.extensions = normal.extensions;
+  if (auto texture = laid(index, info, "normalTexture"))
+    found->second.push_back(
+        {{std::move(texture), {}, static_cast<float>(normal.scale), nullptr}, texcoord_of(info)});
   return found->second;
 }
 
@@ -348,7 +356,7 @@ std::optional<GltfMaterials::Map> GltfMaterials::opacity(int index) {
   if (is_opaque) return {};
   const TextureFactor& factor = *std::find_if(texture_factors().begin(), texture_factors().end(),
                                               [](const auto& one) { return one.column == COLUMN_OPACITY; });
-  return Map{{std::move(texture), {{&factor, 3}}, nullptr}, is_even ? -1 : texcoord_of(info)};
+  return Map{{std::move(texture), {{&factor, 3}}, 0.0F, nullptr}, is_even ? -1 : texcoord_of(info)};
 }
 
 std::optional<Surface> GltfMaterials::surface(int index, bool colored, const std::vector<bool>& sampled) {

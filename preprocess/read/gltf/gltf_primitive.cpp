@@ -170,7 +170,7 @@ std::optional<Mesh> read_primitive(const GltfFile& file, const tinygltf::Primiti
     mesh.texcoord.clear();
   }
   MapSamples maps(mesh);
-  for (const glm::uint index : indices) maps.add(index);
+  for (const glm::uint index : indices) maps.add(index, glm::vec3(0.0F));
   mesh.vertices.columns = maps.take();
   select_points(mesh.vertices, indices);
   return mesh;
