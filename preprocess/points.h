@@ -16,6 +16,7 @@
 namespace splatray {
 
 struct Texture;
+struct TextureFactor;
 
 /// Points::grid_cell of a point that is in no grid.
 inline constexpr std::uint32_t NO_CELL = 0xFFFFFFFF;
@@ -66,12 +67,28 @@ struct Points {
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
+/// One channel of a texture that is a factor of the surface.
+struct MapChannel {
+  const TextureFactor* factor = nullptr;  ///< one of texture_factors()
+  int channel = 0;                        ///< of the texture: 0 red to 3 alpha
+};
+
+/// A texture whose channels are factors of the surface (glTF 2.0: metallic-roughness, emissive and the like). Those of colours
+/// are read as sRGB, all others as they are stored.
+struct SurfaceMap {
+  std::shared_ptr<const Texture> texture;  ///< never null; its factor is 1, but alpha's may be less
+  std::vector<MapChannel> channels;
+  float normal_scale = 0.0F;  ///< of a normal map: factor on its normals' x and y; 0: it is none
+  std::shared_ptr<const std::vector<glm::vec2>> texcoord;  ///< beside the mesh's vertices
+};
+
 /// Triangles over points (attributes per vertex). Also the truth that pictures are measured against.
 struct Mesh {
   Points vertices;                         ///< position, maybe normal and colour
   std::vector<glm::vec2> texcoord;         ///< beside vertices, or empty
   std::vector<glm::uvec3> triangles;       ///< indices < vertices.size()
   std::shared_ptr<const Texture> texture;  ///< base colour by texcoord, times the vertex colour; null = none
+  std::vector<SurfaceMap> maps;            ///< further textures (mesh/surface_maps.h); empty = none
 };
 
 /// What a scan's file holds and what its reader left out.

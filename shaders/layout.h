@@ -35,6 +35,14 @@
 /// shrinks along m.
 ///   k = (8 + (f & 7)) 2^((f >> 3) - 45)
 ///
+/// Texture words, up to four beside a splat, only in scenes with textures beside the base colour's: what its surface's values are
+/// multiplied by, q / 255, of colours' channels (q / 255)^2. A splat has those whose FEATURE_TEXTURE_* there is, in this order:
+///   LAYER  7..0 metallic, 15..8 roughness, 23..16 transmission, 31..24 opacity
+///   GLOW   7..0 emission's red, 15..8 green, 23..16 blue, 31..24 specular
+///   COLOR  7..0 specular colour's red, 15..8 green, 23..16 blue, 31..24 clearcoat
+///   NORMAL 31..24 clearcoat roughness; a normal map's normal, octahedral: 11..0 u + 2047, 23..12 v + 2047, u, v in [-2047, 2047];
+///          23..0 all ones: the splat's own
+///
 /// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
 /// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them
 /// if low h <= a.(p - c) <= (low + thickness) h, where a is the axis, |x| + |y| + |z| = 1, x >= 0.
@@ -325,21 +333,22 @@ SPLATRAY_CONST BIND_DATA_POOL = 5u;
 SPLATRAY_CONST BIND_COLOR_POOL = 6u;
 SPLATRAY_CONST BIND_FIELD_POOL = 7u;
 SPLATRAY_CONST BIND_CLIP_POOL = 8u;
-SPLATRAY_CONST BIND_TOP_TABLE = 9u;
-SPLATRAY_CONST BIND_MATERIALS = 10u;
-SPLATRAY_CONST BIND_LIGHTS = 11u;
-SPLATRAY_CONST BIND_ENVIRONMENT = 12u;
-SPLATRAY_CONST BIND_ACCUMULATION = 13u;
-SPLATRAY_CONST BIND_AOV = 14u;
-SPLATRAY_CONST BIND_COUNTERS = 15u;
-SPLATRAY_CONST BIND_RAYS = 16u;
-SPLATRAY_CONST BIND_HITS = 17u;
-SPLATRAY_CONST BIND_GROUPS = 18u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
-SPLATRAY_CONST BIND_PATHS = 19u;   ///< of this stage
-SPLATRAY_CONST BIND_PATHS_QUEUED = 20u;  ///< of the next
+SPLATRAY_CONST BIND_TEXTURE_POOL = 9u;  ///< texture words
+SPLATRAY_CONST BIND_TOP_TABLE = 10u;
+SPLATRAY_CONST BIND_MATERIALS = 11u;
+SPLATRAY_CONST BIND_LIGHTS = 12u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 13u;
+SPLATRAY_CONST BIND_ACCUMULATION = 14u;
+SPLATRAY_CONST BIND_AOV = 15u;
+SPLATRAY_CONST BIND_COUNTERS = 16u;
+SPLATRAY_CONST BIND_RAYS = 17u;
+SPLATRAY_CONST BIND_HITS = 18u;
+SPLATRAY_CONST BIND_GROUPS = 19u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
+SPLATRAY_CONST BIND_PATHS = 20u;   ///< of this stage
+SPLATRAY_CONST BIND_PATHS_QUEUED = 21u;  ///< of the next
 // Read as the pools are:
-SPLATRAY_CONST BIND_LIGHT_TABLES = 21u;  ///< words: the albedo table, then the sky table
-SPLATRAY_CONST BIND_LIGHT_TREE = 22u;    ///< texels: the light tree, then the words of the splats that send out light
+SPLATRAY_CONST BIND_LIGHT_TABLES = 22u;  ///< words: the albedo table, then the sky table
+SPLATRAY_CONST BIND_LIGHT_TREE = 23u;    ///< texels: the light tree, then the words of the splats that send out light
 // Of path tracing, in the place of what it does not use:
 SPLATRAY_CONST BIND_SURFACES = BIND_RAYS;
 
@@ -369,6 +378,11 @@ SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, e
 SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
 SPLATRAY_CONST FEATURE_CLIPS = 262144u;     ///< some splat has clip lines
 SPLATRAY_CONST FEATURE_ELLIPSES = 524288u; ///< some splat is an ellipse
+SPLATRAY_CONST FEATURE_OPACITY = 16777216u;  ///< some splat is see-through, and has the texture word LAYER
+SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word
+SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;
+SPLATRAY_CONST FEATURE_TEXTURE_COLOR = 4194304u;
+SPLATRAY_CONST FEATURE_TEXTURE_NORMAL = 8388608u;
 // Of LOOK_LIT and its like alone:
 SPLATRAY_CONST FEATURE_SKY = 512u;          ///< the environment is chosen among the lights, by the sky table
 SPLATRAY_CONST FEATURE_SIZES = 1024u;       ///< some light has a size, and can be met

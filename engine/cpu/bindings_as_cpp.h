@@ -53,6 +53,7 @@ constexpr Bound<uvec4, BIND_DATA_POOL> data_pool;
 constexpr Bound<uint, BIND_COLOR_POOL> color_pool;
 constexpr Bound<uint, BIND_FIELD_POOL> field_pool;
 constexpr Bound<uint, BIND_CLIP_POOL> clip_pool;
+constexpr Bound<uint, BIND_TEXTURE_POOL> texture_pool;
 constexpr Bound<uint, BIND_TOP_TABLE> top_table;
 constexpr Bound<Material, BIND_MATERIALS> materials;
 constexpr Bound<Light, BIND_LIGHTS> lights;
@@ -76,6 +77,7 @@ uint splat_at(uint place) { return REFERENCES ? reference_pool[place] : place; }
 uvec4 splat_words(uint index) { return data_pool[index]; }
 uint field_word(uint index) { return field_pool[index]; }
 uint clip_word(uint index) { return clip_pool[index]; }
+uint texture_word(uint index) { return texture_pool[index]; }
 uint top_entry(uint index) { return top_table[index]; }
 Material material_at(uint object) { return materials[object]; }
 Light light_at(uint index) { return lights[index]; }

@@ -19,6 +19,7 @@
 #include "engine/file/scene_file_header.h"
 #include "engine/scene/pool_table.h"
 #include "engine/scene/scene_check.h"
+#include "engine/scene/texture_factors.h"
 
 namespace splatray {
 
@@ -45,14 +46,6 @@ std::vector<char> light_bytes(const std::vector<SceneLight>& lights, std::uint32
   return bytes;
 }
 
-/// The oldest version that knows all that these lights have.
-std::uint32_t version_of(const std::vector<SceneLight>& lights) {
-  const auto any = [&lights](auto has) { return std::any_of(lights.begin(), lights.end(), has); };
-  if (any([](const SceneLight& light) { return is_spot(light) || light.range > 0.0; }))
-    return SCENE_FILE_VERSION;
-  return any(is_sized) ? SIZED_SCENE_FILE_VERSION : PLAIN_SCENE_FILE_VERSION;
-}
-
 CameraRecord camera_record(const Camera& camera) {
   return {camera.eye, camera.target, camera.up, camera.fov_y_deg, camera.ortho_height};
 }
@@ -75,12 +68,20 @@ std::string joined_strings(const Scene& scene) {
   return strings;
 }
 
+/// The least version that knows all that the scene has.
+std::uint32_t version_of(const Scene& scene) {
+  const auto any = [&scene](auto has) { return std::any_of(scene.lights.begin(), scene.lights.end(), has); };
+  const bool aimed = any([](const SceneLight& light) { return is_spot(light) || light.range > 0.0; });
+  if (aimed || texture_features(scene.columns) != 0) return SCENE_FILE_VERSION;
+  return any(is_sized) ? SIZED_SCENE_FILE_VERSION : PLAIN_SCENE_FILE_VERSION;
+}
+
 /// The header of a scene, all but sections, file size and checksums.
 Header describe(const Scene& scene, std::size_t string_bytes) {
   const BuildParams& build = scene.build;
   Header header{};
   std::memcpy(header.magic, MAGIC, sizeof MAGIC);
-  header.version = version_of(scene.lights);
+  header.version = version_of(scene);
   header.endianness = ENDIANNESS;
   header.header_size = sizeof(Header);
   header.splats = scene.data_pool.size();

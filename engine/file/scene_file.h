@@ -4,7 +4,8 @@
 /// Header, 288 bytes:
 ///   offset | type      | field
 ///        0 | char[4]   | magic "SOCT"
-///        4 | uint32    | version: 11 where a light has a size, else 10
+///        4 | uint32    | version: 12 where splats have texture factors (texture_factors.h), or lights a range or a cone, else 11
+///      |           | where a light has a size, else 10
 ///        8 | uint32    | endianness mark 0x01020304
 ///       12 | uint32    | bytes of header and section table together, 1760
 ///       16 | uint64    | bytes of the file
@@ -50,7 +51,7 @@
 ///    8 | uint32                        |     4 | clip lines, beside the data pool
 ///    9 | Material                      |    48 | materials
 ///   10 | uint32 kind, uint32 zero, float64[3] position, float32[3] power, uint32 zero | 48 | lights, world (SceneLight)
-///      | in version 11 also float64 size, float64[3] half edges u, v |   104 |
+///      | from version 11 on also float64 size, float64[3] half edges u, v |   104 |
 ///      | in version 12 also float64[3] spot's axis, float64 inner angle, outer angle, range | 152 |
 ///   11 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
 ///   12 | float64[3] the scanner's place, uint32 is it known, uint32 rows, columns of its grid, uint32 zero | 40 | stations
@@ -68,8 +69,8 @@
 
 namespace splatray {
 
-/// The versions of files with spots, or lights with a range, of those with lights that have a size, and of all others: files are of
-/// the oldest version that knows what is in them.
+/// The versions of files with what those before do not know: texture factors among the columns, spots and lights with a range; lights
+/// that have a size. All others are of version 10, byte for byte.
 inline constexpr std::uint32_t SCENE_FILE_VERSION = 12, SIZED_SCENE_FILE_VERSION = 11,
                                PLAIN_SCENE_FILE_VERSION = 10;
 

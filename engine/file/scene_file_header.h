@@ -5,6 +5,7 @@
 #include <iterator>
 #include <variant>
 
+#include "engine/file/scene_file.h"
 #include "engine/scene/pool_table.h"
 #include "engine/scene/scene.h"
 

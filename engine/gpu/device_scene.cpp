@@ -62,7 +62,7 @@ void DeviceScene::show_objects(const ObjectLooks& objects) {
       throw Error(ExitCode::failed, "found a look of " + std::to_string(count) +
                                         " objects, expected the scene's " + std::to_string(object_count_));
   material_content_ = material_content(objects.materials);
-  surface_features_ = surface_features(objects.surfaces, objects.materials);
+  surface_features_ = surface_features(objects.surfaces, objects.materials, pools_.texture_features);
   const auto upload_table = [&](Buffer& buffer, std::span<const std::byte> bytes) {
     reserve_storage(context_, buffer, bytes.size());
     buffer.upload(queue_, bytes);
@@ -159,6 +159,7 @@ SceneContent DeviceScene::content() const {
           .pages = pools_.paging.pages_constant(),
           .page_shift = pools_.paging.page_shift,
           .surfaces = surface_features_,
+          .textures = pools_.texture_features,
           .lights = lights_ > 0,
           .sized_lights = lights_sized_ > 0,
           .environment_texture = environment_texture_,

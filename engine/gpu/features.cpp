@@ -35,12 +35,15 @@ MaterialContent material_content(std::span<const Material> materials) {
   return content;
 }
 
-std::uint32_t surface_features(std::span<const Surface> surfaces, std::span<const Material> materials) {
+std::uint32_t surface_features(std::span<const Surface> surfaces, std::span<const Material> materials,
+                               std::uint32_t textures) {
+  const bool varies = (textures & FEATURE_TEXTURE_LAYER) != 0;
   std::uint32_t features = 0;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const Surface& surface = surfaces[i];
     const bool glass = (materials[i].flags & MATERIAL_DIELECTRIC) != 0;
-    const bool all_metal = surface.metallic >= 1.0F, all_clear = glass && surface.transmission >= 1.0F;
+    const bool all_metal = surface.metallic >= 1.0F && !varies,
+               all_clear = glass && surface.transmission >= 1.0F && !varies;
     const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
     add(!all_metal && !all_clear, FEATURE_DIFFUSE);
     add(!all_metal && surface.specular > 0.0F, FEATURE_SPECULAR);
@@ -94,6 +97,8 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   add(content.fields && !flat_blend, FEATURE_FIELDS);
   add(content.clips, FEATURE_CLIPS);
   add(content.ellipses, FEATURE_ELLIPSES);
+  const bool textured = settings.look != LOOK_PAPER && look_style(settings.look).surfaces;
+  add(textured || (content.textures & FEATURE_OPACITY) != 0, content.textures);
   add(content.references, FEATURE_REFERENCES);
   add(content.environment_texture, FEATURE_ENVIRONMENT);
   add(settings.counters, FEATURE_COUNTERS);

@@ -17,9 +17,10 @@ struct MaterialContent {
   bool glass = false;                 ///< some are dielectrics
   bool scatters = false;              ///< some send light of lights back, diffusely or as a highlight
 };
-/// FEATURE_* of the lobes that surfaces have, and of their emission.
+/// FEATURE_* of the lobes that surfaces have, and of their emission. `textures`: FEATURE_TEXTURE_* of the scene, which may make less
+/// of a surface's values.
 [[nodiscard]] std::uint32_t surface_features(std::span<const Surface> surfaces,
-                                             std::span<const Material> materials);
+                                             std::span<const Material> materials, std::uint32_t textures = 0);
 [[nodiscard]] MaterialContent material_content(std::span<const Material> materials);
 
 /// What the features depend on.
@@ -34,6 +35,7 @@ struct SceneContent {
   std::uint32_t pages = 0;           ///< Paging::pages_constant
   std::uint32_t page_shift = 0;      ///< Paging::page_shift
   std::uint32_t surfaces = 0;        ///< surface_features
+  std::uint32_t textures = 0;        ///< texture_features()
   bool lights = false;               ///< there are lights
   bool sized_lights = false;         ///< some light has a size
   bool environment_texture = false;  ///< the environment is not constant

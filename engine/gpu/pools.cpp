@@ -13,12 +13,13 @@
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 #include "engine/scene/pool_table.h"
+#include "engine/scene/texture_factors.h"
 #include "engine/scene/tree.h"
 
 namespace splatray {
 namespace {
 
-static_assert(SCENE_POOLS + 1 == POOLS, "a pool of the table has no binding, or a binding no pool");
+static_assert(SCENE_POOLS + 2 == POOLS, "a pool of the table has no binding, or a binding no pool");
 
 /// Of a pool's texel buffer.
 VkFormat texel_format(const PoolKind& kind) {
@@ -89,6 +90,25 @@ void upload_listed(CommandQueue& queue, PagedBuffer& buffer, const std::vector<V
   }
 }
 
+/// The splats' words, in the order of `references` or, where that is empty, of the splats.
+void upload_textures(CommandQueue& queue, PagedBuffer& buffer, const Scene& scene,
+                     std::span<const std::uint32_t> references) {
+  constexpr std::size_t PART = std::size_t{1} << 18;
+  const std::size_t all = references.empty() ? scene.data_pool.size() : references.size();
+  std::vector<std::uint32_t> splats;
+  std::size_t offset = 0;
+  for (std::size_t begin = 0; begin < all; begin += PART) {
+    splats.resize(std::min(PART, all - begin));
+    if (references.empty())
+      std::iota(splats.begin(), splats.end(), static_cast<std::uint32_t>(begin));
+    else
+      std::copy_n(references.begin() + static_cast<std::ptrdiff_t>(begin), splats.size(), splats.begin());
+    const std::vector<std::uint32_t> words = texture_words(scene.columns, splats);
+    buffer.upload(queue, std::as_bytes(std::span(words)), offset);
+    offset += std::span(words).size_bytes();
+  }
+}
+
 bool texel_format_supported(const Context& context, VkFormat format) {
   VkFormatProperties properties{};
   vkGetPhysicalDeviceFormatProperties(context.physical_device, format, &properties);
@@ -105,6 +125,7 @@ const std::array<PoolKind, POOLS>& pool_kinds() {
       using Value = typename std::remove_reference_t<decltype(Scene{}.*row.pool)>::value_type;
       kinds[i++] = {row.name, row.key, sizeof(Value)};
     });
+    kinds[i++] = {"texture pool", "texture_pool", sizeof(std::uint32_t)};
     kinds[i] = {"top table", "top_table", sizeof(std::uint32_t)};
     return kinds;
   }();
@@ -175,6 +196,9 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
     const std::size_t elements = absent ? 0 : lists && row.listed ? scene.reference_pool.size() : pool.size();
     bytes.at(binding++) = elements * sizeof(pool.front());
   });
+  texture_features = splatray::texture_features(scene.columns);
+  bytes.at(BIND_TEXTURE_POOL) = (lists ? scene.reference_pool.size() : scene.data_pool.size()) *
+                                texture_word_count(texture_features) * sizeof(std::uint32_t);
   bytes.at(BIND_TOP_TABLE) = std::span(top).size_bytes();
   paging = choose_paging(bytes, limits, request.access);
   bytes.texel_buffers = paging.access == PoolAccess::texel;
@@ -189,6 +213,10 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   }
   buffers.back().upload(queue, std::as_bytes(std::span(top)));
   std::exchange(top, {});
+  if (texture_features != 0)
+    upload_textures(
+        queue, buffers[BIND_TEXTURE_POOL - BIND_NODE_POOL], scene,
+        lists ? std::span<const std::uint32_t>(scene.reference_pool) : std::span<const std::uint32_t>());
   binding = BIND_NODE_POOL;
   for_each_pool([&](const auto& row) {
     PagedBuffer& buffer = buffers[binding - BIND_NODE_POOL];

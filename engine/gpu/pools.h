@@ -1,4 +1,5 @@
-/// The octree on the device: node pool, Begin-End, slabs, references, data pool, colours, normal fields and clip lines.
+/// The octree on the device: node pool, Begin-End, slabs, references, data pool, colours, normal fields, clip lines and texture
+/// words.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -44,7 +45,7 @@ struct PoolBytes {
   [[nodiscard]] std::uint64_t at(std::uint32_t binding) const { return pools[binding - BIND_NODE_POOL]; }
 };
 
-/// What pools are called and made of, in the order of their bindings: those of the scene, then the top table.
+/// What pools are called and made of, in the order of their bindings: those of the scene, texture words, the top table.
 struct PoolKind {
   const char* name;             ///< in messages and panels
   const char* key;              ///< in JSON
@@ -94,6 +95,7 @@ struct Pools {
   PoolBytes bytes;                         ///< without environment and frame
   bool references = false;                 ///< the data pool is read through the reference pool
   std::uint32_t top_levels = 0;            ///< of the top table
+  std::uint32_t texture_features = 0;      ///< texture_features() of the scene
   std::array<PagedBuffer, POOLS> buffers;  ///< in the order of their bindings, from BIND_NODE_POOL on
 };
 

@@ -5,6 +5,7 @@
 
 #include "engine/light/emitter_area.h"
 #include "engine/scene/splat.h"
+#include "engine/scene/texture_factors.h"
 
 namespace splatray {
 namespace {
@@ -19,15 +20,18 @@ vec3 shown_emission(const ObjectLooks& objects, std::size_t object) {
 }
 
 Emitters find_emitters(const Scene& scene, const ObjectLooks& objects) {
-  std::vector<float> radiance(objects.materials.size(), 0.0F);
-  for (std::size_t i = 0; i < radiance.size(); ++i) {
-    const vec3 emission = shown_emission(objects, i);
-    radiance[i] = (emission.x + emission.y + emission.z) / 3.0F;
-  }
-  if (std::all_of(radiance.begin(), radiance.end(), [](float one) { return one <= 0.0F; })) return {};
+  std::vector<vec3> of_objects(objects.materials.size());
+  for (std::size_t i = 0; i < of_objects.size(); ++i) of_objects[i] = shown_emission(objects, i);
+  if (std::all_of(of_objects.begin(), of_objects.end(), [](const vec3& one) { return one == vec3(0.0F); }))
+    return {};
+  const SplatEmission emission(scene);
+  const auto radiance = [&](std::size_t index) {
+    const vec3 sent = emission.of(index, of_objects[scene.data_pool[index].w & OBJECT_MASK]);
+    return (sent.x + sent.y + sent.z) / 3.0F;
+  };
   std::vector<std::size_t> indices;  // in the data pool
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i)
-    if (radiance[scene.data_pool[i].w & OBJECT_MASK] > 0.0F) indices.push_back(i);
+    if (radiance(i) > 0.0F) indices.push_back(i);
   const auto words = [&scene](std::size_t index) { return scene.data_pool[index]; };
   std::sort(indices.begin(), indices.end(),
             [&](std::size_t a, std::size_t b) { return order(words(a)) < order(words(b)); });
@@ -45,7 +49,7 @@ Emitters find_emitters(const Scene& scene, const ObjectLooks& objects) {
   const std::vector<float> areas = areas_alone(splats, clips);
   std::vector<Emitter> emitters;
   for (std::size_t i = 0; i < splats.size(); ++i)
-    emitters.push_back({words(indices[i]), areas[i] * radiance[splats[i].object]});
+    emitters.push_back({words(indices[i]), areas[i] * radiance(indices[i])});
   return std::make_shared<const std::vector<Emitter>>(std::move(emitters));
 }
 

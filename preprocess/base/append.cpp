@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "engine/scene/texture_factors.h"
+
 namespace splatray {
 namespace {
 
@@ -33,7 +35,7 @@ void append_column(Column& to, std::size_t to_size, Column&& more, std::size_t s
         std::vector<Value> values = std::holds_alternative<std::vector<Value>>(more.values)
                                         ? std::get<std::vector<Value>>(std::move(more.values))
                                         : converted<Value>(more);
-        append(list, to_size, std::move(values), size, Value{});
+        append(list, to_size, std::move(values), size, static_cast<Value>(absent_value(to.name)));
       },
       to.values);
 }

@@ -9,6 +9,7 @@
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/sample_mesh.h"
+#include "preprocess/mesh/texture_detail.h"
 
 namespace splatray {
 namespace {
@@ -112,8 +113,9 @@ std::vector<Part> list_parts(Input& input, const ReadOptions& options) {
       drop_unusable_triangles(mesh, object.name, input.notes);
       Part part{&object, &mesh};
       part.area = surface_area(mesh);
-      part.sampled = part.area > 0.0 && std::isfinite(part.area) &&
-                     (options.samples > 0 || object.samples > 0 || is_coarse(mesh));
+      part.sampled =
+          part.area > 0.0 && std::isfinite(part.area) &&
+          (options.samples > 0 || object.samples > 0 || is_coarse(mesh) || is_finer_than_vertices(mesh));
       parts.push_back(part);
     }
   }
@@ -145,7 +147,8 @@ void sample_coarse_parts(const std::vector<Part*>& coarse, std::vector<std::stri
     part->samples = std::max({part->samples, FEWEST, std::uint64_t{part->mesh->vertices.size()}});
   }
   notes.push_back(std::to_string(coarse.size()) +
-                  " meshes are too coarse for splats at their vertices and were sampled by area, about " +
+                  " meshes are too coarse, or their textures too fine, for splats at their vertices and were "
+                  "sampled by area, about " +
                   std::to_string(AUTOMATIC_SAMPLES) + " points in all; a number of samples can be asked for");
 }
 

@@ -22,7 +22,9 @@
 #include "preprocess/mesh/edge_sites.h"
 #include "preprocess/mesh/mesh_edges.h"
 #include "preprocess/mesh/mesh_normals.h"
+#include "preprocess/mesh/surface_maps.h"
 #include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture_detail.h"
 
 namespace splatray {
 namespace {
@@ -35,6 +37,16 @@ constexpr double VERTEX_EDGE_REACH = 1.2;  // of a vertex, in units of its longe
 std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
   const std::vector<glm::dvec3>& positions = mesh.vertices.position;
   return {positions[triangle.x], positions[triangle.y], positions[triangle.z]};
+}
+
+/// Of a piece of a triangle.
+std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const SamplePiece& piece) {
+  const std::array<glm::dvec3, 3> whole = corners_of(mesh, mesh.triangles[piece.triangle]);
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i)
+    corners[i] =
+        piece.corners[i].x * whole[0] + piece.corners[i].y * whole[1] + piece.corners[i].z * whole[2];
+  return corners;
 }
 
 double triangle_area(const std::array<glm::dvec3, 3>& corners) {
@@ -79,7 +91,7 @@ class SampleWriter {
  public:
   SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
                double crease_cosine)
-      : mesh_(mesh), mask_(mesh), normals_(corner_normals(mesh, weld, crease_cosine)) {
+      : mesh_(mesh), mask_(mesh), maps_(mesh), normals_(corner_normals(mesh, weld, crease_cosine)) {
     triangles_.reserve(count);
     points_.position.reserve(count);
     points_.normal.reserve(count);
@@ -96,6 +108,7 @@ class SampleWriter {
     const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
     points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
     points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
+    maps_.add(triangle, w, points_.normal.back());
     if (mesh_.vertices.color.empty() && !mesh_.texture) {
       return;
     }
@@ -127,6 +140,7 @@ class SampleWriter {
 
   Points finish() {
     for (const Column& column : mesh_.vertices.columns) points_.columns.push_back(on_samples(column));
+    for (Column& column : maps_.take()) points_.columns.push_back(std::move(column));
     return std::move(points_);
   }
 
@@ -156,6 +170,7 @@ class SampleWriter {
 
   const Mesh& mesh_;
   AlphaMask mask_;
+  MapSamples maps_;
   std::vector<glm::vec3> normals_;
   Points points_;
   std::vector<std::uint32_t> triangles_;  ///< beside points_
@@ -289,6 +304,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
   Points points;
   std::vector<glm::uint> kept;
   const AlphaMask mask(mesh);
+  MapSamples maps(mesh);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     glm::uint other = first_kept[weld[i]];
     while (other != NONE && glm::dot(normals[other], normals[i]) < COS_SAME) {
@@ -301,6 +317,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
     kept.push_back(static_cast<glm::uint>(i));
     points.position.push_back(mesh.vertices.position[i]);
     points.normal.push_back(normals[i]);
+    maps.add(static_cast<glm::uint>(i), normals[i]);
     if (!mesh.vertices.color.empty() || mesh.texture) {
       const glm::vec3 own = mesh.vertices.color.empty() ? glm::vec3(1.0F) : mesh.vertices.color[i];
       points.color.push_back(mesh.texture ? own * mesh.texture->color(mesh.texcoord[i]) : own);
@@ -313,6 +330,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
     const auto take = [&kept](const auto& values) { return Column::Values(gather(values, kept)); };
     points.columns.push_back({column.name, std::visit(take, column.values)});
   }
+  for (Column& column : maps.take()) points.columns.push_back(std::move(column));
   if (creases.clip) clip_vertices(mesh, weld, normals, creases.cosine, kept, points);
   return points;
 }
@@ -326,19 +344,25 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   std::mt19937_64 random(seed);
   const double share_offset = 0.1 + 0.8 * static_cast<double>(random() >> 11U) * 0x1p-53;
   double side = static_cast<double>(random() >> 11U) * 0x1p-53;
-  const double step = surface_area(mesh) / static_cast<double>(count);
+  const std::vector<SamplePiece> pieces = sample_pieces(mesh, morton_order(mesh), count);
+  double total = surface_area(mesh), least_density = 1.0;
+  for (const SamplePiece& piece : pieces) {
+    total += (piece.density - 1.0) * triangle_area(corners_of(mesh, piece));
+    least_density = std::min(least_density, piece.density);
+  }
+  const double step = total / static_cast<double>(count);
   assert(step > 0.0 && std::isfinite(step));
   SampleWriter writer(mesh, weld, count, creases.cosine);
   std::uint64_t written = 0;
   double passed = 0.0;
   std::size_t last_proper = 0;
-  for (const std::uint32_t index : morton_order(mesh)) {
-    const std::array<glm::dvec3, 3> corners = corners_of(mesh, mesh.triangles[index]);
-    const double area = triangle_area(corners);
+  for (const SamplePiece& piece : pieces) {
+    const std::array<glm::dvec3, 3> corners = corners_of(mesh, piece);
+    const double area = piece.density * triangle_area(corners);
     if (!(area > 0.0)) {
       continue;
     }
-    last_proper = index;
+    last_proper = piece.triangle;
     const int apex = apex_of(corners, area / step);
     while (written < count) {
       const double at = (static_cast<double>(written) + share_offset) * step;
@@ -351,7 +375,8 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
       weights[apex] = 1.0 - height;
       weights[(apex + 1) % 3] = height * (1.0 - side);
       weights[(apex + 2) % 3] = height * side;
-      writer.add(index, weights);
+      writer.add(piece.triangle,
+                 weights.x * piece.corners[0] + weights.y * piece.corners[1] + weights.z * piece.corners[2]);
       side += GOLDEN_RATIO_PART;
       ++written;
     }
@@ -360,7 +385,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   for (; written < count; ++written) {  // rounding of the summed area may leave the last share over
     writer.add(last_proper, glm::dvec3(1.0 / 3.0));
   }
-  if (creases.clip) writer.clip(weld, creases.cosine, std::sqrt(step));
+  if (creases.clip) writer.clip(weld, creases.cosine, std::sqrt(step / least_density));
   return writer.finish();
 }
 

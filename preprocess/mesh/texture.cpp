@@ -51,14 +51,29 @@ bool Texture::cut_out(glm::vec2 texcoord) const {
   return alpha_cutoff > 0.0F && alpha_factor * texel(texcoord).w < alpha_cutoff;
 }
 
+glm::vec4 Texture::numbers(glm::vec2 texcoord) const {
+  return filtered(texcoord, [](const glm::u8vec4& stored) { return glm::vec4(stored) / 255.0F; });
+}
+
 glm::vec4 Texture::texel(glm::vec2 texcoord) const {
   static const std::array<float, 256> LINEAR = make_linear_table();
+  return filtered(texcoord, [](const glm::u8vec4& stored) {
+    return glm::vec4(LINEAR[stored.x], LINEAR[stored.y], LINEAR[stored.z], stored.w / 255.0F);
+  });
+}
+
+glm::vec2 Texture::place(glm::vec2 texcoord) const {
   constexpr float FARTHEST = 1.0e6F;
   glm::vec2 uv(uv_transform * glm::vec3(texcoord, 1.0F));
   for (int axis = 0; axis < 2; ++axis) {
     uv[axis] = std::isfinite(uv[axis]) ? glm::clamp(uv[axis], -FARTHEST, FARTHEST) : 0.0F;
   }
-  const glm::dvec2 at = glm::dvec2(uv) * glm::dvec2(image->width, image->height) - 0.5;
+  return uv;
+}
+
+template <class Decode>
+glm::vec4 Texture::filtered(glm::vec2 texcoord, const Decode& decode) const {
+  const glm::dvec2 at = glm::dvec2(place(texcoord)) * glm::dvec2(image->width, image->height) - 0.5;
   const glm::dvec2 base = glm::floor(at);
   const glm::vec2 weight(at - base);
   glm::vec4 sum{0.0F};
@@ -69,7 +84,7 @@ glm::vec4 Texture::texel(glm::vec2 texcoord) const {
     const std::uint32_t row = wrapped(static_cast<std::int64_t>(base.y) + dy, image->height, wrap_t);
     const glm::u8vec4 stored = image->texels[std::size_t{row} * image->width + column];
     const float share = (dx == 1 ? weight.x : 1.0F - weight.x) * (dy == 1 ? weight.y : 1.0F - weight.y);
-    sum += share * glm::vec4(LINEAR[stored.x], LINEAR[stored.y], LINEAR[stored.z], stored.w / 255.0F);
+    sum += share * decode(stored);
   }
   return sum;
 }

@@ -1,4 +1,4 @@
-/// Base-colour textures: pictures looked up at texture coordinates.
+/// Textures: pictures looked up at texture coordinates.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -33,10 +33,17 @@ struct Texture {
   /// Linear rgb at a texture coordinate, bilinear between texels; (0, 0) is the top left corner.
   /// A coordinate that is not finite is read as 0.
   [[nodiscard]] glm::vec3 color(glm::vec2 texcoord) const;
+  /// The stored values, 0..1, in the same way, without factors: what is no colour.
+  [[nodiscard]] glm::vec4 numbers(glm::vec2 texcoord) const;
+  /// Where in the picture a texture coordinate lies: (0, 0) to (1, 1) is all of it.
+  [[nodiscard]] glm::vec2 place(glm::vec2 texcoord) const;
   /// Whether there is no surface at a texture coordinate.
   [[nodiscard]] bool cut_out(glm::vec2 texcoord) const;
 
  private:
+  /// The mean of what `decode` makes of the texels around, without factors.
+  template <class Decode>
+  [[nodiscard]] glm::vec4 filtered(glm::vec2 texcoord, const Decode& decode) const;
   /// Linear rgb and alpha, without factors.
   [[nodiscard]] glm::vec4 texel(glm::vec2 texcoord) const;
 };

@@ -17,6 +17,7 @@ using glm::dvec3;
 using glm::floor;
 using glm::inversesqrt;
 using glm::ivec3;
+using glm::ivec4;
 using glm::length;
 using glm::max;
 using glm::min;

@@ -14,6 +14,11 @@ uint hash_uint(uint x) {
   return x;
 }
 
+/// A number that distinguishes splats.
+uint hash_words(uvec4 words) {
+  return hash_uint(words.x ^ hash_uint(words.y ^ hash_uint(words.z ^ hash_uint(words.w))));
+}
+
 /// [0, 1) from the upper 24 bits.
 float unit_float(uint x) { return float(x >> 8u) * 5.9604645e-8f; }
 

@@ -21,7 +21,12 @@ Ray secondary_ray(vec3 origin, vec3 dir, uint inside, vec3 from_normal, uint fro
 }
 
 Ray ray_from_hit(Hit hit, vec3 dir, uint inside) {
-  return secondary_ray(hit.position, dir, inside, hit.front ? hit.normal : -hit.normal, hit.object);
+#ifdef LIT
+  vec3 normal = hit.plane;
+#else
+  vec3 normal = hit.normal;
+#endif
+  return secondary_ray(hit.position, dir, inside, hit.front ? normal : -normal, hit.object);
 }
 
 /// Index of refraction before a hit on a dielectric over that behind it.

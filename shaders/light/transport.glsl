@@ -1,7 +1,7 @@
 // Path tracing (Kajiya 1986, "The Rendering Equation"): at each of a path's vertices light is looked for and one direction
 // followed, both joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
-// ch. 9). The blended normal is the geometric one too: discs stand in for the smooth surface that it estimates, not the other way
-// round. Needs surface_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK, LIGHTS, SHADOWS, EMISSION, GLASS,
+// ch. 9). The blended normal is the geometric one too, but for normal maps: discs stand in for the smooth surface that it estimates,
+// not the other way round. Needs surface_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK, LIGHTS, SHADOWS, EMISSION, GLASS,
 // STRAIGHT, STAGE and those of bsdf.glsl.
 #ifndef SPLATRAY_TRANSPORT_GLSL
 #define SPLATRAY_TRANSPORT_GLSL
@@ -37,6 +37,9 @@ vec3 clamped(vec3 light, uint bounces) {
   return frame.clamp > 0.0f && bounces > 0u && most > frame.clamp ? light * (frame.clamp / most) : light;
 }
 
+/// Whether a direction is on one side of a normal map's normal and on the other of the surface, so that no light takes it.
+bool through_plane(Hit hit, vec3 dir, float cosine) { return TEXTURE_NORMAL && dot(dir, hit.plane) * cosine <= 0.0f; }
+
 /// A ray that is worth tracing for the light it brings where nothing is in its way.
 struct Probe {
   Ray ray;      ///< ends before it starts where it brings none
@@ -49,7 +52,7 @@ struct Probe {
 Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside) {
   Receiver receiver;
   receiver.position = hit.position;
-  receiver.normal = hit.normal;
+  receiver.normal = hit.plane;
   receiver.through = GLASS && (material_at(hit.object).flags & MATERIAL_DIELECTRIC) != 0u;
   LightSample chosen = light_sample(receiver, random);
   Probe probe;
@@ -59,6 +62,7 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uin
   bool emitter = EMISSION && probe.splat != NO_SPLAT;
   float share = LOOK == LOOK_SCAN || emitter ? 1.0f : met_share(chosen.pdf, probe.pdf);
   probe.light = value * chosen.radiance * share;
+  if (through_plane(hit, chosen.dir, to_light.z)) probe.light = vec3(0.0f);
   uint object_bit = 0u;
   if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
   probe.ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
@@ -68,8 +72,38 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uin
   return probe;
 }
 
+/// What a path's ray sees first, and whether the splat with these words is a member of it. A sheet that is see-through is there as
+/// often as its opacity says, by a hash of the ray and of the sheet's first splat (stochastic transparency: Enderton et al. 2010),
+/// which no order of splats changes. `of_ray` distinguishes rays.
+Hit trace_seen(Ray ray, uvec4 watched, uint of_ray, INOUT(Tally) tally) {
+  float passed = 0.0f;
+  bool passes = false;
+  Hit hit;
+  do {
+    hit = trace_watching(ray, frame.kappa, watched, tally);
+    passes = false;
+    if (OPACITY) {
+      // The mean of what is all opaque may be a rounding below 1.
+      float opacity = hit.factors.layer.w > 0.999999f ? 2.0f : hit.factors.layer.w;
+      passes = hit.found && unit_float(hash_uint(of_ray ^ hash_words(hit.first))) >= opacity;
+      ray = ray_from_hit(hit, ray.dir, ray.inside);
+      float t = hit.t;
+      hit.t += passed;
+      hit.t_first += passed;
+      passed += t;
+    }
+  } while (passes);
+  return hit;
+}
+
+/// A number that distinguishes the rays of a picture, those for light from those of paths.
+uint hash_ray(Path path, bool to_light, uint pixel, uint sample_index) {
+  uint bounce = 2u * path.bounce + (to_light ? 1u : 0u);
+  return hash_uint(pixel ^ hash_uint(sample_index ^ hash_uint(bounce + 0x9e3779b9u * frame.seed)));
+}
+
 /// What surfaces send out, as seen in a hit.
-vec3 emitted_radiance(Hit hit) { return surface_at(hit.object).emission; }
+vec3 emitted_radiance(Hit hit) { return textured(surface_at(hit.object), hit.factors).emission; }
 
 /// The part of the light that splats send out and a path meets which counts beside what was looked for. `pdf` of its direction, > 0.
 float emitter_share(float pdf, Ray ray, vec3 sent) {
@@ -86,10 +120,10 @@ vec3 medium_left(uint inside, float t) {
 
 /// What of a probe for the light of a splat arrives: the splat's share in what its ray hits. What a path would have found that way
 /// itself is left to it.
-vec3 emitter_light(Probe probe, INOUT(Tally) tally) {
+vec3 emitter_light(Probe probe, uint of_ray, INOUT(Tally) tally) {
   Ray ray = probe.ray;
   ray.t_max = probe.splat != NO_SPLAT ? ray.t_max : -1.0f;
-  Hit hit = trace_watching(ray, frame.kappa, probe.splat, tally);
+  Hit hit = trace_seen(ray, probe.splat, of_ray, tally);
   bool seen = hit.found && hit.watched > 0.0f;
   ray.t_max = hit.t;
   if (SIZES && seen && light_hides(ray, NO_LIGHT)) seen = false;
@@ -129,7 +163,7 @@ void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_e
     }
     if (SHADOWS || sky || EMISSION) path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
     if (EMISSION) {
-      vec3 sent = emitter_light(probe, tally);
+      vec3 sent = emitter_light(probe, hash_ray(path, true, pixel, sample_index), tally);
       bool emitter = probe.splat != NO_SPLAT;
       probe.light = emitter ? sent : probe.light;
       probe.ray.t_max = emitter ? -1.0f : probe.ray.t_max;
@@ -146,7 +180,9 @@ void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_e
 void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
   BsdfSample chosen = bsdf_direction(bsdf, to_eye, vec3(random));
   bsdf_weigh(bsdf, to_eye, chosen);
+  vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
   vec3 throughput = path.throughput * chosen.weight;
+  if (through_plane(hit, dir, chosen.dir.z)) throughput = vec3(0.0f);
   float most = max(throughput.x, max(throughput.y, throughput.z));
   path.alive = most > 0.0f;
   if (COUNTERS && !path.alive && (chosen.event & BSDF_REFLECTED) != 0u &&
@@ -166,7 +202,6 @@ void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 
   bool transmitted = (chosen.event & BSDF_TRANSMITTED) != 0u;
   uint inside = path.ray.inside;
   if (GLASS && transmitted) inside ^= 1u << material_at(hit.object).mask_bit;
-  vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
   bool found_straight = STRAIGHT && transmitted && path.pdf != 0.0f;
   path.pdf = found_straight ? -1.0f : ((chosen.event & BSDF_DELTA) != 0u ? 0.0f : chosen.pdf);
   path.ray = ray_from_hit(hit, dir * inversesqrt(dot(dir, dir)), inside);
@@ -192,7 +227,7 @@ void meet_environment(INOUT(Path) path) {
 /// What a path finds at a hit, and whether and how it goes on.
 void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Tally) tally) {
   path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
-  Surface surface = surface_at(hit.object);
+  Surface surface = textured(surface_at(hit.object), hit.factors);
   float eta = 1.0f;
   if (GLASS) {
     if ((material_at(hit.object).flags & MATERIAL_DIELECTRIC) != 0u)
@@ -221,7 +256,7 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
 /// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture.
 void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) tally) {
   do {
-    Hit hit = trace_nearest(path.ray, frame.kappa, tally);
+    Hit hit = trace_seen(path.ray, NO_SPLAT, hash_ray(path, false, pixel, sample_index), tally);
     bool light_first = false;
     if (SIZES && LOOK != LOOK_SCAN) {
       float t = hit.t;

@@ -117,6 +117,7 @@ POOL(BIND_DATA_POOL, DataPool, data_pool, uvec4, splat_words, READ_TEXEL)
 POOL(BIND_COLOR_POOL, ColorPool, color_pool, uint, color_word, READ_WORD)
 POOL(BIND_FIELD_POOL, FieldPool, field_pool, uint, field_word, READ_WORD)
 POOL(BIND_CLIP_POOL, ClipPool, clip_pool, uint, clip_word, READ_WORD)
+POOL(BIND_TEXTURE_POOL, TexturePool, texture_pool, uint, texture_word, READ_WORD)
 POOL(BIND_TOP_TABLE, TopTable, top_table, uint, top_entry, READ_WORD)
 
 /// Where the data pool has the splat that a place in the leaves' lists refers to.

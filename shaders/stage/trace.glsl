@@ -4,11 +4,6 @@
 #include "stage/paths.glsl"
 
 #ifndef LIT
-/// A number that distinguishes splats.
-uint hash_words(uvec4 words) {
-  return hash_uint(words.x ^ hash_uint(words.y ^ hash_uint(words.z ^ hash_uint(words.w))));
-}
-
 void write_aov(uvec2 pixel, uint index) {
   Tally tally = no_tally();
   float eye_distance = 0.0f;

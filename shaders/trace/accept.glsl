@@ -1,8 +1,9 @@
 // Which splats of a leaf's list a ray hits, decided exactly: each hit counts in one leaf, so what is found depends on the splats
 // alone, not on the tree. Needs, beside walk.glsl: splat_words(splat), clip_word(splat), material_at(object), and the constants
-// BLEND, SIDE, FACES, CLIPS, ELLIPSES, with FACES_CUT cut_eye().
+// BLEND, SIDE, FACES, CLIPS, ELLIPSES, with FACES_CUT cut_eye(), and what factors.glsl needs.
 #ifndef SPLATRAY_ACCEPT_GLSL
 #define SPLATRAY_ACCEPT_GLSL
+#include "trace/factors.glsl"
 #include "trace/walk.glsl"
 
 /// The splat that decides the cluster, while the ray looks for it.
@@ -77,6 +78,10 @@ bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, Walk walk) {
   bool in_range = hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
   bool kept = true;
   if (CLIPS) kept = clip_keeps(clip_word(splat), words, hit);
+#ifndef LIT
+  // Without paths there is no chance to be had: what is see-through is cut out.
+  if (OPACITY) kept = kept && opacity_at(splat) >= 0.5f;
+#endif
   return on_disc && in_range && kept && hit_allowed(words, hit, ray);
 }
 

@@ -19,6 +19,10 @@ struct Cluster {
   ivec3 color;
   uint members;
   uint watched;  ///< members with the words watched
+#ifdef LIT
+  FactorSums factors;
+  ivec3 tilt;
+#endif
 };
 
 /// Words of no splat.
@@ -32,6 +36,10 @@ Cluster empty_cluster() {
   cluster.color = ivec3(0);
   cluster.members = 0u;
   cluster.watched = 0u;
+#ifdef LIT
+  cluster.factors = no_factor_sums();
+  cluster.tilt = ivec3(0);
+#endif
   return cluster;
 }
 
@@ -120,6 +128,11 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       cluster.depth += int(floor(weight * share + 0.5f));
       if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
       if (WATCHES) cluster.watched += member && words == watched ? 1u : 0u;
+#ifdef LIT
+      add_factors(cluster.factors, factors_at(splat), weight);
+      if (TEXTURE_NORMAL && member)
+        cluster.tilt += ivec3(floor(tilt_at(splat, normal_against(words, ray.dir)) * weight + vec3(0.5f)));
+#endif
       cluster.members += member ? 1u : 0u;
     }
   } while ((candidates.x | candidates.y) != 0u);
@@ -138,6 +151,10 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, 
   vec2 t = first.t;
   vec3 normal = normal_against(first.words, ray.dir);
   hit.color = vec3(1.0f);
+#ifdef LIT
+  hit.factors = no_factors();
+  vec3 tilt = vec3(0.0f);
+#endif
   if (BLEND != BLEND_NEAREST && cluster.weight > 0) {
     float inverse = 1.0f / float(cluster.weight);
     t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
@@ -145,8 +162,16 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, 
     normal *= inversesqrt(dot(normal, normal));
     if (WATCHES) hit.watched = float(cluster.watched) / float(cluster.members);
     if (COLORS) hit.color = vec3(cluster.color) * inverse;
+#ifdef LIT
+    hit.factors = mean_factors(cluster.factors, inverse);
+    tilt = vec3(cluster.tilt) * inverse;
+#endif
   } else if (hit.found) {
     if (COLORS) hit.color = color_at(first.splat);
+#ifdef LIT
+    hit.factors = factors_at(first.splat);
+    if (TEXTURE_NORMAL) tilt = tilt_at(first.splat, normal);
+#endif
     float inverse_radius = inversesqrt(splat_radius_squared(first.words));
     Facet facet = facet_at(first.words, first.splat, first.from_center, inverse_radius, ray.dir);
     normal = facet.normal;
@@ -154,6 +179,10 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, 
   }
   hit.position = ray.origin + ray.dir * t.x;
   hit.normal = normal;
+#ifdef LIT
+  hit.plane = normal;
+  if (TEXTURE_NORMAL && hit.found) hit.normal = tilted(normal, tilt, ray.dir);
+#endif
   hit.t = hit.found ? df_add(t, vec2(shift, 0.0f)).x : INFINITY_F;
   hit.t_first = hit.found ? df_add(first.t, vec2(shift, 0.0f)).x : INFINITY_F;
   return hit;

@@ -2,6 +2,9 @@
 #ifndef SPLATRAY_HIT_GLSL
 #define SPLATRAY_HIT_GLSL
 #include "lang/language.glsl"
+#ifdef LIT
+#include "trace/factors.glsl"
+#endif
 
 /// What a ray hits. Distances are from the ray's own origin, in units of |dir|.
 struct Hit {
@@ -14,6 +17,10 @@ struct Hit {
   uint object;
   uint members;
   float t_first;
+#ifdef LIT
+  Factors factors;  ///< blended
+  vec3 plane;       ///< blended unit normal without normal maps, which `normal` has
+#endif
   uvec4 first;      ///< words of the first splat (BLEND_PAPER, BLEND_LEAF: the reference splat)
   float watched;    ///< share of the splat watched in its members, 0..1
 };

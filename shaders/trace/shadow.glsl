@@ -1,8 +1,73 @@
-// How much light passes along a ray. Needs what accept.glsl needs, and the constant TINTED: dielectrics
-// tint light, else they are as opaque as anything.
+// How much light passes along a ray. Needs what blend.glsl needs, and the constant TINTED: dielectrics tint light, else they are as
+// opaque as anything. With LIT and OPACITY also frame.kappa.
 #ifndef SPLATRAY_SHADOW_GLSL
 #define SPLATRAY_SHADOW_GLSL
-#include "trace/accept.glsl"
+#include "trace/blend.glsl"
+
+#ifdef LIT
+/// A sheet that a shadow ray meets: splats of one object in a window of depth, whose opacity is blended as colours are.
+struct Sheet {
+  uint object;
+  float t;      ///< of the splat found first
+  float depth;  ///< of the window before and behind it
+  int weight;
+  int opacity;
+};
+
+Sheet no_sheet() {
+  Sheet sheet;
+  sheet.object = NO_OBJECT;
+  sheet.t = 0.0f;
+  sheet.depth = 0.0f;
+  sheet.weight = 0;
+  sheet.opacity = 0;
+  return sheet;
+}
+
+/// What a sheet lets through; one without splats everything, one whose splats are all opaque nothing.
+float sheet_passes(Sheet sheet) {
+  return sheet.weight > 0 ? float(sheet.weight - sheet.opacity) / float(sheet.weight) : 1.0f;
+}
+
+/// The two sheets that a shadow ray met last, as leaves list their splats in no order, and what those before let through.
+struct Sheets {
+  Sheet last;
+  Sheet other;
+  float passed;
+};
+
+bool of_sheet(Sheet sheet, uint object, float t) {
+  return sheet.object == object && abs(t - sheet.t) <= sheet.depth;
+}
+
+void add_to_sheet(INOUT(Sheet) sheet, float opacity, float weight) {
+  sheet.weight += int(weight + 0.5f);
+  sheet.opacity += int(opacity * weight + 0.5f);
+}
+
+/// Adds a splat that the ray hits to its sheet.
+void meet_sheet(INOUT(Sheets) sheets, uint splat, uvec4 words, Ray ray) {
+  PlaneHit hit = meet_splat(splat, words, ray);
+  uint object = splat_object(words);
+  float weight = max(blend_kernel(hit.rho_squared.x / splat_radius_squared(words)), WEIGHT_LEAST) * WEIGHT_UNIT;
+  if (!of_sheet(sheets.last, object, hit.t.x)) {
+    Sheet older = sheets.last;
+    bool again = of_sheet(sheets.other, object, hit.t.x);
+    sheets.passed *= again ? 1.0f : sheet_passes(sheets.other);
+    sheets.last = sheets.other;
+    sheets.other = older;
+    if (!again) {
+      First first = no_first();
+      first.words = words;
+      sheets.last = no_sheet();
+      sheets.last.object = object;
+      sheets.last.t = hit.t.x;
+      sheets.last.depth = window_depth(first, ray.dir, frame.kappa);
+    }
+  }
+  add_to_sheet(sheets.last, opacity_at(splat), weight);
+}
+#endif
 
 /// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics
 /// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root; one that ends before it
@@ -12,29 +77,57 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   Walk walk = walk_start(ray, 0.0f, ray.t_max >= 0.0f);
   vec3 light = vec3(1.0f);
   uint passed = 0u;
+#ifdef LIT
+  Sheets sheets;
+  sheets.last = no_sheet();
+  sheets.other = no_sheet();
+  sheets.passed = 1.0f;
+#endif
   do {
     uint chunk = 0u;
     uint candidates = walk_candidates(walk, ray, ray.t_max, false, chunk, tally);
     uint accepted = accept_candidates(chunk, candidates, ray, walk, false, first);
     bool opaque = accepted != 0u;
+#ifdef LIT
+    if (OPACITY || TINTED) {
+#else
     if (TINTED) {
+#endif
       opaque = false;
       do {
         if (accepted != 0u) {
           uint bit = uint(findLSB(accepted));
           accepted &= accepted - 1u;
-          Material material = material_at(splat_object(splat_words(splat_at(chunk + bit))));
-          bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0u;
+          uint splat = splat_at(chunk + bit);
+          uvec4 words = splat_words(splat);
+          Material material = material_at(splat_object(words));
+          bool glass = TINTED && (material.flags & MATERIAL_DIELECTRIC) != 0u;
           uint object_bit = 1u << material.mask_bit;
           light = glass && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
           passed |= glass ? object_bit : 0u;
+#ifdef LIT
+          if (OPACITY && !glass) meet_sheet(sheets, splat, words, ray);
+          opaque = opaque || (!OPACITY && !glass);
+#else
           opaque = opaque || !glass;
+#endif
         }
       } while (accepted != 0u);
+#ifdef LIT
+      // Sheets that the walk has left behind; what is opaque ends it.
+      if (OPACITY) {
+        bool behind = walk.t_in > sheets.last.t + sheets.last.depth && sheet_passes(sheets.last) <= 0.0f;
+        behind = behind || (walk.t_in > sheets.other.t + sheets.other.depth && sheet_passes(sheets.other) <= 0.0f);
+        opaque = behind || sheets.passed <= 0.0f;
+      }
+#endif
     }
     light = opaque ? vec3(0.0f) : light;
     walk.inside = walk.inside && !opaque;
   } while (walk.inside);
+#ifdef LIT
+  if (OPACITY) light *= sheets.passed * sheet_passes(sheets.last) * sheet_passes(sheets.other);
+#endif
   return light;
 }
 

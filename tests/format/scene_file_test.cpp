@@ -175,6 +175,20 @@ TEST_F(SizedLights, SpotsAndRangesAreKeptAsTheyAre) {
   EXPECT_NE(refusal(bytes).find("light 0 with a spot's cone"), std::string::npos);
 }
 
+TEST_F(SceneFile, OfTextureFactorsIsOfTheirVersion) {
+  Scene scene = tiny_scene();
+  scene.columns = {{"texture-emission-g", std::vector<std::uint8_t>(scene.data_pool.size(), 17)}};
+  write_scene(scene, path);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(read_scene(path).columns[0].number(0), 17.0);
+  scene.columns[0].name = "emission-g";
+  write_scene(scene, path);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), PLAIN_SCENE_FILE_VERSION) << "any attribute of points";
+  scene.columns = {{"texture-emission-g", std::vector<float>(scene.data_pool.size(), 1.0F)}};
+  write_scene(scene, path);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), PLAIN_SCENE_FILE_VERSION) << "of a type that factors are not of";
+}
+
 TEST_F(SizedLights, TruncatedOrDamagedAreRefused) {
   for (std::size_t length = 0; length < bytes.size(); length += 3)
     EXPECT_NE(refusal(bytes.substr(0, length)), "") << length;

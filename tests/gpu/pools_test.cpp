@@ -42,7 +42,7 @@ TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
       pool_bytes({{BIND_NODE_POOL, 4000}, {BIND_BEGIN_END, 4000}, {BIND_DATA_POOL, 16000}});
   const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(paging.access, PoolAccess::texel);
-  EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
   EXPECT_EQ(paging.pages_constant(), 0U);
   EXPECT_EQ(paging.page_shift, 0U) << "the same pipeline for all";
 }
@@ -60,11 +60,11 @@ TEST(Paging, PagesWhatOneBufferDoesNotHold) {
       pool_bytes({{BIND_NODE_POOL, 4004}, {BIND_DATA_POOL, 16 * 1537}, {BIND_COLOR_POOL, 4 * 1000}});
   const Paging texel = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(texel.access, PoolAccess::texel);
-  EXPECT_EQ(texel.pages, (Pages{2, 1, 1, 1, 4, 1, 1, 1, 1}));
+  EXPECT_EQ(texel.pages, (Pages{2, 1, 1, 1, 4, 1, 1, 1, 1, 1}));
   EXPECT_EQ(texel.pages_constant(), 0x00003001U);
   EXPECT_EQ(texel.page_shift, 9U);
   const Paging storage = choose_paging(bytes, LIMITS, PoolAccess::storage);
-  EXPECT_EQ(storage.pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1, 1}));
+  EXPECT_EQ(storage.pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1, 1, 1}));
   EXPECT_EQ(storage.page_shift, 8U);
 }
 
@@ -90,8 +90,8 @@ TEST(Paging, EndsAtTheMostPagesOfAPool) {
 }
 
 TEST(Paging, EndsAtTheMostBuffersOfAProgram) {
-  PoolBytes bytes = pool_bytes({{BIND_DATA_POOL, 16 * 4096}, {BIND_COLOR_POOL, 4 * 2560}});
-  EXPECT_EQ(choose_paging(bytes, LIMITS, PoolAccess::texel).pages, (Pages{1, 1, 1, 1, 8, 5, 1, 1, 1}));
+  PoolBytes bytes = pool_bytes({{BIND_DATA_POOL, 16 * 4096}, {BIND_COLOR_POOL, 4 * 2048}});
+  EXPECT_EQ(choose_paging(bytes, LIMITS, PoolAccess::texel).pages, (Pages{1, 1, 1, 1, 8, 4, 1, 1, 1, 1}));
   bytes.at(BIND_FIELD_POOL) = 4 * 1025;
   const std::string sentence = refusal(bytes, PoolAccess::automatic);
   EXPECT_NE(sentence.find("22 texel buffers"), std::string::npos) << sentence;

@@ -23,6 +23,9 @@ TEST(Copies, FitToTheLastByte) {
   // 72 000 bytes where there are clip lines: 2914 copies of 24 bytes.
   EXPECT_TRUE(copies_fit({1000, 2914, 1, 1, true, false, true}));
   EXPECT_FALSE(copies_fit({1000, 2915, 1, 1, true, false, true}));
+  // 98 000 bytes with two texture words beside them: 2998 copies of 32 bytes.
+  EXPECT_TRUE(copies_fit({1000, 2998, 1, 1, true, false, true, 2}));
+  EXPECT_FALSE(copies_fit({1000, 2999, 1, 1, true, false, true, 2}));
 }
 
 TEST(Copies, AreCountedFromTheScene) {

@@ -190,16 +190,16 @@ TEST(Gltf, NumbersOutOfRangeAreNotedAndTheNearestTaken) {
   EXPECT_FALSE(has_note(read(R"({"pbrMetallicRoughness":{"roughnessFactor":1}})"), "expected"));
 }
 
-TEST(Gltf, WhatIsBlendedAllOverLetsLightThrough) {
+TEST(Gltf, WhatIsBlendedAllOverHasItsOpacity) {
   const TempFolder folder;
   const std::string veil =
       R"(,"materials":[{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25]}}])";
   const Input input = read_input(
       {folder.write("v.gltf", embedded(R"({"mesh":0})", veil, R"(,"material":0)"))}, keeping_meshes());
-  EXPECT_EQ(input.objects[0].material.flags, MATERIAL_DIELECTRIC);
-  EXPECT_FLOAT_EQ(input.objects[0].material.ior, 1.0F);
-  EXPECT_FLOAT_EQ(input.objects[0].material.tint.y, 0.75F);
-  EXPECT_FALSE(input.objects[0].surface.has_value()) << "path tracing sees the same";
+  EXPECT_EQ(input.objects[0].material.flags, 0U);
+  const Column* opacity = find_column(input.objects[0].points.columns, "texture-opacity");
+  ASSERT_NE(opacity, nullptr);
+  for (std::size_t i = 0; i < opacity->size(); ++i) EXPECT_EQ(opacity->number(i), 64.0);
   EXPECT_TRUE(input.notes.empty() || input.notes.back().find("alphaMode") == std::string::npos);
 }
 

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <numeric>
 
 #include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
+#include "engine/scene/texture_factors.h"
 #include "engine/scene/tree.h"
 
 namespace splatray::testing {
@@ -16,6 +18,7 @@ namespace {
 /// What bindings.glsl declares. One set a thread, so that tests may run several twins.
 thread_local const Scene* bound = nullptr;
 thread_local std::vector<std::uint32_t> top;
+thread_local std::vector<std::uint32_t> textures;
 thread_local Features features;
 
 namespace glsl {
@@ -33,9 +36,15 @@ namespace glsl {
 #define FIELDS ((features[SPEC_FEATURES] & FEATURE_FIELDS) != 0)
 #define CLIPS (!bound->clip_pool.empty())
 #define WATCHES false
+#define OPACITY ((features[SPEC_FEATURES] & FEATURE_OPACITY) != 0)
+#define TEXTURE_LAYER ((features[SPEC_FEATURES] & FEATURE_TEXTURE_LAYER) != 0)
+#define TEXTURE_GLOW ((features[SPEC_FEATURES] & FEATURE_TEXTURE_GLOW) != 0)
+#define TEXTURE_COLOR ((features[SPEC_FEATURES] & FEATURE_TEXTURE_COLOR) != 0)
+#define TEXTURE_NORMAL ((features[SPEC_FEATURES] & FEATURE_TEXTURE_NORMAL) != 0)
 #define ELLIPSES ((features[SPEC_FEATURES] & FEATURE_ELLIPSES) != 0)
 
 uint top_entry(uint index) { return top.at(index); }
+uint texture_word(uint index) { return textures.at(index); }
 uint node_word(uint index) { return bound->node_pool.at(index); }
 uint begin_end_at(uint index) { return bound->begin_end.at(index); }
 uint slab_word(uint index) { return bound->slab_pool.at(index); }
@@ -74,7 +83,8 @@ Features twin_features(const Scene& scene, const Settings& settings) {
   const bool bends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
   chosen[SPEC_FEATURES] = FEATURE_GLASS | FEATURE_COUNTERS | (scene.color_pool.empty() ? 0 : FEATURE_COLORS) |
                           (bends && !scene.field_pool.empty() ? FEATURE_FIELDS : 0) |
-                          (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0);
+                          (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0) |
+                          texture_features(scene.columns);
   chosen[SPEC_TOP_LEVELS] = 5;
   return chosen;
 }
@@ -84,6 +94,9 @@ std::vector<RayHit> twin_intersect(const Scene& scene, std::span<const RayQuery>
   bound = &scene;
   features = twin_features(scene, settings);
   top = top_table(scene, features[SPEC_TOP_LEVELS]);
+  std::vector<std::uint32_t> splats(scene.data_pool.size());
+  std::iota(splats.begin(), splats.end(), 0U);
+  textures = texture_words(scene.columns, splats);
   std::vector<RayHit> hits;
   hits.reserve(rays.size());
   glsl::Tally tally{};

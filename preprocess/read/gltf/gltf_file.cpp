@@ -5,6 +5,7 @@
 #include <cstring>
 #include <new>
 #include <string_view>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/json_depth.h"
@@ -198,7 +199,28 @@ void check_extensions(const GltfFile& file, std::vector<std::string>& notes) {
   }
 }
 
+/// The textures of materials that are not modelled, by their names in glTF. Occlusion is none of them: light itself finds it.
+std::vector<std::string> ignored_textures(const tinygltf::Model& model) {
+  constexpr std::pair<const char*, const char*> IN_EXTENSIONS[] = {
+      {"KHR_materials_clearcoat", "clearcoatNormalTexture"}, {"KHR_materials_volume", "thicknessTexture"}};
+  std::vector<std::string> ignored;
+  const auto add = [&](const char* name) {
+    if (std::find(ignored.begin(), ignored.end(), name) == ignored.end()) ignored.emplace_back(name);
+  };
+  for (const tinygltf::Material& material : model.materials) {
+    for (const auto& [extension, name] : IN_EXTENSIONS) {
+      const tinygltf::Value* found = find_extension(material.extensions, extension);
+      if (found != nullptr && found->IsObject() && found->Has(name)) add(name);
+    }
+  }
+  return ignored;
+}
+
 void note_ignored(const GltfFile& file, std::vector<std::string>& notes) {
+  const std::vector<std::string> textures = ignored_textures(file.model);
+  if (!textures.empty())
+    notes.push_back(file.path.string() + ": ignored textures " + quoted_list(textures) +
+                    ", which are not modelled");
   if (!file.model.animations.empty()) {
     notes.push_back(file.path.string() + ": ignored animations, the pose at rest is shown");
   }

@@ -26,7 +26,7 @@ struct GltfFile {
 /// `extras.environment` one there or in a data path (find_scene_file): names that are absolute or leave their folder by
 /// `..` are refused, so that a scene from elsewhere reads nothing but what lies beside it. Unknown required extensions,
 /// compressed geometry and JSON that nests deeper than MOST_JSON_DEPTH are errors; extensions that are used and ignored,
-/// animations and skins are noted. Throws Error (input_unreadable).
+/// textures that are not modelled, animations and skins are noted, each once. Throws Error (input_unreadable).
 [[nodiscard]] GltfFile load_gltf(const std::filesystem::path& path, const ReadListener& listener);
 
 /// The number `key` of an object value (an extension or extras), if it is there.

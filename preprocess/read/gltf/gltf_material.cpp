@@ -6,7 +6,9 @@
 
 #include "engine/base/number_text.h"
 #include "engine/scene/surface_fields.h"
+#include "engine/scene/texture_factors.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
+#include "preprocess/read/gltf/gltf_texture.h"
 #include "preprocess/read/gltf/image_size.h"
 
 namespace splatray {
@@ -62,19 +64,6 @@ float alpha_of(const tinygltf::Material& from) {
   return factor.size() == 4 ? unit_clamp(factor[3]) : 1.0F;
 }
 
-/// Whether alpha is below one all over: what is behind shows through.
-bool is_veil(const tinygltf::Material& from) {
-  return from.alphaMode == "BLEND" && from.pbrMetallicRoughness.baseColorTexture.index < 0 &&
-         alpha_of(from) < 1.0F;
-}
-
-/// Lets light pass unbent, less by alpha at each crossing.
-void make_veil(Material& material, float alpha) {
-  material.flags |= MATERIAL_DIELECTRIC;
-  material.ior = 1.0F;
-  material.tint = glm::vec3(1.0F - alpha);
-}
-
 void make_opaque(Material& material, const GltfSurface& surface, bool colored) {
   const glm::vec3 base = colored ? glm::vec3(1.0F) : surface.base;
   const float smooth = 1.0F - surface.roughness;
@@ -101,6 +90,9 @@ void apply_extras(Material& material, const tinygltf::Value& extras) {
     material.shininess = static_cast<float>(std::max(*shininess, 1.0));
   }
 }
+
+/// Of alphaMode BLEND: below it, a byte of opacity would be 0, and nothing is there.
+constexpr float LEAST_ALPHA = 0.5F / 255.0F;
 
 /// Whether a material's extras, which are for the paper's look, change it.
 bool changes_look(const tinygltf::Value& extras) {
@@ -184,22 +176,6 @@ TextureWrap wrap_of(int gltf_wrap) {
   }
 }
 
-/// KHR_texture_transform: translation * rotation * scale; the rotation is counter-clockwise as seen with v
-/// downwards, as its text and the sample viewer have it (the formula printed in it turns the other way).
-glm::mat3 uv_transform_of(const tinygltf::TextureInfo& info) {
-  const tinygltf::Value* transform = find_extension(info.extensions, "KHR_texture_transform");
-  if (transform == nullptr) {
-    return glm::mat3(1.0F);
-  }
-  const std::vector<double> offset = numbers_in(*transform, "offset", {0.0, 0.0});
-  const std::vector<double> scale = numbers_in(*transform, "scale", {1.0, 1.0});
-  const double angle = number_in(*transform, "rotation").value_or(0.0);
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return glm::mat3(glm::dmat3(c * scale[0], -s * scale[0], 0.0, s * scale[1], c * scale[1], 0.0, offset[0],
-                              offset[1], 1.0));
-}
-
 /// Bytes of all buffers and of images that are files of their own.
 std::uint64_t stored_bytes(const tinygltf::Model& model) {
   std::uint64_t bytes = 0;
@@ -260,38 +236,73 @@ Material GltfMaterials::material(int index, bool colored) {
   }
   const tinygltf::Value* transmission = find_extension(from.extensions, "KHR_materials_transmission");
   material.shininess = phong_exponent(surface.roughness);
-  if (is_veil(from)) {
-    make_veil(material, alpha_of(from));
-  } else if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.0) {
+  if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.0) {
     make_dielectric(material, from, surface);
   } else {
     make_opaque(material, surface, colored);
   }
   apply_extras(material, from.extras);
-  if (from.alphaMode == "BLEND" && !is_veil(from))
-    note_once(index, "alphaMode BLEND is shown cut out where alpha is below one half");
   return material;
 }
 
-std::optional<glm::vec4> GltfMaterials::texture_mean(int texture) {
-  if (texture < 0) return {};
-  const auto picture = image(texture);
-  return picture ? std::optional(picture->mean()) : std::nullopt;
+const std::vector<GltfMaterials::Map>& GltfMaterials::maps(int index) {
+  static const std::vector<Map> NONE;
+  if (index < 0) return NONE;
+  const auto [found, is_new] = maps_.try_emplace(index);
+  if (!is_new) return found->second;
+  if (const auto map = opacity(index)) found->second.push_back(*map);
+  if (changes_look(source(index).extras)) return found->second;
+  for (const KnownMap& known : known_maps()) {
+    const tinygltf::TextureInfo info = info_of(source(index), known);
+    if (auto texture = laid(index, info, known.name))
+      found->second.push_back({{std::move(texture), channels_of(known), 0.0F, nullptr}, texcoord_of(info)});
+  }
+  const tinygltf::NormalTextureInfo& normal = source(index).normalTexture;
+  tinygltf::TextureInfo info;
+  info.index = normal.index;
+  info.texCoord = normal.texCoord;
+  info.extensions = normal.extensions;
+  if (auto texture = laid(index, info, "normalTexture"))
+    found->second.push_back(
+        {{std::move(texture), {}, static_cast<float>(normal.scale), nullptr}, texcoord_of(info)});
+  return found->second;
 }
 
-std::optional<Surface> GltfMaterials::surface(int index, bool colored) {
-  if (index < 0 || changes_look(source(index).extras) || is_veil(source(index))) return {};
+std::optional<GltfMaterials::Map> GltfMaterials::opacity(int index) {
+  const tinygltf::Material& from = source(index);
+  const tinygltf::TextureInfo& info = from.pbrMetallicRoughness.baseColorTexture;
+  if (from.alphaMode != "BLEND") return {};
+  auto texture = laid(index, info, "the base colour texture");
+  const bool is_even = texture == nullptr;
+  if (is_even) {
+    texture = std::make_shared<Texture>();
+    texture->image = std::make_shared<TextureImage>(TextureImage{1, 1, {glm::u8vec4(255)}});
+  }
+  texture->alpha_factor = alpha_of(from);
+  const std::vector<glm::u8vec4>& texels = texture->image->texels;
+  const bool is_opaque =
+      texture->alpha_factor == 1.0F &&
+      std::all_of(texels.begin(), texels.end(), [](const auto& texel) { return texel.w == 255; });
+  if (is_opaque) return {};
+  const TextureFactor& factor = *std::find_if(texture_factors().begin(), texture_factors().end(),
+                                              [](const auto& one) { return one.column == COLUMN_OPACITY; });
+  return Map{{std::move(texture), {{&factor, 3}}, 0.0F, nullptr}, is_even ? -1 : texcoord_of(info)};
+}
+
+std::optional<Surface> GltfMaterials::surface(int index, bool colored, const std::vector<bool>& sampled) {
+  if (index < 0 || changes_look(source(index).extras)) return {};
   const tinygltf::Material& from = source(index);
   const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
   Surface surface = extension_surface(from);
   surface.base = colored ? glm::vec3(1.0F) : color_factor(from);
   surface.metallic = unit_clamp(pbr.metallicFactor);
   surface.roughness = unit_clamp(pbr.roughnessFactor);
-  if (const auto mean = texture_mean(pbr.metallicRoughnessTexture.index)) {
-    surface.metallic *= mean->z;
-    surface.roughness *= mean->y;
+  const std::vector<Map>& known = maps(index);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (i < sampled.size() && sampled[i]) continue;
+    const glm::vec4 mean = known[i].map.texture->image->mean();
+    for (const auto& [factor, channel] : known[i].map.channels) multiply(*factor, mean[channel], surface);
   }
-  if (const auto mean = texture_mean(from.emissiveTexture.index)) surface.emission *= glm::vec3(*mean);
   return surface;
 }
 
@@ -300,10 +311,7 @@ glm::vec3 GltfMaterials::base_color(int index) const {
 }
 
 int GltfMaterials::base_texcoord(int index) const {
-  const tinygltf::TextureInfo& info = source(index).pbrMetallicRoughness.baseColorTexture;
-  const tinygltf::Value* transform = find_extension(info.extensions, "KHR_texture_transform");
-  const auto replaced = transform == nullptr ? std::nullopt : number_in(*transform, "texCoord");
-  return replaced ? static_cast<int>(std::clamp(*replaced, 0.0, 1000.0)) : info.texCoord;
+  return texcoord_of(source(index).pbrMetallicRoughness.baseColorTexture);
 }
 
 std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
@@ -313,14 +321,27 @@ std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
   if (const auto known = textures_.find(index); known != textures_.end()) {
     return known->second;
   }
-  const tinygltf::TextureInfo& info = source(index).pbrMetallicRoughness.baseColorTexture;
+  const std::shared_ptr<Texture> texture =
+      laid(index, source(index).pbrMetallicRoughness.baseColorTexture, "the base colour texture");
+  if (texture) {
+    texture->factor = base_color(index);
+    texture->alpha_factor = alpha_of(source(index));
+    if (source(index).alphaMode == "MASK") texture->alpha_cutoff = unit_clamp(source(index).alphaCutoff);
+    if (source(index).alphaMode == "BLEND") texture->alpha_cutoff = LEAST_ALPHA;
+  }
+  textures_[index] = texture;
+  return texture;
+}
+
+std::shared_ptr<Texture> GltfMaterials::laid(int index, const tinygltf::TextureInfo& info, const char* what) {
+  if (info.index < 0) return nullptr;
   auto texture = std::make_shared<Texture>();
   texture->image = image(info.index);
+  if (!texture->image) {
+    note_once(index, std::string(what) + " cannot be decoded, its factor is shown");
+    return nullptr;
+  }
   texture->uv_transform = uv_transform_of(info);
-  texture->factor = base_color(index);
-  texture->alpha_factor = alpha_of(source(index));
-  if (source(index).alphaMode == "MASK") texture->alpha_cutoff = unit_clamp(source(index).alphaCutoff);
-  if (source(index).alphaMode == "BLEND") texture->alpha_cutoff = 0.5F;
   const int sampler = file_.model.textures[static_cast<std::size_t>(info.index)].sampler;
   if (sampler >= 0) {
     const tinygltf::Sampler& found =
@@ -328,11 +349,6 @@ std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
     texture->wrap_s = wrap_of(found.wrapS);
     texture->wrap_t = wrap_of(found.wrapT);
   }
-  if (!texture->image) {
-    note_once(index, "the base colour texture cannot be decoded, its factor is shown");
-    texture = nullptr;
-  }
-  textures_[index] = texture;
   return texture;
 }
 

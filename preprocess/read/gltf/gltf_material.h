@@ -27,7 +27,8 @@ namespace splatray {
 /// - all else: diffuse = base colour, specular 0.04 (rough) to 0.3 (smooth).
 /// Phong exponent: (2 / alpha^2 - 2) / 4 with alpha = roughness^2, 1 to 1000 (Blinn-Phong's for a Beckmann
 /// slope, Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces"; Phong's lobe is
-/// about 4 times as wide). Metallic and roughness textures count by their mean. doubleSided: two-sided.
+/// about 4 times as wide). There metallic and roughness textures count by their mean. doubleSided: two-sided.
+/// alphaMode BLEND: opacity of each point; what alpha leaves nothing of is not there.
 /// extras.mirror (0..1), extras.specular (0..1) and extras.shininess (>= 1) set those fields.
 class GltfMaterials {
  public:
@@ -42,9 +43,18 @@ class GltfMaterials {
   [[nodiscard]] Material material(int index, bool colored);
 
   /// The surface that material() stands for, as glTF has it, with KHR_materials_ior, _specular, _clearcoat, _transmission,
-  /// _volume and _emissive_strength; textures other than the base colour's count by their mean. Nothing for -1, and where
-  /// `extras` change the material.
-  [[nodiscard]] std::optional<Surface> surface(int index, bool colored);
+  /// _volume and _emissive_strength. `sampled`: of its maps(), those that points bring as texture factors; the others count by
+  /// their mean. Nothing for -1, and where `extras` change the material.
+  [[nodiscard]] std::optional<Surface> surface(int index, bool colored,
+                                               const std::vector<bool>& sampled = {});
+
+  /// A texture of factors, and which TEXCOORD_n it uses; -1: none, as it is the same all over.
+  struct Map {
+    SurfaceMap map;  ///< without coordinates
+    int texcoord = 0;
+  };
+  /// A material's textures of factors that can be decoded (others are noted); none where surface() is nothing.
+  [[nodiscard]] const std::vector<Map>& maps(int index);
 
   /// Linear base colour factor; white for -1.
   [[nodiscard]] glm::vec3 base_color(int index) const;
@@ -59,7 +69,10 @@ class GltfMaterials {
   [[nodiscard]] const tinygltf::Material& source(int index) const;
   [[nodiscard]] std::shared_ptr<const TextureImage> image(int texture);
   [[nodiscard]] std::shared_ptr<const TextureImage> decode(std::size_t image);
-  [[nodiscard]] std::optional<glm::vec4> texture_mean(int texture);
+  /// A texture as it is laid on the surface; nullptr when there is none or it cannot be decoded, which is noted as `what`.
+  /// Opacity of a material with alphaMode BLEND; nothing where it is opaque all over.
+  [[nodiscard]] std::optional<Map> opacity(int index);
+  [[nodiscard]] std::shared_ptr<Texture> laid(int index, const tinygltf::TextureInfo& info, const char* what);
   /// Notes numbers out of their range.
   void note_ranges(int index);
   void note_once(int index, const std::string& what);
@@ -68,6 +81,7 @@ class GltfMaterials {
   std::vector<std::string>& notes_;
   std::map<std::size_t, std::shared_ptr<const TextureImage>> images_;
   std::map<int, std::shared_ptr<const Texture>> textures_;
+  std::map<int, std::vector<Map>> maps_;
   std::uint64_t pixels_left_;
 };
 

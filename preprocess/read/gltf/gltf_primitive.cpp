@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <numeric>
 #include <type_traits>
 
+#include "preprocess/mesh/surface_maps.h"
+#include "preprocess/mesh/texture.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
 
 namespace splatray {
@@ -73,6 +76,22 @@ std::vector<glm::uvec3> triangles_of(const std::vector<glm::uint>& indices, int 
   return triangles;
 }
 
+/// The material's textures of factors for which there are coordinates.
+void add_maps(const GltfFile& file, const tinygltf::Primitive& primitive, GltfMaterials& materials,
+              Mesh& mesh) {
+  std::map<int, std::shared_ptr<const std::vector<glm::vec2>>> sets;
+  for (const auto& [map, set] : materials.maps(primitive.material)) {
+    if (set < 0)
+      sets[set] = std::make_shared<const std::vector<glm::vec2>>(mesh.vertices.size(), glm::vec2(0.0F));
+    else if (sets.count(set) == 0)
+      sets[set] = std::make_shared<const std::vector<glm::vec2>>(read_attribute<glm::vec2>(
+          file, primitive, "TEXCOORD_" + std::to_string(set), mesh.vertices.size()));
+    if (sets[set]->empty()) continue;
+    mesh.maps.push_back(map);
+    mesh.maps.back().texcoord = sets[set];
+  }
+}
+
 /// Keeps the vertices that an indexed POINTS primitive names, each in the order named.
 void select_points(Points& points, const std::vector<glm::uint>& indices) {
   const auto select = [&](auto& values) {
@@ -130,6 +149,7 @@ std::optional<Mesh> read_primitive(const GltfFile& file, const tinygltf::Primiti
   mesh.vertices.normal = read_attribute<glm::vec3>(file, primitive, "NORMAL", count);
   mesh.vertices.color = read_colors(file, primitive, count);
   add_texture(file, primitive, materials, mesh);
+  add_maps(file, primitive, materials, mesh);
   if (!mesh.texture) {
     const glm::vec3 base = materials.base_color(primitive.material);
     for (glm::vec3& color : mesh.vertices.color) {
@@ -149,6 +169,9 @@ std::optional<Mesh> read_primitive(const GltfFile& file, const tinygltf::Primiti
     mesh.texture = nullptr;
     mesh.texcoord.clear();
   }
+  MapSamples maps(mesh);
+  for (const glm::uint index : indices) maps.add(index, glm::vec3(0.0F));
+  mesh.vertices.columns = maps.take();
   select_points(mesh.vertices, indices);
   return mesh;
 }

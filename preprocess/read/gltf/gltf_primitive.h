@@ -11,7 +11,8 @@
 namespace splatray {
 
 /// One primitive in its mesh's own space: triangles (lists, strips, fans; indexed or not) or points (no
-/// triangles), with NORMAL, COLOR_0 (linear, times the base colour) and the base colour texture. nullopt for
+/// triangles), with NORMAL, COLOR_0 (linear, times the base colour), the base colour texture and
+/// the textures of factors for which it has coordinates. nullopt for
 /// lines (noted). Throws Error (input_unreadable).
 [[nodiscard]] std::optional<Mesh> read_primitive(const GltfFile& file, const tinygltf::Primitive& primitive,
                                                  GltfMaterials& materials, std::vector<std::string>& notes);

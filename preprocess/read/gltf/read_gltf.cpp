@@ -158,7 +158,7 @@ class SceneReader {
       }
       const bool colored = make_colors_complete(meshes, material);
       object.material = materials_.material(material, colored);
-      object.surface = materials_.surface(material, colored);
+      object.surface = materials_.surface(material, colored, sampled_maps(meshes, material));
       object.meshes = std::move(meshes);
       object.samples = by_material.size() == 1 ? requested_samples(node) : 0;
       input_.objects.push_back(std::move(object));
@@ -180,6 +180,17 @@ class SceneReader {
       }
     }
     return colored;
+  }
+
+  /// Which of a material's textures of factors some mesh has coordinates for.
+  std::vector<bool> sampled_maps(const std::vector<Mesh>& meshes, int material) {
+    std::vector<bool> sampled;
+    for (const GltfMaterials::Map& known : materials_.maps(material))
+      sampled.push_back(std::any_of(meshes.begin(), meshes.end(), [&](const Mesh& mesh) {
+        return std::any_of(mesh.maps.begin(), mesh.maps.end(),
+                           [&](const SurfaceMap& map) { return map.texture == known.map.texture; });
+      }));
+    return sampled;
   }
 
   void read_points_file(const tinygltf::Node& node, const glm::dmat4& to_world, const ReadListener& part) {
