@@ -14,6 +14,16 @@ std::vector<float> pixel_errors(std::span<const vec4> a, std::span<const vec4> b
   return errors;
 }
 
+std::vector<float> errors_by_part(std::span<const vec4> all, std::span<const vec4> part, double part_samples,
+                                  double samples) {
+  if (!(samples > part_samples)) return std::vector<float>(all.size(), INFINITY);
+  std::vector<float> errors = pixel_errors(all, part);
+  // Of independent samples of variance v the change has v (1 / part - 1 / all), the mean v / all.
+  const auto scale = static_cast<float>(std::sqrt(part_samples / (samples - part_samples)));
+  for (float& error : errors) error *= scale;
+  return errors;
+}
+
 double mean_radiance(std::span<const vec4> pixels) {
   double sum = 0.0;
   for (const vec4& pixel : pixels) sum += (double(pixel.x) + double(pixel.y) + double(pixel.z)) / 3.0;

@@ -10,6 +10,11 @@ namespace splatray {
 /// The root of the mean square over rgb of each pixel's difference.
 [[nodiscard]] std::vector<float> pixel_errors(std::span<const vec4> a, std::span<const vec4> b);
 
+/// Estimated error of each pixel of `all`, means of `samples` samples of which the first `part_samples` have the means `part`: by
+/// how much the others changed them, scaled to what that is where the part is one half. Infinite where the part is all.
+[[nodiscard]] std::vector<float> errors_by_part(std::span<const vec4> all, std::span<const vec4> part,
+                                                double part_samples, double samples);
+
 /// Mean radiance of rgb over all pixels.
 [[nodiscard]] double mean_radiance(std::span<const vec4> pixels);
 

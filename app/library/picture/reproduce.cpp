@@ -44,6 +44,19 @@ Request still_request(const Request& request, const Camera& camera) {
   return still;
 }
 
+Request plain_request(Request request) {
+  const auto plain = [](const fs::path& file) {
+    std::error_code error;
+    const fs::path found = fs::weakly_canonical(fs::absolute(file, error), error);
+    return error ? file : found;
+  };
+  for (fs::path& input : request.source.inputs) input = plain(input);
+  for (fs::path& folder : request.source.data_paths) folder = plain(folder);
+  std::string& environment = request.look.environment;
+  if (!environment.empty() && !built_in_environment(environment)) environment = plain(environment).string();
+  return request;
+}
+
 Request read_picture_request(const fs::path& picture) {
   const auto refuse = [&](const std::string& found) {
     throw Error(ExitCode::input_unreadable, "cannot read a request from picture '" + picture.string() +

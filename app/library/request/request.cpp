@@ -46,6 +46,12 @@ void check_part(const Request& request) {
     fail("found --reference with " + part + ", expected a whole picture");
 }
 
+void check_resume(const Request& request) {
+  if (request.output.resume.empty()) return;
+  if (request.settings.has_goal()) fail("found --resume with --error or --time, expected --samples");
+  if (request.output.many()) fail("found --resume with a sequence of pictures, expected a single one");
+}
+
 /// Whether anything is said of the camera.
 bool has_camera(const Request::View& view) {
   return view.eye || view.fov_y_deg || view.lens_shift != glm::dvec2(0.0) || view.pixel_aspect != 1.0;
@@ -126,6 +132,7 @@ void require_consistent(const Request& request) {
   check_camera(request.view);
   check_noise(request);
   check_sequence(request);
+  check_resume(request);
   check_part(request);
 }
 

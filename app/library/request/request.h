@@ -95,7 +95,8 @@ struct Request {
 
   /// Which pictures are made, and what is written of them.
   struct Output {
-    std::filesystem::path path;  ///< empty = nowhere
+    std::filesystem::path path;    ///< empty = nowhere
+    std::filesystem::path resume;  ///< an EXR of fewer samples that they are added to; empty = none
     bool denoise = false;
     bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
     AovSet aovs = 0;
