@@ -128,7 +128,7 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
   }
   impl.finish(start);
   if (settings.estimate_error && settings.samples > 1) {
-    image.error = errors_by_part(image.rgba, first_half, half, impl.stats.samples);
+    estimate_errors(std::move(first_half), half, impl.stats.samples, image);
     impl.stats.error = relative_error(image);
   }
   return std::move(image);

@@ -1,6 +1,8 @@
 #include "engine/image/picture_error.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace splatray {
 
@@ -14,14 +16,15 @@ std::vector<float> pixel_errors(std::span<const vec4> a, std::span<const vec4> b
   return errors;
 }
 
-std::vector<float> errors_by_part(std::span<const vec4> all, std::span<const vec4> part, double part_samples,
-                                  double samples) {
-  if (!(samples > part_samples)) return std::vector<float>(all.size(), INFINITY);
-  std::vector<float> errors = pixel_errors(all, part);
+void estimate_errors(std::vector<vec4> part, double part_samples, double samples, Image& image) {
+  image.part = std::move(part);
+  image.part_share = static_cast<float>(std::min(part_samples / samples, 1.0));
+  image.error.assign(image.rgba.size(), INFINITY);
+  if (!(samples > part_samples)) return;
+  image.error = pixel_errors(image.rgba, image.part);
   // Of independent samples of variance v the change has v (1 / part - 1 / all), the mean v / all.
   const auto scale = static_cast<float>(std::sqrt(part_samples / (samples - part_samples)));
-  for (float& error : errors) error *= scale;
-  return errors;
+  for (float& error : image.error) error *= scale;
 }
 
 double mean_radiance(std::span<const vec4> pixels) {

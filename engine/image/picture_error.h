@@ -10,10 +10,9 @@ namespace splatray {
 /// The root of the mean square over rgb of each pixel's difference.
 [[nodiscard]] std::vector<float> pixel_errors(std::span<const vec4> a, std::span<const vec4> b);
 
-/// Estimated error of each pixel of `all`, means of `samples` samples of which the first `part_samples` have the means `part`: by
-/// how much the others changed them, scaled to what that is where the part is one half. Infinite where the part is all.
-[[nodiscard]] std::vector<float> errors_by_part(std::span<const vec4> all, std::span<const vec4> part,
-                                                double part_samples, double samples);
+/// Gives an image of `samples` samples a pixel its part, the means of the first `part_samples` of them, and its estimated error: by
+/// how much the others changed these, scaled to what that is where the part is one half. Infinite where the part is all.
+void estimate_errors(std::vector<vec4> part, double part_samples, double samples, Image& image);
 
 /// Mean radiance of rgb over all pixels.
 [[nodiscard]] double mean_radiance(std::span<const vec4> pixels);

@@ -78,7 +78,7 @@ void add_started(const StartedPicture& started, bool estimate_error, Image& imag
   mean.join(image.rgba, 0, static_cast<std::uint32_t>(stats.samples));
   stats.samples += started.samples;
   if (!estimate_error) return;
-  image.error = errors_by_part(image.rgba, started.means, started.samples, stats.samples);
+  estimate_errors(started.means, started.samples, stats.samples, image);
   stats.error = relative_error(image);
 }
 
