@@ -6,7 +6,10 @@
 #include <cassert>
 #include <cmath>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "engine/image/sparks.h"
 
 namespace splatray {
 namespace {
@@ -14,7 +17,6 @@ namespace {
 constexpr int PASSES = 5;            ///< the last one's taps lie 16 pixels apart
 constexpr float BASE_LEAST = 0.05F;  ///< light of darker surfaces is that of such ones
 constexpr float DEPTH_SLACK = 1.0F;  ///< of the depth's change from pixel to pixel
-constexpr float SPARK = 1.5F;        ///< of the brightest in the other half around it: brighter is chance
 constexpr float NOISE_WIDTH = 1.5F;  ///< standard errors of a difference by which light may differ
 constexpr float OWN_WIDTH = 4.0F;    ///< the same in the half that is filtered, whose own outliers stay out
 constexpr float KERNEL[] = {0.375F, 0.25F, 0.0625F};  ///< B3 spline
@@ -24,7 +26,7 @@ float luminance(const vec3& color) { return glm::dot(color, vec3(0.2126F, 0.7152
 
 /// Light of each pixel over its base colour, in two pictures of independent samples, and the variance of one of them.
 struct Light {
-  std::array<std::vector<vec3>, 2> halves;
+  Halves halves;
   std::vector<float> variance;
 };
 
@@ -47,7 +49,9 @@ class Filter {
   }
 
   Image run() const {
-    Light light = with_variance(without_sparks(taken_apart()));
+    Light light = taken_apart();
+    limit_sparks(light.halves, image_.width);
+    light = with_variance(std::move(light));
     for (int pass = 0; pass < PASSES; ++pass) light = filtered(light, guide_of(light), 1 << pass);
     Image result = image_;
     for (std::size_t i = 0; i < result.rgba.size(); ++i) {
@@ -122,25 +126,6 @@ class Filter {
         const int u = x + i * step, v = y + j * step;
         if (u >= 0 && v >= 0 && u < width_ && v < height_) take(at(u, v), i, j);
       }
-  }
-
-  /// A pixel of a half that is much brighter than all around it in the other one has found light by rare chance: it gets that of
-  /// the brightest of these. What is bright in both stays.
-  [[nodiscard]] Light without_sparks(const Light& light) const {
-    Light result = light;
-    for_rows([&](int y) {
-      for (int x = 0; x < width_; ++x)
-        for (std::size_t half = 0; half < 2; ++half) {
-          const std::size_t center = at(x, y);
-          float most = 0.0F;
-          around(x, y, 1, 1, [&](std::size_t tap, int, int) {
-            most = std::max(most, luminance(light.halves[1 - half][tap]));
-          });
-          const float bright = luminance(light.halves[half][center]);
-          if (bright > SPARK * most) result.halves[half][center] *= SPARK * most / bright;
-        }
-    });
-    return result;
   }
 
   /// Two halves say little about one pixel's noise; the mean over 7 x 7 of the same surface estimates it.

@@ -93,6 +93,9 @@ TEST_F(CliResume, OtherPicturesAreRefused) {
   refuse(9, {resume("some.png")}, 3, "expected an EXR of splatray-render");
   refuse(9, {resume("none.exr")}, 3, "no such file");
   refuse(9, {resume("clean.exr")}, 3, "without its noise");
+  refuse(9, {"--despeckle", "--denoise"}, 2, "expected one of them");
+  refuse(9, {"--despeckle", "--tile=1/2"}, 2, "expected it for a whole picture");
+  refuse(1, {"--despeckle"}, 2, "--despeckle with one sample");
   refuse(9, {resume("some.exr"), "--time=1"}, 2, "--resume with --error or --time");
   expect_refused(
       [&] {

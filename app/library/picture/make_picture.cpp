@@ -10,6 +10,7 @@
 #include "app/library/picture/resume.h"
 #include "app/library/picture/scene_source.h"
 #include "engine/base/stopwatch.h"
+#include "engine/image/sparks.h"
 
 namespace splatray {
 namespace {
@@ -62,7 +63,7 @@ MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Cam
   const Look& look = lit.look;
   const bool denoise = request.output.denoise;
   settings.aov = settings.aov || denoise;
-  settings.estimate_error = settings.estimate_error || denoise;
+  settings.estimate_error = settings.estimate_error || denoise || request.output.despeckle;
   MadePicture made;
   made.lights = look.lights.size();
   made.notes = std::move(lit.notes);
@@ -75,7 +76,9 @@ MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Cam
   } else {
     render_samples(request, shown, look, view, settings, progress, stopped, made);
   }
-  if (!denoise || made.samples_missing > 0) return made;
+  if (made.samples_missing > 0) return made;
+  if (request.output.despeckle) made.image = without_sparks(std::move(made.image));
+  if (!denoise) return made;
   Stopwatch watch;
   made.denoiser = remove_noise(shown.tracer(), look, view, settings, made.image);
   made.denoise_ms = watch.lap_ms();

@@ -37,7 +37,8 @@ std::uint64_t made_image_bytes(const Request& request) {
   const bool denoise = request.output.denoise;
   Settings settings = request.settings;
   settings.aov = settings.aov || denoise;
-  settings.estimate_error = settings.estimate_error || denoise || request.settings.has_goal();
+  settings.estimate_error =
+      settings.estimate_error || denoise || request.output.despeckle || request.settings.has_goal();
   return std::uint64_t{made.width} * made.height * image_bytes(settings);
 }
 

@@ -44,7 +44,7 @@ std::string goal_text(const RenderStats& stats) {
   Request request = run.request;
   const std::uint32_t asked = request.settings.samples;
   request.settings.samples -= made.samples_missing;
-  request.output.denoise = false;
+  request.output.denoise = request.output.despeckle = false;
   const Metadata metadata = metadata_of(run, request, camera);
   std::filesystem::path sums = frame.output;
   if (is_png(frame.output)) {

@@ -18,6 +18,7 @@ Request looks_only(const Request& request) {
   const Request::Output& from = request.output;
   Request::Output& output = looks.output;
   output.denoise = from.denoise;
+  output.despeckle = from.despeckle;
   output.keep_noise = from.keep_noise;
   output.aovs = from.aovs;
   return looks;

@@ -36,7 +36,8 @@ std::string option_text(const Field& field, const Request& request, const Reques
 
 /// Refuses a picture of another command, by the first option that differs.
 void require_same_light(const std::filesystem::path& file, const Request& kept, const Request& asked) {
-  if (kept.output.denoise) refuse(file, "a picture without its noise", "one without --denoise");
+  if (kept.output.denoise || kept.output.despeckle)
+    refuse(file, "a picture without its noise", "one without --denoise and --despeckle");
   for (const Field& field : fields()) {
     const bool decides =
         std::find(NOT_OF_LIGHT.begin(), NOT_OF_LIGHT.end(), field.name) == NOT_OF_LIGHT.end();
