@@ -24,6 +24,7 @@
 #include "preprocess/base/stage_memory.h"
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/clouds.h"
+#include "preprocess/ground.h"
 #include "preprocess/pack_clouds.h"
 #include "preprocess/scan/grid/pinhole.h"
 #include "preprocess/scan/scan_surface.h"
@@ -303,6 +304,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   find_all_surfaces(clouds, scene, progress, stats);
   require_points(clouds, stats);
   find_bounds(clouds, scene);
+  if (params.ground) add_ground(clouds, scene);
   number_objects(clouds, scene.materials);
   find_all_radii(clouds, scene, progress, stats);
   SplatList splats;

@@ -1,6 +1,4 @@
 /// splatray-merge: parts of a picture in, the picture out.
-#include <algorithm>
-
 #include "app/cli/option_list.h"
 #include "app/cli/option_types.h"
 #include "app/farm/join_tiles.h"
@@ -39,20 +37,6 @@ bool parse(int argc, char** argv, Options& options) {
     throw Error(ExitCode::usage,
                 "found output '" + options.output.string() + "', expected -o with a .png or .exr file");
   return true;
-}
-
-/// The colours alone.
-Image image_of(const ExrPicture& picture) {
-  Image image{picture.width, picture.height, {}, {}};
-  image.rgba.resize(std::size_t{picture.width} * picture.height);
-  for (glm::length_t channel = 0; channel < 4; ++channel) {
-    const auto& names = picture.channels;
-    const auto at = static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), std::string(1, "RGBA"[channel])) - names.begin());
-    for (std::size_t i = 0; i < image.rgba.size() && at < names.size(); ++i)
-      image.rgba[i][channel] = picture.values[i * names.size() + at];
-  }
-  return image;
 }
 
 int merge(int argc, char** argv) {

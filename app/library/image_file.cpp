@@ -258,6 +258,19 @@ ExrPicture read_exr(const std::filesystem::path& path) {
   return picture;
 }
 
+Image image_of(const ExrPicture& picture) {
+  Image image{picture.window.width, picture.window.height, {}, {}};
+  image.rgba.resize(std::size_t{image.width} * image.height);
+  for (glm::length_t channel = 0; channel < 4; ++channel) {
+    const auto& names = picture.channels;
+    const auto at = static_cast<std::size_t>(
+        std::find(names.begin(), names.end(), std::string(1, "RGBA"[channel])) - names.begin());
+    for (std::size_t i = 0; i < image.rgba.size() && at < names.size(); ++i)
+      image.rgba[i][channel] = picture.values[i * names.size() + at];
+  }
+  return image;
+}
+
 bool is_whole_picture(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;

@@ -50,6 +50,9 @@ void write_exr(const Image& image, AovSet aovs, const Metadata& metadata, const 
 /// Reads it whole; Error (out_of_memory), too, where that would take more memory than there is.
 [[nodiscard]] ExrPicture read_exr(const std::filesystem::path& path);
 
+/// Its window's colours and coverage alone; black where it lacks their channels.
+[[nodiscard]] Image image_of(const ExrPicture& picture);
+
 /// Whether the file was written completely: a PNG has its end, of other pictures the last row can be read. Throws Error (failed)
 /// when the library for pictures cannot be loaded, which it is but for PNG.
 [[nodiscard]] bool is_whole_picture(const std::filesystem::path& path);

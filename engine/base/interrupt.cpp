@@ -42,6 +42,8 @@ void catch_interrupts() {
 
 bool interrupted() { return signal_came != 0; }
 
+void take_time_to_end() { alarm(0); }
+
 void stop_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::interrupted, "interrupted by a signal");
 }

@@ -9,6 +9,8 @@ namespace splatray {
 void catch_interrupts();
 /// Whether a signal has come.
 [[nodiscard]] bool interrupted();
+/// Work that ends after a signal has all the time it needs: what has been made is written.
+void take_time_to_end();
 /// Throws Error (interrupted) when a signal has come.
 void stop_if_interrupted();
 

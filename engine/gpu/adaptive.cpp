@@ -64,7 +64,7 @@ class AdaptiveTile {
     }
   }
 
-  /// Puts the mean of the halves, and half their difference, into an image.
+  /// Puts the mean of the halves, half their difference and one of them into an image.
   void put(Image& image) const {
     std::vector<vec4> means(tile_.pixels());
     for (std::size_t i = 0; i < means.size(); ++i)
@@ -73,6 +73,7 @@ class AdaptiveTile {
     for (float& error : errors) error *= 0.5F;
     place(tile_, means, image.rgba, image.width);
     place(tile_, errors, image.error, image.width);
+    place(tile_, halves_[0].means, image.part, image.width);
   }
 
   /// Samples of all pixels together.
@@ -185,6 +186,7 @@ Image Tracer::render_until(const Look& look, const View& view, const Settings& w
   Image& image = picture.image;
   const std::size_t pixels = image.rgba.size();
   image.error.resize(pixels);
+  image.part.resize(pixels);
   double samples = 0.0, done = 0.0;
   for (const Tile& tile : picture.tiles) {
     const double share = static_cast<double>(tile.pixels()) / static_cast<double>(pixels);

@@ -68,9 +68,9 @@ bool Tracer::advance(double wanted_ms) {
 void Tracer::Impl::end_block() {
   if (progressive.samples - progressive.before.samples() < BLOCK_SAMPLES) return;
   const FrameParams& frame = progressive.dispatch.frame;
-  auto means = read_means(progressive.accumulation, {0, 0, frame.width, frame.height});
-  if (!means) refuse_cut_loops();
-  progressive.before.add(*std::move(means), BLOCK_SAMPLES);
+  std::vector<vec4> means(std::size_t{frame.width} * frame.height);
+  if (!read_means(runner, progressive.accumulation, means)) refuse_cut_loops();
+  progressive.before.add(std::move(means), BLOCK_SAMPLES);
 }
 
 std::uint32_t Tracer::samples() const { return impl_->progressive.samples; }
@@ -85,13 +85,12 @@ Image Tracer::picture() {
   image.rgba.resize(std::size_t{frame.width} * frame.height);
   const std::uint32_t rows = progressive.samples > 0 ? frame.height : progressive.next_row;
   if (rows == 0) return image;
-  auto means = impl.read_means(progressive.accumulation, {0, 0, frame.width, rows});
-  if (!means) refuse_cut_loops();
+  const std::span<vec4> means = std::span(image.rgba).first(std::size_t{rows} * frame.width);
+  if (!read_means(impl.runner, progressive.accumulation, means)) refuse_cut_loops();
   const std::uint32_t samples = progressive.samples - progressive.before.samples();
   const std::size_t more = std::size_t{progressive.next_row} * frame.width;
-  progressive.before.join(std::span(*means).first(more), 0, samples + 1);
-  progressive.before.join(std::span(*means).subspan(more), more, samples);
-  std::copy(means->begin(), means->end(), image.rgba.begin());
+  progressive.before.join(means.first(more), 0, samples + 1);
+  progressive.before.join(means.subspan(more), more, samples);
   return image;
 }
 

@@ -15,32 +15,8 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
-                     const ThreadWork& work, std::uint32_t& batch,
-                     const std::function<void(std::uint32_t)>& advance) {
-  // The device counts in 32 bits, which many samples of a large tile would overflow.
-  const std::uint32_t most = has(tile.seen.constants, FEATURE_COUNTERS) ? 1 : work.samples;
-  double all_ms = 0.0;
-  for (std::uint32_t sample = begin; sample < end;) {
-    const std::uint32_t next = sample + std::min(batch, end - sample);
-    const double ms = runner.run_samples(tile, sample, next, work);
-    all_ms += ms;
-    advance(next - sample);
-    batch = std::min(next_batch(next - sample, ms), most);
-    sample = next;
-  }
-  return all_ms;
-}
-
 void report(const Tracer::Progress& progress, double share) {
   if (progress && !progress(share)) throw Error(ExitCode::interrupted, "rendering was interrupted");
-}
-
-void refuse_cut_loops() {
-  throw Error(
-      ExitCode::failed,
-      "found a pixel whose ray takes more steps through the scene than this driver lets a thread make, "
-      "expected fewer (another Vulkan driver may do it)");
 }
 
 void Tracer::Impl::start() {
@@ -51,37 +27,6 @@ void Tracer::Impl::start() {
 void Tracer::Impl::finish(Clock::time_point start) {
   stats.counters = runner.counts;
   stats.wall_ms = milliseconds_since(start);
-}
-
-std::optional<std::vector<vec4>> Tracer::Impl::read_means(const Buffer& accumulation, const Tile& tile) {
-  std::vector<vec4> means(tile.pixels());
-  accumulation.download(runner.queue, std::as_writable_bytes(std::span(means)));
-  if (!std::all_of(means.begin(), means.end(), [](const vec4& mean) { return mean.w >= 0.0F; })) return {};
-  return means;
-}
-
-bool Tracer::Impl::trace_means(TileDispatch& aimed, const Tile& tile, std::uint32_t half,
-                               const ThreadWork& work, const std::function<void(std::uint32_t)>& advance,
-                               const Take& take) {
-  const std::uint32_t first = aimed.seen.frame.sample_begin, samples = aimed.seen.frame.sample_end - first;
-  SampleMean before;
-  std::uint32_t batch = 1;
-  for (std::uint32_t done = 0; done < samples;) {
-    const std::uint32_t block = before.samples(), block_end = std::min(block + BLOCK_SAMPLES, samples);
-    const std::uint32_t next = done < half ? std::min(half, block_end) : block_end;
-    aimed.set_mean_begin(first + block);
-    stats.trace_ms += trace_samples(runner, aimed, first + done, first + next, work, batch, advance);
-    done = next;
-    std::optional<std::vector<vec4>> means = read_means(runner.accumulation, tile);
-    if (!means) return false;
-    if (done == half || done == samples) {
-      std::vector<vec4> all = *means;
-      before.join(all, 0, done - block);
-      take(done, all);
-    }
-    if (done == block + BLOCK_SAMPLES) before.add(*std::move(means), BLOCK_SAMPLES);
-  }
-  return true;
 }
 
 Tracer::Tracer(const Context& context, const TracerOptions& options)
@@ -100,13 +45,14 @@ void Tracer::upload_and_free(Scene& scene) {
 }
 
 Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Settings& settings,
-                                    std::uint32_t means) {
+                                    std::uint32_t means, std::uint64_t more_bytes) {
   start();
   runner.scene.show(look);
   const PixelWindow made = view.made();
   const std::uint64_t pixels = std::uint64_t{made.width} * made.height;
-  require_memory(pixels * image_bytes(settings), "a picture of " + std::to_string(made.width) + "x" +
-                                                     std::to_string(made.height) + " pixels");
+  require_memory(
+      pixels * (image_bytes(settings) + more_bytes),
+      "a picture of " + std::to_string(made.width) + "x" + std::to_string(made.height) + " pixels");
   Picture picture{runner.picture_dispatch(view, settings),
                   runner.aov_dispatch(view, settings),
                   runner.scene.footprint(view, settings),
@@ -123,37 +69,66 @@ Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Se
   return picture;
 }
 
-Image Tracer::render(const Look& look, const View& view, const Settings& settings, const Progress& progress) {
+namespace {
+
+/// Puts pixels of tiles that stand one behind the other into an image.
+void place_tiles(std::span<const Tile> tiles, const std::vector<vec4>& means, std::vector<vec4>& rgba,
+                 std::uint32_t width) {
+  auto from = means.begin();
+  for (const Tile& tile : tiles) {
+    const auto end = from + static_cast<std::ptrdiff_t>(tile.pixels());
+    place(tile, std::vector<vec4>(from, end), rgba, width);
+    from = end;
+  }
+}
+
+/// Adds samples until there are `end` in each pixel; of those that are kept where `progress` says stop, fewer but at least one.
+void add_samples(Passes& passes, std::uint32_t end, Stopped stopped, const Passes::Advance& advance) {
+  try {
+    while (passes.samples() < end) passes.add(end, advance);
+  } catch (const Error& error) {
+    const bool has_samples = stopped == Stopped::kept && passes.samples() > 0;
+    if (error.code() != ExitCode::interrupted || !has_samples) throw;
+  }
+}
+
+}  // namespace
+
+Image Tracer::render(const Look& look, const View& view, const Settings& settings, const Progress& progress,
+                     Stopped stopped) {
   Impl& impl = *impl_;
   Runner& runner = impl.runner;
   runner.require_scene("render()");
   const Clock::time_point start = Clock::now();
-  Picture picture = impl.start_picture(look, view, settings, 1);
+  const bool keeps = stopped == Stopped::kept;
+  Picture picture = impl.start_picture(look, view, settings, 1, keeps ? range_bytes(settings.samples) : 0);
   Image& image = picture.image;
-  const std::size_t pixels = image.rgba.size();
-  Image first_half{image.width, image.height, {}, {}};
-  if (settings.estimate_error) first_half.rgba.resize(pixels);
+  std::vector<vec4> first_half(settings.estimate_error ? image.rgba.size() : 0);
   const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;
+  const double all = static_cast<double>(image.rgba.size()) * settings.samples;
   std::uint64_t done = 0;
-  for (const Tile& tile : picture.tiles) {
-    const auto trace = [&](const ThreadWork& work, bool again) {
-      const auto advance = [&](std::uint32_t samples) {
-        done += again ? 0 : tile.pixels() * samples;
-        report(progress, static_cast<double>(done) / (static_cast<double>(pixels) * settings.samples));
-      };
-      const auto take = [&](std::uint32_t samples, const std::vector<vec4>& means) {
-        place(tile, means, samples == half ? first_half.rgba : image.rgba, image.width);
-      };
-      TileDispatch aimed = aim(picture.dispatch, tile, picture.footprint);
-      return impl.trace_means(aimed, tile, half, work, advance, take);
-    };
-    if (!trace(runner.work(picture.dispatch), false) && !trace({}, true)) refuse_cut_loops();
-    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov, image.width);
+  const auto advance = [&](std::uint64_t samples) {
+    done += samples;
+    report(progress, static_cast<double>(done) / all);
+  };
+  // What is kept when it is stopped has as many samples in all tiles; else a tile at a time takes less memory.
+  const std::size_t together = keeps ? picture.tiles.size() : 1;
+  for (std::size_t first = 0; first < picture.tiles.size(); first += together) {
+    const auto tiles = std::span<const Tile>(picture.tiles).subspan(first, together);
+    Passes passes(runner, picture.dispatch, picture.footprint, tiles, keeps ? 1 : BLOCK_SAMPLES);
+    add_samples(passes, half, stopped, advance);
+    if (half > 0) place_tiles(tiles, passes.means(), first_half, image.width);
+    if (passes.samples() == half) add_samples(passes, settings.samples, stopped, advance);
+    place_tiles(tiles, passes.means(), image.rgba, image.width);
+    impl.stats.trace_ms += passes.trace_ms();
+    impl.stats.samples = passes.samples();
+    if (!settings.aov) continue;
+    for (const Tile& tile : tiles)
+      runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov, image.width);
   }
   impl.finish(start);
-  impl.stats.samples = settings.samples;
   if (settings.estimate_error && settings.samples > 1) {
-    image.error = pixel_errors(image.rgba, first_half.rgba);
+    estimate_errors(std::move(first_half), half, impl.stats.samples, image);
     impl.stats.error = relative_error(image);
   }
   return std::move(image);

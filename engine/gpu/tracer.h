@@ -43,6 +43,12 @@ struct TracerOptions {
   unsigned threads = 0;                  ///< of a context that is the host; 0 = one a core
 };
 
+/// What becomes of an image whose tracing `progress` stops.
+enum class Stopped {
+  dropped,  ///< Error (interrupted)
+  kept,     ///< it has the samples that all its pixels have; Error (interrupted) where there is none
+};
+
 /// What it shows is given with each call; of a look, what equals that of the call before is not uploaded again. Calls that make
 /// no sense, such as images of no scene or a look of other objects, throw Error (failed) with a sentence that says so.
 class Tracer {
@@ -59,12 +65,13 @@ class Tracer {
   /// the memory of a large scene once, not twice. All else of the scene stays.
   void upload_and_free(Scene& scene);
 
-  /// Called between dispatches with the share done, 0..1; returns false to stop (render then throws Error
-  /// interrupted).
+  /// Called between dispatches with the share done, 0..1; returns false to stop: Error (interrupted), but for images that are
+  /// kept.
   using Progress = std::function<bool(double)>;
-  /// The image of the uploaded scene.
+  /// The image of the uploaded scene. Where it is stopped and kept, stats().samples says how many samples it has, and its
+  /// estimated error is infinite when these were not even half.
   [[nodiscard]] Image render(const Look& look, const View& view, const Settings& settings,
-                             const Progress& progress = {});
+                             const Progress& progress = {}, Stopped stopped = Stopped::dropped);
   /// The picture whose error is as small as the goal asks for: regions get samples until they are good enough, at most
   /// Settings::samples in a pixel. Two pictures of independent samples are made, and the samples of each depend on the other
   /// alone, so that their mean is unbiased: where samples were counted until they look good, it would not be. Its error is half

@@ -1,9 +1,9 @@
 /// What the parts of Tracer share: tracer.cpp (whole images), progressive.cpp (images that grow), query.cpp (rays).
 #pragma once
 #include <chrono>
-#include <optional>
 
 #include "engine/base/stopwatch.h"
+#include "engine/gpu/passes.h"
 #include "engine/gpu/runner.h"
 #include "engine/gpu/tracer.h"
 #include "engine/image/sample_mean.h"
@@ -36,39 +36,21 @@ struct Tracer::Impl {
 
   /// Begins a call whose work is counted and timed.
   void start();
-  /// Begins an image, `means` of each of whose pixels are traced at once; binds buffers with room for a tile of it.
+  /// Begins an image, `means` of each of whose pixels are traced at once; binds buffers with room for a tile of it. Throws Error
+  /// (out_of_memory) where there is less than the image and `more_bytes` a pixel take.
   [[nodiscard]] Picture start_picture(const Look& look, const View& view, const Settings& settings,
-                                      std::uint32_t means);
+                                      std::uint32_t means, std::uint64_t more_bytes = 0);
   /// Ends it.
   void finish(std::chrono::steady_clock::time_point start);
-  /// Traces all samples of a tile, whose buffer is bound, with the work that each thread may do. `advance` hears of each batch, `take`
-  /// gets the means of the first `half` samples, if any, and those of all. Returns false where a driver cut some pixel's loops; the
-  /// device's milliseconds go into the statistics.
-  using Take = std::function<void(std::uint32_t samples, const std::vector<vec4>& means)>;
-  [[nodiscard]] bool trace_means(TileDispatch& aimed, const Tile& tile, std::uint32_t half,
-                                 const ThreadWork& work, const std::function<void(std::uint32_t)>& advance,
-                                 const Take& take);
   /// Puts a full block of the image that grows to those before it.
   void end_block();
-  /// Reads the means of a tile back; nothing where a driver cut some pixel's loops.
-  [[nodiscard]] std::optional<std::vector<vec4>> read_means(const Buffer& accumulation, const Tile& tile);
-
   Runner runner;
   GrowingPicture progressive;
   RenderStats stats;
   std::uint32_t uploads = 0;
 };
 
-/// Adds samples [begin, end) to a tile's means, whose buffer is bound, `batch` of them first and then as many as `batch` is made;
-/// `advance` hears of each batch. Returns the device's milliseconds.
-double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
-                     const ThreadWork& work, std::uint32_t& batch,
-                     const std::function<void(std::uint32_t)>& advance);
-
 /// Throws Error (interrupted) where `progress` says so.
 void report(const Tracer::Progress& progress, double share);
-
-/// Throws Error (failed): the driver cuts a single ray's loops.
-[[noreturn]] void refuse_cut_loops();
 
 }  // namespace splatray

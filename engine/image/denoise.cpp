@@ -1,28 +1,38 @@
 #include "engine/image/denoise.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <cmath>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "engine/image/sparks.h"
 
 namespace splatray {
 namespace {
 
 constexpr int PASSES = 5;            ///< the last one's taps lie 16 pixels apart
 constexpr float BASE_LEAST = 0.05F;  ///< light of darker surfaces is that of such ones
-constexpr float NORMAL_POWER = 64.0F;
-constexpr float DEPTH_SLACK = 1.0F;   ///< of the depth's change from pixel to pixel
-constexpr float SPARK_NOISE = 0.25F;  ///< standard error of a pixel that one sample made bright, of its light
-constexpr float NOISE_WIDTH = 4.0F;   ///< standard errors by which light may differ
+constexpr float DEPTH_SLACK = 1.0F;  ///< of the depth's change from pixel to pixel
+constexpr float NOISE_WIDTH = 1.5F;  ///< standard errors of a difference by which light may differ
+constexpr float OWN_WIDTH = 4.0F;    ///< the same in the half that is filtered, whose own outliers stay out
 constexpr float KERNEL[] = {0.375F, 0.25F, 0.0625F};  ///< B3 spline
+constexpr float SMALL_KERNEL[] = {0.5F, 0.25F};       ///< of the guide
 
 float luminance(const vec3& color) { return glm::dot(color, vec3(0.2126F, 0.7152F, 0.0722F)); }
 
-/// Light of each pixel, over its base colour, and its variance.
+/// Light of each pixel over its base colour, in two pictures of independent samples, and the variance of one of them.
 struct Light {
-  std::vector<vec3> color;
+  Halves halves;
+  std::vector<float> variance;
+};
+
+/// By what pixels are compared: the brightness of both halves, a little smoothed, and its variance.
+struct Guide {
+  std::array<std::vector<float>, 2> bright;
   std::vector<float> variance;
 };
 
@@ -39,11 +49,15 @@ class Filter {
   }
 
   Image run() const {
-    Light light = spread_variance(without_sparks(taken_apart()));
-    for (int pass = 0; pass < PASSES; ++pass) light = filtered(light, 1 << pass);
+    Light light = taken_apart();
+    limit_sparks(light.halves, image_.width);
+    light = with_variance(std::move(light));
+    for (int pass = 0; pass < PASSES; ++pass) light = filtered(light, guide_of(light), 1 << pass);
     Image result = image_;
-    for (std::size_t i = 0; i < result.rgba.size(); ++i)
-      if (is_surface(i)) result.rgba[i] = vec4(light.color[i] * base_of(i), result.rgba[i].w);
+    for (std::size_t i = 0; i < result.rgba.size(); ++i) {
+      const vec3 both = glm::mix(light.halves[1][i], light.halves[0][i], image_.part_share);
+      if (is_surface(i)) result.rgba[i] = vec4(both * base_of(i), result.rgba[i].w);
+    }
     return result;
   }
 
@@ -83,11 +97,13 @@ class Filter {
   }
 
   [[nodiscard]] Light taken_apart() const {
-    Light light{std::vector<vec3>(image_.rgba.size()), std::vector<float>(image_.rgba.size())};
-    for (std::size_t i = 0; i < image_.rgba.size(); ++i) {
-      light.color[i] = vec3(image_.rgba[i]) / base_of(i);
-      const float error = image_.error[i] / luminance(base_of(i));
-      light.variance[i] = error * error;
+    const std::size_t pixels = image_.rgba.size();
+    Light light{{std::vector<vec3>(pixels), std::vector<vec3>(pixels)}, {}};
+    const float share = image_.part_share;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const vec3 all = vec3(image_.rgba[i]) / base_of(i), part = vec3(image_.part[i]) / base_of(i);
+      light.halves[0][i] = part;
+      light.halves[1][i] = (all - share * part) / (1.0F - share);
     }
     return light;
   }
@@ -95,11 +111,11 @@ class Filter {
   /// How much of one pixel's surface another one is.
   [[nodiscard]] float likeness(std::size_t a, std::size_t b, int dx, int dy) const {
     if (image_.aov[a].object != image_.aov[b].object) return 0.0F;
-    const float facing = std::max(glm::dot(image_.aov[a].normal, image_.aov[b].normal), 0.0F);
+    float facing = std::max(glm::dot(image_.aov[a].normal, image_.aov[b].normal), 0.0F);
+    for (int doubled = 0; doubled < 5; ++doubled) facing *= facing;  // to the power of 32
     const float expected = slopes_[a].x * float(std::abs(dx)) + slopes_[a].y * float(std::abs(dy));
     const float apart = std::abs(image_.aov[a].z - image_.aov[b].z);
-    return std::pow(facing, NORMAL_POWER) *
-           std::exp(-apart / (DEPTH_SLACK * expected + 1e-4F * image_.aov[a].z));
+    return facing * std::exp(-apart / (DEPTH_SLACK * expected + 1e-4F * image_.aov[a].z));
   }
 
   /// Calls take(pixel, its distance in x and y) for the pixels of a square around one that lie in the picture.
@@ -112,66 +128,83 @@ class Filter {
       }
   }
 
-  /// Pixels brighter than all eight around them have found light by rare chance: they get that of the brightest of these.
-  [[nodiscard]] Light without_sparks(const Light& light) const {
-    Light result = light;
-    for (int y = 0; y < height_; ++y)
-      for (int x = 0; x < width_; ++x) {
-        const std::size_t center = at(x, y);
-        float most = 0.0F;
-        around(x, y, 1, 1, [&](std::size_t tap, int, int) {
-          if (tap != center) most = std::max(most, luminance(light.color[tap]));
-        });
-        const float bright = luminance(light.color[center]);
-        const bool is_spark = bright > most && std::sqrt(light.variance[center]) > SPARK_NOISE * bright;
-        if (!is_surface(center) || !is_spark) continue;
-        result.color[center] *= most / bright;
-        result.variance[center] *= most * most / (bright * bright);
-      }
-    return result;
-  }
-
-  /// Two halves of the samples say little about one pixel's noise; the mean over 7 x 7 of the same surface estimates it.
-  [[nodiscard]] Light spread_variance(Light light) const {
-    std::vector<float> spread(light.variance.size(), 0.0F);
+  /// Two halves say little about one pixel's noise; the mean over 7 x 7 of the same surface estimates it.
+  [[nodiscard]] Light with_variance(Light light) const {
+    light.variance.assign(image_.rgba.size(), 0.0F);
     for_rows([&](int y) {
       for (int x = 0; x < width_; ++x) {
         const std::size_t center = at(x, y);
         if (!is_surface(center)) continue;
         float sum = 0.0F, weights = 0.0F;
         around(x, y, 3, 1, [&](std::size_t tap, int dx, int dy) {
-          const float weight = likeness(center, tap, dx, dy);
-          sum += weight * light.variance[tap];
+          const float weight = tap == center ? 1.0F : likeness(center, tap, dx, dy);
+          const float apart = luminance(light.halves[0][tap]) - luminance(light.halves[1][tap]);
+          sum += weight * 0.5F * apart * apart;
           weights += weight;
         });
-        spread[center] = weights > 0.0F ? sum / weights : light.variance[center];
+        light.variance[center] = sum / weights;
       }
     });
-    light.variance = std::move(spread);
     return light;
   }
 
-  [[nodiscard]] Light filtered(const Light& light, int step) const {
+  [[nodiscard]] Guide guide_of(const Light& light) const {
+    const std::size_t pixels = light.variance.size();
+    Guide guide{{std::vector<float>(pixels), std::vector<float>(pixels)}, std::vector<float>(pixels)};
+    for_rows([&](int y) {
+      for (int x = 0; x < width_; ++x) {
+        const std::size_t center = at(x, y);
+        if (!is_surface(center)) continue;
+        vec2 bright(0.0F);
+        float variance = 0.0F, weights = 0.0F;
+        around(x, y, 1, 1, [&](std::size_t tap, int dx, int dy) {
+          const float weight = SMALL_KERNEL[std::abs(dx)] * SMALL_KERNEL[std::abs(dy)] *
+                               (tap == center ? 1.0F : likeness(center, tap, dx, dy));
+          bright += weight * vec2(luminance(light.halves[0][tap]), luminance(light.halves[1][tap]));
+          variance += weight * weight * light.variance[tap];
+          weights += weight;
+        });
+        guide.bright[0][center] = bright.x / weights;
+        guide.bright[1][center] = bright.y / weights;
+        guide.variance[center] = variance / (weights * weights);
+      }
+    });
+    return guide;
+  }
+
+  /// How alike the light of two pixels is in one half, beyond what noise explains (Rousselle et al. 2012, "Adaptive Rendering with
+  /// Non-Local Means Filtering", sec. 4).
+  static float light_likeness(const Guide& guide, std::size_t half, std::size_t a, std::size_t b,
+                              float width) {
+    const float apart = guide.bright[half][a] - guide.bright[half][b];
+    const float noise = guide.variance[a] + guide.variance[b];
+    const float excess = apart * apart - guide.variance[a] - std::min(guide.variance[a], guide.variance[b]);
+    return std::exp(-std::max(excess, 0.0F) / (width * width * noise + 1e-12F));
+  }
+
+  [[nodiscard]] Light filtered(const Light& light, const Guide& guide, int step) const {
     Light result = light;
     for_rows([&](int y) {
       for (int x = 0; x < width_; ++x) {
         const std::size_t center = at(x, y);
         if (!is_surface(center)) continue;
-        const float bright = luminance(light.color[center]);
-        const float width = NOISE_WIDTH * std::sqrt(light.variance[center]) + 1e-6F;
-        vec3 sum(0.0F);
-        float variance = 0.0F, weights = 0.0F;
+        vec3 sums[2] = {vec3(0.0F), vec3(0.0F)};
+        float variance = 0.0F, weights[2] = {0.0F, 0.0F};
         around(x, y, 2, step, [&](std::size_t tap, int dx, int dy) {
-          float weight = KERNEL[std::abs(dx)] * KERNEL[std::abs(dy)];
-          if (tap != center)
-            weight *= likeness(center, tap, dx * step, dy * step) *
-                      std::exp(-std::abs(luminance(light.color[tap]) - bright) / width);
-          sum += weight * light.color[tap];
-          variance += weight * weight * light.variance[tap];
-          weights += weight;
+          const float kernel = KERNEL[std::abs(dx)] * KERNEL[std::abs(dy)];
+          const float like = tap == center ? 1.0F : likeness(center, tap, dx * step, dy * step);
+          if (like < 1e-4F) return;
+          // The weights of a half are the other's: they do not favour its own noise.
+          for (std::size_t half = 0; half < 2; ++half) {
+            const float weight = kernel * like * light_likeness(guide, 1 - half, center, tap, NOISE_WIDTH) *
+                                 light_likeness(guide, half, center, tap, OWN_WIDTH);
+            sums[half] += weight * light.halves[half][tap];
+            weights[half] += weight;
+            variance += half == 0 ? weight * weight * light.variance[tap] : 0.0F;
+          }
         });
-        result.color[center] = sum / weights;
-        result.variance[center] = variance / (weights * weights);
+        for (std::size_t half = 0; half < 2; ++half) result.halves[half][center] = sums[half] / weights[half];
+        result.variance[center] = variance / (weights[0] * weights[0]);
       }
     });
     return result;
@@ -186,7 +219,7 @@ class Filter {
 }  // namespace
 
 Image denoised(const Image& image, std::span<const vec4> base) {
-  assert(image.aov.size() == image.rgba.size() && image.error.size() == image.rgba.size() &&
+  assert(image.aov.size() == image.rgba.size() && image.part.size() == image.rgba.size() &&
          base.size() == image.rgba.size());
   return Filter(image, base).run();
 }

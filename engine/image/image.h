@@ -15,6 +15,9 @@ struct Image {
   /// Estimated error of each pixel, radiance: the root of the mean square over rgb; empty unless Settings::estimate_error or a
   /// Goal.
   std::vector<float> error{};
+  /// Means of the first `part_share` of each pixel's samples; empty as `error` is. They and the others are independent pictures.
+  std::vector<vec4> part{};
+  float part_share = 0.5F;
 };
 
 /// Bytes a pixel of the picture that is made with these settings, at most.

@@ -1,6 +1,8 @@
 #include "engine/image/picture_error.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace splatray {
 
@@ -12,6 +14,17 @@ std::vector<float> pixel_errors(std::span<const vec4> a, std::span<const vec4> b
     errors.push_back(std::sqrt(glm::dot(apart, apart) / 3.0F));
   }
   return errors;
+}
+
+void estimate_errors(std::vector<vec4> part, double part_samples, double samples, Image& image) {
+  image.part = std::move(part);
+  image.part_share = static_cast<float>(std::min(part_samples / samples, 1.0));
+  image.error.assign(image.rgba.size(), INFINITY);
+  if (!(samples > part_samples)) return;
+  image.error = pixel_errors(image.rgba, image.part);
+  // Of independent samples of variance v the change has v (1 / part - 1 / all), the mean v / all.
+  const auto scale = static_cast<float>(std::sqrt(part_samples / (samples - part_samples)));
+  for (float& error : image.error) error *= scale;
 }
 
 double mean_radiance(std::span<const vec4> pixels) {

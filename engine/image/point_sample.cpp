@@ -63,9 +63,13 @@ class Parts {
 PointSample sample_points(const Scene& scene) {
   PointSample sample;
   const std::size_t stride = scene.data_pool.size() / SAMPLE_MOST + 1;
+  const glm::dvec3 rounding(2.0 * scene.root.unit_world);
+  const glm::dvec3 low = scene.bounds_min_world - rounding, high = scene.bounds_max_world + rounding;
   for (std::size_t i = 0; i < scene.data_pool.size(); i += stride) {
     const Splat splat = unpack_splat(scene.data_pool[i]);
-    sample.position.push_back(scene.root.to_world(splat.center));
+    const glm::dvec3 place = scene.root.to_world(splat.center);
+    if (glm::any(glm::lessThan(place, low)) || glm::any(glm::greaterThan(place, high))) continue;
+    sample.position.push_back(place);
     sample.normal.push_back(splat.normal);
   }
   return sample;

@@ -14,7 +14,7 @@ struct PointSample {
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
-/// Every n-th splat of the scene's order, at most 2^16 of them.
+/// Every n-th splat of the scene's order, at most 2^16 of them, without those beyond the scene's bounds: its ground's.
 [[nodiscard]] PointSample sample_points(const Scene& scene);
 
 /// Without what hangs together with less than a tenth of the largest part: strays, what was seen through a window. Points hang together

@@ -17,6 +17,10 @@ std::uint32_t whole_range(std::uint32_t samples) {
   return BLOCK_SAMPLES * std::bit_ceil((samples + BLOCK_SAMPLES - 1) / BLOCK_SAMPLES);
 }
 
+std::uint64_t range_bytes(std::uint32_t samples) {
+  return (1U + std::bit_width(samples / BLOCK_SAMPLES)) * sizeof(vec4);
+}
+
 void SampleMean::add(std::vector<vec4> means, std::uint32_t samples) {
   for (; !ranges_.empty() && ranges_.back().samples == samples; samples *= 2) {
     for (std::size_t i = 0; i < means.size(); ++i)

@@ -14,6 +14,9 @@ inline constexpr std::uint32_t BLOCK_SAMPLES = 64;
 /// Samples of the smallest whole range, BLOCK_SAMPLES times a power of two, that has room for `samples`.
 [[nodiscard]] std::uint32_t whole_range(std::uint32_t samples);
 
+/// Bytes a pixel that a SampleMean of up to `samples` samples takes, and the block behind it, at most.
+[[nodiscard]] std::uint64_t range_bytes(std::uint32_t samples);
+
 /// The means of a picture's pixels over more and more of its samples. Two whole ranges of the same length that make one twice as
 /// long are joined, always the same two, in float64: which bits come out does not depend on who made which range. Pairs also lose
 /// less to rounding than a sum that runs (Higham 1993, "The Accuracy of Floating Point Summation").

@@ -49,6 +49,7 @@ struct BuildParams {
   double smooth_world = -1.0;
   /// Points of scans on no surface stay, but for those far from all others. Not stored in files.
   bool keep_strays = false;
+  bool ground = false;  ///< add a ground below the scene, which its bounds leave out. Not stored in files.
 
   bool operator==(const BuildParams&) const = default;
 };
@@ -74,7 +75,7 @@ struct Scene {
   std::vector<SceneLight> lights;         ///< as the input has them; may be empty
   std::optional<Camera> camera;           ///< the input's first camera
   glm::dvec3 up{0.0, 1.0, 0.0};           ///< up direction used for default framing
-  glm::dvec3 bounds_min_world{0.0};       ///< bounding box of the centres
+  glm::dvec3 bounds_min_world{0.0};       ///< bounding box of the centres, but for BuildParams::ground's
   glm::dvec3 bounds_max_world{0.0};
   double surface_area_world = 0.0;  ///< of the source meshes; 0 = unknown
   std::string environment_path;     ///< environment map named by the scene; empty = none

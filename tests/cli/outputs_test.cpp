@@ -129,15 +129,15 @@ TEST_F(CliOutputs, SameSeedSameBytes) {
   EXPECT_EQ(bytes_of("7"), bytes_of("7"));
 }
 
-TEST_F(CliOutputs, SignalsLeaveNothing) {
+TEST_F(CliOutputs, SignalsLeaveNoFrame) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const auto start = std::chrono::steady_clock::now();
     const auto renders = [&] { return std::chrono::steady_clock::now() - start > std::chrono::seconds(1); };
     expect_refused(
         [&] {
-          return run_program(
-              {RENDER, "--quiet", grid, "--resolution=2048x2048", "--samples=4096", "-o", file("out.png")},
-              {}, renders, signal);
+          return run_program({RENDER, "--quiet", grid, "--resolution=2048x2048", "--samples=4096",
+                              "--turntable=2", "-o", file("out.#.png")},
+                             {}, renders, signal);
         },
         130, "interrupted");
   }

@@ -168,6 +168,34 @@ TEST_F(FramesTest, ARangeOfSamplesIsWhatTheWholePictureHasOfThem) {
   EXPECT_TRUE(tracer.render(view, settings).rgba == both.rgba);
 }
 
+/// Of several tiles, the last of which had fewer samples when it was stopped.
+TEST_F(FramesTest, AnImageStoppedAndKeptIsTheOneOfTheSamplesThatItHas) {
+  view.width = 1200;
+  view.height = 1000;
+  settings.samples = BLOCK_SAMPLES;
+  settings.estimate_error = true;
+  const auto until = [](double end) { return [end](double share) { return share < end; }; };
+  const Image kept = tracer.render(view, settings, until(0.04), Stopped::kept);
+  const auto samples = static_cast<std::uint32_t>(tracer.stats().samples);
+  ASSERT_GT(samples, 0U);
+  ASSERT_LT(samples, settings.samples / 2);
+  EXPECT_TRUE(std::isinf(kept.error.front()));
+  settings.samples = samples;
+  EXPECT_TRUE(tracer.render(view, settings).rgba == kept.rgba);
+  settings.samples = samples + 1;
+  EXPECT_FALSE(tracer.render(view, settings).rgba == kept.rgba);
+  EXPECT_THROW((void)tracer.render(view, settings, until(0.0), Stopped::kept), Error);
+}
+
+TEST_F(FramesTest, AnImageThatIsKeptIsTheSame) {
+  view.width = view.height = 17;
+  settings.samples = 2 * BLOCK_SAMPLES + 3;
+  settings.estimate_error = true;
+  const Image dropped = tracer.render(view, settings);
+  const Image kept = tracer.render(view, settings, {}, Stopped::kept);
+  EXPECT_TRUE(kept.rgba == dropped.rgba && kept.error == dropped.error);
+}
+
 TEST_F(FramesTest, AovsAloneAreThoseOfAPicture) {
   settings.aov = true;
   const Image image = tracer.render(view, settings);

@@ -27,8 +27,9 @@ class ShownTracer : public Tracer {
     look.objects = {std::move(materials), std::move(surfaces)};
   }
 
-  [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {}) {
-    return Tracer::render(look, view, settings, progress);
+  [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {},
+                             Stopped stopped = Stopped::dropped) {
+    return Tracer::render(look, view, settings, progress, stopped);
   }
   [[nodiscard]] Image render_until(const View& view, const Settings& settings, const Goal& goal,
                                    const Progress& progress = {}) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "tests/light/lit.h"
 
 namespace splatray::testing {
@@ -51,9 +53,50 @@ TEST_F(Denoise, IsNearerToTheTruth) {
 
 TEST_F(Denoise, LeavesWhatHasNoNoise) {
   Image image = traced(512, 99);
-  std::fill(image.error.begin(), image.error.end(), 0.0F);
+  image.part = image.rgba;
   const Image clean = denoised(image, base());
   EXPECT_LT(error_against(clean, image.rgba), 1e-3);
+}
+
+/// A grey wall with noise of a standard error of a tenth, and two bright pixels.
+struct Wall {
+  Image image{EDGE, EDGE, {}, {}};
+  std::vector<vec4> base = std::vector<vec4>(EDGE * EDGE, vec4(1.0F));
+  static constexpr std::size_t LAMP = 20 * EDGE + 20, SPARK = 40 * EDGE + 40;
+
+  Wall() {
+    std::mt19937 random(3);
+    std::normal_distribution<float> noise(0.0F, 0.14F);
+    AovPixel pixel{};
+    pixel.normal = vec3(0.0F, 0.0F, 1.0F);
+    pixel.z = 1.0F;
+    image.aov.assign(EDGE * EDGE, pixel);
+    for (std::size_t i = 0; i < EDGE * EDGE; ++i) {
+      const float half = 0.5F + noise(random), other = 0.5F + noise(random);
+      image.part.emplace_back(vec4(vec3(half), 1.0F));
+      image.rgba.emplace_back(vec4(vec3(0.5F * (half + other)), 1.0F));
+    }
+    image.part[LAMP] = image.rgba[LAMP] = vec4(50.0F);
+    image.part[SPARK] = vec4(100.0F);
+    image.rgba[SPARK] = vec4(50.0F);
+  }
+};
+
+TEST(DenoiseWall, WhatOneHalfAloneFindsBrightIsNoBlotch) {
+  const Wall wall;
+  const Image clean = denoised(wall.image, wall.base);
+  float most = 0.0F, deviation = 0.0F;
+  for (std::size_t i = 30 * EDGE; i < EDGE * EDGE; ++i) {
+    most = std::max(most, std::abs(clean.rgba[i].x - 0.5F));
+    deviation += (clean.rgba[i].x - 0.5F) * (clean.rgba[i].x - 0.5F);
+  }
+  EXPECT_LT(most, 0.15F);
+  EXPECT_LT(std::sqrt(deviation / (34.0F * EDGE)), 0.02F);
+}
+
+TEST(DenoiseWall, WhatBothHalvesFindBrightStays) {
+  const Wall wall;
+  EXPECT_NEAR(denoised(wall.image, wall.base).rgba[Wall::LAMP].x, 50.0F, 1.0F);
 }
 
 TEST_F(Denoise, BaseColoursAreThose) {

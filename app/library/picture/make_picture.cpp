@@ -7,8 +7,10 @@
 #include "app/library/picture/denoise.h"
 #include "app/library/picture/eye_light.h"
 #include "app/library/picture/picture_notes.h"
+#include "app/library/picture/resume.h"
 #include "app/library/picture/scene_source.h"
 #include "engine/base/stopwatch.h"
+#include "engine/image/sparks.h"
 
 namespace splatray {
 namespace {
@@ -34,17 +36,34 @@ LitLook picture_look(const Request& request, SceneOnDevice& shown, const Camera&
   return lit;
 }
 
+/// The picture of all samples, or those behind the ones of --resume.
+void render_samples(const Request& request, SceneOnDevice& shown, const Look& look, const View& view,
+                    const Settings& settings, const Tracer::Progress& progress, Stopped stopped,
+                    MadePicture& made) {
+  const auto started = read_started(request, shown.scene(), view.camera);
+  Settings rest = settings;
+  if (started) {
+    rest.samples -= started->samples;
+    rest.sample_offset += started->samples;
+    rest.estimate_error = false;
+  }
+  made.image = shown.tracer().render(look, view, rest, progress, stopped);
+  made.stats = shown.tracer().stats();
+  made.samples_missing = rest.samples - static_cast<std::uint32_t>(made.stats.samples);
+  if (started) add_started(*started, settings.estimate_error, made.image, made.stats);
+}
+
 }  // namespace
 
 MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
-                         const Tracer::Progress& progress) {
+                         const Tracer::Progress& progress, Stopped stopped) {
   const View view{camera, request.view.width, request.view.height, request.view.window()};
   Settings settings = choose_settings(shown.scene(), request);
   LitLook lit = picture_look(request, shown, camera, settings);
   const Look& look = lit.look;
   const bool denoise = request.output.denoise;
   settings.aov = settings.aov || denoise;
-  settings.estimate_error = settings.estimate_error || denoise;
+  settings.estimate_error = settings.estimate_error || denoise || request.output.despeckle;
   MadePicture made;
   made.lights = look.lights.size();
   made.notes = std::move(lit.notes);
@@ -53,10 +72,12 @@ MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Cam
     Goal goal{.error = request.settings.error_goal};
     if (request.settings.seconds_goal > 0.0) goal.seconds = request.settings.seconds_goal;
     made.image = shown.tracer().render_until(look, view, settings, goal, progress);
+    made.stats = shown.tracer().stats();
   } else {
-    made.image = shown.tracer().render(look, view, settings, progress);
+    render_samples(request, shown, look, view, settings, progress, stopped, made);
   }
-  made.stats = shown.tracer().stats();
+  if (made.samples_missing > 0) return made;
+  if (request.output.despeckle) made.image = without_sparks(std::move(made.image));
   if (!denoise) return made;
   Stopwatch watch;
   made.denoiser = remove_noise(shown.tracer(), look, view, settings, made.image);

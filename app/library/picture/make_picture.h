@@ -16,13 +16,16 @@ struct MadePicture {
   std::vector<std::string> notes;  ///< sentences about its light
   std::string denoiser;            ///< which took the noise out; empty where none did
   double denoise_ms = 0.0;         ///< 0 where none did
+  /// Samples a pixel that were asked for and not made, as it was stopped and kept; then no denoiser had it.
+  std::uint32_t samples_missing = 0;
 };
 
 /// The picture in the lights that the request asks for, or where it asks for none and none enters in that of the camera
-/// (eye_light.h): by samples or until it is good enough, and without noise, as it says. Throws Error: usage, interrupted when
-/// `progress` says so, failed.
+/// (eye_light.h): by samples or until it is good enough, from those of --resume on, and without noise, as it says. Throws Error:
+/// usage, input_unreadable, failed, interrupted when `progress` says so and it is not kept; a picture that is traced until it is
+/// good enough never is.
 [[nodiscard]] MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
-                                       const Tracer::Progress& progress);
+                                       const Tracer::Progress& progress, Stopped stopped = Stopped::dropped);
 
 /// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide
 /// and high. Parts of a picture, and all pictures of a run, have one exposure by it.

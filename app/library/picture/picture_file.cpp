@@ -10,12 +10,11 @@
 #include "engine/base/memory.h"
 #include "engine/base/number_text.h"
 #include "engine/file/atomic_file.h"
+#include "engine/image/sample_mean.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray {
 namespace {
-
-bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
 
 Display display_of(const Request& request) {
   return {request.look.exposure_ev.value_or(0.0), choose_tone(request), request.settings.transparent};
@@ -31,12 +30,15 @@ PixelWindow made_window(const Request& request) {
 
 }  // namespace
 
+bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
+
 std::uint64_t made_image_bytes(const Request& request) {
   const PixelWindow made = made_window(request);
   const bool denoise = request.output.denoise;
   Settings settings = request.settings;
   settings.aov = settings.aov || denoise;
-  settings.estimate_error = settings.estimate_error || denoise || request.settings.has_goal();
+  settings.estimate_error =
+      settings.estimate_error || denoise || request.output.despeckle || request.settings.has_goal();
   return std::uint64_t{made.width} * made.height * image_bytes(settings);
 }
 
@@ -45,7 +47,8 @@ void require_picture_memory(const Request& request) {
   const Request::Output& output = request.output;
   const std::size_t channels = 4 + count_channels(output.aovs);
   const std::uint64_t writing = is_png(output.path) ? PNG_WRITING_BYTES : exr_writing_bytes(channels);
-  require_memory(made_image_bytes(request) + std::uint64_t{made.width} * made.height * writing,
+  const std::uint64_t ranges = output.many() ? 0 : range_bytes(request.settings.samples);
+  require_memory(made_image_bytes(request) + std::uint64_t{made.width} * made.height * (writing + ranges),
                  "a picture of " + size_text(made.width, made.height) + " pixels and its file");
 }
 

@@ -1,6 +1,8 @@
 #include "app/library/picture/render_sequence.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <utility>
 
 #include "app/library/picture/picture_file.h"
@@ -20,18 +22,55 @@ struct Run {
   const SequenceListener& listener;
 };
 
+Metadata metadata_of(const Run& run, const Request& request, const Camera& camera) {
+  const View view{camera, request.view.width, request.view.height, request.view.window()};
+  return picture_metadata(request, run.shown.scene(), view, run.shown.context());
+}
+
+/// How far a picture of --error or --time came.
+std::string goal_text(const RenderStats& stats) {
+  std::array<char, 100> text{};
+  (void)std::snprintf(text.data(), text.size(),
+                      "traced %.1f samples a pixel, with an estimated error of %.2g %%", stats.samples,
+                      100.0 * stats.error);
+  return text.data();
+}
+
+/// Writes a picture that was stopped, as the one of fewer samples that it is, and beside a PNG the EXR that --resume needs. Throws
+/// Error (interrupted), which says so.
+[[noreturn]] void write_unfinished(const Run& run, const Camera& camera, const SequenceFrame& frame,
+                                   const MadePicture& made) {
+  take_time_to_end();
+  Request request = run.request;
+  const std::uint32_t asked = request.settings.samples;
+  request.settings.samples -= made.samples_missing;
+  request.output.denoise = request.output.despeckle = false;
+  const Metadata metadata = metadata_of(run, request, camera);
+  std::filesystem::path sums = frame.output;
+  if (is_png(frame.output)) {
+    sums.replace_extension(".unfinished.exr");
+    write_output(request, made.image, metadata, sums);
+  }
+  write_output(request, made.image, metadata, frame.output);
+  throw Error(ExitCode::interrupted, "interrupted by a signal after " +
+                                         std::to_string(request.settings.samples) + " of " +
+                                         std::to_string(asked) + " samples, which '" + frame.output.string() +
+                                         "' has; --resume '" + sums.string() + "' goes on from them");
+}
+
 /// Makes and writes one picture, `before` others having come before it.
 void write_picture(const Run& run, const Camera& camera, const SequenceFrame& frame, std::size_t before,
                    SequenceRecord& record) {
   const auto progress = [&](double share) {
     return run.listener.progress(frame, before, share) && !interrupted();
   };
-  MadePicture made = make_picture(run.request, run.shown, camera, progress);
+  // A frame of a sequence is whole or absent, as those who take it up look for files.
+  const Stopped stopped = run.request.output.many() ? Stopped::dropped : Stopped::kept;
+  MadePicture made = make_picture(run.request, run.shown, camera, progress, stopped);
   for (const std::string& note : made.notes) run.listener.note("note: " + note);
-  const Request::View& asked = run.request.view;
-  Metadata metadata =
-      picture_metadata(run.request, run.shown.scene(), {camera, asked.width, asked.height, asked.window()},
-                       run.shown.context());
+  if (run.request.settings.has_goal()) run.listener.note(goal_text(made.stats));
+  if (made.samples_missing > 0) write_unfinished(run, camera, frame, made);
+  Metadata metadata = metadata_of(run, run.request, camera);
   if (!made.denoiser.empty()) {
     metadata.emplace_back("denoised", made.denoiser);
     run.listener.note("denoised by " + made.denoiser);
@@ -40,21 +79,6 @@ void write_picture(const Run& run, const Camera& camera, const SequenceFrame& fr
   write_output(run.request, made.image, metadata, frame.output);
   record.made.push_back({frame, made.lights, made.stats, watch.lap_ms(), made.denoise_ms});
   record.last = std::move(made.image);
-}
-
-/// The command of a request, its files spelt in one way.
-std::string plain_command(Request request) {
-  const auto plain = [](const std::filesystem::path& file) {
-    std::error_code error;
-    const std::filesystem::path found =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
-    return error ? file : found;
-  };
-  for (std::filesystem::path& input : request.source.inputs) input = plain(input);
-  for (std::filesystem::path& folder : request.source.data_paths) folder = plain(folder);
-  std::string& environment = request.look.environment;
-  if (!environment.empty() && !built_in_environment(environment)) environment = plain(environment).string();
-  return command_line(request);
 }
 
 /// Whether the picture is there, whole, and made by the command that would make it now.
@@ -67,7 +91,8 @@ bool is_made(const Request& request, const Camera& camera, const std::filesystem
   const Request still = still_request(request, camera);
   if (kept->second == command_line(still)) return true;
   try {
-    return plain_command(parse_command_line(kept->second)) == plain_command(still);
+    return command_line(plain_request(parse_command_line(kept->second))) ==
+           command_line(plain_request(still));
   } catch (const Error&) {
     return false;  // another version's
   }

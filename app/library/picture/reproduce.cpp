@@ -18,6 +18,7 @@ Request looks_only(const Request& request) {
   const Request::Output& from = request.output;
   Request::Output& output = looks.output;
   output.denoise = from.denoise;
+  output.despeckle = from.despeckle;
   output.keep_noise = from.keep_noise;
   output.aovs = from.aovs;
   return looks;
@@ -42,6 +43,19 @@ Request still_request(const Request& request, const Camera& camera) {
   Request still = looks_only(request);
   set_camera(still.view, camera);
   return still;
+}
+
+Request plain_request(Request request) {
+  const auto plain = [](const fs::path& file) {
+    std::error_code error;
+    const fs::path found = fs::weakly_canonical(fs::absolute(file, error), error);
+    return error ? file : found;
+  };
+  for (fs::path& input : request.source.inputs) input = plain(input);
+  for (fs::path& folder : request.source.data_paths) folder = plain(folder);
+  std::string& environment = request.look.environment;
+  if (!environment.empty() && !built_in_environment(environment)) environment = plain(environment).string();
+  return request;
 }
 
 Request read_picture_request(const fs::path& picture) {

@@ -11,6 +11,9 @@ namespace splatray {
 /// written or compared with.
 [[nodiscard]] Request still_request(const Request& request, const Camera& camera);
 
+/// The request, its input files spelt in one way.
+[[nodiscard]] Request plain_request(Request request);
+
 /// The request kept in a picture of splatray-render, as still_request made them. A relative path of an input that does
 /// not exist here is looked for in the picture's folder and those above it. Throws Error (input_unreadable) with path,
 /// found and expected.

@@ -42,6 +42,7 @@ void build(Input input, const Request& request, const LoadListener& listener, co
     if (listener.note) std::for_each(notes.begin(), notes.end(), listener.note);
   };
   report_notes(input.notes);
+  if (request.source.params.ground && request.look.up) input.up = request.look.up;
   BuildStats& stats = loaded.build.emplace();
   loaded.scene =
       build_scene(std::move(input), request.source.params, request.source.threads, stats, progress);
@@ -168,6 +169,10 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
   const std::vector<std::filesystem::path>& inputs = request.source.inputs;
   require_scene_alone(inputs);
   if (is_scene_file(inputs.front())) {
+    if (request.source.params.ground)
+      throw Error(ExitCode::usage,
+                  "found --ground with a .soct, expected files of points or meshes, or splatray-preprocess "
+                  "--ground");
     loaded.scene = read_scene(inputs.front(), listener.progress);
   } else {
     const Progress progress = watching_memory(listener.progress);
@@ -191,9 +196,9 @@ ObjectLooks choose_objects(const Scene& scene, const Request& request) {
   ObjectLooks objects{scene.materials, surfaces_of(scene)};
   std::vector<ObjectChange> changes;
   if (!request.look.material.empty()) {
-    if (scene.materials.size() != 1)
-      throw Error(ExitCode::usage, "found --material with a scene of " +
-                                       std::to_string(scene.materials.size()) +
+    const std::size_t shown = scene.materials.size() - (scene.build.ground ? 1 : 0);
+    if (shown != 1)
+      throw Error(ExitCode::usage, "found --material with a scene of " + std::to_string(shown) +
                                        " objects, expected one object");
     changes.push_back(read_object_change("0:preset=" + request.look.material));
   }

@@ -82,8 +82,8 @@ SuitedPicture suited_picture(const Scene& scene, const Request& asked) {
 }
 
 bool suits_denoising(const Scene& scene, const Request& asked) {
-  const bool decided = asked.look.style || asked.output.keep_noise || asked.settings.has_goal() ||
-                       !asked.output.reference.empty();
+  const bool decided = asked.look.style || asked.output.keep_noise || asked.output.despeckle ||
+                       asked.settings.has_goal() || !asked.output.reference.empty();
   return !scene.stations.empty() && !decided && asked.view.window().width == 0 &&
          asked.settings.sample_offset == 0 && asked.settings.samples >= 2;
 }

@@ -85,6 +85,10 @@ std::vector<Field> input_fields() {
       switch_row("keep-strays", INPUT, MEMBER(source.params.keep_strays),
                  "keep the points of scans that lie on no surface, but for those far from all others"),
       smooth_row(),
+      switch_row(
+          "ground", INPUT, MEMBER(source.params.ground),
+          "add a grey ground for shadows below the scene's lowest point, across the format's up axis or "
+          "that of --up; the camera is placed as without it"),
       number_row("threads", INPUT, MEMBER(source.threads), 0, 4096,
                  "threads of reading, preprocess and the device cpu; default 0 = all cores")};
   for (Field& row : rows) row.doors |= DOOR_PREPROCESS;

@@ -101,13 +101,17 @@ std::vector<Field> output_fields() {
                     "digits such as out.####.png"),
            {.letter = "-o"}),
       aov_row(),
+      with(path_row("resume", OUTPUT, MEMBER(output.resume),
+                    "add samples to this EXR of the same command and fewer --samples, as one that was "
+                    "interrupted leaves it, until there are --samples"),
+           {.doors = DOOR_RENDER | DOOR_LIBRARY, .why_not = "the viewer's pictures go on by themselves"}),
       number_row(
           "turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
           "this many pictures of a full turn about the scene's up axis through the target; default 0 = none"),
       frames_row(),
       switch_row("skip-existing", OUTPUT, MEMBER(output.skip_existing),
                  "leave out pictures whose file is whole and was made by the same command")};
-  for (std::size_t i = 2; i < rows.size(); ++i) {
+  for (std::size_t i = 3; i < rows.size(); ++i) {
     rows[i].doors = DOOR_RENDER | DOOR_VIEW;
     rows[i].why_not = NOT_SEQUENCES;
   }

@@ -43,6 +43,10 @@ std::vector<Field> quality_fields() {
           "denoise", QUALITY, MEMBER(output.denoise),
           "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of our own; "
           "PNGs of scans whose look is not asked for go through it anyway"),
+      switch_row("despeckle", QUALITY, MEMBER(output.despeckle),
+                 "take out only bright dots: pixels that one half of the samples finds more than 1.5 times "
+                 "as bright "
+                 "as the other half finds any around them; a little light is lost"),
       switch_row("keep-noise", QUALITY, MEMBER(output.keep_noise),
                  "do not take the noise out of scans' pictures either"),
       with(number_row("bounces", QUALITY, MEMBER(settings.max_bounces), 0, 64,

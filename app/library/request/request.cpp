@@ -42,8 +42,15 @@ void check_part(const Request& request) {
   const std::string part = is_range ? "--sample-offset" : (view.tiles > 0 ? "--tile" : "--crop");
   if (request.settings.has_goal()) fail("found --error or --time with " + part + ", expected --samples");
   if (request.output.denoise) fail("found --denoise with " + part + ", expected it for a whole picture");
+  if (request.output.despeckle) fail("found --despeckle with " + part + ", expected it for a whole picture");
   if (!request.output.reference.empty())
     fail("found --reference with " + part + ", expected a whole picture");
+}
+
+void check_resume(const Request& request) {
+  if (request.output.resume.empty()) return;
+  if (request.settings.has_goal()) fail("found --resume with --error or --time, expected --samples");
+  if (request.output.many()) fail("found --resume with a sequence of pictures, expected a single one");
 }
 
 /// Whether anything is said of the camera.
@@ -75,13 +82,15 @@ void check_noise(const Request& request) {
   const bool one_sample = !request.settings.has_goal() && request.settings.samples < 2;
   if (needs_noise(output.aovs) && one_sample)
     fail("found --aov error with one sample, expected at least two");
-  if (!output.denoise) return;
-  if (output.keep_noise) fail("found --denoise and --keep-noise, expected one of them");
-  if (one_sample) fail("found --denoise with one sample, expected at least two");
+  if (!output.denoise && !output.despeckle) return;
+  const std::string option = output.denoise ? "--denoise" : "--despeckle";
+  if (output.denoise && output.despeckle) fail("found --denoise and --despeckle, expected one of them");
+  if (output.keep_noise) fail("found " + option + " and --keep-noise, expected one of them");
+  if (one_sample) fail("found " + option + " with one sample, expected at least two");
   if (request.look.style == LOOK_PAPER)
-    fail("found --denoise with --look paper, expected a look that has noise");
+    fail("found " + option + " with --look paper, expected a look that has noise");
   if (!output.reference.empty())
-    fail("found --denoise with --reference, expected pictures compared as they were traced");
+    fail("found " + option + " with --reference, expected pictures compared as they were traced");
 }
 
 }  // namespace
@@ -126,6 +135,7 @@ void require_consistent(const Request& request) {
   check_camera(request.view);
   check_noise(request);
   check_sequence(request);
+  check_resume(request);
   check_part(request);
 }
 

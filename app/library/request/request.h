@@ -95,8 +95,10 @@ struct Request {
 
   /// Which pictures are made, and what is written of them.
   struct Output {
-    std::filesystem::path path;  ///< empty = nowhere
+    std::filesystem::path path;    ///< empty = nowhere
+    std::filesystem::path resume;  ///< an EXR of fewer samples that they are added to; empty = none
     bool denoise = false;
+    bool despeckle = false;  ///< sparks.h
     bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
     AovSet aovs = 0;
     std::filesystem::path camera_path;   ///< camera_file.h; empty = none

@@ -76,8 +76,9 @@ bool repeated_control(const Field& field, Request& request, std::string& error) 
 }  // namespace
 
 bool is_of_files(const Field& field) {
-  constexpr std::array NAMES = {"resolution",    "camera-path", "crop", "tile",    "samples",
-                                "sample-offset", "error",       "time", "denoise", "keep-noise"};
+  constexpr std::array NAMES = {"resolution", "camera-path",   "crop",      "tile",
+                                "samples",    "sample-offset", "error",     "time",
+                                "denoise",    "despeckle",     "keep-noise"};
   return field.group == FieldGroup::output || field.group == FieldGroup::files ||
          std::find(NAMES.begin(), NAMES.end(), field.name) != NAMES.end();
 }
