@@ -34,6 +34,9 @@ constexpr double EDGE_REACH =
     2.0;  // of a sample, in units of the samples' distance: more than twice its disc's radius
 constexpr double VERTEX_EDGE_REACH = 1.2;  // of a vertex, in units of its longest edge
 
+/// Cosines of 45 and 30 degrees: normals that turn by more along an edge are of a coarse drawing, not of a smooth surface.
+constexpr double SHARP_COSINE = 0.7071067811865476, SMOOTH_COSINE = 0.8660254037844387;
+
 std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
   const std::vector<glm::dvec3>& positions = mesh.vertices.position;
   return {positions[triangle.x], positions[triangle.y], positions[triangle.z]};
@@ -91,7 +94,11 @@ class SampleWriter {
  public:
   SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
                double crease_cosine)
-      : mesh_(mesh), mask_(mesh), maps_(mesh), normals_(corner_normals(mesh, weld, crease_cosine)) {
+      : mesh_(mesh),
+        mask_(mesh),
+        maps_(mesh),
+        normals_(corner_normals(mesh, weld, crease_cosine)),
+        edges_(mesh, weld, normals_, crease_cosine) {
     triangles_.reserve(count);
     points_.position.reserve(count);
     points_.normal.reserve(count);
@@ -106,7 +113,8 @@ class SampleWriter {
     const glm::vec3 w(weights);
     if (!mesh_.vertices.columns.empty()) weights_.push_back(w);
     const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
-    points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
+    points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2] +
+                               bulge(triangle_index, corners, weights));
     points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
     maps_.add(triangle, w, points_.normal.back());
     if (mesh_.vertices.color.empty() && !mesh_.texture) {
@@ -124,14 +132,13 @@ class SampleWriter {
   }
 
   /// Adds points where edges lack them, at most as many as there are, and gives all their clip lines.
-  void clip(const std::vector<glm::uint>& weld, double crease_cosine, double spacing_world) {
-    const MeshEdges edges(mesh_, weld, normals_, crease_cosine);
+  void clip(const std::vector<glm::uint>& weld, double spacing_world) {
     for (const MeshPlace& site :
-         edge_sites(mesh_, edges, triangles_, points_.position, spacing_world, points_.size()))
+         edge_sites(mesh_, edges_, triangles_, points_.position, spacing_world, points_.size()))
       add(site.triangle, site.weights);
     const double reach_world = EDGE_REACH * spacing_world;
     clip_points(
-        mesh_, weld, edges,
+        mesh_, weld, edges_,
         [&](std::size_t i) {
           return PointOnMesh{std::span(triangles_).subspan(i, 1), reach_world};
         },
@@ -168,10 +175,30 @@ class SampleWriter {
     return {column.name, std::visit(take, column.values)};
   }
 
+  /// From a point of a triangle to the smooth surface that its corners' normals are of: half way to the mean of the corners' tangent
+  /// planes (Boubekeur and Alexa 2008, "Phong Tessellation"; half is exact where the surface is a quadric's graph). Each edge has its
+  /// own share in it, by the angle of the normals at its ends, so that triangles join, and creases and borders none.
+  [[nodiscard]] glm::dvec3 bulge(std::size_t triangle, const std::array<glm::dvec3, 3>& corners,
+                                 const glm::dvec3& weights) const {
+    glm::dvec3 sum(0.0);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t j = (i + 1) % 3;
+      if (edges_.across(static_cast<std::uint32_t>(triangle), i) == MeshEdges::NONE) continue;
+      const glm::dvec3 normal_i(normals_[3 * triangle + i]), normal_j(normals_[3 * triangle + j]);
+      const double cosine = glm::dot(normal_i, normal_j);
+      const double smooth = glm::smoothstep(SHARP_COSINE, SMOOTH_COSINE, cosine);
+      const glm::dvec3 along = corners[i] - corners[j];
+      sum += smooth * weights[static_cast<glm::length_t>(i)] * weights[static_cast<glm::length_t>(j)] *
+             (glm::dot(along, normal_i) * normal_i - glm::dot(along, normal_j) * normal_j);
+    }
+    return 0.5 * sum;
+  }
+
   const Mesh& mesh_;
   AlphaMask mask_;
   MapSamples maps_;
   std::vector<glm::vec3> normals_;
+  MeshEdges edges_;
   Points points_;
   std::vector<std::uint32_t> triangles_;  ///< beside points_
   std::vector<glm::vec3> weights_;        ///< beside points_ where vertices have attributes, else empty
@@ -385,7 +412,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   for (; written < count; ++written) {  // rounding of the summed area may leave the last share over
     writer.add(last_proper, glm::dvec3(1.0 / 3.0));
   }
-  if (creases.clip) writer.clip(weld, creases.cosine, std::sqrt(step / least_density));
+  if (creases.clip) writer.clip(weld, std::sqrt(step / least_density));
   return writer.finish();
 }
 

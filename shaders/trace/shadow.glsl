@@ -103,7 +103,11 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
           Material material = material_at(splat_object(words));
           bool glass = TINTED && (material.flags & MATERIAL_DIELECTRIC) != 0u;
           uint object_bit = 1u << material.mask_bit;
-          light = glass && (passed & object_bit) == 0u ? light * (material.tint * material.tint) : light;
+          vec3 tint = material.tint * material.tint;
+#ifdef LIT
+          if (TINTED) tint = surface_at(splat_object(words)).base;
+#endif
+          light = glass && (passed & object_bit) == 0u ? light * tint : light;
           passed |= glass ? object_bit : 0u;
 #ifdef LIT
           if (OPACITY && !glass) meet_sheet(sheets, splat, words, ray);

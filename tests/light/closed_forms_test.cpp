@@ -78,6 +78,48 @@ TEST_F(Pane, TintsLightOnce) {
   EXPECT_NEAR(light_through(pane(clear(0.7F))), 0.49, 1e-6) << "the paper's tint is of each side";
 }
 
+TEST_F(Plane, StraightShadowsAreTintedOnce) {
+  OrientedPoints pane;
+  for (const double y : {1.999, 2.0}) {
+    const double x = y < 2.0 ? 1.0 : -1.0;
+    append(pane, rectangle_surface("side", {-x, y, -1.0}, {2.0 * x, 0.0, 0.0}, {0.0, 0.0, 2.0})
+                     .make({.count = 2000, .even = true}));
+  }
+  Material clear = test_material(MATERIAL_DIELECTRIC);
+  clear.ior = 1.0F;
+  clear.tint = vec3(1.0F);
+  Scene scene = scene_of({floor(), {pane, clear}});
+  scene.surfaces = surfaces_of(scene);
+  scene.surfaces.back().base = vec3(0.4F);
+  show(scene, constant(0.0F), {{LIGHT_DIRECTIONAL, {0.0, 1.0, 0.0}, vec3(2.0F)}});
+  const Camera below{dvec3(0.0, 1.5, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 30.0, 0.001};
+  Settings settings = lit(4);
+  settings.straight_shadows = true;
+  EXPECT_NEAR(pi * mean_of(picture(below, settings, 4)).value, 0.4 * 2.0, 1e-4);
+}
+
+TEST_F(Plane, SpotsShineInTheirCone) {
+  SceneLight spot{LIGHT_POINT, {0.0, 2.0, 0.0}, vec3(3.0F)};
+  const auto below = [&] {
+    show(scene_of({floor()}), constant(0.0F), {spot});
+    const Camera narrow{dvec3(0.0, 1.5, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 0.5, 0.001};
+    return mean_of(picture(narrow, lit(4), 4)).value;
+  };
+  const double plain = below();
+  spot.spot_axis = {0.0, -5.0, 0.0};
+  spot.spot_inner = 0.3;
+  spot.spot_outer = 0.6;
+  EXPECT_NEAR(below(), plain, 1e-5 * plain) << "ahead of it";
+  spot.range = 4.0;
+  EXPECT_NEAR(below(), plain * (1.0 - std::pow(0.5, 4.0)), 1e-3 * plain);
+  spot.range = 0.0;
+  spot.spot_axis = {std::sin(0.45), -std::cos(0.45), 0.0};
+  const double fall = (std::cos(0.45) - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6));
+  EXPECT_NEAR(below(), plain * fall * fall, 1e-2 * plain) << "at its rim";
+  spot.spot_axis = {1.0, 0.0, 0.0};
+  EXPECT_EQ(below(), 0.0) << "beside it";
+}
+
 /// All bounces at once: the light that a wall gets from the rest of a ball does not depend on where it is.
 TEST_F(Lit, IntegratingSphere) {
   constexpr double INTENSITY = 2.0;

