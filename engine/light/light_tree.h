@@ -11,7 +11,7 @@
 namespace splatray {
 
 struct LightTree {
-  std::vector<LightNode> nodes;       ///< depth first; empty where there is no light
+  std::vector<LightNode> nodes;  ///< depth first; empty where there is no light
   /// Where the nodes of the lights lie that have a size and are not at infinity.
   std::uint32_t sized_begin = 0, sized_end = 0;
 };

@@ -48,6 +48,15 @@ struct Probe {
   float pdf;    ///< how often the path would go on that way, per solid angle
 };
 
+Probe no_probe() {
+  Probe probe;
+  probe.ray = secondary_ray(vec3(0.0f), vec3(0.0f), 0u, vec3(0.0f), NO_OBJECT);
+  probe.light = vec3(0.0f);
+  probe.splat = NO_SPLAT;
+  probe.pdf = 0.0f;
+  return probe;
+}
+
 /// Towards one of the lights, splats that send out light, or the environment.
 Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside) {
   Receiver receiver;
@@ -120,12 +129,10 @@ vec3 medium_left(uint inside, float t) {
 
 /// What of a probe for the light of a splat arrives: the splat's share in what its ray hits. What a path would have found that way
 /// itself is left to it.
-vec3 emitter_light(Probe probe, uint of_ray, INOUT(Tally) tally) {
+vec3 emitter_light(Probe probe, Hit hit) {
   Ray ray = probe.ray;
-  ray.t_max = probe.splat != NO_SPLAT ? ray.t_max : -1.0f;
-  Hit hit = trace_seen(ray, probe.splat, of_ray, tally);
-  bool seen = hit.found && hit.watched > 0.0f;
   ray.t_max = hit.t;
+  bool seen = hit.found && hit.watched > 0.0f;
   if (SIZES && seen && light_hides(ray, NO_LIGHT)) seen = false;
   if (!seen) return vec3(0.0f);
   vec3 sent = emitted_radiance(hit);
@@ -147,9 +154,9 @@ Probe sky_probe(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
 }
 
 /// The light found from a hit by LOOK's rays: to a light, to the sky or both, one after the other, so that programs hold one walk
-/// for them; but for splats that send out light, which a ray must hit as paths do.
+/// for them. For the light of a splat, which a ray must hit as paths do, `emitter` is left.
 void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
-                INOUT(Tally) tally) {
+                INOUT(Probe) emitter, INOUT(Tally) tally) {
   bool sky = LOOK == LOOK_AO || LOOK == LOOK_SCAN;
   bool to_lights = LIGHTS || SKY || EMISSION;
   do {
@@ -161,15 +168,16 @@ void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_e
       probe = light_probe(hit, bsdf, basis, to_eye, vec3(random), path.ray.inside);
       to_lights = false;
     }
-    if (SHADOWS || sky || EMISSION) path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
-    if (EMISSION) {
-      vec3 sent = emitter_light(probe, hash_ray(path, true, pixel, sample_index), tally);
-      bool emitter = probe.splat != NO_SPLAT;
-      probe.light = emitter ? sent : probe.light;
-      probe.ray.t_max = emitter ? -1.0f : probe.ray.t_max;
-      if (SHADOWS) probe.light *= emitter ? vec3(1.0f) : trace_shadow(probe.ray, tally);
-    } else if (SHADOWS || sky) {
+    if (EMISSION && probe.splat != NO_SPLAT && probe.ray.t_max >= 0.0f) {
+      emitter = probe;
+      emitter.light *= path.throughput;
+      path.shadow += 1u;
+      probe.ray.t_max = -1.0f;
+      probe.light = vec3(0.0f);
+    }
+    if (SHADOWS || sky) {
       probe.light *= trace_shadow(probe.ray, tally);
+      path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
     }
     path.radiance += clamped(path.throughput * probe.light, path.bounce);
     sky = false;
@@ -224,8 +232,8 @@ void meet_environment(INOUT(Path) path) {
   path.alive = false;
 }
 
-/// What a path finds at a hit, and whether and how it goes on.
-void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Tally) tally) {
+/// What a path finds at a hit, and whether and how it goes on. `emitter` as look_for_light has it.
+void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Probe) emitter, INOUT(Tally) tally) {
   path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
   Surface surface = textured(surface_at(hit.object), hit.factors);
   float eta = 1.0f;
@@ -244,7 +252,7 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
   if (LIGHTS || SKY || EMISSION || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
-    look_for_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, tally);
+    look_for_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, emitter, tally);
   if (LOOK == LOOK_BASE) path.radiance = bsdf.base;
   if (LOOK == LOOK_AO || LOOK == LOOK_SCAN || LOOK == LOOK_BASE) {
     path.alive = false;
@@ -253,25 +261,41 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   }
 }
 
-/// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture.
+/// What a path's ray finds.
+void meet(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Probe) emitter, INOUT(Tally) tally) {
+  bool light_first = false;
+  if (SIZES && LOOK != LOOK_SCAN) {
+    float t = hit.t;
+    path.radiance += clamped(path.throughput * met_light(path.ray, path.pdf, t), max(path.bounce, 1u) - 1u);
+    light_first = t < hit.t;
+  }
+  if (light_first) {
+    path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
+    path.alive = false;
+  } else if (hit.found) {
+    meet_surface(path, hit, pixel, sample_index, emitter, tally);
+  } else {
+    meet_environment(path);
+  }
+}
+
+/// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture. Rays that look for the light
+/// of splats take their turn between those of the path, so that programs hold one walk for both.
 void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) tally) {
+  Probe emitter = no_probe();
+  bool looks = false;
   do {
-    Hit hit = trace_seen(path.ray, NO_SPLAT, hash_ray(path, false, pixel, sample_index), tally);
-    bool light_first = false;
-    if (SIZES && LOOK != LOOK_SCAN) {
-      float t = hit.t;
-      path.radiance += clamped(path.throughput * met_light(path.ray, path.pdf, t), max(path.bounce, 1u) - 1u);
-      light_first = t < hit.t;
-    }
-    if (light_first) {
-      path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
-      path.alive = false;
-    } else if (hit.found) {
-      meet_surface(path, hit, pixel, sample_index, tally);
+    Ray ray = path.ray;
+    if (EMISSION && looks) ray = emitter.ray;
+    Hit hit = trace_seen(ray, emitter.splat, hash_ray(path, looks, pixel, sample_index), tally);
+    if (EMISSION && looks) {
+      path.radiance += clamped(emitter_light(emitter, hit), max(path.bounce, 1u) - 1u);
+      emitter.splat = NO_SPLAT;
     } else {
-      meet_environment(path);
+      meet(path, hit, pixel, sample_index, emitter, tally);
     }
-  } while (path.alive && STAGE == STAGE_ALL);
+    looks = EMISSION && emitter.splat != NO_SPLAT;
+  } while (looks || (path.alive && STAGE == STAGE_ALL));
 }
 
 #endif
