@@ -35,7 +35,7 @@ Model placed(Model model, glm::dvec3 foot, double angle, double density) {
 glm::dvec3 canvas(glm::dvec3 p) {
   const double wander = std::sin(2.1 * p.x + 1.3 * std::sin(1.7 * p.y + 0.9 * p.z)) +
                         0.5 * std::sin(5.3 * p.y + 2.0 * std::sin(3.1 * p.x - 2.3 * p.z));
-  return glm::dvec3(0.30, 0.29, 0.29) * (1.0 + 0.06 * wander);
+  return glm::dvec3(0.18, 0.19, 0.215) * (1.0 + 0.06 * wander);
 }
 
 /// A floor that bends up into a wall, as photographers have it.
@@ -44,8 +44,8 @@ Model backdrop() {
   constexpr double WIDTH = 6.8;
   constexpr double FRONT = 3.4;
   constexpr double BEND_Z = -0.95;  ///< where the floor ends and the bend begins
-  constexpr double BEND = 0.45;    ///< radius of the bend
-  constexpr double HEIGHT = 2.6;   ///< of the wall above it
+  constexpr double BEND = 0.45;     ///< radius of the bend
+  constexpr double HEIGHT = 2.6;    ///< of the wall above it
   const glm::dvec3 along_x(WIDTH, 0.0, 0.0);
   Model model{rectangle_surface("backdrop", {LEFT, 0.0, FRONT}, along_x, {0.0, 0.0, BEND_Z - FRONT}),
               rectangle_surface("backdrop", {LEFT, BEND, BEND_Z - BEND}, along_x, {0.0, HEIGHT, 0.0}),
@@ -60,39 +60,39 @@ Model backdrop() {
   return model;
 }
 
-/// Stands on the floor, facing the camera.
+/// Hangs before the wall, facing the camera.
 SurfacePatch ring() {
   constexpr double RADIUS = 0.7;
-  constexpr double TUBE = 0.02;
+  constexpr double TUBE = 0.03;
   return {"ring", torus_area(RADIUS, TUBE, -PI, PI),
           [=](const Sampling& sampling) {
-            return moved(torus(sampling, RADIUS, TUBE, -PI, PI), {0.22, RADIUS + TUBE, -0.85}, UPRIGHT);
+            return moved(torus(sampling, RADIUS, TUBE, -PI, PI), {0.22, 0.76, -1.1}, UPRIGHT);
           },
-          16.0};
+          10.0};
 }
 
 /// A closed surface, out and in: the wall is 8 mm thick.
 SurfacePatch vase() {
   const Profile profile =
-      spline({{0.0, 0.0},     {0.06, 0.0},    {0.1, 0.004},   {0.13, 0.04},   {0.155, 0.11},
-              {0.165, 0.19},  {0.15, 0.28},   {0.105, 0.355}, {0.064, 0.41},  {0.05, 0.46},
-              {0.056, 0.51},  {0.078, 0.54},  {0.082, 0.546}, {0.076, 0.548}, {0.05, 0.515},
-              {0.042, 0.46},  {0.056, 0.406}, {0.098, 0.35},  {0.142, 0.277}, {0.157, 0.19},
-              {0.147, 0.113}, {0.122, 0.05},  {0.09, 0.022},  {0.05, 0.018},  {0.0, 0.018}});
+      spline({{0, 0},          {0.069, 0},      {0.115, 0.0046}, {0.149, 0.046},   {0.178, 0.127},
+              {0.19, 0.218},   {0.172, 0.322},  {0.121, 0.408},  {0.0736, 0.471},  {0.0575, 0.529},
+              {0.0644, 0.586}, {0.0897, 0.621}, {0.0943, 0.628}, {0.0874, 0.63},   {0.0575, 0.592},
+              {0.0483, 0.529}, {0.0644, 0.467}, {0.113, 0.402},  {0.163, 0.319},   {0.181, 0.218},
+              {0.169, 0.13},   {0.14, 0.0575},  {0.103, 0.0253}, {0.0575, 0.0207}, {0, 0.0207}});
   return {"glass", lathe_area(profile),
           [=](const Sampling& sampling) {
-            return moved(lathe(sampling, profile), {0.24, 0.0, 0.05});
+            return moved(lathe(sampling, profile), {0.17, 0.0, 0.05});
           },
           30.0};
 }
 
 SurfacePatch knot() {
-  constexpr double SIZE = 0.26;
+  constexpr double SIZE = 0.27;
   constexpr double TUBE = 0.2 * SIZE;
   const Curve curve = [](double parameter) { return SIZE * trefoil(parameter); };
   return {"knot", tube_area(curve, TUBE),
           [=](const Sampling& sampling) {
-            return moved(tube(sampling, curve, TUBE), {0.82, SIZE + TUBE, -0.25}, turned(-0.45));
+            return moved(tube(sampling, curve, TUBE), {0.8, SIZE + TUBE, -0.3}, turned(-0.5));
           },
           20.0};
 }
@@ -112,7 +112,7 @@ Model demo_model() {
   const Model scanned = placed(amphora(), {-0.5, 0.0, -0.25}, 0.5, 40.0);
   model.insert(model.end(), scanned.begin(), scanned.end());
   for (const SurfacePatch& patch :
-       {ring(), vase(), knot(), ball("gold", -0.1, 0.5, 0.12), ball("steel", 0.6, 0.42, 0.16)})
+       {ring(), vase(), knot(), ball("gold", -0.13, 0.42, 0.13), ball("steel", 0.5, 0.4, 0.14)})
     model.push_back(patch);
   return model;
 }
