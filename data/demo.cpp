@@ -31,11 +31,13 @@ Model placed(Model model, glm::dvec3 foot, double angle, double density) {
   return model;
 }
 
-/// Distemper on canvas: a grey that wanders a little.
+/// Distemper on canvas: a warm grey that wanders a little and turns dusky blue upwards.
 glm::dvec3 canvas(glm::dvec3 p) {
   const double wander = std::sin(2.1 * p.x + 1.3 * std::sin(1.7 * p.y + 0.9 * p.z)) +
                         0.5 * std::sin(5.3 * p.y + 2.0 * std::sin(3.1 * p.x - 2.3 * p.z));
-  return glm::dvec3(0.20, 0.19, 0.19) * (1.0 + 0.06 * wander);
+  const double height = glm::smoothstep(0.05, 1.0, p.y);
+  return glm::mix(glm::dvec3(0.20, 0.19, 0.19), glm::dvec3(0.13, 0.17, 0.215), height) *
+         (1.0 + 0.06 * wander);
 }
 
 /// A floor that bends up into a wall, as photographers have it.
