@@ -11,7 +11,7 @@ struct ModelOptions {
   double angle_deg = 60.0;  ///< opening angle of the wedge, (0, 180)
 };
 
-/// The niche with mirror, glass and knot of data/scenes/demo.gltf.
+/// The still life before a ring of light of data/scenes/demo.gltf.
 [[nodiscard]] Model demo_model();
 
 /// The closed box room of data/scenes/room.gltf (Goradia et al. 2010, Fig. 14 b: a room with matte, mirror

@@ -63,4 +63,15 @@ using Curve = std::function<glm::dvec3(double parameter)>;
 /// The (2,3) torus knot, also called trefoil, within a sphere of radius 1 about the origin, its axis along z.
 [[nodiscard]] glm::dvec3 trefoil(double parameter);
 
+/// Radius and height of a surface of revolution over the parameter [0, 1]; radius >= 0.
+using Profile = std::function<glm::dvec2(double parameter)>;
+
+/// The uniform Catmull-Rom spline through `points` (radius, height), two or more; a radius below 0 becomes 0.
+[[nodiscard]] Profile spline(std::vector<glm::dvec2> points);
+
+/// Surface of revolution of the profile about the y axis. Normals lie to the right of the profile's direction: outwards
+/// where it rises.
+[[nodiscard]] OrientedPoints lathe(const Sampling& sampling, const Profile& profile);
+[[nodiscard]] double lathe_area(const Profile& profile);
+
 }  // namespace splatray

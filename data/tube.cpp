@@ -1,31 +1,15 @@
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "data/running_sum.h"
 #include "data/shapes.h"
 
 namespace splatray {
 namespace {
 
 constexpr double PI = std::numbers::pi;
-/// Of the arc-length table; chords of a knot then differ from arcs by less than 1e-6.
-constexpr int STEPS = 4096;
-
-/// Arc length from parameter 0 to i / STEPS.
 std::vector<double> arc_lengths(const Curve& curve) {
-  std::vector<double> lengths{0.0};
-  for (int i = 1; i <= STEPS; ++i) {
-    lengths.push_back(lengths.back() + glm::distance(curve((i - 1.0) / STEPS), curve(1.0 * i / STEPS)));
-  }
-  return lengths;
-}
-
-/// Parameter at the share `fraction` of the whole length.
-double parameter_at(const std::vector<double>& lengths, double fraction) {
-  const double length = fraction * lengths.back();
-  const auto after = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, length);
-  const double rest = (length - after[-1]) / (after[0] - after[-1]);
-  return (static_cast<double>(after - lengths.begin()) - 1.0 + rest) / STEPS;
+  return running_sum([&](double from, double to) { return glm::distance(curve(from), curve(to)); });
 }
 
 /// Angle about the curve up to which the share `fraction` of a ring's area lies, 0 being the side of the

@@ -14,11 +14,12 @@
 namespace splatray {
 namespace {
 
-constexpr int PASSES = 5;            ///< the last one's taps lie 16 pixels apart
-constexpr float BASE_LEAST = 0.05F;  ///< light of darker surfaces is that of such ones
-constexpr float DEPTH_SLACK = 1.0F;  ///< of the depth's change from pixel to pixel
-constexpr float NOISE_WIDTH = 1.5F;  ///< standard errors of a difference by which light may differ
-constexpr float OWN_WIDTH = 4.0F;    ///< the same in the half that is filtered, whose own outliers stay out
+constexpr int PASSES = 5;              ///< the last one's taps lie 16 pixels apart
+constexpr float BASE_LEAST = 0.05F;    ///< light of darker surfaces is that of such ones
+constexpr float DEPTH_SLACK = 1.0F;    ///< of the depth's change from pixel to pixel
+constexpr float NOISE_WIDTH = 1.5F;    ///< standard errors of a difference by which light may differ
+constexpr float OWN_WIDTH = 4.0F;      ///< the same in the half that is filtered, whose own outliers stay out
+constexpr float RIM_LIKENESS = 0.01F;  ///< less, and a neighbour is of another surface
 constexpr float KERNEL[] = {0.375F, 0.25F, 0.0625F};  ///< B3 spline
 constexpr float SMALL_KERNEL[] = {0.5F, 0.25F};       ///< of the guide
 
@@ -51,14 +52,10 @@ class Filter {
   Image run() const {
     Light light = taken_apart();
     limit_sparks(light.halves, image_.width);
+    const Image unfiltered = joined(light);
     light = with_variance(std::move(light));
     for (int pass = 0; pass < PASSES; ++pass) light = filtered(light, guide_of(light), 1 << pass);
-    Image result = image_;
-    for (std::size_t i = 0; i < result.rgba.size(); ++i) {
-      const vec3 both = glm::mix(light.halves[1][i], light.halves[0][i], image_.part_share);
-      if (is_surface(i)) result.rgba[i] = vec4(both * base_of(i), result.rgba[i].w);
-    }
-    return result;
+    return with_limited_rims(joined(light), unfiltered);
   }
 
  private:
@@ -108,6 +105,16 @@ class Filter {
     return light;
   }
 
+  /// The image with this light.
+  [[nodiscard]] Image joined(const Light& light) const {
+    Image result = image_;
+    for (std::size_t i = 0; i < result.rgba.size(); ++i) {
+      const vec3 both = glm::mix(light.halves[1][i], light.halves[0][i], image_.part_share);
+      if (is_surface(i)) result.rgba[i] = vec4(both * base_of(i), result.rgba[i].w);
+    }
+    return result;
+  }
+
   /// How much of one pixel's surface another one is.
   [[nodiscard]] float likeness(std::size_t a, std::size_t b, int dx, int dy) const {
     if (image_.aov[a].object != image_.aov[b].object) return 0.0F;
@@ -126,6 +133,38 @@ class Filter {
         const int u = x + i * step, v = y + j * step;
         if (u >= 0 && v >= 0 && u < width_ && v < height_) take(at(u, v), i, j);
       }
+  }
+
+  [[nodiscard]] bool is_rim(int x, int y) const {
+    bool found = false;
+    around(x, y, 1, 1, [&](std::size_t tap, int dx, int dy) {
+      found = found || likeness(at(x, y), tap, dx, dy) < RIM_LIKENESS;
+    });
+    return found;
+  }
+
+  /// A pixel of two surfaces has a base colour of both, but its neighbours' light is that of one: the product may be brighter or
+  /// darker than both. It is kept to the colours of the pixels around that are of one surface, and of its own samples.
+  [[nodiscard]] Image with_limited_rims(const Image& image, const Image& unfiltered) const {
+    Image result = image;
+    std::vector<char> rims(image.rgba.size());
+    for_rows([&](int y) {
+      for (int x = 0; x < width_; ++x) rims[at(x, y)] = is_rim(x, y) ? 1 : 0;
+    });
+    for_rows([&](int y) {
+      for (int x = 0; x < width_; ++x) {
+        const std::size_t center = at(x, y);
+        if (rims[center] == 0 || !is_surface(center)) continue;
+        vec3 least(unfiltered.rgba[center]), most = least;
+        around(x, y, 2, 1, [&](std::size_t tap, int, int) {
+          if (rims[tap] != 0) return;
+          least = glm::min(least, vec3(image.rgba[tap]));
+          most = glm::max(most, vec3(image.rgba[tap]));
+        });
+        result.rgba[center] = vec4(glm::clamp(vec3(image.rgba[center]), least, most), image.rgba[center].w);
+      }
+    });
+    return result;
   }
 
   /// Two halves say little about one pixel's noise; the mean over 7 x 7 of the same surface estimates it.

@@ -99,6 +99,30 @@ TEST(DenoiseWall, WhatBothHalvesFindBrightStays) {
   EXPECT_NEAR(denoised(wall.image, wall.base).rgba[Wall::LAMP].x, 50.0F, 1.0F);
 }
 
+/// A wall of base 0.2 in light of 0.5, before it one of base 0.9 in light of 0.05, whose edge covers half of the pixels of a column.
+/// These have more noise than the lights differ.
+TEST(DenoiseWall, APixelOfTwoSurfacesIsNotBrighterThanBoth) {
+  constexpr std::size_t SEAM = EDGE / 2;
+  Wall wall;
+  std::mt19937 random(5);
+  std::normal_distribution<float> noise(0.0F, 0.05F);
+  for (std::size_t i = 0; i < EDGE * EDGE; ++i) {
+    const std::size_t x = i % EDGE;
+    const float covered = x < SEAM ? 0.0F : (x == SEAM ? 0.5F : 1.0F);
+    wall.base[i] = vec4(vec3(glm::mix(0.2F, 0.9F, covered)), 1.0F);
+    wall.image.aov[i].object = x > SEAM ? 1 : 0;
+    const float radiance = glm::mix(0.1F, 0.045F, covered);
+    const float half = radiance + noise(random), other = radiance + noise(random);
+    wall.image.part[i] = vec4(vec3(half), 1.0F);
+    wall.image.rgba[i] = vec4(vec3(0.5F * (half + other)), 1.0F);
+  }
+  const Image clean = denoised(wall.image, wall.base);
+  float mean = 0.0F;
+  for (std::size_t y = 0; y < EDGE; ++y) mean += clean.rgba[y * EDGE + SEAM].x / float(EDGE);
+  EXPECT_LT(mean, 0.115F);  // 0.1 and what is left of noise; light times base would be up to 0.275
+  EXPECT_GT(mean, 0.045F);
+}
+
 TEST_F(Denoise, BaseColoursAreThose) {
   const std::vector<vec4> colors = base();
   const vec3 middle(colors[EDGE * EDGE / 2 + EDGE / 2]);
