@@ -99,16 +99,20 @@ class Material:
             return texture(factor * linear(self.file.picture(info["index"])[..., :3]), info)
         return {"type": "mesh_attribute", "name": "vertex_color"} if colored else {"type": "rgb", "value": factor.tolist()}
 
+    def tint(self, crossings):
+        """The base colour's root, so that light that crosses this often is tinted by all of it."""
+        factor = np.array(self.pbr.get("baseColorFactor", (1, 1, 1, 1))[:3])
+        return {"type": "rgb", "value": (factor ** (1.0 / crossings)).tolist()}
+
     def metal_rough(self, name, channel, change=lambda x: x):
         return self.number(self.pbr.get(name, 1.0), self.pbr.get("metallicRoughnessTexture"), channel, change)
 
-    def glass(self, colored):
-        ior = (self.extension("ior") or {}).get("ior", 1.5)
-        glass = {"type": "dielectric", "int_ior": max(ior, 1.001), "ext_ior": 1.0, "specular_transmittance": self.base(colored)}
-        alpha = self.metal_rough("roughnessFactor", 1, lambda x: np.maximum(x * x, SMOOTHEST))
+    def glass(self):
         if self.extension("volume") is None:
-            del glass["int_ior"], glass["ext_ior"]
-            return glass | {"type": "thindielectric"}
+            return {"type": "thindielectric", "specular_transmittance": self.tint(1)}
+        ior = (self.extension("ior") or {}).get("ior", 1.5)
+        glass = {"type": "dielectric", "int_ior": max(ior, 1.001), "ext_ior": 1.0, "specular_transmittance": self.tint(2)}
+        alpha = self.metal_rough("roughnessFactor", 1, lambda x: np.maximum(x * x, SMOOTHEST))
         return glass if alpha == SMOOTHEST else glass | {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha}
 
     def opaque(self, colored):
@@ -128,7 +132,7 @@ class Material:
     def bsdf(self, colored, mirrored):
         """`mirrored`: of triangles whose texture is laid mirrored."""
         is_glass = bool((self.extension("transmission") or {}).get("transmissionFactor"))
-        bsdf = self.glass(colored) if is_glass else self.opaque(colored)
+        bsdf = self.glass() if is_glass else self.opaque(colored)
         if info := self.source.get("normalTexture"):
             normals = self.file.picture(info["index"])[..., :3] * 2.0 - 1.0
             normals[..., :2] *= info.get("scale", 1.0) * np.array([1.0, -1.0 if mirrored else 1.0])
