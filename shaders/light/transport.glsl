@@ -83,7 +83,8 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uin
 
 /// What a path's ray sees first, and whether the splat with these words is a member of it. A sheet that is see-through is there as
 /// often as its opacity says, by a hash of the ray and of the sheet's first splat (stochastic transparency: Enderton et al. 2010),
-/// which no order of splats changes. `of_ray` distinguishes rays.
+/// which no order of splats changes, and of the sheets before: at a crease each of two sheets may be met again from the other, which
+/// would not end if a sheet were always passed by the rays that have passed it once. `of_ray` distinguishes rays.
 Hit trace_seen(Ray ray, uvec4 watched, uint of_ray, INOUT(Tally) tally) {
   float passed = 0.0f;
   bool passes = false;
@@ -95,6 +96,7 @@ Hit trace_seen(Ray ray, uvec4 watched, uint of_ray, INOUT(Tally) tally) {
       // The mean of what is all opaque may be a rounding below 1.
       float opacity = hit.factors.layer.w > 0.999999f ? 2.0f : hit.factors.layer.w;
       passes = hit.found && unit_float(hash_uint(of_ray ^ hash_words(hit.first))) >= opacity;
+      of_ray += 0x9e3779b9u;
       ray = ray_from_hit(hit, ray.dir, ray.inside);
       float t = hit.t;
       hit.t += passed;
