@@ -1,7 +1,7 @@
 """gltf_in_mitsuba.py SCENE OUT.png --environment FILE [--environment-strength X] [--eye X,Y,Z --target X,Y,Z --fov DEG] [--samples N]
-[--variant NAME]: the triangles of a glTF file, path-traced by Mitsuba 3 (Jakob et al. 2022) from that view or the file's first camera, 480 x 360 pixels, sRGB without a tone curve.
-A reader of glTF 2.0 of its own, so that pictures of splatray are compared with another's understanding of the file: what meets the eye in
-sample assets, neither sparse accessors nor skins. Needs Mitsuba and NumPy from PyPI."""
+[--variant NAME]: the triangles of a glTF file, path-traced by Mitsuba 3 (Jakob et al. 2022) from that view or the file's first camera, 480 x 360
+pixels, sRGB without a tone curve. A reader of glTF 2.0 of its own, so that pictures of splatray are compared with another's understanding of
+the file; it reads what the sample assets have: no sparse accessors, skins or morphs. Needs Mitsuba and NumPy from PyPI."""
 
 import argparse
 import base64
