@@ -1,4 +1,4 @@
-"""gltf_in_mitsuba.py SCENE OUT.png --environment FILE [--environment-strength X] [--eye X,Y,Z --target X,Y,Z --fov DEG] [--samples N]
+"""gltf_in_mitsuba.py SCENE OUT.png --environment FILE [--eye X,Y,Z --target X,Y,Z --fov DEG] [--samples N]
 [--variant NAME]: the triangles of a glTF file, path-traced by Mitsuba 3 (Jakob et al. 2022) from that view or the file's first camera, 480 x 360
 pixels, sRGB without a tone curve. A reader of glTF 2.0 of its own, so that pictures of splatray are compared with another's understanding of
 the file; it reads what the sample assets have: no sparse accessors, skins or morphs. Needs Mitsuba and NumPy from PyPI."""
@@ -265,7 +265,7 @@ def load(file, args, folder):
     scene.update((f"light{i}", light) for i, light in enumerate(lights(file)))
     sky = np.array(mi.Bitmap(args.environment).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False))
     # Mitsuba's first column lies where the middle of splatray's does.
-    scene["sky"] = {"type": "envmap", "scale": args.environment_strength, "bitmap": mi.Bitmap(np.roll(sky, sky.shape[1] // 2, axis=1))}
+    scene["sky"] = {"type": "envmap", "bitmap": mi.Bitmap(np.roll(sky, sky.shape[1] // 2, axis=1))}
     return mi.load_dict(scene)
 
 
@@ -277,7 +277,6 @@ def main():
     parser.add_argument("scene")
     parser.add_argument("out")
     parser.add_argument("--environment", required=True)
-    parser.add_argument("--environment-strength", type=float, default=1.0)
     parser.add_argument("--eye", type=triple)
     parser.add_argument("--target", type=triple)
     parser.add_argument("--fov", type=float)
