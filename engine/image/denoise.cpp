@@ -18,7 +18,7 @@ constexpr int PASSES = 5;              ///< the last one's taps lie 16 pixels ap
 constexpr float BASE_LEAST = 0.05F;    ///< light of darker surfaces is that of such ones
 constexpr float DEPTH_SLACK = 1.0F;    ///< of the depth's change from pixel to pixel
 constexpr float NOISE_WIDTH = 1.5F;    ///< standard errors of a difference by which light may differ
-constexpr float OWN_WIDTH = 4.0F;      ///< the same in the half that is filtered, whose own outliers stay out
+constexpr float OWN_WIDTH = 6.0F;      ///< the same in the half that is filtered, whose own outliers stay out
 constexpr float RIM_LIKENESS = 0.01F;  ///< less, and a neighbour is of another surface
 constexpr float KERNEL[] = {0.375F, 0.25F, 0.0625F};  ///< B3 spline
 constexpr float SMALL_KERNEL[] = {0.5F, 0.25F};       ///< of the guide
@@ -143,8 +143,8 @@ class Filter {
     return found;
   }
 
-  /// A pixel of two surfaces has a base colour of both, but its neighbours' light is that of one: the product may be brighter or
-  /// darker than both. It is kept to the colours of the pixels around that are of one surface, and of its own samples.
+  /// A pixel of two surfaces has a base colour of both, but its neighbours' light is that of one: the product may be brighter than
+  /// both. It is made no brighter than the pixels around that are of one surface, or its own samples.
   [[nodiscard]] Image with_limited_rims(const Image& image, const Image& unfiltered) const {
     Image result = image;
     std::vector<char> rims(image.rgba.size());
@@ -155,13 +155,15 @@ class Filter {
       for (int x = 0; x < width_; ++x) {
         const std::size_t center = at(x, y);
         if (rims[center] == 0 || !is_surface(center)) continue;
-        vec3 least(unfiltered.rgba[center]), most = least;
+        vec3 most(unfiltered.rgba[center]);
+        bool alone = true;  // as all are where points lie loosely
         around(x, y, 2, 1, [&](std::size_t tap, int, int) {
           if (rims[tap] != 0) return;
-          least = glm::min(least, vec3(image.rgba[tap]));
+          alone = false;
           most = glm::max(most, vec3(image.rgba[tap]));
         });
-        result.rgba[center] = vec4(glm::clamp(vec3(image.rgba[center]), least, most), image.rgba[center].w);
+        if (alone) continue;
+        result.rgba[center] = vec4(glm::min(vec3(image.rgba[center]), most), image.rgba[center].w);
       }
     });
     return result;

@@ -78,22 +78,29 @@ LightSample light_sample(Receiver receiver, vec3 random) {
     float share = light_share(receiver, leaf, choice) * (1.0f - frame.sky_share);
     uint content = leaf != NO_NODE ? light_node_at(leaf).content : 0u;
     uint index = content & LIGHT_NODE_INDEX;
-    bool emitter = EMISSION && (content & LIGHT_NODE_EMITTER) != 0u;
-    if (emitter) {
+    bool found = (content & LIGHT_NODE_LEAF) != 0u;
+    bool emitter = (content & LIGHT_NODE_EMITTER) != 0u;
+    if (EMISSION && found && emitter) {
       EmitterSample point = emitter_sample(index, receiver.position, vec2(random));
       chosen.dir = point.dir;
-      chosen.pdf = point.pdf;
-      chosen.radiance = vec3(1.0f / point.pdf);
+      chosen.pdf = point.pdf * share;
+      chosen.radiance = vec3(1.0f / chosen.pdf);
       chosen.distance = INFINITY_F;
       chosen.light = NO_LIGHT;
       chosen.splat = point.words;
-    } else {
+    } else if (LIGHTS && found && !emitter) {
       chosen = one_light_sample(light_at(index), receiver.position, vec2(random));
+      chosen.radiance /= share;
+      chosen.pdf *= share;
       chosen.light = index;
+    } else {
+      chosen.dir = receiver.normal;
+      chosen.pdf = 1.0f;
+      chosen.radiance = vec3(0.0f);
+      chosen.distance = INFINITY_F;
+      chosen.light = NO_LIGHT;
+      chosen.splat = NO_SPLAT;
     }
-    bool shines = leaf != NO_NODE && (emitter || (LIGHTS && (content & LIGHT_NODE_EMITTER) == 0u));
-    chosen.radiance = shines ? chosen.radiance / share : vec3(0.0f);
-    chosen.pdf *= share;
   }
   return chosen;
 }

@@ -166,6 +166,9 @@ TEST(Gltf, AnyShareOfTransmissionIsKept) {
     EXPECT_EQ(input.objects[0].material.flags, MATERIAL_DIELECTRIC);
     ASSERT_TRUE(input.objects[0].surface.has_value());
     EXPECT_FLOAT_EQ(input.objects[0].surface->transmission, std::stof(share));
+    EXPECT_EQ(input.objects[0].material.ior, 1.0F) << "a pane";
+    EXPECT_EQ(input.objects[0].surface->coat, 1.0F) << "which mirrors as glass does";
+    EXPECT_EQ(input.objects[0].surface->coat_roughness, input.objects[0].surface->roughness);
   }
 }
 

@@ -96,9 +96,8 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
         gpu_intersect(scene, truth.rays, settings, {.pools = {.data = DataPool::references}});
     EXPECT_EQ(different_bits(answers, through_references), 0U) << "other bits through references";
   }
-  // One pool more takes pages where there are clip lines, and a program's count of buffers is limited.
-  const std::uint64_t pages = scenes.front().clip_pool.empty() ? PAGES_MOST : PAGES_MOST / 2;
-  const std::uint64_t page = std::bit_ceil(scenes.front().reference_pool.size()) / pages;
+  // Not PAGES_MOST: a program's count of buffers is limited.
+  const std::uint64_t page = std::bit_ceil(scenes.front().reference_pool.size()) / (PAGES_MOST / 2);
   for (const DataPool data : {DataPool::copies, DataPool::references}) {
     for (const Kernels kernels : {Kernels::automatic, Kernels::gpu}) {
       const auto paged = gpu_intersect(scenes.front(), truth.rays, settings,

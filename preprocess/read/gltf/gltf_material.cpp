@@ -49,13 +49,18 @@ glm::vec3 attenuation(const tinygltf::Material& source) {
           std::pow(unit_clamp(color[2]), power)};
 }
 
+/// Whether light that a material transmits goes on unbent, as through a pane: nothing says what is behind its surface.
+bool is_thin(const tinygltf::Material& source) {
+  return find_extension(source.extensions, "KHR_materials_ior") == nullptr &&
+         find_extension(source.extensions, "KHR_materials_volume") == nullptr;
+}
+
 void make_dielectric(Material& material, const tinygltf::Material& source, const GltfSurface& surface) {
   constexpr double GLASS = 1.5;
   const tinygltf::Value* ior = find_extension(source.extensions, "KHR_materials_ior");
-  const bool thin = ior == nullptr && find_extension(source.extensions, "KHR_materials_volume") == nullptr;
   const double found = ior == nullptr ? GLASS : number_in(*ior, "ior").value_or(GLASS);
   material.flags |= MATERIAL_DIELECTRIC;
-  material.ior = thin ? 1.0F : static_cast<float>(found > 0.0 ? found : GLASS);
+  material.ior = is_thin(source) ? 1.0F : static_cast<float>(found > 0.0 ? found : GLASS);
   material.tint = surface.base * attenuation(source);
 }
 
@@ -302,6 +307,11 @@ std::optional<Surface> GltfMaterials::surface(int index, bool colored, const std
     if (i < sampled.size() && sampled[i]) continue;
     const glm::vec4 mean = known[i].map.texture->image->mean();
     for (const auto& [factor, channel] : known[i].map.channels) multiply(*factor, mean[channel], surface);
+  }
+  // A pane mirrors as glass does, though its index of refraction is 1.
+  if (surface.transmission > 0.0F && surface.coat <= 0.0F && is_thin(from)) {
+    surface.coat = surface.specular;
+    surface.coat_roughness = surface.roughness;
   }
   return surface;
 }
