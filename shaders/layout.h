@@ -40,8 +40,8 @@
 ///   LAYER  7..0 metallic, 15..8 roughness, 23..16 transmission, 31..24 opacity
 ///   GLOW   7..0 emission's red, 15..8 green, 23..16 blue, 31..24 specular
 ///   COLOR  7..0 specular colour's red, 15..8 green, 23..16 blue, 31..24 clearcoat
-///   NORMAL 31..24 clearcoat roughness; a normal map's normal, octahedral: 11..0 u + 2047, 23..12 v + 2047, u, v in [-2047, 2047];
-///          23..0 all ones: the splat's own
+///   NORMAL 31..24 clearcoat roughness; a normal map's normal, octahedral: 11..0 u + 2047, 23..12 v + 2047; 23..0 all ones:
+///          the splat's own
 ///
 /// Slab, 32 bits per filled leaf: two parallel planes; all that the leaf's discs have inside its cell lies between them
 /// (Kay and Kajiya 1986, "Ray Tracing Complex Scenes"). A point p of a cell with centre c and half size h is between them
@@ -109,6 +109,7 @@ SPLATRAY_CONST OCT_SCALE = 32767u;        ///< octahedral normals: |u| + |v| + |
 SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;     ///< word 3: object index
 SPLATRAY_CONST FIELD_FLAT = 0x20080200u;  ///< the normal field of a flat disc
 SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
+SPLATRAY_CONST TEXTURE_NORMAL_SCALE = 2047u;  ///< normal maps' normals: |u| + |v| + |w| = TEXTURE_NORMAL_SCALE
 SPLATRAY_CONST CLIP_NONE = 0xFF00FF00u;   ///< clip lines that cut nothing off
 SPLATRAY_CONST CLIP_STEPS = 64u;          ///< directions of clip lines: |a| + |b| = CLIP_STEPS
 SPLATRAY_CONST CLIP_ZERO = 127u;          ///< q of a line through the centre; of second lines none is below
@@ -178,8 +179,8 @@ struct Light {
   uint unused_0, unused_1, unused_2;
 };
 
-/// A node of the light tree (engine/light/light_tree.h), depth first: an inner node's first child follows it, its second is the one
-/// that the first's `skip` leads to. Three texels.
+/// A node of the light tree (engine/light/light_tree.h), depth first: an inner node's first child follows it, its second is the
+/// one that the first's `skip` leads to. Three texels.
 struct LightNode {
   vec3 center;   ///< of a ball that holds all below it, lattice units; distant: unit vector into the middle of all of them
   float radius;  ///< distant: sine of the angle about that which holds them, 1 and more: no bound
@@ -435,7 +436,8 @@ SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
 
 #ifdef __cplusplus
-static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 96 && sizeof(LightNode) == 16 * LIGHT_NODE_TEXELS &&
+static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 96 &&
+              sizeof(LightNode) == 16 * LIGHT_NODE_TEXELS &&
               sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
               sizeof(FrameParams) == 1088 && sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray

@@ -30,7 +30,7 @@ namespace {
 constexpr std::uint64_t PIECE_BYTES = 1ULL << 24;  ///< read or written between two looks at whether to go on
 constexpr std::uint64_t MOST_ELEMENTS = 1ULL << 40;  ///< more cannot be real, and would overflow sizes
 
-/// The bytes of the lights' section, so many each.
+/// The bytes of the lights' section, `record_bytes` of each.
 std::vector<char> light_bytes(const std::vector<SceneLight>& lights, std::uint32_t record_bytes) {
   std::vector<char> bytes;
   for (const SceneLight& light : lights) {

@@ -69,8 +69,8 @@
 
 namespace splatray {
 
-/// The versions of files with what those before do not know: texture factors among the columns, spots and lights with a range; lights
-/// that have a size. All others are of version 10, byte for byte.
+/// The versions of files with what those before do not know: texture factors among the columns, spots and lights with a range;
+/// lights that have a size. All others are of version 10, byte for byte.
 inline constexpr std::uint32_t SCENE_FILE_VERSION = 12, SIZED_SCENE_FILE_VERSION = 11,
                                PLAIN_SCENE_FILE_VERSION = 10;
 
@@ -79,9 +79,9 @@ inline constexpr std::uint32_t SCENE_FILE_VERSION = 12, SIZED_SCENE_FILE_VERSION
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
 /// Reads and checks a whole scene file. Refuses, as Error (input_unreadable) with path, found and expected: wrong magic, another
-/// version (those before 10 are not read: build again), foreign endianness, truncation at any byte, extra bytes, checksum mismatch,
-/// and whatever find_scene_defect (scene_check.h) finds. Error (interrupted) when `progress`, called with the stage "reading", says
-/// so.
+/// version (those before 10 are not read: build again), foreign endianness, truncation at any byte, extra bytes, checksum
+/// mismatch, and whatever find_scene_defect (scene_check.h) finds. Error (interrupted) when `progress`, called with the stage
+/// "reading", says so.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace splatray

@@ -45,10 +45,14 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
 void DeviceScene::show(const Look& look) {
   const bool all = !shows_look_;
   shows_look_ = false;  // should an Error fly
-  if (all || !same_looks(look.objects, shown_.objects)) show_objects(look.objects);
-  std::vector<bool> two_sided = two_sided_objects(look.objects.materials);
-  if (all || look.lights != shown_.lights || look.emitters != shown_.emitters || two_sided != two_sided_)
-    show_lights(look, std::move(two_sided));
+  bool other_light = all || look.lights != shown_.lights || look.emitters != shown_.emitters;
+  if (all || !same_looks(look.objects, shown_.objects)) {
+    show_objects(look.objects);
+    std::vector<bool> two_sided = two_sided_objects(look.objects.materials);
+    other_light = other_light || two_sided != two_sided_;
+    two_sided_ = std::move(two_sided);
+  }
+  if (other_light) show_lights(look);
   if (look.environment != shown_.environment)
     show_environment(look.environment ? *look.environment : Environment{});
   outline_.up = look.up;
@@ -71,7 +75,7 @@ void DeviceScene::show_objects(const ObjectLooks& objects) {
   upload_table(surface_buffer_, std::as_bytes(std::span(objects.surfaces)));
 }
 
-void DeviceScene::show_lights(const Look& look, std::vector<bool> two_sided) {
+void DeviceScene::show_lights(const Look& look) {
   const std::vector<SceneLight>& lights = look.lights;
   if (lights.size() > LIGHTS_MOST)
     throw Error(ExitCode::failed, "found " + std::to_string(lights.size()) + " lights, expected at most " +
@@ -86,7 +90,6 @@ void DeviceScene::show_lights(const Look& look, std::vector<bool> two_sided) {
   light_irradiance_ = summed_irradiance(outline_, lights) + emitted_irradiance(outline_, look.emitters);
   std::vector<Light> table = lights_in_root(outline_, lights);
   lights_met_ = static_cast<std::uint32_t>(std::count_if(table.begin(), table.end(), is_met));
-  two_sided_ = std::move(two_sided);
   tree_ = light_tree(table, look.emitters, two_sided_);
   reserve_storage(context_, light_buffer_, std::span(table).size_bytes());
   light_buffer_.upload(queue_, std::as_bytes(std::span(table)));

@@ -57,7 +57,7 @@ class DeviceScene {
   void reserve_read(Buffer& buffer, VkDeviceSize bytes, VkFormat format);
   void upload_tables(const SkyTable& sky);
   void show_objects(const ObjectLooks& objects);
-  void show_lights(const Look& look, std::vector<bool> two_sided);
+  void show_lights(const Look& look);
   void upload_tree(const Emitters& emitters);
   void show_environment(const Environment& environment);
   void set_sky(const Settings& settings, FrameParams& frame) const;
@@ -82,7 +82,7 @@ class DeviceScene {
   std::uint32_t lights_sized_ = 0, lights_met_ = 0;
   LightTree tree_;  ///< without its arrays
   std::uint32_t tree_nodes_ = 0;
-  std::vector<bool> two_sided_;    ///< as the tree has the objects
+  std::vector<bool> two_sided_;    ///< of each object, whether its light leaves both faces
   double light_irradiance_ = 0.0;  ///< at the scene's centre, facing all, the mean of rgb
   EnvironmentTexture environment_;
   bool environment_texture_ = false;

@@ -17,8 +17,8 @@ struct MaterialContent {
   bool glass = false;                 ///< some are dielectrics
   bool scatters = false;              ///< some send light of lights back, diffusely or as a highlight
 };
-/// FEATURE_* of the lobes that surfaces have, and of their emission. `textures`: FEATURE_TEXTURE_* of the scene, which may make less
-/// of a surface's values.
+/// FEATURE_* of the lobes that surfaces have, and of their emission. `textures`: FEATURE_TEXTURE_* of the scene, which may make
+/// less of a surface's values.
 [[nodiscard]] std::uint32_t surface_features(std::span<const Surface> surfaces,
                                              std::span<const Material> materials, std::uint32_t textures = 0);
 [[nodiscard]] MaterialContent material_content(std::span<const Material> materials);

@@ -143,8 +143,8 @@ class Filter {
     return found;
   }
 
-  /// A pixel of two surfaces has a base colour of both, but its neighbours' light is that of one: the product may be brighter than
-  /// both. It is made no brighter than the pixels around that are of one surface, or its own samples.
+  /// A pixel of two surfaces has a base colour of both, but its neighbours' light is that of one: the product may be brighter
+  /// than both. It is made no brighter than the pixels around that are of one surface, or its own samples.
   [[nodiscard]] Image with_limited_rims(const Image& image, const Image& unfiltered) const {
     Image result = image;
     std::vector<char> rims(image.rgba.size());
@@ -213,8 +213,8 @@ class Filter {
     return guide;
   }
 
-  /// How alike the light of two pixels is in one half, beyond what noise explains (Rousselle et al. 2012, "Adaptive Rendering with
-  /// Non-Local Means Filtering", sec. 4).
+  /// How alike the light of two pixels is in one half, beyond what noise explains (Rousselle et al. 2012, "Adaptive Rendering
+  /// with Non-Local Means Filtering", sec. 4).
   static float light_likeness(const Guide& guide, std::size_t half, std::size_t a, std::size_t b,
                               float width) {
     const float apart = guide.bright[half][a] - guide.bright[half][b];

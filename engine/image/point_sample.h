@@ -17,8 +17,8 @@ struct PointSample {
 /// Every n-th splat of the scene's order, at most 2^16 of them, without those beyond the scene's bounds: its ground's.
 [[nodiscard]] PointSample sample_points(const Scene& scene);
 
-/// Without what hangs together with less than a tenth of the largest part: strays, what was seen through a window. Points hang together
-/// that lie in cells which touch, 1/32 of what holds 98 % of the points along its longest side.
+/// Without what hangs together with less than a tenth of the largest part: strays, what was seen through a window. Points hang
+/// together that lie in cells which touch, 1/32 of what holds 98 % of the points along its longest side.
 [[nodiscard]] PointSample main_parts(const PointSample& sample);
 
 /// The values along a unit direction that leave `outside` of all points out at each end, 0..0.5; 0, 0 without points.

@@ -22,8 +22,8 @@ using Emitters = std::shared_ptr<const std::vector<Emitter>>;
 /// The splats of all objects that are to be seen and whose surface sends out light.
 [[nodiscard]] Emitters find_emitters(const Scene& scene, const ObjectLooks& objects);
 
-/// About the irradiance of a surface at the scene's centre that faces the light of emitters, mean of rgb, if nothing is in its way and
-/// each splat shines as a ball of its surface does.
+/// About the irradiance of a surface at the scene's centre that faces the light of emitters, mean of rgb, if nothing is in its
+/// way and each splat shines as a ball of its surface does.
 [[nodiscard]] double emitted_irradiance(const Scene& scene, const Emitters& emitters);
 
 }  // namespace splatray

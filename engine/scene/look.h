@@ -21,8 +21,8 @@ struct SceneLight {
   glm::dvec3 edge_u{0.0}, edge_v{0.0};
   /// Point: where it shines if it is a spot, any length > 0; zero: all around.
   glm::dvec3 spot_axis{0.0};
-  /// Spot: angles about its axis within which it is as bright as ahead, and without which it is dark; radians, 0 <= inner < outer <=
-  /// pi / 2. Between, and at its range, light falls off as KHR_lights_punctual has it.
+  /// Spot: angles about its axis within which it is as bright as ahead, and without which it is dark; radians, 0 <= inner < outer
+  /// <= pi / 2. Between, and at its range, light falls off as KHR_lights_punctual has it.
   double spot_inner = 0.0, spot_outer = 0.0;
   double range = 0.0;  ///< point: how far it shines, world units; 0: as far as there is anything
   bool operator==(const SceneLight&) const = default;

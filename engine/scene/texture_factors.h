@@ -1,6 +1,6 @@
-/// What textures make of single splats: numbers that multiply their surface's values, as glTF 2.0's textures multiply its factors.
-/// They stand in columns of bytes (columns.h) that only scenes with such textures have; the device gets them packed as words
-/// (shaders/layout.h).
+/// What textures make of single splats: numbers that multiply their surface's values, as glTF 2.0's textures multiply its
+/// factors. They stand in columns of bytes (columns.h) that only scenes with such textures have; the device gets them packed as
+/// words (shaders/layout.h).
 #pragma once
 #include <cstdint>
 #include <span>
@@ -34,9 +34,10 @@ inline constexpr std::string_view COLUMN_OPACITY = "texture-opacity";
 /// Multiplies what a factor is of.
 void multiply(const TextureFactor& factor, float value, Surface& surface);
 
-/// Columns of uint16 with a normal map's normal, octahedral: u + NORMAL_MAP_SCALE and v, world axes. ABSENT_NORMAL: the splat's own.
+/// Columns of uint16 with a normal map's normal, octahedral: u + NORMAL_MAP_SCALE and v, world axes. ABSENT_NORMAL: the splat's
+/// own.
 inline constexpr std::string_view COLUMN_NORMAL_U = "texture-normal-u", COLUMN_NORMAL_V = "texture-normal-v";
-inline constexpr int NORMAL_MAP_SCALE = 2047;
+inline constexpr int NORMAL_MAP_SCALE = TEXTURE_NORMAL_SCALE;
 inline constexpr std::uint16_t ABSENT_NORMAL = 4095;
 
 /// The value of points that have no such column, where others have: 255 of a texture factor, ABSENT_NORMAL, else 0.

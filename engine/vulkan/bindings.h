@@ -12,8 +12,8 @@ inline constexpr std::uint32_t POOLS = BIND_TOP_TABLE - BIND_NODE_POOL + 1;
 [[nodiscard]] constexpr bool is_read_as_pools(std::uint32_t binding) {
   return (binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE) || binding >= BIND_LIGHT_TABLES;
 }
-/// Of a program's bindings, beside the pools: at most so many sampled images, with the environment and the paths of stages, and
-/// storage buffers.
+/// Of a program's bindings, beside the pools: the most sampled images, the environment and the paths of stages among them, and the
+/// most storage buffers.
 inline constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 4;
 inline constexpr std::uint32_t OTHER_STORAGE_BUFFERS = BINDINGS - POOLS - 2;
 

@@ -22,6 +22,7 @@
 #include "preprocess/mesh/edge_sites.h"
 #include "preprocess/mesh/mesh_edges.h"
 #include "preprocess/mesh/mesh_normals.h"
+#include "preprocess/mesh/smooth_surface.h"
 #include "preprocess/mesh/surface_maps.h"
 #include "preprocess/mesh/texture.h"
 #include "preprocess/mesh/texture_detail.h"
@@ -33,9 +34,6 @@ constexpr float COS_SAME = 0.9994F;  // 2 degrees: normals of corners that are o
 constexpr double EDGE_REACH =
     2.0;  // of a sample, in units of the samples' distance: more than twice its disc's radius
 constexpr double VERTEX_EDGE_REACH = 1.2;  // of a vertex, in units of its longest edge
-
-/// Cosines of 45 and 30 degrees: normals that turn by more along an edge are of a coarse drawing, not of a smooth surface.
-constexpr double SHARP_COSINE = 0.7071067811865476, SMOOTH_COSINE = 0.8660254037844387;
 
 std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
   const std::vector<glm::dvec3>& positions = mesh.vertices.position;
@@ -114,7 +112,7 @@ class SampleWriter {
     if (!mesh_.vertices.columns.empty()) weights_.push_back(w);
     const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
     points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2] +
-                               bulge(triangle_index, corners, weights));
+                               to_surface(triangle_index, corners, weights));
     points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
     maps_.add(triangle, w, points_.normal.back());
     if (mesh_.vertices.color.empty() && !mesh_.texture) {
@@ -175,23 +173,13 @@ class SampleWriter {
     return {column.name, std::visit(take, column.values)};
   }
 
-  /// From a point of a triangle to the smooth surface that its corners' normals are of: half way to the mean of the corners' tangent
-  /// planes (Boubekeur and Alexa 2008, "Phong Tessellation"; half is exact where the surface is a quadric's graph). Each edge has its
-  /// own share in it, by the angle of the normals at its ends, so that triangles join, and creases and borders none.
-  [[nodiscard]] glm::dvec3 bulge(std::size_t triangle, const std::array<glm::dvec3, 3>& corners,
-                                 const glm::dvec3& weights) const {
-    glm::dvec3 sum(0.0);
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::uint32_t j = (i + 1) % 3;
-      if (edges_.across(static_cast<std::uint32_t>(triangle), i) == MeshEdges::NONE) continue;
-      const glm::dvec3 normal_i(normals_[3 * triangle + i]), normal_j(normals_[3 * triangle + j]);
-      const double cosine = glm::dot(normal_i, normal_j);
-      const double smooth = glm::smoothstep(SHARP_COSINE, SMOOTH_COSINE, cosine);
-      const glm::dvec3 along = corners[i] - corners[j];
-      sum += smooth * weights[static_cast<glm::length_t>(i)] * weights[static_cast<glm::length_t>(j)] *
-             (glm::dot(along, normal_i) * normal_i - glm::dot(along, normal_j) * normal_j);
-    }
-    return 0.5 * sum;
+  /// From a point of a triangle to the smooth surface.
+  [[nodiscard]] glm::dvec3 to_surface(std::size_t triangle, const std::array<glm::dvec3, 3>& corners,
+                                      const glm::dvec3& weights) const {
+    std::array<bool, 3> joined{};
+    for (std::uint32_t side = 0; side < 3; ++side)
+      joined[side] = edges_.across(static_cast<std::uint32_t>(triangle), side) != MeshEdges::NONE;
+    return to_smooth_surface(corners, std::span(normals_).subspan(3 * triangle).first<3>(), joined, weights);
   }
 
   const Mesh& mesh_;

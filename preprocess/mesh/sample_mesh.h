@@ -27,13 +27,13 @@ struct MeshCreases {
 [[nodiscard]] Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld,
                                    const MeshCreases& creases = {});
 
-/// `count` points, spread by area, closer together where textures have detail (sample_pieces), less those where the texture's alpha cuts the mesh out; where discs end at edges, more by
-/// those that edges lack (edge_sites). Triangles are ordered along a Morton curve; the i-th point takes
-/// the i-th of `count` equal shares of the area times density on the way (systematic sampling). Its place in the share's
-/// piece of a triangle is a Fibonacci lattice: height from the share, side from multiples of the golden ratio (Kronecker
-/// sequence, Niederreiter 1992), that fans out from the corner at which it is least slanted. Deterministic for a seed. Normals
-/// are corner_normals interpolated, at most 20 degrees from the triangle's, and points lie on the smooth surface that these are
-/// normals of, not on the chord; attributes are interpolated, whole numbers the
+/// `count` points, spread by area, closer together where textures have detail (sample_pieces), less those where the texture's
+/// alpha cuts the mesh out; where discs end at edges, more by those that edges lack (edge_sites). Triangles are ordered along a
+/// Morton curve; the i-th point takes the i-th of `count` equal shares of the area times density on the way (systematic
+/// sampling). Its place in the share's piece of a triangle is a Fibonacci lattice: height from the share, side from multiples of
+/// the golden ratio (Kronecker sequence, Niederreiter 1992), that fans out from the corner at which it is least slanted.
+/// Deterministic for a seed. Normals are corner_normals interpolated, at most 20 degrees from the triangle's, and points lie on
+/// the smooth surface that these are normals of, not on the chord; attributes are interpolated, whole numbers the
 /// nearest corner's; radii are not passed on. The mesh must have a positive, finite area unless count is 0.
 [[nodiscard]] Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
                                     std::uint64_t seed, const MeshCreases& creases = {});

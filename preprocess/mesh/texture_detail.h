@@ -42,10 +42,10 @@ struct SamplePiece {
   double density;  ///< samples to an area, as a multiple of that of all pieces of density 1
 };
 
-/// Each triangle of `order` in pieces, in that order, for `count` samples on all. Half of the samples are spread evenly; the others
-/// by the texture's detail e, its change to a length, as e^(2/3), which makes the sum over all of change times distance of samples
-/// least; but nowhere more than four to a texel. A mesh without textures, or of the same detail all over, is one piece of density 1
-/// for each triangle.
+/// Each triangle of `order` in pieces, in that order, for `count` samples on all. Half of the samples are spread evenly; the
+/// others by the texture's detail e, its change to a length, as e^(2/3), which makes the sum over all of change times distance of
+/// samples least; but nowhere more than four to a texel. A mesh without textures, or of the same detail all over, is one piece of
+/// density 1 for each triangle.
 [[nodiscard]] std::vector<SamplePiece> sample_pieces(const Mesh& mesh,
                                                      const std::vector<std::uint32_t>& order,
                                                      std::uint64_t count);

@@ -1,6 +1,6 @@
-// Light of splats that send out light, sampled on the splats themselves. Where discs overlap, a ray that hits a cluster of n belongs
-// to each of them by the share 1 / n: the shares sum to 1, so that each disc can be sampled as if it lay alone and counts by its share.
-// Needs what light_tree.glsl needs.
+// Light of splats that send out light, sampled on the splats themselves. Where discs overlap, a ray that hits a cluster of n
+// belongs to each of them by the share 1 / n: the shares sum to 1, so that each disc can be sampled as if it lay alone and counts
+// by its share. Needs what light_tree.glsl needs.
 #ifndef SPLATRAY_EMITTERS_GLSL
 #define SPLATRAY_EMITTERS_GLSL
 #include "light/light_tree.glsl"
@@ -28,9 +28,9 @@ EmitterSample emitter_sample(uint emitter, vec3 position, vec2 random) {
   return chosen;
 }
 
-/// About how often the direction of this ray, which left a surface, is chosen for light of this mean radiance that it meets on splats,
-/// per solid angle: as often as its light is of all that arrives, were the choice perfect. Multiple importance sampling is right
-/// with any such guess that both those who look for that light and those who meet it make.
+/// About how often the direction of this ray, which left a surface, is chosen for light of this mean radiance that it meets on
+/// splats, per solid angle: as often as its light is of all that arrives, were the choice perfect. Multiple importance sampling
+/// is right with any such guess that both those who look for that light and those who meet it make.
 float emitters_pdf(Receiver receiver, Ray ray, float radiance) {
   return radiance * abs(dot(receiver.normal, ray.dir)) / max(light_arriving(receiver), 1e-30f);
 }

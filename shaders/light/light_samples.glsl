@@ -1,5 +1,5 @@
-// Lights as a path's vertex looks for them, and as a ray meets them. Needs `frame`, light_at(index), what emitters.glsl needs, and
-// the constants LIGHTS, SKY, SIZES, ENVIRONMENT, EMISSION.
+// Lights as a path's vertex looks for them, and as a ray meets them. Needs `frame`, light_at(index), what emitters.glsl needs,
+// and the constants LIGHTS, SKY, SIZES, ENVIRONMENT, EMISSION.
 #ifndef SPLATRAY_LIGHT_SAMPLES_GLSL
 #define SPLATRAY_LIGHT_SAMPLES_GLSL
 #include "light/emitters.glsl"
@@ -59,48 +59,47 @@ LightSample one_light_sample(Light light, vec3 position, vec2 random) {
   return chosen;
 }
 
+/// Where no light can arrive.
+LightSample no_light_sample(Receiver receiver) {
+  LightSample none;
+  none.dir = receiver.normal;
+  none.distance = INFINITY_F;
+  none.radiance = vec3(0.0f);
+  none.pdf = 1.0f;
+  none.light = NO_LIGHT;
+  none.splat = NO_SPLAT;
+  return none;
+}
+
 /// Light of one light, splat or of the environment at a point. The third number chooses which, and what is left of it is used
 /// again, so that the samples of each are even, too.
 LightSample light_sample(Receiver receiver, vec3 random) {
-  LightSample chosen;
+  LightSample chosen = no_light_sample(receiver);
   float choice = random.z;
-  bool sky = SKY && (frame.light_nodes == 0u || choice < frame.sky_share);
-  if (sky) {
+  if (SKY && (frame.light_nodes == 0u || choice < frame.sky_share)) {
     chosen.dir = sky_sample(vec2(random), chosen.pdf);
     chosen.pdf *= frame.sky_share;
     chosen.radiance = environment_radiance(chosen.dir) / chosen.pdf;
-    chosen.distance = INFINITY_F;
-    chosen.light = NO_LIGHT;
-    chosen.splat = NO_SPLAT;
-  } else {
-    choice = SKY ? min((choice - frame.sky_share) / (1.0f - frame.sky_share), 0.99999994f) : choice;
-    uint leaf = NO_NODE;
-    float share = light_share(receiver, leaf, choice) * (1.0f - frame.sky_share);
-    uint content = leaf != NO_NODE ? light_node_at(leaf).content : 0u;
-    uint index = content & LIGHT_NODE_INDEX;
-    bool found = (content & LIGHT_NODE_LEAF) != 0u;
-    bool emitter = (content & LIGHT_NODE_EMITTER) != 0u;
-    if (EMISSION && found && emitter) {
-      EmitterSample point = emitter_sample(index, receiver.position, vec2(random));
-      chosen.dir = point.dir;
-      chosen.pdf = point.pdf * share;
-      chosen.radiance = vec3(1.0f / chosen.pdf);
-      chosen.distance = INFINITY_F;
-      chosen.light = NO_LIGHT;
-      chosen.splat = point.words;
-    } else if (LIGHTS && found && !emitter) {
-      chosen = one_light_sample(light_at(index), receiver.position, vec2(random));
-      chosen.radiance /= share;
-      chosen.pdf *= share;
-      chosen.light = index;
-    } else {
-      chosen.dir = receiver.normal;
-      chosen.pdf = 1.0f;
-      chosen.radiance = vec3(0.0f);
-      chosen.distance = INFINITY_F;
-      chosen.light = NO_LIGHT;
-      chosen.splat = NO_SPLAT;
-    }
+    return chosen;
+  }
+  choice = SKY ? min((choice - frame.sky_share) / (1.0f - frame.sky_share), 0.99999994f) : choice;
+  uint leaf = NO_NODE;
+  float share = light_share(receiver, leaf, choice) * (1.0f - frame.sky_share);
+  uint content = leaf != NO_NODE ? light_node_at(leaf).content : 0u;
+  uint index = content & LIGHT_NODE_INDEX;
+  bool found = (content & LIGHT_NODE_LEAF) != 0u;
+  bool emitter = (content & LIGHT_NODE_EMITTER) != 0u;
+  if (EMISSION && found && emitter) {
+    EmitterSample point = emitter_sample(index, receiver.position, vec2(random));
+    chosen.dir = point.dir;
+    chosen.pdf = point.pdf * share;
+    chosen.radiance = vec3(1.0f / chosen.pdf);
+    chosen.splat = point.words;
+  } else if (LIGHTS && found && !emitter) {
+    chosen = one_light_sample(light_at(index), receiver.position, vec2(random));
+    chosen.radiance /= share;
+    chosen.pdf *= share;
+    chosen.light = index;
   }
   return chosen;
 }
@@ -144,8 +143,8 @@ LightMeeting meet_light(Light light, Ray ray) {
   return meeting;
 }
 
-/// The node of the light tree that comes after this one, on the way past all lights with a size that a ray may meet, and whether it
-/// is the leaf of one.
+/// The node of the light tree that comes after this one, on the way past all lights with a size that a ray may meet, and whether
+/// it is the leaf of one.
 uint next_sized_node(uint at, Ray ray, OUT(uint) light) {
   LightNode node = light_node_at(at);
   vec3 to_center = node.center - ray.origin;

@@ -1,6 +1,6 @@
-// The tree of all lights and of all splats that send out light: one is chosen about as often as its light arrives at a point (Conty
-// Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting"). Needs `frame`, light_texel(index),
-// material_at(object) and the constant GLASS.
+// The tree of all lights and of all splats that send out light: one is chosen about as often as its light arrives at a point
+// (Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting"). Needs `frame`,
+// light_texel(index), material_at(object) and the constant GLASS.
 #ifndef SPLATRAY_LIGHT_TREE_GLSL
 #define SPLATRAY_LIGHT_TREE_GLSL
 #include "primitive/disc.glsl"
@@ -32,14 +32,19 @@ struct Receiver {
   bool through;  ///< unless it is one that light goes through
 };
 
+Receiver receiver_at(vec3 position, vec3 normal, uint object) {
+  Receiver receiver;
+  receiver.position = position;
+  receiver.normal = normal;
+  receiver.through = false;
+  if (GLASS) receiver.through = (material_at(object).flags & MATERIAL_DIELECTRIC) != 0u;
+  return receiver;
+}
+
 /// That of the surface that a ray left.
 Receiver receiver_left(Ray ray) {
-  Receiver receiver;
-  receiver.position = ray.origin;
-  receiver.normal = dot(ray.dir, ray.from_normal) < 0.0f ? -ray.from_normal : ray.from_normal;
-  receiver.through = false;
-  if (GLASS) receiver.through = (material_at(ray.from_object).flags & MATERIAL_DIELECTRIC) != 0u;
-  return receiver;
+  vec3 normal = dot(ray.dir, ray.from_normal) < 0.0f ? -ray.from_normal : ray.from_normal;
+  return receiver_at(ray.origin, normal, ray.from_object);
 }
 
 /// The cosine of an angle less another, both in [0, pi] and given by cosine and sine; 1 where the other is larger.
@@ -47,8 +52,8 @@ float cosine_less(float cosine, float sine, float other_cosine, float other_sine
   return cosine >= other_cosine ? 1.0f : cosine * other_cosine + sine * other_sine;
 }
 
-/// Cosine of the least angle beside straight ahead at which any of a node's light leaves it towards a point beside its axis by the
-/// angle with the cosine `ahead`, from which the node is as wide as the angle of `cosine` and `sine`; 0 where none does.
+/// Cosine of the least angle beside straight ahead at which any of a node's light leaves it towards a point beside its axis by
+/// the angle with the cosine `ahead`, from which the node is as wide as the angle of `cosine` and `sine`; 0 where none does.
 float cosine_leaving(LightNode node, float ahead, float cosine, float sine) {
   float sine_axis = sqrt(max(1.0f - node.cos_axis * node.cos_axis, 0.0f));
   float beside = cosine_less(ahead, sqrt(max(1.0f - ahead * ahead, 0.0f)), node.cos_axis, sine_axis);
@@ -82,8 +87,8 @@ float node_importance(LightNode node, Receiver receiver) {
   return node.power * max(arriving, 0.0f) * leaving / max(max(distance_squared, radius_squared), 1.0f);
 }
 
-/// How often a leaf is chosen for a receiver; with `leaf` NO_NODE one that `random` chooses, which is left in [0, 1) anew. The leaf
-/// is NO_NODE where no light can arrive.
+/// How often a leaf is chosen for a receiver; with `leaf` NO_NODE one that `random` chooses, which is left in [0, 1) anew. The
+/// leaf is NO_NODE where no light can arrive.
 float light_share(Receiver receiver, INOUT(uint) leaf, INOUT(float) random) {
   uint node = 0u;
   float share = frame.light_nodes > 0u ? 1.0f : 0.0f;

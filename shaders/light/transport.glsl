@@ -1,8 +1,8 @@
 // Path tracing (Kajiya 1986, "The Rendering Equation"): at each of a path's vertices light is looked for and one direction
 // followed, both joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
-// ch. 9). The blended normal is the geometric one too, but for normal maps: discs stand in for the smooth surface that it estimates,
-// not the other way round. Needs surface_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK, LIGHTS, SHADOWS, EMISSION, GLASS,
-// STRAIGHT, STAGE and those of bsdf.glsl.
+// ch. 9). The blended normal is the geometric one too, but for normal maps: discs stand in for the smooth surface that it
+// estimates, not the other way round. Needs surface_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK,
+// LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, STAGE and those of bsdf.glsl.
 #ifndef SPLATRAY_TRANSPORT_GLSL
 #define SPLATRAY_TRANSPORT_GLSL
 #include "lang/sobol.glsl"
@@ -59,11 +59,7 @@ Probe no_probe() {
 
 /// Towards one of the lights, splats that send out light, or the environment.
 Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside) {
-  Receiver receiver;
-  receiver.position = hit.position;
-  receiver.normal = hit.plane;
-  receiver.through = GLASS && (material_at(hit.object).flags & MATERIAL_DIELECTRIC) != 0u;
-  LightSample chosen = light_sample(receiver, random);
+  LightSample chosen = light_sample(receiver_at(hit.position, hit.plane, hit.object), random);
   Probe probe;
   vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
   vec3 value = bsdf_value(bsdf, to_eye, to_light, probe.pdf);
@@ -81,10 +77,10 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uin
   return probe;
 }
 
-/// What a path's ray sees first, and whether the splat with these words is a member of it. A sheet that is see-through is there as
-/// often as its opacity says, by a hash of the ray and of the sheet's first splat (stochastic transparency: Enderton et al. 2010),
-/// which no order of splats changes, and of the sheets before: at a crease each of two sheets may be met again from the other, which
-/// would not end if a sheet were always passed by the rays that have passed it once. `of_ray` distinguishes rays.
+/// What a path's ray sees first, and whether the splat with these words is a member of it. A sheet that is see-through is there
+/// as often as its opacity says, by a hash of the ray and of the sheet's first splat (stochastic transparency: Enderton et al.
+/// 2010), which no order of splats changes, and of the sheets before: at a crease each of two sheets may be met again from the
+/// other, which would not end if a sheet were always passed by the rays that have passed it once. `of_ray` distinguishes rays.
 Hit trace_seen(Ray ray, uvec4 watched, uint of_ray, INOUT(Tally) tally) {
   float passed = 0.0f;
   bool passes = false;
@@ -113,12 +109,10 @@ uint hash_ray(Path path, bool to_light, uint pixel, uint sample_index) {
   return hash_uint(pixel ^ hash_uint(sample_index ^ hash_uint(bounce + 0x9e3779b9u * frame.seed)));
 }
 
-/// What surfaces send out, as seen in a hit.
-vec3 emitted_radiance(Hit hit) { return textured(surface_at(hit.object), hit.factors).emission; }
-
-/// The part of the light that splats send out and a path meets which counts beside what was looked for. `pdf` of its direction, > 0.
+/// The part of the light that splats send out and a path meets which counts beside what was looked for. `pdf` of its direction, >
+/// 0.
 float emitter_share(float pdf, Ray ray, vec3 sent) {
-  float radiance = (sent.x + sent.y + sent.z) / 3.0f;
+  float radiance = mean_of(sent);
   if (frame.emitters == 0u || radiance <= 0.0f) return 1.0f;
   return met_share(pdf, emitters_pdf(receiver_left(ray), ray, radiance) * (1.0f - frame.sky_share));
 }
@@ -129,15 +123,15 @@ vec3 medium_left(uint inside, float t) {
   return exp(-(absorption_at(uint(findMSB(inside))) * t));
 }
 
-/// What of a probe for the light of a splat arrives: the splat's share in what its ray hits. What a path would have found that way
-/// itself is left to it.
+/// What of a probe for the light of a splat arrives: the splat's share in what its ray hits. What a path would have found that
+/// way itself is left to it.
 vec3 emitter_light(Probe probe, Hit hit) {
   Ray ray = probe.ray;
   ray.t_max = hit.t;
   bool seen = hit.found && hit.watched > 0.0f;
   if (SIZES && seen && light_hides(ray, NO_LIGHT)) seen = false;
   if (!seen) return vec3(0.0f);
-  vec3 sent = emitted_radiance(hit);
+  vec3 sent = textured(surface_at(hit.object), hit.factors).emission;
   float share = hit.watched * (1.0f - emitter_share(max(probe.pdf, 1e-30f), ray, sent));
   return probe.light * sent * medium_left(ray.inside, hit.t) * share;
 }
@@ -146,12 +140,10 @@ vec3 emitter_light(Probe probe, Hit hit) {
 Probe sky_probe(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
   vec2 at = disc_sample(random);
   float height = sqrt(max(1.0f - dot(at, at), 0.0f));
-  Probe probe;
+  Probe probe = no_probe();
   probe.light = bsdf.base * (LOOK == LOOK_SCAN ? SCAN_SKY : 1.0f);
   probe.ray = ray_from_hit(hit, basis.u * at.x + basis.v * at.y + hit.normal * height, inside);
   probe.ray.t_max = frame.reach;
-  probe.splat = NO_SPLAT;
-  probe.pdf = 0.0f;
   return probe;
 }
 
@@ -245,7 +237,7 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
     path.throughput *= medium_left(path.ray.inside, hit.t);
   }
   if (EMISSION) {
-    vec3 sent = emitted_radiance(hit);
+    vec3 sent = surface.emission;
     float share = path.pdf > 0.0f ? emitter_share(path.pdf, path.ray, sent) : 1.0f;
     path.radiance += clamped(path.throughput * sent * share, max(path.bounce, 1u) - 1u);
   }
@@ -281,8 +273,8 @@ void meet(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Probe)
   }
 }
 
-/// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture. Rays that look for the light
-/// of splats take their turn between those of the path, so that programs hold one walk for both.
+/// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture. Rays that look for the
+/// light of splats take their turn between those of the path, so that programs hold one walk for both.
 void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) tally) {
   Probe emitter = no_probe();
   bool looks = false;

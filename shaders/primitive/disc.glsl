@@ -30,13 +30,16 @@ vec3 splat_center(uvec4 words) {
   return vec3(float(words.x >> 11u), float(y), float(words.y & 0x1FFFFFu));
 }
 
-/// Normal, |x| + |y| + |z| = OCT_SCALE; integers, exact.
-vec3 splat_normal(uvec4 words) {
-  float x = float(words.z & 0xFFFFu) - float(OCT_SCALE);
-  float y = float(words.z >> 16u) - float(OCT_SCALE);
-  float z = float(OCT_SCALE) - abs(x) - abs(y);
+/// Of octahedral coordinates, |x| + |y| + |z| = scale; exact where all are integers.
+vec3 octahedral(float x, float y, float scale) {
+  float z = scale - abs(x) - abs(y);
   float fold = max(-z, 0.0f);
   return vec3(x >= 0.0f ? x - fold : x + fold, y >= 0.0f ? y - fold : y + fold, z);
+}
+
+/// Normal, |x| + |y| + |z| = OCT_SCALE; integers, exact.
+vec3 splat_normal(uvec4 words) {
+  return octahedral(float(words.z & 0xFFFFu) - float(OCT_SCALE), float(words.z >> 16u) - float(OCT_SCALE), float(OCT_SCALE));
 }
 
 /// Squared radius, lattice units^2.

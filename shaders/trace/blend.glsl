@@ -188,9 +188,9 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, 
   return hit;
 }
 
-/// What the ray sees first, and whether a splat is a member of it. The ray may start anywhere; one that ends before it starts is not
-/// traced. The leaf with the first hit is looked through to its end before any of its splats is accumulated; one of more than two
-/// CHUNKs is then gone through again.
+/// What the ray sees first, and whether a splat is a member of it. The ray may start anywhere; one that ends before it starts is
+/// not traced. The leaf with the first hit is looked through to its end before any of its splats is accumulated; one of more than
+/// two CHUNKs is then gone through again.
 Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;

@@ -1,9 +1,9 @@
-// What textures make of a splat's surface, as layout.h draws it: factors on the surface's values, blended over a cluster as colours
-// are. Needs texture_word(index) and the constants OPACITY, TEXTURE_LAYER, TEXTURE_GLOW, TEXTURE_COLOR, TEXTURE_NORMAL: words that
-// no splat has are neither read nor summed.
+// What textures make of a splat's surface, as layout.h draws it: factors on the surface's values, blended over a cluster as
+// colours are. Needs texture_word(index) and the constants OPACITY, TEXTURE_LAYER, TEXTURE_GLOW, TEXTURE_COLOR, TEXTURE_NORMAL:
+// words that no splat has are neither read nor summed.
 #ifndef SPLATRAY_FACTORS_GLSL
 #define SPLATRAY_FACTORS_GLSL
-#include "lang/language.glsl"
+#include "primitive/disc.glsl"
 
 struct Factors {
   vec4 layer;  ///< metallic, roughness, transmission, opacity
@@ -59,22 +59,20 @@ uint texture_place(uint splat) {
 /// A splat's own opacity, 0..1. With OPACITY alone.
 float opacity_at(uint splat) { return float(texture_word(texture_place(splat)) >> 24u) * (1.0f / 255.0f); }
 
-/// What a normal map adds to a splat's normal, which is unit and turned against the ray: the part of the map's normal that lies in
-/// the splat's plane. With TEXTURE_NORMAL alone.
+/// What a normal map adds to a splat's normal, which is unit and turned against the ray: the part of the map's normal that lies
+/// in the splat's plane. With TEXTURE_NORMAL alone.
 vec3 tilt_at(uint splat, vec3 normal) {
   uint word = texture_word(texture_place(splat + 1u) - 1u);
-  float x = float(word & 4095u) - 2047.0f;
-  float y = float((word >> 12u) & 4095u) - 2047.0f;
-  float z = 2047.0f - abs(x) - abs(y);
-  float fold = max(-z, 0.0f);
-  vec3 mapped = vec3(x >= 0.0f ? x - fold : x + fold, y >= 0.0f ? y - fold : y + fold, z);
+  const float SCALE = float(TEXTURE_NORMAL_SCALE);
+  vec3 mapped = octahedral(float(word & 4095u) - SCALE, float((word >> 12u) & 4095u) - SCALE, SCALE);
   mapped *= inversesqrt(dot(mapped, mapped));
   float cosine = dot(mapped, normal);
   vec3 tilt = cosine < 0.0f ? normal * cosine - mapped : mapped - normal * cosine;
   return (word & 0xFFFFFFu) == 0xFFFFFFu ? vec3(0.0f) : tilt;
 }
 
-/// The normal of a surface whose own is `normal`, both turned against a ray in this direction, with the mean of its splats' tilts.
+/// The normal of a surface whose own is `normal`, both turned against a ray in this direction, with the mean of its splats'
+/// tilts.
 vec3 tilted(vec3 normal, vec3 tilt, vec3 dir) {
   const float LEAST_COSINE = 0.01f;
   vec3 along = dir * inversesqrt(dot(dir, dir));

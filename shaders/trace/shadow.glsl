@@ -1,5 +1,5 @@
-// How much light passes along a ray. Needs what blend.glsl needs, and the constant TINTED: dielectrics tint light, else they are as
-// opaque as anything. With LIT and OPACITY also frame.kappa.
+// How much light passes along a ray. Needs what blend.glsl needs, and the constant TINTED: dielectrics tint light, else they are
+// as opaque as anything. With LIT and OPACITY also frame.kappa.
 #ifndef SPLATRAY_SHADOW_GLSL
 #define SPLATRAY_SHADOW_GLSL
 #include "trace/blend.glsl"

@@ -69,9 +69,9 @@ class GltfMaterials {
   [[nodiscard]] const tinygltf::Material& source(int index) const;
   [[nodiscard]] std::shared_ptr<const TextureImage> image(int texture);
   [[nodiscard]] std::shared_ptr<const TextureImage> decode(std::size_t image);
-  /// A texture as it is laid on the surface; nullptr when there is none or it cannot be decoded, which is noted as `what`.
   /// Opacity of a material with alphaMode BLEND; nothing where it is opaque all over.
   [[nodiscard]] std::optional<Map> opacity(int index);
+  /// A texture as it is laid on the surface; nullptr when there is none or it cannot be decoded, which is noted as `what`.
   [[nodiscard]] std::shared_ptr<Texture> laid(int index, const tinygltf::TextureInfo& info, const char* what);
   /// Notes numbers out of their range.
   void note_ranges(int index);

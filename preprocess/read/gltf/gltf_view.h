@@ -14,7 +14,8 @@ namespace splatray {
 /// (input_unreadable) for arrays of the wrong length and numbers that are not finite.
 [[nodiscard]] glm::dmat4 node_transform(const GltfFile& file, const tinygltf::Node& node);
 
-/// The light of KHR_lights_punctual on this node, if any. Intensities (lux, candela) are taken as they are. The node's extras may give it a size: "size" is a point light's radius, world units, or the angle that a
+/// The light of KHR_lights_punctual on this node, if any. Intensities (lux, candela) are taken as they are.
+/// The node's extras may give it a size: "size" is a point light's radius, world units, or the angle that a
 /// directional one seems to have, degrees; "width" and "height", world units, make a rectangle that shines along the node's -z.
 [[nodiscard]] std::optional<SceneLight> read_light(const GltfFile& file, const tinygltf::Node& node,
                                                    const glm::dmat4& to_world);

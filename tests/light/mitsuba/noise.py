@@ -26,6 +26,8 @@ parser.add_argument("--variant", default="scalar_rgb", help="of Mitsuba; llvm_ad
 OPTIONS = parser.parse_args()
 mi.set_variant(OPTIONS.variant)
 
+from scenes import ball_of_light, environment, read_model, sensor, sunny_sky, triangle_mesh  # noqa: E402  (needs a variant)
+
 BOUNCES = 8
 
 
@@ -147,37 +149,16 @@ def in_mitsuba(room):
     described = {
         "type": "scene",
         "integrator": {"type": "path", "max_depth": BOUNCES + 2, "hide_emitters": room.sky is not None},
-        "sensor": {
-            "type": "perspective",
-            "fov": room.fov_deg,
-            "fov_axis": "y",
-            "to_world": mi.ScalarTransform4f().look_at(origin=room.eye, target=room.target, up=(0, 1, 0)),
-            "film": {"type": "hdrfilm", "width": OPTIONS.edge, "height": OPTIONS.edge, "rfilter": {"type": "box"}, "pixel_format": "rgb"},
-            "sampler": {"type": "independent"},
-        },
+        "sensor": sensor(room, OPTIONS.edge),
     }
     for i, (vertices, triangles, color, emission, values) in enumerate(room.meshes):
-        properties = mi.Properties()
         inner = {"type": "diffuse", "reflectance": {"type": "rgb", "value": list(color)}}
         if values:
             inner = {"type": "principled", "base_color": {"type": "rgb", "value": list(color)}, "metallic": values["metallicFactor"]}
             inner["roughness"] = values["roughnessFactor"]
-        properties["bsdf"] = mi.load_dict({"type": "twosided", "bsdf": inner})
-        if emission:
-            properties["emitter"] = mi.load_dict({"type": "area", "radiance": {"type": "rgb", "value": emission}})
-        mesh = mi.Mesh(f"mesh{i}", len(vertices), len(triangles), has_vertex_normals=False, props=properties)
-        parameters = mi.traverse(mesh)
-        parameters["vertex_positions"] = vertices.astype(np.float32).ravel()
-        parameters["faces"] = triangles.astype(np.uint32).ravel()
-        parameters.update()
-        described[f"mesh{i}"] = mesh
-    for i, (centre, radius, radiance) in enumerate(room.balls):
-        described[f"ball{i}"] = {
-            "type": "sphere",
-            "center": list(centre),
-            "radius": radius,
-            "emitter": {"type": "area", "radiance": {"type": "rgb", "value": radiance}},
-        }
+        described[f"mesh{i}"] = triangle_mesh(f"mesh{i}", vertices, triangles, inner, emission)
+    for i, ball in enumerate(room.balls):
+        described[f"ball{i}"] = ball_of_light(*ball)
     for i, (centre, half_u, half_v, radiance) in enumerate(room.area_lights):
         to_world = np.eye(4)
         ahead = np.cross(half_u, half_v)
@@ -189,8 +170,7 @@ def in_mitsuba(room):
             "emitter": {"type": "area", "radiance": {"type": "rgb", "value": radiance}},
         }
     if room.sky is not None:
-        turned = np.roll(room.sky, room.sky.shape[1] // 2, axis=1).astype(np.float32)
-        described["sky"] = {"type": "envmap", "bitmap": mi.Bitmap(turned)}
+        described["sky"] = environment(room.sky)
     return mi.load_dict(described)
 
 
@@ -205,7 +185,7 @@ def mitsuba_pictures(scene):
 
 
 def noise_of(pictures):
-    """Relative RMSE of one of two pictures; the brightest thousandth of the pixels, lamps and their rims, does not count."""
+    """Relative RMSE of one of two pictures; the brightest fiftieth of the pixels, lamps and their rims, does not count."""
     difference = 0.5 * (pictures[0] - pictures[1]) ** 2
     mean = pictures.mean(0)
     counted = mean < np.quantile(mean, 0.98)
@@ -244,18 +224,11 @@ def balls():
 
 
 def dragon(model):
-    mesh = mi.load_dict({"type": "ply", "filename": model})
-    vertices = np.array(mesh.vertex_positions_buffer()).reshape(-1, 3)
-    faces = np.array(mesh.faces_buffer()).reshape(-1, 3)
-    low, high = vertices.min(0), vertices.max(0)
-    vertices = (vertices - [0.5 * (low[0] + high[0]), low[1], 0.5 * (low[2] + high[2])]) * (2.0 / (high - low).max())
+    vertices, faces = read_model(model)
     room = Room((2.5, 1.8, 4.0), (0, 0.7, 0), 35)
     room.meshes.append((vertices, faces, (0.7, 0.5, 0.35), 0.0, {}))
     room.quads([((-3, 0, 3), (6, 0, 0), (0, 0, -6))], (0.6, 0.6, 0.6))
-    rows, _ = np.mgrid[0:64, 0:128]
-    sky = np.full((64, 128, 3), 0.3) + 0.7 * (1.0 - rows / 63.0)[..., None] * [0.6, 0.8, 1.0]
-    sky[14:18, 30:36] += [60.0, 55.0, 45.0]
-    room.sky = sky.repeat(8, 0).repeat(8, 1)  # Mitsuba's rows lie half a row beside ours
+    room.sky = sunny_sky()
     return room
 
 

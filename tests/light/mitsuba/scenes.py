@@ -106,16 +106,28 @@ def plates():
     return Scene(parts=parts, eye=tuple(eye), target=(0, 0, 0), fov_deg=40, lamps=lamps)
 
 
+def read_model(path):
+    """Vertices and triangles of a PLY file, two units large, on the ground."""
+    mesh = mi.load_dict({"type": "ply", "filename": path})
+    vertices = np.array(mesh.vertex_positions_buffer()).reshape(-1, 3)
+    faces = np.array(mesh.faces_buffer()).reshape(-1, 3)
+    low, high = vertices.min(0), vertices.max(0)
+    return (vertices - [0.5 * (low[0] + high[0]), low[1], 0.5 * (low[2] + high[2])]) * (2.0 / (high - low).max()), faces
+
+
+def sunny_sky():
+    """Latitude and longitude: bluer above, with a sun."""
+    rows, _ = np.mgrid[0:64, 0:128]
+    sky = np.full((64, 128, 3), 0.3) + 0.7 * (1.0 - rows / 63.0)[..., None] * [0.6, 0.8, 1.0]
+    sky[14:18, 30:36] += [60.0, 55.0, 45.0]
+    return sky.repeat(8, 0).repeat(8, 1)  # Mitsuba's rows lie half a row beside ours
+
+
 def scan(model):
     """A scanned body on a floor below a picture of the sky."""
 
     def make():
-        mesh = mi.load_dict({"type": "ply", "filename": model})
-        vertices = np.array(mesh.vertex_positions_buffer()).reshape(-1, 3)
-        faces = np.array(mesh.faces_buffer()).reshape(-1, 3)
-        low, high = vertices.min(0), vertices.max(0)
-        scale = 2.0 / (high - low).max()
-        vertices = (vertices - [0.5 * (low[0] + high[0]), low[1], 0.5 * (low[2] + high[2])]) * scale
+        vertices, faces = read_model(model)
         corners = vertices[faces]
         across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         areas = np.linalg.norm(across, axis=1)
@@ -126,11 +138,7 @@ def scan(model):
         points = corners[chosen, 0] * (1 - a - b) + corners[chosen, 1] * a + corners[chosen, 2] * b
         body = Part(points, across[chosen] / areas[chosen, None], (0.7, 0.5, 0.35))
         floor = Part(*rectangle((-3, 0, 3), (6, 0, 0), (0, 0, -6), 20), (0.6, 0.6, 0.6))
-        rows, columns = np.mgrid[0:64, 0:128]
-        sky = np.full((64, 128, 3), 0.3) + 0.7 * (1.0 - rows / 63.0)[..., None] * [0.6, 0.8, 1.0]
-        sky[14:18, 30:36] += [60.0, 55.0, 45.0]
-        sky = sky.repeat(8, 0).repeat(8, 1)  # Mitsuba's rows lie half a row beside ours
-        return Scene(parts={"body": body, "floor": floor}, eye=(2.5, 1.8, 4.0), target=(0, 0.7, 0), fov_deg=35, sky=sky)
+        return Scene(parts={"body": body, "floor": floor}, eye=(2.5, 1.8, 4.0), target=(0, 0.7, 0), fov_deg=35, sky=sunny_sky())
 
     return make
 
@@ -173,28 +181,54 @@ def build(scene, programs, folder):
     return soct, options
 
 
+def sensor(scene, edge):
+    """Mitsuba's, of what has eye, target and fov_deg."""
+    return {
+        "type": "perspective",
+        "fov": scene.fov_deg,
+        "fov_axis": "y",
+        "to_world": mi.ScalarTransform4f().look_at(origin=scene.eye, target=scene.target, up=(0, 1, 0)),
+        "film": {
+            "type": "hdrfilm",
+            "width": edge,
+            "height": edge,
+            "rfilter": {"type": "box"},
+            "pixel_format": "rgb",
+            "component_format": "float32",
+        },
+        "sampler": {"type": "independent"},
+    }
+
+
+def triangle_mesh(name, vertices, triangles, bsdf, emission=0.0):
+    """Mitsuba's, of two-sided triangles; light leaves their fronts."""
+    properties = mi.Properties()
+    properties["bsdf"] = mi.load_dict({"type": "twosided", "bsdf": bsdf})
+    if emission:
+        properties["emitter"] = mi.load_dict({"type": "area", "radiance": {"type": "rgb", "value": emission}})
+    mesh = mi.Mesh(name, len(vertices), len(triangles), has_vertex_normals=False, props=properties)
+    parameters = mi.traverse(mesh)
+    parameters["vertex_positions"] = vertices.astype(np.float32).ravel()
+    parameters["faces"] = triangles.astype(np.uint32).ravel()
+    parameters.update()
+    return mesh
+
+
+def ball_of_light(centre, radius, radiance):
+    """Mitsuba's."""
+    emitter = {"type": "area", "radiance": {"type": "rgb", "value": radiance}}
+    return {"type": "sphere", "center": list(centre), "radius": radius, "emitter": emitter}
+
+
+def environment(sky):
+    """Mitsuba's, whose first column lies where the middle of splatray's does."""
+    return {"type": "envmap", "bitmap": mi.Bitmap(np.roll(sky, sky.shape[1] // 2, axis=1).astype(np.float32))}
+
+
 def in_mitsuba(scene, soct, edge):
     """The scene with the splats of the scene file as polygons."""
     centres, normals, radii, objects = read_discs(soct)
-    described = {
-        "type": "scene",
-        "integrator": {"type": "path", "max_depth": 66},
-        "sensor": {
-            "type": "perspective",
-            "fov": scene.fov_deg,
-            "fov_axis": "y",
-            "to_world": mi.ScalarTransform4f().look_at(origin=scene.eye, target=scene.target, up=(0, 1, 0)),
-            "film": {
-                "type": "hdrfilm",
-                "width": edge,
-                "height": edge,
-                "rfilter": {"type": "box"},
-                "pixel_format": "rgb",
-                "component_format": "float32",
-            },
-            "sampler": {"type": "independent"},
-        },
-    }
+    described = {"type": "scene", "integrator": {"type": "path", "max_depth": 66}, "sensor": sensor(scene, edge)}
     for i, (name, part) in enumerate(scene.parts.items()):
         own = objects == i
         vertices, triangles = polygons(centres[own], normals[own], radii[own])
@@ -204,23 +238,9 @@ def in_mitsuba(scene, soct, edge):
             inner = {"type": "conductor", "material": "none"}
         else:
             inner = {"type": "roughconductor", "material": "none", "distribution": "ggx", "alpha": part.metal**2}
-        properties = mi.Properties()
-        properties["bsdf"] = mi.load_dict({"type": "twosided", "bsdf": inner})
-        mesh = mi.Mesh(name, len(vertices), len(triangles), has_vertex_normals=False, props=properties)
-        parameters = mi.traverse(mesh)
-        parameters["vertex_positions"] = vertices.astype(np.float32).ravel()
-        parameters["faces"] = triangles.astype(np.uint32).ravel()
-        parameters.update()
-        described[name] = mesh
-    for i, (centre, radius, radiance) in enumerate(scene.lamps):
-        described[f"lamp{i}"] = {
-            "type": "sphere",
-            "center": list(centre),
-            "radius": radius,
-            "emitter": {"type": "area", "radiance": {"type": "rgb", "value": radiance}},
-        }
+        described[name] = triangle_mesh(name, vertices, triangles, inner)
+    for i, lamp in enumerate(scene.lamps):
+        described[f"lamp{i}"] = ball_of_light(*lamp)
     if scene.sky is not None:
-        # Mitsuba's first column lies where the middle of splatray's does.
-        turned = np.roll(scene.sky, scene.sky.shape[1] // 2, axis=1).astype(np.float32)
-        described["sky"] = {"type": "envmap", "bitmap": mi.Bitmap(turned)}
+        described["sky"] = environment(scene.sky)
     return mi.load_dict(described)
