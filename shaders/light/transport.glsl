@@ -93,11 +93,14 @@ Hit trace_seen(Ray ray, uvec4 watched, uint of_ray, INOUT(Tally) tally) {
       float opacity = hit.factors.layer.w > 0.999999f ? 2.0f : hit.factors.layer.w;
       passes = hit.found && unit_float(hash_uint(of_ray ^ hash_words(hit.first))) >= opacity;
       of_ray += 0x9e3779b9u;
+      // Never back: from where a sheet's blend lies before its first splat, the sheets before would be met again and again.
+      float ahead = max(hit.t, hit.t_first);
+      vec3 origin = ray.origin + ray.dir * ahead;
       ray = ray_from_hit(hit, ray.dir, ray.inside);
-      float t = hit.t;
+      ray.origin = origin;
       hit.t += passed;
       hit.t_first += passed;
-      passed += t;
+      passed += ahead;
     }
   } while (passes);
   return hit;

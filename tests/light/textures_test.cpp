@@ -162,6 +162,9 @@ TEST_F(SeeThrough, PathsLeaveSheetsThatTheyMeetAgain) {
   show(scene, constant(1.0F), {});
   const Camera camera{dvec3(0.4, 0.5, 1.0), dvec3(0.0), dvec3(0.0, 1.0, 0.0), 40.0, 0.001};
   for (const vec4& pixel : picture(camera, lit(16), 128).rgba) EXPECT_NEAR(pixel.x, 1.0F, 1e-3F);
+  // A driver that cuts a thread's loops short would do so to others' paths in each picture.
+  tracer_.look.lights = {{LIGHT_DIRECTIONAL, {0.3, 1.0, 0.5}, vec3(3.0F)}};
+  EXPECT_EQ(picture(camera, lit(16), 128).rgba, picture(camera, lit(16), 128).rgba);
 }
 
 TEST_F(SeeThrough, LightOfLightsIsWeakenedByEachSheet) {
