@@ -1,6 +1,7 @@
 /// The C++ side of shaders/scene/bindings.glsl, after shaders/lang/glsl_as_cpp.h in the same namespace. Hits are decided in
 /// float64; paths are followed to their end by one thread. LIT as there.
 #define CPU
+#define HOST
 
 /// What the thread of the host works at. One word each, so that a library that is loaded late has room for them.
 __attribute__((tls_model("initial-exec"))) thread_local const KernelWork* bound = nullptr;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/cpu/wide/wide_walk.h"
 #include "engine/vulkan/bindings.h"
 #include "engine/vulkan/spec_constants.h"
 #include "shaders/layout.h"
@@ -17,6 +18,8 @@ struct KernelWork {
   SpecConstants constants{};
   FrameParams frame{};
   std::array<std::byte*, BINDINGS> bound{};  ///< arrays in host memory, by BIND_*; pools in one page
+  WideView tree;                             ///< over the splats
+  WideStepper stepper = nullptr;             ///< of this processor
   std::uint32_t environment_width = 1;       ///< texels, vec4, at BIND_ENVIRONMENT
   std::uint32_t environment_height = 1;
 };

@@ -1,10 +1,12 @@
 /// The kernels of pictures: with LIT path tracing, else Phong. For trace_kernel.cpp and light_kernel.cpp, which name them.
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <vector>
 
 #include "engine/cpu/kernel.h"
 #include "engine/scene/splat.h"
@@ -19,6 +21,10 @@ namespace {
 //
 #include "stage/empty.glsl"
 #include "stage/trace.glsl"
+//
+#include "engine/cpu/wide_trace.h"
+//
+#include "engine/cpu/wide_shadow.h"
 
 void run_pictures(const KernelWork& work, std::uint32_t group, Counts& counts) {
   run_group(work, group, counts, [] {

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <vector>
 
 #include "engine/cpu/kernel.h"
 #include "engine/scene/splat.h"
@@ -15,6 +17,8 @@ namespace {
 #include "engine/cpu/bindings_as_cpp.h"
 //
 #include "stage/rays.glsl"
+//
+#include "engine/cpu/wide_trace.h"
 
 }  // namespace
 

@@ -29,12 +29,15 @@ DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const Pool
 
 void DeviceScene::upload(const Scene& scene, Scene* spent) {
   bindings_.reset();
+  wide_tree_ = {};
   pools_ = {};  // the device may not have room for two scenes
   shows_look_ = false;
   cells_ = filled_cells(scene);
   clip_content_ = clip_content(scene.clip_pool);
+  wide_tree_ = context_.is_host() ? WideTree(scene.data_pool, request_.threads) : WideTree();
   pools_ = Pools(context_, queue_, scene, request_, spent);
   bindings_.emplace(context_, pools_.paging);
+  bindings_->bind(wide_tree_);
   outline_ = {};
   outline_.root = scene.root;
   outline_.bounds_min_world = scene.bounds_min_world;

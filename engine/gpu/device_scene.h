@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/cpu/wide/wide_tree.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/pools.h"
@@ -71,6 +72,7 @@ class DeviceScene {
   Scene outline_;  ///< the scene without its arrays: transform, bounds, up
   std::size_t object_count_ = 0;
   Pools pools_;
+  WideTree wide_tree_;  ///< of the host
   ClipContent clip_content_;
   std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
   Look shown_;                     ///< as uploaded

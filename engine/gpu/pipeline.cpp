@@ -150,6 +150,11 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
   vkUpdateDescriptorSets(context_.device, 1, &write, 0, nullptr);
 }
 
+void BindingSet::bind(const WideTree& tree) {
+  host_.tree = tree.view();
+  host_.stepper = wide_stepper();
+}
+
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "engine/cpu/kernel.h"
+#include "engine/cpu/wide/wide_tree.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pools.h"
 #include "engine/gpu/program.h"
@@ -28,6 +29,8 @@ class BindingSet {
   void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page = 0);
   void bind(std::uint32_t binding, const PagedBuffer& buffer);
   void bind(const EnvironmentTexture& texture);
+  /// The tree that kernels walk; must outlive its use.
+  void bind(const WideTree& tree);
 
   /// Kernels' arrays by binding; constants and parameters are left.
   [[nodiscard]] const KernelWork& host() const { return host_; }

@@ -30,6 +30,7 @@ struct PoolRequest {
   PoolAccess access = PoolAccess::automatic;
   DataPool data = DataPool::automatic;
   std::uint64_t page_elements = UINT64_MAX;  ///< most elements of the data pool in a page
+  unsigned threads = 0;                      ///< that make the host's tree; 0 = one a core
 };
 
 /// Bytes on the device.

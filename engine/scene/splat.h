@@ -26,16 +26,22 @@ struct Splat {
   constexpr std::uint32_t EXPONENT_BIT = 0x40000000U;  // set in every stored float32: r^2 >= 2
   return std::bit_cast<float>(EXPONENT_BIT | words.w >> 16 << 14);
 }
+/// Its centre alone, lattice units, integers.
+[[nodiscard]] inline glm::dvec3 unpack_center(const uvec4& words) {
+  return {static_cast<int>(words.x >> 11), static_cast<int>((words.x & 0x7FFU) << 10 | words.y >> 22),
+          static_cast<int>(words.y & 0x1FFFFFU)};
+}
+/// Its normal as it is stored: integers, |x| + |y| + |z| = OCT_SCALE.
+[[nodiscard]] inline glm::dvec3 unpack_stored_normal(const uvec4& words) {
+  constexpr int SCALE = OCT_SCALE;
+  return octahedral_vector(static_cast<int>(words.z & 0xFFFFU) - SCALE, static_cast<int>(words.z >> 16) - SCALE,
+                           SCALE);
+}
 /// The exact splat of 128 bits. The reference implementation of the decoding, in float64; without branches, for loops.
 [[nodiscard]] inline Splat unpack_splat(const uvec4& words) {
-  constexpr int SCALE = OCT_SCALE;
-  const glm::dvec3 normal = octahedral_vector(static_cast<int>(words.z & 0xFFFFU) - SCALE,
-                                              static_cast<int>(words.z >> 16) - SCALE, SCALE);
-  return {{static_cast<int>(words.x >> 11), static_cast<int>((words.x & 0x7FFU) << 10 | words.y >> 22),
-           static_cast<int>(words.y & 0x1FFFFFU)},
-          normal * (1.0 / std::sqrt(glm::dot(normal, normal))),
-          unpack_radius_squared(words),
-          words.w & OBJECT_MASK};
+  const glm::dvec3 normal = unpack_stored_normal(words);
+  return {unpack_center(words), normal * (1.0 / std::sqrt(glm::dot(normal, normal))),
+          unpack_radius_squared(words), words.w & OBJECT_MASK};
 }
 
 /// 8 bits a channel, square-root encoded: byte = round(255 sqrt(linear)); r lowest, then g, b, a = 255.

@@ -71,11 +71,11 @@ bool clip_keeps(uint clip, uvec4 words, PlaneHit hit) {
   return line_keeps(clip, words, hit) && (single || line_keeps(clip >> 16u, words, hit));
 }
 
-/// Whether a meeting with a disc's plane is a hit on the disc that counts in the leaf's interval.
-bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, Walk walk) {
+/// Whether a meeting with a disc's plane is a hit on the disc that counts in an interval [t_in, t_out) of the ray.
+bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, float t_in, float t_out) {
   bool on_disc =
       !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
-  bool in_range = hit.t.x >= walk.t_in && hit.t.x < walk.t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
+  bool in_range = hit.t.x >= t_in && hit.t.x < t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
   bool kept = true;
   if (CLIPS) kept = clip_keeps(clip_word(splat), words, hit);
 #ifndef LIT
@@ -83,6 +83,23 @@ bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, Walk walk) {
   if (OPACITY) kept = kept && opacity_at(splat) >= 0.5f;
 #endif
   return on_disc && in_range && kept && hit_allowed(words, hit, ray);
+}
+
+/// Makes a hit the first one, if it comes before that; `wanted`: else never.
+void take_first(uint splat, uvec4 words, PlaneHit hit, bool wanted, INOUT(First) first) {
+  vec2 measure = hit.t;
+  if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF)
+    measure = vec2(hit.rho_squared.x / splat_radius_squared(words), 0.0f);
+  bool before = df_less(measure, first.measure) ||
+                (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
+  if (wanted && before) {
+    first.measure = measure;
+    first.t = hit.t;
+    first.from_center = hit.from_center;
+    first.front = hit.facing < 0.0f;
+    first.words = words;
+    first.splat = splat;
+  }
 }
 
 /// The candidates that are hits. `first` is updated while `finding`.
@@ -95,21 +112,9 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
       uint splat = splat_at(chunk + bit);
       uvec4 words = splat_words(splat);
       PlaneHit hit = meet_splat(splat, words, ray);
-      bool accept = hit_accepted(words, splat, hit, ray, walk);
+      bool accept = hit_accepted(words, splat, hit, ray, walk.t_in, walk.t_out);
       accepted |= (accept ? 1u : 0u) << bit;
-      vec2 measure = hit.t;
-      if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF)
-        measure = vec2(hit.rho_squared.x / splat_radius_squared(words), 0.0f);
-      bool before = df_less(measure, first.measure) ||
-                    (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
-      if (accept && finding && before) {
-        first.measure = measure;
-        first.t = hit.t;
-        first.from_center = hit.from_center;
-        first.front = hit.facing < 0.0f;
-        first.words = words;
-        first.splat = splat;
-      }
+      take_first(splat, words, hit, accept && finding, first);
     }
   } while (candidates != 0u);
   return accepted;

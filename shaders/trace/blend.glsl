@@ -95,13 +95,57 @@ Facet facet_at(uvec4 words, uint splat, vec3 from_center, float inverse_radius, 
   return facet;
 }
 
+/// What of a first hit the splats of its cluster are compared with.
+struct Window {
+  vec3 normal;  ///< of the first splat, against the ray
+  uint object;
+  vec2 t;       ///< of the first hit
+  float inverse_depth;
+};
+
+Window window_of(First first, Ray ray, float depth) {
+  Window window;
+  window.normal = normal_against(first.words, ray.dir);
+  window.object = splat_object(first.words);
+  window.t = first.t;
+  window.inverse_depth = 1.0f / depth;
+  return window;
+}
+
+/// Adds a meeting to the cluster, if it is a hit in [t_in, t_out) and belongs to it.
+void add_to_cluster(uint splat, uvec4 words, PlaneHit hit, Ray ray, float t_in, float t_out, Window window, uvec4 watched,
+                    INOUT(Cluster) cluster) {
+  float behind = df_add(hit.t, -window.t).x;
+  float inverse_radius = inversesqrt(splat_radius_squared(words));
+  float u_squared = hit.rho_squared.x * (inverse_radius * inverse_radius);
+  Facet facet = facet_at(words, splat, hit.from_center, inverse_radius, ray.dir);
+  float share = behind * window.inverse_depth;
+  bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == window.object &&
+                dot(normal_against(words, ray.dir), window.normal) > 0.5f && cluster.members < MEMBERS_MOST &&
+                hit_accepted(words, splat, hit, ray, t_in, t_out);
+  float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
+  weight = member ? weight * WEIGHT_UNIT : 0.0f;
+  share = member ? clamp((behind + facet.behind) * window.inverse_depth, -1.0f, 1.0f) : 0.0f;
+  cluster.weight += int(weight + 0.5f);
+  vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
+  cluster.normal += ivec3(floor(normal + vec3(0.5f)));
+  cluster.depth += int(floor(weight * share + 0.5f));
+  if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
+  if (WATCHES) cluster.watched += member && words == watched ? 1u : 0u;
+#ifdef LIT
+  add_factors(cluster.factors, factors_at(splat), weight);
+  if (TEXTURE_NORMAL && member)
+    cluster.tilt += ivec3(floor(tilt_at(splat, normal_against(words, ray.dir)) * weight + vec3(0.5f)));
+#endif
+  cluster.members += member ? 1u : 0u;
+}
+
 /// Adds the candidates that are hits and belong to the first splat's cluster: bit i of x is splat chunk + i, of y splat
 /// chunk + CHUNK + i. Where each is met is computed anew in double-float, so that grazing rays and small discs far away have
 /// exact weights.
 void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, First first, float depth, uvec4 watched,
                            INOUT(Cluster) cluster) {
-  vec3 first_normal = normal_against(first.words, ray.dir);
-  float inverse_depth = 1.0f / depth;
+  Window window = window_of(first, ray, depth);
   do {
     if ((candidates.x | candidates.y) != 0u) {
       bool low = candidates.x != 0u;
@@ -111,29 +155,7 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       candidates = low ? uvec2(mask, candidates.y) : uvec2(0u, mask);
       uvec4 words = splat_words(splat);
       PlaneHit hit = meet_splat(splat, words, ray);
-      float behind = df_add(hit.t, -first.t).x;
-      float inverse_radius = inversesqrt(splat_radius_squared(words));
-      float u_squared = hit.rho_squared.x * (inverse_radius * inverse_radius);
-      Facet facet = facet_at(words, splat, hit.from_center, inverse_radius, ray.dir);
-      float share = behind * inverse_depth;
-      bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == splat_object(first.words) &&
-                    dot(normal_against(words, ray.dir), first_normal) > 0.5f && cluster.members < MEMBERS_MOST &&
-                    hit_accepted(words, splat, hit, ray, walk);
-      float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
-      weight = member ? weight * WEIGHT_UNIT : 0.0f;
-      share = member ? clamp((behind + facet.behind) * inverse_depth, -1.0f, 1.0f) : 0.0f;
-      cluster.weight += int(weight + 0.5f);
-      vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
-      cluster.normal += ivec3(floor(normal + vec3(0.5f)));
-      cluster.depth += int(floor(weight * share + 0.5f));
-      if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
-      if (WATCHES) cluster.watched += member && words == watched ? 1u : 0u;
-#ifdef LIT
-      add_factors(cluster.factors, factors_at(splat), weight);
-      if (TEXTURE_NORMAL && member)
-        cluster.tilt += ivec3(floor(tilt_at(splat, normal_against(words, ray.dir)) * weight + vec3(0.5f)));
-#endif
-      cluster.members += member ? 1u : 0u;
+      add_to_cluster(splat, words, hit, ray, walk.t_in, walk.t_out, window, watched, cluster);
     }
   } while ((candidates.x | candidates.y) != 0u);
 }
@@ -188,10 +210,13 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, 
   return hit;
 }
 
-/// What the ray sees first, and whether a splat is a member of it. The ray may start anywhere; one that ends before it starts is
-/// not traced. The leaf with the first hit is looked through to its end before any of its splats is accumulated; one of more than
-/// two CHUNKs is then gone through again.
-Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
+/// No splat of the cluster of BLEND_WINDOW is met behind it.
+float window_end(First first, float depth) { return first.t.x + depth * 1.0001f + WINDOW_SLACK; }
+
+/// What the ray sees first, and whether a splat is a member of it, by the octree. The ray may start anywhere; one that ends before
+/// it starts is not traced. The leaf with the first hit is looked through to its end before any of its splats is accumulated; one of
+/// more than two CHUNKs is then gone through again.
+Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);
@@ -212,7 +237,7 @@ Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   float depth = 0.0f;
   if (BLEND != BLEND_NEAREST) {
     depth = window_depth(first, ray.dir, kappa);
-    float t_end = BLEND == BLEND_WINDOW ? first.t.x + depth * 1.0001f + WINDOW_SLACK : ray.t_max;
+    float t_end = BLEND == BLEND_WINDOW ? window_end(first, depth) : ray.t_max;
     uint last_leaf = BLEND == BLEND_WINDOW ? MAX_LEAVES : (BLEND == BLEND_PAPER ? walk.leaves + 1u : walk.leaves);
     bool again = walk.end - walk.begin > 2u * CHUNK;
     walk.next = again ? walk.begin : walk.next;
@@ -227,6 +252,15 @@ Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   }
   return finish_hit(ray, first, cluster, depth, shift, watched);
 }
+
+/// The same by the tree that is there. HOST: engine/cpu/wide_trace.h, by the wide tree.
+#ifdef HOST
+Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally);
+#else
+Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
+  return trace_octree(ray, kappa, watched, tally);
+}
+#endif
 
 /// What the ray sees first.
 Hit trace_nearest(Ray ray, float kappa, INOUT(Tally) tally) {

@@ -45,6 +45,14 @@ void add_to_sheet(INOUT(Sheet) sheet, float opacity, float weight) {
   sheet.opacity += int(opacity * weight + 0.5f);
 }
 
+Sheets no_sheets() {
+  Sheets sheets;
+  sheets.last = no_sheet();
+  sheets.other = no_sheet();
+  sheets.passed = 1.0f;
+  return sheets;
+}
+
 /// Adds a splat that the ray hits to its sheet.
 void meet_sheet(INOUT(Sheets) sheets, uint splat, uvec4 words, Ray ray) {
   PlaneHit hit = meet_splat(splat, words, ray);
@@ -69,19 +77,35 @@ void meet_sheet(INOUT(Sheets) sheets, uint splat, uvec4 words, Ray ray) {
 }
 #endif
 
+/// Whether a splat that a shadow ray meets is of a dielectric that the ray passes; tints the light by each object that has not a bit of
+/// `passed` yet.
+bool pass_glass(uvec4 words, INOUT(vec3) light, INOUT(uint) passed) {
+  Material material = material_at(splat_object(words));
+  bool glass = TINTED && (material.flags & MATERIAL_DIELECTRIC) != 0u;
+  uint object_bit = 1u << material.mask_bit;
+  vec3 tint = material.tint * material.tint;
+#ifdef LIT
+  if (TINTED) tint = surface_at(splat_object(words)).base;
+#endif
+  light = glass && (passed & object_bit) == 0u ? light * tint : light;
+  passed |= glass ? object_bit : 0u;
+  return glass;
+}
+
 /// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics
 /// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root; one that ends before it
 /// starts is not traced.
+#ifdef HOST
+// engine/cpu/wide_trace.h, by the wide tree.
+vec3 trace_shadow(Ray ray, INOUT(Tally) tally);
+#else
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   First first = no_first();
   Walk walk = walk_start(ray, 0.0f, ray.t_max >= 0.0f);
   vec3 light = vec3(1.0f);
   uint passed = 0u;
 #ifdef LIT
-  Sheets sheets;
-  sheets.last = no_sheet();
-  sheets.other = no_sheet();
-  sheets.passed = 1.0f;
+  Sheets sheets = no_sheets();
 #endif
   do {
     uint chunk = 0u;
@@ -100,15 +124,7 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
           accepted &= accepted - 1u;
           uint splat = splat_at(chunk + bit);
           uvec4 words = splat_words(splat);
-          Material material = material_at(splat_object(words));
-          bool glass = TINTED && (material.flags & MATERIAL_DIELECTRIC) != 0u;
-          uint object_bit = 1u << material.mask_bit;
-          vec3 tint = material.tint * material.tint;
-#ifdef LIT
-          if (TINTED) tint = surface_at(splat_object(words)).base;
-#endif
-          light = glass && (passed & object_bit) == 0u ? light * tint : light;
-          passed |= glass ? object_bit : 0u;
+          bool glass = pass_glass(words, light, passed);
 #ifdef LIT
           if (OPACITY && !glass) meet_sheet(sheets, splat, words, ray);
           opaque = opaque || (!OPACITY && !glass);
@@ -134,5 +150,6 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
 #endif
   return light;
 }
+#endif
 
 #endif
