@@ -50,7 +50,6 @@ constexpr Bound<uint, BIND_NODE_POOL> node_pool;
 constexpr Bound<uint, BIND_BEGIN_END> begin_end;
 constexpr Bound<uint, BIND_SLAB_POOL> slab_pool;
 constexpr Bound<uint, BIND_REFERENCE_POOL> reference_pool;
-constexpr Bound<uvec4, BIND_DATA_POOL> data_pool;
 constexpr Bound<uint, BIND_COLOR_POOL> color_pool;
 constexpr Bound<uint, BIND_FIELD_POOL> field_pool;
 constexpr Bound<uint, BIND_CLIP_POOL> clip_pool;
@@ -75,7 +74,12 @@ uint node_word(uint index) { return node_pool[index]; }
 uint begin_end_at(uint index) { return begin_end[index]; }
 uint slab_word(uint index) { return slab_pool[index]; }
 uint splat_at(uint place) { return REFERENCES ? reference_pool[place] : place; }
-uvec4 splat_words(uint index) { return data_pool[index]; }
+/// The data pool lies in the wide tree's leaves.
+uvec4 splat_words(uint index) {
+  const std::array<WideWords, 4>& words = bound->tree.leaves[index / WIDE].words;
+  const uint lane = index % WIDE;
+  return {words[0][lane], words[1][lane], words[2][lane], words[3][lane]};
+}
 uint field_word(uint index) { return field_pool[index]; }
 uint clip_word(uint index) { return clip_pool[index]; }
 uint texture_word(uint index) { return texture_pool[index]; }

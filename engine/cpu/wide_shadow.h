@@ -1,16 +1,24 @@
 /// What shaders/trace/shadow.glsl declares with HOST, by the wide tree. After wide_trace.h.
 
+#ifdef LIT
+/// The see-through sheets that the shadow ray traced meets.
+thread_local std::vector<Meeting> sheets_met;
+#endif
+
 vec3 trace_shadow(Ray ray, Tally& tally) {
   vec3 light = vec3(1.0f);
   if (!(ray.t_max >= 0.0f)) return light;
   uint passed = 0u;
   bool opaque = false;
-  meetings.clear();
+#ifdef LIT
+  std::vector<Meeting>& met_through = sheets_met;
+  met_through.clear();
+#endif
   visit_hits(ray, 0.0f, ray.t_max, tally, [&](const Meeting& met) {
     if (TINTED && pass_glass(met.words, light, passed)) return INFINITY_F;
 #ifdef LIT
     if (OPACITY) {
-      meetings.push_back(met);
+      met_through.push_back(met);
       return INFINITY_F;
     }
 #endif
@@ -20,11 +28,11 @@ vec3 trace_shadow(Ray ray, Tally& tally) {
   if (opaque) return vec3(0.0f);
 #ifdef LIT
   if (OPACITY) {
-    std::sort(meetings.begin(), meetings.end(), [](const Meeting& a, const Meeting& b) {
+    std::sort(met_through.begin(), met_through.end(), [](const Meeting& a, const Meeting& b) {
       return df_less(a.hit.t, b.hit.t) || (a.hit.t == b.hit.t && words_less(a.words, b.words));
     });
     Sheets sheets = no_sheets();
-    for (const Meeting& met : meetings) meet_sheet(sheets, met.splat, met.words, ray);
+    for (const Meeting& met : met_through) meet_sheet(sheets, met.splat, met.words, ray);
     light *= sheets.passed * sheet_passes(sheets.last) * sheet_passes(sheets.other);
   }
 #endif

@@ -8,33 +8,49 @@ struct Meeting {
   PlaneHit hit;
 };
 
-/// The hits of the ray traced that may be of its cluster, or of see-through sheets; kept for its memory.
-thread_local std::vector<Meeting> meetings;
-
-/// Directions below this are parallel to the planes of an axis: a finite inverse keeps NaN out of the boxes.
+/// Directions below PARALLEL are parallel to the planes of an axis: a finite inverse keeps NaN out of the boxes.
 float inverse_of(float dir) { return 1.0f / (abs(dir) < PARALLEL ? (dir < 0.0f ? -PARALLEL : PARALLEL) : dir); }
 
-/// Calls visit(meeting) for the ray's hits in [t_in, t_end), all but those behind the least end that it returns, in no strict order;
-/// those behind it that it has met none the less.
+/// What the walk has computed of a splat of its leaf.
+PlaneHit hit_of(const WideWalk& walk, uint lane) {
+  const dvec3 from_center(walk.from_center[0][lane], walk.from_center[1][lane], walk.from_center[2][lane]);
+  PlaneHit hit;
+  hit.t = two_floats(walk.t[lane]);
+  hit.rho_squared = two_floats(walk.rho_squared[lane]);
+  hit.from_center = vec3(from_center);
+  hit.from_center_low = vec3(from_center - dvec3(hit.from_center));
+  hit.facing = float(walk.facing[lane]);
+  return hit;
+}
+
+/// Calls visit(meeting) for the ray's hits with t in [t_in, t_end), all but those behind the least end that it returns, in no strict
+/// order.
 template <class Visit>
 void visit_hits(const Ray& ray, float t_in, float t_end, Tally& tally, const Visit& visit) {
   const WideView& tree = bound->tree;
   WideWalk walk;
-  walk.origin = {ray.origin.x, ray.origin.y, ray.origin.z};
-  walk.dir = {ray.dir.x, ray.dir.y, ray.dir.z};
-  walk.inverse = {inverse_of(ray.dir.x), inverse_of(ray.dir.y), inverse_of(ray.dir.z)};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<uint>(axis);
+    walk.origin[i] = ray.origin[axis];
+    walk.origin_low[i] = ray.origin_low[axis];
+    walk.dir[i] = ray.dir[axis];
+    walk.inverse[i] = inverse_of(ray.dir[axis]);
+    walk.begin[i] = walk.origin[i] * walk.inverse[i];
+  }
   walk.t_min = max(ray.t_min, t_in);
   walk.t_max = t_end;
   walk.stack[0] = {walk.t_min, tree.levels, 0};
   walk.boxes_met = tree.levels > 0 ? 1 : 0;
-  while (true) {
-    const WideStep step = bound->stepper(tree, walk);
-    if (step.candidates == 0) break;
-    for (uint left = step.candidates; left != 0; left &= left - 1) {
-      const uint splat = step.leaf->splat[static_cast<uint>(findLSB(left))];
-      const Meeting met{splat, splat_words(splat), {}};
-      PlaneHit hit = meet_splat(splat, met.words, ray);
-      if (hit_accepted(met.words, splat, hit, ray, t_in, INFINITY_F)) walk.t_max = min(walk.t_max, visit({splat, met.words, hit}));
+  while (uint met = bound->functions.step(tree, walk)) {
+    for (; met != 0; met &= met - 1) {
+      const auto lane = static_cast<uint>(findLSB(met));
+      Meeting meeting;
+      meeting.splat = walk.leaf * WIDE + lane;
+      meeting.words = splat_words(meeting.splat);
+      meeting.hit = hit_of(walk, lane);
+      if (ELLIPSES) meeting.hit = ellipse_hit(clip_word(meeting.splat), meeting.words, meeting.hit);
+      if (hit_accepted(meeting.words, meeting.splat, meeting.hit, ray, t_in, INFINITY_F))
+        walk.t_max = min(walk.t_max, visit(meeting));
     }
   }
   if (COUNTERS) {
@@ -44,48 +60,128 @@ void visit_hits(const Ray& ray, float t_in, float t_end, Tally& tally, const Vis
   }
 }
 
-/// Finds the first hit and, with BLEND_WINDOW, all that may be of its cluster. Returns the cluster's depth.
-float find_cluster(const Ray& ray, float kappa, Tally& tally, First& first) {
-  meetings.clear();
-  float depth = 0.0f, end = ray.t_max, least_end = ray.t_max;
+/// Adds one; false where there are too many.
+bool add_meeting(const Meeting& met, WideMeetings& all) {
+  if (all.count == WIDE_MEETINGS) return false;
+  const uint i = all.count++;
+  all.t[i] = met.hit.t.x;
+  all.t_low[i] = met.hit.t.y;
+  all.rho_squared[i] = met.hit.rho_squared.x;
+  for (int axis = 0; axis < 3; ++axis) all.from_center[static_cast<uint>(axis)][i] = met.hit.from_center[axis];
+  all.normal[i] = met.words.z;
+  all.radius_object[i] = met.words.w;
+  all.splat[i] = met.splat;
+  if (FIELDS) all.field[i] = field_word(met.splat);
+  if (COLORS) all.color[i] = color_pool[met.splat];
+  return true;
+}
+
+/// Leaves out those with t of `end` and more.
+void drop_behind(float end, WideMeetings& all) {
+  uint kept = 0;
+  const auto keep = [&](auto& values, uint from) { values[kept] = values[from]; };
+  for (uint i = 0; i < all.count; ++i) {
+    if (all.t[i] >= end) continue;
+    for (auto* values : {&all.t, &all.t_low, &all.rho_squared}) keep(*values, i);
+    for (auto* values : {&all.normal, &all.radius_object, &all.splat, &all.field, &all.color}) keep(*values, i);
+    for (OfMeetings<float>& values : all.from_center) keep(values, i);
+    ++kept;
+  }
+  all.count = kept;
+}
+
+/// What a ray meets first, and how deep the window behind it is.
+struct Found {
+  First first;
+  float depth;
+  bool all;  ///< that may be of the cluster are among the meetings; else there were too many
+};
+
+/// Finds the first hit and, with BLEND_WINDOW, all meetings that may be of its cluster.
+Found find_cluster(const Ray& ray, float kappa, Tally& tally, WideMeetings& all) {
+  Found found{no_first(), 0.0f, true};
+  float end = ray.t_max, least_end = ray.t_max;
+  all.count = 0;
   visit_hits(ray, -INFINITY_F, ray.t_max, tally, [&](const Meeting& met) {
-    const uint before = first.splat;
-    const bool found = first.measure.x < INFINITY_F;
-    take_first(met.splat, met.words, met.hit, true, first);
-    if (BLEND == BLEND_NEAREST) return std::nextafter(first.t.x, INFINITY_F);
-    meetings.push_back(met);
-    if (!found || first.splat != before) {
-      depth = window_depth(first, ray.dir, kappa);
-      end = min(window_end(first, depth), ray.t_max);
+    const uvec4 before = found.first.words;
+    take_first(met.splat, met.words, met.hit, true, found.first);
+    if (BLEND == BLEND_NEAREST) return std::nextafter(found.first.t.x, INFINITY_F);
+    if (found.first.words != before) {
+      found.depth = window_depth(found.first, ray.dir, kappa);
+      end = min(window_end(found.first, found.depth), ray.t_max);
       least_end = min(least_end, end);
+    }
+    if (!add_meeting(met, all)) {
+      drop_behind(least_end, all);
+      found.all = found.all && add_meeting(met, all);
     }
     return end;
   });
   // A first hit found later may have a window that reaches further than one that the walk has gone by.
   if (end > least_end) {
-    std::erase_if(meetings, [&](const Meeting& met) { return met.hit.t.x >= least_end; });
+    drop_behind(least_end, all);
     visit_hits(ray, least_end, end, tally, [&](const Meeting& met) {
-      meetings.push_back(met);
+      found.all = found.all && add_meeting(met, all);
       return end;
     });
   }
-  return depth;
+  return found;
+}
+
+/// What blending adds up beside normals, depth and colours, one meeting after the other.
+void add_beside(const WideMeetings& all, [[maybe_unused]] const Ray& ray, uvec4 watched, Cluster& cluster) {
+  if (!WATCHES && !TEXTURE_LAYER && !TEXTURE_GLOW && !TEXTURE_COLOR && !TEXTURE_NORMAL) return;
+  for (uint i = 0; i < all.count; ++i) {
+    if (all.weight[i] == 0.0f) continue;
+    const uvec4 words = splat_words(all.splat[i]);
+    if (WATCHES) cluster.watched += words == watched ? 1u : 0u;
+#ifdef LIT
+    add_factors(cluster.factors, factors_at(all.splat[i]), all.weight[i]);
+    if (TEXTURE_NORMAL)
+      cluster.tilt += ivec3(floor(tilt_at(all.splat[i], normal_against(words, ray.dir)) * all.weight[i] + vec3(0.5f)));
+#endif
+  }
+}
+
+Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uvec4 watched) {
+  const Window window = window_of(found.first, ray, found.depth);
+  WideWindow wide;
+  for (int axis = 0; axis < 3; ++axis) {
+    wide.dir[static_cast<uint>(axis)] = ray.dir[axis];
+    wide.normal[static_cast<uint>(axis)] = window.normal[axis];
+  }
+  wide.t = window.t.x;
+  wide.t_low = window.t.y;
+  wide.inverse_depth = window.inverse_depth;
+  wide.object = window.object;
+  wide.fields = FIELDS;
+  wide.colors = COLORS;
+  const WideSums sums = bound->functions.blend(all, wide);
+  Cluster cluster = empty_cluster();
+  cluster.weight = sums.weight;
+  cluster.normal = {sums.normal[0], sums.normal[1], sums.normal[2]};
+  cluster.depth = sums.depth;
+  cluster.color = {sums.color[0], sums.color[1], sums.color[2]};
+  cluster.members = sums.members;
+  add_beside(all, ray, watched, cluster);
+  return cluster;
 }
 
 Hit trace_watching(Ray ray, float kappa, uvec4 watched, Tally& tally) {
-  if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) return trace_octree(ray, kappa, watched, tally);
+  const bool wide = BLEND == BLEND_NEAREST || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
+  if (!wide) return trace_octree(ray, kappa, watched, tally);
+  const Ray given = ray;
   bool enters = true;
   float t_start = 0.0f;
   const float shift = clip_to_root(ray, enters, t_start);
   if (WATCHES) enters = enters && ray.t_max >= 0.0f;
-  First first = no_first();
+  Found found{no_first(), 0.0f, true};
   Cluster cluster = empty_cluster();
-  float depth = 0.0f;
-  if (enters) depth = find_cluster(ray, kappa, tally, first);
-  if (BLEND != BLEND_NEAREST && enters) {
-    const Window window = window_of(first, ray, depth);
-    for (const Meeting& met : meetings)
-      add_to_cluster(met.splat, met.words, met.hit, ray, -INFINITY_F, INFINITY_F, window, watched, cluster);
+  if (enters) {
+    WideMeetings all;
+    found = find_cluster(ray, kappa, tally, all);
+    if (!found.all) return trace_octree(given, kappa, watched, tally);
+    if (all.count > 0) cluster = blend_meetings(all, found, ray, watched);
   }
-  return finish_hit(ray, first, cluster, depth, shift, watched);
+  return finish_hit(ray, found.first, cluster, found.depth, shift, watched);
 }

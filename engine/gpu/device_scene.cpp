@@ -34,8 +34,9 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   shows_look_ = false;
   cells_ = filled_cells(scene);
   clip_content_ = clip_content(scene.clip_pool);
-  wide_tree_ = context_.is_host() ? WideTree(scene.data_pool, request_.threads) : WideTree();
-  pools_ = Pools(context_, queue_, scene, request_, spent);
+  std::vector<std::uint32_t> order;
+  if (context_.is_host()) wide_tree_ = WideTree(scene.data_pool, request_.threads, order);
+  pools_ = Pools(context_, queue_, scene, request_, spent, order);
   bindings_.emplace(context_, pools_.paging);
   bindings_->bind(wide_tree_);
   outline_ = {};
@@ -151,6 +152,7 @@ void DeviceScene::bind_light() { bindings_->bind(BIND_SURFACES, surface_buffer_)
 PoolBytes DeviceScene::bytes() const {
   PoolBytes bytes = pools_.bytes;
   bytes.environment = environment_.size();
+  bytes.at(BIND_DATA_POOL) += wide_tree_.bytes();
   return bytes;
 }
 

@@ -152,7 +152,7 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
 
 void BindingSet::bind(const WideTree& tree) {
   host_.tree = tree.view();
-  host_.stepper = wide_stepper();
+  host_.functions = wide_functions();
 }
 
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {

@@ -78,16 +78,25 @@ std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const Pool
 /// What the references refer to, in parts: a whole list beside the buffer would take its memory twice.
 template <typename Value>
 void upload_listed(CommandQueue& queue, PagedBuffer& buffer, const std::vector<Value>& pool,
-                   const std::vector<std::uint32_t>& references) {
+                   std::span<const std::uint32_t> references) {
   constexpr std::ptrdiff_t PART = std::ptrdiff_t{1} << 18;
   if (pool.empty()) return;
   for (auto part = references.begin(); part != references.end();) {
     const auto end = part + std::min(PART, references.end() - part);
-    const std::vector<Value> list = listed(pool, {part, end});
+    const std::vector<Value> list = listed(pool, std::vector(part, end));
     buffer.upload(queue, std::as_bytes(std::span(list)),
                   static_cast<std::size_t>(part - references.begin()) * sizeof(Value));
     part = end;
   }
+}
+
+/// The references, to where a list has the splats.
+void upload_places(CommandQueue& queue, PagedBuffer& buffer, std::span<const std::uint32_t> list,
+                   const std::vector<std::uint32_t>& references) {
+  std::vector<std::uint32_t> places(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) places[list[i]] = static_cast<std::uint32_t>(i);
+  places = listed(places, references);
+  buffer.upload(queue, std::as_bytes(std::span(places)));
 }
 
 /// The splats' words, in the order of `references` or, where that is empty, of the splats.
@@ -179,7 +188,7 @@ Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAcces
 }
 
 Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolRequest& request,
-             Scene* spent) {
+             Scene* spent, std::span<const std::uint32_t> order) {
   assert(spent == nullptr || spent == &scene);
   top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
   std::vector<std::uint32_t> top = top_table(scene, top_levels);
@@ -187,17 +196,19 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   limits.texel_elements = std::min(limits.texel_elements, request.page_elements);
   limits.storage_bytes =
       std::min(limits.storage_bytes / sizeof(uvec4), request.page_elements) * sizeof(uvec4);
-  references = choose_references(pool_counts(scene), limits, request.access, request.data);
-  const bool lists = !references && !scene.reference_pool.empty();
+  references = !order.empty() || choose_references(pool_counts(scene), limits, request.access, request.data);
+  const auto list = references ? order : std::span<const std::uint32_t>(scene.reference_pool);
+  const bool lists = !list.empty();
   std::uint32_t binding = BIND_NODE_POOL;
   for_each_pool([&](const auto& row) {
     const auto& pool = scene.*row.pool;
-    const bool absent = pool.empty() || (binding == BIND_REFERENCE_POOL && !references);
-    const std::size_t elements = absent ? 0 : lists && row.listed ? scene.reference_pool.size() : pool.size();
+    const bool in_tree = binding == BIND_DATA_POOL && !order.empty();
+    const bool absent = pool.empty() || in_tree || (binding == BIND_REFERENCE_POOL && !references);
+    const std::size_t elements = absent ? 0 : lists && row.listed ? list.size() : pool.size();
     bytes.at(binding++) = elements * sizeof(pool.front());
   });
   texture_features = splatray::texture_features(scene.columns);
-  bytes.at(BIND_TEXTURE_POOL) = (lists ? scene.reference_pool.size() : scene.data_pool.size()) *
+  bytes.at(BIND_TEXTURE_POOL) = (lists ? list.size() : scene.data_pool.size()) *
                                 texture_word_count(texture_features) * sizeof(std::uint32_t);
   bytes.at(BIND_TOP_TABLE) = std::span(top).size_bytes();
   paging = choose_paging(bytes, limits, request.access);
@@ -214,14 +225,14 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   buffers.back().upload(queue, std::as_bytes(std::span(top)));
   std::exchange(top, {});
   if (texture_features != 0)
-    upload_textures(
-        queue, buffers[BIND_TEXTURE_POOL - BIND_NODE_POOL], scene,
-        lists ? std::span<const std::uint32_t>(scene.reference_pool) : std::span<const std::uint32_t>());
+    upload_textures(queue, buffers[BIND_TEXTURE_POOL - BIND_NODE_POOL], scene, list);
   binding = BIND_NODE_POOL;
   for_each_pool([&](const auto& row) {
     PagedBuffer& buffer = buffers[binding - BIND_NODE_POOL];
-    if (lists && row.listed)
-      upload_listed(queue, buffer, scene.*row.pool, scene.reference_pool);
+    if (bytes.at(binding) > 0 && lists && row.listed)
+      upload_listed(queue, buffer, scene.*row.pool, list);
+    else if (binding == BIND_REFERENCE_POOL && lists && references)
+      upload_places(queue, buffer, list, scene.reference_pool);
     else if (bytes.at(binding) > 0)
       buffer.upload(queue, std::as_bytes(std::span(scene.*row.pool)));
     if (spent != nullptr && binding != BIND_REFERENCE_POOL) std::exchange(spent->*row.pool, {});

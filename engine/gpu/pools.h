@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "engine/scene/copies.h"
 #include "engine/vulkan/bindings.h"
@@ -30,7 +31,7 @@ struct PoolRequest {
   PoolAccess access = PoolAccess::automatic;
   DataPool data = DataPool::automatic;
   std::uint64_t page_elements = UINT64_MAX;  ///< most elements of the data pool in a page
-  unsigned threads = 0;                      ///< that make the host's tree; 0 = one a core
+  unsigned threads = 0;                      ///< that make the wide tree of a host; 0 = one a core
 };
 
 /// Bytes on the device.
@@ -88,9 +89,10 @@ struct Paging {
 struct Pools {
   Pools() = default;
   /// Uploads and waits; throws as choose_paging does. `spent` is null or the scene itself, whose pools are then freed, each as
-  /// soon as it is on the device; after an Error some of them may be gone.
+  /// soon as it is on the device; after an Error some of them may be gone. `order`: all splats' indices, in the order that a wide tree has
+  /// them in, whose leaves are the data pool; leaves of the octree have references to it. Empty = as `request` says.
   Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolRequest& request,
-        Scene* spent = nullptr);
+        Scene* spent = nullptr, std::span<const std::uint32_t> order = {});
 
   Paging paging;
   PoolBytes bytes;                         ///< without environment and frame

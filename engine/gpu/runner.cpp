@@ -15,11 +15,7 @@ constexpr std::uint32_t STAGED_GROUPS = 4096;
 PoolRequest pool_request(const TracerOptions& options, const DeviceProfile& profile) {
   PoolRequest request = options.pools;
   request.access = profile.access();
-  if (profile.kernels == Kernels::host) {
-    request.threads = options.threads;
-    // Its own tree has the splats leaf by leaf.
-    if (request.data == DataPool::automatic) request.data = DataPool::references;
-  }
+  request.threads = options.threads;
   return request;
 }
 

@@ -67,6 +67,9 @@ PlaneHit meet_splat(uint splat, uvec4 words, Ray ray) {
 
 /// Whether a meeting is on the part of the splat's plane that its clip lines leave.
 bool clip_keeps(uint clip, uvec4 words, PlaneHit hit) {
+#ifdef HOST
+  if (clip == CLIP_NONE) return true;
+#endif
   bool single = ELLIPSES && is_ellipse(clip);
   return line_keeps(clip, words, hit) && (single || line_keeps(clip >> 16u, words, hit));
 }

@@ -1,2 +1,10 @@
-#define WIDE_STEP wide_step_avx512
 #include "engine/cpu/wide/wide_step.h"
+//
+#include "engine/cpu/wide/wide_blend.h"
+
+namespace splatray {
+
+extern const WideFunctions WIDE_AVX512;
+const WideFunctions WIDE_AVX512{step, blend};
+
+}  // namespace splatray

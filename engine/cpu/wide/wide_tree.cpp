@@ -84,15 +84,8 @@ Box fill(WideLeaf& leaf, std::span<const Item> items, std::span<const uvec4> spl
   leaf = {};
   for (std::size_t i = 0; i < items.size(); ++i) {
     const uvec4& words = splats[items[i].splat];
-    const Splat splat = unpack_splat(words);
-    const glm::vec3 normal = unpack_stored_normal(words);
-    for (int axis = 0; axis < 3; ++axis) {
-      leaf.center[axis][i] = static_cast<float>(splat.center[axis]);
-      leaf.normal[axis][i] = normal[axis];
-    }
-    leaf.radius_squared[i] = static_cast<float>(splat.radius_squared);
-    leaf.splat[i] = items[i].splat;
-    box.add(box_of(splat));
+    for (int word = 0; word < 4; ++word) leaf.words[static_cast<std::size_t>(word)][i] = words[word];
+    box.add(box_of(unpack_splat(words)));
   }
   return box;
 }
@@ -113,7 +106,8 @@ Box fill(WideNode& node, std::span<const Box> children) {
 
 }  // namespace
 
-WideTree::WideTree(std::span<const uvec4> splats, unsigned threads) {
+WideTree::WideTree(std::span<const uvec4> splats, unsigned threads, std::vector<std::uint32_t>& order) {
+  order.clear();
   if (splats.empty()) return;
   threads = threads_of(threads);
   std::vector<Item> items(splats.size());
@@ -122,6 +116,7 @@ WideTree::WideTree(std::span<const uvec4> splats, unsigned threads) {
       items[i] = {glm::vec3(unpack_center(splats[i])), static_cast<std::uint32_t>(i)};
   });
   sort(items, std::size_t{1} << 28U, threads);
+  for (const Item& item : items) order.push_back(item.splat);
   std::vector<Box> boxes(groups_of(items.size(), WIDE));
   leaves_.resize(boxes.size());
   in_parts(leaves_.size(), threads, [&](std::size_t begin, std::size_t end) {

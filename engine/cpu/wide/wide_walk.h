@@ -13,6 +13,8 @@ inline constexpr std::uint32_t WIDE_LEVELS = 7;
 
 /// A number of each child or splat.
 using WideFloats = std::array<float, WIDE>;
+using WideDoubles = std::array<double, WIDE>;
+using WideWords = std::array<std::uint32_t, WIDE>;
 
 /// The boxes of a node's children, lattice units, a little too large, so that float32 loses no hit. Those that are not there have a
 /// lower bound above the upper one.
@@ -20,18 +22,15 @@ struct alignas(64) WideNode {
   std::array<std::array<WideFloats, 2>, 3> bounds;  ///< of each axis, lower and upper
 };
 
-/// Splats as the test in float32 reads them.
+/// Splats: their first words, their second ones and so on. Without others the last leaf is filled up with zeros.
 struct alignas(64) WideLeaf {
-  std::array<WideFloats, 3> center;  ///< lattice units, exact
-  std::array<WideFloats, 3> normal;  ///< integers, exact: |x| + |y| + |z| = OCT_SCALE
-  WideFloats radius_squared;         ///< lattice units^2
-  std::array<std::uint32_t, WIDE> splat;  ///< indices in the data pool
+  std::array<WideWords, 4> words;
 };
 
 /// The tree as a walk reads it.
 struct WideView {
   const WideNode* nodes = nullptr;
-  const WideLeaf* leaves = nullptr;
+  const WideLeaf* leaves = nullptr;  ///< leaf n has splats WIDE n to WIDE n + WIDE - 1
   std::array<std::uint32_t, WIDE_LEVELS + 1> level_begin{};  ///< level n's first node; of the level of leaves, 0, none
   std::uint32_t levels = 0;     ///< of nodes; 0 = no splats
   std::uint32_t last_leaf = 0;
@@ -45,29 +44,78 @@ struct WideBox {
   std::uint32_t number;  ///< in its level
 };
 
-/// Where a ray is.
-struct WideWalk {
+/// Where a ray is, and what it meets there.
+struct alignas(64) WideWalk {
   std::array<float, 3> origin;   ///< root space
+  std::array<float, 3> origin_low;  ///< its exact origin is origin + origin_low
   std::array<float, 3> dir;
   std::array<float, 3> inverse;  ///< 1 / dir, finite
+  std::array<float, 3> begin;    ///< origin * inverse
   float t_min;
   float t_max;                   ///< nothing behind it is looked for; may become less between steps
   std::uint32_t boxes_met = 0;   ///< on the stack; at first the root alone
   std::array<WideBox, (WIDE - 1) * WIDE_LEVELS + 1> stack;  ///< of each node the nearest last
   std::uint32_t nodes = 0;       ///< looked at
   std::uint32_t leaves = 0;      ///< tested
+
+  std::uint32_t leaf;            ///< that the last step went to
+  /// Of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64, bit for
+  /// bit; of others anything.
+  alignas(64) WideDoubles t;
+  WideDoubles rho_squared, facing;
+  std::array<WideDoubles, 3> from_center;
 };
 
-/// Splats of a leaf that a ray may hit.
-struct WideStep {
-  const WideLeaf* leaf;
-  std::uint32_t candidates;  ///< a bit each; none where the walk has ended
+/// Goes on to the next leaf where the ray meets discs with t in [t_min, t_max), and reports them, a bit each; perhaps a few that it
+/// passes just beside. 0: the walk has ended.
+using WideStepper = std::uint32_t (*)(const WideView& tree, WideWalk& walk);
+
+/// Most meetings that are blended together: all may be members (MEMBERS_MOST in shaders/trace/blend.glsl).
+inline constexpr std::uint32_t WIDE_MEETINGS = 496;
+
+/// A number of each meeting.
+template <class Value>
+using OfMeetings = std::array<Value, WIDE_MEETINGS>;
+
+/// What is blended: the meetings of a ray that may be of one cluster (shaders/trace/blend.glsl).
+struct alignas(64) WideMeetings {
+  OfMeetings<float> t, t_low;        ///< two floats
+  OfMeetings<float> rho_squared;
+  std::array<OfMeetings<float>, 3> from_center;
+  OfMeetings<std::uint32_t> normal, radius_object;  ///< the splats' third and fourth words
+  OfMeetings<std::uint32_t> splat;
+  OfMeetings<std::uint32_t> field, color;   ///< words of the pools, where there are any
+  OfMeetings<float> weight;  ///< set by blending: 0 where the meeting is not of the cluster
+  std::uint32_t count = 0;
 };
 
-/// Goes on to the next leaf that may have hits with t in [t_min, t_max).
-using WideStepper = WideStep (*)(const WideView& tree, WideWalk& walk);
+/// The cluster that they are blended to; as Window of shaders/trace/blend.glsl.
+struct WideWindow {
+  std::array<float, 3> dir;
+  std::array<float, 3> normal;
+  float t, t_low;
+  float inverse_depth;
+  std::uint32_t object;
+  bool fields, colors;
+};
+
+/// Sums; as Cluster there.
+struct WideSums {
+  std::int32_t weight = 0, depth = 0;
+  std::array<std::int32_t, 3> normal{}, color{};
+  std::uint32_t members = 0;
+};
+
+/// Blends them as add_to_cluster does with KERNEL_RIM and BLEND_WINDOW, to the same bits.
+using WideBlender = WideSums (*)(WideMeetings& meetings, const WideWindow& window);
+
+/// The functions for one kind of processor.
+struct WideFunctions {
+  WideStepper step;
+  WideBlender blend;
+};
 
 /// The fastest that this processor runs.
-[[nodiscard]] WideStepper wide_stepper();
+[[nodiscard]] const WideFunctions& wide_functions();
 
 }  // namespace splatray

@@ -2,14 +2,12 @@
 
 namespace splatray {
 
-WideStep wide_step_base(const WideView& tree, WideWalk& walk);
+extern const WideFunctions WIDE_BASE;
 #ifdef __x86_64__
-WideStep wide_step_sse(const WideView& tree, WideWalk& walk);
-WideStep wide_step_avx2(const WideView& tree, WideWalk& walk);
-WideStep wide_step_avx512(const WideView& tree, WideWalk& walk);
+extern const WideFunctions WIDE_SSE, WIDE_AVX2, WIDE_AVX512;
 #endif
 
-WideStepper wide_stepper() {
+const WideFunctions& wide_functions() {
 #ifdef __x86_64__
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                     __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("aes") &&
@@ -17,11 +15,11 @@ WideStepper wide_stepper() {
   const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
                       __builtin_cpu_supports("avx512vl");
-  if (avx512) return wide_step_avx512;
-  if (avx2) return wide_step_avx2;
-  if (__builtin_cpu_supports("sse4.2")) return wide_step_sse;
+  if (avx512) return WIDE_AVX512;
+  if (avx2) return WIDE_AVX2;
+  if (__builtin_cpu_supports("sse4.2")) return WIDE_SSE;
 #endif
-  return wide_step_base;
+  return WIDE_BASE;
 }
 
 }  // namespace splatray
