@@ -89,7 +89,7 @@ uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
 uvec4 light_texel(uint index) { return light_tree[index]; }
 #endif
 
-/// Bilinear; columns repeat, rows are clamped (engine/vulkan/texture.h).
+/// Bilinear; columns repeat, rows are clamped (engine/device/vulkan/texture.h).
 vec3 environment_texel(vec2 position) {
   const int width = static_cast<int>(bound->environment_width);
   const int height = static_cast<int>(bound->environment_height);

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "engine/vulkan/bindings.h"
-#include "engine/vulkan/spec_constants.h"
+#include "engine/device/bindings.h"
+#include "engine/device/spec_constants.h"
 #include "shaders/layout.h"
 
 namespace splatray {

@@ -2,8 +2,8 @@
 #pragma once
 #include <cstdint>
 
+#include "engine/device/vulkan/context.h"
 #include "engine/gpu/pools.h"
-#include "engine/vulkan/context.h"
 #include "shaders/layout.h"
 
 namespace splatray {

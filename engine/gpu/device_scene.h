@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/texture.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/pools.h"
@@ -16,8 +18,6 @@
 #include "engine/scene/clip.h"
 #include "engine/scene/sky/sky_table.h"
 #include "engine/scene/tree.h"
-#include "engine/vulkan/command_queue.h"
-#include "engine/vulkan/texture.h"
 
 namespace splatray {
 

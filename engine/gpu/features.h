@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/device/spec_constants.h"
 #include "engine/image/view.h"
-#include "engine/vulkan/spec_constants.h"
 #include "shaders/layout.h"
 
 namespace splatray {

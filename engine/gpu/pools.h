@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/device/bindings.h"
+#include "engine/device/vulkan/paged_buffer.h"
 #include "engine/scene/copies.h"
-#include "engine/vulkan/bindings.h"
-#include "engine/vulkan/paged_buffer.h"
 
 namespace splatray {
 

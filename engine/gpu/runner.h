@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/device/vulkan/buffer.h"
+#include "engine/device/vulkan/command_queue.h"
 #include "engine/gpu/device_scene.h"
 #include "engine/gpu/dispatch.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/tracer.h"
-#include "engine/vulkan/buffer.h"
-#include "engine/vulkan/command_queue.h"
 
 namespace splatray {
 

@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
+#include "engine/device/vulkan/context.h"
 #include "engine/gpu/device_profile.h"
 #include "engine/gpu/pools.h"
 #include "engine/image/image.h"
 #include "engine/image/look.h"
 #include "engine/image/view.h"
-#include "engine/vulkan/context.h"
 
 namespace splatray {
 

@@ -1,8 +1,8 @@
-#include "engine/vulkan/buffer.h"
+#include "engine/device/vulkan/buffer.h"
 
 #include <numeric>
 
-#include "engine/vulkan/command_queue.h"
+#include "engine/device/vulkan/command_queue.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/context.h"
 
 namespace splatray {
 namespace {

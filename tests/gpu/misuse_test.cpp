@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/pipeline_store.h"
 #include "engine/scene/splat.h"
-#include "engine/vulkan/command_queue.h"
-#include "engine/vulkan/pipeline_store.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 #include "tests/temp_folder.h"

@@ -2,9 +2,9 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include "engine/device/vulkan/context.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
-#include "engine/vulkan/context.h"
 
 namespace splatray {
 

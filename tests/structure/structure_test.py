@@ -11,7 +11,7 @@ import tempfile
 # A file may include those of its own room and of the rooms before it. A file's room is the longest name here that its path begins with:
 # every folder has a rank of its own, a folder that only its parent knows has its parent's.
 ROOMS = ["shaders", "shaders/lang", "shaders/primitive", "shaders/scene", "shaders/trace", "shaders/light", "shaders/stage",
-         "engine/base", "engine/table", "engine/scene", "engine/file", "engine/light", "engine/image", "engine/vulkan", "engine/cpu", "engine/gpu",
+         "engine/base", "engine/table", "engine/scene", "engine/file", "engine/light", "engine/image", "engine/device", "engine/device/vulkan", "engine/cpu", "engine/gpu",
          "preprocess/points.h", "preprocess/build_stats.h", "preprocess/base", "preprocess/mesh", "preprocess/surface",
          "preprocess/scan", "preprocess/tree", "preprocess/read", "preprocess",
          "app/library/codec", "app/library", "app/library/request", "app/library/picture", "app/library/api", "app/cli", "app/farm", "app/python", "app/package",

@@ -9,7 +9,7 @@
 
 #include "app/library/api/guard.h"
 #include "app/library/picture/scene_on_device.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/context.h"
 
 namespace splatray::api {
 

@@ -1,8 +1,8 @@
 /// Dear ImGui in the viewer's window: its GLFW and Vulkan back ends.
 #pragma once
 #include "app/view/window/window.h"
-#include "engine/vulkan/command_queue.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/context.h"
 
 struct ImDrawData;
 

@@ -6,9 +6,9 @@
 #include "app/view/window/gui.h"
 #include "app/view/window/swapchain.h"
 #include "app/view/window/window.h"
-#include "engine/vulkan/buffer.h"
-#include "engine/vulkan/command_queue.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/buffer.h"
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/context.h"
 
 namespace splatray {
 

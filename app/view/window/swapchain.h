@@ -3,8 +3,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "engine/vulkan/context.h"
-#include "engine/vulkan/handle.h"
+#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/handle.h"
 
 namespace splatray {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/context.h"
 
 struct GLFWwindow;
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/context.h"
 #include "tests/bench/cases/cases.h"
 #include "tests/bench/measure/record.h"
 

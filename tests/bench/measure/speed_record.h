@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/context.h"
 #include "tests/bench/measure/record.h"
 #include "tests/gpu/shown_tracer.h"
 

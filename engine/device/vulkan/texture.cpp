@@ -1,11 +1,11 @@
-#include "engine/vulkan/texture.h"
+#include "engine/device/vulkan/texture.h"
 
 #include <algorithm>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
 #include "engine/base/error.h"
-#include "engine/vulkan/command_queue.h"
+#include "engine/device/vulkan/command_queue.h"
 
 namespace splatray {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "engine/vulkan/context.h"
-#include "engine/vulkan/handle.h"
+#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/handle.h"
 
 namespace splatray {
 

@@ -1,4 +1,4 @@
-#include "engine/vulkan/command_queue.h"
+#include "engine/device/vulkan/command_queue.h"
 
 #include <algorithm>
 #include <chrono>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/vulkan/functions.h"
+#include "engine/device/vulkan/functions.h"
 
 namespace splatray {
 

@@ -2,9 +2,9 @@
 #pragma once
 #include <functional>
 
-#include "engine/vulkan/buffer.h"
-#include "engine/vulkan/context.h"
-#include "engine/vulkan/handle.h"
+#include "engine/device/vulkan/buffer.h"
+#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/handle.h"
 
 namespace splatray {
 

@@ -1,4 +1,4 @@
-#include "engine/vulkan/paged_buffer.h"
+#include "engine/device/vulkan/paged_buffer.h"
 
 #include <algorithm>
 #include <cassert>

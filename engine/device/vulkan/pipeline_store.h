@@ -2,8 +2,8 @@
 #pragma once
 #include <filesystem>
 
-#include "engine/vulkan/context.h"
-#include "engine/vulkan/handle.h"
+#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/handle.h"
 
 namespace splatray {
 

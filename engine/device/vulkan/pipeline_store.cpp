@@ -1,4 +1,4 @@
-#include "engine/vulkan/pipeline_store.h"
+#include "engine/device/vulkan/pipeline_store.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

@@ -1,4 +1,4 @@
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/context.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/vulkan/buffer.h"
+#include "engine/device/vulkan/buffer.h"
 
 namespace splatray {
 

@@ -1,11 +1,11 @@
-#include "engine/vulkan/buffer.h"
+#include "engine/device/vulkan/buffer.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cstring>
 
 #include "engine/base/error.h"
-#include "engine/vulkan/command_queue.h"
+#include "engine/device/vulkan/command_queue.h"
 
 namespace splatray {
 namespace {

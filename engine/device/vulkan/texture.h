@@ -1,7 +1,7 @@
 /// The environment's texture: bilinear, repeating in columns, clamped in rows, no mip levels.
 #pragma once
+#include "engine/device/vulkan/buffer.h"
 #include "engine/scene/environment.h"
-#include "engine/vulkan/buffer.h"
 
 namespace splatray {
 
