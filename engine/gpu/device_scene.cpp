@@ -135,7 +135,7 @@ void DeviceScene::upload_tables(const SkyTable& sky) {
 
 void DeviceScene::bind() {
   for (std::uint32_t i = 0; i < pools_.buffers.size(); ++i)
-    bindings_->bind(BIND_NODE_POOL + i, pools_.buffers[i]);
+    bindings_->bind(BIND_POOLS + i, pools_.buffers[i]);
   bindings_->bind(BIND_MATERIALS, material_buffer_);
   bindings_->bind(BIND_LIGHTS, light_buffer_);
   bindings_->bind(BIND_LIGHT_TABLES, table_buffer_);
@@ -153,13 +153,11 @@ PoolBytes DeviceScene::bytes() const {
 
 SceneContent DeviceScene::content() const {
   return {.materials = material_content_,
-          .colors = pools_.bytes.at(BIND_COLOR_POOL) > 0,
-          .fields = pools_.bytes.at(BIND_FIELD_POOL) > 0,
-          .clips = clip_content_.lines,
+          .pools = pools_.features & (clip_content_.lines ? ~0U : ~FEATURE_CLIPS),
           .ellipses = clip_content_.ellipses,
           .references = pools_.references,
           .top_levels = pools_.top_levels,
-          .pages = pools_.paging.pages_constant(),
+          .pages = pools_.paging.pages,
           .page_shift = pools_.paging.page_shift,
           .surfaces = surface_features_,
           .textures = pools_.texture_features,

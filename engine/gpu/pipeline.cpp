@@ -6,8 +6,6 @@
 namespace splatray {
 namespace {
 
-bool is_pool(std::uint32_t binding) { return binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE; }
-
 VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   if (binding == BIND_PATHS || (is_read_as_pools(binding) && access == PoolAccess::texel))
     return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
@@ -16,7 +14,7 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
 }
 
 std::uint32_t descriptor_count(std::uint32_t binding, const Paging& paging) {
-  return is_pool(binding) ? paging.pages[binding - BIND_NODE_POOL] : 1;
+  return is_pool(binding) ? paging.pages[binding - BIND_POOLS] : 1;
 }
 
 Handle<VkShaderModule, vkDestroyShaderModule> make_module(const Context& context,
@@ -153,7 +151,7 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const auto code = program_code(key.program, kernels_, key.constants[SPEC_PAGES] != 0);
+    const auto code = program_code(key.program, kernels_, is_paged(key.constants));
     found = pipelines_.emplace(key, make_pipeline(context_, key, code, layout, store_.get())).first;
   }
   return found->second.get();

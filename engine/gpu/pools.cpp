@@ -19,7 +19,17 @@
 namespace splatray {
 namespace {
 
-static_assert(SCENE_POOLS + 2 == POOLS, "a pool of the table has no binding, or a binding no pool");
+constexpr std::array PLACES = {
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) place,
+#include "shaders/pools.glsl"
+};
+static_assert(
+    [] {
+      for (std::uint32_t i = 0; i < POOLS; ++i)
+        if (PLACES[i] != i) return false;
+      return true;
+    }(),
+    "the places of shaders/pools.glsl do not count its rows");
 
 /// Of a pool's texel buffer.
 VkFormat texel_format(const PoolKind& kind) {
@@ -32,8 +42,6 @@ std::uint64_t most_elements(const PoolLimits& limits, PoolAccess access, std::ui
   return std::min(texel ? limits.texel_elements : limits.storage_bytes / element_bytes,
                   limits.allocation_bytes / element_bytes);
 }
-
-bool paged(const Paging& paging) { return paging.pages_constant() != 0; }
 
 /// Pools of these sizes read this way, or why they cannot be.
 std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolLimits& limits,
@@ -59,7 +67,7 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolL
   if (all > most)
     return "the pools take " + std::to_string(all) + (texel ? " texel" : " storage") +
            " buffers, a program has room for " + std::to_string(most);
-  if (paged(paging)) paging.page_shift = static_cast<std::uint32_t>(std::countr_zero(page));
+  if (paging.paged()) paging.page_shift = static_cast<std::uint32_t>(std::countr_zero(page));
   return paging;
 }
 
@@ -72,7 +80,7 @@ std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const Pool
   const auto* first = std::get_if<Paging>(&texel);
   const auto* second = std::get_if<Paging>(&storage);
   if (second == nullptr) return texel;
-  return first != nullptr && (!paged(*first) || paged(*second)) ? texel : storage;
+  return first != nullptr && (!first->paged() || second->paged()) ? texel : storage;
 }
 
 /// What the references refer to, in parts: a whole list beside the buffer would take its memory twice.
@@ -118,17 +126,10 @@ bool texel_format_supported(const Context& context, VkFormat format) {
 }  // namespace
 
 const std::array<PoolKind, POOLS>& pool_kinds() {
-  static const auto KINDS = [] {
-    std::array<PoolKind, POOLS> kinds{};
-    std::size_t i = 0;
-    for_each_pool([&](const auto& row) {
-      using Value = typename std::remove_reference_t<decltype(Scene{}.*row.pool)>::value_type;
-      kinds[i++] = {row.name, row.key, sizeof(Value)};
-    });
-    kinds[i++] = {"texture pool", "texture_pool", sizeof(std::uint32_t)};
-    kinds[i] = {"top table", "top_table", sizeof(std::uint32_t)};
-    return kinds;
-  }();
+  static constexpr std::array<PoolKind, POOLS> KINDS = {{
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) {PoolTraits ABOUT.name, #pool, sizeof(Value)},
+#include "shaders/pools.glsl"
+  }};
   return KINDS;
 }
 
@@ -155,10 +156,8 @@ PoolLimits pool_limits(const Context& context) {
   return limits;
 }
 
-std::uint32_t Paging::pages_constant() const {
-  std::uint32_t constant = 0;
-  for (std::uint32_t i = 0; i < POOLS; ++i) constant |= (pages[i] - 1) << 3 * i;
-  return constant;
+bool Paging::paged() const {
+  return std::any_of(pages.begin(), pages.end(), [](std::uint32_t count) { return count > 1; });
 }
 
 bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
@@ -167,7 +166,7 @@ bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolA
   copies.at(BIND_DATA_POOL) = counts.references * sizeof(uvec4);
   const auto paging = best_paging(copies, limits, access);
   const auto* ways = std::get_if<Paging>(&paging);
-  const bool fit = copies_fit(counts) && ways != nullptr && !paged(*ways);
+  const bool fit = copies_fit(counts) && ways != nullptr && !ways->paged();
   return wanted == DataPool::references || (wanted == DataPool::automatic && !fit);
 }
 
@@ -189,12 +188,15 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
       std::min(limits.storage_bytes / sizeof(uvec4), request.page_elements) * sizeof(uvec4);
   references = choose_references(pool_counts(scene), limits, request.access, request.data);
   const bool lists = !references && !scene.reference_pool.empty();
-  std::uint32_t binding = BIND_NODE_POOL;
+  std::uint32_t binding = BIND_POOLS;
   for_each_pool([&](const auto& row) {
     const auto& pool = scene.*row.pool;
     const bool absent = pool.empty() || (binding == BIND_REFERENCE_POOL && !references);
-    const std::size_t elements = absent ? 0 : lists && row.listed ? scene.reference_pool.size() : pool.size();
+    const std::size_t elements = absent                  ? 0
+                                 : lists && row.listed() ? scene.reference_pool.size()
+                                                         : pool.size();
     bytes.at(binding++) = elements * sizeof(pool.front());
+    if (elements > 0) features |= row.feature;
   });
   texture_features = splatray::texture_features(scene.columns);
   bytes.at(BIND_TEXTURE_POOL) = (lists ? scene.reference_pool.size() : scene.data_pool.size()) *
@@ -215,12 +217,12 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   std::exchange(top, {});
   if (texture_features != 0)
     upload_textures(
-        queue, buffers[BIND_TEXTURE_POOL - BIND_NODE_POOL], scene,
+        queue, buffers[BIND_TEXTURE_POOL - BIND_POOLS], scene,
         lists ? std::span<const std::uint32_t>(scene.reference_pool) : std::span<const std::uint32_t>());
-  binding = BIND_NODE_POOL;
+  binding = BIND_POOLS;
   for_each_pool([&](const auto& row) {
-    PagedBuffer& buffer = buffers[binding - BIND_NODE_POOL];
-    if (lists && row.listed)
+    PagedBuffer& buffer = buffers[binding - BIND_POOLS];
+    if (lists && row.listed())
       upload_listed(queue, buffer, scene.*row.pool, scene.reference_pool);
     else if (bytes.at(binding) > 0)
       buffer.upload(queue, std::as_bytes(std::span(scene.*row.pool)));

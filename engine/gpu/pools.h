@@ -34,18 +34,18 @@ struct PoolRequest {
 
 /// Bytes on the device.
 struct PoolBytes {
-  std::array<std::uint64_t, POOLS> pools{};  ///< in the order of their bindings, from BIND_NODE_POOL on
+  std::array<std::uint64_t, POOLS> pools{};  ///< in the order of their bindings, from BIND_POOLS on
   std::uint64_t environment = 0;
   std::uint64_t frame = 0;     ///< picture, AOVs, ray queries, queues of paths: as large as pictures are
   bool texel_buffers = false;  ///< pools are read through texel buffers
   std::uint32_t pages = 0;     ///< of the pool with most
 
   /// Of the pool with this binding.
-  [[nodiscard]] std::uint64_t& at(std::uint32_t binding) { return pools[binding - BIND_NODE_POOL]; }
-  [[nodiscard]] std::uint64_t at(std::uint32_t binding) const { return pools[binding - BIND_NODE_POOL]; }
+  [[nodiscard]] std::uint64_t& at(std::uint32_t binding) { return pools[binding - BIND_POOLS]; }
+  [[nodiscard]] std::uint64_t at(std::uint32_t binding) const { return pools[binding - BIND_POOLS]; }
 };
 
-/// What pools are called and made of, in the order of their bindings: those of the scene, texture words, the top table.
+/// What pools are called and made of, in the order of their bindings.
 struct PoolKind {
   const char* name;             ///< in messages and panels
   const char* key;              ///< in JSON
@@ -72,7 +72,8 @@ struct Paging {
   std::array<std::uint32_t, POOLS> pages{};  ///< of each pool, at least 1; in the order of their bindings
   std::uint32_t page_shift = 0;              ///< SPEC_PAGE_SHIFT; 0 where no pool has several pages
 
-  [[nodiscard]] std::uint32_t pages_constant() const;  ///< SPEC_PAGES
+  /// Whether some pool has several pages.
+  [[nodiscard]] bool paged() const;
 };
 
 /// Whether the data pool of such a scene is read through references, `access`: how pools may be read.
@@ -94,9 +95,10 @@ struct Pools {
   Paging paging;
   PoolBytes bytes;                         ///< without environment and frame
   bool references = false;                 ///< the data pool is read through the reference pool
+  std::uint32_t features = 0;              ///< FEATURE_* of the optional pools that the scene has
   std::uint32_t top_levels = 0;            ///< of the top table
   std::uint32_t texture_features = 0;      ///< texture_features() of the scene
-  std::array<PagedBuffer, POOLS> buffers;  ///< in the order of their bindings, from BIND_NODE_POOL on
+  std::array<PagedBuffer, POOLS> buffers;  ///< in the order of their bindings, from BIND_POOLS on
 };
 
 }  // namespace splatray

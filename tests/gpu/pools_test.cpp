@@ -43,7 +43,7 @@ TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
   const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(paging.access, PoolAccess::texel);
   EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(paging.pages_constant(), 0U);
+  EXPECT_FALSE(paging.paged());
   EXPECT_EQ(paging.page_shift, 0U) << "the same pipeline for all";
 }
 
@@ -52,7 +52,7 @@ TEST(Paging, TakesOneStorageBufferRatherThanPages) {
       pool_bytes({{BIND_NODE_POOL, 4004}, {BIND_BEGIN_END, 4000}, {BIND_DATA_POOL, 8000}});
   const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(paging.access, PoolAccess::storage);
-  EXPECT_EQ(paging.pages_constant(), 0U);
+  EXPECT_FALSE(paging.paged());
 }
 
 TEST(Paging, PagesWhatOneBufferDoesNotHold) {
@@ -61,7 +61,7 @@ TEST(Paging, PagesWhatOneBufferDoesNotHold) {
   const Paging texel = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(texel.access, PoolAccess::texel);
   EXPECT_EQ(texel.pages, (Pages{2, 1, 1, 1, 4, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(texel.pages_constant(), 0x00003001U);
+  EXPECT_TRUE(texel.paged());
   EXPECT_EQ(texel.page_shift, 9U);
   const Paging storage = choose_paging(bytes, LIMITS, PoolAccess::storage);
   EXPECT_EQ(storage.pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1, 1, 1}));
@@ -109,7 +109,7 @@ TEST(Paging, NeedsBuffersOfItsKind) {
 /// Whether `automatic` takes references for a scene of `splats` splats with `references` references, where LIMITS hold.
 bool automatic_references(std::size_t splats, std::size_t references,
                           PoolAccess access = PoolAccess::automatic) {
-  return choose_references({splats, references, 1, 1, false, false}, LIMITS, access, DataPool::automatic);
+  return choose_references({splats, references, 1, 1}, LIMITS, access, DataPool::automatic);
 }
 
 TEST(DataPool, HasCopiesWhereTheyFit) {
@@ -124,10 +124,9 @@ TEST(DataPool, HasReferencesWhereOneBufferDoesNotHoldCopies) {
 }
 
 TEST(DataPool, CanBeForced) {
-  const PoolCounts counts{200, 1000, 1, 1, false, false};
+  const PoolCounts counts{200, 1000, 1, 1};
   EXPECT_FALSE(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::copies));
-  EXPECT_TRUE(
-      choose_references({400, 500, 1, 1, false, false}, LIMITS, PoolAccess::automatic, DataPool::references));
+  EXPECT_TRUE(choose_references({400, 500, 1, 1}, LIMITS, PoolAccess::automatic, DataPool::references));
 }
 
 using PoolUpload = DeviceTest;

@@ -139,11 +139,13 @@ def kernel_counts(root):
     rows = re.findall(r"^add_variant\((.*)\)", variants.read_text(), re.MULTILINE)
     flags = {flag for row in rows for flag in row.split()[2:]}
     text = layout.read_text()
+    pools = root / "shaders/pools.glsl"
+    optional = re.findall(r"^SPLATRAY_OPTIONAL_POOL\(\d", pools.read_text(), re.MULTILINE) if pools.is_file() else []
     counts = {
         "modules": (len(rows), MOST_MODULES),
         "flags": (len(flags), MOST_FLAGS),
         "specialization constants": (len(re.findall(r"^SPLATRAY_CONST SPEC_(?!COUNT)\w+ =", text, re.MULTILINE)), MOST_CONSTANTS),
-        "features": (len(re.findall(r"^SPLATRAY_CONST FEATURE_\w+ =", text, re.MULTILINE)), MOST_FEATURES),
+        "features": (len(re.findall(r"^SPLATRAY_CONST FEATURE_\w+ =", text, re.MULTILINE)) + len(optional), MOST_FEATURES),
     }
     for what, (count, most) in counts.items():
         if count > most:
@@ -198,6 +200,7 @@ def prove():
         "torn at a comma": {"engine/base/a.h": "constexpr int A = 1,\n              B = 2;  ///< numbers\n"},
         "torn": {"engine/base/a.h": "struct A {\n  int\n      a;  ///< a number\n};\n"},
         "modules": {"shaders/variants.cmake": "add_variant(A a.glsl CPU)\n" * (MOST_MODULES + 1), "shaders/layout.h": ""},
+        "features": {"shaders/variants.cmake": "", "shaders/layout.h": "", "shaders/pools.glsl": "SPLATRAY_OPTIONAL_POOL(0u, A)\n" * (MOST_FEATURES + 1)},
         "constants": {"shaders/variants.cmake": "", "shaders/layout.h": "SPLATRAY_CONST SPEC_A = 0u;\n" * (MOST_CONSTANTS + 1)},
     }
     for rule, files in cases.items():
