@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/pipeline.h"
 #include "engine/device/vulkan/texture.h"
 #include "engine/gpu/features.h"
-#include "engine/gpu/pipeline.h"
 #include "engine/gpu/pools.h"
 #include "engine/image/footprint.h"
 #include "engine/image/look.h"

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "engine/device/vulkan/pipeline.h"
 #include "engine/gpu/features.h"
-#include "engine/gpu/pipeline.h"
 #include "engine/gpu/tiles.h"
 #include "engine/image/footprint.h"
 #include "shaders/layout.h"

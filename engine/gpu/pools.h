@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "engine/device/bindings.h"
-#include "engine/device/vulkan/paged_buffer.h"
+#include "engine/device/paged_buffer.h"
 #include "engine/scene/copies.h"
 
 namespace splatray {

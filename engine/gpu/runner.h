@@ -6,9 +6,9 @@
 
 #include "engine/device/vulkan/buffer.h"
 #include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/pipeline.h"
 #include "engine/gpu/device_scene.h"
 #include "engine/gpu/dispatch.h"
-#include "engine/gpu/pipeline.h"
 #include "engine/gpu/tracer.h"
 
 namespace splatray {

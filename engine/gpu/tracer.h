@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/device/vulkan/context.h"
-#include "engine/gpu/device_profile.h"
+#include "engine/device/device_profile.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/gpu/pools.h"
 #include "engine/image/image.h"
 #include "engine/image/look.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 namespace {

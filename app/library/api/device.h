@@ -9,7 +9,7 @@
 
 #include "app/library/api/guard.h"
 #include "app/library/picture/scene_on_device.h"
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray::api {
 

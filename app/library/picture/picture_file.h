@@ -5,7 +5,7 @@
 #include "app/library/image_file.h"
 #include "app/library/request/request.h"
 #include "engine/base/stopwatch.h"
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 

@@ -10,7 +10,7 @@
 #include "app/view/thread/live_scene.h"
 #include "app/view/thread/progressive.h"
 #include "app/view/thread/save.h"
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 

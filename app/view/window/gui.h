@@ -2,7 +2,7 @@
 #pragma once
 #include "app/view/window/window.h"
 #include "engine/device/vulkan/command_queue.h"
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 struct ImDrawData;
 

@@ -8,7 +8,7 @@
 #include "app/view/window/window.h"
 #include "engine/device/vulkan/buffer.h"
 #include "engine/device/vulkan/command_queue.h"
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 

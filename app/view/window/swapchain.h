@@ -3,8 +3,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "engine/device/vulkan/context.h"
 #include "engine/device/vulkan/handle.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 

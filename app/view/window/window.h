@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 struct GLFWwindow;
 

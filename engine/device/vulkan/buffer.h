@@ -4,8 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "engine/device/vulkan/context.h"
 #include "engine/device/vulkan/handle.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 

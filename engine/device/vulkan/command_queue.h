@@ -3,8 +3,8 @@
 #include <functional>
 
 #include "engine/device/vulkan/buffer.h"
-#include "engine/device/vulkan/context.h"
 #include "engine/device/vulkan/handle.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 

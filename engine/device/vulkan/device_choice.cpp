@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/device/bindings.h"
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "shaders/layout.h"
 
 namespace splatray {

@@ -2,8 +2,8 @@
 #pragma once
 #include <filesystem>
 
-#include "engine/device/vulkan/context.h"
 #include "engine/device/vulkan/handle.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 

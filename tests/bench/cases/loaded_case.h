@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/cases.h"
 #include "tests/bench/measure/record.h"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/bench/measure/race.h"
 
 namespace splatray::testing {

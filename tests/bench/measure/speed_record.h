@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/bench/measure/record.h"
 #include "tests/gpu/shown_tracer.h"
 

@@ -1,6 +1,6 @@
 /// splatray in a race, on a device.
 #pragma once
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/bench/measure/racer.h"
 #include "tests/gpu/shown_tracer.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/gpu/device_profile.h"
+#include "engine/device/device_profile.h"
 
 namespace splatray {
 

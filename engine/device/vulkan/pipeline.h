@@ -6,12 +6,12 @@
 #include <map>
 
 #include "engine/cpu/kernel.h"
+#include "engine/device/program.h"
 #include "engine/device/vulkan/buffer.h"
 #include "engine/device/vulkan/pipeline_store.h"
 #include "engine/device/vulkan/texture.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pools.h"
-#include "engine/gpu/program.h"
 
 namespace splatray {
 

@@ -1,4 +1,4 @@
-#include "engine/gpu/device_profile.h"
+#include "engine/device/device_profile.h"
 
 #include <algorithm>
 

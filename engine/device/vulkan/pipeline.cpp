@@ -1,4 +1,4 @@
-#include "engine/gpu/pipeline.h"
+#include "engine/device/vulkan/pipeline.h"
 
 #include <cassert>
 #include <span>

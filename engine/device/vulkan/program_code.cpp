@@ -1,4 +1,4 @@
-#include "engine/gpu/program.h"
+#include "engine/device/program.h"
 
 #include "shaders/spirv.h"
 

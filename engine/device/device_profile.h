@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/gpu/pools.h"
 #include "shaders/layout.h"
 

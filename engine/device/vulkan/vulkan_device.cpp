@@ -1,4 +1,4 @@
-#include "engine/device/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "engine/device/vulkan/paged_buffer.h"
+#include "engine/device/paged_buffer.h"
 
 #include <algorithm>
 #include <cassert>
