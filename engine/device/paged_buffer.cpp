@@ -5,24 +5,23 @@
 
 namespace splatray {
 
-PagedBuffer::PagedBuffer(const Context& context, VkDeviceSize bytes, VkDeviceSize page_bytes,
-                         VkBufferUsageFlags usage, VkFormat texel_format)
+PagedBuffer::PagedBuffer(Queue& queue, std::uint64_t bytes, std::uint64_t page_bytes, BufferKind kind)
     : page_bytes_(page_bytes) {
   assert(page_bytes > 0);
-  VkDeviceSize left = bytes;
+  std::uint64_t left = bytes;
   do {
-    const VkDeviceSize page = std::min(left, page_bytes);
-    pages_.emplace_back(context, page, usage, texel_format);
+    const std::uint64_t page = std::min(left, page_bytes);
+    pages_.push_back(queue.make_buffer(page, kind));
     left -= page;
   } while (left > 0);
 }
 
-void PagedBuffer::upload(CommandQueue& queue, std::span<const std::byte> bytes, VkDeviceSize begin) {
+void PagedBuffer::upload(Queue& queue, std::span<const std::byte> bytes, std::uint64_t begin) {
   while (!bytes.empty()) {
-    const VkDeviceSize at = begin % page_bytes_;
+    const std::uint64_t at = begin % page_bytes_;
     const std::size_t count = std::min<std::size_t>(bytes.size(), page_bytes_ - at);
     assert(begin / page_bytes_ < pages_.size());
-    pages_[begin / page_bytes_].upload(queue, bytes.first(count), at);
+    queue.upload(*pages_[begin / page_bytes_], bytes.first(count), at);
     bytes = bytes.subspan(count);
     begin += count;
   }

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/device/vulkan/buffer.h"
+#include "engine/device/queue.h"
 
 namespace splatray {
 
@@ -11,18 +11,17 @@ namespace splatray {
 class PagedBuffer {
  public:
   PagedBuffer() = default;
-  /// As Buffer's constructor; `page_bytes` is a whole number of texels.
-  PagedBuffer(const Context& context, VkDeviceSize bytes, VkDeviceSize page_bytes, VkBufferUsageFlags usage,
-              VkFormat texel_format);
+  /// As Queue::make_buffer; `page_bytes` is a whole number of texels.
+  PagedBuffer(Queue& queue, std::uint64_t bytes, std::uint64_t page_bytes, BufferKind kind);
 
-  /// As Buffer::upload.
-  void upload(CommandQueue& queue, std::span<const std::byte> bytes, VkDeviceSize begin = 0);
+  /// As Queue::upload.
+  void upload(Queue& queue, std::span<const std::byte> bytes, std::uint64_t begin = 0);
 
-  [[nodiscard]] std::span<const Buffer> pages() const { return pages_; }
+  [[nodiscard]] std::span<const std::unique_ptr<Buffer>> pages() const { return pages_; }
 
  private:
-  std::vector<Buffer> pages_;
-  VkDeviceSize page_bytes_ = 0;
+  std::vector<std::unique_ptr<Buffer>> pages_;
+  std::uint64_t page_bytes_ = 0;
 };
 
 }  // namespace splatray

@@ -20,10 +20,17 @@ std::vector<bool> two_sided_objects(std::span<const Material> materials) {
   return two_sided;
 }
 
+/// In place of no texels.
+const Environment BLACK{1, 1, {glm::vec3(0.0F)}, glm::vec3(0.0F)};
+
 }  // namespace
 
-DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolRequest& request, bool culls)
-    : context_(context), queue_(queue), request_(request), culls_(culls), environment_(context, queue, {}) {
+DeviceScene::DeviceScene(const Device& device, Queue& queue, const PoolRequest& request, bool culls)
+    : device_(device),
+      queue_(queue),
+      request_(request),
+      culls_(culls),
+      environment_(queue.make_texture(BLACK)) {
   upload_tables({});
 }
 
@@ -33,8 +40,8 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   shows_look_ = false;
   cells_ = filled_cells(scene);
   clip_content_ = clip_content(scene.clip_pool);
-  pools_ = Pools(context_, queue_, scene, request_, spent);
-  bindings_.emplace(context_, pools_.paging);
+  pools_ = Pools(queue_, device_.limits(), scene, request_, spent);
+  bindings_ = queue_.make_bindings(pools_.paging);
   outline_ = {};
   outline_.root = scene.root;
   outline_.bounds_min_world = scene.bounds_min_world;
@@ -67,9 +74,9 @@ void DeviceScene::show_objects(const ObjectLooks& objects) {
                                         " objects, expected the scene's " + std::to_string(object_count_));
   material_content_ = material_content(objects.materials);
   surface_features_ = surface_features(objects.surfaces, objects.materials, pools_.texture_features);
-  const auto upload_table = [&](Buffer& buffer, std::span<const std::byte> bytes) {
-    reserve_storage(context_, buffer, bytes.size());
-    buffer.upload(queue_, bytes);
+  const auto upload_table = [&](std::unique_ptr<Buffer>& buffer, std::span<const std::byte> bytes) {
+    queue_.reserve(buffer, bytes.size());
+    queue_.upload(*buffer, bytes);
   };
   upload_table(material_buffer_, std::as_bytes(std::span(objects.materials)));
   upload_table(surface_buffer_, std::as_bytes(std::span(objects.surfaces)));
@@ -91,8 +98,8 @@ void DeviceScene::show_lights(const Look& look) {
   std::vector<Light> table = lights_in_root(outline_, lights);
   lights_met_ = static_cast<std::uint32_t>(std::count_if(table.begin(), table.end(), is_met));
   tree_ = light_tree(table, look.emitters, two_sided_);
-  reserve_storage(context_, light_buffer_, std::span(table).size_bytes());
-  light_buffer_.upload(queue_, std::as_bytes(std::span(table)));
+  queue_.reserve(light_buffer_, std::span(table).size_bytes());
+  queue_.upload(*light_buffer_, std::as_bytes(std::span(table)));
   upload_tree(look.emitters);
 }
 
@@ -102,14 +109,20 @@ void DeviceScene::upload_tree(const Emitters& emitters) {
   if (!texels.empty()) std::memcpy(texels.data(), tree_.nodes.data(), std::span(tree_.nodes).size_bytes());
   if (emitters)
     for (const Emitter& emitter : *emitters) texels.push_back(emitter.words);
-  reserve_read(tree_buffer_, std::span(texels).size_bytes(), VK_FORMAT_R32G32B32A32_UINT);
-  tree_buffer_.upload(queue_, std::as_bytes(std::span(texels)));
+  reserve_read(tree_buffer_, std::span(texels).size_bytes(), BufferKind::texels);
+  queue_.upload(*tree_buffer_, std::as_bytes(std::span(texels)));
   tree_nodes_ = static_cast<std::uint32_t>(tree_.nodes.size());
   tree_.nodes = {};
 }
 
 void DeviceScene::show_environment(const Environment& environment) {
-  environment_ = EnvironmentTexture(context_, queue_, environment);
+  const std::uint32_t most = device_.limits().texture_size;
+  if (environment.width > most || environment.height > most)
+    throw Error(ExitCode::out_of_memory, "the environment has " + std::to_string(environment.width) + "x" +
+                                             std::to_string(environment.height) +
+                                             " pixels, the device takes at most " + std::to_string(most) +
+                                             "x" + std::to_string(most));
+  environment_ = queue_.make_texture(environment.texels.empty() ? BLACK : environment);
   environment_texture_ = !environment.texels.empty();
   environment_constant_ = environment.constant;
   irradiance_ = irradiance_coefficients(environment);
@@ -118,10 +131,9 @@ void DeviceScene::show_environment(const Environment& environment) {
   sky_.words = {};
 }
 
-/// As reserve_storage, of what is read as the pools are.
-void DeviceScene::reserve_read(Buffer& buffer, VkDeviceSize bytes, VkFormat format) {
-  const bool texel = !context_.is_host() && request_.access == PoolAccess::texel;
-  reserve_storage(context_, buffer, bytes, texel ? format : VK_FORMAT_UNDEFINED);
+/// As Queue::reserve, of what is read as the pools are.
+void DeviceScene::reserve_read(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind) {
+  queue_.reserve(buffer, bytes, request_.access == PoolAccess::texel ? kind : BufferKind::storage);
 }
 
 /// What path tracing reads beside the scene.
@@ -129,25 +141,25 @@ void DeviceScene::upload_tables(const SkyTable& sky) {
   std::vector<std::uint32_t> words;
   for (const float albedo : ALBEDO_TABLE) words.push_back(std::bit_cast<std::uint32_t>(albedo));
   words.insert(words.end(), sky.words.begin(), sky.words.end());
-  reserve_read(table_buffer_, std::span(words).size_bytes(), VK_FORMAT_R32_UINT);
-  table_buffer_.upload(queue_, std::as_bytes(std::span(words)));
+  reserve_read(table_buffer_, std::span(words).size_bytes(), BufferKind::words);
+  queue_.upload(*table_buffer_, std::as_bytes(std::span(words)));
 }
 
 void DeviceScene::bind() {
   for (std::uint32_t i = 0; i < pools_.buffers.size(); ++i)
     bindings_->bind(BIND_POOLS + i, pools_.buffers[i]);
-  bindings_->bind(BIND_MATERIALS, material_buffer_);
-  bindings_->bind(BIND_LIGHTS, light_buffer_);
-  bindings_->bind(BIND_LIGHT_TABLES, table_buffer_);
-  bindings_->bind(BIND_LIGHT_TREE, tree_buffer_);
-  bindings_->bind(environment_);
+  bindings_->bind(BIND_MATERIALS, *material_buffer_);
+  bindings_->bind(BIND_LIGHTS, *light_buffer_);
+  bindings_->bind(BIND_LIGHT_TABLES, *table_buffer_);
+  bindings_->bind(BIND_LIGHT_TREE, *tree_buffer_);
+  bindings_->bind(*environment_);
 }
 
-void DeviceScene::bind_light() { bindings_->bind(BIND_SURFACES, surface_buffer_); }
+void DeviceScene::bind_light() { bindings_->bind(BIND_SURFACES, *surface_buffer_); }
 
 PoolBytes DeviceScene::bytes() const {
   PoolBytes bytes = pools_.bytes;
-  bytes.environment = environment_.size();
+  bytes.environment = environment_->size();
   return bytes;
 }
 

@@ -4,18 +4,11 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/device/bindings.h"
+#include "engine/device/device.h"
 #include "engine/device/paged_buffer.h"
 #include "engine/scene/copies.h"
 
 namespace splatray {
-
-/// How shaders read the pools.
-enum class PoolAccess {
-  automatic,  ///< texel where the device's limits allow it, else storage
-  texel,      ///< uniform texel buffers
-  storage,    ///< storage buffers
-};
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
@@ -56,40 +49,20 @@ struct PoolKind {
 /// Of all pools and the top table, without environment and frame.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
 
-/// What the device allows pools to be.
-struct PoolLimits {
-  std::uint64_t texel_elements = 0;    ///< most elements of a texel buffer; 0 where a format is not supported
-  std::uint64_t storage_bytes = 0;     ///< largest storage buffer
-  std::uint64_t allocation_bytes = 0;  ///< largest allocation
-  std::uint32_t texel_buffers = 0;     ///< most texel buffers of a program for pools
-  std::uint32_t storage_buffers = 0;   ///< most storage buffers of a program for pools
-};
-[[nodiscard]] PoolLimits pool_limits(const Context& context);
-
-/// How pools are read, and in how many buffers each is.
-struct Paging {
-  PoolAccess access = PoolAccess::storage;   ///< never automatic
-  std::array<std::uint32_t, POOLS> pages{};  ///< of each pool, at least 1; in the order of their bindings
-  std::uint32_t page_shift = 0;              ///< SPEC_PAGE_SHIFT; 0 where no pool has several pages
-
-  /// Whether some pool has several pages.
-  [[nodiscard]] bool paged() const;
-};
-
 /// Whether the data pool of such a scene is read through references, `access`: how pools may be read.
-[[nodiscard]] bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
+[[nodiscard]] bool choose_references(const PoolCounts& counts, const DeviceLimits& limits, PoolAccess access,
                                      DataPool wanted);
 
 /// How to read pools of these sizes: without pages, then with, in texel buffers, then storage buffers. Throws Error
 /// (out_of_memory) naming a pool, its size and the limit when none of the ways that `wanted` allows will do.
-[[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted);
+[[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits, PoolAccess wanted);
 
 /// The uploaded pools; move-only.
 struct Pools {
   Pools() = default;
   /// Uploads and waits; throws as choose_paging does. `spent` is null or the scene itself, whose pools are then freed, each as
   /// soon as it is on the device; after an Error some of them may be gone.
-  Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolRequest& request,
+  Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
         Scene* spent = nullptr);
 
   Paging paging;

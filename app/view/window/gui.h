@@ -8,11 +8,11 @@ struct ImDrawData;
 
 namespace splatray {
 
-/// One at a time, on the window's thread. Window, context, queue and pass must outlive it.
+/// One at a time, on the window's thread. Window, device, queue and pass must outlive it.
 class Gui {
  public:
   /// Draws in `pass`.
-  Gui(Window& window, const Context& context, CommandQueue& queue, VkRenderPass pass);
+  Gui(Window& window, const VulkanDevice& vulkan, CommandQueue& queue, VkRenderPass pass);
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
@@ -32,7 +32,7 @@ class Gui {
   void start_renderer();
 
   Window& window_;
-  const Context& context_;
+  const VulkanDevice& vulkan_;
   CommandQueue& queue_;
   VkRenderPass pass_;
   Handle<VkDescriptorPool, vkDestroyDescriptorPool> descriptors_;

@@ -5,32 +5,22 @@
 #include <filesystem>
 #include <map>
 
-#include "engine/cpu/kernel.h"
-#include "engine/device/program.h"
+#include "engine/device/queue.h"
 #include "engine/device/vulkan/buffer.h"
 #include "engine/device/vulkan/pipeline_store.h"
-#include "engine/device/vulkan/texture.h"
-#include "engine/gpu/features.h"
-#include "engine/gpu/pools.h"
 
 namespace splatray {
 
-/// The descriptor set (set 0, bindings BIND_*) shared by all programs of one paging, and its pipeline layout. Where the context is
-/// the host, the arrays that kernels read and write.
-class BindingSet {
+/// The descriptor set (set 0, bindings BIND_*) shared by all programs of one paging, and its pipeline layout.
+class VulkanBindings final : public Bindings {
  public:
-  /// The context must outlive it.
-  BindingSet(const Context& context, const Paging& paging);
+  /// The device must outlive it, and be idle whenever something is bound.
+  VulkanBindings(const VulkanDevice& vulkan, const Paging& paging);
 
-  /// Points one binding to a buffer, or to all pages of a pool, or the environment's binding to a texture. The device must
-  /// be idle; the buffer must outlive its use. Every binding needs a buffer before a dispatch, also one that the program
-  /// does not use.
-  void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page = 0);
-  void bind(std::uint32_t binding, const PagedBuffer& buffer);
-  void bind(const EnvironmentTexture& texture);
+  using Bindings::bind;
+  void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) override;
+  void bind(const Texture& texture) override;
 
-  /// Kernels' arrays by binding; constants and parameters are left.
-  [[nodiscard]] const KernelWork& host() const { return host_; }
   [[nodiscard]] VkDescriptorSet set() const { return set_; }
   [[nodiscard]] VkPipelineLayout layout() const { return pipeline_layout_.get(); }
 
@@ -38,13 +28,12 @@ class BindingSet {
   void create_layout();
   void create_set();
 
-  const Context& context_;
+  const VulkanDevice& vulkan_;
   const Paging paging_;
   Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout_;
   Handle<VkPipelineLayout, vkDestroyPipelineLayout> pipeline_layout_;
   Handle<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
-  KernelWork host_;
 };
 
 /// What a pipeline is made of, and so its name in the cache.
@@ -55,12 +44,12 @@ struct PipelineKey {
   auto operator<=>(const PipelineKey&) const = default;
 };
 
-/// Builds each pipeline once. The context must outlive it.
+/// Builds each pipeline once. The device must outlive it.
 class PipelineCache {
  public:
   /// `folder`: where pipelines are kept between runs (pipeline_store.h); empty = nowhere.
-  PipelineCache(const Context& context, Kernels kernels, const std::filesystem::path& folder)
-      : context_(context), kernels_(kernels), store_(context, folder) {}
+  PipelineCache(const VulkanDevice& vulkan, Kernels kernels, const std::filesystem::path& folder)
+      : vulkan_(vulkan), kernels_(kernels), store_(vulkan, folder) {}
 
   /// The pipeline of the key, with that layout; built when it is the first such.
   [[nodiscard]] VkPipeline get(const PipelineKey& key, VkPipelineLayout layout);
@@ -68,7 +57,7 @@ class PipelineCache {
   [[nodiscard]] std::uint32_t built() const { return static_cast<std::uint32_t>(pipelines_.size()); }
 
  private:
-  const Context& context_;
+  const VulkanDevice& vulkan_;
   const Kernels kernels_;
   PipelineStore store_;
   std::map<PipelineKey, Handle<VkPipeline, vkDestroyPipeline>> pipelines_;
