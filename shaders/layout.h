@@ -326,32 +326,35 @@ SPLATRAY_CONST COUNTER_COUNT = 16u;
 
 /// Descriptor bindings (set 0).
 SPLATRAY_CONST BIND_FRAME = 0u;
-SPLATRAY_CONST BIND_NODE_POOL = 1u;
-SPLATRAY_CONST BIND_BEGIN_END = 2u;
-SPLATRAY_CONST BIND_SLAB_POOL = 3u;
-SPLATRAY_CONST BIND_REFERENCE_POOL = 4u;
-SPLATRAY_CONST BIND_DATA_POOL = 5u;
-SPLATRAY_CONST BIND_COLOR_POOL = 6u;
-SPLATRAY_CONST BIND_FIELD_POOL = 7u;
-SPLATRAY_CONST BIND_CLIP_POOL = 8u;
-SPLATRAY_CONST BIND_TEXTURE_POOL = 9u;  ///< texture words
-SPLATRAY_CONST BIND_TOP_TABLE = 10u;
-SPLATRAY_CONST BIND_MATERIALS = 11u;
-SPLATRAY_CONST BIND_LIGHTS = 12u;
-SPLATRAY_CONST BIND_ENVIRONMENT = 13u;
-SPLATRAY_CONST BIND_ACCUMULATION = 14u;
-SPLATRAY_CONST BIND_AOV = 15u;
-SPLATRAY_CONST BIND_COUNTERS = 16u;
-SPLATRAY_CONST BIND_RAYS = 17u;
-SPLATRAY_CONST BIND_HITS = 18u;
-SPLATRAY_CONST BIND_GROUPS = 19u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
-SPLATRAY_CONST BIND_PATHS = 20u;   ///< of this stage
-SPLATRAY_CONST BIND_PATHS_QUEUED = 21u;  ///< of the next
-// Read as the pools are:
-SPLATRAY_CONST BIND_LIGHT_TABLES = 22u;  ///< words: the albedo table, then the sky table
-SPLATRAY_CONST BIND_LIGHT_TREE = 23u;    ///< texels: the light tree, then the words of the splats that send out light
+SPLATRAY_CONST BIND_MATERIALS = 1u;
+SPLATRAY_CONST BIND_LIGHTS = 2u;
+SPLATRAY_CONST BIND_ENVIRONMENT = 3u;
+SPLATRAY_CONST BIND_ACCUMULATION = 4u;
+SPLATRAY_CONST BIND_AOV = 5u;
+SPLATRAY_CONST BIND_COUNTERS = 6u;
+SPLATRAY_CONST BIND_RAYS = 7u;
+SPLATRAY_CONST BIND_HITS = 8u;
+SPLATRAY_CONST BIND_GROUPS = 9u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
+SPLATRAY_CONST BIND_PATHS = 10u;  ///< of this stage
+SPLATRAY_CONST BIND_PATHS_QUEUED = 11u;  ///< of the next
 // Of path tracing, in the place of what it does not use:
 SPLATRAY_CONST BIND_SURFACES = BIND_RAYS;
+// Read as the pools are:
+SPLATRAY_CONST BIND_LIGHT_TABLES = 12u;  ///< words: the albedo table, then the sky table
+SPLATRAY_CONST BIND_LIGHT_TREE = 13u;    ///< texels: the light tree, then the words of the splats that send out light
+SPLATRAY_CONST BIND_POOLS = 14u;         ///< the first of the pools (pools.glsl), which come last
+
+/// How many pools there are.
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) +1u
+SPLATRAY_CONST POOLS = 0u
+#include "pools.glsl"
+    ;
+/// BIND_NODE_POOL and so on, and the FEATURE_* of those that a scene may be without.
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) SPLATRAY_CONST BIND_##NAME = BIND_POOLS + place;
+#define SPLATRAY_OPTIONAL_POOL(place, NAME, pool, Value, reader, HAS, bit, ABOUT) \
+  SPLATRAY_CONST BIND_##NAME = BIND_POOLS + place; \
+  SPLATRAY_CONST FEATURE_##HAS = bit;
+#include "pools.glsl"
 
 /// Specialization constants of a pipeline. What is off costs nothing.
 SPLATRAY_CONST SPEC_FEATURES = 0u;    ///< sum of FEATURE_*
@@ -362,22 +365,19 @@ SPLATRAY_CONST SPEC_FACES = 4u;       ///< FACES_*
 SPLATRAY_CONST SPEC_ORDER = 5u;       ///< ORDER_*
 SPLATRAY_CONST SPEC_STAGE = 6u;       ///< STAGE_*
 SPLATRAY_CONST SPEC_TOP_LEVELS = 7u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
-SPLATRAY_CONST SPEC_PAGES = 8u;       ///< buffers of a pool less one, 3 bits each, BIND_NODE_POOL lowest
-SPLATRAY_CONST SPEC_PAGE_SHIFT = 9u;  ///< a buffer of a pool that has several holds 2^PAGE_SHIFT elements
-SPLATRAY_CONST SPEC_LOOK = 10u;       ///< LOOK_*
-SPLATRAY_CONST SPEC_COUNT = 11u;
+SPLATRAY_CONST SPEC_PAGE_SHIFT = 8u;  ///< a buffer of a pool that has several holds 2^PAGE_SHIFT elements
+SPLATRAY_CONST SPEC_LOOK = 9u;        ///< LOOK_*
+SPLATRAY_CONST SPEC_PAGES = 10u;      ///< and on: buffers of each pool less one, by its place
+SPLATRAY_CONST SPEC_COUNT = SPEC_PAGES + POOLS;
 
-/// What a scene and the settings need, one bit each.
+/// What a scene and the settings need, one bit each; beside these the pools that some splat needs (pools.glsl).
 SPLATRAY_CONST FEATURE_MIRRORS = 1u;        ///< some material mirrors
 SPLATRAY_CONST FEATURE_GLASS = 2u;          ///< some material is a dielectric
-SPLATRAY_CONST FEATURE_COLORS = 4u;         ///< there is a colour pool
-SPLATRAY_CONST FEATURE_FIELDS = 8u;         ///< there is a pool of normal fields
 SPLATRAY_CONST FEATURE_REFERENCES = 16u;    ///< the data pool is read through references
 SPLATRAY_CONST FEATURE_LIGHTS = 32u;        ///< there are lights, and a material that scatters their light
 SPLATRAY_CONST FEATURE_SHADOWS = 64u;       ///< shadow rays
 SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, else constant
 SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
-SPLATRAY_CONST FEATURE_CLIPS = 262144u;     ///< some splat has clip lines
 SPLATRAY_CONST FEATURE_ELLIPSES = 524288u; ///< some splat is an ellipse
 SPLATRAY_CONST FEATURE_OPACITY = 16777216u;  ///< some splat is see-through, and has the texture word LAYER
 SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word

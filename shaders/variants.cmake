@@ -1,4 +1,4 @@
-# The compute programs, one row for each SPIR-V module: name, shader, flags. engine/gpu/program.cpp says who picks it.
+# The compute programs, one row for each SPIR-V module: name, shader, flags. engine/device/vulkan/program_code.cpp says who picks it.
 #   CPU    for CPU devices (llvmpipe): pools in texel buffers, which it reads in 0.6 of the time; hits decided in float64, at which it
 #          is fast; wavefront stages; parameters copied to private memory. Others: pools in storage buffers, hits in double-float.
 #   PAGED  some pool is larger than the device's largest buffer. Modules of their own, as the choice of a buffer at every read costs

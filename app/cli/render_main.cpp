@@ -30,7 +30,7 @@ int print_devices() {
     std::printf("%zu: %s (%s), %s, Vulkan %s%s%s\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
                 devices[i].driver.c_str(), devices[i].api.c_str(),
                 devices[i].refused.empty() ? "" : "; unusable: ", devices[i].refused.c_str());
-  std::printf("%s: %s\n", HOST_DEVICE, host_device_info().name.c_str());
+  std::printf("%s: %s\n", HOST_DEVICE, open_device(HOST_DEVICE)->info().name.c_str());
   return static_cast<int>(ExitCode::done);
 }
 
@@ -113,9 +113,8 @@ int render(int argc, char** argv) {
   catch_interrupts();
   StageTimes times;
   Stopwatch watch;
-  Context context(asked.settings.device);
-  if (!asked.output.quiet)
-    std::fprintf(stderr, "splatray-render: device: %s\n", context.device_info().name.c_str());
+  const std::unique_ptr<Device> device = open_device(asked.settings.device);
+  if (!asked.output.quiet) std::fprintf(stderr, "splatray-render: device: %s\n", device->info().name.c_str());
   times.device_ms = watch.lap_ms();
 
   // After the driver is there, as one library is loaded at a time.
@@ -130,7 +129,7 @@ int render(int argc, char** argv) {
   const PoolCounts counts = pool_counts(loaded.scene);
 
   watch.lap_ms();
-  SceneOnDevice shown(context, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
+  SceneOnDevice shown(*device, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
   shown.show_environment(loaded.environment_name, note);
   shown.open_and_free(loaded.scene);
   expose(sequence, shown, still, request);
@@ -141,7 +140,7 @@ int render(int argc, char** argv) {
   progress.clear();
 
   if (!request.output.stats_json.empty())
-    write_stats(request, loaded, counts, context, shown.tracer().pool_bytes(), times, record);
+    write_stats(request, loaded, counts, *device, shown.tracer().pool_bytes(), times, record);
   require_all_made(record);
   // In the exposure of the picture, which is known by now.
   if (const auto reference = read_reference(request)) require_match(request, record.last, *reference);

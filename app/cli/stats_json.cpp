@@ -82,15 +82,14 @@ Json frames_json(const std::vector<PictureRecord>& pictures) {
 }  // namespace
 
 void write_stats(const Request& request, const LoadedScene& loaded, const PoolCounts& counts,
-                 const Context& context, const PoolBytes& bytes, const StageTimes& times,
+                 const Device& device, const PoolBytes& bytes, const StageTimes& times,
                  const SequenceRecord& record) {
-  const DeviceInfo& device = context.device_info();
+  const DeviceInfo& info = device.info();
   const PictureRecord sum = sum_of(record.made);
   const Settings& settings = request.settings;
   Json json = {
       {"commit", COMMIT},
-      {"device",
-       {{"name", device.name}, {"type", device.type}, {"driver", device.driver}, {"api", device.api}}},
+      {"device", {{"name", info.name}, {"type", info.type}, {"driver", info.driver}, {"api", info.api}}},
       {"scene", scene_json(loaded.scene, counts, sum.lights)},
       {"picture",
        {{"width", request.view.width},

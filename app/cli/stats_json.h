@@ -13,7 +13,7 @@ struct StageTimes {
 /// steps and tests when counted; of a sequence the sums, and the times of each frame. Throws Error (failed); leaves no
 /// partial file.
 void write_stats(const Request& request, const LoadedScene& loaded, const PoolCounts& counts,
-                 const Context& context, const PoolBytes& bytes, const StageTimes& times,
+                 const Device& device, const PoolBytes& bytes, const StageTimes& times,
                  const SequenceRecord& record);
 
 }  // namespace splatray

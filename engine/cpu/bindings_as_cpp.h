@@ -46,15 +46,6 @@ struct Bound {
 constexpr Bound<vec4, BIND_ACCUMULATION> accumulation;
 constexpr Bound<AovPixel, BIND_AOV> aov;
 constexpr Bound<uint, BIND_GROUPS> group_list;
-constexpr Bound<uint, BIND_NODE_POOL> node_pool;
-constexpr Bound<uint, BIND_BEGIN_END> begin_end;
-constexpr Bound<uint, BIND_SLAB_POOL> slab_pool;
-constexpr Bound<uint, BIND_REFERENCE_POOL> reference_pool;
-constexpr Bound<uint, BIND_COLOR_POOL> color_pool;
-constexpr Bound<uint, BIND_FIELD_POOL> field_pool;
-constexpr Bound<uint, BIND_CLIP_POOL> clip_pool;
-constexpr Bound<uint, BIND_TEXTURE_POOL> texture_pool;
-constexpr Bound<uint, BIND_TOP_TABLE> top_table;
 constexpr Bound<Material, BIND_MATERIALS> materials;
 constexpr Bound<Light, BIND_LIGHTS> lights;
 constexpr Bound<vec4, BIND_ENVIRONMENT> environment_texels;
@@ -67,26 +58,28 @@ constexpr Bound<RayQuery, BIND_RAYS> rays;
 constexpr Bound<RayHit, BIND_HITS> hits;
 #endif
 
+/// An element of a pool; the data pool lies in the wide tree's leaves.
+template <class Value, uint BINDING>
+Value pool_element(uint index) {
+  if constexpr (BINDING == BIND_DATA_POOL) {
+    const std::array<WideWords, 4>& words = bound->tree.leaves[index / WIDE].words;
+    const uint lane = index % WIDE;
+    return {words[0][lane], words[1][lane], words[2][lane], words[3][lane]};
+  } else {
+    return Bound<Value, BINDING>()[index];
+  }
+}
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
+  Value reader(uint index) { return pool_element<Value, BIND_##NAME>(index); }
+#include "pools.glsl"
+
 float medium_at(uint bit) { return frame.media[bit >> 2U][static_cast<int>(bit & 3U)]; }
 vec3 cut_eye() { return frame.cut_eye; }
 vec3 absorption_at(uint bit) { return vec3(frame.absorption[bit]); }
-uint node_word(uint index) { return node_pool[index]; }
-uint begin_end_at(uint index) { return begin_end[index]; }
-uint slab_word(uint index) { return slab_pool[index]; }
-uint splat_at(uint place) { return REFERENCES ? reference_pool[place] : place; }
-/// The data pool lies in the wide tree's leaves.
-uvec4 splat_words(uint index) {
-  const std::array<WideWords, 4>& words = bound->tree.leaves[index / WIDE].words;
-  const uint lane = index % WIDE;
-  return {words[0][lane], words[1][lane], words[2][lane], words[3][lane]};
-}
-uint field_word(uint index) { return field_pool[index]; }
-uint clip_word(uint index) { return clip_pool[index]; }
-uint texture_word(uint index) { return texture_pool[index]; }
-uint top_entry(uint index) { return top_table[index]; }
+uint splat_at(uint place) { return REFERENCES ? reference_word(place) : place; }
 Material material_at(uint object) { return materials[object]; }
 Light light_at(uint index) { return lights[index]; }
-vec3 color_at(uint index) { return unpack_color(color_pool[index]); }
+vec3 color_at(uint index) { return unpack_color(color_word(index)); }
 #ifdef LIT
 Surface surface_at(uint object) { return surfaces[object]; }
 float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
@@ -94,7 +87,7 @@ uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
 uvec4 light_texel(uint index) { return light_tree[index]; }
 #endif
 
-/// Bilinear; columns repeat, rows are clamped (engine/vulkan/texture.h).
+/// Bilinear; columns repeat, rows are clamped (engine/device/vulkan/texture.h).
 vec3 environment_texel(vec2 position) {
   const int width = static_cast<int>(bound->environment_width);
   const int height = static_cast<int>(bound->environment_height);

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "engine/cpu/wide/wide_walk.h"
-#include "engine/vulkan/bindings.h"
-#include "engine/vulkan/spec_constants.h"
+#include "engine/device/bindings.h"
+#include "engine/device/spec_constants.h"
 #include "shaders/layout.h"
 
 namespace splatray {

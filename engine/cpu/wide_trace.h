@@ -9,7 +9,9 @@ struct Meeting {
 };
 
 /// Directions below PARALLEL are parallel to the planes of an axis: a finite inverse keeps NaN out of the boxes.
-float inverse_of(float dir) { return 1.0f / (abs(dir) < PARALLEL ? (dir < 0.0f ? -PARALLEL : PARALLEL) : dir); }
+float inverse_of(float dir) {
+  return 1.0f / (abs(dir) < PARALLEL ? (dir < 0.0f ? -PARALLEL : PARALLEL) : dir);
+}
 
 /// What the walk has computed of a splat of its leaf.
 PlaneHit hit_of(const WideWalk& walk, uint lane) {
@@ -67,12 +69,13 @@ bool add_meeting(const Meeting& met, WideMeetings& all) {
   all.t[i] = met.hit.t.x;
   all.t_low[i] = met.hit.t.y;
   all.rho_squared[i] = met.hit.rho_squared.x;
-  for (int axis = 0; axis < 3; ++axis) all.from_center[static_cast<uint>(axis)][i] = met.hit.from_center[axis];
+  for (int axis = 0; axis < 3; ++axis)
+    all.from_center[static_cast<uint>(axis)][i] = met.hit.from_center[axis];
   all.normal[i] = met.words.z;
   all.radius_object[i] = met.words.w;
   all.splat[i] = met.splat;
   if (FIELDS) all.field[i] = field_word(met.splat);
-  if (COLORS) all.color[i] = color_pool[met.splat];
+  if (COLORS) all.color[i] = color_word(met.splat);
   return true;
 }
 
@@ -83,7 +86,8 @@ void drop_behind(float end, WideMeetings& all) {
   for (uint i = 0; i < all.count; ++i) {
     if (all.t[i] >= end) continue;
     for (auto* values : {&all.t, &all.t_low, &all.rho_squared}) keep(*values, i);
-    for (auto* values : {&all.normal, &all.radius_object, &all.splat, &all.field, &all.color}) keep(*values, i);
+    for (auto* values : {&all.normal, &all.radius_object, &all.splat, &all.field, &all.color})
+      keep(*values, i);
     for (OfMeetings<float>& values : all.from_center) keep(values, i);
     ++kept;
   }
@@ -138,7 +142,8 @@ void add_beside(const WideMeetings& all, [[maybe_unused]] const Ray& ray, uvec4 
 #ifdef LIT
     add_factors(cluster.factors, factors_at(all.splat[i]), all.weight[i]);
     if (TEXTURE_NORMAL)
-      cluster.tilt += ivec3(floor(tilt_at(all.splat[i], normal_against(words, ray.dir)) * all.weight[i] + vec3(0.5f)));
+      cluster.tilt +=
+          ivec3(floor(tilt_at(all.splat[i], normal_against(words, ray.dir)) * all.weight[i] + vec3(0.5f)));
 #endif
   }
 }

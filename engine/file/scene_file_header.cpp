@@ -29,10 +29,10 @@ std::array<SectionShape, SECTION_COUNT> section_shapes(const Header& header) {
   std::size_t section = 0;
   std::uint32_t optional_bit = 1;
   for_each_pool([&](const auto& row) {
-    using Value = typename std::remove_reference_t<decltype(std::declval<Scene&>().*row.pool)>::value_type;
-    const bool absent = row.optional && (header.attributes & optional_bit) == 0;
-    if (row.optional) optional_bit <<= 1;
-    shapes[section++] = {absent ? 0 : lengths[static_cast<std::size_t>(row.length)], sizeof(Value)};
+    const bool absent = row.optional() && (header.attributes & optional_bit) == 0;
+    if (row.optional()) optional_bit <<= 1;
+    shapes[section++] = {absent ? 0 : lengths[static_cast<std::size_t>(row.length)],
+                         static_cast<std::uint32_t>(element_bytes(row))};
   });
   shapes[MATERIALS] = {header.objects, sizeof(Material)};
   shapes[LIGHTS] = {header.lights, light_record_bytes(header)};
@@ -64,7 +64,7 @@ std::uint32_t attributes_of(const Scene& scene, bool all) {
   std::uint32_t bits = all || clip_content(scene.clip_pool).ellipses ? ELLIPSES : 0;
   std::uint32_t bit = 1;
   for_each_pool([&](const auto& row) {
-    if (!row.optional) return;
+    if (!row.optional()) return;
     if (all || !(scene.*row.pool).empty()) bits |= bit;
     bit <<= 1;
   });

@@ -133,7 +133,7 @@ class AdaptiveTile {
 
   void read(std::uint32_t which) {
     std::vector<vec4> both(2 * tile_.pixels());
-    runner_.accumulation.download(runner_.queue, std::as_writable_bytes(std::span(both)));
+    runner_.queue->download(*runner_.accumulation, std::as_writable_bytes(std::span(both)));
     const auto begin = both.begin() + static_cast<std::ptrdiff_t>(which * tile_.pixels());
     halves_[which].means.assign(begin, begin + static_cast<std::ptrdiff_t>(tile_.pixels()));
     if (std::any_of(halves_[which].means.begin(), halves_[which].means.end(),

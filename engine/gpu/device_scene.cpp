@@ -20,25 +20,32 @@ std::vector<bool> two_sided_objects(std::span<const Material> materials) {
   return two_sided;
 }
 
+/// In place of no texels.
+const Environment BLACK{1, 1, {glm::vec3(0.0F)}, glm::vec3(0.0F)};
+
 }  // namespace
 
-DeviceScene::DeviceScene(const Context& context, CommandQueue& queue, const PoolRequest& request, bool culls)
-    : context_(context), queue_(queue), request_(request), culls_(culls), environment_(context, queue, {}) {
+DeviceScene::DeviceScene(const Device& device, Queue& queue, const PoolRequest& request, bool culls)
+    : device_(device),
+      queue_(queue),
+      request_(request),
+      culls_(culls),
+      environment_(queue.make_texture(BLACK)) {
   upload_tables({});
 }
 
 void DeviceScene::upload(const Scene& scene, Scene* spent) {
   bindings_.reset();
-  wide_tree_ = {};
+  splat_tree_.reset();
   pools_ = {};  // the device may not have room for two scenes
   shows_look_ = false;
   cells_ = filled_cells(scene);
   clip_content_ = clip_content(scene.clip_pool);
   std::vector<std::uint32_t> order;
-  if (context_.is_host()) wide_tree_ = WideTree(scene.data_pool, request_.threads, order);
-  pools_ = Pools(context_, queue_, scene, request_, spent, order);
-  bindings_.emplace(context_, pools_.paging);
-  bindings_->bind(wide_tree_);
+  splat_tree_ = queue_.make_tree(scene.data_pool, order);
+  pools_ = Pools(queue_, device_.limits(), scene, request_, spent, order);
+  bindings_ = queue_.make_bindings(pools_.paging);
+  if (splat_tree_) bindings_->bind(*splat_tree_);
   outline_ = {};
   outline_.root = scene.root;
   outline_.bounds_min_world = scene.bounds_min_world;
@@ -71,9 +78,9 @@ void DeviceScene::show_objects(const ObjectLooks& objects) {
                                         " objects, expected the scene's " + std::to_string(object_count_));
   material_content_ = material_content(objects.materials);
   surface_features_ = surface_features(objects.surfaces, objects.materials, pools_.texture_features);
-  const auto upload_table = [&](Buffer& buffer, std::span<const std::byte> bytes) {
-    reserve_storage(context_, buffer, bytes.size());
-    buffer.upload(queue_, bytes);
+  const auto upload_table = [&](std::unique_ptr<Buffer>& buffer, std::span<const std::byte> bytes) {
+    queue_.reserve(buffer, bytes.size());
+    queue_.upload(*buffer, bytes);
   };
   upload_table(material_buffer_, std::as_bytes(std::span(objects.materials)));
   upload_table(surface_buffer_, std::as_bytes(std::span(objects.surfaces)));
@@ -95,8 +102,8 @@ void DeviceScene::show_lights(const Look& look) {
   std::vector<Light> table = lights_in_root(outline_, lights);
   lights_met_ = static_cast<std::uint32_t>(std::count_if(table.begin(), table.end(), is_met));
   tree_ = light_tree(table, look.emitters, two_sided_);
-  reserve_storage(context_, light_buffer_, std::span(table).size_bytes());
-  light_buffer_.upload(queue_, std::as_bytes(std::span(table)));
+  queue_.reserve(light_buffer_, std::span(table).size_bytes());
+  queue_.upload(*light_buffer_, std::as_bytes(std::span(table)));
   upload_tree(look.emitters);
 }
 
@@ -106,14 +113,20 @@ void DeviceScene::upload_tree(const Emitters& emitters) {
   if (!texels.empty()) std::memcpy(texels.data(), tree_.nodes.data(), std::span(tree_.nodes).size_bytes());
   if (emitters)
     for (const Emitter& emitter : *emitters) texels.push_back(emitter.words);
-  reserve_read(tree_buffer_, std::span(texels).size_bytes(), VK_FORMAT_R32G32B32A32_UINT);
-  tree_buffer_.upload(queue_, std::as_bytes(std::span(texels)));
+  reserve_read(tree_buffer_, std::span(texels).size_bytes(), BufferKind::texels);
+  queue_.upload(*tree_buffer_, std::as_bytes(std::span(texels)));
   tree_nodes_ = static_cast<std::uint32_t>(tree_.nodes.size());
   tree_.nodes = {};
 }
 
 void DeviceScene::show_environment(const Environment& environment) {
-  environment_ = EnvironmentTexture(context_, queue_, environment);
+  const std::uint32_t most = device_.limits().texture_size;
+  if (environment.width > most || environment.height > most)
+    throw Error(ExitCode::out_of_memory, "the environment has " + std::to_string(environment.width) + "x" +
+                                             std::to_string(environment.height) +
+                                             " pixels, the device takes at most " + std::to_string(most) +
+                                             "x" + std::to_string(most));
+  environment_ = queue_.make_texture(environment.texels.empty() ? BLACK : environment);
   environment_texture_ = !environment.texels.empty();
   environment_constant_ = environment.constant;
   irradiance_ = irradiance_coefficients(environment);
@@ -122,10 +135,9 @@ void DeviceScene::show_environment(const Environment& environment) {
   sky_.words = {};
 }
 
-/// As reserve_storage, of what is read as the pools are.
-void DeviceScene::reserve_read(Buffer& buffer, VkDeviceSize bytes, VkFormat format) {
-  const bool texel = !context_.is_host() && request_.access == PoolAccess::texel;
-  reserve_storage(context_, buffer, bytes, texel ? format : VK_FORMAT_UNDEFINED);
+/// As Queue::reserve, of what is read as the pools are.
+void DeviceScene::reserve_read(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind) {
+  queue_.reserve(buffer, bytes, request_.access == PoolAccess::texel ? kind : BufferKind::storage);
 }
 
 /// What path tracing reads beside the scene.
@@ -133,38 +145,36 @@ void DeviceScene::upload_tables(const SkyTable& sky) {
   std::vector<std::uint32_t> words;
   for (const float albedo : ALBEDO_TABLE) words.push_back(std::bit_cast<std::uint32_t>(albedo));
   words.insert(words.end(), sky.words.begin(), sky.words.end());
-  reserve_read(table_buffer_, std::span(words).size_bytes(), VK_FORMAT_R32_UINT);
-  table_buffer_.upload(queue_, std::as_bytes(std::span(words)));
+  reserve_read(table_buffer_, std::span(words).size_bytes(), BufferKind::words);
+  queue_.upload(*table_buffer_, std::as_bytes(std::span(words)));
 }
 
 void DeviceScene::bind() {
   for (std::uint32_t i = 0; i < pools_.buffers.size(); ++i)
-    bindings_->bind(BIND_NODE_POOL + i, pools_.buffers[i]);
-  bindings_->bind(BIND_MATERIALS, material_buffer_);
-  bindings_->bind(BIND_LIGHTS, light_buffer_);
-  bindings_->bind(BIND_LIGHT_TABLES, table_buffer_);
-  bindings_->bind(BIND_LIGHT_TREE, tree_buffer_);
-  bindings_->bind(environment_);
+    bindings_->bind(BIND_POOLS + i, pools_.buffers[i]);
+  bindings_->bind(BIND_MATERIALS, *material_buffer_);
+  bindings_->bind(BIND_LIGHTS, *light_buffer_);
+  bindings_->bind(BIND_LIGHT_TABLES, *table_buffer_);
+  bindings_->bind(BIND_LIGHT_TREE, *tree_buffer_);
+  bindings_->bind(*environment_);
 }
 
-void DeviceScene::bind_light() { bindings_->bind(BIND_SURFACES, surface_buffer_); }
+void DeviceScene::bind_light() { bindings_->bind(BIND_SURFACES, *surface_buffer_); }
 
 PoolBytes DeviceScene::bytes() const {
   PoolBytes bytes = pools_.bytes;
-  bytes.environment = environment_.size();
-  bytes.at(BIND_DATA_POOL) += wide_tree_.bytes();
+  bytes.environment = environment_->size();
+  if (splat_tree_) bytes.at(BIND_DATA_POOL) = splat_tree_->bytes();
   return bytes;
 }
 
 SceneContent DeviceScene::content() const {
   return {.materials = material_content_,
-          .colors = pools_.bytes.at(BIND_COLOR_POOL) > 0,
-          .fields = pools_.bytes.at(BIND_FIELD_POOL) > 0,
-          .clips = clip_content_.lines,
+          .pools = pools_.features & (clip_content_.lines ? ~0U : ~FEATURE_CLIPS),
           .ellipses = clip_content_.ellipses,
           .references = pools_.references,
           .top_levels = pools_.top_levels,
-          .pages = pools_.paging.pages_constant(),
+          .pages = pools_.paging.pages,
           .page_shift = pools_.paging.page_shift,
           .surfaces = surface_features_,
           .textures = pools_.texture_features,

@@ -2,13 +2,12 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "engine/cpu/wide/wide_tree.h"
+#include "engine/device/device.h"
 #include "engine/gpu/features.h"
-#include "engine/gpu/pipeline.h"
 #include "engine/gpu/pools.h"
 #include "engine/image/footprint.h"
 #include "engine/image/look.h"
@@ -17,16 +16,14 @@
 #include "engine/scene/clip.h"
 #include "engine/scene/sky/sky_table.h"
 #include "engine/scene/tree.h"
-#include "engine/vulkan/command_queue.h"
-#include "engine/vulkan/texture.h"
 
 namespace splatray {
 
 class DeviceScene {
  public:
-  /// Nothing yet, black all around. The context and the queue must outlive it.
+  /// Nothing yet, black all around. The device and the queue must outlive it.
   /// `culls`: footprint() leaves out pixels that no leaf projects to.
-  DeviceScene(const Context& context, CommandQueue& queue, const PoolRequest& request, bool culls);
+  DeviceScene(const Device& device, Queue& queue, const PoolRequest& request, bool culls);
 
   /// As the tracer's functions of these names.
   void upload(const Scene& scene) { upload(scene, nullptr); }
@@ -36,9 +33,9 @@ class DeviceScene {
   void show(const Look& look);
 
   /// Whether there is a scene.
-  [[nodiscard]] bool uploaded() const { return bindings_.has_value(); }
+  [[nodiscard]] bool uploaded() const { return bindings_ != nullptr; }
   /// Of the scene uploaded; its own bindings are set by bind().
-  [[nodiscard]] BindingSet& bindings() { return *bindings_; }
+  [[nodiscard]] Bindings& bindings() { return *bindings_; }
   void bind();
   /// Binds what path tracing alone reads, where ray queries have their rays and hits.
   void bind_light();
@@ -55,7 +52,7 @@ class DeviceScene {
  private:
   /// `spent`: as Pools has it.
   void upload(const Scene& scene, Scene* spent);
-  void reserve_read(Buffer& buffer, VkDeviceSize bytes, VkFormat format);
+  void reserve_read(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind);
   void upload_tables(const SkyTable& sky);
   void show_objects(const ObjectLooks& objects);
   void show_lights(const Look& look);
@@ -63,30 +60,30 @@ class DeviceScene {
   void show_environment(const Environment& environment);
   void set_sky(const Settings& settings, FrameParams& frame) const;
 
-  const Context& context_;
-  CommandQueue& queue_;
+  const Device& device_;
+  Queue& queue_;
   const PoolRequest request_;
   const bool culls_;
-  std::optional<BindingSet> bindings_;  ///< of the pools
+  std::unique_ptr<Bindings> bindings_;  ///< of the pools
 
   Scene outline_;  ///< the scene without its arrays: transform, bounds, up
   std::size_t object_count_ = 0;
   Pools pools_;
-  WideTree wide_tree_;  ///< of the host
+  std::unique_ptr<SplatTree> splat_tree_;  ///< null where programs walk the octree
   ClipContent clip_content_;
   std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
   Look shown_;                     ///< as uploaded
   bool shows_look_ = false;        ///< else the pools are another scene's
   std::uint32_t surface_features_ = 0;
   MaterialContent material_content_;
-  Buffer material_buffer_, surface_buffer_, light_buffer_, table_buffer_, tree_buffer_;
+  std::unique_ptr<Buffer> material_buffer_, surface_buffer_, light_buffer_, table_buffer_, tree_buffer_;
   std::uint32_t lights_ = 0;
   std::uint32_t lights_sized_ = 0, lights_met_ = 0;
   LightTree tree_;  ///< without its arrays
   std::uint32_t tree_nodes_ = 0;
   std::vector<bool> two_sided_;    ///< of each object, whether its light leaves both faces
   double light_irradiance_ = 0.0;  ///< at the scene's centre, facing all, the mean of rgb
-  EnvironmentTexture environment_;
+  std::unique_ptr<Texture> environment_;
   bool environment_texture_ = false;
   glm::vec3 environment_constant_{0.0F};
   SkyTable sky_;  ///< without its words

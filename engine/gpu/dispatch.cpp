@@ -9,17 +9,8 @@ namespace {
 constexpr double DISPATCH_MS = 200.0;
 /// Most times larger than the one before: its time may have been a start-up's.
 constexpr double GROWTH = 4.0;
-/// Any device takes 65535.
-constexpr std::uint32_t MOST_GROUPS_X = 1U << 15U;
 
 }  // namespace
-
-std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
-
-void Dispatch::set_groups(std::uint32_t count) {
-  groups_x = std::min(count, MOST_GROUPS_X);
-  groups_y = groups(count, std::max(groups_x, 1U));
-}
 
 void TileDispatch::keep(const std::function<bool(std::uint32_t x, std::uint32_t y)>& keeps) {
   const bool linear = seen.constants[SPEC_ORDER] == ORDER_LINEAR;

@@ -1,28 +1,16 @@
-/// One dispatch of a picture or a query, and how large the next one should be.
+/// The dispatches of a picture's tile, and how large the next ones should be.
 #pragma once
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "engine/device/program.h"
 #include "engine/gpu/features.h"
-#include "engine/gpu/pipeline.h"
 #include "engine/gpu/tiles.h"
 #include "engine/image/footprint.h"
 #include "shaders/layout.h"
 
 namespace splatray {
-
-/// Which pipeline, with which parameters, over how many groups.
-struct Dispatch {
-  Program program = Program::trace;
-  SpecConstants constants{};
-  FrameParams frame{};
-  std::uint32_t groups_x = 1;
-  std::uint32_t groups_y = 1;
-
-  /// Sets the numbers of groups so that there are at least `count`; none for 0.
-  void set_groups(std::uint32_t count);
-};
 
 /// The dispatches of a picture's tile: of the groups of pixels that may see something, and of the rest.
 struct TileDispatch {
@@ -37,9 +25,6 @@ struct TileDispatch {
   /// Has them add the light of lights [begin, end) alone.
   void set_lights(std::uint32_t begin, std::uint32_t end);
 };
-
-/// Groups of `group` threads that hold `threads`.
-[[nodiscard]] std::uint32_t groups(std::uint32_t threads, std::uint32_t group);
 
 /// Points a picture's dispatch to a tile. A dispatch of no groups is not needed.
 [[nodiscard]] TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& footprint);

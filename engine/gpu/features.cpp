@@ -62,7 +62,6 @@ std::uint32_t light_features(const SceneContent& content, const Settings& settin
   std::uint32_t features = all ? content.surfaces : FEATURE_DIFFUSE;
   const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
   add(all && content.materials.glass, FEATURE_GLASS);
-  add(content.colors && style.colors, FEATURE_COLORS);
   add(lights, FEATURE_LIGHTS);
   add(lights && content.sized_lights, FEATURE_SIZES);
   add(sky, FEATURE_SKY);
@@ -78,7 +77,6 @@ std::uint32_t phong_features(const SceneContent& content, const Settings& settin
   const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
   add(content.materials.mirrors, FEATURE_MIRRORS);
   add(content.materials.glass, FEATURE_GLASS);
-  add(content.colors, FEATURE_COLORS);
   add(lit, FEATURE_LIGHTS);
   add(lit && settings.shadows, FEATURE_SHADOWS);
   return features;
@@ -94,8 +92,9 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   };
   constants[SPEC_FEATURES] =
       settings.look == LOOK_PAPER ? phong_features(content, settings) : light_features(content, settings);
-  add(content.fields && !flat_blend, FEATURE_FIELDS);
-  add(content.clips, FEATURE_CLIPS);
+  const std::uint32_t unseen =
+      (look_style(settings.look).colors ? 0 : FEATURE_COLORS) | (flat_blend ? FEATURE_FIELDS : 0);
+  constants[SPEC_FEATURES] |= content.pools & ~unseen;
   add(content.ellipses, FEATURE_ELLIPSES);
   const bool textured = settings.look != LOOK_PAPER && look_style(settings.look).surfaces;
   add(textured || (content.textures & FEATURE_OPACITY) != 0, content.textures);
@@ -114,7 +113,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   constants[SPEC_STAGE] = STAGE_ALL;
   constants[SPEC_LOOK] = settings.look;
   constants[SPEC_TOP_LEVELS] = content.top_levels;
-  constants[SPEC_PAGES] = content.pages;
+  for (std::uint32_t i = 0; i < POOLS; ++i) constants[SPEC_PAGES + i] = std::max(content.pages[i], 1U) - 1;
   constants[SPEC_PAGE_SHIFT] = content.page_shift;
   return constants;
 }

@@ -1,10 +1,11 @@
 /// Which features a pipeline needs, from the content of the scene and the settings: what a scene does not use costs nothing.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 
+#include "engine/device/spec_constants.h"
 #include "engine/image/view.h"
-#include "engine/vulkan/spec_constants.h"
 #include "shaders/layout.h"
 
 namespace splatray {
@@ -26,20 +27,18 @@ struct MaterialContent {
 /// What the features depend on.
 struct SceneContent {
   MaterialContent materials{};
-  bool colors = false;               ///< there is a colour pool
-  bool fields = false;               ///< there is a pool of normal fields
-  bool clips = false;                ///< some splat has clip lines
-  bool ellipses = false;             ///< some splat is an ellipse
-  bool references = false;           ///< the data pool is read through the reference pool
-  std::uint32_t top_levels = 0;      ///< of the top table
-  std::uint32_t pages = 0;           ///< Paging::pages_constant
-  std::uint32_t page_shift = 0;      ///< Paging::page_shift
-  std::uint32_t surfaces = 0;        ///< surface_features
-  std::uint32_t textures = 0;        ///< texture_features()
-  bool lights = false;               ///< there are lights
-  bool sized_lights = false;         ///< some light has a size
-  bool environment_texture = false;  ///< the environment is not constant
-  bool sky = false;                  ///< it has a sky table
+  std::uint32_t pools = 0;                   ///< FEATURE_* of the optional pools that some splat needs
+  bool ellipses = false;                     ///< some splat is an ellipse
+  bool references = false;                   ///< the data pool is read through the reference pool
+  std::uint32_t top_levels = 0;              ///< of the top table
+  std::array<std::uint32_t, POOLS> pages{};  ///< Paging::pages
+  std::uint32_t page_shift = 0;              ///< Paging::page_shift
+  std::uint32_t surfaces = 0;                ///< surface_features
+  std::uint32_t textures = 0;                ///< texture_features()
+  bool lights = false;                       ///< there are lights
+  bool sized_lights = false;                 ///< some light has a size
+  bool environment_texture = false;          ///< the environment is not constant
+  bool sky = false;                          ///< it has a sky table
 };
 
 /// Constants of images (trace.comp.glsl), STAGE_ALL; of Program::light where the look is not LOOK_PAPER.

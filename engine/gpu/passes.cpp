@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
@@ -21,7 +22,7 @@ std::uint32_t next_pass(std::uint32_t samples, double ms) {
 }  // namespace
 
 bool read_means(Runner& runner, const Buffer& accumulation, std::span<vec4> means) {
-  accumulation.download(runner.queue, std::as_writable_bytes(means));
+  runner.queue->download(accumulation, std::as_writable_bytes(means));
   return std::all_of(means.begin(), means.end(), [](const vec4& mean) { return mean.w >= 0.0F; });
 }
 
@@ -94,13 +95,13 @@ void Passes::add(std::uint32_t end, const Advance& advance) {
 /// Takes a tile from the samples that it has to `end` of them. Returns false where a driver cut some pixel's loops.
 bool Passes::trace(const Tile& tile, std::span<vec4> means, std::uint32_t end, const Advance& advance) {
   const std::uint32_t offset = dispatch_.frame.sample_begin;
-  if (in_block_ > 0) runner_.accumulation.upload(runner_.queue, std::as_bytes(means));
+  if (in_block_ > 0) runner_.queue->upload(*runner_.accumulation, std::as_bytes(means));
   TileDispatch aimed = aim(dispatch_, tile, footprint_);
   aimed.set_mean_begin(offset + before_.samples());
   std::uint32_t batch = 1;
   trace_ms_ += trace_samples(runner_, aimed, offset + samples(), offset + end, work_, batch,
                              [&](std::uint32_t count) { advance(tile.pixels() * count); });
-  return read_means(runner_, runner_.accumulation, means);
+  return read_means(runner_, *runner_.accumulation, means);
 }
 
 std::vector<vec4> Passes::means() const {

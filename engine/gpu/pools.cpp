@@ -19,24 +19,33 @@
 namespace splatray {
 namespace {
 
-static_assert(SCENE_POOLS + 2 == POOLS, "a pool of the table has no binding, or a binding no pool");
+constexpr std::array PLACES = {
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) place,
+#include "shaders/pools.glsl"
+};
+static_assert(
+    [] {
+      for (std::uint32_t i = 0; i < POOLS; ++i)
+        if (PLACES[i] != i) return false;
+      return true;
+    }(),
+    "the places of shaders/pools.glsl do not count its rows");
 
-/// Of a pool's texel buffer.
-VkFormat texel_format(const PoolKind& kind) {
-  return kind.element_bytes == sizeof(uvec4) ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT;
+/// Of a pool's buffer.
+BufferKind buffer_kind(const PoolKind& kind, PoolAccess access) {
+  if (access != PoolAccess::texel) return BufferKind::storage;
+  return kind.element_bytes == sizeof(uvec4) ? BufferKind::texels : BufferKind::words;
 }
 
 /// Most elements of that size in one buffer.
-std::uint64_t most_elements(const PoolLimits& limits, PoolAccess access, std::uint64_t element_bytes) {
+std::uint64_t most_elements(const DeviceLimits& limits, PoolAccess access, std::uint64_t element_bytes) {
   const bool texel = access == PoolAccess::texel;
   return std::min(texel ? limits.texel_elements : limits.storage_bytes / element_bytes,
                   limits.allocation_bytes / element_bytes);
 }
 
-bool paged(const Paging& paging) { return paging.pages_constant() != 0; }
-
 /// Pools of these sizes read this way, or why they cannot be.
-std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolLimits& limits,
+std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const DeviceLimits& limits,
                                              PoolAccess access) {
   const bool texel = access == PoolAccess::texel;
   const std::uint64_t page = std::bit_floor(most_elements(limits, access, sizeof(uvec4)));
@@ -59,12 +68,12 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const PoolL
   if (all > most)
     return "the pools take " + std::to_string(all) + (texel ? " texel" : " storage") +
            " buffers, a program has room for " + std::to_string(most);
-  if (paged(paging)) paging.page_shift = static_cast<std::uint32_t>(std::countr_zero(page));
+  if (paging.paged()) paging.page_shift = static_cast<std::uint32_t>(std::countr_zero(page));
   return paging;
 }
 
 /// What choose_paging chooses, or why there is no way.
-std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const PoolLimits& limits,
+std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const DeviceLimits& limits,
                                               PoolAccess wanted) {
   if (wanted != PoolAccess::automatic) return try_paging(bytes, limits, wanted);
   const auto texel = try_paging(bytes, limits, PoolAccess::texel);
@@ -72,12 +81,12 @@ std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const Pool
   const auto* first = std::get_if<Paging>(&texel);
   const auto* second = std::get_if<Paging>(&storage);
   if (second == nullptr) return texel;
-  return first != nullptr && (!paged(*first) || paged(*second)) ? texel : storage;
+  return first != nullptr && (!first->paged() || second->paged()) ? texel : storage;
 }
 
 /// What the references refer to, in parts: a whole list beside the buffer would take its memory twice.
 template <typename Value>
-void upload_listed(CommandQueue& queue, PagedBuffer& buffer, const std::vector<Value>& pool,
+void upload_listed(Queue& queue, PagedBuffer& buffer, const std::vector<Value>& pool,
                    std::span<const std::uint32_t> references) {
   constexpr std::ptrdiff_t PART = std::ptrdiff_t{1} << 18;
   if (pool.empty()) return;
@@ -91,7 +100,7 @@ void upload_listed(CommandQueue& queue, PagedBuffer& buffer, const std::vector<V
 }
 
 /// The references, to where a list has the splats.
-void upload_places(CommandQueue& queue, PagedBuffer& buffer, std::span<const std::uint32_t> list,
+void upload_places(Queue& queue, PagedBuffer& buffer, std::span<const std::uint32_t> list,
                    const std::vector<std::uint32_t>& references) {
   std::vector<std::uint32_t> places(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) places[list[i]] = static_cast<std::uint32_t>(i);
@@ -100,7 +109,7 @@ void upload_places(CommandQueue& queue, PagedBuffer& buffer, std::span<const std
 }
 
 /// The splats' words, in the order of `references` or, where that is empty, of the splats.
-void upload_textures(CommandQueue& queue, PagedBuffer& buffer, const Scene& scene,
+void upload_textures(Queue& queue, PagedBuffer& buffer, const Scene& scene,
                      std::span<const std::uint32_t> references) {
   constexpr std::size_t PART = std::size_t{1} << 18;
   const std::size_t all = references.empty() ? scene.data_pool.size() : references.size();
@@ -118,26 +127,13 @@ void upload_textures(CommandQueue& queue, PagedBuffer& buffer, const Scene& scen
   }
 }
 
-bool texel_format_supported(const Context& context, VkFormat format) {
-  VkFormatProperties properties{};
-  vkGetPhysicalDeviceFormatProperties(context.physical_device, format, &properties);
-  return (properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) != 0;
-}
-
 }  // namespace
 
 const std::array<PoolKind, POOLS>& pool_kinds() {
-  static const auto KINDS = [] {
-    std::array<PoolKind, POOLS> kinds{};
-    std::size_t i = 0;
-    for_each_pool([&](const auto& row) {
-      using Value = typename std::remove_reference_t<decltype(Scene{}.*row.pool)>::value_type;
-      kinds[i++] = {row.name, row.key, sizeof(Value)};
-    });
-    kinds[i++] = {"texture pool", "texture_pool", sizeof(std::uint32_t)};
-    kinds[i] = {"top table", "top_table", sizeof(std::uint32_t)};
-    return kinds;
-  }();
+  static constexpr std::array<PoolKind, POOLS> KINDS = {{
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) {PoolTraits ABOUT.name, #pool, sizeof(Value)},
+#include "shaders/pools.glsl"
+  }};
   return KINDS;
 }
 
@@ -145,67 +141,43 @@ std::uint64_t total_bytes(const PoolBytes& bytes) {
   return std::accumulate(bytes.pools.begin(), bytes.pools.end(), std::uint64_t{0});
 }
 
-PoolLimits pool_limits(const Context& context) {
-  if (context.is_host()) return {0, UINT64_MAX, UINT64_MAX, 0, POOLS};
-  const VkPhysicalDeviceLimits& device = context.properties.limits;
-  const bool texel_formats = texel_format_supported(context, VK_FORMAT_R32_UINT) &&
-                             texel_format_supported(context, VK_FORMAT_R32G32B32A32_UINT);
-  const auto beside = [](std::uint32_t of_stage, std::uint32_t of_set, std::uint32_t others) {
-    return std::max(std::min(of_stage, of_set), others) - others;
-  };
-  PoolLimits limits;
-  limits.texel_elements = texel_formats ? device.maxTexelBufferElements : 0;
-  limits.storage_bytes = device.maxStorageBufferRange;
-  limits.allocation_bytes = context.max_allocation_bytes;
-  limits.texel_buffers = beside(device.maxPerStageDescriptorSampledImages,
-                                device.maxDescriptorSetSampledImages, OTHER_SAMPLED_IMAGES);
-  limits.storage_buffers = beside(device.maxPerStageDescriptorStorageBuffers,
-                                  device.maxDescriptorSetStorageBuffers, OTHER_STORAGE_BUFFERS);
-  return limits;
-}
-
-std::uint32_t Paging::pages_constant() const {
-  std::uint32_t constant = 0;
-  for (std::uint32_t i = 0; i < POOLS; ++i) constant |= (pages[i] - 1) << 3 * i;
-  return constant;
-}
-
-bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
+bool choose_references(const PoolCounts& counts, const DeviceLimits& limits, PoolAccess access,
                        DataPool wanted) {
   PoolBytes copies;  // no pool needs pages before the data pool does
   copies.at(BIND_DATA_POOL) = counts.references * sizeof(uvec4);
   const auto paging = best_paging(copies, limits, access);
   const auto* ways = std::get_if<Paging>(&paging);
-  const bool fit = copies_fit(counts) && ways != nullptr && !paged(*ways);
+  const bool fit = copies_fit(counts) && ways != nullptr && !ways->paged();
   return wanted == DataPool::references || (wanted == DataPool::automatic && !fit);
 }
 
-Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted) {
+Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits, PoolAccess wanted) {
   const auto best = best_paging(bytes, limits, wanted);
   if (const auto* reason = std::get_if<std::string>(&best))
     throw Error(ExitCode::out_of_memory, "the scene does not fit the device: " + *reason);
   return std::get<Paging>(best);
 }
 
-Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolRequest& request,
+Pools::Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
              Scene* spent, std::span<const std::uint32_t> order) {
   assert(spent == nullptr || spent == &scene);
   top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
   std::vector<std::uint32_t> top = top_table(scene, top_levels);
-  PoolLimits limits = pool_limits(context);
+  DeviceLimits limits = device_limits;
   limits.texel_elements = std::min(limits.texel_elements, request.page_elements);
   limits.storage_bytes =
       std::min(limits.storage_bytes / sizeof(uvec4), request.page_elements) * sizeof(uvec4);
   references = !order.empty() || choose_references(pool_counts(scene), limits, request.access, request.data);
   const auto list = references ? order : std::span<const std::uint32_t>(scene.reference_pool);
   const bool lists = !list.empty();
-  std::uint32_t binding = BIND_NODE_POOL;
+  std::uint32_t binding = BIND_POOLS;
   for_each_pool([&](const auto& row) {
     const auto& pool = scene.*row.pool;
     const bool in_tree = binding == BIND_DATA_POOL && !order.empty();
     const bool absent = pool.empty() || in_tree || (binding == BIND_REFERENCE_POOL && !references);
-    const std::size_t elements = absent ? 0 : lists && row.listed ? list.size() : pool.size();
+    const std::size_t elements = absent ? 0 : lists && row.listed() ? list.size() : pool.size();
     bytes.at(binding++) = elements * sizeof(pool.front());
+    if (elements > 0) features |= row.feature;
   });
   texture_features = splatray::texture_features(scene.columns);
   bytes.at(BIND_TEXTURE_POOL) = (lists ? list.size() : scene.data_pool.size()) *
@@ -214,22 +186,18 @@ Pools::Pools(const Context& context, CommandQueue& queue, const Scene& scene, co
   paging = choose_paging(bytes, limits, request.access);
   bytes.texel_buffers = paging.access == PoolAccess::texel;
   bytes.pages = *std::max_element(paging.pages.begin(), paging.pages.end());
-  const VkBufferUsageFlags usage =
-      bytes.texel_buffers ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   for (std::size_t i = 0; i < POOLS; ++i) {
     const PoolKind& kind = pool_kinds()[i];
-    const std::uint64_t page = paging.pages[i] > 1 ? kind.element_bytes << paging.page_shift : VK_WHOLE_SIZE;
-    buffers[i] = PagedBuffer(context, bytes.pools[i], page, usage,
-                             bytes.texel_buffers ? texel_format(kind) : VK_FORMAT_UNDEFINED);
+    const std::uint64_t page = paging.pages[i] > 1 ? kind.element_bytes << paging.page_shift : UINT64_MAX;
+    buffers[i] = PagedBuffer(queue, bytes.pools[i], page, buffer_kind(kind, paging.access));
   }
   buffers.back().upload(queue, std::as_bytes(std::span(top)));
   std::exchange(top, {});
-  if (texture_features != 0)
-    upload_textures(queue, buffers[BIND_TEXTURE_POOL - BIND_NODE_POOL], scene, list);
-  binding = BIND_NODE_POOL;
+  if (texture_features != 0) upload_textures(queue, buffers[BIND_TEXTURE_POOL - BIND_POOLS], scene, list);
+  binding = BIND_POOLS;
   for_each_pool([&](const auto& row) {
-    PagedBuffer& buffer = buffers[binding - BIND_NODE_POOL];
-    if (bytes.at(binding) > 0 && lists && row.listed)
+    PagedBuffer& buffer = buffers[binding - BIND_POOLS];
+    if (bytes.at(binding) > 0 && lists && row.listed())
       upload_listed(queue, buffer, scene.*row.pool, list);
     else if (binding == BIND_REFERENCE_POOL && lists && references)
       upload_places(queue, buffer, list, scene.reference_pool);

@@ -5,18 +5,11 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/device/device.h"
+#include "engine/device/paged_buffer.h"
 #include "engine/scene/copies.h"
-#include "engine/vulkan/bindings.h"
-#include "engine/vulkan/paged_buffer.h"
 
 namespace splatray {
-
-/// How shaders read the pools.
-enum class PoolAccess {
-  automatic,  ///< texel where the device's limits allow it, else storage
-  texel,      ///< uniform texel buffers
-  storage,    ///< storage buffers
-};
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
@@ -31,23 +24,22 @@ struct PoolRequest {
   PoolAccess access = PoolAccess::automatic;
   DataPool data = DataPool::automatic;
   std::uint64_t page_elements = UINT64_MAX;  ///< most elements of the data pool in a page
-  unsigned threads = 0;                      ///< that make the wide tree of a host; 0 = one a core
 };
 
 /// Bytes on the device.
 struct PoolBytes {
-  std::array<std::uint64_t, POOLS> pools{};  ///< in the order of their bindings, from BIND_NODE_POOL on
+  std::array<std::uint64_t, POOLS> pools{};  ///< in the order of their bindings, from BIND_POOLS on
   std::uint64_t environment = 0;
   std::uint64_t frame = 0;     ///< picture, AOVs, ray queries, queues of paths: as large as pictures are
   bool texel_buffers = false;  ///< pools are read through texel buffers
   std::uint32_t pages = 0;     ///< of the pool with most
 
   /// Of the pool with this binding.
-  [[nodiscard]] std::uint64_t& at(std::uint32_t binding) { return pools[binding - BIND_NODE_POOL]; }
-  [[nodiscard]] std::uint64_t at(std::uint32_t binding) const { return pools[binding - BIND_NODE_POOL]; }
+  [[nodiscard]] std::uint64_t& at(std::uint32_t binding) { return pools[binding - BIND_POOLS]; }
+  [[nodiscard]] std::uint64_t at(std::uint32_t binding) const { return pools[binding - BIND_POOLS]; }
 };
 
-/// What pools are called and made of, in the order of their bindings: those of the scene, texture words, the top table.
+/// What pools are called and made of, in the order of their bindings.
 struct PoolKind {
   const char* name;             ///< in messages and panels
   const char* key;              ///< in JSON
@@ -58,48 +50,30 @@ struct PoolKind {
 /// Of all pools and the top table, without environment and frame.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
 
-/// What the device allows pools to be.
-struct PoolLimits {
-  std::uint64_t texel_elements = 0;    ///< most elements of a texel buffer; 0 where a format is not supported
-  std::uint64_t storage_bytes = 0;     ///< largest storage buffer
-  std::uint64_t allocation_bytes = 0;  ///< largest allocation
-  std::uint32_t texel_buffers = 0;     ///< most texel buffers of a program for pools
-  std::uint32_t storage_buffers = 0;   ///< most storage buffers of a program for pools
-};
-[[nodiscard]] PoolLimits pool_limits(const Context& context);
-
-/// How pools are read, and in how many buffers each is.
-struct Paging {
-  PoolAccess access = PoolAccess::storage;   ///< never automatic
-  std::array<std::uint32_t, POOLS> pages{};  ///< of each pool, at least 1; in the order of their bindings
-  std::uint32_t page_shift = 0;              ///< SPEC_PAGE_SHIFT; 0 where no pool has several pages
-
-  [[nodiscard]] std::uint32_t pages_constant() const;  ///< SPEC_PAGES
-};
-
 /// Whether the data pool of such a scene is read through references, `access`: how pools may be read.
-[[nodiscard]] bool choose_references(const PoolCounts& counts, const PoolLimits& limits, PoolAccess access,
+[[nodiscard]] bool choose_references(const PoolCounts& counts, const DeviceLimits& limits, PoolAccess access,
                                      DataPool wanted);
 
 /// How to read pools of these sizes: without pages, then with, in texel buffers, then storage buffers. Throws Error
 /// (out_of_memory) naming a pool, its size and the limit when none of the ways that `wanted` allows will do.
-[[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const PoolLimits& limits, PoolAccess wanted);
+[[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits, PoolAccess wanted);
 
 /// The uploaded pools; move-only.
 struct Pools {
   Pools() = default;
   /// Uploads and waits; throws as choose_paging does. `spent` is null or the scene itself, whose pools are then freed, each as
-  /// soon as it is on the device; after an Error some of them may be gone. `order`: all splats' indices, in the order that a wide tree has
-  /// them in, whose leaves are the data pool; leaves of the octree have references to it. Empty = as `request` says.
-  Pools(const Context& context, CommandQueue& queue, const Scene& scene, const PoolRequest& request,
+  /// soon as it is on the device; after an Error some of them may be gone. `order`: all splats' indices, in the order that a SplatTree
+  /// has them in, which is then the data pool; leaves of the octree have references to it. Empty = as `request` says.
+  Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
         Scene* spent = nullptr, std::span<const std::uint32_t> order = {});
 
   Paging paging;
   PoolBytes bytes;                         ///< without environment and frame
   bool references = false;                 ///< the data pool is read through the reference pool
+  std::uint32_t features = 0;              ///< FEATURE_* of the optional pools that the scene has
   std::uint32_t top_levels = 0;            ///< of the top table
   std::uint32_t texture_features = 0;      ///< texture_features() of the scene
-  std::array<PagedBuffer, POOLS> buffers;  ///< in the order of their bindings, from BIND_NODE_POOL on
+  std::array<PagedBuffer, POOLS> buffers;  ///< in the order of their bindings, from BIND_POOLS on
 };
 
 }  // namespace splatray

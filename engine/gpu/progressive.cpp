@@ -13,16 +13,16 @@ void Tracer::begin(const Look& look, const View& wanted, const Settings& setting
   Impl& impl = *impl_;
   Runner& runner = impl.runner;
   runner.require_scene("begin()");
-  const VkDeviceSize bytes = VkDeviceSize{view.width} * view.height * sizeof(vec4);
-  const std::uint32_t most = runner.context.properties.limits.maxStorageBufferRange;
+  const std::uint64_t bytes = std::uint64_t{view.width} * view.height * sizeof(vec4);
+  const std::uint64_t most = runner.device.limits().storage_bytes;
   if (bytes > most)
     throw Error(ExitCode::out_of_memory, "found an image of " + std::to_string(bytes) +
                                              " bytes, expected at most " + std::to_string(most));
   impl.start();
   runner.scene.show(look);
   GrowingPicture& progressive = impl.progressive;
-  Buffer accumulation = std::move(progressive.accumulation);
-  reserve_storage(runner.context, accumulation, bytes);
+  std::unique_ptr<Buffer> accumulation = std::move(progressive.accumulation);
+  runner.queue->reserve(accumulation, bytes);
   progressive = {.look = look,
                  .dispatch = runner.picture_dispatch(view, settings),
                  .footprint = runner.scene.footprint(view, settings),
@@ -44,7 +44,7 @@ bool Tracer::advance(double wanted_ms) {
   frame.tile_first = progressive.next_row * frame.width;
   const auto start = std::chrono::steady_clock::now();
   impl.runner.scene.show(progressive.look);
-  impl.runner.bind(progressive.accumulation);
+  impl.runner.bind(*progressive.accumulation);
   TileDispatch tile =
       aim(progressive.dispatch, {0, progressive.next_row, frame.width, rows}, progressive.footprint);
   tile.set_mean_begin(frame.sample_begin + progressive.before.samples());
@@ -69,7 +69,7 @@ void Tracer::Impl::end_block() {
   if (progressive.samples - progressive.before.samples() < BLOCK_SAMPLES) return;
   const FrameParams& frame = progressive.dispatch.frame;
   std::vector<vec4> means(std::size_t{frame.width} * frame.height);
-  if (!read_means(runner, progressive.accumulation, means)) refuse_cut_loops();
+  if (!read_means(runner, *progressive.accumulation, means)) refuse_cut_loops();
   progressive.before.add(std::move(means), BLOCK_SAMPLES);
 }
 
@@ -86,7 +86,7 @@ Image Tracer::picture() {
   const std::uint32_t rows = progressive.samples > 0 ? frame.height : progressive.next_row;
   if (rows == 0) return image;
   const std::span<vec4> means = std::span(image.rgba).first(std::size_t{rows} * frame.width);
-  if (!read_means(impl.runner, progressive.accumulation, means)) refuse_cut_loops();
+  if (!read_means(impl.runner, *progressive.accumulation, means)) refuse_cut_loops();
   const std::uint32_t samples = progressive.samples - progressive.before.samples();
   const std::size_t more = std::size_t{progressive.next_row} * frame.width;
   progressive.before.join(means.first(more), 0, samples + 1);

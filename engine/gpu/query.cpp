@@ -19,9 +19,9 @@ std::vector<RayHit> Tracer::intersect(const Look& look, std::span<const RayQuery
   impl.start();
   runner.scene.show(look);
   const std::size_t most = std::min<std::size_t>(rays.size(), QUERY_RAYS);
-  reserve_storage(runner.context, runner.rays, most * sizeof(RayQuery));
-  reserve_storage(runner.context, runner.hits, most * sizeof(RayHit));
-  runner.bind(runner.accumulation);
+  runner.queue->reserve(runner.rays, most * sizeof(RayQuery));
+  runner.queue->reserve(runner.hits, most * sizeof(RayHit));
+  runner.bind(*runner.accumulation);
   Dispatch dispatch;
   dispatch.program = Program::rays;
   dispatch.constants = query_features(runner.scene.content(), settings);
@@ -30,11 +30,11 @@ std::vector<RayHit> Tracer::intersect(const Look& look, std::span<const RayQuery
   double trace_ms = 0.0;
   for (std::size_t at = 0; at < rays.size(); at += most) {
     const std::size_t count = std::min(most, rays.size() - at);
-    runner.rays.upload(runner.queue, std::as_bytes(rays.subspan(at, count)));
+    runner.queue->upload(*runner.rays, std::as_bytes(rays.subspan(at, count)));
     dispatch.frame.tile_width = dispatch.frame.width = static_cast<std::uint32_t>(count);
     dispatch.groups_x = groups(dispatch.frame.width, GROUP_SIZE);
     trace_ms += runner.run(dispatch);
-    runner.hits.download(runner.queue, std::as_writable_bytes(std::span(hits).subspan(at, count)));
+    runner.queue->download(*runner.hits, std::as_writable_bytes(std::span(hits).subspan(at, count)));
   }
   impl.finish(start);
   impl.stats.trace_ms = trace_ms;

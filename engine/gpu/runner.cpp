@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
-#include "engine/base/stopwatch.h"
-#include "engine/cpu/run_groups.h"
 
 namespace splatray {
 namespace {
@@ -15,11 +13,8 @@ constexpr std::uint32_t STAGED_GROUPS = 4096;
 PoolRequest pool_request(const TracerOptions& options, const DeviceProfile& profile) {
   PoolRequest request = options.pools;
   request.access = profile.access();
-  request.threads = options.threads;
   return request;
 }
-
-bool counts_work(const Dispatch& dispatch) { return has(dispatch.constants, FEATURE_COUNTERS); }
 
 /// Lights that shadow rays are sent to at each hit: all or, with path tracing, one; with LOOK_SCAN the sky beside.
 std::uint32_t lights_at_hit(const Dispatch& dispatch) {
@@ -27,37 +22,15 @@ std::uint32_t lights_at_hit(const Dispatch& dispatch) {
   return has(dispatch.constants, FEATURE_LIGHTS) ? dispatch.frame.light_end : 0;
 }
 
-Kernel kernel_of(Program program) {
-  switch (program) {
-    case Program::empty:
-      return run_empty_kernel;
-    case Program::empty_light:
-      return run_empty_light_kernel;
-    case Program::light:
-      return run_light_kernel;
-    case Program::rays:
-      return run_rays_kernel;
-    default:
-      return run_trace_kernel;
-  }
-}
-
-bool is_staged(const Dispatch& dispatch) {
-  return dispatch.constants[SPEC_STAGE] == STAGE_FIRST || dispatch.constants[SPEC_STAGE] == STAGE_NEXT;
-}
-
 }  // namespace
 
-Runner::Runner(const Context& device, const TracerOptions& options)
-    : context(device),
-      profile(device_profile(device, options.kernels)),
-      queue(device),
-      pipelines(device, profile.kernels, options.pipeline_folder),
-      scene(device, queue, pool_request(options, profile), profile.culls),
-      threads_(options.threads) {
-  reserve_storage(device, frame_buffer_, sizeof(FrameParams));
-  for (Buffer* buffer : {&accumulation, &aov, &rays, &hits, &groups_}) reserve_storage(device, *buffer, 0);
-  reserve_storage(device, counters_, COUNTER_COUNT * sizeof(std::uint32_t));
+Runner::Runner(const Device& its_device, const TracerOptions& options)
+    : device(its_device),
+      profile(device.profile(options.kernels)),
+      queue(device.make_queue({options.kernels, options.pipeline_folder, options.threads})),
+      scene(device, *queue, pool_request(options, profile), profile.culls) {
+  for (std::unique_ptr<Buffer>* buffer : {&accumulation, &aov, &rays, &hits, &groups_})
+    queue->reserve(*buffer, 0);
   reserve_queues(1);
 }
 
@@ -68,68 +41,42 @@ void Runner::require_scene(const char* call) const {
 
 void Runner::bind(const Buffer& accumulation_buffer) {
   scene.bind();
-  BindingSet& bindings = scene.bindings();
-  bindings.bind(BIND_FRAME, frame_buffer_);
+  Bindings& bindings = scene.bindings();
   bindings.bind(BIND_ACCUMULATION, accumulation_buffer);
-  bindings.bind(BIND_AOV, aov);
-  bindings.bind(BIND_HITS, hits);
-  bindings.bind(BIND_COUNTERS, counters_);
-  bindings.bind(BIND_GROUPS, groups_);
-  bindings.bind(BIND_PATHS, paths_);
-  bindings.bind(BIND_PATHS_QUEUED, queued_paths_);
+  bindings.bind(BIND_AOV, *aov);
+  bindings.bind(BIND_HITS, *hits);
+  bindings.bind(BIND_GROUPS, *groups_);
+  bindings.bind(BIND_PATHS, *paths_);
+  bindings.bind(BIND_PATHS_QUEUED, *queued_paths_);
 }
 
 double Runner::run(const Dispatch& dispatch) {
-  BindingSet& bindings = scene.bindings();
   if (dispatch.program == Program::light || dispatch.program == Program::empty_light) {
     scene.bind_light();
   } else {
-    bindings.bind(BIND_RAYS, rays);
+    scene.bindings().bind(BIND_RAYS, *rays);
   }
-  if (context.is_host()) return run_on_host(dispatch);
-  const bool reads_counters = counts_work(dispatch) || is_staged(dispatch);
-  const VkPipeline pipeline = pipelines.get({dispatch.program, dispatch.constants}, bindings.layout());
-  const double ms = queue.run([&](VkCommandBuffer commands) {
-    vkCmdUpdateBuffer(commands, frame_buffer_.get(), 0, sizeof(FrameParams), &dispatch.frame);
-    if (reads_counters) vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
-    record_barrier(commands);
-    const VkDescriptorSet set = bindings.set();
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bindings.layout(), 0, 1, &set, 0,
-                            nullptr);
-    vkCmdDispatch(commands, dispatch.groups_x, dispatch.groups_y, 1);
-  });
-  if (reads_counters) counters_.download(queue, std::as_writable_bytes(std::span(counted_)));
-  if (counts_work(dispatch))
-    for (std::size_t i = 0; i < counted_.size(); ++i) counts[i] += counted_[i];
-  return ms;
-}
-
-double Runner::run_on_host(const Dispatch& dispatch) {
-  const auto start = std::chrono::steady_clock::now();
-  KernelWork work = scene.bindings().host();
-  work.constants = dispatch.constants;
-  work.frame = dispatch.frame;
-  run_groups(kernel_of(dispatch.program), work, dispatch.groups_x * dispatch.groups_y, threads_, counts);
-  return milliseconds_since(start);
+  const Ran ran = queue->run(dispatch, scene.bindings());
+  if (dispatch.counts_work())
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += ran.counted[i];
+  queued_ = static_cast<std::uint32_t>(ran.counted[COUNT_QUEUED]);
+  return ran.ms;
 }
 
 void Runner::reserve_queues(std::uint32_t pixel_groups) {
-  const VkDeviceSize bytes = VkDeviceSize{pixel_groups} * GROUP_SIZE * sizeof(PathState);
-  constexpr VkBufferUsageFlags USAGE =
-      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-  for (Buffer* buffer : {&paths_, &queued_paths_})
-    if (buffer->size() < bytes) *buffer = Buffer(context, bytes, USAGE, VK_FORMAT_R32G32B32A32_UINT);
+  const std::uint64_t bytes = std::uint64_t{pixel_groups} * GROUP_SIZE * sizeof(PathState);
+  for (std::unique_ptr<Buffer>* buffer : {&paths_, &queued_paths_})
+    queue->reserve(*buffer, bytes, BufferKind::texels);
 }
 
 /// One sample of a dispatch's pixels: primary rays, then as long as paths go on one ray of each, packed together
 /// (stage/paths.glsl).
 double Runner::run_in_stages(const Dispatch& dispatch) {
-  const std::uint32_t texels = context.properties.limits.maxTexelBufferElements;
-  const std::uint32_t most =
-      std::min({STAGED_GROUPS, dispatch.frame.group_count, texels / (PATH_TEXELS * GROUP_SIZE)});
+  const auto fitting =
+      static_cast<std::uint32_t>(device.limits().texel_elements / (PATH_TEXELS * GROUP_SIZE));
+  const std::uint32_t most = std::min({STAGED_GROUPS, dispatch.frame.group_count, fitting});
   reserve_queues(most);
-  Buffer *traced = &paths_, *queued = &queued_paths_;
+  Buffer *traced = paths_.get(), *queued = queued_paths_.get();
   const auto run_stage = [&](const Dispatch& stage) {
     scene.bindings().bind(BIND_PATHS, *traced);
     scene.bindings().bind(BIND_PATHS_QUEUED, *queued);
@@ -144,7 +91,7 @@ double Runner::run_in_stages(const Dispatch& dispatch) {
     stage.set_groups(stage.frame.group_count);
     ms += run_stage(stage);
     stage.constants[SPEC_STAGE] = STAGE_NEXT;
-    while ((stage.frame.path_count = counted_[COUNT_QUEUED]) > 0) {
+    while ((stage.frame.path_count = queued_) > 0) {
       std::swap(traced, queued);
       ++stage.frame.path_bounce;
       stage.set_groups(splatray::groups(stage.frame.path_count, GROUP_SIZE));
@@ -157,13 +104,13 @@ double Runner::run_in_stages(const Dispatch& dispatch) {
 double Runner::run(const TileDispatch& tile) {
   if (tile.group_list != group_list_) {
     group_list_ = tile.group_list;
-    reserve_storage(context, groups_, std::span(group_list_).size_bytes());
-    scene.bindings().bind(BIND_GROUPS, groups_);
-    groups_.upload(queue, std::as_bytes(std::span(group_list_)));
+    queue->reserve(groups_, std::span(group_list_).size_bytes());
+    scene.bindings().bind(BIND_GROUPS, *groups_);
+    queue->upload(*groups_, std::as_bytes(std::span(group_list_)));
   }
   double ms = 0.0;
   for (const Dispatch* part : {&tile.seen, &tile.empty})
-    if (part->groups_x > 0) ms += is_staged(*part) ? run_in_stages(*part) : run(*part);
+    if (part->groups_x > 0) ms += part->is_staged() ? run_in_stages(*part) : run(*part);
   return ms;
 }
 
@@ -190,7 +137,7 @@ Dispatch Runner::aov_dispatch(const View& view, const Settings& settings) const 
 
 ThreadWork Runner::work(const Dispatch& dispatch) const {
   const std::uint32_t lights = lights_at_hit(dispatch);
-  if (is_staged(dispatch)) return {1, profile.work(1, lights).lights};
+  if (dispatch.is_staged()) return {1, profile.work(1, lights).lights};
   return profile.work(1 + dispatch.frame.max_bounces, lights);
 }
 
@@ -218,14 +165,14 @@ void Runner::trace_aov(const Tile& tile, const Dispatch& dispatch, const Footpri
                        std::vector<AovPixel>& image, std::uint32_t width) {
   run(aim(dispatch, tile, footprint));
   std::vector<AovPixel> pixels(tile.pixels());
-  aov.download(queue, std::as_writable_bytes(std::span(pixels)));
+  queue->download(*aov, std::as_writable_bytes(std::span(pixels)));
   place(tile, pixels, image, width);
 }
 
 std::uint64_t Runner::buffer_bytes() const {
   std::uint64_t bytes = 0;
-  for (const Buffer* buffer : {&accumulation, &aov, &rays, &hits, &groups_, &paths_, &queued_paths_})
-    bytes += buffer->size();
+  for (const auto* buffer : {&accumulation, &aov, &rays, &hits, &groups_, &paths_, &queued_paths_})
+    bytes += (*buffer)->size();
   return bytes;
 }
 

@@ -2,21 +2,20 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "engine/device/device.h"
 #include "engine/gpu/device_scene.h"
 #include "engine/gpu/dispatch.h"
-#include "engine/gpu/pipeline.h"
 #include "engine/gpu/tracer.h"
-#include "engine/vulkan/buffer.h"
-#include "engine/vulkan/command_queue.h"
 
 namespace splatray {
 
 class Runner {
  public:
-  /// The context must outlive it.
-  Runner(const Context& context, const TracerOptions& options);
+  /// The device must outlive it.
+  Runner(const Device& device, const TracerOptions& options);
 
   /// Binds everything a dispatch reads or writes; to be called where any of it may have changed.
   void bind(const Buffer& accumulation);
@@ -42,24 +41,21 @@ class Runner {
   /// Device memory of buffers that are as large as images are.
   [[nodiscard]] std::uint64_t buffer_bytes() const;
 
-  const Context& context;
+  const Device& device;
   const DeviceProfile profile;
-  CommandQueue queue;
-  PipelineCache pipelines;
+  const std::unique_ptr<Queue> queue;
   DeviceScene scene;
-  Buffer accumulation;                                ///< of render(): means of a tile's pixels, vec4
-  Buffer aov, rays, hits;                             ///< of a tile, and of queries
-  std::array<std::uint64_t, COUNTER_COUNT> counts{};  ///< summed over dispatches that count
+  std::unique_ptr<Buffer> accumulation;     ///< of render(): means of a tile's pixels, vec4
+  std::unique_ptr<Buffer> aov, rays, hits;  ///< of a tile, and of queries
+  Counters counts{};                        ///< summed over dispatches that count
 
  private:
   double run_in_stages(const Dispatch& dispatch);
-  double run_on_host(const Dispatch& dispatch);
   void reserve_queues(std::uint32_t pixel_groups);
 
-  const unsigned threads_;  ///< of the host
-  Buffer frame_buffer_, counters_, groups_, paths_, queued_paths_;
-  std::vector<std::uint32_t> group_list_;               ///< what groups_ holds
-  std::array<std::uint32_t, COUNTER_COUNT> counted_{};  ///< by the last dispatch, if it counts
+  std::unique_ptr<Buffer> groups_, paths_, queued_paths_;
+  std::vector<std::uint32_t> group_list_;  ///< what groups_ holds
+  std::uint32_t queued_ = 0;               ///< paths that the last stage queued
 };
 
 /// Puts a tile's values into an image of `width` columns.

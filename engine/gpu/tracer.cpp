@@ -29,8 +29,8 @@ void Tracer::Impl::finish(Clock::time_point start) {
   stats.wall_ms = milliseconds_since(start);
 }
 
-Tracer::Tracer(const Context& context, const TracerOptions& options)
-    : impl_(std::make_unique<Impl>(context, options)) {}
+Tracer::Tracer(const Device& device, const TracerOptions& options)
+    : impl_(std::make_unique<Impl>(device, options)) {}
 
 Tracer::~Tracer() = default;
 
@@ -60,12 +60,12 @@ Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Se
                   {made.width, made.height, {}, {}, {}}};
   picture.image.rgba.resize(pixels);
   const std::size_t most_pixels = picture.tiles.front().pixels();
-  reserve_storage(runner.context, runner.accumulation, means * most_pixels * sizeof(vec4));
+  runner.queue->reserve(runner.accumulation, means * most_pixels * sizeof(vec4));
   if (settings.aov) {
     picture.image.aov.resize(picture.image.rgba.size());
-    reserve_storage(runner.context, runner.aov, most_pixels * sizeof(AovPixel));
+    runner.queue->reserve(runner.aov, most_pixels * sizeof(AovPixel));
   }
-  runner.bind(runner.accumulation);
+  runner.bind(*runner.accumulation);
   return picture;
 }
 
@@ -146,8 +146,8 @@ std::vector<AovPixel> Tracer::trace_aov(const Look& look, const View& view, cons
   const Footprint footprint = runner.scene.footprint(view, settings);
   const PixelWindow made = view.made();
   const auto tiles = cut_into_tiles(made.width, made.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
-  reserve_storage(runner.context, runner.aov, tiles.front().pixels() * sizeof(AovPixel));
-  runner.bind(runner.accumulation);
+  runner.queue->reserve(runner.aov, tiles.front().pixels() * sizeof(AovPixel));
+  runner.bind(*runner.accumulation);
   std::vector<AovPixel> pixels(std::size_t{made.width} * made.height);
   for (const Tile& tile : tiles) {
     runner.trace_aov(tile, dispatch, footprint, pixels, made.width);
@@ -162,11 +162,12 @@ const RenderStats& Tracer::stats() const { return impl_->stats; }
 
 PoolBytes Tracer::pool_bytes() const {
   PoolBytes bytes = impl_->runner.scene.bytes();
-  bytes.frame += impl_->runner.buffer_bytes() + impl_->progressive.accumulation.size();
+  const auto& begun = impl_->progressive.accumulation;
+  bytes.frame += impl_->runner.buffer_bytes() + (begun ? begun->size() : 0);
   return bytes;
 }
 
-std::uint32_t Tracer::pipelines_built() const { return impl_->runner.pipelines.built(); }
+std::uint32_t Tracer::pipelines_built() const { return impl_->runner.queue->programs_built(); }
 std::uint32_t Tracer::pools_uploaded() const { return impl_->uploads; }
 
 }  // namespace splatray

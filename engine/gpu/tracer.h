@@ -8,12 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/device_profile.h"
+#include "engine/device/device.h"
 #include "engine/gpu/pools.h"
 #include "engine/image/image.h"
 #include "engine/image/look.h"
 #include "engine/image/view.h"
-#include "engine/vulkan/context.h"
 
 namespace splatray {
 
@@ -40,7 +39,7 @@ struct TracerOptions {
   std::filesystem::path pipeline_folder{};
   PoolRequest pools{};                   ///< for tests and benchmarks
   Kernels kernels = Kernels::automatic;  ///< for tests and benchmarks
-  unsigned threads = 0;                  ///< of a context that is the host; 0 = one a core
+  unsigned threads = 0;                  ///< of the host's CPU as the device; 0 = one a core
 };
 
 /// What becomes of an image whose tracing `progress` stops.
@@ -53,8 +52,8 @@ enum class Stopped {
 /// no sense, such as images of no scene or a look of other objects, throw Error (failed) with a sentence that says so.
 class Tracer {
  public:
-  /// The context must outlive the tracer.
-  explicit Tracer(const Context& context, const TracerOptions& options = {});
+  /// The device must outlive the tracer.
+  explicit Tracer(const Device& device, const TracerOptions& options = {});
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;

@@ -15,7 +15,8 @@ struct GrowingPicture {
   Look look;
   Dispatch dispatch;
   Footprint footprint;
-  Buffer accumulation;         ///< means of all pixels over the samples behind those of `before`, vec4
+  /// Means of all pixels over the samples behind those of `before`, vec4; none before the first begin().
+  std::unique_ptr<Buffer> accumulation;
   SampleMean before;           ///< of whole blocks
   std::uint32_t upload = 0;    ///< the upload() whose scene it shows; 0 = none was begun
   std::uint32_t samples = 0;   ///< in every pixel
@@ -32,7 +33,7 @@ struct Picture {
 };
 
 struct Tracer::Impl {
-  Impl(const Context& context, const TracerOptions& options) : runner(context, options) {}
+  Impl(const Device& device, const TracerOptions& options) : runner(device, options) {}
 
   /// Begins a call whose work is counted and timed.
   void start();

@@ -13,9 +13,7 @@ struct PoolCounts {
   std::size_t references = 0;
   std::size_t node_words = 0;
   std::size_t filled_leaves = 0;
-  bool colors = false;
-  bool fields = false;
-  bool clips = false;
+  std::uint32_t pools = 0;          ///< FEATURE_* of the optional pools there are
   std::uint32_t texture_words = 0;  ///< of each splat
 };
 [[nodiscard]] PoolCounts pool_counts(const Scene& scene);

@@ -1,6 +1,5 @@
-/// The one table of a scene's pools: their sections in the file, size checks, buffers on the device, bindings and names
-/// follow it. A new pool is a member of Scene, a row here, a binding in shaders/layout.h and a reader in
-/// shaders/scene/bindings.glsl.
+/// The rows of shaders/pools.glsl as C++ reads them: a scene's pools and their sections in the file, size checks, buffers on the
+/// device and names.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -20,36 +19,46 @@ enum class PoolLength {
   splats,
 };
 
-/// One pool. Where it is optional, a scene has either none of it or all.
-template <typename Value>
-struct PoolRow {
+/// What a row says of its pool, beside what shaders need.
+struct PoolTraits {
+  constexpr PoolTraits(const char* its_name, const char* its_plural, PoolLength its_length)
+      : name(its_name), plural(its_plural), length(its_length) {}
+
   const char* name;    ///< in messages and panels
   const char* plural;  ///< what its elements are
-  const char* key;     ///< in JSON
-  std::vector<Value> Scene::*pool;
   PoolLength length;
-  bool optional = false;
-  bool listed = false;  ///< beside the splats: leaves may have copies of it, one for each reference
 };
 
-/// In the order of their file sections and of their bindings, from BIND_NODE_POOL on.
-inline constexpr std::tuple POOL_TABLE{
-    PoolRow<std::uint32_t>{"node pool", "node words", "node_pool", &Scene::node_pool, PoolLength::nodes},
-    PoolRow<std::uint32_t>{"Begin-End", "leaf ends", "begin_end", &Scene::begin_end, PoolLength::leaf_ends},
-    PoolRow<std::uint32_t>{"pool of slabs", "slabs", "slab_pool", &Scene::slab_pool, PoolLength::leaves},
-    PoolRow<std::uint32_t>{"reference pool", "references", "reference_pool", &Scene::reference_pool,
-                           PoolLength::references},
-    PoolRow<uvec4>{"data pool", "splats", "data_pool", &Scene::data_pool, PoolLength::splats, false, true},
-    PoolRow<std::uint32_t>{"colour pool", "colours", "color_pool", &Scene::color_pool, PoolLength::splats,
-                           true, true},
-    PoolRow<std::uint32_t>{"pool of normal fields", "normal fields", "field_pool", &Scene::field_pool,
-                           PoolLength::splats, true, true},
-    PoolRow<std::uint32_t>{"pool of clip lines", "clip lines", "clip_pool", &Scene::clip_pool,
-                           PoolLength::splats, true, true},
+/// One pool of a scene. A scene has all or none of a pool that has a feature.
+template <typename Value>
+struct PoolRow : PoolTraits {
+  const char* key;  ///< in JSON
+  std::vector<Value> Scene::*pool;
+  std::uint32_t feature = 0;  ///< FEATURE_*
+
+  [[nodiscard]] constexpr bool optional() const { return feature != 0; }
+  /// Whether it is beside the splats: leaves may have copies of it, one for each reference.
+  [[nodiscard]] constexpr bool listed() const { return length == PoolLength::splats; }
 };
+
+/// In the order of their file sections and of their bindings, from BIND_POOLS on.
+inline constexpr auto POOL_TABLE = std::tuple_cat(
+#define SPLATRAY_POOL(place, NAME, member, Value, reader, ABOUT) \
+  std::tuple{PoolRow<Value>{PoolTraits ABOUT, #member, &Scene::member}},
+#define SPLATRAY_OPTIONAL_POOL(place, NAME, member, Value, reader, HAS, bit, ABOUT) \
+  std::tuple{PoolRow<Value>{PoolTraits ABOUT, #member, &Scene::member, FEATURE_##HAS}},
+#define SPLATRAY_MADE_POOL(place, NAME, member, Value, reader, ABOUT)
+#include "shaders/pools.glsl"
+    std::tuple<>());
 
 /// Rows of the table.
 inline constexpr std::size_t SCENE_POOLS = std::tuple_size_v<decltype(POOL_TABLE)>;
+
+/// Of a pool's elements.
+template <typename Value>
+[[nodiscard]] constexpr std::size_t element_bytes(const PoolRow<Value>&) {
+  return sizeof(Value);
+}
 
 /// Calls visit(row) for each row in order.
 template <typename Visit>

@@ -55,7 +55,7 @@ Defect check_sizes(const Scene& scene) {
   Defect defect;
   for_each_pool([&](const auto& row) {
     const std::size_t found = (scene.*row.pool).size(), expected = pool_length(scene, row.length);
-    if (!defect && found != expected && !(row.optional && found == 0))
+    if (!defect && found != expected && !(row.optional() && found == 0))
       defect = {std::to_string(found) + " " + row.plural, std::to_string(expected)};
   });
   if (defect) return defect;

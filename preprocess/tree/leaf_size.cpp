@@ -99,13 +99,10 @@ PoolCounts estimate_counts(const SplatList& splats, std::uint32_t leaf_size) {
     return static_cast<std::size_t>(std::llround(factor * count));
   };
   constexpr double WORDS_PER_LEAF = 2.1;  // node words by filled leaf, on surfaces
-  return {splats.size(),
-          whole(static_cast<double>(references)),
-          sampled == splats.size() ? tree.node_pool.size() : whole(WORDS_PER_LEAF * leaves),
-          whole(leaves),
-          !splats.color.empty(),
-          !splats.field.empty(),
-          !splats.clip.empty()};
+  return {splats.size(), whole(static_cast<double>(references)),
+          sampled == splats.size() ? tree.node_pool.size() : whole(WORDS_PER_LEAF * leaves), whole(leaves),
+          (splats.color.empty() ? 0 : FEATURE_COLORS) | (splats.field.empty() ? 0 : FEATURE_FIELDS) |
+              (splats.clip.empty() ? 0 : FEATURE_CLIPS)};
 }
 
 std::uint32_t choose_leaf_size(const SplatList& splats, Insertion insertion) {

@@ -19,7 +19,6 @@ layout(constant_id = SPEC_ORDER) const uint ORDER = ORDER_Z;
 layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_ALL;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
 #ifdef PAGED
-layout(constant_id = SPEC_PAGES) const uint PAGES = 0u;
 layout(constant_id = SPEC_PAGE_SHIFT) const uint PAGE_SHIFT = 0u;
 #endif
 
@@ -71,54 +70,43 @@ layout(std430, binding = BIND_RAYS) readonly buffer RayTable { RayQuery rays[]; 
 layout(std430, binding = BIND_HITS) writeonly buffer HitTable { RayHit hits[]; };
 #endif
 
+#ifdef CPU
+#define READ_uvec4(page, at) texelFetch(page, int(at))
+#define READ_uint(page, at) texelFetch(page, int(at)).x
+#define ARRAY_OF(number, name, Value, pages) layout(binding = number) uniform usamplerBuffer name pages;
+#else
+#define READ_uvec4(page, at) page.values[at]
+#define READ_uint(page, at) page.values[at]
+#define ARRAY_OF(number, name, Value, pages) \
+  layout(std430, binding = number) readonly buffer name##_block { Value values[]; } name pages;
+#endif
+
 #ifdef PAGED
-#define PAGES_OF(slot) (((PAGES >> (3u * (slot - BIND_NODE_POOL))) & 7u) + 1u)
-#define ARRAY(slot) [PAGES_OF(slot)]
 // By constants: not all devices let an array of buffers be indexed by anything else.
-#define READ_PAGE(number, slot, READ, pool) \
-  if (PAGES_OF(slot) > number && index >> PAGE_SHIFT == number) \
-    return READ(pool[number], index & ((1u << PAGE_SHIFT) - 1u));
-#define POOL_READER(slot, Value, reader, READ, pool) \
+#define READ_PAGE(number, pool, Value) \
+  if (pool##_more >= number && index >> PAGE_SHIFT == number) \
+    return READ_##Value(pool[number], index & ((1u << PAGE_SHIFT) - 1u));
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
+  layout(constant_id = SPEC_PAGES + place) const uint pool##_more = 0u; \
+  ARRAY_OF(BIND_##NAME, pool, Value, [pool##_more + 1u]) \
   Value reader(uint index) { \
-    if (PAGES_OF(slot) == 1u) return READ(pool[0u], index); \
-    READ_PAGE(0u, slot, READ, pool) \
-    READ_PAGE(1u, slot, READ, pool) \
-    READ_PAGE(2u, slot, READ, pool) \
-    READ_PAGE(3u, slot, READ, pool) \
-    READ_PAGE(4u, slot, READ, pool) \
-    READ_PAGE(5u, slot, READ, pool) \
-    READ_PAGE(6u, slot, READ, pool) \
-    READ_PAGE(7u, slot, READ, pool) \
+    if (pool##_more == 0u) return READ_##Value(pool[0u], index); \
+    READ_PAGE(0u, pool, Value) \
+    READ_PAGE(1u, pool, Value) \
+    READ_PAGE(2u, pool, Value) \
+    READ_PAGE(3u, pool, Value) \
+    READ_PAGE(4u, pool, Value) \
+    READ_PAGE(5u, pool, Value) \
+    READ_PAGE(6u, pool, Value) \
+    READ_PAGE(7u, pool, Value) \
     return Value(0u); \
   }
 #else
-#define ARRAY(slot)
-#define POOL_READER(slot, Value, reader, READ, pool) \
-  Value reader(uint index) { return READ(pool, index); }
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
+  ARRAY_OF(BIND_##NAME, pool, Value, ) \
+  Value reader(uint index) { return READ_##Value(pool, index); }
 #endif
-#ifdef CPU
-#define READ_TEXEL(page, at) texelFetch(page, int(at))
-#define READ_WORD(page, at) texelFetch(page, int(at)).x
-#define POOL(slot, Block, pool, Value, reader, READ) \
-  layout(binding = slot) uniform usamplerBuffer pool ARRAY(slot); \
-  POOL_READER(slot, Value, reader, READ, pool)
-#else
-#define READ_TEXEL(page, at) page.values[at]
-#define READ_WORD(page, at) page.values[at]
-#define POOL(slot, Block, pool, Value, reader, READ) \
-  layout(std430, binding = slot) readonly buffer Block { Value values[]; } pool ARRAY(slot); \
-  POOL_READER(slot, Value, reader, READ, pool)
-#endif
-POOL(BIND_NODE_POOL, NodePool, node_pool, uint, node_word, READ_WORD)
-POOL(BIND_BEGIN_END, BeginEnd, begin_end, uint, begin_end_at, READ_WORD)
-POOL(BIND_SLAB_POOL, SlabPool, slab_pool, uint, slab_word, READ_WORD)
-POOL(BIND_REFERENCE_POOL, ReferencePool, reference_pool, uint, reference_word, READ_WORD)
-POOL(BIND_DATA_POOL, DataPool, data_pool, uvec4, splat_words, READ_TEXEL)
-POOL(BIND_COLOR_POOL, ColorPool, color_pool, uint, color_word, READ_WORD)
-POOL(BIND_FIELD_POOL, FieldPool, field_pool, uint, field_word, READ_WORD)
-POOL(BIND_CLIP_POOL, ClipPool, clip_pool, uint, clip_word, READ_WORD)
-POOL(BIND_TEXTURE_POOL, TexturePool, texture_pool, uint, texture_word, READ_WORD)
-POOL(BIND_TOP_TABLE, TopTable, top_table, uint, top_entry, READ_WORD)
+#include "pools.glsl"
 
 /// Where the data pool has the splat that a place in the leaves' lists refers to.
 uint splat_at(uint place) { return REFERENCES ? reference_word(place) : place; }
@@ -127,16 +115,11 @@ Material material_at(uint object) { return materials[object]; }
 Light light_at(uint index) { return lights[index]; }
 #ifdef LIT
 Surface surface_at(uint object) { return surfaces[object]; }
-#ifdef CPU
-layout(binding = BIND_LIGHT_TABLES) uniform usamplerBuffer light_tables;
-layout(binding = BIND_LIGHT_TREE) uniform usamplerBuffer light_tree;
-#else
-layout(std430, binding = BIND_LIGHT_TABLES) readonly buffer LightTables { uint values[]; } light_tables;
-layout(std430, binding = BIND_LIGHT_TREE) readonly buffer LightTree { uvec4 values[]; } light_tree;
-#endif
-float albedo_at(uint index) { return uintBitsToFloat(READ_WORD(light_tables, index)); }
-uint sky_word(uint index) { return READ_WORD(light_tables, ALBEDO_WORDS + index); }
-uvec4 light_texel(uint index) { return READ_TEXEL(light_tree, index); }
+ARRAY_OF(BIND_LIGHT_TABLES, light_tables, uint, )
+ARRAY_OF(BIND_LIGHT_TREE, light_tree, uvec4, )
+float albedo_at(uint index) { return uintBitsToFloat(READ_uint(light_tables, index)); }
+uint sky_word(uint index) { return READ_uint(light_tables, ALBEDO_WORDS + index); }
+uvec4 light_texel(uint index) { return READ_uvec4(light_tree, index); }
 #endif
 
 /// Where splats must face to be there at all (FACES_CUT), root space.

@@ -8,6 +8,7 @@
 #include "app/library/picture/make_picture.h"
 #include "app/library/picture/scene_source.h"
 #include "app/library/request/fields.h"
+#include "engine/device/host/host_device.h"
 
 namespace splatray {
 namespace {
@@ -72,7 +73,7 @@ std::string room_obj(bool open) {
 }
 
 TEST(EyeLight, ComesToCamerasThatAreShutIn) {
-  const Context context(HOST_DEVICE);
+  const HostDevice device;
   for (const bool open : {false, true}) {
     const std::string path = ::testing::TempDir() + "room.obj";
     std::ofstream(path) << room_obj(open);
@@ -84,7 +85,7 @@ TEST(EyeLight, ComesToCamerasThatAreShutIn) {
                              {"resolution", "8x8"},
                              {"samples", "4"}});
     LoadedScene loaded = load_scene(request, {});
-    SceneOnDevice shown(context);
+    SceneOnDevice shown(device);
     shown.open(loaded.scene);
     shown.show_environment("studio");
     const auto made = [&] { return make_picture(request, shown, choose_camera(loaded.scene, request), {}); };

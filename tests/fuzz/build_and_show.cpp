@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/device/host/host_device.h"
 #include "engine/scene/scene_check.h"
 #include "preprocess/build.h"
 #include "tests/fuzz/require.h"
@@ -32,8 +33,8 @@ BuildParams params_of(std::uint64_t choice) {
 }
 
 void show(const Scene& scene, std::uint32_t look) {
-  static const Context context(HOST_DEVICE);
-  ShownTracer tracer(context);
+  static const HostDevice device;
+  ShownTracer tracer(device);
   tracer.upload(scene);
   tracer.look.lights = scene.lights;
   tracer.set_environment({0, 0, {}, vec3(1.0F)});

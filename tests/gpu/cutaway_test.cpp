@@ -40,7 +40,7 @@ class CutawayTest : public DeviceTest {
     return {image.aov[at].object, image.rgba[at].x};
   }
 
-  ShownTracer tracer{context};
+  ShownTracer tracer{device};
 };
 
 TEST_F(CutawayTest, OpensARoomToTheEyeAndTheLight) {

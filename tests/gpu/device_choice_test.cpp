@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 namespace {
@@ -98,29 +98,29 @@ TEST(DeviceChoice, ContextTakesEachListedDeviceByNumberAndName) {
   ASSERT_FALSE(devices.empty()) << "this test needs a Vulkan driver";
   for (std::size_t i = 0; i < devices.size(); ++i) {
     if (!devices[i].refused.empty()) continue;
-    EXPECT_EQ(Context(std::to_string(i)).device_info().name, devices[i].name);
+    EXPECT_EQ(VulkanDevice(std::to_string(i)).info().name, devices[i].name);
     std::string shouted = devices[i].name;
     for (char& letter : shouted) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    EXPECT_EQ(Context(shouted).device_info().name, devices[i].name);
+    EXPECT_EQ(VulkanDevice(shouted).info().name, devices[i].name);
   }
 }
 
 TEST(DeviceChoice, ContextRefusesANameThatNoDeviceHas) {
-  EXPECT_EQ(error_of([] { Context context("no such device"); }).code(), ExitCode::no_device);
+  EXPECT_EQ(error_of([] { VulkanDevice device("no such device"); }).code(), ExitCode::no_device);
 }
 
 TEST(DeviceChoice, NoDriverIsOneHelpfulSentence) {
   const Variable files("VK_DRIVER_FILES", "/nonexistent/driver.json");
   const Variable validation("SPLATRAY_VALIDATION", "0");
   EXPECT_TRUE(list_devices().empty());
-  const Error error = error_of([] { Context context; });
+  const Error error = error_of([] { VulkanDevice device; });
   EXPECT_EQ(error.code(), ExitCode::no_device);
   EXPECT_NE(std::string(error.what()).find("mesa-vulkan-drivers"), std::string::npos) << error.what();
 }
 
 TEST(DeviceChoice, MissingValidationLayerNamesItsPackage) {
   const Variable layers("VK_LAYER_PATH", "/nonexistent");
-  const Error error = error_of([] { Context context("", true); });
+  const Error error = error_of([] { VulkanDevice device("", true); });
   EXPECT_EQ(error.code(), ExitCode::failed);
   EXPECT_NE(std::string(error.what()).find("vulkan-validationlayers"), std::string::npos) << error.what();
 }

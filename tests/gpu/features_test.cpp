@@ -35,9 +35,7 @@ TEST(Features, OnlyWhatTheSceneHasIsOn) {
   materials.push_back(with_flags(MATERIAL_DIELECTRIC));
   materials[0].mirror = 0.5F;
   const SceneContent everything{.materials = material_content(materials),
-                                .colors = true,
-                                .fields = true,
-                                .clips = true,
+                                .pools = FEATURE_COLORS | FEATURE_FIELDS | FEATURE_CLIPS,
                                 .ellipses = true,
                                 .references = true,
                                 .lights = true,

@@ -31,7 +31,7 @@ class FramesTest : public DeviceTest {
   Scene scene = disc_scene();
   View view = disc_view(9, 9);
   Settings settings = plain_settings();
-  ShownTracer tracer{context};
+  ShownTracer tracer{device};
   vec4 first{};
   std::uint32_t built = 0;
 };
@@ -48,7 +48,7 @@ TEST_F(FramesTest, PixelsThatSeeNothingTakeOneMorePipelineOnce) {
   for (const double x : {3.0, 4.0}) {
     look_from(x);
     EXPECT_NE(center(), first);
-    EXPECT_EQ(tracer.pipelines_built(), built + (context.is_cpu() ? 1 : 0));
+    EXPECT_EQ(tracer.pipelines_built(), built + (device.is_cpu() ? 1 : 0));
   }
 }
 

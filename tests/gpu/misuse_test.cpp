@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/pipeline_store.h"
 #include "engine/scene/splat.h"
-#include "engine/vulkan/command_queue.h"
-#include "engine/vulkan/pipeline_store.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 #include "tests/temp_folder.h"
@@ -16,7 +16,7 @@ namespace {
 using Misuse = DeviceTest;
 
 TEST_F(Misuse, CallsBeforeUploadAreErrors) {
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   const View view = disc_view(9, 9);
   EXPECT_THROW((void)tracer.render(view, plain_settings()), Error);
   EXPECT_THROW((void)tracer.trace_aov(view, plain_settings()), Error);
@@ -27,7 +27,7 @@ TEST_F(Misuse, CallsBeforeUploadAreErrors) {
 }
 
 TEST_F(Misuse, AnotherNumberOfMaterialsIsAnError) {
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   Scene scene = disc_scene(2);
   tracer.upload(scene);
   EXPECT_NO_THROW((void)tracer.render(disc_view(9, 9), plain_settings()));
@@ -40,7 +40,7 @@ TEST_F(Misuse, AnotherNumberOfMaterialsIsAnError) {
 }
 
 TEST_F(Misuse, AnImageBegunEndsWithItsScene) {
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(disc_scene());
   tracer.begin(disc_view(9, 9), plain_settings());
   tracer.upload(disc_scene(2));
@@ -52,7 +52,7 @@ TEST_F(Misuse, AnImageBegunEndsWithItsScene) {
 }
 
 TEST_F(Misuse, ARecordingThatThrowsLeavesTheQueueUsable) {
-  CommandQueue queue(context);
+  CommandQueue queue(device);
   EXPECT_THROW((void)queue.run([](VkCommandBuffer) { throw Error(ExitCode::failed, "no"); }), Error);
   EXPECT_NO_THROW((void)queue.run([](VkCommandBuffer) {}));
 }
@@ -71,14 +71,14 @@ Scene long_list(std::uint32_t others) {
 }
 
 TEST_F(Misuse, WorkThatADriverCutsShortIsDoneInSmallerPartsOrRefused) {
-  if (!context.is_cpu()) GTEST_SKIP() << "only llvmpipe is known to cut loops short";
+  if (!device.is_cpu()) GTEST_SKIP() << "only llvmpipe is known to cut loops short";
   Settings settings = plain_settings();
   settings.samples = 16;
   settings.shadows = true;
   settings.cull = false;
   const View view = disc_view(8, 8);
   for (const Kernels kernels : {Kernels::automatic, Kernels::gpu}) {
-    ShownTracer tracer(context, {.kernels = kernels});
+    ShownTracer tracer(device, {.kernels = kernels});
     tracer.upload(long_list(0));
     const auto expected = tracer.render(view, settings).rgba;
     tracer.upload(long_list(20'000));  // 16 samples and their shadow rays: 320 000 iterations
@@ -96,7 +96,7 @@ TEST_F(Misuse, WorkThatADriverCutsShortIsDoneInSmallerPartsOrRefused) {
 class PipelineStoreTest : public DeviceTest {
  protected:
   void render() {
-    ShownTracer tracer(context, {.pipeline_folder = folder.path() / "cache"});
+    ShownTracer tracer(device, {.pipeline_folder = folder.path() / "cache"});
     tracer.upload(disc_scene());
     (void)tracer.render(disc_view(9, 9), plain_settings());
   }
@@ -107,7 +107,7 @@ class PipelineStoreTest : public DeviceTest {
   }
 
   TempFolder folder;
-  const std::filesystem::path file = pipeline_file(folder.path() / "cache", context.properties);
+  const std::filesystem::path file = pipeline_file(folder.path() / "cache", device.properties);
 };
 
 TEST_F(PipelineStoreTest, IsKeptAndReadAgain) {
@@ -134,10 +134,10 @@ TEST_F(PipelineStoreTest, DamageOfAnyByteIsFoundAndMended) {
   }
   for (const std::string& bad : damaged) {
     std::ofstream(file, std::ios::binary) << bad;
-    EXPECT_EQ(PipelineStore(context, file.parent_path()).bytes_read(), 0U);
+    EXPECT_EQ(PipelineStore(device, file.parent_path()).bytes_read(), 0U);
     EXPECT_EQ(bytes(), whole) << "a store without pipelines has the driver's header alone, as before";
   }
-  EXPECT_EQ(PipelineStore(context, file.parent_path()).bytes_read(), whole.size() - header - 8);
+  EXPECT_EQ(PipelineStore(device, file.parent_path()).bytes_read(), whole.size() - header - 8);
 }
 
 TEST_F(PipelineStoreTest, NeitherFollowsLinksNorReplacesWhatOthersWrote) {

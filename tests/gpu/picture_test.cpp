@@ -28,7 +28,7 @@ class PictureTest : public DeviceTest {
     EXPECT_EQ(wrong, 0U) << view.width << "x" << view.height << ", order " << settings.order;
   }
 
-  ShownTracer tracer{context};
+  ShownTracer tracer{device};
 };
 
 TEST_F(PictureTest, OddSizesAreRightInBothOrders) {

@@ -12,11 +12,11 @@ namespace splatray {
 namespace {
 
 // 512 elements of any kind in a page of texel buffers, 256 in one of storage buffers.
-constexpr PoolLimits LIMITS{.texel_elements = 1000,
-                            .storage_bytes = 8000,
-                            .allocation_bytes = 20000,
-                            .texel_buffers = 20,
-                            .storage_buffers = 16};
+constexpr DeviceLimits LIMITS{.texel_elements = 1000,
+                              .storage_bytes = 8000,
+                              .allocation_bytes = 20000,
+                              .texel_buffers = 20,
+                              .storage_buffers = 16};
 
 /// Sizes of some pools by binding, the others empty.
 PoolBytes pool_bytes(std::initializer_list<std::pair<std::uint32_t, std::uint64_t>> sizes) {
@@ -43,7 +43,7 @@ TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
   const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(paging.access, PoolAccess::texel);
   EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(paging.pages_constant(), 0U);
+  EXPECT_FALSE(paging.paged());
   EXPECT_EQ(paging.page_shift, 0U) << "the same pipeline for all";
 }
 
@@ -52,7 +52,7 @@ TEST(Paging, TakesOneStorageBufferRatherThanPages) {
       pool_bytes({{BIND_NODE_POOL, 4004}, {BIND_BEGIN_END, 4000}, {BIND_DATA_POOL, 8000}});
   const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(paging.access, PoolAccess::storage);
-  EXPECT_EQ(paging.pages_constant(), 0U);
+  EXPECT_FALSE(paging.paged());
 }
 
 TEST(Paging, PagesWhatOneBufferDoesNotHold) {
@@ -61,7 +61,7 @@ TEST(Paging, PagesWhatOneBufferDoesNotHold) {
   const Paging texel = choose_paging(bytes, LIMITS, PoolAccess::automatic);
   EXPECT_EQ(texel.access, PoolAccess::texel);
   EXPECT_EQ(texel.pages, (Pages{2, 1, 1, 1, 4, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(texel.pages_constant(), 0x00003001U);
+  EXPECT_TRUE(texel.paged());
   EXPECT_EQ(texel.page_shift, 9U);
   const Paging storage = choose_paging(bytes, LIMITS, PoolAccess::storage);
   EXPECT_EQ(storage.pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1, 1, 1}));
@@ -99,7 +99,7 @@ TEST(Paging, EndsAtTheMostBuffersOfAProgram) {
 }
 
 TEST(Paging, NeedsBuffersOfItsKind) {
-  PoolLimits none = LIMITS;
+  DeviceLimits none = LIMITS;
   none.texel_elements = 0;
   EXPECT_THROW((void)choose_paging(pool_bytes({{BIND_DATA_POOL, 16}}), none, PoolAccess::texel), Error);
   EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16}}), none, PoolAccess::automatic).access,
@@ -109,7 +109,7 @@ TEST(Paging, NeedsBuffersOfItsKind) {
 /// Whether `automatic` takes references for a scene of `splats` splats with `references` references, where LIMITS hold.
 bool automatic_references(std::size_t splats, std::size_t references,
                           PoolAccess access = PoolAccess::automatic) {
-  return choose_references({splats, references, 1, 1, false, false}, LIMITS, access, DataPool::automatic);
+  return choose_references({splats, references, 1, 1}, LIMITS, access, DataPool::automatic);
 }
 
 TEST(DataPool, HasCopiesWhereTheyFit) {
@@ -124,25 +124,24 @@ TEST(DataPool, HasReferencesWhereOneBufferDoesNotHoldCopies) {
 }
 
 TEST(DataPool, CanBeForced) {
-  const PoolCounts counts{200, 1000, 1, 1, false, false};
+  const PoolCounts counts{200, 1000, 1, 1};
   EXPECT_FALSE(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::copies));
-  EXPECT_TRUE(
-      choose_references({400, 500, 1, 1, false, false}, LIMITS, PoolAccess::automatic, DataPool::references));
+  EXPECT_TRUE(choose_references({400, 500, 1, 1}, LIMITS, PoolAccess::automatic, DataPool::references));
 }
 
 using PoolUpload = DeviceTest;
 
 /// The kernels that the device can run.
-std::vector<Kernels> all_kernels(const Context& context) {
-  if (device_profile(context).kernels == Kernels::gpu) return {Kernels::gpu};
+std::vector<Kernels> all_kernels(const Device& device) {
+  if (device.profile().kernels == Kernels::gpu) return {Kernels::gpu};
   return {Kernels::cpu, Kernels::gpu};
 }
 
 TEST_F(PoolUpload, AllKernelsGiveTheSamePicture) {
   const Scene scene = disc_scene(3);
   std::vector<std::vector<vec4>> pictures;
-  for (const Kernels kernels : all_kernels(context)) {
-    ShownTracer tracer(context, {.kernels = kernels});
+  for (const Kernels kernels : all_kernels(device)) {
+    ShownTracer tracer(device, {.kernels = kernels});
     tracer.upload(scene);
     EXPECT_EQ(tracer.pool_bytes().texel_buffers, kernels == Kernels::cpu);
     pictures.push_back(tracer.render(disc_view(50, 40), plain_settings()).rgba);
@@ -156,7 +155,7 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
   scene.color_pool = {pack_color({1.0F, 0.0F, 0.0F}), pack_color({0.0F, 1.0F, 0.0F}),
                       pack_color({0.0F, 0.0F, 1.0F})};
   const auto picture = [&](const TracerOptions& options, std::uint32_t pages) {
-    ShownTracer tracer(context, options);
+    ShownTracer tracer(device, options);
     tracer.upload(scene);
     EXPECT_EQ(tracer.pool_bytes().at(BIND_REFERENCE_POOL), options.pools.data == DataPool::copies ? 0U : 12U);
     EXPECT_EQ(tracer.pool_bytes().at(BIND_DATA_POOL), 48U);
@@ -164,7 +163,7 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
     EXPECT_EQ(tracer.pool_bytes().pages, pages);
     return tracer.render(disc_view(50, 40), plain_settings()).rgba;
   };
-  for (const Kernels kernels : all_kernels(context)) {
+  for (const Kernels kernels : all_kernels(device)) {
     const auto with = [kernels](DataPool data, std::uint64_t page_elements = UINT64_MAX) {
       return TracerOptions{.pools = {.data = data, .page_elements = page_elements}, .kernels = kernels};
     };
@@ -177,7 +176,7 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
 }
 
 TEST_F(PoolUpload, ReportsBytesByPool) {
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(disc_scene(3));
   EXPECT_EQ(tracer.pool_bytes().at(BIND_NODE_POOL), 4U);
   EXPECT_EQ(tracer.pool_bytes().at(BIND_BEGIN_END), 8U);
@@ -188,7 +187,7 @@ TEST_F(PoolUpload, ReportsBytesByPool) {
 }
 
 TEST_F(PoolUpload, ReportsBytesOfTheFrame) {
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(disc_scene());
   const std::uint64_t before = tracer.pool_bytes().frame;
   static_cast<void>(tracer.render(disc_view(50, 40), plain_settings()));
@@ -201,21 +200,21 @@ TEST_F(PoolUpload, ReportsBytesOfTheFrame) {
   Settings settings = plain_settings();
   settings.max_bounces = 2;
   static_cast<void>(tracer.render(disc_view(50, 40), settings));
-  const bool stages = device_profile(context).stages;
+  const bool stages = device.profile().stages;
   EXPECT_EQ(tracer.pool_bytes().frame > picture, stages) << "queues, where a scene is traced in stages";
 }
 
 TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
   Scene scene = disc_scene();
   scene.node_pool.resize(2 * PAGES_MOST);
-  ShownTracer tracer(context, {.pools = {.page_elements = 1}});
+  ShownTracer tracer(device, {.pools = {.page_elements = 1}});
   EXPECT_THROW(tracer.upload(scene), Error);
   EXPECT_EQ(tracer.pools_uploaded(), 0U);
 }
 
 TEST_F(PoolUpload, UploadAndFreeLeavesTheSceneWithoutItsPools) {
   for (const DataPool data : {DataPool::copies, DataPool::references}) {
-    ShownTracer tracer(context, {.pools = {.data = data}});
+    ShownTracer tracer(device, {.pools = {.data = data}});
     Scene scene = disc_scene(3);
     tracer.upload(scene);
     const auto picture = tracer.render(disc_view(50, 40), plain_settings()).rgba;
@@ -234,7 +233,7 @@ TEST_F(PoolUpload, UploadAndFreeLeavesTheSceneWithoutItsPools) {
 
 /// The device's own limit; the root's children, each with all discs, are behind it.
 TEST_F(PoolUpload, PoolBeyondTheLargestStorageBufferIsPaged) {
-  const std::uint64_t limit = context.properties.limits.maxStorageBufferRange;
+  const std::uint64_t limit = device.limits().storage_bytes;
   if (limit > std::uint64_t{256} << 20U)
     GTEST_SKIP() << "the device's storage buffers are too large to exceed here";
   Scene scene = disc_scene();
@@ -243,7 +242,7 @@ TEST_F(PoolUpload, PoolBeyondTheLargestStorageBufferIsPaged) {
   scene.node_pool.resize(children);
   scene.node_pool[0] = NODE_INNER << NODE_TAG_SHIFT | children;
   scene.node_pool.insert(scene.node_pool.end(), 8, leaf);
-  ShownTracer tracer(context, {.kernels = Kernels::gpu});
+  ShownTracer tracer(device, {.kernels = Kernels::gpu});
   tracer.upload(scene);
   EXPECT_GT(tracer.pool_bytes().pages, 1U);
   const auto paged = tracer.render(disc_view(50, 40), plain_settings()).rgba;

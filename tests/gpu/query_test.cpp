@@ -19,7 +19,7 @@ using QueryTest = DeviceTest;
 
 TEST_F(QueryTest, AnswersEachRayInItsPlace) {
   const Scene scene = disc_scene();
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(scene);
   std::vector<RayQuery> queries;
   for (int i = 0; i < 1000; ++i) queries.push_back(ray_at(scene, i % 3 == 0 ? 0.3 : 0.7));
@@ -39,7 +39,7 @@ TEST_F(QueryTest, AnswersEachRayInItsPlace) {
 
 TEST_F(QueryTest, MoreRaysThanADispatchHoldsAreAllAnswered) {
   const Scene scene = disc_scene();
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(scene);
   std::vector<RayQuery> queries((1U << 20U) + 77, ray_at(scene, 0.7));
   queries.back() = ray_at(scene, 0.3);
@@ -53,14 +53,14 @@ TEST_F(QueryTest, MoreRaysThanADispatchHoldsAreAllAnswered) {
 }
 
 TEST_F(QueryTest, NoRaysGiveNoHits) {
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(disc_scene());
   EXPECT_TRUE(tracer.intersect({}, plain_settings()).empty());
 }
 
 TEST_F(QueryTest, ShadingSettingsShareOnePipeline) {
   const Scene scene = disc_scene();
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(scene);
   Settings settings = plain_settings();
   const std::vector<RayQuery> queries = {ray_at(scene, 0.0)};

@@ -2,9 +2,9 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
-#include "engine/vulkan/context.h"
 
 namespace splatray {
 
@@ -31,9 +31,9 @@ enum class Coverage { inside, outside, rim };
 /// A test with a device of its own, which must end without validation messages.
 class DeviceTest : public testing::Test {
  protected:
-  void TearDown() override { EXPECT_EQ(context.validation_messages(), 0U); }
+  void TearDown() override { EXPECT_EQ(device.validation_messages(), 0U); }
 
-  Context context;
+  VulkanDevice device;
 };
 
 }  // namespace splatray

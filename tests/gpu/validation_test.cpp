@@ -11,7 +11,7 @@
 namespace splatray {
 namespace {
 
-/// Asks the loader itself, so that a context that fails for another reason is no reason to skip.
+/// Asks the loader itself, so that a device that fails for another reason is no reason to skip.
 bool layer_is_installed() {
   std::uint32_t count = 0;
   if (vkEnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS) return true;
@@ -30,23 +30,23 @@ class Validation : public testing::Test {
 };
 
 TEST_F(Validation, MistakesAreCountedAndPrinted) {
-  const auto context = std::make_unique<Context>("", true);
+  const auto device = std::make_unique<VulkanDevice>("", true);
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   VkBuffer buffer = VK_NULL_HANDLE;
   testing::internal::CaptureStderr();
-  vkCreateBuffer(context->device, &info, nullptr, &buffer);
+  vkCreateBuffer(device->device, &info, nullptr, &buffer);
   EXPECT_NE(testing::internal::GetCapturedStderr(), "");
-  EXPECT_GT(context->validation_messages(), 0U);
-  vkDestroyBuffer(context->device, buffer, nullptr);
+  EXPECT_GT(device->validation_messages(), 0U);
+  vkDestroyBuffer(device->device, buffer, nullptr);
 }
 
 TEST_F(Validation, NothingIsSaidOfAWholeLifeAndNothingIsLeftBehind) {
   testing::internal::CaptureStderr();
   {
-    const auto context = std::make_unique<Context>("", true);
-    ShownTracer tracer(*context);
+    const auto device = std::make_unique<VulkanDevice>("", true);
+    ShownTracer tracer(*device);
     tracer.upload(disc_scene());
     tracer.set_environment({2, 1, std::vector<glm::vec3>(2, glm::vec3(0.5F)), {}});
     Settings settings = plain_settings();

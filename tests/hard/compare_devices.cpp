@@ -84,15 +84,15 @@ void compare_pictures(const NamedScene& named, DeviceScene& a, DeviceScene& b) {
 
 int run(int argc, char** argv) {
   if (argc != 3) throw Error(ExitCode::usage, "expected the names of two devices");
-  const Context a(argv[1]);
-  const Context b(argv[2]);
-  std::cout << "Devices: " << a.device_info().name << " (" << a.device_info().driver << "), "
-            << b.device_info().name << " (" << b.device_info().driver << "), of commit " << COMMIT
+  const std::unique_ptr<Device> a = open_device(argv[1]);
+  const std::unique_ptr<Device> b = open_device(argv[2]);
+  std::cout << "Devices: " << a->info().name << " (" << a->info().driver << "), " << b->info().name << " ("
+            << b->info().driver << "), of commit " << COMMIT
             << ".\n\n| scene | what | of | differ in some bit | of them |\n"
             << "| --- | --- | --- | --- | --- |\n";
   for (const NamedScene& named : all_scenes()) {
-    DeviceScene on_a(named.scene, a);
-    DeviceScene on_b(named.scene, b);
+    DeviceScene on_a(named.scene, *a);
+    DeviceScene on_b(named.scene, *b);
     compare_hits(named, on_a, on_b);
     compare_pictures(named, on_a, on_b);
   }

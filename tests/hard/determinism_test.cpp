@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "data/shapes.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 #include "tests/trace/rays.h"
@@ -112,16 +113,16 @@ std::size_t lavapipe_threads() {
 Image picture_with_threads(std::size_t threads) {
   const std::size_t before = lavapipe_threads();
   setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
-  const Context context;
+  const VulkanDevice device;
   unsetenv("LP_NUM_THREADS");
-  DeviceScene device(some_of_everything(), context);
+  DeviceScene device(some_of_everything(), device);
   Image image = picture_of(device);
   EXPECT_EQ(lavapipe_threads() - before, threads);
   return image;
 }
 
 TEST(Determinism, OneAndTwoThreads) {
-  if (shared_context().device_info().name.find("llvmpipe") == std::string::npos)
+  if (shared_device().info().name.find("llvmpipe") == std::string::npos)
     GTEST_SKIP() << "the device is not lavapipe, whose threads can be chosen";
   const Image one = picture_with_threads(1);
   const Image two = picture_with_threads(2);

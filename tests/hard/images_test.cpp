@@ -51,7 +51,7 @@ TEST(Image, OddAndExtremeWindows) {
 /// Sums of many samples in float32 must not drift.
 TEST(Image, ManySamples) {
   // Without the counters of DeviceScene, which cost a dispatch for each sample.
-  ShownTracer tracer(shared_context());
+  ShownTracer tracer(shared_device());
   tracer.upload(scene_of({{sphere({.count = 500}, 1.0), test_material(0)}}));
   View view{{.eye = {5.0, 0.0, 0.0}, .target = {6.0, 0.0, 0.0}}, 8, 8};  // looks away: all is environment
   Settings settings;
@@ -76,7 +76,7 @@ TEST(Image, ManySamples) {
 
 /// A dispatch of many long paths must not lose any: drivers may limit the loop iterations of an invocation.
 TEST(Image, ManySamplesOfGlass) {
-  ShownTracer tracer(shared_context());
+  ShownTracer tracer(shared_device());
   tracer.upload(scene_of({{sphere({.count = 20000}, 1.0), glass_material(1.5F)}}));
   tracer.set_environment({0, 0, {}, vec3(1.0F)});
   Settings settings;

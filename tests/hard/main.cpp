@@ -15,13 +15,13 @@ namespace {
 /// No test may leave a message of the validation layers behind.
 class NoValidationMessages : public ::testing::Environment {
  public:
-  void TearDown() override { EXPECT_EQ(shared_context().validation_messages(), 0U); }
+  void TearDown() override { EXPECT_EQ(shared_device().validation_messages(), 0U); }
 };
 
 std::string heading() {
   return "# Hard cases\n\nMade by `SPLATRAY_HARD_RAYS=" + std::to_string(hard_rays()) +
-         " hard_test --table FILE` on " + shared_context().device_info().name + " (" +
-         shared_context().device_info().driver + "), of commit " + COMMIT +
+         " hard_test --table FILE` on " + shared_device().info().name + " (" + shared_device().info().driver +
+         "), of commit " + COMMIT +
          ".\nEach row is one comparison of a test of `tests/hard`; exceptions, lost rays and non-finite "
          "answers "
          "must be 0 but where the row says that it shows a failure.\n";

@@ -8,24 +8,24 @@ namespace {
 
 // Of 1000 splats: a top table of 8^3 entries is 2 bytes for each.
 TEST(Copies, TakeAtMost64BytesASplat) {
-  EXPECT_TRUE(copies_fit({1000, 3000, 1, 1, false, false})) << "48 bytes of copies and 2 of all else";
-  EXPECT_TRUE(copies_fit({1000, 3000, 1, 1, true, false})) << "60 and 2";
-  EXPECT_FALSE(copies_fit({1000, 4000, 1, 1, false, false})) << "64 and 2";
-  EXPECT_FALSE(copies_fit({1000, 3000, 1, 1, true, true})) << "72 and 2";
-  EXPECT_FALSE(copies_fit({1000, 3000, 1001, 1, true, false})) << "60 and 6";
-  EXPECT_FALSE(copies_fit({1000, 3000, 1, 501, true, false})) << "60 and 6";
+  EXPECT_TRUE(copies_fit({1000, 3000, 1, 1, 0})) << "48 bytes of copies and 2 of all else";
+  EXPECT_TRUE(copies_fit({1000, 3000, 1, 1, FEATURE_COLORS})) << "60 and 2";
+  EXPECT_FALSE(copies_fit({1000, 4000, 1, 1, 0})) << "64 and 2";
+  EXPECT_FALSE(copies_fit({1000, 3000, 1, 1, FEATURE_COLORS | FEATURE_FIELDS})) << "72 and 2";
+  EXPECT_FALSE(copies_fit({1000, 3000, 1001, 1, FEATURE_COLORS})) << "60 and 6";
+  EXPECT_FALSE(copies_fit({1000, 3000, 1, 501, FEATURE_COLORS})) << "60 and 6";
 }
 
 TEST(Copies, FitToTheLastByte) {
   // 64 000 bytes: 3096 copies of 20 bytes, and 4 (1 + 3 + 512) = 2064 of all else, leave 16.
-  EXPECT_TRUE(copies_fit({1000, 3096, 1, 1, true, false}));
-  EXPECT_FALSE(copies_fit({1000, 3097, 1, 1, true, false}));
+  EXPECT_TRUE(copies_fit({1000, 3096, 1, 1, FEATURE_COLORS}));
+  EXPECT_FALSE(copies_fit({1000, 3097, 1, 1, FEATURE_COLORS}));
   // 72 000 bytes where there are clip lines: 2914 copies of 24 bytes.
-  EXPECT_TRUE(copies_fit({1000, 2914, 1, 1, true, false, true}));
-  EXPECT_FALSE(copies_fit({1000, 2915, 1, 1, true, false, true}));
+  EXPECT_TRUE(copies_fit({1000, 2914, 1, 1, FEATURE_COLORS | FEATURE_CLIPS}));
+  EXPECT_FALSE(copies_fit({1000, 2915, 1, 1, FEATURE_COLORS | FEATURE_CLIPS}));
   // 98 000 bytes with two texture words beside them: 2998 copies of 32 bytes.
-  EXPECT_TRUE(copies_fit({1000, 2998, 1, 1, true, false, true, 2}));
-  EXPECT_FALSE(copies_fit({1000, 2999, 1, 1, true, false, true, 2}));
+  EXPECT_TRUE(copies_fit({1000, 2998, 1, 1, FEATURE_COLORS | FEATURE_CLIPS, 2}));
+  EXPECT_FALSE(copies_fit({1000, 2999, 1, 1, FEATURE_COLORS | FEATURE_CLIPS, 2}));
 }
 
 TEST(Copies, AreCountedFromTheScene) {
@@ -41,9 +41,7 @@ TEST(Copies, AreCountedFromTheScene) {
   EXPECT_EQ(found.references, 9U);
   EXPECT_EQ(found.node_words, 17U);
   EXPECT_EQ(found.filled_leaves, 2U);
-  EXPECT_FALSE(found.colors);
-  EXPECT_TRUE(found.fields);
-  EXPECT_TRUE(found.clips);
+  EXPECT_EQ(found.pools, FEATURE_FIELDS | FEATURE_CLIPS);
 }
 
 }  // namespace

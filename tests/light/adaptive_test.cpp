@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/surface.h"
 #include "tests/light/lit.h"
 
@@ -25,15 +26,15 @@ class Adaptive : public ::testing::Test {
     many.seed = 77;
     truth_ = tracer_.render(view(), many).rgba;
   }
-  void TearDown() override { EXPECT_EQ(context_.validation_messages(), 0U); }
+  void TearDown() override { EXPECT_EQ(device_.validation_messages(), 0U); }
 
   [[nodiscard]] View view() const { return {camera_, WIDTH, HEIGHT}; }
 
   const Scene scene_ =
       scene_of({{sphere({.count = 2000, .even = true, .seed = 3}, 1.0), test_material(MATERIAL_TWO_SIDED)}});
   const Camera camera_;
-  Context context_;
-  ShownTracer tracer_{context_};
+  VulkanDevice device_;
+  ShownTracer tracer_{device_};
   Settings settings_;
   std::vector<vec4> truth_;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data/shapes.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/image/picture_error.h"
 #include "engine/scene/environment.h"
 #include "tests/gpu/shown_tracer.h"
@@ -79,10 +80,10 @@ class Lit : public ::testing::Test {
     EXPECT_EQ(tracer_.stats().counters[COUNT_LOST], 0U);
     return image;
   }
-  void TearDown() override { EXPECT_EQ(context_.validation_messages(), 0U); }
+  void TearDown() override { EXPECT_EQ(device_.validation_messages(), 0U); }
 
-  Context context_;
-  ShownTracer tracer_{context_};
+  VulkanDevice device_;
+  ShownTracer tracer_{device_};
 };
 
 /// A plane of splats, 4 x 4 in y = 0, seen from straight above at its middle.

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "data/shapes.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/splat.h"
 #include "tests/property/judge.h"
 #include "tests/property/round.h"
@@ -16,8 +17,8 @@ namespace splatray::testing {
 namespace {
 
 TEST(PropertyProof, AMovedSplatIsNoticed) {
-  const Context context;
-  ShownTracer tracer(context);
+  const VulkanDevice device;
+  ShownTracer tracer(device);
   RoundCounts good, spoilt;
   std::ostringstream said_good, said_spoilt;
   run_round(1, tracer, good, said_good);

@@ -9,6 +9,7 @@
 
 #include "app/cli/option_types.h"
 #include "engine/base/error.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/property/round.h"
 
 namespace splatray::testing {
@@ -32,8 +33,8 @@ int body(int argc, char** argv) {
   };
   list.add_value("--seed", read_seed, "of the first round, or random; default 1", "N|random");
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
-  const Context context;
-  ShownTracer tracers[] = {ShownTracer(context), ShownTracer(context, {.kernels = Kernels::gpu})};
+  const VulkanDevice device;
+  ShownTracer tracers[] = {ShownTracer(device), ShownTracer(device, {.kernels = Kernels::gpu})};
   RoundCounts counts;
   const auto start = std::chrono::steady_clock::now();
   do {

@@ -71,23 +71,23 @@ void* wrap_allocate(small_object_pool*&, std::size_t, const execution_data&) TBB
 void wrap_deallocate(small_object_pool&, void*, std::size_t) TBB_WRAP(DEALLOCATE);
 void wrap_deallocate(small_object_pool&, void*, std::size_t, const execution_data&) TBB_WRAP(DEALLOCATE_IN);
 
-void wrap_spawn(task& spawned, task_group_context& context) { real_spawn(*new Spawned(spawned), context); }
+void wrap_spawn(task& spawned, task_group_context& device) { real_spawn(*new Spawned(spawned), device); }
 
-void wrap_spawn(task& spawned, task_group_context& context, slot_id slot) {
-  real_spawn(*new Spawned(spawned), context, slot);
+void wrap_spawn(task& spawned, task_group_context& device, slot_id slot) {
+  real_spawn(*new Spawned(spawned), device, slot);
 }
 
 // Each task's release of the wait_context, an atomic operation in TBB's headers, comes before the end of waiting for it:
 // reserve(0) is another operation on the same number.
 
-void wrap_execute_and_wait(task& first, task_group_context& context, wait_context& awaited,
+void wrap_execute_and_wait(task& first, task_group_context& device, wait_context& awaited,
                            task_group_context& awaited_context) {
-  real_execute_and_wait(first, context, awaited, awaited_context);
+  real_execute_and_wait(first, device, awaited, awaited_context);
   awaited.reserve(0);
 }
 
-void wrap_wait(wait_context& awaited, task_group_context& context) {
-  real_wait(awaited, context);
+void wrap_wait(wait_context& awaited, task_group_context& device) {
+  real_wait(awaited, device);
   awaited.reserve(0);
 }
 

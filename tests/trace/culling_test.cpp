@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "data/shapes.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/trace/different_bits.h"
 #include "tests/trace/scenes.h"
@@ -41,8 +42,8 @@ class Culling : public ::testing::Test {
     culled_leaves += less.counters[COUNT_LEAVES];
   }
 
-  Context context;
-  ShownTracer tracer{context};
+  VulkanDevice device;
+  ShownTracer tracer{device};
   Camera camera;
   std::uint64_t leaves = 0, culled_leaves = 0;  ///< visited in all pictures of expect_same, without and with
 };
@@ -56,7 +57,7 @@ TEST_F(Culling, ChangesNoPicture) {
   expect_same({near, 203, 131}, {.samples = 1});
   camera.ortho_height = 7.0;
   expect_same({camera, 203, 131}, {.samples = 1});
-  if (context.is_cpu()) {
+  if (device.is_cpu()) {
     EXPECT_LT(culled_leaves, leaves);
   }
 }

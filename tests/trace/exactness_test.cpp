@@ -11,6 +11,8 @@
 #include <random>
 
 #include "data/shapes.h"
+#include "engine/device/host/host_device.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
@@ -25,9 +27,9 @@
 namespace splatray::testing {
 namespace {
 
-Context& shared_context() {
-  static Context context;
-  return context;
+VulkanDevice& shared_device() {
+  static VulkanDevice device;
+  return device;
 }
 
 /// The brute-force answers to `count` primary rays and to the secondary rays they give rise to.
@@ -61,17 +63,16 @@ void expect_exact(const Agreement& agreement, const std::string& what) {
   EXPECT_GT(agreement.hits, agreement.rays / 10) << what << ": too few hits to mean anything";
 }
 
-std::vector<RayHit> intersect_on(const Context& context, const Scene& scene,
-                                 const std::vector<RayQuery>& rays, const Settings& settings,
-                                 const TracerOptions& options = {}) {
-  ShownTracer tracer(context, options);
+std::vector<RayHit> intersect_on(const Device& device, const Scene& scene, const std::vector<RayQuery>& rays,
+                                 const Settings& settings, const TracerOptions& options = {}) {
+  ShownTracer tracer(device, options);
   tracer.upload(scene);
   return tracer.intersect(rays, settings);
 }
 
 std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery>& rays,
                                   const Settings& settings, const TracerOptions& options = {}) {
-  return intersect_on(shared_context(), scene, rays, settings, options);
+  return intersect_on(shared_device(), scene, rays, settings, options);
 }
 
 /// Compares the GPU with brute force for each scene; the scenes differ in leaf size only.
@@ -81,7 +82,7 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
   const Truth truth(scenes.front(), brute, count, settings);
   const auto gpu_kernels = gpu_intersect(scenes.front(), truth.rays, settings, {.kernels = Kernels::gpu});
   expect_exact(agreement_of(brute, truth.hits, gpu_kernels), "kernels of GPUs");
-  const auto host = intersect_on(Context(HOST_DEVICE), scenes.front(), truth.rays, settings);
+  const auto host = intersect_on(HostDevice(), scenes.front(), truth.rays, settings);
   EXPECT_EQ(different_bits(host, gpu_kernels), 0U) << "other bits from the host";
   EXPECT_EQ(different_bits(host, twin_intersect(scenes.front(), truth.rays, settings)), 0U)
       << "other bits from the twin";
@@ -224,7 +225,7 @@ TEST(Exactness, EllipsesTurnedOrShortenedAreNoticed) {
   const auto truth = all_nearest(brute, rays, settings);
   const auto exceptions = [&](const Scene& changed) {
     const std::size_t found = agreement_of(brute, truth, gpu_intersect(changed, rays, settings)).exceptions();
-    const auto host = intersect_on(Context(HOST_DEVICE), changed, rays, settings);
+    const auto host = intersect_on(HostDevice(), changed, rays, settings);
     return std::min<std::size_t>(found, agreement_of(brute, truth, host).exceptions());
   };
   EXPECT_EQ(exceptions(scene), 0U);

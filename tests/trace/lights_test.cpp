@@ -5,6 +5,7 @@
 
 #include "data/shapes.h"
 #include "engine/base/error.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/environment.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/trace/scenes.h"
@@ -51,8 +52,8 @@ class SharedSun {
  private:
   const Scene scene_;
   const Camera camera_;
-  Context context_;
-  ShownTracer tracer_{context_};
+  VulkanDevice device_;
+  ShownTracer tracer_{device_};
 };
 
 /// Sums of 4000 float32 numbers differ from the whole by their rounding.

@@ -11,6 +11,8 @@
 #include "app/library/compare.h"
 #include "app/library/image_file.h"
 #include "data/shapes.h"
+#include "engine/device/host/host_device.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/splat.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/temp_folder.h"
@@ -41,9 +43,9 @@ struct Made {
   Image image;
   RenderStats stats;
 };
-Made made_on(const Context& context, const Scene& scene, const View& view, const Settings& settings,
+Made made_on(const Device& device, const Scene& scene, const View& view, const Settings& settings,
              const Environment& environment) {
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(scene);
   tracer.set_environment(environment);
   Made made{tracer.render(view, settings), {}};
@@ -52,8 +54,8 @@ Made made_on(const Context& context, const Scene& scene, const View& view, const
 }
 
 Image gpu_picture(const Scene& scene, const View& view, const Environment& environment) {
-  static Context context;
-  return made_on(context, scene, view, small_settings(), environment).image;
+  static VulkanDevice device;
+  return made_on(device, scene, view, small_settings(), environment).image;
 }
 
 /// Takes the truth for those pixels of `pictures.gpu` whose truth moves by more than half of `threshold` (display
@@ -173,7 +175,8 @@ TEST(Picture, TheHostMakesThatOfTheDevice) {
   Scene scene = ball_on_mirror();
   const View view{default_camera(scene, 4.0 / 3.0), 96, 72};
   scene.lights = default_lights(scene, view.camera);
-  const Context device, host(HOST_DEVICE);
+  const VulkanDevice device;
+  const HostDevice host;
   for (const std::uint32_t look : {LOOK_PAPER, LOOK_LIT, LOOK_AO, LOOK_SCAN}) {
     Settings settings = small_settings();
     settings.look = look;
@@ -230,8 +233,8 @@ TEST(Picture, WhiteFurnaceReturnsAllEnergy) {
   glass.specular = 0.0F;
   for (const Material& material : {mirror, glass}) {
     const Scene scene = scene_of({{sphere({.count = 20000}, 1.0), material}});
-    static Context context;
-    ShownTracer tracer(context);
+    static VulkanDevice device;
+    ShownTracer tracer(device);
     tracer.upload(scene);
     tracer.set_environment({0, 0, {}, glm::vec3(1.0F)});
     Settings settings;

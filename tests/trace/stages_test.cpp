@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "data/shapes.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/trace/different_bits.h"
 #include "tests/trace/scenes.h"
@@ -26,7 +27,7 @@ class Stages : public ::testing::Test {
     scene.lights = default_lights(scene, camera);
     tracer.upload(scene);
     tracer.set_environment(studio_environment());
-    skipped = !device_profile(context).stages;
+    skipped = !device.profile().stages;
   }
 
   void SetUp() override {
@@ -51,8 +52,8 @@ class Stages : public ::testing::Test {
     EXPECT_EQ(in_stages.counters, at_once.counters);
   }
 
-  Context context;
-  ShownTracer tracer{context};
+  VulkanDevice device;
+  ShownTracer tracer{device};
   Camera camera;
   bool skipped = false;
 };

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/scene/clip.h"
+#include "engine/scene/copies.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/texture_factors.h"
 #include "engine/scene/tree.h"
@@ -17,9 +18,11 @@ namespace {
 
 /// What bindings.glsl declares. One set a thread, so that tests may run several twins.
 thread_local const Scene* bound = nullptr;
-thread_local std::vector<std::uint32_t> top;
-thread_local std::vector<std::uint32_t> textures;
 thread_local Features features;
+struct MadePools {
+  std::vector<std::uint32_t> texture_pool, top_table;
+};
+thread_local MadePools made;
 
 namespace glsl {
 
@@ -30,31 +33,25 @@ namespace glsl {
 #define SIDE features[SPEC_SIDE]
 #define FACES features[SPEC_FACES]
 #define TOP_LEVELS features[SPEC_TOP_LEVELS]
-#define GLASS ((features[SPEC_FEATURES] & FEATURE_GLASS) != 0)
-#define COLORS ((features[SPEC_FEATURES] & FEATURE_COLORS) != 0)
-#define COUNTERS ((features[SPEC_FEATURES] & FEATURE_COUNTERS) != 0)
-#define FIELDS ((features[SPEC_FEATURES] & FEATURE_FIELDS) != 0)
-#define CLIPS (!bound->clip_pool.empty())
+/// Whether the twin has a feature.
+template <uint BIT>
+struct Feature {
+  operator bool() const { return (features[SPEC_FEATURES] & BIT) != 0U; }  // NOLINT: as a bool of GLSL
+};
+#define SPLATRAY_FEATURE(NAME, BIT) constexpr Feature<BIT> NAME;
+#include "shaders/scene/features.glsl"
 #define WATCHES false
-#define OPACITY ((features[SPEC_FEATURES] & FEATURE_OPACITY) != 0)
-#define TEXTURE_LAYER ((features[SPEC_FEATURES] & FEATURE_TEXTURE_LAYER) != 0)
-#define TEXTURE_GLOW ((features[SPEC_FEATURES] & FEATURE_TEXTURE_GLOW) != 0)
-#define TEXTURE_COLOR ((features[SPEC_FEATURES] & FEATURE_TEXTURE_COLOR) != 0)
-#define TEXTURE_NORMAL ((features[SPEC_FEATURES] & FEATURE_TEXTURE_NORMAL) != 0)
-#define ELLIPSES ((features[SPEC_FEATURES] & FEATURE_ELLIPSES) != 0)
 
-uint top_entry(uint index) { return top.at(index); }
-uint texture_word(uint index) { return textures.at(index); }
-uint node_word(uint index) { return bound->node_pool.at(index); }
-uint begin_end_at(uint index) { return bound->begin_end.at(index); }
-uint slab_word(uint index) { return bound->slab_pool.at(index); }
-uint splat_at(uint place) { return bound->reference_pool.at(place); }
-uvec4 splat_words(uint splat) { return bound->data_pool.at(splat); }
+#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
+  Value reader(uint index) { return bound->pool.at(index); }
+#define SPLATRAY_MADE_POOL(place, NAME, pool, Value, reader, ABOUT) \
+  Value reader(uint index) { return made.pool.at(index); }
+#include "shaders/pools.glsl"
+
+uint splat_at(uint place) { return reference_word(place); }
 Material material_at(uint object) { return bound->materials.at(object); }
-vec3 color_at(uint splat) { return unpack_color(bound->color_pool.at(splat)); }
-uint field_word(uint splat) { return bound->field_pool.at(splat); }
+vec3 color_at(uint splat) { return unpack_color(color_word(splat)); }
 vec3 cut_eye() { return vec3(0.0F); }
-uint clip_word(uint splat) { return bound->clip_pool.at(splat); }
 
 #include "shaders/stage/query.glsl"
 
@@ -81,10 +78,9 @@ Features twin_features(const Scene& scene, const Settings& settings) {
   chosen[SPEC_SIDE] = settings.side;
   chosen[SPEC_FACES] = faces_of(scene);
   const bool bends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
-  chosen[SPEC_FEATURES] = FEATURE_GLASS | FEATURE_COUNTERS | (scene.color_pool.empty() ? 0 : FEATURE_COLORS) |
-                          (bends && !scene.field_pool.empty() ? FEATURE_FIELDS : 0) |
-                          (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0) |
-                          texture_features(scene.columns);
+  chosen[SPEC_FEATURES] =
+      FEATURE_GLASS | FEATURE_COUNTERS | (pool_counts(scene).pools & (bends ? ~0U : ~FEATURE_FIELDS)) |
+      (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0) | texture_features(scene.columns);
   chosen[SPEC_TOP_LEVELS] = 5;
   return chosen;
 }
@@ -93,10 +89,10 @@ std::vector<RayHit> twin_intersect(const Scene& scene, std::span<const RayQuery>
                                    const Settings& settings) {
   bound = &scene;
   features = twin_features(scene, settings);
-  top = top_table(scene, features[SPEC_TOP_LEVELS]);
+  made.top_table = top_table(scene, features[SPEC_TOP_LEVELS]);
   std::vector<std::uint32_t> splats(scene.data_pool.size());
   std::iota(splats.begin(), splats.end(), 0U);
-  textures = texture_words(scene.columns, splats);
+  made.texture_pool = texture_words(scene.columns, splats);
   std::vector<RayHit> hits;
   hits.reserve(rays.size());
   glsl::Tally tally{};

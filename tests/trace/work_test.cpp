@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "data/shapes.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/trace/scenes.h"
 
@@ -23,8 +24,8 @@ Work work_of(Scene scene) {
   settings.counters = true;
   const View view{default_camera(scene, 1.0), 256, 256};
   if (scene.lights.empty()) scene.lights = default_lights(scene, view.camera);
-  const Context context;
-  ShownTracer tracer(context);
+  const VulkanDevice device;
+  ShownTracer tracer(device);
   tracer.upload(scene);
   static_cast<void>(tracer.render(view, settings));
   const auto& count = tracer.stats().counters;

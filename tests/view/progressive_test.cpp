@@ -33,7 +33,7 @@ class ProgressiveTest : public DeviceTest {
 
   /// The picture that the headless program makes of the document.
   Image headless() {
-    ShownTracer tracer(context);
+    ShownTracer tracer(device);
     Scene shown = *scene;
     shown.materials = document.looks.materials;
     shown.surfaces = document.looks.surfaces;
@@ -58,7 +58,7 @@ class ProgressiveTest : public DeviceTest {
 
   SharedScene scene = shared_discs();
   Document document = disc_document(*scene);
-  LiveScene live{context};
+  LiveScene live{device};
   Progressive progressive{live, "device"};
   std::vector<vec4> first;  ///< pixels of the document before a change
 };

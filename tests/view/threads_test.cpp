@@ -7,6 +7,7 @@
 #include "app/library/image_file.h"
 #include "app/view/thread/load_thread.h"
 #include "app/view/thread/render_thread.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/cli/child_process.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/view/live_documents.h"
@@ -92,8 +93,8 @@ TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
   request.settings.samples = 5;
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return !news.notice.empty(); });
-  Context context;
-  ShownTracer tracer(context);
+  VulkanDevice device;
+  ShownTracer tracer(device);
   tracer.upload(*scene);
   tracer.set_environment({0, 0, {}, vec3(1.0F)});
   document.settings.samples = 5;

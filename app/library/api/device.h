@@ -9,14 +9,14 @@
 
 #include "app/library/api/guard.h"
 #include "app/library/picture/scene_on_device.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 
 namespace splatray::api {
 
 /// A device and its turn-taking: its queue and command pool take one thread at a time.
 class SharedDevice {
  public:
-  explicit SharedDevice(const std::string& wanted) : context(wanted) {}
+  explicit SharedDevice(const std::string& wanted) : device(open_device(wanted)) {}
 
   /// Whether it was opened before this process was forked off: its threads and locks are another's, so that it can neither be
   /// used nor closed here.
@@ -24,7 +24,7 @@ class SharedDevice {
   /// Ends a scene's place in this turn or, where another thread has it, at that one's end: no one waits.
   void drop(std::unique_ptr<SceneOnDevice> scene);
 
-  Context context;
+  const std::unique_ptr<splatray::Device> device;
 
  private:
   friend class Turn;
@@ -50,7 +50,7 @@ class Turn {
   SharedDevice& device_;
 };
 
-/// The device for `wanted` (Context::Context), one for all scenes of this process that live. Throws splatray::Error (no_device).
+/// The device for `wanted` (open_device), one for all scenes of this process that live. Throws splatray::Error (no_device).
 [[nodiscard]] std::shared_ptr<SharedDevice> shared_device(const std::string& wanted);
 
 /// Keeps what a forked process has of its parent's devices, for as long as it runs.

@@ -39,7 +39,7 @@ Scene::Impl::InUse::InUse(const Impl& scene, Place& place) : place_(place) {
            "other scenes there, or this one afterwards");
   if (!place.scene) {
     auto shown = std::make_unique<SceneOnDevice>(
-        place.device->context, TracerOptions{.pipeline_folder = scene.loaded.request.settings.cache,
+        *place.device->device, TracerOptions{.pipeline_folder = scene.loaded.request.settings.cache,
                                              .threads = scene.loaded.request.source.threads});
     shown->open(scene.loaded.scene);
     place.scene = std::move(shown);
@@ -47,7 +47,7 @@ Scene::Impl::InUse::InUse(const Impl& scene, Place& place) : place_(place) {
   place.in_use = true;
 }
 
-std::string Scene::Impl::device_name() { return open_device()->device->context.device_info().name; }
+std::string Scene::Impl::device_name() { return open_device()->device->device->info().name; }
 
 std::size_t Scene::splats() const { return SceneAccess::impl(*this)->loaded.scene.data_pool.size(); }
 

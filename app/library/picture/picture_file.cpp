@@ -69,7 +69,7 @@ std::optional<DisplayImage> read_reference(const Request& request) {
 }
 
 Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
-                          const Context& context) {
+                          const Device& device) {
   const Camera& camera = view.camera;
   const bool ortho = camera.ortho_height > 0.0;
   return {{"command_line", command_line(still_request(request, camera))},
@@ -78,7 +78,7 @@ Metadata picture_metadata(const Request& request, const Scene& scene, const View
           {"up", number_text(camera.up)},
           {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
           {"diagonal_world", number_text(scene.diagonal_world())},
-          {"device", context.device_info().name + ", " + context.device_info().driver},
+          {"device", device.info().name + ", " + device.info().driver},
           {"samples", std::to_string(request.settings.samples)},
           {"seed", std::to_string(request.settings.seed)},
           {"commit", COMMIT}};

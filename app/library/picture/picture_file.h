@@ -5,7 +5,7 @@
 #include "app/library/image_file.h"
 #include "app/library/request/request.h"
 #include "engine/base/stopwatch.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 
 namespace splatray {
 
@@ -29,7 +29,7 @@ void require_outputs_writable(const Request& request);
 /// The command line that makes this picture (still_request), camera, scene's diagonal, device, samples, seed and commit,
 /// for the picture's file.
 [[nodiscard]] Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
-                                        const Context& context);
+                                        const Device& device);
 
 /// Writes the picture in the format of its name. Throws Error (failed).
 void write_output(const Request& request, const Image& image, const Metadata& metadata,

@@ -24,7 +24,7 @@ struct Run {
 
 Metadata metadata_of(const Run& run, const Request& request, const Camera& camera) {
   const View view{camera, request.view.width, request.view.height, request.view.window()};
-  return picture_metadata(request, run.shown.scene(), view, run.shown.context());
+  return picture_metadata(request, run.shown.scene(), view, run.shown.device());
 }
 
 /// How far a picture of --error or --time came.

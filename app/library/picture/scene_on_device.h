@@ -10,9 +10,9 @@ namespace splatray {
 /// For one thread at a time.
 class SceneOnDevice {
  public:
-  /// The context must outlive it.
-  explicit SceneOnDevice(const Context& context, const TracerOptions& options = {})
-      : context_(context), tracer_(context, options) {}
+  /// The device must outlive it.
+  explicit SceneOnDevice(const Device& device, const TracerOptions& options = {})
+      : device_(device), tracer_(device, options) {}
 
   /// Uploads a scene, which must outlive its stay here, and shows it in its own look. Throws Error.
   void open(const Scene& scene);
@@ -34,12 +34,12 @@ class SceneOnDevice {
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Look& look() const { return look_; }
   [[nodiscard]] Tracer& tracer() { return tracer_; }
-  [[nodiscard]] const Context& context() const { return context_; }
+  [[nodiscard]] const Device& device() const { return device_; }
 
  private:
   void take_look(const Scene& scene);
 
-  const Context& context_;
+  const Device& device_;
   Tracer tracer_;
   const Scene* scene_ = nullptr;
   Look look_;

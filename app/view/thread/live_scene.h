@@ -12,10 +12,10 @@ namespace splatray {
 /// A scene that threads share.
 using SharedScene = std::shared_ptr<const Scene>;
 
-/// On the render thread. The context must outlive it.
+/// On the render thread. The device must outlive it.
 class LiveScene {
  public:
-  explicit LiveScene(const Context& context) : shown_(context, {.pipeline_folder = user_cache_folder()}) {}
+  explicit LiveScene(const Device& device) : shown_(device, {.pipeline_folder = user_cache_folder()}) {}
 
   /// Uploads another scene. Throws Error.
   void open(SharedScene scene);

@@ -10,7 +10,7 @@
 namespace splatray {
 
 RenderThread::RenderThread(const std::string& wanted, std::function<void()> wake)
-    : context_(wanted), wake_(std::move(wake)), thread_([this] { run(); }) {}
+    : device_(open_device(wanted)), wake_(std::move(wake)), thread_([this] { run(); }) {}
 
 RenderThread::~RenderThread() {
   {

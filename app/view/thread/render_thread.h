@@ -10,7 +10,7 @@
 #include "app/view/thread/live_scene.h"
 #include "app/view/thread/progressive.h"
 #include "app/view/thread/save.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 
 namespace splatray {
 
@@ -40,7 +40,7 @@ struct RenderNews {
 /// All members are for one thread, the window's, and return at once.
 class RenderThread {
  public:
-  /// Opens the Vulkan device `wanted` (as Context does; throws Error) and starts. `wake` is called on its thread after
+  /// Opens the device `wanted` (as open_device does; throws Error) and starts. `wake` is called on its thread after
   /// each delivery.
   RenderThread(const std::string& wanted, std::function<void()> wake);
   ~RenderThread();
@@ -58,7 +58,7 @@ class RenderThread {
 
   /// What is new; `saving` as it is now.
   [[nodiscard]] RenderNews take_news();
-  [[nodiscard]] std::uint32_t validation_messages() const { return context_.validation_messages(); }
+  [[nodiscard]] std::uint32_t validation_messages() const { return device_->validation_messages(); }
 
  private:
   /// What the window asked for and the thread has not yet taken.
@@ -82,9 +82,9 @@ class RenderThread {
   void deliver(const std::function<void(RenderNews&)>& change);
   [[nodiscard]] bool something_waits();
 
-  Context context_;
-  LiveScene live_{context_};
-  Progressive progressive_{live_, context_.device_info().name};
+  std::unique_ptr<Device> device_;
+  LiveScene live_{*device_};
+  Progressive progressive_{live_, device_->info().name};
   Document shown_;  ///< by the thread
   std::function<void()> wake_;
 

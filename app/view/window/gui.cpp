@@ -15,7 +15,7 @@ constexpr std::uint32_t FRAMES = 2;
 void check_imgui(VkResult result) { check(result, "drawing the window's controls"); }
 
 /// Room for the one texture of the back end, its font.
-Handle<VkDescriptorPool, vkDestroyDescriptorPool> make_descriptors(const Context& context) {
+Handle<VkDescriptorPool, vkDestroyDescriptorPool> make_descriptors(const VulkanDevice& vulkan) {
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
@@ -24,14 +24,14 @@ Handle<VkDescriptorPool, vkDestroyDescriptorPool> make_descriptors(const Context
   info.poolSizeCount = 1;
   info.pPoolSizes = &size;
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(context.device, &info, nullptr, &pool), "making the controls' descriptors");
-  return {context.device, pool};
+  check(vkCreateDescriptorPool(vulkan.device, &info, nullptr, &pool), "making the controls' descriptors");
+  return {vulkan.device, pool};
 }
 
 }  // namespace
 
-Gui::Gui(Window& window, const Context& context, CommandQueue& queue, VkRenderPass pass)
-    : window_(window), context_(context), queue_(queue), pass_(pass), scale_(window.content_scale()) {
+Gui::Gui(Window& window, const VulkanDevice& vulkan, CommandQueue& queue, VkRenderPass pass)
+    : window_(window), vulkan_(vulkan), queue_(queue), pass_(pass), scale_(window.content_scale()) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui_ImplGlfw_InitForVulkan(window.get(), true);
@@ -46,13 +46,13 @@ Gui::~Gui() {
 
 void Gui::start_renderer() {
   set_style(scale_);
-  descriptors_ = make_descriptors(context_);
+  descriptors_ = make_descriptors(vulkan_);
   ImGui_ImplVulkan_InitInfo info{};
-  info.Instance = context_.instance;
-  info.PhysicalDevice = context_.physical_device;
-  info.Device = context_.device;
-  info.QueueFamily = context_.queue_family;
-  info.Queue = context_.queue;
+  info.Instance = vulkan_.instance;
+  info.PhysicalDevice = vulkan_.physical_device;
+  info.Device = vulkan_.device;
+  info.QueueFamily = vulkan_.queue_family;
+  info.Queue = vulkan_.queue;
   info.DescriptorPool = descriptors_.get();
   info.MinImageCount = FRAMES;
   info.ImageCount = FRAMES;
@@ -66,7 +66,7 @@ void Gui::start_renderer() {
 void Gui::begin() {
   if (const float scale = window_.content_scale(); scale != scale_) {
     scale_ = scale;
-    check(vkDeviceWaitIdle(context_.device), "waiting for the window");
+    check(vkDeviceWaitIdle(vulkan_.device), "waiting for the window");
     ImGui_ImplVulkan_Shutdown();
     start_renderer();
   }

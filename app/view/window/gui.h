@@ -1,18 +1,18 @@
 /// Dear ImGui in the viewer's window: its GLFW and Vulkan back ends.
 #pragma once
 #include "app/view/window/window.h"
-#include "engine/vulkan/command_queue.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 struct ImDrawData;
 
 namespace splatray {
 
-/// One at a time, on the window's thread. Window, context, queue and pass must outlive it.
+/// One at a time, on the window's thread. Window, device, queue and pass must outlive it.
 class Gui {
  public:
   /// Draws in `pass`.
-  Gui(Window& window, const Context& context, CommandQueue& queue, VkRenderPass pass);
+  Gui(Window& window, const VulkanDevice& vulkan, CommandQueue& queue, VkRenderPass pass);
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
@@ -32,7 +32,7 @@ class Gui {
   void start_renderer();
 
   Window& window_;
-  const Context& context_;
+  const VulkanDevice& vulkan_;
   CommandQueue& queue_;
   VkRenderPass pass_;
   Handle<VkDescriptorPool, vkDestroyDescriptorPool> descriptors_;

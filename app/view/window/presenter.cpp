@@ -9,27 +9,27 @@ namespace {
 
 constexpr VkImageSubresourceLayers COLOR_LAYER{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
 
-Handle<VkFence, vkDestroyFence> make_signalled_fence(const Context& context) {
+Handle<VkFence, vkDestroyFence> make_signalled_fence(const VulkanDevice& vulkan) {
   VkFenceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
   info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
   VkFence fence = VK_NULL_HANDLE;
-  check(vkCreateFence(context.device, &info, nullptr, &fence), "making the window's fence");
-  return {context.device, fence};
+  check(vkCreateFence(vulkan.device, &info, nullptr, &fence), "making the window's fence");
+  return {vulkan.device, fence};
 }
 
-VkCommandBuffer make_commands(const Context& context) {
+VkCommandBuffer make_commands(const VulkanDevice& vulkan) {
   VkCommandBufferAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  info.commandPool = context.command_pool;
+  info.commandPool = vulkan.command_pool;
   info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   info.commandBufferCount = 1;
   VkCommandBuffer commands = VK_NULL_HANDLE;
-  check(vkAllocateCommandBuffers(context.device, &info, &commands), "making the window's command buffer");
+  check(vkAllocateCommandBuffers(vulkan.device, &info, &commands), "making the window's command buffer");
   return commands;
 }
 
-Handle<VkImage, vkDestroyImage> make_image(const Context& context, VkExtent2D size) {
+Handle<VkImage, vkDestroyImage> make_image(const VulkanDevice& vulkan, VkExtent2D size) {
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
@@ -41,8 +41,8 @@ Handle<VkImage, vkDestroyImage> make_image(const Context& context, VkExtent2D si
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
   info.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   VkImage image = VK_NULL_HANDLE;
-  check(vkCreateImage(context.device, &info, nullptr, &image), "making the shown picture");
-  return {context.device, image};
+  check(vkCreateImage(vulkan.device, &info, nullptr, &image), "making the shown picture");
+  return {vulkan.device, image};
 }
 
 /// Orders clears and copies of the same image.
@@ -56,31 +56,30 @@ VkOffset3D corner(VkExtent2D size) {
 
 }  // namespace
 
-Presenter::Presenter(Window& window)
-    : window_(window), context_("", false, window.needs()), queue_(context_) {
-  surface_.emplace(context_.instance, window.make_surface(context_.instance));
-  format_ = choose_surface_format(context_, surface_->get());
-  pass_ = make_overlay_pass(context_, format_.format);
-  acquired_ = make_semaphore(context_);
-  drawn_ = make_signalled_fence(context_);
-  commands_ = make_commands(context_);
-  gui_.emplace(window, context_, queue_, pass_.get());
+Presenter::Presenter(Window& window) : window_(window), vulkan_("", false, window.needs()), queue_(vulkan_) {
+  surface_.emplace(vulkan_.instance, window.make_surface(vulkan_.instance));
+  format_ = choose_surface_format(vulkan_, surface_->get());
+  pass_ = make_overlay_pass(vulkan_, format_.format);
+  acquired_ = make_semaphore(vulkan_);
+  drawn_ = make_signalled_fence(vulkan_);
+  commands_ = make_commands(vulkan_);
+  gui_.emplace(window, vulkan_, queue_, pass_.get());
 }
 
-Presenter::~Presenter() { vkDeviceWaitIdle(context_.device); }
+Presenter::~Presenter() { vkDeviceWaitIdle(vulkan_.device); }
 
 void Presenter::set_picture(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height) {
   wait_until_drawn();
   if (width != size_.width || height != size_.height) {
     size_ = {width, height};
-    picture_ = make_image(context_, size_);
+    picture_ = make_image(vulkan_, size_);
     VkMemoryRequirements needs{};
-    vkGetImageMemoryRequirements(context_.device, picture_.get(), &needs);
-    memory_ = allocate_memory(context_, needs, Residence::device);
-    check(vkBindImageMemory(context_.device, picture_.get(), memory_.handle.get(), 0),
+    vkGetImageMemoryRequirements(vulkan_.device, picture_.get(), &needs);
+    memory_ = allocate_memory(vulkan_, needs, Residence::device);
+    check(vkBindImageMemory(vulkan_.device, picture_.get(), memory_.handle.get(), 0),
           "binding the shown picture's memory");
     if (pixels_.size() < rgba.size())
-      pixels_ = Buffer(context_, rgba.size(), 0, VK_FORMAT_UNDEFINED, Residence::host);
+      pixels_ = VulkanBuffer(vulkan_, rgba.size(), 0, VK_FORMAT_UNDEFINED, Residence::host);
   }
   std::memcpy(pixels_.mapped(), rgba.data(), rgba.size());
   copied_ = false;
@@ -104,12 +103,12 @@ std::optional<std::uint32_t> Presenter::acquire() {
     if (swapchain_.pictures.empty()) return {};
   }
   std::uint32_t index = 0;
-  const VkResult result = vkAcquireNextImageKHR(context_.device, swapchain_.handle.get(), UINT64_MAX,
+  const VkResult result = vkAcquireNextImageKHR(vulkan_.device, swapchain_.handle.get(), UINT64_MAX,
                                                 acquired_.get(), VK_NULL_HANDLE, &index);
   if (result == VK_ERROR_SURFACE_LOST_KHR) {
     swapchain_ = {};
     surface_.reset();
-    surface_.emplace(context_.instance, window_.make_surface(context_.instance));
+    surface_.emplace(vulkan_.instance, window_.make_surface(vulkan_.instance));
   }
   if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_ERROR_SURFACE_LOST_KHR) {
     renew_swapchain();
@@ -176,8 +175,8 @@ void Presenter::submit_and_present(std::uint32_t index) {
   submit.signalSemaphoreCount = 1;
   submit.pSignalSemaphores = &drawn;
   const VkFence fence = drawn_.get();
-  check(vkResetFences(context_.device, 1, &fence), "resetting the window's fence");
-  check(vkQueueSubmit(context_.queue, 1, &submit, fence), "drawing the window");
+  check(vkResetFences(vulkan_.device, 1, &fence), "resetting the window's fence");
+  check(vkQueueSubmit(vulkan_.queue, 1, &submit, fence), "drawing the window");
 
   const VkSwapchainKHR swapchain = swapchain_.handle.get();
   VkPresentInfoKHR present{};
@@ -187,7 +186,7 @@ void Presenter::submit_and_present(std::uint32_t index) {
   present.swapchainCount = 1;
   present.pSwapchains = &swapchain;
   present.pImageIndices = &index;
-  const VkResult result = vkQueuePresentKHR(context_.queue, &present);
+  const VkResult result = vkQueuePresentKHR(vulkan_.queue, &present);
   if (result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR ||
       result == VK_ERROR_SURFACE_LOST_KHR) {
     swapchain_size_ = {};  // renewed by the next draw
@@ -197,15 +196,15 @@ void Presenter::submit_and_present(std::uint32_t index) {
 }
 
 void Presenter::renew_swapchain() {
-  check(vkDeviceWaitIdle(context_.device), "waiting for the window");
+  check(vkDeviceWaitIdle(vulkan_.device), "waiting for the window");
   swapchain_size_ = window_.framebuffer_size();
   swapchain_ =
-      Swapchain(context_, surface_->get(), format_, pass_.get(), swapchain_size_, swapchain_.handle.get());
+      Swapchain(vulkan_, surface_->get(), format_, pass_.get(), swapchain_size_, swapchain_.handle.get());
 }
 
 void Presenter::wait_until_drawn() {
   const VkFence fence = drawn_.get();
-  check(vkWaitForFences(context_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the window");
+  check(vkWaitForFences(vulkan_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the window");
 }
 
 }  // namespace splatray

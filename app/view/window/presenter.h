@@ -6,14 +6,14 @@
 #include "app/view/window/gui.h"
 #include "app/view/window/swapchain.h"
 #include "app/view/window/window.h"
-#include "engine/vulkan/buffer.h"
-#include "engine/vulkan/command_queue.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/buffer.h"
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 
 /// On the window's thread, with a Vulkan device of its own; the window must outlive it. Vulkan's messages are as in
-/// Context.
+/// VulkanDevice.
 class Presenter {
  public:
   /// Throws Error (no_device) when no device can show pictures in the window.
@@ -30,7 +30,7 @@ class Presenter {
 
   [[nodiscard]] Gui& gui() { return *gui_; }
   [[nodiscard]] const Gui& gui() const { return *gui_; }
-  [[nodiscard]] std::uint32_t validation_messages() const { return context_.validation_messages(); }
+  [[nodiscard]] std::uint32_t validation_messages() const { return vulkan_.validation_messages(); }
 
  private:
   [[nodiscard]] std::optional<std::uint32_t> acquire();
@@ -41,7 +41,7 @@ class Presenter {
   void wait_until_drawn();
 
   Window& window_;
-  Context context_;
+  VulkanDevice vulkan_;
   CommandQueue queue_;
   std::optional<WindowSurface> surface_;
   VkSurfaceFormatKHR format_{};
@@ -53,7 +53,7 @@ class Presenter {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   std::optional<Gui> gui_;
 
-  Buffer pixels_;  ///< of the picture, on their way to it
+  VulkanBuffer pixels_;  ///< of the picture, on their way to it
   Memory memory_;
   Handle<VkImage, vkDestroyImage> picture_;
   VkExtent2D size_{};    ///< of the picture

@@ -25,7 +25,8 @@ VkCompositeAlphaFlagBitsKHR choose_alpha(const VkSurfaceCapabilitiesKHR& surface
              : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
 }
 
-Handle<VkImageView, vkDestroyImageView> make_view(const Context& context, VkImage image, VkFormat format) {
+Handle<VkImageView, vkDestroyImageView> make_view(const VulkanDevice& vulkan, VkImage image,
+                                                  VkFormat format) {
   VkImageViewCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
   info.image = image;
@@ -33,18 +34,18 @@ Handle<VkImageView, vkDestroyImageView> make_view(const Context& context, VkImag
   info.format = format;
   info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
   VkImageView view = VK_NULL_HANDLE;
-  check(vkCreateImageView(context.device, &info, nullptr, &view), "making a view of the window's picture");
-  return {context.device, view};
+  check(vkCreateImageView(vulkan.device, &info, nullptr, &view), "making a view of the window's picture");
+  return {vulkan.device, view};
 }
 
 }  // namespace
 
-VkSurfaceFormatKHR choose_surface_format(const Context& context, VkSurfaceKHR surface) {
+VkSurfaceFormatKHR choose_surface_format(const VulkanDevice& vulkan, VkSurfaceKHR surface) {
   std::uint32_t count = 0;
-  check(vkGetPhysicalDeviceSurfaceFormatsKHR(context.physical_device, surface, &count, nullptr),
+  check(vkGetPhysicalDeviceSurfaceFormatsKHR(vulkan.physical_device, surface, &count, nullptr),
         "listing the window's formats");
   std::vector<VkSurfaceFormatKHR> formats(count);
-  check(vkGetPhysicalDeviceSurfaceFormatsKHR(context.physical_device, surface, &count, formats.data()),
+  check(vkGetPhysicalDeviceSurfaceFormatsKHR(vulkan.physical_device, surface, &count, formats.data()),
         "listing the window's formats");
   for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM})
     for (const VkSurfaceFormatKHR& format : formats)
@@ -54,7 +55,7 @@ VkSurfaceFormatKHR choose_surface_format(const Context& context, VkSurfaceKHR su
               "splatray-render writes pictures without one");
 }
 
-Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const Context& context, VkFormat format) {
+Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const VulkanDevice& vulkan, VkFormat format) {
   VkAttachmentDescription attachment{};
   attachment.format = format;
   attachment.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -84,14 +85,14 @@ Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const Context& conte
   info.dependencyCount = 1;
   info.pDependencies = &after_copy;
   VkRenderPass pass = VK_NULL_HANDLE;
-  check(vkCreateRenderPass(context.device, &info, nullptr, &pass), "making the window's render pass");
-  return {context.device, pass};
+  check(vkCreateRenderPass(vulkan.device, &info, nullptr, &pass), "making the window's render pass");
+  return {vulkan.device, pass};
 }
 
-Swapchain::Swapchain(const Context& context, VkSurfaceKHR surface, VkSurfaceFormatKHR format,
+Swapchain::Swapchain(const VulkanDevice& vulkan, VkSurfaceKHR surface, VkSurfaceFormatKHR format,
                      VkRenderPass pass, glm::uvec2 size, VkSwapchainKHR old) {
   VkSurfaceCapabilitiesKHR capabilities{};
-  check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context.physical_device, surface, &capabilities),
+  check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(vulkan.physical_device, surface, &capabilities),
         "asking what the window can show");
   extent = choose_extent(capabilities, size);
   if (extent.width == 0 || extent.height == 0) return;
@@ -111,20 +112,20 @@ Swapchain::Swapchain(const Context& context, VkSurfaceKHR surface, VkSurfaceForm
   info.clipped = VK_TRUE;
   info.oldSwapchain = old;
   VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-  check(vkCreateSwapchainKHR(context.device, &info, nullptr, &swapchain), "making the window's swapchain");
-  handle = {context.device, swapchain};
-  make_pictures(context, format.format, pass);
+  check(vkCreateSwapchainKHR(vulkan.device, &info, nullptr, &swapchain), "making the window's swapchain");
+  handle = {vulkan.device, swapchain};
+  make_pictures(vulkan, format.format, pass);
 }
 
-void Swapchain::make_pictures(const Context& context, VkFormat format, VkRenderPass pass) {
+void Swapchain::make_pictures(const VulkanDevice& vulkan, VkFormat format, VkRenderPass pass) {
   std::uint32_t count = 0;
-  check(vkGetSwapchainImagesKHR(context.device, handle.get(), &count, nullptr),
+  check(vkGetSwapchainImagesKHR(vulkan.device, handle.get(), &count, nullptr),
         "listing the window's pictures");
   std::vector<VkImage> images(count);
-  check(vkGetSwapchainImagesKHR(context.device, handle.get(), &count, images.data()),
+  check(vkGetSwapchainImagesKHR(vulkan.device, handle.get(), &count, images.data()),
         "listing the window's pictures");
   for (VkImage image : images) {
-    Picture picture{image, make_view(context, image, format), {}, make_semaphore(context)};
+    Picture picture{image, make_view(vulkan, image, format), {}, make_semaphore(vulkan)};
     const VkImageView view = picture.view.get();
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
@@ -135,19 +136,19 @@ void Swapchain::make_pictures(const Context& context, VkFormat format, VkRenderP
     info.height = extent.height;
     info.layers = 1;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    check(vkCreateFramebuffer(context.device, &info, nullptr, &framebuffer),
+    check(vkCreateFramebuffer(vulkan.device, &info, nullptr, &framebuffer),
           "making the window's framebuffer");
-    picture.framebuffer = {context.device, framebuffer};
+    picture.framebuffer = {vulkan.device, framebuffer};
     pictures.push_back(std::move(picture));
   }
 }
 
-Handle<VkSemaphore, vkDestroySemaphore> make_semaphore(const Context& context) {
+Handle<VkSemaphore, vkDestroySemaphore> make_semaphore(const VulkanDevice& vulkan) {
   VkSemaphoreCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
   VkSemaphore semaphore = VK_NULL_HANDLE;
-  check(vkCreateSemaphore(context.device, &info, nullptr, &semaphore), "making a semaphore");
-  return {context.device, semaphore};
+  check(vkCreateSemaphore(vulkan.device, &info, nullptr, &semaphore), "making a semaphore");
+  return {vulkan.device, semaphore};
 }
 
 }  // namespace splatray

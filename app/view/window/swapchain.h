@@ -3,8 +3,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "engine/vulkan/context.h"
-#include "engine/vulkan/handle.h"
+#include "engine/device/vulkan/handle.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 
@@ -25,10 +25,10 @@ class WindowSurface {
 
 /// A format of 8 bits a channel that stores display values as they are. Throws Error (no_device) when the surface has
 /// none.
-[[nodiscard]] VkSurfaceFormatKHR choose_surface_format(const Context& context, VkSurfaceKHR surface);
+[[nodiscard]] VkSurfaceFormatKHR choose_surface_format(const VulkanDevice& vulkan, VkSurfaceKHR surface);
 
 /// A pass that draws over what a swapchain's picture holds (in TRANSFER_DST_OPTIMAL) and leaves it ready to be shown.
-[[nodiscard]] Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const Context& context,
+[[nodiscard]] Handle<VkRenderPass, vkDestroyRenderPass> make_overlay_pass(const VulkanDevice& vulkan,
                                                                           VkFormat format);
 
 /// A swapchain of one size, in the order of FIFO, with a framebuffer for each of its pictures.
@@ -43,7 +43,7 @@ struct Swapchain {
   Swapchain() = default;
   /// `size` in pixels is taken where the surface has no size of its own. `old`, which may be null, gives up its
   /// pictures. An area of zero makes none: pictures is empty.
-  Swapchain(const Context& context, VkSurfaceKHR surface, VkSurfaceFormatKHR format, VkRenderPass pass,
+  Swapchain(const VulkanDevice& vulkan, VkSurfaceKHR surface, VkSurfaceFormatKHR format, VkRenderPass pass,
             glm::uvec2 size, VkSwapchainKHR old);
 
   Handle<VkSwapchainKHR, vkDestroySwapchainKHR> handle;
@@ -51,10 +51,10 @@ struct Swapchain {
   std::vector<Picture> pictures;
 
  private:
-  void make_pictures(const Context& context, VkFormat format, VkRenderPass pass);
+  void make_pictures(const VulkanDevice& vulkan, VkFormat format, VkRenderPass pass);
 };
 
 /// A binary semaphore.
-[[nodiscard]] Handle<VkSemaphore, vkDestroySemaphore> make_semaphore(const Context& context);
+[[nodiscard]] Handle<VkSemaphore, vkDestroySemaphore> make_semaphore(const VulkanDevice& vulkan);
 
 }  // namespace splatray

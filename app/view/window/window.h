@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 struct GLFWwindow;
 
@@ -54,7 +54,7 @@ class Window {
   [[nodiscard]] std::string clipboard() const;  ///< empty when it holds no text
   void set_clipboard(const std::string& text);
 
-  /// What a Context that presents in this window needs.
+  /// What a VulkanDevice that presents in this window needs.
   [[nodiscard]] WindowNeeds needs() const;
   /// A surface for vkDestroySurfaceKHR. Throws Error (failed).
   [[nodiscard]] VkSurfaceKHR make_surface(VkInstance instance) const;

@@ -90,8 +90,8 @@ void blend_lanes(WideMeetings& meetings, std::uint32_t from, const WideWindow& w
   Vectors normal = turned_where(cosine > of(0.0F), plane_normal);
   const Lanes inverse_depth = of(window.inverse_depth);
   Lanes share = behind * inverse_depth;
-  const auto there = hn::RebindMask(
-      TAG, hn::Iota(INT_TAG, static_cast<std::int32_t>(from)) < hn::Set(INT_TAG, static_cast<std::int32_t>(meetings.count)));
+  const auto there = hn::RebindMask(TAG, hn::Iota(INT_TAG, static_cast<std::int32_t>(from)) <
+                                             hn::Set(INT_TAG, static_cast<std::int32_t>(meetings.count)));
   const auto of_object =
       hn::RebindMask(TAG, masked(radius_object, OBJECT_MASK) == hn::Set(WORD_TAG, window.object));
   const auto like = dot(normal, vectors_of(window.normal)) > of(0.5F);
@@ -119,7 +119,8 @@ void blend_lanes(WideMeetings& meetings, std::uint32_t from, const WideWindow& w
 
 WideSums blend(WideMeetings& meetings, const WideWindow& window) {
   WideSums sums;
-  for (std::uint32_t from = 0; from < meetings.count; from += LANES) blend_lanes(meetings, from, window, sums);
+  for (std::uint32_t from = 0; from < meetings.count; from += LANES)
+    blend_lanes(meetings, from, window, sums);
   return sums;
 }
 

@@ -87,7 +87,8 @@ Vectors decode_normal(Words word) {
 }
 
 Lanes decode_radius_squared(Words word) {
-  return hn::BitCast(TAG, hn::Or(hn::ShiftRight<2>(masked(word, 0xFFFF0000U)), hn::Set(WORD_TAG, 0x40000000U)));
+  return hn::BitCast(TAG,
+                     hn::Or(hn::ShiftRight<2>(masked(word, 0xFFFF0000U)), hn::Set(WORD_TAG, 0x40000000U)));
 }
 
 void decode(const WideLeaf& leaf, Decoded& splats) {
@@ -113,7 +114,8 @@ std::uint32_t maybe_hits(const Decoded& leaf, const WideWalk& walk) {
     const Lanes x = load(leaf.center[0], from) - hn::Set(TAG, walk.origin[0]);
     const Lanes y = load(leaf.center[1], from) - hn::Set(TAG, walk.origin[1]);
     const Lanes z = load(leaf.center[2], from) - hn::Set(TAG, walk.origin[2]);
-    const Lanes nx = load(leaf.normal[0], from), ny = load(leaf.normal[1], from), nz = load(leaf.normal[2], from);
+    const Lanes nx = load(leaf.normal[0], from), ny = load(leaf.normal[1], from),
+                nz = load(leaf.normal[2], from);
     const Lanes facing = hn::MulAdd(nx, dx, hn::MulAdd(ny, dy, nz * dz));
     const Lanes inverse = hn::Set(TAG, 1.0F) / facing;
     const Lanes t = hn::MulAdd(nx, x, hn::MulAdd(ny, y, nz * z)) * inverse;
@@ -156,8 +158,7 @@ std::uint32_t meet_splats(const Decoded& leaf, std::uint32_t maybe, WideWalk& wa
     hn::Store(rho_squared, DOUBLE_TAG, walk.rho_squared.data() + from);
     const auto on_disc =
         rho_squared <= load_double(leaf.radius_squared, from) * hn::Set(DOUBLE_TAG, RHO_SLACK);
-    const auto in_range =
-        hn::And(t > hn::Set(DOUBLE_TAG, walk.t_min), t < hn::Set(DOUBLE_TAG, walk.t_max));
+    const auto in_range = hn::And(t > hn::Set(DOUBLE_TAG, walk.t_min), t < hn::Set(DOUBLE_TAG, walk.t_max));
     met |= bits_of(DOUBLE_TAG, hn::And(on_disc, in_range)) << from;
   }
   return met & maybe;

@@ -135,7 +135,8 @@ WideTree::WideTree(std::span<const uvec4> splats, unsigned threads, std::vector<
     nodes_.resize(level + count);
     std::vector<Box> of_level(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto children = std::span(boxes).subspan(i * WIDE, std::min<std::size_t>(WIDE, boxes.size() - i * WIDE));
+      const auto children =
+          std::span(boxes).subspan(i * WIDE, std::min<std::size_t>(WIDE, boxes.size() - i * WIDE));
       of_level[i] = fill(nodes_[level + i], children);
     }
     boxes = std::move(of_level);

@@ -31,8 +31,9 @@ struct alignas(64) WideLeaf {
 struct WideView {
   const WideNode* nodes = nullptr;
   const WideLeaf* leaves = nullptr;  ///< leaf n has splats WIDE n to WIDE n + WIDE - 1
-  std::array<std::uint32_t, WIDE_LEVELS + 1> level_begin{};  ///< level n's first node; of the level of leaves, 0, none
-  std::uint32_t levels = 0;     ///< of nodes; 0 = no splats
+  std::array<std::uint32_t, WIDE_LEVELS + 1>
+      level_begin{};         ///< level n's first node; of the level of leaves, 0, none
+  std::uint32_t levels = 0;  ///< of nodes; 0 = no splats
   std::uint32_t last_leaf = 0;
   std::uint32_t last_mask = 0;  ///< its splats, a bit each
 };
@@ -46,19 +47,19 @@ struct WideBox {
 
 /// Where a ray is, and what it meets there.
 struct alignas(64) WideWalk {
-  std::array<float, 3> origin;   ///< root space
+  std::array<float, 3> origin;      ///< root space
   std::array<float, 3> origin_low;  ///< its exact origin is origin + origin_low
   std::array<float, 3> dir;
   std::array<float, 3> inverse;  ///< 1 / dir, finite
   std::array<float, 3> begin;    ///< origin * inverse
   float t_min;
-  float t_max;                   ///< nothing behind it is looked for; may become less between steps
-  std::uint32_t boxes_met = 0;   ///< on the stack; at first the root alone
+  float t_max;                  ///< nothing behind it is looked for; may become less between steps
+  std::uint32_t boxes_met = 0;  ///< on the stack; at first the root alone
   std::array<WideBox, (WIDE - 1) * WIDE_LEVELS + 1> stack;  ///< of each node the nearest last
-  std::uint32_t nodes = 0;       ///< looked at
-  std::uint32_t leaves = 0;      ///< tested
+  std::uint32_t nodes = 0;                                  ///< looked at
+  std::uint32_t leaves = 0;                                 ///< tested
 
-  std::uint32_t leaf;            ///< that the last step went to
+  std::uint32_t leaf;  ///< that the last step went to
   /// Of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64, bit for
   /// bit; of others anything.
   alignas(64) WideDoubles t;
@@ -79,13 +80,13 @@ using OfMeetings = std::array<Value, WIDE_MEETINGS>;
 
 /// What is blended: the meetings of a ray that may be of one cluster (shaders/trace/blend.glsl).
 struct alignas(64) WideMeetings {
-  OfMeetings<float> t, t_low;        ///< two floats
+  OfMeetings<float> t, t_low;  ///< two floats
   OfMeetings<float> rho_squared;
   std::array<OfMeetings<float>, 3> from_center;
   OfMeetings<std::uint32_t> normal, radius_object;  ///< the splats' third and fourth words
   OfMeetings<std::uint32_t> splat;
-  OfMeetings<std::uint32_t> field, color;   ///< words of the pools, where there are any
-  OfMeetings<float> weight;  ///< set by blending: 0 where the meeting is not of the cluster
+  OfMeetings<std::uint32_t> field, color;  ///< words of the pools, where there are any
+  OfMeetings<float> weight;                ///< set by blending: 0 where the meeting is not of the cluster
   std::uint32_t count = 0;
 };
 

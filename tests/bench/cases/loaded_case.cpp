@@ -11,9 +11,9 @@ constexpr double DELTA_SHARE = 1e-3;
 
 }  // namespace
 
-LoadedVariant::LoadedVariant(const Context& context, const std::filesystem::path& folder,
+LoadedVariant::LoadedVariant(const Device& device, const std::filesystem::path& folder,
                              const std::string& file, const PreparedVariant& about)
-    : prepared(about), tracer(context) {
+    : prepared(about), tracer(device) {
   const Scene scene = read_scene(folder / file);
   tracer.upload(scene);
   tracer.set_environment(read_environment_file(folder / "environment.bin"));
@@ -23,8 +23,8 @@ LoadedVariant::LoadedVariant(const Context& context, const std::filesystem::path
   references = scene.reference_pool.size();
 }
 
-LoadedCase::LoadedCase(const Context& context, const Case& one, const std::filesystem::path& folder)
-    : context_(context), case_(one), folder_(folder), prepared_(read_case(folder)) {
+LoadedCase::LoadedCase(const Device& device, const Case& one, const std::filesystem::path& folder)
+    : device_(device), case_(one), folder_(folder), prepared_(read_case(folder)) {
   view_ = {prepared_.camera, one.width, one.height};
   for (const Variant& variant : variants_of(one)) {
     const std::string file = file_name(variant);
@@ -33,7 +33,7 @@ LoadedCase::LoadedCase(const Context& context, const Case& one, const std::files
       throw Error(ExitCode::input_unreadable,
                   (folder / "case.json").string() + ": found no '" + file +
                       "', expected a folder that splatray-bench-prepare of this version made");
-    variants_[file] = std::make_unique<LoadedVariant>(context, folder, file, about->second);
+    variants_[file] = std::make_unique<LoadedVariant>(device, folder, file, about->second);
   }
 }
 
@@ -46,7 +46,7 @@ Settings LoadedCase::settings_of(const Run& run) const {
 Json LoadedCase::start_record(const Run& run) {
   Json record = testing::start_record(case_, run, variant_of(run).splats);
   record["settings"]["leaf_size"] = variant_of(run).leaf_size;
-  add_device(record, context_);
+  add_device(record, device_);
   return record;
 }
 

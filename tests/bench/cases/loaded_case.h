@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/cases.h"
 #include "tests/bench/measure/record.h"
@@ -22,14 +22,14 @@ struct LoadedVariant {
   std::uint32_t leaf_size = 0;   ///< that the build took
   std::uint64_t references = 0;  ///< in the leaves
 
-  LoadedVariant(const Context& context, const std::filesystem::path& folder, const std::string& file,
+  LoadedVariant(const Device& device, const std::filesystem::path& folder, const std::string& file,
                 const PreparedVariant& about);
 };
 
 class LoadedCase {
  public:
   /// Reads what prepare_case left in `folder` and uploads all scene files. Throws Error.
-  LoadedCase(const Context& context, const Case& one, const std::filesystem::path& folder);
+  LoadedCase(const Device& device, const Case& one, const std::filesystem::path& folder);
 
   [[nodiscard]] const Case& about() const { return case_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
@@ -43,7 +43,7 @@ class LoadedCase {
   [[nodiscard]] Json start_record(const Run& run);
 
  private:
-  const Context& context_;
+  const Device& device_;
   const Case& case_;
   std::filesystem::path folder_;
   PreparedCase prepared_;

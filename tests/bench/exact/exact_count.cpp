@@ -55,8 +55,8 @@ ExactCount count_different(const BruteForce& brute, const std::vector<RayQuery>&
   return count;
 }
 
-ExactScene::ExactScene(const Context& context, Scene scene)
-    : scene_(std::move(scene)), tracer_(context), brute_(scene_) {
+ExactScene::ExactScene(const Device& device, Scene scene)
+    : scene_(std::move(scene)), tracer_(device), brute_(scene_) {
   tracer_.upload(scene_);
 }
 

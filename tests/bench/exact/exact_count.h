@@ -34,7 +34,7 @@ struct ExactCount {
 /// A scene on the device and its brute force, with the same materials.
 class ExactScene {
  public:
-  ExactScene(const Context& context, Scene scene);
+  ExactScene(const Device& device, Scene scene);
 
   /// Moves a splat in brute force alone, so that comparisons must differ.
   void move_splat(std::size_t index, const glm::dvec3& by_root) { brute_.move_splat(index, by_root); }

@@ -30,9 +30,8 @@ struct Options {
 /// The records of the file, and those of this commit and device by scene and kind.
 class Counts {
  public:
-  Counts(std::filesystem::path file, const Context& context)
-      : file_(std::move(file)),
-        device_{{"name", context.device_info().name}, {"driver", context.device_info().driver}} {
+  Counts(std::filesystem::path file, const Device& device)
+      : file_(std::move(file)), device_{{"name", device.info().name}, {"driver", device.info().driver}} {
     if (!std::filesystem::exists(file_)) return;
     std::ifstream stream(file_);
     records_ = Json::parse(stream, nullptr, false);
@@ -107,7 +106,7 @@ struct Loaded {
   std::unique_ptr<ExactScene> scene;
 };
 
-std::vector<Loaded> load_all(const Context& context, const Options& options) {
+std::vector<Loaded> load_all(const Device& device, const Options& options) {
   std::vector<Loaded> list;
   std::uint64_t number = 0;
   for (const std::string& name : exact_scene_names()) {
@@ -116,7 +115,7 @@ std::vector<Loaded> load_all(const Context& context, const Options& options) {
     std::optional<Scene> scene = exact_scene(name, options.points, data_folder().value_or(""));
     std::printf("%s: %s\n", name.c_str(), scene ? "made" : "left out, SPLATRAY_DATA_DIR does not hold it");
     std::fflush(stdout);
-    if (scene) list.push_back({name, number, std::make_unique<ExactScene>(context, std::move(*scene))});
+    if (scene) list.push_back({name, number, std::make_unique<ExactScene>(device, std::move(*scene))});
   }
   return list;
 }
@@ -159,9 +158,9 @@ int run(int argc, char** argv) {
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(options.output);
   const auto begin = std::chrono::steady_clock::now();
-  const Context context(options.device);
-  Counts counts(options.output, context);
-  const std::vector<Loaded> scenes = load_all(context, options);
+  const std::unique_ptr<Device> device = open_device(options.device);
+  Counts counts(options.output, *device);
+  const std::vector<Loaded> scenes = load_all(*device, options);
   for (std::size_t next = 0; !scenes.empty() && !is_done(counts, options.rays); ++next) {
     const std::chrono::duration<double, std::ratio<60>> passed = std::chrono::steady_clock::now() - begin;
     if (passed.count() >= options.minutes) break;

@@ -3,15 +3,16 @@
 
 #include <map>
 
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/bench/exact/exact_count.h"
 #include "tests/bench/exact/exact_scenes.h"
 
 namespace splatray::testing {
 namespace {
 
-Context& shared_context() {
-  static Context context;
-  return context;
+VulkanDevice& shared_device() {
+  static VulkanDevice device;
+  return device;
 }
 
 using Kinds = std::map<std::string, ExactCount>;
@@ -24,7 +25,7 @@ Kinds counts_of(ExactScene& scene, std::size_t rays, std::uint64_t seed) {
 
 TEST(Exact, NoHitDiffersOfAnyKind) {
   for (const char* name : {"room", "lattice"}) {
-    ExactScene scene(shared_context(), exact_scene(name, 3000, "").value());
+    ExactScene scene(shared_device(), exact_scene(name, 3000, "").value());
     for (const auto& [kind, count] : counts_of(scene, 3000, 3)) {
       EXPECT_EQ(count.different_hits(), 0U) << name << ", " << kind;
       EXPECT_GT(count.hits, count.rays / 50) << name << ", " << kind << ": too few hits to mean anything";
@@ -33,7 +34,7 @@ TEST(Exact, NoHitDiffersOfAnyKind) {
 }
 
 TEST(Exact, EveryKindNoticesMovedSplats) {
-  ExactScene scene(shared_context(), exact_scene("room", 1000, "").value());
+  ExactScene scene(shared_device(), exact_scene("room", 1000, "").value());
   for (std::size_t i = 0; i < scene.splats(); i += 2) scene.move_splat(i, glm::dvec3(20000.0));
   const Kinds kinds = counts_of(scene, 3000, 5);
   EXPECT_EQ(kinds.size(), 5 + ADVERSARIAL.size());
@@ -41,7 +42,7 @@ TEST(Exact, EveryKindNoticesMovedSplats) {
 }
 
 TEST(Exact, OtherSeedsAreOtherRays) {
-  ExactScene scene(shared_context(), exact_scene("torus", 500, "").value());
+  ExactScene scene(shared_device(), exact_scene("torus", 500, "").value());
   EXPECT_NE(counts_of(scene, 1000, 6)["random"].hits, counts_of(scene, 1000, 8)["random"].hits);
 }
 

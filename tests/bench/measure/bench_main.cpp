@@ -25,11 +25,11 @@ int run(int argc, char** argv) {
     return static_cast<int>(ExitCode::done);
   }
   require_writable(options->output);
-  const Context context(options->device);
-  std::printf("%s, %s\n", context.device_info().name.c_str(), context.device_info().driver.c_str());
+  const std::unique_ptr<Device> device = open_device(options->device);
+  std::printf("%s, %s\n", device->info().name.c_str(), device->info().driver.c_str());
   measure_cases(named(cases(options->quick), options->only), options->folder, options->output,
                 [&](const Case& one, const std::filesystem::path& prepared) {
-                  return measure_case(context, one, prepared);
+                  return measure_case(*device, one, prepared);
                 });
   return static_cast<int>(ExitCode::done);
 }

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/splat.h"
 #include "tests/bench/cases/case_file.h"
@@ -27,11 +28,11 @@ class BenchOfACase : public ::testing::Test {
  protected:
   TempFolder temp_;
   Case case_ = small_case();
-  Context context_;
+  VulkanDevice device_;
 
   void SetUp() override { prepare_case(case_, {"", "", temp_.path()}); }
   [[nodiscard]] std::filesystem::path folder() const { return temp_.path() / folder_name(case_); }
-  [[nodiscard]] std::vector<Json> measure() { return measure_case(context_, case_, folder()); }
+  [[nodiscard]] std::vector<Json> measure() { return measure_case(device_, case_, folder()); }
 };
 
 TEST_F(BenchOfACase, RecordsEveryRun) {
@@ -43,7 +44,7 @@ TEST_F(BenchOfACase, RecordsEveryRun) {
     EXPECT_EQ(record.at("varied"), case_.runs[i].varied);
     EXPECT_EQ(record.at("method"), record.at("settings").at("blend"));
     EXPECT_EQ(record.at("settings").at("splats"), 2000);
-    EXPECT_EQ(record.at("device").at("name"), context_.device_info().name);
+    EXPECT_EQ(record.at("device").at("name"), device_.info().name);
     EXPECT_GE(record.at("speed").at("frames").get<std::size_t>(), 9U);
     EXPECT_GE(record.at("speed").at("frame_ms_median"), record.at("speed").at("frame_ms_min"));
     EXPECT_GT(record.at("speed").at("tests_per_ray").get<double>(), 1.0);

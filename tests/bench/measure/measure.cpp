@@ -116,8 +116,8 @@ void compare_with_many_samples(LoadedCase& loaded, std::vector<Json>& records) {
 
 }  // namespace
 
-std::vector<Json> measure_case(const Context& context, const Case& one, const std::filesystem::path& folder) {
-  LoadedCase loaded(context, one, folder);
+std::vector<Json> measure_case(const Device& device, const Case& one, const std::filesystem::path& folder) {
+  LoadedCase loaded(device, one, folder);
   std::vector<Json> records;
   for (const Run& run : one.runs) records.push_back(loaded.start_record(run));
   switch (one.measure) {

@@ -92,12 +92,12 @@ std::vector<std::vector<double>> times_in_turn(ShownTracer& tracer, const View& 
 
 }  // namespace
 
-std::vector<Json> measure_coverage(const Context& context, const Case& one,
+std::vector<Json> measure_coverage(const Device& device, const Case& one,
                                    const std::filesystem::path& folder) {
   const PreparedCase prepared = read_case(folder);
   const Scene scene = read_scene(folder / file_name(one.runs.front().variant));
   const BruteForce brute(scene);
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(scene);
   tracer.set_environment(read_environment_file(folder / "environment.bin"));
   const std::vector<Settings> runs = settings_of_runs();
@@ -109,7 +109,7 @@ std::vector<Json> measure_coverage(const Context& context, const Case& one,
     const double reached = coverage_of(tracer, view);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       Json record = start_record(one, {one.runs.front().variant, runs[i], ""}, scene.data_pool.size());
-      add_device(record, context);
+      add_device(record, device);
       const RenderStats counted = frame(tracer, view, runs[i], true);
       record["settings"]["coverage"] = wanted;
       record["coverage"] = reached;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 #include "tests/bench/cases/cases.h"
 #include "tests/bench/measure/record.h"
 
@@ -18,7 +18,7 @@ inline constexpr std::array<double, 2> COVERAGES = {0.3, 0.99};
 /// record's: the share that was reached; speed: bytes_per_splat (all pools),
 /// frame_ms_median, frame_ms_min, frames, rays_per_s (all classes), shadow_rays, tests_per_ray, steps_per_ray,
 /// leaves_per_ray. error: mismatch_ppm of COMPARED rays through pixels' centres against brute force over all splats.
-[[nodiscard]] std::vector<Json> measure_coverage(const Context& context, const Case& one,
+[[nodiscard]] std::vector<Json> measure_coverage(const Device& device, const Case& one,
                                                  const std::filesystem::path& folder);
 
 inline constexpr std::size_t COMPARED = 1024;

@@ -132,7 +132,7 @@ Environment even_texture(Environment like) {
 /// The sphere with every set of pools, and the view of it.
 class Stage {
  public:
-  Stage(const Context& context, const Case& one, const std::filesystem::path& folder) {
+  Stage(const Device& device, const Case& one, const std::filesystem::path& folder) {
     const PreparedCase prepared = read_case(folder);
     const Scene scene = read_scene(folder / file_name(one.runs.front().variant));
     view_ = {prepared.camera, one.width, one.height};
@@ -148,7 +148,7 @@ class Stage {
     splats_ = scene.data_pool.size();
     for (const Entry& entry : entries_of(key_, behind_)) {
       if (tracers_.contains(entry.pools)) continue;
-      tracers_[entry.pools] = std::make_unique<ShownTracer>(context);
+      tracers_[entry.pools] = std::make_unique<ShownTracer>(device);
       tracers_[entry.pools]->upload(with_pools(scene, entry.pools, forward));
     }
   }
@@ -194,9 +194,9 @@ double differs_ppm(const Image& image, const Image& reference) {
 
 }  // namespace
 
-std::vector<Json> measure_features(const Context& context, const Case& one,
+std::vector<Json> measure_features(const Device& device, const Case& one,
                                    const std::filesystem::path& folder) {
-  Stage stage(context, one, folder);
+  Stage stage(device, one, folder);
   const std::vector<Entry> entries = stage.entries();
   std::vector<std::vector<double>> times(entries.size());
   for (std::size_t round = 0; round < 1 + FEATURE_ROUNDS; ++round)
@@ -212,7 +212,7 @@ std::vector<Json> measure_features(const Context& context, const Case& one,
     Run run = one.runs.front();
     run.settings.shadows = entries[i].shadows;
     Json record = start_record(one, run, stage.splats());
-    add_device(record, context);
+    add_device(record, device);
     record["feature"] = entries[i].feature;
     record["use"] = entries[i].use;
     const auto rays = static_cast<double>(stage.stats().rays());

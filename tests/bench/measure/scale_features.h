@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 #include "tests/bench/cases/cases.h"
 #include "tests/bench/measure/record.h"
 
@@ -14,7 +14,7 @@ namespace splatray::testing {
 /// object of its own, or is a light from behind) or used. All are timed in rounds of one frame each. speed: frame_ms_median,
 /// frame_ms_min, frames, rays_per_s (all classes), tests_per_ray, steps_per_ray, leaves_per_ray, rays. error.differs_ppm
 /// of unused: pixels whose colour differs from those without the feature by more than 1 / 255.
-[[nodiscard]] std::vector<Json> measure_features(const Context& context, const Case& one,
+[[nodiscard]] std::vector<Json> measure_features(const Device& device, const Case& one,
                                                  const std::filesystem::path& folder);
 
 }  // namespace splatray::testing

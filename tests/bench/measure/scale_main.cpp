@@ -33,11 +33,11 @@ std::vector<Case> cases_of(const std::string& part, bool quick) {
   return list;
 }
 
-std::vector<Json> measure_part(const std::string& part, const Context& context, const Case& one,
+std::vector<Json> measure_part(const std::string& part, const Device& device, const Case& one,
                                const std::filesystem::path& folder) {
-  if (part == "rays") return measure_rays(context, one, folder, {});
-  if (part == "features") return measure_features(context, one, folder);
-  return measure_coverage(context, one, folder);
+  if (part == "rays") return measure_rays(device, one, folder, {});
+  if (part == "features") return measure_features(device, one, folder);
+  return measure_coverage(device, one, folder);
 }
 
 int run(int argc, char** argv) {
@@ -48,11 +48,11 @@ int run(int argc, char** argv) {
   }
   const std::vector<Case> cases = cases_of(options->only, options->quick);
   require_writable(options->output);
-  const Context context(options->device);
-  std::printf("%s, %s\n", context.device_info().name.c_str(), context.device_info().driver.c_str());
+  const std::unique_ptr<Device> device = open_device(options->device);
+  std::printf("%s, %s\n", device->info().name.c_str(), device->info().driver.c_str());
   measure_cases(cases, options->folder, options->output,
                 [&](const Case& one, const std::filesystem::path& prepared) {
-                  return measure_part(options->only, context, one, prepared);
+                  return measure_part(options->only, *device, one, prepared);
                 });
   return static_cast<int>(ExitCode::done);
 }

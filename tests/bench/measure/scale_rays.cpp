@@ -12,10 +12,10 @@ void append(std::vector<Json>& list, std::vector<Json> more) {
 
 }  // namespace
 
-std::vector<Json> measure_rays(const Context& context, const Case& one, const std::filesystem::path& folder,
+std::vector<Json> measure_rays(const Device& device, const Case& one, const std::filesystem::path& folder,
                                const PeerMakers& makers) {
   const PreparedCase prepared = read_case(folder);
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.set_environment(read_environment_file(folder / "environment.bin"));
   std::optional<Course> course;
   std::vector<PeerMaker> peers;
@@ -27,13 +27,13 @@ std::vector<Json> measure_rays(const Context& context, const Case& one, const st
   }
   std::vector<Json> records;
   for (const PeerMaker& peer : peers) {
-    SplatrayRacer own(context, tracer, *course, peer.blend);
+    SplatrayRacer own(device, tracer, *course, peer.blend);
     const std::unique_ptr<Racer> other = peer.make(*course);
     append(records, race(one, *course, {&own, other.get()}, peer.secondary));
   }
   if (peers.empty()) {
-    SplatrayRacer window(context, tracer, *course, BLEND_WINDOW);
-    SplatrayRacer nearest(context, tracer, *course, BLEND_NEAREST);
+    SplatrayRacer window(device, tracer, *course, BLEND_WINDOW);
+    SplatrayRacer nearest(device, tracer, *course, BLEND_NEAREST);
     append(records, race(one, *course, {&window}, true));
     append(records, race(one, *course, {&nearest}, false));
   }

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 #include "tests/bench/measure/race.h"
 
 namespace splatray::testing {
@@ -20,7 +20,7 @@ struct PeerMaker {
 using PeerMakers = std::function<std::vector<PeerMaker>(const Scene& scene)>;
 
 /// Records (race.h) of a case of scale_spheres() from what splatray-bench-prepare --scale left in `folder`.
-[[nodiscard]] std::vector<Json> measure_rays(const Context& context, const Case& one,
+[[nodiscard]] std::vector<Json> measure_rays(const Device& device, const Case& one,
                                              const std::filesystem::path& folder, const PeerMakers& makers);
 
 }  // namespace splatray::testing

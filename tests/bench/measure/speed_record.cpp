@@ -7,10 +7,10 @@
 
 namespace splatray::testing {
 
-void add_device(Json& record, const Context& context) {
-  const DeviceInfo& device = context.device_info();
-  if (device.type == "CPU") record["settings"]["threads"] = std::thread::hardware_concurrency();
-  record["device"] = {{"name", device.name}, {"driver", device.driver}};
+void add_device(Json& record, const Device& device) {
+  const DeviceInfo& info = device.info();
+  if (info.type == "CPU") record["settings"]["threads"] = std::thread::hardware_concurrency();
+  record["device"] = {{"name", info.name}, {"driver", info.driver}};
 }
 
 void add_times(Json& speed, const std::vector<double>& times_ms, double rays) {

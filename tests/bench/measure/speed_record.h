@@ -2,14 +2,14 @@
 #pragma once
 #include <vector>
 
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 #include "tests/bench/measure/record.h"
 #include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
 
 /// Sets `device`, and settings.threads of a software device.
-void add_device(Json& record, const Context& context);
+void add_device(Json& record, const Device& device);
 
 /// Adds frame_ms_median, frame_ms_min, frames and rays_per_s: `rays` over the median.
 void add_times(Json& speed, const std::vector<double>& times_ms, double rays);

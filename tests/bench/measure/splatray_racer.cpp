@@ -16,9 +16,9 @@ bool is_outside(Frame frame) { return frame == Frame::primary || frame == Frame:
 
 }  // namespace
 
-SplatrayRacer::SplatrayRacer(const Context& context, ShownTracer& tracer, const Course& course,
+SplatrayRacer::SplatrayRacer(const Device& device, ShownTracer& tracer, const Course& course,
                              std::uint32_t blend)
-    : context_(context), tracer_(tracer), course_(course), blend_(blend) {}
+    : device_(device), tracer_(tracer), course_(course), blend_(blend) {}
 
 Settings SplatrayRacer::settings_of(Frame frame) const {
   Settings settings;
@@ -84,7 +84,7 @@ void SplatrayRacer::describe(Json& record) {
   trace(Frame::primary, settings);
   record["method"] = blend_word(blend_);
   record["settings"]["blend"] = blend_word(blend_);
-  add_device(record, context_);
+  add_device(record, device_);
   add_work(record["speed"], tracer_.stats());
   record["speed"]["bytes_per_splat"] = bytes_per_splat(tracer_, course_.splats);
 }

@@ -1,6 +1,6 @@
 /// splatray in a race, on a device.
 #pragma once
-#include "engine/vulkan/context.h"
+#include "engine/device/device.h"
 #include "tests/bench/measure/racer.h"
 #include "tests/gpu/shown_tracer.h"
 
@@ -10,7 +10,7 @@ namespace splatray::testing {
 class SplatrayRacer : public Racer {
  public:
   /// `tracer` holds the course's sphere and its surroundings; both must outlive the racer.
-  SplatrayRacer(const Context& context, ShownTracer& tracer, const Course& course, std::uint32_t blend);
+  SplatrayRacer(const Device& device, ShownTracer& tracer, const Course& course, std::uint32_t blend);
 
   double run(Frame frame) override;
   [[nodiscard]] std::uint64_t count_rays(Frame frame) override;
@@ -24,7 +24,7 @@ class SplatrayRacer : public Racer {
   void trace(Frame frame, const Settings& settings);
   [[nodiscard]] Image render(Frame frame, const Settings& settings);
 
-  const Context& context_;
+  const Device& device_;
   ShownTracer& tracer_;
   const Course& course_;
   std::uint32_t blend_;

@@ -43,11 +43,10 @@ Settings settings_of(std::uint32_t blend, bool cull) {
   return settings;
 }
 
-Entry own_entry(const Context& context, ShownTracer& tracer, const View& view, std::uint32_t blend,
-                bool cull) {
+Entry own_entry(const Device& device, ShownTracer& tracer, const View& view, std::uint32_t blend, bool cull) {
   const Settings settings = settings_of(blend, cull);
   Entry entry{{{"method", blend_word(blend)}, {"settings", {{"cull", cull}}}}, {}, {}};
-  entry.record["device"] = {{"name", context.device_info().name}, {"driver", context.device_info().driver}};
+  entry.record["device"] = {{"name", device.info().name}, {"driver", device.info().driver}};
   entry.run = [&tracer, view, settings] {
     static_cast<void>(tracer.render(view, settings));
     return std::pair(tracer.stats().trace_ms, tracer.stats().wall_ms);
@@ -107,16 +106,16 @@ double unlike_ppm(const std::vector<float>& depths, const std::vector<float>& re
   return 1e6 * static_cast<double>(count) / static_cast<double>(depths.size());
 }
 
-void race(const std::string& name, const Context& context, const Scene& scene, std::size_t rounds,
+void race(const std::string& name, const Device& device, const Scene& scene, std::size_t rounds,
           Json& records) {
   const View view{framing_camera(scene, 1.0), SIZE, SIZE};
   const Discs discs = discs_of(scene);
   const FrameParams frame = make_frame_params(scene, view, settings_of(BLEND_WINDOW, false));
-  ShownTracer tracer(context);
+  ShownTracer tracer(device);
   tracer.upload(scene);
   std::vector<Entry> entries;
   for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST})
-    for (const bool cull : {false, true}) entries.push_back(own_entry(context, tracer, view, blend, cull));
+    for (const bool cull : {false, true}) entries.push_back(own_entry(device, tracer, view, blend, cull));
   add_peers(discs, frame, entries);
   for (std::size_t round = 0; round < 1 + rounds; ++round)
     for (Entry& entry : entries) {
@@ -161,10 +160,10 @@ int run(int argc, char** argv) {
            "number or part of a name, as splatray-render --list-devices shows them");
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(output);
-  const Context context(device);
+  const std::unique_ptr<Device> opened = open_device(device);
   Json records = Json::array();
   for (const std::filesystem::path& path : scenes)
-    race(path.stem().string(), context, read_scene(path), rounds, records);
+    race(path.stem().string(), *opened, read_scene(path), rounds, records);
   write_text_file(records.dump() + '\n', output);
   return static_cast<int>(ExitCode::done);
 }

@@ -3,6 +3,7 @@
 
 #include "data/models.h"
 #include "engine/base/error.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/bench/cases/scale_cases.h"
 #include "tests/bench/measure/race.h"
 #include "tests/bench/measure/splatray_racer.h"
@@ -28,11 +29,11 @@ struct SmallRace {
   }
 
   std::vector<Json> run() {
-    const Context context;
-    ShownTracer tracer(context);
+    const VulkanDevice device;
+    ShownTracer tracer(device);
     tracer.upload(scene);
     const Course course(one, prepared, scene);
-    SplatrayRacer own(context, tracer, course, BLEND_WINDOW);
+    SplatrayRacer own(device, tracer, course, BLEND_WINDOW);
     PeerRacer other(std::make_unique<EmbreeDiscs>(discs, Settings{}), "embree window", {}, 0, 0.0, course);
     return race(one, course, {&own, &other}, true);
   }

@@ -47,10 +47,10 @@ std::vector<PeerMaker> peers_of(const Scene& scene) {
   return makers;
 }
 
-std::vector<Json> measure(const Context& context, const Case& one, const std::filesystem::path& prepared) {
+std::vector<Json> measure(const Device& device, const Case& one, const std::filesystem::path& prepared) {
   const std::string reason = reason_of_memory(BYTES_PER_SPLAT * one.runs.front().variant.points);
   if (!reason.empty()) throw Error(ExitCode::out_of_memory, reason);
-  return measure_rays(context, one, prepared, peers_of);
+  return measure_rays(device, one, prepared, peers_of);
 }
 
 int run(int argc, char** argv) {
@@ -70,10 +70,10 @@ int run(int argc, char** argv) {
   add_text(list, "--case", only, "only this case");
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   require_writable(output);
-  const Context context(device);
+  const std::unique_ptr<Device> opened = open_device(device);
   measure_cases(named(scale_spheres(quick), only), folder, output,
                 [&](const Case& one, const std::filesystem::path& prepared) {
-                  return measure(context, one, prepared);
+                  return measure(*opened, one, prepared);
                 });
   return static_cast<int>(ExitCode::done);
 }

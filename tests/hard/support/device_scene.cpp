@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/splat.h"
 #include "tests/trace/agreement.h"
 #include "tests/trace/rays.h"
@@ -42,9 +43,9 @@ bool is_tie(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth, 
 
 }  // namespace
 
-const Context& shared_context() {
-  static const Context context;
-  return context;
+const Device& shared_device() {
+  static const VulkanDevice device;
+  return device;
 }
 
 std::size_t hard_rays() {
@@ -56,7 +57,7 @@ std::uint64_t known_of(std::uint64_t by_default, std::uint64_t of_ten_million) {
   return hard_rays() <= DEFAULT_RAYS ? by_default : of_ten_million;
 }
 
-DeviceScene::DeviceScene(const Scene& scene, const Context& context) : tracer_(context) {
+DeviceScene::DeviceScene(const Scene& scene, const Device& device) : tracer_(device) {
   tracer_.upload(scene);
 }
 

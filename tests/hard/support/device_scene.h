@@ -12,7 +12,7 @@
 namespace splatray::testing {
 
 /// The device of all hard cases, made at the first call.
-[[nodiscard]] const Context& shared_context();
+[[nodiscard]] const Device& shared_device();
 
 /// How many rays the big counts take: the variable SPLATRAY_HARD_RAYS, or a million.
 [[nodiscard]] std::size_t hard_rays();
@@ -22,7 +22,7 @@ namespace splatray::testing {
 
 class DeviceScene {
  public:
-  explicit DeviceScene(const Scene& scene, const Context& context = shared_context());
+  explicit DeviceScene(const Scene& scene, const Device& device = shared_device());
 
   /// ShownTracer::intersect. Adds up lost rays and answers that are not finite: a hit whose t is not finite or
   /// whose normal is not of unit length within 1e-3.

@@ -6,12 +6,11 @@
 
 namespace splatray {
 
-inline constexpr std::uint32_t BINDINGS = BIND_LIGHT_TREE + 1;
-inline constexpr std::uint32_t POOLS = BIND_TOP_TABLE - BIND_NODE_POOL + 1;
+inline constexpr std::uint32_t BINDINGS = BIND_POOLS + POOLS;
+/// Whether a binding is a pool's.
+[[nodiscard]] constexpr bool is_pool(std::uint32_t binding) { return binding >= BIND_POOLS; }
 /// Whether a binding is read as the scene's pools are: in texel buffers or storage buffers.
-[[nodiscard]] constexpr bool is_read_as_pools(std::uint32_t binding) {
-  return (binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE) || binding >= BIND_LIGHT_TABLES;
-}
+[[nodiscard]] constexpr bool is_read_as_pools(std::uint32_t binding) { return binding >= BIND_LIGHT_TABLES; }
 /// Of a program's bindings, beside the pools: the most sampled images, the environment and the paths of stages among them, and the
 /// most storage buffers.
 inline constexpr std::uint32_t OTHER_SAMPLED_IMAGES = 4;

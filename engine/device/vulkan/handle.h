@@ -2,7 +2,7 @@
 #pragma once
 #include <utility>
 
-#include "engine/vulkan/functions.h"
+#include "engine/device/vulkan/functions.h"
 
 namespace splatray {
 

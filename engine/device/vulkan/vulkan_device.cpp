@@ -1,4 +1,4 @@
-#include "engine/vulkan/context.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -91,6 +91,29 @@ VkInstance make_instance(const VkDebugUtilsMessengerCreateInfoEXT* messenger,
   return instance;
 }
 
+bool texel_format_supported(VkPhysicalDevice device, VkFormat format) {
+  VkFormatProperties properties{};
+  vkGetPhysicalDeviceFormatProperties(device, format, &properties);
+  return (properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) != 0;
+}
+
+DeviceLimits device_limits(VkPhysicalDevice device, const VkPhysicalDeviceLimits& limits,
+                           std::uint64_t allocation_bytes) {
+  const bool texel_formats = texel_format_supported(device, VK_FORMAT_R32_UINT) &&
+                             texel_format_supported(device, VK_FORMAT_R32G32B32A32_UINT);
+  const auto beside = [](std::uint32_t of_stage, std::uint32_t of_set, std::uint32_t others) {
+    return std::max(std::min(of_stage, of_set), others) - others;
+  };
+  return {.texel_elements = texel_formats ? limits.maxTexelBufferElements : 0,
+          .storage_bytes = limits.maxStorageBufferRange,
+          .allocation_bytes = allocation_bytes,
+          .texel_buffers = beside(limits.maxPerStageDescriptorSampledImages,
+                                  limits.maxDescriptorSetSampledImages, OTHER_SAMPLED_IMAGES),
+          .storage_buffers = beside(limits.maxPerStageDescriptorStorageBuffers,
+                                    limits.maxDescriptorSetStorageBuffers, OTHER_STORAGE_BUFFERS),
+          .texture_size = limits.maxImageDimension2D};
+}
+
 }  // namespace
 
 void check(VkResult result, const char* what) {
@@ -114,7 +137,7 @@ std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
   return enumerate<VkPhysicalDevice>(list, "listing the Vulkan devices");
 }
 
-std::vector<DeviceInfo> list_devices() {
+std::vector<DeviceInfo> vulkan_devices() {
   if (!vulkan_is_installed()) return {};
   refuse_vulkan_of_parent();
   const auto destroy = [](VkInstance instance) { vkDestroyInstance(instance, nullptr); };
@@ -126,20 +149,7 @@ std::vector<DeviceInfo> list_devices() {
   return infos;
 }
 
-DeviceInfo host_device_info() {
-#ifdef __clang__
-  constexpr const char* COMPILER = "C++ by " __VERSION__;
-#else
-  constexpr const char* COMPILER = "C++ by GCC " __VERSION__;
-#endif
-  return {"the host's CPU, without Vulkan", "CPU", COMPILER, "", ""};
-}
-
-Context::Context(const std::string& wanted, bool validation, const WindowNeeds& needs) {
-  if (wanted == HOST_DEVICE) {
-    become_host();
-    return;
-  }
+VulkanDevice::VulkanDevice(const std::string& wanted, bool validation, const WindowNeeds& needs) {
   try {
     create_instance(validation || validation_in_environment(), needs);
     choose_device(wanted, needs);
@@ -150,18 +160,9 @@ Context::Context(const std::string& wanted, bool validation, const WindowNeeds& 
   }
 }
 
-Context::~Context() { destroy(); }
+VulkanDevice::~VulkanDevice() { destroy(); }
 
-void Context::become_host() {
-  info_ = host_device_info();
-  properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_CPU;
-  properties.limits.maxImageDimension2D = UINT16_MAX;
-  properties.limits.maxStorageBufferRange = UINT32_MAX;
-  properties.limits.maxTexelBufferElements = UINT32_MAX;
-  max_allocation_bytes = UINT64_MAX;
-}
-
-void Context::create_instance(bool validation, const WindowNeeds& needs) {
+void VulkanDevice::create_instance(bool validation, const WindowNeeds& needs) {
   refuse_vulkan_of_parent();
   if (validation && !validation_layer_present())
     throw Error(ExitCode::failed, std::string("validation was asked for, but the layer ") + VALIDATION_LAYER +
@@ -171,14 +172,14 @@ void Context::create_instance(bool validation, const WindowNeeds& needs) {
   if (validation && instance != VK_NULL_HANDLE) create_messenger();
 }
 
-void Context::create_messenger() {
+void VulkanDevice::create_messenger() {
   const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
       vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
   const VkDebugUtilsMessengerCreateInfoEXT info = messenger_info(&validation_messages_);
   check(create(instance, &info, nullptr, &messenger_), "listening to the validation layer");
 }
 
-void Context::choose_device(const std::string& wanted, const WindowNeeds& needs) {
+void VulkanDevice::choose_device(const std::string& wanted, const WindowNeeds& needs) {
   std::vector<VkPhysicalDevice> devices;
   if (instance != VK_NULL_HANDLE) devices = physical_devices(instance);
   std::vector<DeviceInfo> infos;
@@ -192,7 +193,7 @@ void Context::choose_device(const std::string& wanted, const WindowNeeds& needs)
   info_ = infos[chosen];
 }
 
-void Context::create_device(const WindowNeeds& needs) {
+void VulkanDevice::create_device(const WindowNeeds& needs) {
   VkPhysicalDeviceSubgroupProperties subgroup{};
   subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
   VkPhysicalDeviceMaintenance3Properties limits{};
@@ -203,10 +204,10 @@ void Context::create_device(const WindowNeeds& needs) {
   chain.pNext = &limits;
   vkGetPhysicalDeviceProperties2(physical_device, &chain);
   properties = chain.properties;
-  max_allocation_bytes = limits.maxMemoryAllocationSize;
   ballot = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
            (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
   vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
+  limits_ = device_limits(physical_device, properties.limits, limits.maxMemoryAllocationSize);
 
   VkPhysicalDeviceFeatures supported{}, features{};
   vkGetPhysicalDeviceFeatures(physical_device, &supported);
@@ -237,7 +238,7 @@ void Context::create_device(const WindowNeeds& needs) {
   check(vkCreateCommandPool(device, &pool_info, nullptr, &command_pool), "making a command pool");
 }
 
-void Context::destroy() {
+void VulkanDevice::destroy() {
   if (command_pool != VK_NULL_HANDLE) vkDestroyCommandPool(device, command_pool, nullptr);
   if (device != VK_NULL_HANDLE) vkDestroyDevice(device, nullptr);
   if (messenger_ != VK_NULL_HANDLE) {

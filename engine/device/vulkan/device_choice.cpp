@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "engine/base/error.h"
-#include "engine/vulkan/bindings.h"
-#include "engine/vulkan/context.h"
+#include "engine/device/bindings.h"
+#include "engine/device/vulkan/vulkan_device.h"
 #include "shaders/layout.h"
 
 namespace splatray {

@@ -1,10 +1,12 @@
 /// Work for the device, one submission at a time.
 #pragma once
+#include <cstddef>
 #include <functional>
+#include <span>
 
-#include "engine/vulkan/buffer.h"
-#include "engine/vulkan/context.h"
-#include "engine/vulkan/handle.h"
+#include "engine/device/vulkan/buffer.h"
+#include "engine/device/vulkan/handle.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 
@@ -14,10 +16,10 @@ void record_barrier(VkCommandBuffer commands);
 /// Likewise for a colour image of one level and layer, and moves it from one layout to another.
 void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
 
-/// Records, submits and waits. One thread at a time. The context must outlive it; one of the host has no commands to run.
+/// Records, submits and waits. One thread at a time. The device must outlive it.
 class CommandQueue {
  public:
-  explicit CommandQueue(const Context& context);
+  explicit CommandQueue(const VulkanDevice& vulkan);
   ~CommandQueue();
   CommandQueue(const CommandQueue&) = delete;
   CommandQueue& operator=(const CommandQueue&) = delete;
@@ -27,19 +29,23 @@ class CommandQueue {
   /// timestamps.
   double run(const std::function<void(VkCommandBuffer)>& record);
 
+  /// As Queue's.
+  void upload(VulkanBuffer& buffer, std::span<const std::byte> bytes, VkDeviceSize begin = 0);
+  void download(const VulkanBuffer& buffer, std::span<std::byte> bytes);
+
   /// A mapped buffer of min(bytes, 64 MiB) or more, valid until the next call.
-  [[nodiscard]] const Buffer& staging(VkDeviceSize bytes);
+  [[nodiscard]] const VulkanBuffer& staging(VkDeviceSize bytes);
 
  private:
   void submit_and_wait();
   [[nodiscard]] double timestamps_ms() const;
 
-  const Context& context_;
+  const VulkanDevice& vulkan_;
   Handle<VkFence, vkDestroyFence> fence_;
   Handle<VkQueryPool, vkDestroyQueryPool> timestamps_;  ///< null where the queue has none
   std::uint64_t timestamp_mask_ = 0;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  Buffer staging_;
+  VulkanBuffer staging_;
 };
 
 }  // namespace splatray

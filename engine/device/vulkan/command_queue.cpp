@@ -1,7 +1,9 @@
-#include "engine/vulkan/command_queue.h"
+#include "engine/device/vulkan/command_queue.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
+#include <cstring>
 #include <vector>
 
 namespace splatray {
@@ -9,12 +11,12 @@ namespace {
 
 constexpr VkDeviceSize STAGING_BYTES = VkDeviceSize{64} << 20U;
 
-std::uint32_t timestamp_bits(const Context& context) {
+std::uint32_t timestamp_bits(const VulkanDevice& vulkan) {
   std::uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(context.physical_device, &count, nullptr);
+  vkGetPhysicalDeviceQueueFamilyProperties(vulkan.physical_device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(context.physical_device, &count, families.data());
-  return families[context.queue_family].timestampValidBits;
+  vkGetPhysicalDeviceQueueFamilyProperties(vulkan.physical_device, &count, families.data());
+  return families[vulkan.queue_family].timestampValidBits;
 }
 
 }  // namespace
@@ -44,36 +46,33 @@ void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, 
                        nullptr, 0, nullptr, 1, &barrier);
 }
 
-CommandQueue::CommandQueue(const Context& context) : context_(context) {
-  if (context.is_host()) return;
+CommandQueue::CommandQueue(const VulkanDevice& vulkan) : vulkan_(vulkan) {
   VkFenceCreateInfo fence_info{};
   fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
   VkFence fence = VK_NULL_HANDLE;
-  check(vkCreateFence(context.device, &fence_info, nullptr, &fence), "making a fence");
-  fence_ = {context.device, fence};
+  check(vkCreateFence(vulkan.device, &fence_info, nullptr, &fence), "making a fence");
+  fence_ = {vulkan.device, fence};
 
-  if (const std::uint32_t bits = timestamp_bits(context); bits > 0) {
+  if (const std::uint32_t bits = timestamp_bits(vulkan); bits > 0) {
     timestamp_mask_ = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
     VkQueryPoolCreateInfo query_info{};
     query_info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     query_info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     query_info.queryCount = 2;
     VkQueryPool queries = VK_NULL_HANDLE;
-    check(vkCreateQueryPool(context.device, &query_info, nullptr, &queries), "making a query pool");
-    timestamps_ = {context.device, queries};
+    check(vkCreateQueryPool(vulkan.device, &query_info, nullptr, &queries), "making a query pool");
+    timestamps_ = {vulkan.device, queries};
   }
 
   VkCommandBufferAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  info.commandPool = context.command_pool;
+  info.commandPool = vulkan.command_pool;
   info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   info.commandBufferCount = 1;
-  check(vkAllocateCommandBuffers(context.device, &info, &commands_), "making a command buffer");
+  check(vkAllocateCommandBuffers(vulkan.device, &info, &commands_), "making a command buffer");
 }
 
-CommandQueue::~CommandQueue() {
-  if (!context_.is_host()) vkFreeCommandBuffers(context_.device, context_.command_pool, 1, &commands_);
-}
+CommandQueue::~CommandQueue() { vkFreeCommandBuffers(vulkan_.device, vulkan_.command_pool, 1, &commands_); }
 
 double CommandQueue::run(const std::function<void(VkCommandBuffer)>& record) {
   VkCommandBufferBeginInfo begin{};
@@ -109,23 +108,60 @@ void CommandQueue::submit_and_wait() {
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands_;
   VkFence fence = fence_.get();
-  check(vkQueueSubmit(context_.queue, 1, &submit, fence), "submitting work to the device");
-  check(vkWaitForFences(context_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the device");
-  check(vkResetFences(context_.device, 1, &fence), "resetting a fence");
+  check(vkQueueSubmit(vulkan_.queue, 1, &submit, fence), "submitting work to the device");
+  check(vkWaitForFences(vulkan_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the device");
+  check(vkResetFences(vulkan_.device, 1, &fence), "resetting a fence");
 }
 
 double CommandQueue::timestamps_ms() const {
   std::uint64_t ticks[2] = {};
-  check(vkGetQueryPoolResults(context_.device, timestamps_.get(), 0, 2, sizeof(ticks), ticks,
-                              sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+  check(vkGetQueryPoolResults(vulkan_.device, timestamps_.get(), 0, 2, sizeof(ticks), ticks, sizeof(ticks[0]),
+                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
         "reading timestamps");
   const auto passed = static_cast<double>((ticks[1] - ticks[0]) & timestamp_mask_);
-  return passed * static_cast<double>(context_.properties.limits.timestampPeriod) * 1e-6;
+  return passed * static_cast<double>(vulkan_.properties.limits.timestampPeriod) * 1e-6;
 }
 
-const Buffer& CommandQueue::staging(VkDeviceSize bytes) {
+void CommandQueue::upload(VulkanBuffer& buffer, std::span<const std::byte> bytes, VkDeviceSize begin) {
+  assert(begin + bytes.size() <= buffer.size());
+  if (bytes.empty()) return;
+  if (buffer.mapped() != nullptr) {
+    std::memcpy(buffer.mapped() + begin, bytes.data(), bytes.size());
+    return;
+  }
+  const VulkanBuffer& passed = staging(bytes.size());
+  for (std::size_t at = 0; at < bytes.size(); at += passed.size()) {
+    const std::size_t count = std::min<std::size_t>(passed.size(), bytes.size() - at);
+    std::memcpy(passed.mapped(), bytes.data() + at, count);
+    run([&](VkCommandBuffer commands) {
+      const VkBufferCopy region{0, begin + at, count};
+      vkCmdCopyBuffer(commands, passed.get(), buffer.get(), 1, &region);
+    });
+  }
+}
+
+void CommandQueue::download(const VulkanBuffer& buffer, std::span<std::byte> bytes) {
+  assert(bytes.size() <= buffer.size());
+  if (bytes.empty()) return;
+  if (buffer.mapped() != nullptr) {
+    std::memcpy(bytes.data(), buffer.mapped(), bytes.size());
+    return;
+  }
+  const VulkanBuffer& passed = staging(bytes.size());
+  for (std::size_t at = 0; at < bytes.size(); at += passed.size()) {
+    const std::size_t count = std::min<std::size_t>(passed.size(), bytes.size() - at);
+    run([&](VkCommandBuffer commands) {
+      const VkBufferCopy region{at, 0, count};
+      vkCmdCopyBuffer(commands, buffer.get(), passed.get(), 1, &region);
+    });
+    std::memcpy(bytes.data() + at, passed.mapped(), count);
+  }
+}
+
+const VulkanBuffer& CommandQueue::staging(VkDeviceSize bytes) {
   const VkDeviceSize wanted = std::min(bytes, STAGING_BYTES);
-  if (staging_.size() < wanted) staging_ = Buffer(context_, wanted, 0, VK_FORMAT_UNDEFINED, Residence::host);
+  if (staging_.size() < wanted)
+    staging_ = VulkanBuffer(vulkan_, wanted, 0, VK_FORMAT_UNDEFINED, Residence::host);
   return staging_;
 }
 

@@ -1,5 +1,4 @@
-/// Instance, device and queue; headless unless given what a window needs. No extension is required; Vulkan 1.2.
-/// Or, without Vulkan, the host itself.
+/// A Vulkan device: instance, device and queue; headless unless given what a window needs. No extension is required; Vulkan 1.2.
 #pragma once
 #include <atomic>
 #include <cstddef>
@@ -8,18 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/vulkan/functions.h"
+#include "engine/device/device.h"
+#include "engine/device/vulkan/functions.h"
 
 namespace splatray {
-
-/// A physical device and what we think of it.
-struct DeviceInfo {
-  std::string name;
-  std::string type;     ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
-  std::string driver;   ///< name and version string of the driver
-  std::string api;      ///< "1.3.230"
-  std::string refused;  ///< why it cannot be used; empty = usable
-};
 
 /// What a program that presents in a window needs of Vulkan; nothing for a headless one.
 struct WindowNeeds {
@@ -29,30 +20,23 @@ struct WindowNeeds {
   std::function<std::string(VkInstance, VkPhysicalDevice)> refusal;
 };
 
-/// What a user asks for who wants no Vulkan device but the host's CPU (engine/cpu).
-inline constexpr const char* HOST_DEVICE = "cpu";
-
-class Context {
+class VulkanDevice final : public Device {
  public:
-  /// `wanted`: "" = the best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
-  /// part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not even loaded. Throws
-  /// Error (no_device) with every device's reason when none fits.
+  /// `wanted`: as open_device has it, but for HOST_DEVICE.
   /// Validation layers and their messages are on when `validation` (or the environment variable
   /// SPLATRAY_VALIDATION=1) is set; each validation warning or error is counted and printed on stderr. Throws
   /// Error (failed) when they are asked for but not installed.
-  explicit Context(const std::string& wanted = "", bool validation = false, const WindowNeeds& needs = {});
-  ~Context();
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
+  explicit VulkanDevice(const std::string& wanted = "", bool validation = false,
+                        const WindowNeeds& needs = {});
+  ~VulkanDevice() override;
 
-  [[nodiscard]] const DeviceInfo& device_info() const { return info_; }
-  /// So far; from any thread.
-  [[nodiscard]] std::uint32_t validation_messages() const { return validation_messages_; }
+  [[nodiscard]] const DeviceInfo& info() const override { return info_; }
+  [[nodiscard]] const DeviceLimits& limits() const override { return limits_; }
+  [[nodiscard]] DeviceProfile profile(Kernels requested = Kernels::automatic) const override;
+  [[nodiscard]] std::unique_ptr<Queue> make_queue(const QueueOptions& options = {}) const override;
+  [[nodiscard]] std::uint32_t validation_messages() const override { return validation_messages_; }
   /// Whether the device is a software driver on the CPU.
   [[nodiscard]] bool is_cpu() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
-
-  /// Whether it is the host itself: buffers are host memory, programs C++, and there are no Vulkan objects.
-  [[nodiscard]] bool is_host() const { return device == VK_NULL_HANDLE; }
 
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
@@ -62,12 +46,10 @@ class Context {
   VkCommandPool command_pool = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
-  std::uint64_t max_allocation_bytes = 0;  ///< largest single allocation the device promises
-  bool float64 = false;                    ///< shaders may use float64
-  bool ballot = false;                     ///< compute shaders may use ballots of their subgroups
+  bool float64 = false;  ///< shaders may use float64
+  bool ballot = false;   ///< compute shaders may use ballots of their subgroups
 
  private:
-  void become_host();
   void create_instance(bool validation, const WindowNeeds& needs);
   void create_messenger();
   void choose_device(const std::string& wanted, const WindowNeeds& needs);
@@ -75,18 +57,15 @@ class Context {
   void destroy();
 
   DeviceInfo info_;
+  DeviceLimits limits_;
   std::atomic<std::uint32_t> validation_messages_{0};  ///< counted on whatever thread calls Vulkan
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-/// The host as a device.
-[[nodiscard]] DeviceInfo host_device_info();
+/// As list_devices().
+[[nodiscard]] std::vector<DeviceInfo> vulkan_devices();
 
-/// All Vulkan devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver
-/// at all.
-[[nodiscard]] std::vector<DeviceInfo> list_devices();
-
-/// The number of the device a user who asked for `wanted` gets (Context::Context says how); throws Error
+/// The number of the device a user who asked for `wanted` gets (open_device says how); throws Error
 /// (no_device).
 [[nodiscard]] std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted);
 

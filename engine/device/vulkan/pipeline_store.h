@@ -2,16 +2,16 @@
 #pragma once
 #include <filesystem>
 
-#include "engine/vulkan/context.h"
-#include "engine/vulkan/handle.h"
+#include "engine/device/vulkan/handle.h"
+#include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 
 class PipelineStore {
  public:
   /// Reads what was kept for this device and driver in `folder`, which is made when it is missing; empty = none is kept. A file
-  /// that is damaged, or another driver's, is not used. The context must outlive it.
-  PipelineStore(const Context& context, const std::filesystem::path& folder);
+  /// that is damaged, or another driver's, is not used. The device must outlive it.
+  PipelineStore(const VulkanDevice& vulkan, const std::filesystem::path& folder);
   /// Writes the file where pipelines were added. One that cannot be written is left out, as it only saves time; so is one that would
   /// follow a link or replace what this class has not written.
   ~PipelineStore();
@@ -23,7 +23,7 @@ class PipelineStore {
   [[nodiscard]] std::size_t bytes_read() const { return bytes_read_; }
 
  private:
-  const Context& context_;
+  const VulkanDevice& vulkan_;
   std::filesystem::path file_;  ///< empty = none
   std::size_t bytes_read_ = 0;
   Handle<VkPipelineCache, vkDestroyPipelineCache> cache_;

@@ -1,4 +1,4 @@
-#include "engine/gpu/program.h"
+#include "engine/device/vulkan/program_code.h"
 
 #include "shaders/spirv.h"
 

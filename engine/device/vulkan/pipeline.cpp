@@ -1,12 +1,13 @@
-#include "engine/gpu/pipeline.h"
+#include "engine/device/vulkan/pipeline.h"
 
 #include <cassert>
 #include <span>
 
+#include "engine/device/vulkan/program_code.h"
+#include "engine/device/vulkan/texture.h"
+
 namespace splatray {
 namespace {
-
-bool is_pool(std::uint32_t binding) { return binding >= BIND_NODE_POOL && binding <= BIND_TOP_TABLE; }
 
 VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
   if (binding == BIND_PATHS || (is_read_as_pools(binding) && access == PoolAccess::texel))
@@ -16,21 +17,21 @@ VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
 }
 
 std::uint32_t descriptor_count(std::uint32_t binding, const Paging& paging) {
-  return is_pool(binding) ? paging.pages[binding - BIND_NODE_POOL] : 1;
+  return is_pool(binding) ? paging.pages[binding - BIND_POOLS] : 1;
 }
 
-Handle<VkShaderModule, vkDestroyShaderModule> make_module(const Context& context,
+Handle<VkShaderModule, vkDestroyShaderModule> make_module(const VulkanDevice& vulkan,
                                                           std::span<const std::uint32_t> code) {
   VkShaderModuleCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   info.codeSize = code.size_bytes();
   info.pCode = code.data();
   VkShaderModule module = VK_NULL_HANDLE;
-  check(vkCreateShaderModule(context.device, &info, nullptr, &module), "loading a shader");
-  return {context.device, module};
+  check(vkCreateShaderModule(vulkan.device, &info, nullptr, &module), "loading a shader");
+  return {vulkan.device, module};
 }
 
-Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, const PipelineKey& key,
+Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const VulkanDevice& vulkan, const PipelineKey& key,
                                                     std::span<const std::uint32_t> code,
                                                     VkPipelineLayout layout, VkPipelineCache cache) {
   std::array<VkSpecializationMapEntry, SPEC_COUNT> entries{};
@@ -38,7 +39,7 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
     entries[i] = {i, i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)};
   const VkSpecializationInfo specialization{SPEC_COUNT, entries.data(), sizeof(key.constants),
                                             key.constants.data()};
-  const auto module = make_module(context, code);
+  const auto module = make_module(vulkan, code);
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -48,20 +49,20 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const Context& context, cons
   info.stage.pSpecializationInfo = &specialization;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateComputePipelines(context.device, cache, 1, &info, nullptr, &pipeline), "building a pipeline");
-  return {context.device, pipeline};
+  check(vkCreateComputePipelines(vulkan.device, cache, 1, &info, nullptr, &pipeline), "building a pipeline");
+  return {vulkan.device, pipeline};
 }
 
 }  // namespace
 
-BindingSet::BindingSet(const Context& context, const Paging& paging) : context_(context), paging_(paging) {
+VulkanBindings::VulkanBindings(const VulkanDevice& vulkan, const Paging& paging)
+    : vulkan_(vulkan), paging_(paging) {
   assert(paging.access != PoolAccess::automatic);
-  if (context.is_host()) return;
   create_layout();
   create_set();
 }
 
-void BindingSet::create_layout() {
+void VulkanBindings::create_layout() {
   std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
   for (std::uint32_t i = 0; i < BINDINGS; ++i)
     bindings[i] = {i, descriptor_type(i, paging_.access), descriptor_count(i, paging_),
@@ -71,20 +72,20 @@ void BindingSet::create_layout() {
   info.bindingCount = BINDINGS;
   info.pBindings = bindings.data();
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-  check(vkCreateDescriptorSetLayout(context_.device, &info, nullptr, &set_layout),
+  check(vkCreateDescriptorSetLayout(vulkan_.device, &info, nullptr, &set_layout),
         "making a descriptor set layout");
-  set_layout_ = {context_.device, set_layout};
+  set_layout_ = {vulkan_.device, set_layout};
 
   VkPipelineLayoutCreateInfo layout_info{};
   layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
   layout_info.setLayoutCount = 1;
   layout_info.pSetLayouts = &set_layout;
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  check(vkCreatePipelineLayout(context_.device, &layout_info, nullptr, &layout), "making a pipeline layout");
-  pipeline_layout_ = {context_.device, layout};
+  check(vkCreatePipelineLayout(vulkan_.device, &layout_info, nullptr, &layout), "making a pipeline layout");
+  pipeline_layout_ = {vulkan_.device, layout};
 }
 
-void BindingSet::create_set() {
+void VulkanBindings::create_set() {
   std::array<VkDescriptorPoolSize, BINDINGS> sizes{};
   for (std::uint32_t i = 0; i < BINDINGS; ++i)
     sizes[i] = {descriptor_type(i, paging_.access), descriptor_count(i, paging_)};
@@ -94,8 +95,8 @@ void BindingSet::create_set() {
   pool_info.poolSizeCount = BINDINGS;
   pool_info.pPoolSizes = sizes.data();
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(context_.device, &pool_info, nullptr, &pool), "making a descriptor pool");
-  pool_ = {context_.device, pool};
+  check(vkCreateDescriptorPool(vulkan_.device, &pool_info, nullptr, &pool), "making a descriptor pool");
+  pool_ = {vulkan_.device, pool};
 
   const VkDescriptorSetLayout set_layout = set_layout_.get();
   VkDescriptorSetAllocateInfo info{};
@@ -103,22 +104,13 @@ void BindingSet::create_set() {
   info.descriptorPool = pool;
   info.descriptorSetCount = 1;
   info.pSetLayouts = &set_layout;
-  check(vkAllocateDescriptorSets(context_.device, &info, &set_), "making a descriptor set");
+  check(vkAllocateDescriptorSets(vulkan_.device, &info, &set_), "making a descriptor set");
 }
 
-void BindingSet::bind(std::uint32_t binding, const PagedBuffer& buffer) {
-  assert(buffer.pages().size() == descriptor_count(binding, paging_));
-  for (std::uint32_t page = 0; page < buffer.pages().size(); ++page)
-    bind(binding, buffer.pages()[page], page);
-}
-
-void BindingSet::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) {
-  if (context_.is_host()) {
-    host_.bound[binding] = buffer.mapped();
-    return;
-  }
-  const VkDescriptorBufferInfo buffer_info{buffer.get(), 0, VK_WHOLE_SIZE};
-  const VkBufferView view = buffer.view();
+void VulkanBindings::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) {
+  const auto& bound = static_cast<const VulkanBuffer&>(buffer);
+  const VkDescriptorBufferInfo buffer_info{bound.get(), 0, VK_WHOLE_SIZE};
+  const VkBufferView view = bound.view();
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set_;
@@ -128,17 +120,12 @@ void BindingSet::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t
   write.descriptorType = descriptor_type(binding, paging_.access);
   write.pBufferInfo = &buffer_info;
   write.pTexelBufferView = &view;
-  vkUpdateDescriptorSets(context_.device, 1, &write, 0, nullptr);
+  vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
 }
 
-void BindingSet::bind(const EnvironmentTexture& texture) {
-  if (context_.is_host()) {
-    bind(BIND_ENVIRONMENT, texture.texels());
-    host_.environment_width = texture.width();
-    host_.environment_height = texture.height();
-    return;
-  }
-  const VkDescriptorImageInfo image_info{texture.sampler(), texture.view(),
+void VulkanBindings::bind(const Texture& texture) {
+  const auto& environment = static_cast<const EnvironmentTexture&>(texture);
+  const VkDescriptorImageInfo image_info{environment.sampler(), environment.view(),
                                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
@@ -147,19 +134,14 @@ void BindingSet::bind(const EnvironmentTexture& texture) {
   write.descriptorCount = 1;
   write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
   write.pImageInfo = &image_info;
-  vkUpdateDescriptorSets(context_.device, 1, &write, 0, nullptr);
-}
-
-void BindingSet::bind(const WideTree& tree) {
-  host_.tree = tree.view();
-  host_.functions = wide_functions();
+  vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
 }
 
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const auto code = program_code(key.program, kernels_, key.constants[SPEC_PAGES] != 0);
-    found = pipelines_.emplace(key, make_pipeline(context_, key, code, layout, store_.get())).first;
+    const auto code = program_code(key.program, kernels_, is_paged(key.constants));
+    found = pipelines_.emplace(key, make_pipeline(vulkan_, key, code, layout, store_.get())).first;
   }
   return found->second.get();
 }

@@ -1,4 +1,4 @@
-#include "engine/vulkan/pipeline_store.h"
+#include "engine/device/vulkan/pipeline_store.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -81,13 +81,12 @@ std::filesystem::path pipeline_file(const std::filesystem::path& folder,
   return folder / (name + ".bin");
 }
 
-PipelineStore::PipelineStore(const Context& context, const std::filesystem::path& folder)
-    : context_(context) {
-  if (context.is_host()) return;
+PipelineStore::PipelineStore(const VulkanDevice& vulkan, const std::filesystem::path& folder)
+    : vulkan_(vulkan) {
   std::vector<char> kept;
   if (!folder.empty()) {
-    file_ = pipeline_file(folder, context.properties);
-    kept = read_kept(file_, context.properties);
+    file_ = pipeline_file(folder, vulkan.properties);
+    kept = read_kept(file_, vulkan.properties);
   }
   bytes_read_ = kept.size();
   VkPipelineCacheCreateInfo info{};
@@ -95,18 +94,18 @@ PipelineStore::PipelineStore(const Context& context, const std::filesystem::path
   info.initialDataSize = kept.size();
   info.pInitialData = kept.data();
   VkPipelineCache cache = VK_NULL_HANDLE;
-  check(vkCreatePipelineCache(context.device, &info, nullptr, &cache), "making a pipeline cache");
-  cache_ = {context.device, cache};
+  check(vkCreatePipelineCache(vulkan.device, &info, nullptr, &cache), "making a pipeline cache");
+  cache_ = {vulkan.device, cache};
 }
 
 PipelineStore::~PipelineStore() {
   if (file_.empty()) return;
   std::size_t size = 0;
-  if (vkGetPipelineCacheData(context_.device, cache_.get(), &size, nullptr) != VK_SUCCESS) return;
+  if (vkGetPipelineCacheData(vulkan_.device, cache_.get(), &size, nullptr) != VK_SUCCESS) return;
   if (size == bytes_read_ || size > BYTES_MOST) return;
   try {
     std::string bytes(size, '\0');
-    if (vkGetPipelineCacheData(context_.device, cache_.get(), &size, bytes.data()) != VK_SUCCESS) return;
+    if (vkGetPipelineCacheData(vulkan_.device, cache_.get(), &size, bytes.data()) != VK_SUCCESS) return;
     bytes.resize(size);
     keep(bytes, file_);
   } catch (const std::exception&) {

@@ -1,17 +1,23 @@
-/// What differs between kinds of devices, each with its measured reason (tests/bench/ideas.md).
+/// What differs between kinds of devices in how much they are given to do; each says so itself (vulkan/vulkan_profile.cpp has the
+/// measured reasons).
 #pragma once
 #include <cstdint>
 
-#include "engine/gpu/pools.h"
-#include "engine/vulkan/context.h"
 #include "shaders/layout.h"
 
 namespace splatray {
 
-/// Which modules of shaders/variants.cmake a device runs.
+/// How shaders read the pools.
+enum class PoolAccess {
+  automatic,  ///< texel where the device's limits allow it, else storage
+  texel,      ///< uniform texel buffers
+  storage,    ///< storage buffers
+};
+
+/// Which programs a device runs.
 enum class Kernels {
   automatic,  ///< cpu on CPU devices that have what these need, else gpu
-  gpu,        ///< pools in storage buffers, hits in double-float
+  gpu,        ///< pools in storage buffers, hits in double-float (shaders/variants.cmake)
   cpu,        ///< pools in texel buffers, hits in float64, wavefront stages
   host,       ///< C++ (engine/cpu), on the host itself, which runs no others
 };
@@ -37,9 +43,5 @@ struct DeviceProfile {
   /// The most work of a thread whose paths have up to `path_rays` rays, >= 1, and meet `lights` lights.
   [[nodiscard]] ThreadWork work(std::uint32_t path_rays, std::uint32_t lights) const;
 };
-
-/// The profile of a context's device. `requested` is for tests and benchmarks. Throws Error (failed) where the device lacks what
-/// the requested kernels need.
-[[nodiscard]] DeviceProfile device_profile(const Context& context, Kernels requested = Kernels::automatic);
 
 }  // namespace splatray

@@ -1,4 +1,4 @@
-#include "engine/vulkan/functions.h"
+#include "engine/device/vulkan/functions.h"
 
 #include <dlfcn.h>
 #include <unistd.h>

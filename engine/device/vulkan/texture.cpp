@@ -1,21 +1,20 @@
-#include "engine/vulkan/texture.h"
+#include "engine/device/vulkan/texture.h"
 
 #include <algorithm>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
-#include "engine/base/error.h"
-#include "engine/vulkan/command_queue.h"
+#include "engine/device/vulkan/command_queue.h"
 
 namespace splatray {
 namespace {
 
-bool filters_32_bit(const Context& context) {
+bool filters_32_bit(const VulkanDevice& vulkan) {
   constexpr VkFormatFeatureFlags NEEDED = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
                                           VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
   VkFormatProperties properties{};
-  vkGetPhysicalDeviceFormatProperties(context.physical_device, VK_FORMAT_R32G32B32A32_SFLOAT, &properties);
+  vkGetPhysicalDeviceFormatProperties(vulkan.physical_device, VK_FORMAT_R32G32B32A32_SFLOAT, &properties);
   return (properties.optimalTilingFeatures & NEEDED) == NEEDED;
 }
 
@@ -36,7 +35,7 @@ void write_texels(std::span<const glm::vec3> texels, bool as_32_bit, std::byte* 
 /// Fills the image band by band of rows and leaves it ready for sampling.
 void upload_texels(CommandQueue& queue, VkImage image, const Environment& environment, bool as_32_bit) {
   const VkDeviceSize row_bytes = environment.width * VkDeviceSize{as_32_bit ? 16U : 8U};
-  const Buffer& staging = queue.staging(row_bytes * environment.height);
+  const VulkanBuffer& staging = queue.staging(row_bytes * environment.height);
   const auto band_rows = static_cast<std::uint32_t>(staging.size() / row_bytes);
   queue.run([&](VkCommandBuffer commands) {
     record_layout(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -63,33 +62,17 @@ void upload_texels(CommandQueue& queue, VkImage image, const Environment& enviro
 
 }  // namespace
 
-EnvironmentTexture::EnvironmentTexture(const Context& context, CommandQueue& queue,
+EnvironmentTexture::EnvironmentTexture(const VulkanDevice& vulkan, CommandQueue& queue,
                                        const Environment& environment) {
-  const Environment black{1, 1, {glm::vec3(0.0F)}, glm::vec3(0.0F)};
-  const Environment& source = environment.texels.empty() ? black : environment;
-  const std::uint32_t limit = context.properties.limits.maxImageDimension2D;
-  if (source.width > limit || source.height > limit)
-    throw Error(ExitCode::out_of_memory, "the environment has " + std::to_string(source.width) + "x" +
-                                             std::to_string(source.height) +
-                                             " pixels, the device takes at most " + std::to_string(limit) +
-                                             "x" + std::to_string(limit));
-  width_ = source.width;
-  height_ = source.height;
-  if (context.is_host()) {
-    texels_ = Buffer(context, source.texels.size() * sizeof(glm::vec4), 0);
-    write_texels(source.texels, true, texels_.mapped());
-    size_ = texels_.size();
-    return;
-  }
-  const bool as_32_bit = filters_32_bit(context);
+  const bool as_32_bit = filters_32_bit(vulkan);
   const VkFormat format = as_32_bit ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R16G16B16A16_SFLOAT;
-  create_image(context, format, {source.width, source.height, 1});
-  create_view_and_sampler(context, format);
-  upload_texels(queue, image_.get(), source, as_32_bit);
-  size_ = VkDeviceSize{source.width} * source.height * (as_32_bit ? 16U : 8U);
+  create_image(vulkan, format, {environment.width, environment.height, 1});
+  create_view_and_sampler(vulkan, format);
+  upload_texels(queue, image_.get(), environment, as_32_bit);
+  size_ = std::uint64_t{environment.width} * environment.height * (as_32_bit ? 16U : 8U);
 }
 
-void EnvironmentTexture::create_image(const Context& context, VkFormat format, VkExtent3D extent) {
+void EnvironmentTexture::create_image(const VulkanDevice& vulkan, VkFormat format, VkExtent3D extent) {
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
@@ -101,17 +84,16 @@ void EnvironmentTexture::create_image(const Context& context, VkFormat format, V
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   VkImage image = VK_NULL_HANDLE;
-  check(vkCreateImage(context.device, &info, nullptr, &image), "making the environment's image");
-  image_ = {context.device, image};
+  check(vkCreateImage(vulkan.device, &info, nullptr, &image), "making the environment's image");
+  image_ = {vulkan.device, image};
 
   VkMemoryRequirements needs{};
-  vkGetImageMemoryRequirements(context.device, image, &needs);
-  memory_ = allocate_memory(context, needs, Residence::device);
-  check(vkBindImageMemory(context.device, image, memory_.handle.get(), 0),
-        "binding the environment's memory");
+  vkGetImageMemoryRequirements(vulkan.device, image, &needs);
+  memory_ = allocate_memory(vulkan, needs, Residence::device);
+  check(vkBindImageMemory(vulkan.device, image, memory_.handle.get(), 0), "binding the environment's memory");
 }
 
-void EnvironmentTexture::create_view_and_sampler(const Context& context, VkFormat format) {
+void EnvironmentTexture::create_view_and_sampler(const VulkanDevice& vulkan, VkFormat format) {
   VkImageViewCreateInfo view_info{};
   view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
   view_info.image = image_.get();
@@ -119,8 +101,8 @@ void EnvironmentTexture::create_view_and_sampler(const Context& context, VkForma
   view_info.format = format;
   view_info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
   VkImageView view = VK_NULL_HANDLE;
-  check(vkCreateImageView(context.device, &view_info, nullptr, &view), "making the environment's view");
-  view_ = {context.device, view};
+  check(vkCreateImageView(vulkan.device, &view_info, nullptr, &view), "making the environment's view");
+  view_ = {vulkan.device, view};
 
   VkSamplerCreateInfo sampler_info{};
   sampler_info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
@@ -130,9 +112,8 @@ void EnvironmentTexture::create_view_and_sampler(const Context& context, VkForma
   sampler_info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   sampler_info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   VkSampler sampler = VK_NULL_HANDLE;
-  check(vkCreateSampler(context.device, &sampler_info, nullptr, &sampler),
-        "making the environment's sampler");
-  sampler_ = {context.device, sampler};
+  check(vkCreateSampler(vulkan.device, &sampler_info, nullptr, &sampler), "making the environment's sampler");
+  sampler_ = {vulkan.device, sampler};
 }
 
 }  // namespace splatray

@@ -1,0 +1,70 @@
+/// The door to what can trace: Vulkan's devices (engine/device/vulkan) and the host's CPU (engine/device/host), behind one interface.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/device/device_profile.h"
+#include "engine/device/queue.h"
+
+namespace splatray {
+
+/// What a user sees of a device.
+struct DeviceInfo {
+  std::string name;
+  std::string type;     ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
+  std::string driver;   ///< name and version string of the driver
+  std::string api;      ///< "1.3.230"
+  std::string refused;  ///< why it cannot be used; empty = usable
+};
+
+/// What a device allows.
+struct DeviceLimits {
+  std::uint64_t texel_elements = 0;    ///< most elements of a texel buffer; 0 where a format is not supported
+  std::uint64_t storage_bytes = 0;     ///< largest storage buffer
+  std::uint64_t allocation_bytes = 0;  ///< largest allocation
+  std::uint32_t texel_buffers = 0;     ///< most texel buffers of a program for pools
+  std::uint32_t storage_buffers = 0;   ///< most storage buffers of a program for pools
+  std::uint32_t texture_size = 0;      ///< most texels of a texture, across and down
+};
+
+struct QueueOptions {
+  Kernels kernels = Kernels::automatic;
+  /// Where compiled programs are kept between runs; empty = nowhere.
+  std::filesystem::path pipeline_folder{};
+  unsigned threads = 0;  ///< of the host; 0 = one a core
+};
+
+class Device {
+ public:
+  Device() = default;
+  virtual ~Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  [[nodiscard]] virtual const DeviceInfo& info() const = 0;
+  [[nodiscard]] virtual const DeviceLimits& limits() const = 0;
+  /// How much it is given to do. `requested` is for tests and benchmarks. Throws Error (failed) where it lacks what these kernels
+  /// need.
+  [[nodiscard]] virtual DeviceProfile profile(Kernels requested = Kernels::automatic) const = 0;
+  /// The device must outlive it. Throws as profile().
+  [[nodiscard]] virtual std::unique_ptr<Queue> make_queue(const QueueOptions& options = {}) const = 0;
+  /// Of Vulkan's validation layers, so far; from any thread.
+  [[nodiscard]] virtual std::uint32_t validation_messages() const { return 0; }
+};
+
+/// What a user asks for who wants no Vulkan device but the host's CPU (engine/cpu).
+inline constexpr const char* HOST_DEVICE = "cpu";
+
+/// The device that a user asks for: "" = Vulkan's best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
+/// part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not even loaded. Throws Error (no_device) with every
+/// device's reason when none fits.
+[[nodiscard]] std::unique_ptr<Device> open_device(const std::string& wanted);
+
+/// All Vulkan devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver
+/// at all.
+[[nodiscard]] std::vector<DeviceInfo> list_devices();
+
+}  // namespace splatray

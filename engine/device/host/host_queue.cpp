@@ -1,0 +1,100 @@
+#include "engine/device/host/host_queue.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "engine/base/stopwatch.h"
+#include "engine/cpu/run_groups.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::uint64_t LEAST_BYTES = 16;
+
+Kernel kernel_of(Program program) {
+  switch (program) {
+    case Program::empty:
+      return run_empty_kernel;
+    case Program::empty_light:
+      return run_empty_light_kernel;
+    case Program::light:
+      return run_light_kernel;
+    case Program::rays:
+      return run_rays_kernel;
+    default:
+      return run_trace_kernel;
+  }
+}
+
+}  // namespace
+
+HostBuffer::HostBuffer(std::uint64_t bytes)
+    : Buffer(std::max(bytes, LEAST_BYTES)), bytes_(std::make_unique_for_overwrite<std::byte[]>(size())) {}
+
+HostTexture::HostTexture(const Environment& environment)
+    : width_(environment.width),
+      height_(environment.height),
+      texels_(std::uint64_t{width_} * height_ * sizeof(vec4)) {
+  auto* texel = reinterpret_cast<vec4*>(texels_.data());
+  for (const vec3& radiance : environment.texels) *texel++ = vec4(radiance, 1.0F);
+}
+
+void HostBindings::bind(std::uint32_t binding, const Buffer& buffer, [[maybe_unused]] std::uint32_t page) {
+  assert(page == 0);
+  work_.bound[binding] = static_cast<const HostBuffer&>(buffer).data();
+}
+
+void HostBindings::bind(const Texture& texture) {
+  const auto& environment = static_cast<const HostTexture&>(texture);
+  bind(BIND_ENVIRONMENT, environment.texels(), 0);
+  work_.environment_width = environment.width();
+  work_.environment_height = environment.height();
+}
+
+void HostBindings::bind(const SplatTree& tree) {
+  work_.tree = static_cast<const HostTree&>(tree).tree().view();
+  work_.functions = wide_functions();
+}
+
+std::unique_ptr<Buffer> HostQueue::make_buffer(std::uint64_t bytes, BufferKind) {
+  return std::make_unique<HostBuffer>(bytes);
+}
+
+std::unique_ptr<Texture> HostQueue::make_texture(const Environment& environment) {
+  return std::make_unique<HostTexture>(environment);
+}
+
+std::unique_ptr<Bindings> HostQueue::make_bindings([[maybe_unused]] const Paging& paging) {
+  assert(!paging.paged());
+  return std::make_unique<HostBindings>();
+}
+
+std::unique_ptr<SplatTree> HostQueue::make_tree(std::span<const uvec4> splats,
+                                                std::vector<std::uint32_t>& order) {
+  return std::make_unique<HostTree>(WideTree(splats, threads_, order));
+}
+
+void HostQueue::upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) {
+  assert(begin + bytes.size() <= buffer.size());
+  if (!bytes.empty())
+    std::memcpy(static_cast<HostBuffer&>(buffer).data() + begin, bytes.data(), bytes.size());
+}
+
+void HostQueue::download(const Buffer& buffer, std::span<std::byte> bytes) {
+  assert(bytes.size() <= buffer.size());
+  if (!bytes.empty()) std::memcpy(bytes.data(), static_cast<const HostBuffer&>(buffer).data(), bytes.size());
+}
+
+Ran HostQueue::run(const Dispatch& dispatch, const Bindings& bindings) {
+  const auto start = std::chrono::steady_clock::now();
+  KernelWork work = static_cast<const HostBindings&>(bindings).work();
+  work.constants = dispatch.constants;
+  work.frame = dispatch.frame;
+  Ran ran;
+  run_groups(kernel_of(dispatch.program), work, dispatch.groups_x * dispatch.groups_y, threads_, ran.counted);
+  ran.ms = milliseconds_since(start);
+  return ran;
+}
+
+}  // namespace splatray

@@ -1,0 +1,75 @@
+/// Memory of the host, and the programs as C++ that run on its threads.
+#pragma once
+#include "engine/cpu/kernel.h"
+#include "engine/cpu/wide/wide_tree.h"
+#include "engine/device/queue.h"
+
+namespace splatray {
+
+class HostBuffer final : public Buffer {
+ public:
+  explicit HostBuffer(std::uint64_t bytes);
+  [[nodiscard]] std::byte* data() const { return bytes_.get(); }
+
+ private:
+  std::unique_ptr<std::byte[]> bytes_;
+};
+
+class HostTexture final : public Texture {
+ public:
+  explicit HostTexture(const Environment& environment);
+  [[nodiscard]] std::uint64_t size() const override { return texels_.size(); }
+  [[nodiscard]] const HostBuffer& texels() const { return texels_; }  ///< vec4
+  [[nodiscard]] std::uint32_t width() const { return width_; }
+  [[nodiscard]] std::uint32_t height() const { return height_; }
+
+ private:
+  std::uint32_t width_, height_;
+  HostBuffer texels_;
+};
+
+class HostTree final : public SplatTree {
+ public:
+  explicit HostTree(WideTree tree) : tree_(std::move(tree)) {}
+  [[nodiscard]] std::uint64_t bytes() const override { return tree_.bytes(); }
+  [[nodiscard]] const WideTree& tree() const { return tree_; }
+
+ private:
+  WideTree tree_;
+};
+
+/// The arrays that kernels read and write.
+class HostBindings final : public Bindings {
+ public:
+  using Bindings::bind;
+  void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) override;
+  void bind(const Texture& texture) override;
+  void bind(const SplatTree& tree) override;
+
+  /// By binding; constants and parameters are left.
+  [[nodiscard]] const KernelWork& work() const { return work_; }
+
+ private:
+  KernelWork work_;
+};
+
+class HostQueue final : public Queue {
+ public:
+  /// 0 = one a core.
+  explicit HostQueue(unsigned threads) : threads_(threads) {}
+
+  [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) override;
+  [[nodiscard]] std::unique_ptr<Texture> make_texture(const Environment& environment) override;
+  [[nodiscard]] std::unique_ptr<Bindings> make_bindings(const Paging& paging) override;
+  [[nodiscard]] std::unique_ptr<SplatTree> make_tree(std::span<const uvec4> splats,
+                                                     std::vector<std::uint32_t>& order) override;
+  void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) override;
+  void download(const Buffer& buffer, std::span<std::byte> bytes) override;
+  Ran run(const Dispatch& dispatch, const Bindings& bindings) override;
+  [[nodiscard]] std::uint32_t programs_built() const override { return 0; }
+
+ private:
+  const unsigned threads_;
+};
+
+}  // namespace splatray

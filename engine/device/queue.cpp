@@ -1,0 +1,27 @@
+#include "engine/device/queue.h"
+
+#include <algorithm>
+
+#include "engine/device/paged_buffer.h"
+
+namespace splatray {
+
+bool Paging::paged() const {
+  return std::any_of(pages.begin(), pages.end(), [](std::uint32_t count) { return count > 1; });
+}
+
+void Bindings::bind(std::uint32_t binding, const PagedBuffer& buffer) {
+  for (std::uint32_t page = 0; page < buffer.pages().size(); ++page)
+    bind(binding, *buffer.pages()[page], page);
+}
+
+std::unique_ptr<SplatTree> Queue::make_tree(std::span<const uvec4>, std::vector<std::uint32_t>& order) {
+  order.clear();
+  return nullptr;
+}
+
+void Queue::reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind) {
+  if (!buffer || buffer->size() < bytes) buffer = make_buffer(bytes, kind);
+}
+
+}  // namespace splatray

@@ -1,0 +1,128 @@
+/// Memory on a device, and programs that run on it.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/device/bindings.h"
+#include "engine/device/device_profile.h"
+#include "engine/device/program.h"
+#include "engine/scene/environment.h"
+
+namespace splatray {
+
+/// How programs read a buffer.
+enum class BufferKind {
+  storage,  ///< as they like
+  words,    ///< also as texels of one uint
+  texels,   ///< also as texels of four uint
+};
+
+/// Memory on a device, of at least 16 bytes, so that an empty array is a buffer too.
+class Buffer {
+ public:
+  virtual ~Buffer() = default;
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+ protected:
+  explicit Buffer(std::uint64_t size = 0) : size_(size) {}
+  Buffer(Buffer&&) = default;
+  Buffer& operator=(Buffer&&) = default;
+
+ private:
+  std::uint64_t size_;
+};
+
+/// The environment's texture: bilinear, repeating in columns, clamped in rows.
+class Texture {
+ public:
+  Texture() = default;
+  virtual ~Texture() = default;
+  Texture(const Texture&) = delete;
+  Texture& operator=(const Texture&) = delete;
+  [[nodiscard]] virtual std::uint64_t size() const = 0;  ///< bytes of its texels
+};
+
+/// A device's own tree over splats, which its programs walk in place of the octree.
+class SplatTree {
+ public:
+  SplatTree() = default;
+  virtual ~SplatTree() = default;
+  SplatTree(const SplatTree&) = delete;
+  SplatTree& operator=(const SplatTree&) = delete;
+  [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+};
+
+class PagedBuffer;
+
+/// How pools are read, and in how many buffers each is.
+struct Paging {
+  PoolAccess access = PoolAccess::storage;   ///< never automatic
+  std::array<std::uint32_t, POOLS> pages{};  ///< of each pool, at least 1; in the order of their bindings
+  std::uint32_t page_shift = 0;              ///< SPEC_PAGE_SHIFT; 0 where no pool has several pages
+
+  /// Whether some pool has several pages.
+  [[nodiscard]] bool paged() const;
+};
+
+/// What programs find at each of BIND_*, for one paging. Buffers and textures are of the same device, and must outlive their use.
+/// Every binding but BIND_FRAME and BIND_COUNTERS, which are the queue's, needs one before a dispatch, also one that the program does
+/// not use.
+class Bindings {
+ public:
+  Bindings() = default;
+  virtual ~Bindings() = default;
+  Bindings(const Bindings&) = delete;
+  Bindings& operator=(const Bindings&) = delete;
+
+  /// Points one binding to a buffer, or to a page of a pool.
+  virtual void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page = 0) = 0;
+  /// Points the environment's binding to a texture.
+  virtual void bind(const Texture& texture) = 0;
+  /// Has programs walk a tree. Of a device that makes trees.
+  virtual void bind([[maybe_unused]] const SplatTree& tree) {}
+  /// Points a pool's binding to all of its pages.
+  void bind(std::uint32_t binding, const PagedBuffer& buffer);
+};
+
+using Counters = std::array<std::uint64_t, COUNTER_COUNT>;
+
+/// What a dispatch did.
+struct Ran {
+  double ms = 0.0;     ///< on the device, or on the wall clock where it has no timestamps
+  Counters counted{};  ///< of dispatches that count, and of stages
+};
+
+/// Does one thing after the other and waits for each. One thread at a time.
+class Queue {
+ public:
+  Queue() = default;
+  virtual ~Queue() = default;
+  Queue(const Queue&) = delete;
+  Queue& operator=(const Queue&) = delete;
+
+  /// Throws Error (out_of_memory) naming the size.
+  [[nodiscard]] virtual std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) = 0;
+  /// Of an environment that has texels, at most DeviceLimits::texture_size across and down.
+  [[nodiscard]] virtual std::unique_ptr<Texture> make_texture(const Environment& environment) = 0;
+  [[nodiscard]] virtual std::unique_ptr<Bindings> make_bindings(const Paging& paging) = 0;
+  /// Makes the tree over a data pool's splats, if the device has one of its own, and sets `order` to their indices in the order that
+  /// the tree has them in, as what lies beside the data pool must then lie too. Null and no order: programs walk the octree.
+  [[nodiscard]] virtual std::unique_ptr<SplatTree> make_tree(std::span<const uvec4> splats,
+                                                             std::vector<std::uint32_t>& order);
+  /// Copies to the buffer's bytes from `begin` on; at most to its end.
+  virtual void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin = 0) = 0;
+  /// Copies from the buffer's start.
+  virtual void download(const Buffer& buffer, std::span<std::byte> bytes) = 0;
+  virtual Ran run(const Dispatch& dispatch, const Bindings& bindings) = 0;
+  /// Programs compiled since construction.
+  [[nodiscard]] virtual std::uint32_t programs_built() const = 0;
+
+  /// Makes a buffer at least that large; keeps it when it is.
+  void reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind = BufferKind::storage);
+};
+
+}  // namespace splatray

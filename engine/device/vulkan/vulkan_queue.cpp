@@ -1,0 +1,81 @@
+#include "engine/device/vulkan/vulkan_queue.h"
+
+#include <algorithm>
+
+#include "engine/device/vulkan/texture.h"
+
+namespace splatray {
+namespace {
+
+VkFormat texel_format(BufferKind kind) {
+  switch (kind) {
+    case BufferKind::words:
+      return VK_FORMAT_R32_UINT;
+    case BufferKind::texels:
+      return VK_FORMAT_R32G32B32A32_UINT;
+    default:
+      return VK_FORMAT_UNDEFINED;
+  }
+}
+
+}  // namespace
+
+VulkanQueue::VulkanQueue(const VulkanDevice& vulkan, const QueueOptions& options)
+    : vulkan_(vulkan),
+      commands_(vulkan),
+      pipelines_(vulkan, vulkan.profile(options.kernels).kernels, options.pipeline_folder),
+      frame_(vulkan, sizeof(FrameParams), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
+      counters_(vulkan, COUNTER_COUNT * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {}
+
+std::unique_ptr<Buffer> VulkanQueue::make_buffer(std::uint64_t bytes, BufferKind kind) {
+  const VkBufferUsageFlags texels =
+      kind == BufferKind::storage ? 0 : VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+  return std::make_unique<VulkanBuffer>(vulkan_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | texels,
+                                        texel_format(kind));
+}
+
+std::unique_ptr<Texture> VulkanQueue::make_texture(const Environment& environment) {
+  return std::make_unique<EnvironmentTexture>(vulkan_, commands_, environment);
+}
+
+std::unique_ptr<Bindings> VulkanQueue::make_bindings(const Paging& paging) {
+  auto bindings = std::make_unique<VulkanBindings>(vulkan_, paging);
+  bindings->bind(BIND_FRAME, frame_, 0);
+  bindings->bind(BIND_COUNTERS, counters_, 0);
+  return bindings;
+}
+
+void VulkanQueue::upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) {
+  commands_.upload(static_cast<VulkanBuffer&>(buffer), bytes, begin);
+}
+
+void VulkanQueue::download(const Buffer& buffer, std::span<std::byte> bytes) {
+  commands_.download(static_cast<const VulkanBuffer&>(buffer), bytes);
+}
+
+Ran VulkanQueue::run(const Dispatch& dispatch, const Bindings& bindings) {
+  const auto& bound = static_cast<const VulkanBindings&>(bindings);
+  const bool reads_counters = dispatch.counts_work() || dispatch.is_staged();
+  const VkPipeline pipeline = pipelines_.get({dispatch.program, dispatch.constants}, bound.layout());
+  Ran ran;
+  ran.ms = commands_.run([&](VkCommandBuffer commands) {
+    vkCmdUpdateBuffer(commands, frame_.get(), 0, sizeof(FrameParams), &dispatch.frame);
+    if (reads_counters) vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
+    record_barrier(commands);
+    const VkDescriptorSet set = bound.set();
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bound.layout(), 0, 1, &set, 0, nullptr);
+    vkCmdDispatch(commands, dispatch.groups_x, dispatch.groups_y, 1);
+  });
+  if (!reads_counters) return ran;
+  std::array<std::uint32_t, COUNTER_COUNT> counted{};
+  commands_.download(counters_, std::as_writable_bytes(std::span(counted)));
+  std::copy(counted.begin(), counted.end(), ran.counted.begin());
+  return ran;
+}
+
+std::unique_ptr<Queue> VulkanDevice::make_queue(const QueueOptions& options) const {
+  return std::make_unique<VulkanQueue>(*this, options);
+}
+
+}  // namespace splatray

@@ -1,0 +1,29 @@
+/// Memory of a Vulkan device, and the compute programs that run on it.
+#pragma once
+#include "engine/device/queue.h"
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/pipeline.h"
+
+namespace splatray {
+
+class VulkanQueue final : public Queue {
+ public:
+  /// The device must outlive it.
+  VulkanQueue(const VulkanDevice& vulkan, const QueueOptions& options);
+
+  [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) override;
+  [[nodiscard]] std::unique_ptr<Texture> make_texture(const Environment& environment) override;
+  [[nodiscard]] std::unique_ptr<Bindings> make_bindings(const Paging& paging) override;
+  void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) override;
+  void download(const Buffer& buffer, std::span<std::byte> bytes) override;
+  Ran run(const Dispatch& dispatch, const Bindings& bindings) override;
+  [[nodiscard]] std::uint32_t programs_built() const override { return pipelines_.built(); }
+
+ private:
+  const VulkanDevice& vulkan_;
+  CommandQueue commands_;
+  PipelineCache pipelines_;
+  VulkanBuffer frame_, counters_;
+};
+
+}  // namespace splatray
