@@ -35,6 +35,8 @@ struct QueueOptions {
   /// Where compiled programs are kept between runs; empty = nowhere.
   std::filesystem::path pipeline_folder{};
   unsigned threads = 0;  ///< of the host; 0 = one a core
+  /// Most bits of the vectors that the host's tree is walked with (wide_functions).
+  std::uint32_t vector_bits = UINT32_MAX;
 };
 
 class Device {

@@ -27,7 +27,8 @@ std::uint32_t lights_at_hit(const Dispatch& dispatch) {
 Runner::Runner(const Device& its_device, const TracerOptions& options)
     : device(its_device),
       profile(device.profile(options.kernels)),
-      queue(device.make_queue({options.kernels, options.pipeline_folder, options.threads})),
+      queue(device.make_queue(
+          {options.kernels, options.pipeline_folder, options.threads, options.vector_bits})),
       scene(device, *queue, pool_request(options, profile), profile.culls) {
   for (std::unique_ptr<Buffer>* buffer : {&accumulation, &aov, &rays, &hits, &groups_})
     queue->reserve(*buffer, 0);

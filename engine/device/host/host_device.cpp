@@ -26,7 +26,7 @@ const DeviceLimits& HostDevice::limits() const {
 DeviceProfile HostDevice::profile(Kernels) const { return {.kernels = Kernels::host, .culls = true}; }
 
 std::unique_ptr<Queue> HostDevice::make_queue(const QueueOptions& options) const {
-  return std::make_unique<HostQueue>(options.threads);
+  return std::make_unique<HostQueue>(options.threads, options.vector_bits);
 }
 
 }  // namespace splatray

@@ -54,7 +54,6 @@ void HostBindings::bind(const Texture& texture) {
 
 void HostBindings::bind(const SplatTree& tree) {
   work_.tree = static_cast<const HostTree&>(tree).tree().view();
-  work_.functions = wide_functions();
 }
 
 std::unique_ptr<Buffer> HostQueue::make_buffer(std::uint64_t bytes, BufferKind) {
@@ -89,6 +88,7 @@ void HostQueue::download(const Buffer& buffer, std::span<std::byte> bytes) {
 Ran HostQueue::run(const Dispatch& dispatch, const Bindings& bindings) {
   const auto start = std::chrono::steady_clock::now();
   KernelWork work = static_cast<const HostBindings&>(bindings).work();
+  work.functions = functions_;
   work.constants = dispatch.constants;
   work.frame = dispatch.frame;
   Ran ran;

@@ -56,7 +56,8 @@ class HostBindings final : public Bindings {
 class HostQueue final : public Queue {
  public:
   /// 0 = one a core.
-  explicit HostQueue(unsigned threads) : threads_(threads) {}
+  HostQueue(unsigned threads, std::uint32_t vector_bits)
+      : threads_(threads), functions_(wide_functions(vector_bits)) {}
 
   [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) override;
   [[nodiscard]] std::unique_ptr<Texture> make_texture(const Environment& environment) override;
@@ -70,6 +71,7 @@ class HostQueue final : public Queue {
 
  private:
   const unsigned threads_;
+  const WideFunctions& functions_;
 };
 
 }  // namespace splatray
