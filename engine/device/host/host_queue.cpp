@@ -10,7 +10,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::uint64_t LEAST_BYTES = 16;
+constexpr std::uint64_t LEAST_HOST_BYTES = 16;
 
 Kernel kernel_of(Program program) {
   switch (program) {
@@ -30,7 +30,7 @@ Kernel kernel_of(Program program) {
 }  // namespace
 
 HostBuffer::HostBuffer(std::uint64_t bytes)
-    : Buffer(std::max(bytes, LEAST_BYTES)), bytes_(std::make_unique_for_overwrite<std::byte[]>(size())) {}
+    : Buffer(std::max(bytes, LEAST_HOST_BYTES)), bytes_(std::make_unique_for_overwrite<std::byte[]>(size())) {}
 
 HostTexture::HostTexture(const Environment& environment)
     : width_(environment.width),
