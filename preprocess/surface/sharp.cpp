@@ -12,7 +12,6 @@
 
 #include "engine/scene/splat.h"
 #include "preprocess/surface/edge_planes.h"
-#include "preprocess/surface/neighbours.h"
 
 namespace splatray {
 namespace {
@@ -97,12 +96,13 @@ bool agree(const Found& a, const Found& b) {
 /// Finds creases and borders around the points of one cloud.
 class SharpSearch {
  public:
-  SharpSearch(const Cloud& cloud, double crease_degrees, std::span<const std::uint8_t> estimated)
+  SharpSearch(const Cloud& cloud, const NeighbourSearch& search, double crease_degrees,
+              std::span<const std::uint8_t> estimated)
       : cloud_(cloud),
         estimated_(estimated),
         crease_(crease_degrees * std::numbers::pi / 180.0),
         cos_smooth_(std::cos(SMOOTH_SHARE * crease_)),
-        search_(cloud, Sites::positions) {}
+        search_(search) {}
 
   /// Whether a few points, spread over the cloud, show that there is something to find: noise bends surfaces everywhere, and
   /// where nothing bends there may be borders.
@@ -269,15 +269,15 @@ class SharpSearch {
   const Cloud& cloud_;
   std::span<const std::uint8_t> estimated_;
   const double crease_, cos_smooth_;
-  NeighbourSearch search_;
+  const NeighbourSearch& search_;
 };
 
 }  // namespace
 
-std::vector<SharpSide> find_sharp(const Cloud& cloud, double crease_degrees,
+std::vector<SharpSide> find_sharp(const Cloud& cloud, const NeighbourSearch& search, double crease_degrees,
                                   std::span<const std::uint8_t> estimated, const Stage& stage) {
-  const SharpSearch search(cloud, crease_degrees, estimated);
-  return search.promises() ? search.run(stage) : std::vector<SharpSide>{};
+  const SharpSearch sharp(cloud, search, crease_degrees, estimated);
+  return sharp.promises() ? sharp.run(stage) : std::vector<SharpSide>{};
 }
 
 void take_normals(Cloud& cloud, std::span<const SharpSide> sides) {
