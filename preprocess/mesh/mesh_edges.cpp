@@ -6,6 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "preprocess/base/parallel.h"
+#include "preprocess/mesh/clear_creases.h"
+
 namespace splatray {
 namespace {
 
@@ -42,13 +45,22 @@ class CreaseTest {
       : mesh_(mesh), weld_(weld), corners_(corners), cosine_(cosine) {}
 
   [[nodiscard]] bool smooth(const Side& a, const Side& b) const {
-    const glm::dvec3 normal_a = normal(a.triangle);
-    const glm::dvec3 normal_b = normal(b.triangle) * (start(a) == start(b) ? -1.0 : 1.0);
+    const auto [normal_a, normal_b] = normals(a, b);
     const double lengths = std::sqrt(glm::dot(normal_a, normal_a) * glm::dot(normal_b, normal_b));
     return !(glm::dot(normal_a, normal_b) < cosine_ * lengths) || shaded_as_one(a, b);
   }
 
+  /// By how much the surface turns, radians.
+  [[nodiscard]] double turn(const Side& a, const Side& b) const {
+    const auto [normal_a, normal_b] = normals(a, b);
+    return std::atan2(glm::length(glm::cross(normal_a, normal_b)), glm::dot(normal_a, normal_b));
+  }
+
  private:
+  /// On one side of the surface.
+  [[nodiscard]] std::pair<glm::dvec3, glm::dvec3> normals(const Side& a, const Side& b) const {
+    return {normal(a.triangle), normal(b.triangle) * (start(a) == start(b) ? -1.0 : 1.0)};
+  }
   [[nodiscard]] glm::dvec3 normal(std::uint32_t triangle) const {
     const auto& p = mesh_.vertices.position;
     const glm::uvec3& t = mesh_.triangles[triangle];
@@ -76,10 +88,28 @@ class CreaseTest {
   double cosine_;
 };
 
-/// The two sides of a crease.
+/// The two sides of a crease, and by how much the surface turns there, radians.
 struct Crease {
   Side a, b;
+  double turn;
 };
+
+std::vector<TurningEdge> turning_edges(const std::vector<Crease>& creases) {
+  std::vector<TurningEdge> edges;
+  for (const Crease& crease : creases)
+    edges.push_back({{crease.a.triangle, crease.b.triangle}, {crease.a.side, crease.b.side}, crease.turn});
+  return edges;
+}
+
+std::vector<Crease> creases_where(const std::vector<Crease>& creases, const std::vector<std::uint8_t>& kept) {
+  return gather(creases, numbers_where(creases.size(), [&](std::size_t i) { return kept[i] != 0; }));
+}
+
+/// Adds one to both places of an edge.
+void count_edge(const Side& side, std::vector<std::uint32_t>& edges_at) {
+  ++edges_at[side.places >> 32];
+  ++edges_at[static_cast<std::uint32_t>(side.places)];
+}
 
 /// Leaves out the creases' last edges where they end in the midst of the surface, one from each end.
 std::vector<Crease> without_ends(const std::vector<Crease>& creases, std::vector<std::uint32_t>& edges_at) {
@@ -114,12 +144,17 @@ MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
     const bool pair = end - begin == 2;
     if (pair) join(sides[begin], sides[begin + 1]);
     if (pair && test.smooth(sides[begin], sides[begin + 1])) continue;
-    if (pair) creases.push_back({sides[begin], sides[begin + 1]});
+    if (pair)
+      creases.push_back({sides[begin], sides[begin + 1], test.turn(sides[begin], sides[begin + 1])});
+    else
+      count_edge(sides[begin], edges_at);
     any_ = any_ || !pair;
-    ++edges_at[sides[begin].places >> 32];
-    ++edges_at[static_cast<std::uint32_t>(sides[begin].places)];
   }
+  creases =
+      creases_where(creases, standing_out(mesh, across_, turning_edges(creases), std::acos(crease_cosine)));
+  for (const Crease& crease : creases) count_edge(crease.a, edges_at);
   for (int cut = 0; cut < TWIG; ++cut) creases = without_ends(creases, edges_at);
+  creases = creases_where(creases, bounding(mesh, across_, turning_edges(creases)));
   for (const Crease& crease : creases)
     for (const Side& side : {crease.a, crease.b}) across_[std::size_t{3} * side.triangle + side.side] = NONE;
   any_ = any_ || !creases.empty();
