@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "preprocess/mesh/clip_finder.h"
-#include "preprocess/mesh/segment_distance.h"
+#include "preprocess/base/segment_distance.h"
 
 namespace splatray {
 namespace {
