@@ -14,15 +14,7 @@ namespace {
 
 constexpr float COS_SAME = 0.985F;  // 10 degrees: normals of corners that are shaded as one surface
 
-/// A side of a triangle, known by the two places that it joins.
-struct Side {
-  std::uint64_t places;
-  std::uint32_t triangle, side;
-
-  bool operator<(const Side& other) const {
-    return std::tie(places, triangle, side) < std::tie(other.places, other.triangle, other.side);
-  }
-};
+using Side = MeshEdges::Side;
 
 std::vector<Side> sorted_sides(const Mesh& mesh, const std::vector<glm::uint>& weld) {
   std::vector<Side> sides(3 * mesh.triangles.size());
@@ -126,38 +118,62 @@ std::vector<Crease> without_ends(const std::vector<Crease>& creases, std::vector
   return kept;
 }
 
+/// Calls use(sides of an edge) for each edge.
+template <typename Use>
+void for_each_edge(const Mesh& mesh, const std::vector<glm::uint>& weld, const Use& use) {
+  const std::vector<Side> sides = sorted_sides(mesh, weld);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].places == sides[begin].places) ++end;
+    use(std::span(sides).subspan(begin, end - begin));
+  }
+}
+
 }  // namespace
+
+std::uint32_t& MeshEdges::beside_side(const Side& side) {
+  return beside_[std::size_t{3} * side.triangle + side.side];
+}
+
+/// Joins the triangles at an edge of two.
+void MeshEdges::pair_up(std::span<const Side> edge) {
+  any_ = any_ || edge.size() != 2;
+  if (edge.size() == 1) beside_side(edge[0]) = edge[0].triangle | END;
+  if (edge.size() == 2) beside_side(edge[0]) = edge[1].triangle, beside_side(edge[1]) = edge[0].triangle;
+}
 
 MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
                      const std::vector<glm::vec3>& corners, double crease_cosine)
-    : across_(3 * mesh.triangles.size(), NONE) {
-  const std::vector<Side> sides = sorted_sides(mesh, weld);
+    : beside_(3 * mesh.triangles.size(), NONE) {
   const CreaseTest test(mesh, weld, corners, crease_cosine);
   std::vector<Crease> creases;
   std::vector<std::uint32_t> edges_at(weld.size(), 0);
-  const auto join = [this](const Side& a, const Side& b) {
-    across_[std::size_t{3} * a.triangle + a.side] = b.triangle;
-    across_[std::size_t{3} * b.triangle + b.side] = a.triangle;
-  };
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    while (end < sides.size() && sides[end].places == sides[begin].places) ++end;
-    const bool pair = end - begin == 2;
-    if (pair) join(sides[begin], sides[begin + 1]);
-    if (pair && test.smooth(sides[begin], sides[begin + 1])) continue;
-    if (pair)
-      creases.push_back({sides[begin], sides[begin + 1], test.turn(sides[begin], sides[begin + 1])});
+  for_each_edge(mesh, weld, [&](std::span<const Side> edge) {
+    pair_up(edge);
+    if (edge.size() == 2 && test.smooth(edge[0], edge[1])) return;
+    if (edge.size() == 2)
+      creases.push_back({edge[0], edge[1], test.turn(edge[0], edge[1])});
     else
-      count_edge(sides[begin], edges_at);
-    any_ = any_ || !pair;
-  }
+      count_edge(edge[0], edges_at);
+  });
   creases =
-      creases_where(creases, standing_out(mesh, across_, turning_edges(creases), std::acos(crease_cosine)));
+      creases_where(creases, standing_out(mesh, beside_, turning_edges(creases), std::acos(crease_cosine)));
   for (const Crease& crease : creases) count_edge(crease.a, edges_at);
   for (int cut = 0; cut < TWIG; ++cut) creases = without_ends(creases, edges_at);
-  creases = creases_where(creases, bounding(mesh, across_, turning_edges(creases)));
+  creases = creases_where(creases, bounding(mesh, beside_, turning_edges(creases)));
   for (const Crease& crease : creases)
-    for (const Side& side : {crease.a, crease.b}) across_[std::size_t{3} * side.triangle + side.side] = NONE;
+    for (const Side& side : {crease.a, crease.b}) beside_side(side) |= END;
   any_ = any_ || !creases.empty();
+}
+
+MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
+                     const std::function<bool(std::uint32_t, std::uint32_t)>& ends)
+    : beside_(3 * mesh.triangles.size(), NONE) {
+  for_each_edge(mesh, weld, [&](std::span<const Side> edge) {
+    pair_up(edge);
+    if (edge.size() != 2 || !ends(edge[0].triangle, edge[0].side)) return;
+    for (const Side& side : edge) beside_side(side) |= END;
+    any_ = true;
+  });
 }
 
 }  // namespace splatray

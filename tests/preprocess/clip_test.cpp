@@ -14,7 +14,7 @@
 #include "preprocess/mesh/mesh_edges.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/sample_mesh.h"
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 #include "tests/preprocess/discs.h"
 
 namespace splatray {
