@@ -48,7 +48,7 @@ void drop_strays(Cloud& cloud, const GridSurface& grids, Survey& survey, BuildSt
 /// surfaces.
 void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, BuildStats& stats) {
   for (const SharpSide& side : sharp)
-    if (side.crease) survey.flatness[side.point] = 0.0F;
+    if (side.crease && !survey.flatness.empty()) survey.flatness[side.point] = 0.0F;
   cloud.kind = find_kinds(cloud, survey);
   if (!cloud.kind.empty() && !cloud.line.empty())
     for (std::size_t i = 0; i < cloud.size(); ++i)

@@ -83,6 +83,11 @@ Components find_parts(const Cloud& cloud, const Survey& survey) {
   return parts;
 }
 
+float usual_reach(const Survey& survey) {
+  std::vector<float> ranked = survey.reach;
+  return median(ranked);
+}
+
 struct Part {
   std::uint32_t points = 0, sparse = 0;  ///< in all; of them, far from their neighbours
 };
@@ -90,8 +95,7 @@ struct Part {
 /// Parts of few points that are far from all others, as far as these are from each other.
 void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stray>& strays) {
   Components parts = find_parts(cloud, survey);
-  std::vector<float> ranked = survey.reach;
-  const float sparse = SPARSE * median(ranked);
+  const float sparse = SPARSE * usual_reach(survey);
   std::vector<Part> sizes(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     Part& part = sizes[parts.find(i)];

@@ -264,9 +264,11 @@ Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   survey.reach.resize(cloud.size());
   survey.wide.resize(cloud.size());
   survey.estimated.resize(cloud.size());
-  survey.flatness.resize(cloud.size());
   Rough rough;
-  if (!all_given) rough.roughness.resize(cloud.size()), rough.thickness.resize(cloud.size());
+  if (!all_given) {
+    survey.flatness.resize(cloud.size());
+    rough.roughness.resize(cloud.size()), rough.thickness.resize(cloud.size());
+  }
   look_around(cloud, up, all_given, survey, rough, stage);
   if (all_given) return survey;
   for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, rough, stage);

@@ -25,7 +25,7 @@ struct Survey {
   std::vector<float> wide;   ///< distance to the WIDE-th place, or what it is on a surface of even density
   std::vector<std::uint8_t> estimated;  ///< whether the normal was unknown before
   /// Least deviation over the second, of the flattest neighbourhood that does not lie along a line, where the normal was
-  /// unknown, else 0; infinite on a line.
+  /// unknown, else 0; infinite on a line. Empty where all normals were given.
   std::vector<float> flatness;
   glm::vec3 step{0.0F};  ///< coordinate_step, where any normal was unknown
 
