@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/scene/splat.h"
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 
 namespace splatray {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/scene/splat.h"
-#include "preprocess/mesh/segment_distance.h"
+#include "preprocess/base/segment_distance.h"
 
 namespace splatray {
 namespace {

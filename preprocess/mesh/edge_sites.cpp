@@ -5,8 +5,8 @@
 #include <span>
 #include <unordered_map>
 
+#include "preprocess/base/segment_distance.h"
 #include "preprocess/mesh/clip_finder.h"
-#include "preprocess/mesh/segment_distance.h"
 
 namespace splatray {
 namespace {

@@ -6,20 +6,15 @@
 #include <cmath>
 #include <utility>
 
+#include "preprocess/base/parallel.h"
+#include "preprocess/mesh/clear_creases.h"
+
 namespace splatray {
 namespace {
 
 constexpr float COS_SAME = 0.985F;  // 10 degrees: normals of corners that are shaded as one surface
 
-/// A side of a triangle, known by the two places that it joins.
-struct Side {
-  std::uint64_t places;
-  std::uint32_t triangle, side;
-
-  bool operator<(const Side& other) const {
-    return std::tie(places, triangle, side) < std::tie(other.places, other.triangle, other.side);
-  }
-};
+using Side = MeshEdges::Side;
 
 std::vector<Side> sorted_sides(const Mesh& mesh, const std::vector<glm::uint>& weld) {
   std::vector<Side> sides(3 * mesh.triangles.size());
@@ -42,13 +37,22 @@ class CreaseTest {
       : mesh_(mesh), weld_(weld), corners_(corners), cosine_(cosine) {}
 
   [[nodiscard]] bool smooth(const Side& a, const Side& b) const {
-    const glm::dvec3 normal_a = normal(a.triangle);
-    const glm::dvec3 normal_b = normal(b.triangle) * (start(a) == start(b) ? -1.0 : 1.0);
+    const auto [normal_a, normal_b] = normals(a, b);
     const double lengths = std::sqrt(glm::dot(normal_a, normal_a) * glm::dot(normal_b, normal_b));
     return !(glm::dot(normal_a, normal_b) < cosine_ * lengths) || shaded_as_one(a, b);
   }
 
+  /// By how much the surface turns, radians.
+  [[nodiscard]] double turn(const Side& a, const Side& b) const {
+    const auto [normal_a, normal_b] = normals(a, b);
+    return std::atan2(glm::length(glm::cross(normal_a, normal_b)), glm::dot(normal_a, normal_b));
+  }
+
  private:
+  /// On one side of the surface.
+  [[nodiscard]] std::pair<glm::dvec3, glm::dvec3> normals(const Side& a, const Side& b) const {
+    return {normal(a.triangle), normal(b.triangle) * (start(a) == start(b) ? -1.0 : 1.0)};
+  }
   [[nodiscard]] glm::dvec3 normal(std::uint32_t triangle) const {
     const auto& p = mesh_.vertices.position;
     const glm::uvec3& t = mesh_.triangles[triangle];
@@ -76,10 +80,28 @@ class CreaseTest {
   double cosine_;
 };
 
-/// The two sides of a crease.
+/// The two sides of a crease, and by how much the surface turns there, radians.
 struct Crease {
   Side a, b;
+  double turn;
 };
+
+std::vector<TurningEdge> turning_edges(const std::vector<Crease>& creases) {
+  std::vector<TurningEdge> edges;
+  for (const Crease& crease : creases)
+    edges.push_back({{crease.a.triangle, crease.b.triangle}, {crease.a.side, crease.b.side}, crease.turn});
+  return edges;
+}
+
+std::vector<Crease> creases_where(const std::vector<Crease>& creases, const std::vector<std::uint8_t>& kept) {
+  return gather(creases, numbers_where(creases.size(), [&](std::size_t i) { return kept[i] != 0; }));
+}
+
+/// Adds one to both places of an edge.
+void count_edge(const Side& side, std::vector<std::uint32_t>& edges_at) {
+  ++edges_at[side.places >> 32];
+  ++edges_at[static_cast<std::uint32_t>(side.places)];
+}
 
 /// Leaves out the creases' last edges where they end in the midst of the surface, one from each end.
 std::vector<Crease> without_ends(const std::vector<Crease>& creases, std::vector<std::uint32_t>& edges_at) {
@@ -96,33 +118,62 @@ std::vector<Crease> without_ends(const std::vector<Crease>& creases, std::vector
   return kept;
 }
 
+/// Calls use(sides of an edge) for each edge.
+template <typename Use>
+void for_each_edge(const Mesh& mesh, const std::vector<glm::uint>& weld, const Use& use) {
+  const std::vector<Side> sides = sorted_sides(mesh, weld);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].places == sides[begin].places) ++end;
+    use(std::span(sides).subspan(begin, end - begin));
+  }
+}
+
 }  // namespace
+
+std::uint32_t& MeshEdges::beside_side(const Side& side) {
+  return beside_[std::size_t{3} * side.triangle + side.side];
+}
+
+/// Joins the triangles at an edge of two.
+void MeshEdges::pair_up(std::span<const Side> edge) {
+  any_ = any_ || edge.size() != 2;
+  if (edge.size() == 1) beside_side(edge[0]) = edge[0].triangle | END;
+  if (edge.size() == 2) beside_side(edge[0]) = edge[1].triangle, beside_side(edge[1]) = edge[0].triangle;
+}
 
 MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
                      const std::vector<glm::vec3>& corners, double crease_cosine)
-    : across_(3 * mesh.triangles.size(), NONE) {
-  const std::vector<Side> sides = sorted_sides(mesh, weld);
+    : beside_(3 * mesh.triangles.size(), NONE) {
   const CreaseTest test(mesh, weld, corners, crease_cosine);
   std::vector<Crease> creases;
   std::vector<std::uint32_t> edges_at(weld.size(), 0);
-  const auto join = [this](const Side& a, const Side& b) {
-    across_[std::size_t{3} * a.triangle + a.side] = b.triangle;
-    across_[std::size_t{3} * b.triangle + b.side] = a.triangle;
-  };
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    while (end < sides.size() && sides[end].places == sides[begin].places) ++end;
-    const bool pair = end - begin == 2;
-    if (pair) join(sides[begin], sides[begin + 1]);
-    if (pair && test.smooth(sides[begin], sides[begin + 1])) continue;
-    if (pair) creases.push_back({sides[begin], sides[begin + 1]});
-    any_ = any_ || !pair;
-    ++edges_at[sides[begin].places >> 32];
-    ++edges_at[static_cast<std::uint32_t>(sides[begin].places)];
-  }
+  for_each_edge(mesh, weld, [&](std::span<const Side> edge) {
+    pair_up(edge);
+    if (edge.size() == 2 && test.smooth(edge[0], edge[1])) return;
+    if (edge.size() == 2)
+      creases.push_back({edge[0], edge[1], test.turn(edge[0], edge[1])});
+    else
+      count_edge(edge[0], edges_at);
+  });
+  creases =
+      creases_where(creases, standing_out(mesh, beside_, turning_edges(creases), std::acos(crease_cosine)));
+  for (const Crease& crease : creases) count_edge(crease.a, edges_at);
   for (int cut = 0; cut < TWIG; ++cut) creases = without_ends(creases, edges_at);
+  creases = creases_where(creases, bounding(mesh, beside_, turning_edges(creases)));
   for (const Crease& crease : creases)
-    for (const Side& side : {crease.a, crease.b}) across_[std::size_t{3} * side.triangle + side.side] = NONE;
+    for (const Side& side : {crease.a, crease.b}) beside_side(side) |= END;
   any_ = any_ || !creases.empty();
+}
+
+MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
+                     const std::function<bool(std::uint32_t, std::uint32_t)>& ends)
+    : beside_(3 * mesh.triangles.size(), NONE) {
+  for_each_edge(mesh, weld, [&](std::span<const Side> edge) {
+    pair_up(edge);
+    if (edge.size() != 2 || !ends(edge[0].triangle, edge[0].side)) return;
+    for (const Side& side : edge) beside_side(side) |= END;
+    any_ = true;
+  });
 }
 
 }  // namespace splatray

@@ -9,7 +9,7 @@
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/sample_mesh.h"
-#include "preprocess/mesh/texture_detail.h"
+#include "preprocess/mesh/texture/texture_detail.h"
 
 namespace splatray {
 namespace {

@@ -22,10 +22,11 @@
 #include "preprocess/mesh/edge_sites.h"
 #include "preprocess/mesh/mesh_edges.h"
 #include "preprocess/mesh/mesh_normals.h"
+#include "preprocess/mesh/refined_mesh.h"
 #include "preprocess/mesh/smooth_surface.h"
 #include "preprocess/mesh/surface_maps.h"
-#include "preprocess/mesh/texture.h"
-#include "preprocess/mesh/texture_detail.h"
+#include "preprocess/mesh/texture/texture.h"
+#include "preprocess/mesh/texture/texture_detail.h"
 
 namespace splatray {
 namespace {
@@ -33,6 +34,7 @@ namespace {
 constexpr float COS_SAME = 0.9994F;  // 2 degrees: normals of corners that are one point
 constexpr double EDGE_REACH =
     2.0;  // of a sample, in units of the samples' distance: more than twice its disc's radius
+constexpr double OFF_SURFACE = 0.02;       // of the samples' distance: facets that discs end at
 constexpr double VERTEX_EDGE_REACH = 1.2;  // of a vertex, in units of its longest edge
 
 std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
@@ -96,60 +98,104 @@ class SampleWriter {
         mask_(mesh),
         maps_(mesh),
         normals_(corner_normals(mesh, weld, crease_cosine)),
-        edges_(mesh, weld, normals_, crease_cosine) {
+        edges_(mesh, weld, normals_, crease_cosine),
+        surface_(mesh, weld, normals_, edges_) {
     triangles_.reserve(count);
     points_.position.reserve(count);
     points_.normal.reserve(count);
     points_.color.reserve(mesh.vertices.color.empty() && !mesh.texture ? 0 : count);
   }
 
-  /// Leaves out what the mesh's texture cuts out.
-  void add(std::size_t triangle_index, const glm::dvec3& weights) {
-    if (mask_.cut_out(static_cast<std::uint32_t>(triangle_index), weights)) return;
-    const glm::uvec3& triangle = mesh_.triangles[triangle_index];
-    triangles_.push_back(static_cast<std::uint32_t>(triangle_index));
-    const glm::vec3 w(weights);
-    if (!mesh_.vertices.columns.empty()) weights_.push_back(w);
-    const std::array<glm::dvec3, 3> corners = corners_of(mesh_, triangle);
-    points_.position.push_back(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2] +
-                               to_surface(triangle_index, corners, weights));
-    points_.normal.push_back(normal_on_triangle(mesh_, normals_, triangle_index, weights));
-    maps_.add(triangle, w, points_.normal.back());
-    if (mesh_.vertices.color.empty() && !mesh_.texture) {
-      return;
-    }
-    glm::vec3 color{1.0F};
-    if (const auto& colors = mesh_.vertices.color; !colors.empty()) {
-      color = w.x * colors[triangle.x] + w.y * colors[triangle.y] + w.z * colors[triangle.z];
-    }
-    if (mesh_.texture) {
-      const auto& uv = mesh_.texcoord;
-      color *= mesh_.texture->color(w.x * uv[triangle.x] + w.y * uv[triangle.y] + w.z * uv[triangle.z]);
-    }
-    points_.color.push_back(color);
+  /// Adds a sample, unless the mesh's texture cuts it out.
+  void add(std::size_t triangle, const glm::dvec3& weights) {
+    pending_.push_back({static_cast<std::uint32_t>(triangle), weights});
+    if (pending_.size() == MOST_PENDING) add_pending();
   }
 
   /// Adds points where edges lack them, at most as many as there are, and gives all their clip lines.
-  void clip(const std::vector<glm::uint>& weld, double spacing_world) {
+  void clip(double spacing_world) {
+    if (!edges_.any() && !mask_.any()) return;
+    add_pending();
+    const RefinedMesh refined(mesh_, edges_, surface_, OFF_SURFACE * spacing_world);
+    const std::vector<glm::uint> weld = weld_positions(refined.mesh().vertices.position);
+    const MeshEdges edges = refined.edges(weld);
+    std::vector<std::uint32_t> parts(points_.size());
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      parts[i] = refined.part_at(triangles_[i], weights_.empty() ? glm::dvec3(0.0) : glm::dvec3(weights_[i]));
+    });
     for (const MeshPlace& site :
-         edge_sites(mesh_, edges_, triangles_, points_.position, spacing_world, points_.size()))
-      add(site.triangle, site.weights);
+         edge_sites(refined.mesh(), edges, parts, points_.position, spacing_world, points_.size())) {
+      const MeshPlace place{refined.triangle_of(site.triangle),
+                            refined.weights_of(site.triangle, site.weights)};
+      if (mask_.cut_out(place.triangle, place.weights)) continue;
+      add(place.triangle, place.weights);
+      parts.push_back(site.triangle);
+    }
+    add_pending();
     const double reach_world = EDGE_REACH * spacing_world;
     clip_points(
-        mesh_, weld, edges_,
+        refined.mesh(), weld, edges,
         [&](std::size_t i) {
-          return PointOnMesh{std::span(triangles_).subspan(i, 1), reach_world};
+          return PointOnMesh{std::span(parts).subspan(i, 1), reach_world};
         },
         points_);
   }
 
   Points finish() {
+    add_pending();
     for (const Column& column : mesh_.vertices.columns) points_.columns.push_back(on_samples(column));
     for (Column& column : maps_.take()) points_.columns.push_back(std::move(column));
     return std::move(points_);
   }
 
  private:
+  static constexpr std::size_t MOST_PENDING = std::size_t{1} << 18;
+
+  [[nodiscard]] bool colored() const { return !mesh_.vertices.color.empty() || mesh_.texture; }
+
+  /// Makes points of what was added.
+  void add_pending() {
+    std::vector<MeshPlace> places = std::exchange(pending_, {});
+    const auto stays = [&](std::size_t i) { return !mask_.cut_out(places[i].triangle, places[i].weights); };
+    if (mask_.any()) places = gather(places, numbers_where(places.size(), stays));
+    const std::size_t first = triangles_.size(), size = first + places.size();
+    triangles_.resize(size);
+    points_.position.resize(size);
+    points_.normal.resize(size);
+    if (colored()) points_.color.resize(size);
+    if (!mesh_.vertices.columns.empty() || edges_.any()) weights_.resize(size);
+    using Range = tbb::blocked_range<std::size_t>;
+    tbb::parallel_for(Range(0, places.size(), 1024), [&](const Range& range) {
+      SmoothTriangle smooth;  // of many samples one after the other
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const std::uint32_t triangle = places[i].triangle;
+        if (i == range.begin() || triangle != places[i - 1].triangle) smooth = surface_.triangle(triangle);
+        set(first + i, places[i], smooth);
+      }
+    });
+    for (std::size_t i = 0; i < places.size() && !mesh_.maps.empty(); ++i)
+      maps_.add(mesh_.triangles[places[i].triangle], glm::vec3(places[i].weights), points_.normal[first + i]);
+  }
+
+  /// Gives a point its place on the smooth triangle.
+  void set(std::size_t point, const MeshPlace& place, const SmoothTriangle& smooth) {
+    const glm::uvec3& triangle = mesh_.triangles[place.triangle];
+    triangles_[point] = place.triangle;
+    const glm::vec3 w(place.weights);
+    if (!weights_.empty()) weights_[point] = w;
+    points_.position[point] = smooth.place(place.weights);
+    points_.normal[point] = normal_on_triangle(mesh_, normals_, place.triangle, place.weights);
+    if (!colored()) return;
+    glm::vec3 color{1.0F};
+    if (const auto& colors = mesh_.vertices.color; !colors.empty())
+      color = w.x * colors[triangle.x] + w.y * colors[triangle.y] + w.z * colors[triangle.z];
+    if (mesh_.texture) {
+      const auto& uv = mesh_.texcoord;
+      color *= mesh_.texture->color(w.x * uv[triangle.x] + w.y * uv[triangle.y] + w.z * uv[triangle.z]);
+    }
+    points_.color[point] = color;
+  }
+
   /// An attribute of the vertices at the points: numbers with a fraction are interpolated, whole ones are the nearest corner's.
   [[nodiscard]] Column on_samples(const Column& column) const {
     const auto take = [this](const auto& values) -> Column::Values {
@@ -173,20 +219,13 @@ class SampleWriter {
     return {column.name, std::visit(take, column.values)};
   }
 
-  /// From a point of a triangle to the smooth surface.
-  [[nodiscard]] glm::dvec3 to_surface(std::size_t triangle, const std::array<glm::dvec3, 3>& corners,
-                                      const glm::dvec3& weights) const {
-    std::array<bool, 3> joined{};
-    for (std::uint32_t side = 0; side < 3; ++side)
-      joined[side] = edges_.across(static_cast<std::uint32_t>(triangle), side) != MeshEdges::NONE;
-    return to_smooth_surface(corners, std::span(normals_).subspan(3 * triangle).first<3>(), joined, weights);
-  }
-
   const Mesh& mesh_;
   AlphaMask mask_;
   MapSamples maps_;
   std::vector<glm::vec3> normals_;
   MeshEdges edges_;
+  SmoothSurface surface_;
+  std::vector<MeshPlace> pending_;  ///< samples that are no points yet
   Points points_;
   std::vector<std::uint32_t> triangles_;  ///< beside points_
   std::vector<glm::vec3> weights_;        ///< beside points_ where vertices have attributes, else empty
@@ -400,7 +439,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   for (; written < count; ++written) {  // rounding of the summed area may leave the last share over
     writer.add(last_proper, glm::dvec3(1.0 / 3.0));
   }
-  if (creases.clip) writer.clip(weld, std::sqrt(step / least_density));
+  if (creases.clip) writer.clip(std::sqrt(step / least_density));
   return writer.finish();
 }
 

@@ -2,31 +2,48 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
-#include <span>
+#include <vector>
+
+#include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/points.h"
 
 namespace splatray {
 
-/// From a point of a triangle, given by its barycentric weights, to the smooth surface that its corners' unit normals are of: half way
-/// to the mean of the corners' tangent planes (Boubekeur and Alexa 2008, "Phong Tessellation"; half is exact where the surface is a
-/// quadric's graph). Each edge, from a corner to the next, has its own share in it, by the angle of the normals at its ends, so that
-/// triangles join; edges that are not `joined` smoothly to another triangle have none.
-[[nodiscard]] inline glm::dvec3 to_smooth_surface(const std::array<glm::dvec3, 3>& corners,
-                                                  std::span<const glm::vec3, 3> normals,
-                                                  const std::array<bool, 3>& joined,
-                                                  const glm::dvec3& weights) {
-  /// Cosines of 45 and 30 degrees: normals that turn by more along an edge are of a coarse drawing, not of a smooth surface.
-  constexpr double SHARP_COSINE = 0.7071067811865476, SMOOTH_COSINE = 0.8660254037844387;
-  glm::dvec3 sum(0.0);
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!joined[i]) continue;
-    const std::size_t j = (i + 1) % 3;
-    const glm::dvec3 normal_i(normals[i]), normal_j(normals[j]), along = corners[i] - corners[j];
-    const double smooth = glm::smoothstep(SHARP_COSINE, SMOOTH_COSINE, glm::dot(normal_i, normal_j));
-    sum += smooth * weights[static_cast<glm::length_t>(i)] * weights[static_cast<glm::length_t>(j)] *
-           (glm::dot(along, normal_i) * normal_i - glm::dot(along, normal_j) * normal_j);
-  }
-  return 0.5 * sum;
-}
+/// A triangle bent as the surface is: half way to the mean of the corners' tangent planes (Boubekeur and Alexa 2008, "Phong
+/// Tessellation"; half is exact where the surface is a quadric's graph).
+struct SmoothTriangle {
+  std::array<glm::dvec3, 3> corners;
+  /// Of each side, from a corner to the next: the middle lies an eighth of this off the chord.
+  std::array<glm::dvec3, 3> bow;
+
+  /// The surface's point at these barycentric weights.
+  [[nodiscard]] glm::dvec3 place(const glm::dvec3& weights) const;
+  /// The unit normal of the surface's tangent plane there, on the triangle's side; zero of triangles without area.
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec3& weights) const;
+};
+
+/// Each edge has its own share in the surface, so that triangles join. Both triangles at an edge decide it: at a crease it runs
+/// in the tangent planes of both, so that a round rim is round on both sides; a border follows its one triangle. Edges of
+/// more than two triangles, and those along which normals turn by more than 45 degrees, stay straight.
+class SmoothSurface {
+ public:
+  /// `corners`: corner_normals. All must outlive the surface.
+  SmoothSurface(const Mesh& mesh, const std::vector<glm::uint>& weld, const std::vector<glm::vec3>& corners,
+                const MeshEdges& edges)
+      : mesh_(mesh), weld_(weld), corners_(corners), edges_(edges) {}
+
+  [[nodiscard]] SmoothTriangle triangle(std::uint32_t index) const;
+
+ private:
+  [[nodiscard]] glm::dvec3 bow_of(std::uint32_t triangle, std::uint32_t side) const;
+  [[nodiscard]] glm::dvec3 corner_normal(std::uint32_t triangle, glm::uint place) const;
+
+  const Mesh& mesh_;
+  const std::vector<glm::uint>& weld_;
+  const std::vector<glm::vec3>& corners_;
+  const MeshEdges& edges_;
+};
 
 }  // namespace splatray

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/scene/octahedral.h"
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 
 namespace splatray {
 

@@ -16,7 +16,7 @@ constexpr std::size_t MOST_ASKED = 200000;  // points that give the median well 
 constexpr std::size_t MOST_SORTED = 65536;  // coordinates that show their step
 
 /// What a point and its nearest places disagree about, and what rounding hides of it.
-float disagreement(const Cloud& cloud, const Survey& survey, const glm::vec3& step, std::uint32_t i) {
+float disagreement(const Cloud& cloud, const Survey& survey, std::uint32_t i) {
   float sum = 0.0F, count = 0.0F;
   for (const std::uint32_t j : survey.around(i).first(Survey::RING)) {
     if (!cloud.on_surface(j)) continue;
@@ -28,7 +28,7 @@ float disagreement(const Cloud& cloud, const Survey& survey, const glm::vec3& st
     count += 1.0F;
   }
   if (!(count > 0.0F && survey.reach[i] > 0.0F)) return 0.0F;
-  const float rounded = glm::dot(step, glm::abs(cloud.normal[i]));
+  const float rounded = glm::dot(survey.step, glm::abs(cloud.normal[i]));
   return std::sqrt(std::max(sum / count, rounded * rounded / 12.0F)) / survey.reach[i];
 }
 
@@ -61,10 +61,10 @@ glm::vec3 coordinate_step(const Cloud& cloud) {
   return step;
 }
 
-double measure_noise(const Cloud& cloud, const Survey& survey, const glm::vec3& step) {
+double measure_noise(const Cloud& cloud, const Survey& survey) {
   const auto points = numbers_where(
       cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0 && cloud.on_surface(i); });
-  return median(points, MOST_ASKED, [&](auto i) { return disagreement(cloud, survey, step, i); });
+  return median(points, MOST_ASKED, [&](auto i) { return disagreement(cloud, survey, i); });
 }
 
 }  // namespace splatray

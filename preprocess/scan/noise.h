@@ -11,9 +11,9 @@ namespace splatray {
 /// How far points of surfaces lie off these, of those whose normals were estimated: the median of how much a point and its 8
 /// nearest places disagree about the height of one over the other's plane, over the distance to the 8th. Curvature cancels on
 /// circles, where (n_i + n_j).(p_j - p_i) is zero. Neighbours whose normals are more than 25 degrees apart are left out. Sides
-/// do not matter. No less than what rounding to `step` (coordinate_step) leaves: the step across the plane over the root of 12.
+/// do not matter. No less than what rounding to the survey's step leaves: the step across the plane over the root of 12.
 /// 0 without such points.
-[[nodiscard]] double measure_noise(const Cloud& cloud, const Survey& survey, const glm::vec3& step);
+[[nodiscard]] double measure_noise(const Cloud& cloud, const Survey& survey);
 
 /// What the places' coordinates are multiples of, along each axis, in cloud coordinates: the least difference among at most 65
 /// 536 of them, which is next to nothing where they were not rounded. The cloud's positions must be there.

@@ -41,14 +41,14 @@ void drop_strays(Cloud& cloud, const GridSurface& grids, Survey& survey, BuildSt
   std::vector<std::uint32_t> number(cloud.size(), NO_CELL);  // after the others are gone
   for (std::uint32_t n = 0; n < kept.size(); ++n) number[kept[n]] = n;
   keep_points(cloud, kept);
-  survey.keep(kept, number);
+  survey.keep(cloud, kept, number);
 }
 
 /// Finds what points are part of; those at creases, which bend the planes around them, and on lines that make up a surface are of
 /// surfaces.
 void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, BuildStats& stats) {
   for (const SharpSide& side : sharp)
-    if (side.crease) survey.flatness[side.point] = 0.0F;
+    if (side.crease && !survey.flatness.empty()) survey.flatness[side.point] = 0.0F;
   cloud.kind = find_kinds(cloud, survey);
   if (!cloud.kind.empty() && !cloud.line.empty())
     for (std::size_t i = 0; i < cloud.size(); ++i)
@@ -68,7 +68,7 @@ void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, Bui
 std::vector<SharpSide> find_sharp_sides(const Cloud& cloud, const Survey& survey, const BuildParams& params,
                                         const Stage& stage) {
   if (!params.clip || !cloud.radius.empty()) return {};
-  return find_sharp(cloud, params.crease_degrees, survey.estimated, stage);
+  return find_sharp(cloud, survey.near->search(), params.crease_degrees, survey.estimated, stage);
 }
 
 /// Turns the planes at creases and borders to the sides of their points' normals.
@@ -100,7 +100,7 @@ GridSurface find_grids(Cloud& cloud, const BuildParams& params, const Stage& sta
 void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, double noise, bool sided,
                      const Stage& stage, BuildStats& stats) {
   const double radius = std::clamp(params.smooth_world / cloud.half_extent_world, 0.0, WHOLE);
-  survey.listed = {};
+  survey.near = {};
   Smoothed smoothed;
   if (params.smooth_world < 0.0) {
     std::vector<std::uint8_t> movable = survey.estimated;
@@ -124,7 +124,6 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
     if (grids.normals > 0) ++stats.sides_by[static_cast<std::size_t>(SideRung::sensor)];
     return grids.normals;
   }
-  const glm::vec3 step = coordinate_step(cloud);  // positions are gone after the survey
   Survey survey = survey_points(cloud, up, stage);
   if (!params.keep_strays) drop_strays(cloud, grids, survey, stats);
   lay_line_surfaces(cloud, survey, params.clip && cloud.radius.empty(), stage);
@@ -139,7 +138,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   stats.sides_unsure += sides.unsure;
   turn_with_points(cloud, sharp);
   take_normals(cloud, sharp);
-  const double noise = measure_noise(cloud, survey, step);
+  const double noise = measure_noise(cloud, survey);
   if (!cloud.kind.empty()) {
     const bool terrain = sides.rung == SideRung::up || sides.rung == SideRung::track;
     make_scatter_discs(cloud, survey, up, !terrain && is_room(cloud, survey) ? CLUTTER : LEAVES);
@@ -153,6 +152,8 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   } else {
     take_sides(cloud, sharp);
     count_sharp(sharp, stats);
+    if (sharp.empty() && cloud.kind.empty() && survey.near->search().has_all())
+      cloud.near = std::move(survey.near);
   }
   return all_estimated + grids.normals;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -42,13 +43,9 @@ void mark_isolated(const Survey& survey, std::vector<Stray>& strays) {
   });
 }
 
-struct Part {
-  std::uint32_t points = 0, sparse = 0;  ///< in all; of them, far from their neighbours
-};
-
-/// Parts of few points that are far from all others, as far as these are from each other.
-void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stray>& strays) {
-  std::vector<std::uint16_t> links(cloud.size());  // a bit for each of the listed
+/// Links of each point to its listed neighbours, a bit for each: of those as near as they are to others.
+std::vector<std::uint16_t> find_links(const Cloud& cloud, const Survey& survey) {
+  std::vector<std::uint16_t> links(cloud.size());
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < Survey::LISTED; ++k) {
       const std::uint32_t j = survey.around(i)[k];
@@ -58,14 +55,47 @@ void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stra
       links[i] = static_cast<std::uint16_t>(links[i] | (linked ? 1U << k : 0U));
     }
   });
+  return links;
+}
+
+/// What hangs together. Most links are within pieces of the cloud, which are joined in parallel.
+Components find_parts(const Cloud& cloud, const Survey& survey) {
+  constexpr std::size_t PIECE = std::size_t{1} << 15;
+  std::vector<std::uint16_t> links = find_links(cloud, survey);
   Components parts(cloud.size());
+  const auto join_links = [&](std::size_t i, std::size_t begin, std::size_t end) {
+    for (std::uint16_t left = links[i]; left != 0; left = static_cast<std::uint16_t>(left & (left - 1))) {
+      const int k = std::countr_zero(left);
+      const std::uint32_t j = survey.around(i)[static_cast<std::size_t>(k)];
+      if (j < begin || j >= end) continue;
+      parts.join(static_cast<std::uint32_t>(i), j);
+      links[i] = static_cast<std::uint16_t>(links[i] & ~(1U << k));
+    }
+  };
+  tbb::parallel_for(std::size_t{0}, (cloud.size() + PIECE - 1) / PIECE, [&](std::size_t piece) {
+    const std::size_t begin = piece * PIECE, end = std::min(begin + PIECE, cloud.size());
+    for (std::size_t i = begin; i < end; ++i) join_links(i, begin, end);
+  });
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     if (i > 0 && cloud.coord[i] == cloud.coord[i - 1]) parts.join(i, i - 1);
-    for (std::size_t k = 0; k < Survey::LISTED; ++k)
-      if ((links[i] >> k & 1U) != 0) parts.join(i, survey.around(i)[k]);
+    join_links(i, 0, cloud.size());
   }
+  return parts;
+}
+
+float usual_reach(const Survey& survey) {
   std::vector<float> ranked = survey.reach;
-  const float sparse = SPARSE * median(ranked);
+  return median(ranked);
+}
+
+struct Part {
+  std::uint32_t points = 0, sparse = 0;  ///< in all; of them, far from their neighbours
+};
+
+/// Parts of few points that are far from all others, as far as these are from each other.
+void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stray>& strays) {
+  Components parts = find_parts(cloud, survey);
+  const float sparse = SPARSE * usual_reach(survey);
   std::vector<Part> sizes(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     Part& part = sizes[parts.find(i)];

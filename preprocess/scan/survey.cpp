@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "preprocess/scan/noise.h"
 #include "preprocess/scan/plane_fit.h"
 #include "preprocess/surface/neighbours.h"
 #include "preprocess/surface/normals.h"
@@ -201,12 +202,9 @@ void look_wider(Cloud& cloud, std::size_t stride, Survey& survey, Rough& of, con
 /// What is known of each point before wider surroundings are tried.
 void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& survey, Rough& rough,
                  const Stage& stage) {
-  const NeighbourSearch search(cloud, Sites::positions);
-  for (std::size_t begin = 0; begin < cloud.size(); begin += Survey::CHUNK)
-    survey.listed.emplace_back(std::min(Survey::CHUNK, cloud.size() - begin) * Survey::LISTED);
+  survey.near = std::make_unique<NearPlaces>(cloud);
   const auto visit = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
-    std::uint32_t* const listed = &survey.listed[i / Survey::CHUNK][i % Survey::CHUNK * Survey::LISTED];
-    for (std::size_t j = 0; j < Survey::LISTED; ++j) listed[j] = j < nearest.size() ? nearest[j].index() : i;
+    survey.near->list(i, nearest);
     survey.estimated[i] = cloud.normal[i] == glm::vec3(0.0F);
     if (nearest.empty()) {
       if (survey.estimated[i] != 0) cloud.normal[i] = glm::vec3(up);
@@ -225,7 +223,7 @@ void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& sur
     cloud.normal[i] =
         glm::vec3(plane.axis != glm::dvec3(0.0) ? plane.axis : degenerate_plane(cloud, i, nearest, up));
   };
-  search.find_all(all_given ? Survey::LISTED : Survey::WIDE, stage, visit);
+  survey.near->search().find_all(all_given ? Survey::LISTED : Survey::WIDE, stage, visit);
 }
 
 }  // namespace
@@ -249,37 +247,30 @@ float Survey::expected_count(std::size_t point, float squared) const {
              : static_cast<float>(WIDE);
 }
 
-void Survey::keep(const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& number) {
+void Survey::keep(const Cloud& cloud, const std::vector<std::uint32_t>& kept,
+                  const std::vector<std::uint32_t>& number) {
   reach = gather(reach, kept);
   wide = gather(wide, kept);
   estimated = gather(estimated, kept);
   flatness = gather(flatness, kept);
-  std::vector<std::vector<std::uint32_t>> before = std::exchange(listed, {});
-  for (std::size_t begin = 0, freed = 0; begin < kept.size(); begin += CHUNK) {
-    const std::size_t end = std::min(begin + CHUNK, kept.size());
-    std::vector<std::uint32_t>& to = listed.emplace_back((end - begin) * LISTED);
-    tbb::parallel_for(begin, end, [&](std::size_t n) {
-      const std::uint32_t* from = before[kept[n] / CHUNK].data() + kept[n] % CHUNK * LISTED;
-      for (std::size_t j = 0; j < LISTED; ++j) {
-        const std::uint32_t other = number[from[j]];
-        to[(n - begin) * LISTED + j] = other == NO_CELL ? static_cast<std::uint32_t>(n) : other;
-      }
-    });
-    for (; freed < kept[end - 1] / CHUNK; ++freed) before[freed] = {};
-  }
+  near->keep(cloud, kept, number);
 }
 
 Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   const bool all_given = std::none_of(cloud.normal.begin(), cloud.normal.end(),
                                       [](const glm::vec3& normal) { return normal == glm::vec3(0.0F); });
-  if (!all_given) cloud.position = {};
   Survey survey;
+  if (!all_given) survey.step = coordinate_step(cloud), cloud.position = {};
   survey.reach.resize(cloud.size());
   survey.wide.resize(cloud.size());
   survey.estimated.resize(cloud.size());
-  survey.flatness.resize(cloud.size());
-  Rough rough{std::vector<float>(cloud.size()), std::vector<float>(cloud.size())};
+  Rough rough;
+  if (!all_given) {
+    survey.flatness.resize(cloud.size());
+    rough.roughness.resize(cloud.size()), rough.thickness.resize(cloud.size());
+  }
   look_around(cloud, up, all_given, survey, rough, stage);
+  if (all_given) return survey;
   for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, rough, stage);
   return survey;
 }

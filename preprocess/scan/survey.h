@@ -1,38 +1,35 @@
 /// One look at what surrounds every point of a scan.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "preprocess/base/parallel.h"
 #include "preprocess/surface/cloud.h"
+#include "preprocess/surface/near_places.h"
 
 namespace splatray {
 
 /// The nearest places of every point, and what one search finds of them. In the cloud's coordinates and order.
 struct Survey {
-  static constexpr std::size_t LISTED = 12;  ///< nearest places kept of each point
-  static constexpr std::size_t RING = 8;     ///< the place whose distance gives the local spacing
+  static constexpr std::size_t LISTED = NearPlaces::LISTED;
+  static constexpr std::size_t RING = 8;  ///< the place whose distance gives the local spacing
 
   static constexpr std::size_t WIDE = 32;
 
   static constexpr float FLAT = 0.35F;  ///< the flatness of a surface, at most
 
-  static constexpr std::size_t CHUNK = 1U << 15;  ///< points whose lists are in one array
-
-  /// LISTED of each point, the nearest first; the point itself where there are fewer. In many small arrays, which find room
-  /// where a large one does not.
-  std::vector<std::vector<std::uint32_t>> listed;
+  std::unique_ptr<NearPlaces> near;
   std::vector<float> reach;  ///< distance to the RING-th place
   std::vector<float> wide;   ///< distance to the WIDE-th place, or what it is on a surface of even density
   std::vector<std::uint8_t> estimated;  ///< whether the normal was unknown before
   /// Least deviation over the second, of the flattest neighbourhood that does not lie along a line, where the normal was
-  /// unknown, else 0; infinite on a line.
+  /// unknown, else 0; infinite on a line. Empty where all normals were given.
   std::vector<float> flatness;
+  glm::vec3 step{0.0F};  ///< coordinate_step, where any normal was unknown
 
-  [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const {
-    return std::span(listed[point / CHUNK]).subspan(point % CHUNK * LISTED, LISTED);
-  }
+  [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const { return near->around(point); }
 
   /// The squared distance within which `count` places are expected, as few as 8 and 32 are within theirs: it grows alike with
   /// each doubling, on surfaces and in the crowns of trees, but never more than on surfaces.
@@ -43,8 +40,9 @@ struct Survey {
   /// Squared distance within which there are four times as many places, over that of as many.
   [[nodiscard]] float growth(std::size_t point) const;
 
-  /// Leaves the points `kept` (ascending), whose numbers are then `number`; what is no more stands for itself.
-  void keep(const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& number);
+  /// NearPlaces::keep, of all that is known of points.
+  void keep(const Cloud& cloud, const std::vector<std::uint32_t>& kept,
+            const std::vector<std::uint32_t>& number);
 };
 
 /// Gives every unknown (zero) normal the axis of its neighbourhood of 32 places; where these are rough, of that of 8, 16 and 32

@@ -125,6 +125,7 @@ void count_given(const Cloud& cloud, BuildStats& stats) {
 /// Gives all arrays the values of these points, in this order.
 void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
   const auto reorder = [&](auto& values) { values = gather(values, order); };
+  cloud.near = {};
   reorder(cloud.position);
   reorder(cloud.coord);
   reorder(cloud.normal);

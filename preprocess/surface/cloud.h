@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "preprocess/base/far_points.h"
@@ -10,6 +11,8 @@
 #include "preprocess/points.h"
 
 namespace splatray {
+
+class NearPlaces;
 
 /// Steps of Cloud::coord. Distinct coordinates differ by at least this, so no squared distance underflows.
 inline constexpr float COORD_STEP = 0x1p-24F;
@@ -46,6 +49,8 @@ struct Cloud {
   bool measured = false;                 ///< by a scanner: neither a mesh's nor made
   bool oriented = false;                 ///< normals point outwards: opposite normals are opposite sheets
   FarPoints far;                         ///< as they were found; in the cloud only where it is not measured
+  /// Of these coordinates, all different and of surfaces; null = not looked for yet, or the points have changed since.
+  std::shared_ptr<const NearPlaces> near;
 
   [[nodiscard]] std::size_t size() const { return coord.size(); }
   /// Where a point is, world units.

@@ -45,7 +45,7 @@ struct NeighbourSearch::Nearest {
   }
 };
 
-NeighbourSearch::NeighbourSearch(const Cloud& cloud, Sites kind) : cloud_(cloud) {
+NeighbourSearch::NeighbourSearch(const Cloud& cloud, Sites kind) {
   std::vector<Site> sites = choose_sites(cloud, kind);
   arrange(sites, std::bit_ceil(std::max<std::size_t>(sites.size(), WIDTH)));
   add_blocks(sites);
@@ -68,14 +68,28 @@ std::vector<NeighbourSearch::Site> NeighbourSearch::choose_sites(const Cloud& cl
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
     if (!same_place(i)) choose(i);
   });
-  copies_ = numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] == 0 && counts(i); });
-  const auto chosen =
-      numbers_where(cloud.size(), [&](std::size_t i) { return is_site[i] != 0 && counts(i); });
-  std::vector<Site> sites(chosen.size());
-  tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t n) {
-    sites[n] = {cloud.coord[chosen[n]], chosen[n]};
+  const auto sites_where = [&](bool chosen) {
+    const auto numbers =
+        numbers_where(cloud.size(), [&](std::size_t i) { return (is_site[i] != 0) == chosen && counts(i); });
+    std::vector<Site> sites(numbers.size());
+    tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t n) {
+      sites[n] = {cloud.coord[numbers[n]], numbers[n]};
+    });
+    return sites;
+  };
+  copies_ = sites_where(false);
+  return sites_where(true);
+}
+
+void NeighbourSearch::keep(const std::vector<std::uint32_t>& number) {
+  tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+    Block& block = blocks_[b];
+    for (std::uint32_t j = 0; j < WIDTH; ++j) {
+      if (!block.has(j)) continue;
+      block.index[j] = number[block.index[j]];
+      if (block.index[j] == NO_CELL) block.x[j] = block.y[j] = block.z[j] = INFINITE;
+    }
   });
-  return sites;
 }
 
 /// Puts sites into the order of a k-d tree: halves of `capacity`, a power of two >= sites.size(), down to one

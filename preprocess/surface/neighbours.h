@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,12 @@ class NeighbourSearch {
   /// The cloud must be in canonical order.
   NeighbourSearch(const Cloud& cloud, Sites sites);
 
+  /// Whether every point is a site, as none is at the place of another: then all kinds of sites are the same.
+  [[nodiscard]] bool has_all() const { return copies_.empty(); }
+  /// Leaves the points that have a number in `number`, ascending like the points, which they have from then on; those with NO_CELL
+  /// are no more. Every point must be a site.
+  void keep(const std::vector<std::uint32_t>& number);
+
   /// The nearest sites at a distance > 0 from `query` (cloud coordinates), ascending; fills `nearest` from
   /// its start and returns how many there are: nearest.size(), fewer when there are fewer sites. Safe to call
   /// from many threads.
@@ -83,6 +90,7 @@ class NeighbourSearch {
     std::uint32_t index[WIDTH];
 
     void measure(const glm::vec3& query, float* distance) const;  ///< WIDTH squared distances
+    [[nodiscard]] bool has(std::uint32_t j) const { return x[j] < std::numeric_limits<float>::infinity(); }
   };
   struct Boxes {
     float low[3][WIDTH],
@@ -106,9 +114,8 @@ class NeighbourSearch {
   std::size_t find_some(std::span<const Query> queries, std::size_t first, std::size_t count, float& factor,
                         const Visit& visit) const;
 
-  const Cloud& cloud_;
-  std::vector<std::uint32_t> copies_;  // points that are no sites
-  std::vector<Block> blocks_;
+  std::vector<Site> copies_;                // points that are no sites
+  std::vector<Block> blocks_;               // places that are not used are anywhere in them
   std::vector<std::vector<Boxes>> levels_;  // levels_[0]: boxes of blocks; the last has one entry
 };
 

@@ -34,7 +34,8 @@ SPLATRAY_VECTOR_CLONES float NeighbourSearch::find_block(std::uint32_t block, fl
   std::array<Neighbour, MOST_NEAREST> places;
   float widest = 0.0F;
   const Block& sites = blocks_[block];
-  for (std::uint32_t j = 0; j < WIDTH && sites.x[j] < std::numeric_limits<float>::infinity(); ++j) {
+  for (std::uint32_t j = 0; j < WIDTH; ++j) {
+    if (!sites.has(j)) continue;
     const glm::vec3 query(sites.x[j], sites.y[j], sites.z[j]);
     std::span<Neighbour> nearest = std::span(places).first(count);
     std::optional<std::size_t> found;
@@ -64,8 +65,8 @@ void NeighbourSearch::find_all(std::size_t count, const Stage& stage, const Visi
   parallel_each(stage, blocks_.empty() ? 0 : levels_[0].size(), group, GROUPS_PER_TASK);
   tbb::parallel_for(std::size_t{0}, copies_.size(), [&](std::size_t i) {
     std::array<Neighbour, MOST_NEAREST> places;
-    const std::size_t found = find(cloud_.coord[copies_[i]], std::span(places).first(count));
-    visit(copies_[i], std::span(places).first(found));
+    const std::size_t found = find(copies_[i].coord, std::span(places).first(count));
+    visit(copies_[i].index, std::span(places).first(found));
   });
 }
 

@@ -9,7 +9,7 @@
 
 #include "preprocess/base/select.h"
 #include "preprocess/base/vector_clones.h"
-#include "preprocess/surface/neighbours.h"
+#include "preprocess/surface/near_places.h"
 #include "preprocess/surface/normal_field.h"
 #include "preprocess/surface/sheet.h"
 #include "preprocess/surface/voronoi.h"
@@ -19,9 +19,9 @@ namespace {
 
 constexpr double KNN_FACTOR = 0.65;  // x distance to the RING-th neighbour: closed for even samples
 constexpr std::size_t RING = 6;      // neighbours around a point of an even sampling
-constexpr std::size_t FEW = 12;      // neighbours that settle most Voronoi cells
-constexpr std::size_t CLOSE = 8;     // neighbours whose discs meet a point's own
-constexpr std::size_t MANY = 32;     // neighbours asked for when FEW do not
+constexpr std::size_t FEW = NearPlaces::LISTED;     // neighbours that settle most Voronoi cells
+constexpr std::size_t CLOSE = 8;                    // neighbours whose discs meet a point's own
+constexpr std::size_t MANY = 32;                    // neighbours asked for when FEW do not
 constexpr float MANY_OVER_FEW = 1.3F * MANY / FEW;  // of their squared distances on a surface, with some room
 constexpr double COVERAGE_MARGIN = 1.02;            // discs of a curved surface lie in different planes
 // More where discs lie at different heights, in standard deviations of the heights.
@@ -149,6 +149,20 @@ float ring_of(const Neighbourhood& around, bool open) {
   return open ? -ring : ring;
 }
 
+/// Calls visit(point, its FEW nearest sites) for every point; without sites none are near.
+template <typename Visit>
+void visit_nearest(const Cloud& cloud, const NeighbourSearch* sites, const Stage& stage, const Visit& visit) {
+  if (sites && !cloud.near) {
+    sites->find_all(FEW, stage, visit);
+    return;
+  }
+  parallel_each(stage, cloud.size(), [&](std::size_t i) {
+    const auto point = static_cast<std::uint32_t>(i);
+    std::array<Neighbour, FEW> nearest;
+    visit(point, cloud.near ? cloud.near->find(cloud, point, nearest) : std::span<const Neighbour>());
+  });
+}
+
 /// Radii that the FEW nearest places settle; of others the squared distance of the last of these, negative.
 float radius_of_few(const Neighbourhood& around, std::uint32_t point, Rings& rings) {
   const auto covering = covering_radius(around, FEW);
@@ -226,8 +240,9 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
   if (!unknown.empty() || fields) {
     const bool knn = rule == RadiusRule::knn;
     Rings rings(cloud.measured && !knn ? cloud.size() : 0);
-    std::optional<NeighbourSearch> sheets, places;
-    if (fields || !knn) sheets.emplace(cloud, Sites::oriented_surface);
+    std::optional<NeighbourSearch> own, places;
+    const NeighbourSearch* sheets = cloud.near ? &cloud.near->search() : nullptr;
+    if (!sheets && (fields || !knn)) sheets = &own.emplace(cloud, Sites::oriented_surface);
     if (knn && !unknown.empty()) places.emplace(cloud, Sites::positions);
     const auto fill = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
       const Neighbourhood around(cloud, i, nearest);
@@ -241,17 +256,14 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
       cloud.radius[i] =
           static_cast<float>(knn ? knn_radius(cloud, *places, i) : radius_of_few(around, i, rings));
     };
-    if (sheets) {
-      sheets->find_all(FEW, stage, fill);
-      if (!knn) look_further(cloud, *sheets, rings, stage);
-    } else {
-      parallel_each(stage, cloud.size(), [&](std::size_t i) { fill(static_cast<std::uint32_t>(i), {}); });
-    }
+    visit_nearest(cloud, sheets, stage, fill);
+    if (sheets && !knn) look_further(cloud, *sheets, rings, stage);
     if (sheets) bound_wide(cloud, *sheets, rings, stage);
     for (const std::uint32_t i : cloud.radius_most.empty() ? std::vector<std::uint32_t>{} : unknown)
       cloud.radius[i] = std::min(cloud.radius[i], cloud.radius_most[i]);
     if (!unknown.empty()) bound_strays(cloud, knn ? *places : *sheets, unknown);
   }
+  cloud.near = {};
   tbb::parallel_for(std::size_t{0}, cloud.size(),
                     [&](std::size_t i) { cloud.radius[i] = static_cast<float>(cloud.radius[i] * scale); });
 }

@@ -12,7 +12,6 @@
 
 #include "engine/scene/splat.h"
 #include "preprocess/surface/edge_planes.h"
-#include "preprocess/surface/neighbours.h"
 
 namespace splatray {
 namespace {
@@ -43,14 +42,30 @@ struct Gap {
   double middle;  ///< angle
   double begin, end;
 };
+
+/// Whether two octants next to each other are empty; `filled` has a bit of each, in their order around.
+bool has_empty_quarter(unsigned filled) {
+  const unsigned empty = ~filled & 0xFFU;
+  return (empty & (empty >> 1U | empty << 7U)) != 0;
+}
+
+/// Nothing where no gap is as wide as at a border: such a gap has two whole octants in it.
 std::optional<Gap> widest_gap(const Around& around, const TangentFrame& frame) {
-  std::array<double, Around::MOST> angles;
+  static_assert(STRAIGHT_GAP > 0.75 * std::numbers::pi);
+  std::array<glm::dvec2, Around::MOST> places;
+  unsigned filled = 0;
   glm::dvec3 squares(0.0);
   for (std::size_t j = 0; j < around.count; ++j) {
     const double x = glm::dot(around.offset[j], frame.u), y = glm::dot(around.offset[j], frame.v);
-    angles[j] = std::atan2(y, x);
+    places[j] = {x, y};
+    constexpr std::array<unsigned, 8> AROUND{0, 1, 3, 2, 7, 6, 4, 5};  // by signs, and which is longer
+    const unsigned below = y < 0.0 ? 4 : 0, left = x < 0.0 ? 2 : 0, steep = std::abs(y) > std::abs(x) ? 1 : 0;
+    filled |= 1U << AROUND[below + left + steep];
     squares += glm::dvec3(x * x, x * y, y * y);
   }
+  if (!has_empty_quarter(filled)) return {};
+  std::array<double, Around::MOST> angles;
+  for (std::size_t j = 0; j < around.count; ++j) angles[j] = std::atan2(places[j].y, places[j].x);
   const double mean = 0.5 * (squares.x + squares.z);
   const double apart = std::hypot(0.5 * (squares.x - squares.z), squares.y);
   if (mean - apart < ROUND_LEAST * (mean + apart)) return {};
@@ -97,12 +112,13 @@ bool agree(const Found& a, const Found& b) {
 /// Finds creases and borders around the points of one cloud.
 class SharpSearch {
  public:
-  SharpSearch(const Cloud& cloud, double crease_degrees, std::span<const std::uint8_t> estimated)
+  SharpSearch(const Cloud& cloud, const NeighbourSearch& search, double crease_degrees,
+              std::span<const std::uint8_t> estimated)
       : cloud_(cloud),
         estimated_(estimated),
         crease_(crease_degrees * std::numbers::pi / 180.0),
         cos_smooth_(std::cos(SMOOTH_SHARE * crease_)),
-        search_(cloud, Sites::positions) {}
+        search_(search) {}
 
   /// Whether a few points, spread over the cloud, show that there is something to find: noise bends surfaces everywhere, and
   /// where nothing bends there may be borders.
@@ -269,15 +285,15 @@ class SharpSearch {
   const Cloud& cloud_;
   std::span<const std::uint8_t> estimated_;
   const double crease_, cos_smooth_;
-  NeighbourSearch search_;
+  const NeighbourSearch& search_;
 };
 
 }  // namespace
 
-std::vector<SharpSide> find_sharp(const Cloud& cloud, double crease_degrees,
+std::vector<SharpSide> find_sharp(const Cloud& cloud, const NeighbourSearch& search, double crease_degrees,
                                   std::span<const std::uint8_t> estimated, const Stage& stage) {
-  const SharpSearch search(cloud, crease_degrees, estimated);
-  return search.promises() ? search.run(stage) : std::vector<SharpSide>{};
+  const SharpSearch sharp(cloud, search, crease_degrees, estimated);
+  return sharp.promises() ? sharp.run(stage) : std::vector<SharpSide>{};
 }
 
 void take_normals(Cloud& cloud, std::span<const SharpSide> sides) {

@@ -92,6 +92,7 @@ struct Workspace {
   std::vector<SplatBlock> blocks;
   std::vector<BlockReach> reaches;
   std::vector<std::uint32_t> list;
+  std::vector<Side> sides;
 };
 
 /// The slab of one leaf; its list is put in the order of the halves.
@@ -106,20 +107,19 @@ std::uint32_t halve_leaf(std::span<std::uint32_t> list, std::span<const uvec4> d
   double low = halved.half_size, high = -halved.half_size;
   std::array<std::uint32_t, 3> count{};
   space.list.assign(list.begin(), list.end());
-  auto place = list.begin();
-  for (const Side side : {LOWER, BOTH, UPPER}) {
-    for (std::size_t i = 0; i < space.list.size(); ++i) {
-      const BlockReach& reach = space.reaches[i / LANES];
-      const std::size_t lane = i % LANES;
-      const Side its =
-          reach.beyond_upper[lane] > 0.0 ? LOWER : (reach.beyond_lower[lane] > 0.0 ? UPPER : BOTH);
-      if (its != side) continue;
-      low = std::min(low, reach.low[lane]);
-      high = std::max(high, reach.high[lane]);
-      *place++ = space.list[i];
-      ++count[side];
-    }
+  space.sides.resize(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const BlockReach& reach = space.reaches[i / LANES];
+    const std::size_t lane = i % LANES;
+    const Side side =
+        reach.beyond_upper[lane] > 0.0 ? LOWER : (reach.beyond_lower[lane] > 0.0 ? UPPER : BOTH);
+    low = std::min(low, reach.low[lane]);
+    high = std::max(high, reach.high[lane]);
+    space.sides[i] = side;
+    ++count[side];
   }
+  std::array<std::uint32_t, 3> place{0, count[LOWER], count[LOWER] + count[BOTH]};
+  for (std::size_t i = 0; i < list.size(); ++i) list[place[space.sides[i]]++] = space.list[i];
   return pack_slab({halved.axis, std::clamp(low / halved.half_size, -1.0, 1.0),
                     std::clamp(high / halved.half_size, -1.0, 1.0), count[LOWER] + count[BOTH], count[LOWER]},
                    listed);

@@ -11,8 +11,10 @@
 
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
+#include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/sample_mesh.h"
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 #include "tests/preprocess/discs.h"
 
 namespace splatray {
@@ -284,6 +286,76 @@ TEST(Clip, AnAngleBelowTheCreasesIsNone) {
   };
   EXPECT_GT(clipped(80.0), 20U);
   EXPECT_EQ(clipped(100.0), 0U);
+}
+
+/// A unit sphere of 2 n^2 squares, by longitude and latitude, whose radius has waves of this height, 7 around it.
+Mesh wavy_sphere(glm::uint n, double waves) {
+  std::vector<dvec3> places;
+  std::vector<glm::uvec3> triangles;
+  for (glm::uint y = 0; y <= n; ++y) {
+    for (glm::uint x = 0; x < 2 * n; ++x) {
+      const double down = M_PI * y / n, around = M_PI * x / n;
+      const double radius = 1.0 + waves * std::sin(7.0 * down) * std::sin(7.0 * around);
+      places.push_back(radius * dvec3(std::sin(down) * std::cos(around), std::sin(down) * std::sin(around),
+                                      std::cos(down)));
+      const glm::uint next = (x + 1) % (2 * n), row = 2 * n * y, below = row + 2 * n;
+      if (y == n) continue;
+      if (y > 0) triangles.push_back({row + x, below + x, row + next});
+      if (y + 1 < n) triangles.push_back({row + next, below + x, below + next});
+    }
+  }
+  for (glm::uint x = 0; x < 2 * n; ++x) places[x] = {0, 0, 1}, places[2 * n * n + x] = {0, 0, -1};
+  return mesh_of(places, triangles);
+}
+
+std::size_t sharp_edges(const Mesh& mesh) {
+  const std::vector<glm::uint> weld = weld_positions(mesh.vertices.position);
+  const double cosine = std::cos(glm::radians(30.0));
+  const MeshEdges edges(mesh, weld, corner_normals(mesh, weld, cosine), cosine);
+  std::size_t found = 0;
+  for (std::uint32_t t = 0; t < edges.triangles(); ++t)
+    for (std::uint32_t side = 0; side < 3; ++side) found += edges.across(t, side) == MeshEdges::NONE ? 1 : 0;
+  return found;
+}
+
+/// Edges of a mesh that turn by more than 30 degrees.
+std::size_t turning_edges(const Mesh& mesh) {
+  std::size_t found = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t u = 0; u < t; ++u) {
+      const auto &a = mesh.triangles[t], &b = mesh.triangles[u];
+      const auto in_a = [&](glm::uint i) { return i == a.x || i == a.y || i == a.z; };
+      if (int{in_a(b.x)} + int{in_a(b.y)} + int{in_a(b.z)} != 2) continue;
+      const auto normal = [&](const glm::uvec3& c) {
+        const auto& p = mesh.vertices.position;
+        return glm::normalize(glm::cross(p[c.y] - p[c.x], p[c.z] - p[c.x]));
+      };
+      found += glm::dot(normal(a), normal(b)) < std::cos(glm::radians(30.0)) ? 1 : 0;
+    }
+  return found;
+}
+
+TEST(Clip, CurvedBodiesHaveNoCreasesHoweverCoarse) {
+  const Mesh wavy = wavy_sphere(24, 0.07);
+  EXPECT_GT(turning_edges(wavy), 40U) << "or there was nothing to find";
+  EXPECT_EQ(sharp_edges(wavy), 0U);
+  EXPECT_TRUE(scene_of(wavy, 5000, {.clip = true}).clip_pool.empty());
+}
+
+TEST(Clip, EdgesThatStandOutAreKept) {
+  Mesh cut = wavy_sphere(24, 0.005);  // with a flat below: a crease all around
+  for (dvec3& place : cut.vertices.position) place.z = std::max(place.z, -0.6);
+  EXPECT_GE(sharp_edges(cut), 2U * 48U * 9 / 10) << "of 48 edges, each on two triangles";
+  EXPECT_EQ(sharp_edges(box(dvec3(1.0))), 24U);
+}
+
+TEST(Clip, EdgesOfSmallPartsAreKeptBesideALargeOneWithout) {
+  Mesh both = wavy_sphere(24, 0.0);
+  const auto first = static_cast<glm::uint>(both.vertices.size());
+  const Mesh small = box(dvec3(0.02));
+  for (const dvec3& corner : small.vertices.position) both.vertices.position.push_back(corner + 2.0);
+  for (const glm::uvec3& t : small.triangles) both.triangles.push_back(t + first);
+  EXPECT_EQ(sharp_edges(both), 24U);
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 
+#include "preprocess/surface/near_places.h"
 #include "tests/preprocess/shapes.h"
 
 namespace splatray {
@@ -137,6 +139,54 @@ TEST(Neighbours, OrientedPlacesKeepDifferentNormals) {
   const glm::vec3 origin = cloud.coord[0].x < cloud.coord[20].x ? cloud.coord[0] : cloud.coord[20];
   EXPECT_EQ(NeighbourSearch(cloud, Sites::positions).find(origin, found), 1U);
   EXPECT_EQ(NeighbourSearch(cloud, Sites::oriented_positions).find(origin, found), 3U);
+}
+
+TEST(Neighbours, WhatIsLeftIsFoundAsIfItHadBeenAlone) {
+  const Cloud all = test::cloud_of(test::random_sphere(3001, 8));
+  NeighbourSearch search(all, Sites::positions);
+  std::vector<std::uint32_t> number(all.size(), NO_CELL);
+  Cloud left;
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (i % 7 == 3 || (i > 100 && i < 140)) continue;
+    number[i] = static_cast<std::uint32_t>(left.size());
+    left.coord.push_back(all.coord[i]);
+  }
+  search.keep(number);
+  for (const std::size_t wanted : {1U, 12U, 32U}) {
+    expect_same_for_all(left, search, wanted);
+    for (std::size_t i = 0; i < left.size(); i += 13) {
+      std::vector<Neighbour> found(wanted);
+      found.resize(search.find(left.coord[i], found));
+      ASSERT_EQ(found, brute_force(left, left.coord[i], wanted));
+    }
+  }
+}
+
+TEST(Neighbours, ListsAreWhatTheSearchFinds) {
+  const Cloud cloud = test::cloud_of(test::random_sphere(700, 9));
+  NearPlaces near(cloud);
+  const Progress silent;
+  near.search().find_all(NearPlaces::LISTED, {"neighbours", silent},
+                         [&](std::uint32_t i, std::span<const Neighbour> nearest) { near.list(i, nearest); });
+  std::vector<std::uint32_t> number(cloud.size(), NO_CELL), kept;
+  Cloud left;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (i % 50 == 7) continue;
+    number[i] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(i);
+    left.coord.push_back(cloud.coord[i]);
+  }
+  const auto expect_same = [&](const Cloud& in) {
+    for (std::uint32_t i = 0; i < in.size(); ++i) {
+      std::array<Neighbour, NearPlaces::LISTED> store;
+      const auto found = near.find(in, i, store);
+      ASSERT_EQ(std::vector<Neighbour>(found.begin(), found.end()),
+                brute_force(in, in.coord[i], NearPlaces::LISTED));
+    }
+  };
+  expect_same(cloud);
+  near.keep(left, kept, number);
+  expect_same(left);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/sample_mesh.h"
-#include "preprocess/mesh/texture.h"
-#include "preprocess/mesh/texture_detail.h"
+#include "preprocess/mesh/texture/texture.h"
+#include "preprocess/mesh/texture/texture_detail.h"
 
 namespace splatray {
 namespace {

@@ -5,7 +5,7 @@
 #include "engine/base/srgb.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/sample_mesh.h"
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 #include "tests/readers/read_error.h"
 
 namespace splatray {

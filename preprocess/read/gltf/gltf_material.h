@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 #include "preprocess/points.h"
 #include "preprocess/read/gltf/gltf_file.h"
 

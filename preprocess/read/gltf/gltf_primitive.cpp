@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "preprocess/mesh/surface_maps.h"
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
 
 namespace splatray {

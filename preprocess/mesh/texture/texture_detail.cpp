@@ -1,4 +1,4 @@
-#include "preprocess/mesh/texture_detail.h"
+#include "preprocess/mesh/texture/texture_detail.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "preprocess/mesh/texture.h"
+#include "preprocess/mesh/texture/texture.h"
 #include "preprocess/points.h"
 
 namespace splatray {

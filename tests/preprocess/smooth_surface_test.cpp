@@ -1,0 +1,134 @@
+/// Coarse meshes that are shaded smoothly: their points, rims and clip lines are those of the smooth surface.
+#include "preprocess/mesh/smooth_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "preprocess/build.h"
+#include "preprocess/mesh/refined_mesh.h"
+#include "preprocess/mesh/sample_mesh.h"
+#include "tests/preprocess/discs.h"
+
+namespace splatray {
+namespace {
+
+using glm::dvec3;
+using test::Discs;
+
+constexpr glm::uint SIDES = 18;
+
+dvec3 around(double turns) { return {std::cos(2.0 * M_PI * turns), 0.0, std::sin(2.0 * M_PI * turns)}; }
+
+/// A tube of flat sides around the y axis, of radius 1 and height 2, with normals of a round one; with lids of their own normals or
+/// open.
+Mesh tube(bool lids) {
+  Mesh mesh;
+  const auto ring = [&](bool of_lids) {
+    for (glm::uint side = 0; side < SIDES; ++side)
+      for (const double height : {-1.0, 1.0}) {
+        const dvec3 out = around(side / double(SIDES));
+        mesh.vertices.position.push_back(out + dvec3(0.0, height, 0.0));
+        mesh.vertices.normal.emplace_back(of_lids ? dvec3(0.0, height, 0.0) : out);
+      }
+  };
+  ring(false);
+  if (lids) ring(true);
+  for (glm::uint side = 0; side < SIDES; ++side) {
+    const glm::uint low = 2 * side, next = 2 * ((side + 1) % SIDES), lid = 2 * SIDES;
+    mesh.triangles.emplace_back(low, low + 1, next);
+    mesh.triangles.emplace_back(low + 1, next + 1, next);
+    if (!lids || side == 0 || side + 1 == SIDES) continue;
+    mesh.triangles.emplace_back(lid, lid + low, lid + next);
+    mesh.triangles.emplace_back(lid + 1, lid + next + 1, lid + low + 1);
+  }
+  return mesh;
+}
+
+Scene scene_of(const Mesh& mesh, std::uint64_t points) {
+  Input input;
+  InputObject& object = input.objects.emplace_back();
+  object.points = sample_surface(mesh, weld_positions(mesh.vertices.position), points, 1, {.clip = true});
+  object.surface_area = surface_area(mesh);
+  object.measured = false;
+  BuildStats stats;
+  return build_scene(std::move(input), {}, 1, stats);
+}
+
+/// Places of the round tube that no disc covers, of 4000 on its side, half of them at its rims, and 4000 on its lids.
+std::size_t holes(const Discs& discs, bool lids) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit;
+  std::size_t open = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const dvec3 out = around(unit(random));
+    const double share = unit(random), height = i % 2 == 0 ? 2.0 * share - 1.0 : 1.0 - 0.02 * share;
+    open += discs.cover(0.9999 * out + dvec3(0.0, height, 0.0), out) ? 0 : 1;
+    if (lids)
+      open += discs.cover(0.998 * std::sqrt(share) * out + dvec3(0.0, 1.0, 0.0), {0.0, 1.0, 0.0}) ? 0 : 1;
+  }
+  return open;
+}
+
+TEST(SmoothSurface, RimsOfACoarseTubeAreRound) {
+  const auto beyond = [](const dvec3& place) {
+    return std::max({std::hypot(place.x, place.z) - 1.0, std::abs(place.y) - 1.0, 0.0});
+  };
+  for (const bool lids : {false, true}) {
+    const Scene scene = scene_of(tube(lids), 6000);
+    EXPECT_EQ(holes(Discs(scene), lids), 0U) << (lids ? "with lids" : "open");
+    EXPECT_LT(Discs(scene).overhang(beyond), 0.25) << (lids ? "with lids" : "open");
+  }
+}
+
+TEST(SmoothSurface, BothTrianglesAtAnEdgeBendItAlike) {
+  const Mesh mesh = tube(true);
+  const std::vector<glm::uint> weld = weld_positions(mesh.vertices.position);
+  const std::vector<glm::vec3> corners = corner_normals(mesh, weld);
+  const MeshEdges edges(mesh, weld, corners, DEFAULT_CREASE_COSINE);
+  const SmoothSurface surface(mesh, weld, corners, edges);
+  int bent = 0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::uint32_t side = 0; side < 3; ++side) {
+      const std::uint32_t beside = edges.beside(t, side);
+      ASSERT_NE(beside, MeshEdges::NONE);
+      const dvec3 bow = surface.triangle(t).bow[side];
+      bent += glm::length(bow) > 0.01 ? 1 : 0;
+      const auto& others = surface.triangle(beside).bow;
+      EXPECT_TRUE(
+          std::any_of(others.begin(), others.end(), [&](const dvec3& other) { return other == bow; }));
+    }
+  EXPECT_EQ(bent, 6 * int(SIDES)) << "diagonals and rims, each twice, are bent";
+}
+
+TEST(SmoothSurface, PartsOfARefinedMeshJoin) {
+  const Mesh mesh = tube(true);
+  const std::vector<glm::uint> weld = weld_positions(mesh.vertices.position);
+  const std::vector<glm::vec3> corners = corner_normals(mesh, weld);
+  const MeshEdges edges(mesh, weld, corners, DEFAULT_CREASE_COSINE);
+  const RefinedMesh refined(mesh, edges, SmoothSurface(mesh, weld, corners, edges), 1e-4);
+  ASSERT_GT(refined.mesh().triangles.size(), 4 * mesh.triangles.size());
+  const MeshEdges parts = refined.edges(weld_positions(refined.mesh().vertices.position));
+  double rims = 0.0;
+  for (std::uint32_t part = 0; part < parts.triangles(); ++part)
+    for (std::uint32_t side = 0; side < 3; ++side) {
+      EXPECT_NE(parts.beside(part, side), part) << "closed, as the mesh is";
+      if (parts.across(part, side) != MeshEdges::NONE) continue;
+      const glm::uvec3& t = refined.mesh().triangles[part];
+      const auto from = static_cast<glm::length_t>(side);
+      const auto& places = refined.mesh().vertices.position;
+      rims += glm::distance(places[t[from]], places[t[(from + 1) % 3]]);
+    }
+  EXPECT_NEAR(rims / (8.0 * M_PI), 1.0, 1e-3) << "two round rims, from both sides";
+  for (const double share : {0.1, 0.4, 0.7}) {
+    const dvec3 weights(share, 0.5 * (1.0 - share), 0.5 * (1.0 - share));
+    const std::uint32_t part = refined.part_at(3, weights);
+    EXPECT_EQ(refined.triangle_of(part), 3U);
+    const dvec3 middle = refined.weights_of(part, dvec3(1.0 / 3.0));
+    EXPECT_LT(glm::distance(middle, weights), 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace splatray
