@@ -230,8 +230,8 @@ class SharpSearch {
     }
   }
 
-  /// The side that a given normal belongs to, with that normal where it is the plane's. A normal between two planes was interpolated across their crease
-  /// and says nothing of it.
+  /// The side that a given normal belongs to, with that normal where it is the plane's. A normal between two planes was
+  /// interpolated across their crease and says nothing of it.
   static void keep_given(std::vector<Side>& sides, const glm::dvec3& normal) {
     const auto cosine = [&](const Side& side) { return std::abs(glm::dot(side.normal, normal)); };
     const auto found = std::max_element(sides.begin(), sides.end(),
