@@ -1,7 +1,10 @@
 #include "preprocess/mesh/mesh_points.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "preprocess/base/append.h"
 #include "preprocess/base/parallel.h"
@@ -168,8 +171,34 @@ void choose_samples(std::vector<Part>& parts, Input& input, const ReadOptions& o
   }
 }
 
-void points_from_part(const Part& part, const ReadOptions& options, std::uint64_t seed, const Stage& stage,
-                      double share, std::vector<std::string>& notes) {
+/// Of each part: its vertices where other parts have some too.
+std::vector<std::vector<bool>> shared_vertices(const std::vector<Part>& parts) {
+  using Place = std::tuple<double, double, double, std::size_t, std::size_t>;
+  std::vector<Place> places;
+  std::vector<std::vector<bool>> shared(parts.size());
+  if (parts.size() < 2) return shared;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const auto& position = parts[part].mesh->vertices.position;
+    shared[part].resize(position.size());
+    for (std::size_t i = 0; i < position.size(); ++i)
+      if (is_usable_position(position[i]))
+        places.emplace_back(position[i].x, position[i].y, position[i].z, part, i);
+  }
+  tbb::parallel_sort(places.begin(), places.end());
+  const auto same_place = [](const Place& a, const Place& b) {
+    return std::get<0>(a) == std::get<0>(b) && std::get<1>(a) == std::get<1>(b) &&
+           std::get<2>(a) == std::get<2>(b);
+  };
+  for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+    while (end < places.size() && same_place(places[begin], places[end])) ++end;
+    if (std::get<3>(places[begin]) == std::get<3>(places[end - 1])) continue;
+    for (std::size_t i = begin; i < end; ++i) shared[std::get<3>(places[i])][std::get<4>(places[i])] = true;
+  }
+  return shared;
+}
+
+void points_from_part(const Part& part, const std::vector<bool>& shared, const ReadOptions& options,
+                      std::uint64_t seed, const Stage& stage, double share, std::vector<std::string>& notes) {
   stage.report(share);
   InputObject& object = *part.object;
   const std::vector<glm::uint> weld = weld_positions(part.mesh->vertices.position);
@@ -177,7 +206,8 @@ void points_from_part(const Part& part, const ReadOptions& options, std::uint64_
   object.oriented = orient_mesh(*part.mesh, weld, object, options.turn_outwards, notes) && object.oriented;
   object.surface_area += part.area;
   stage.report(share);
-  const MeshCreases creases{std::cos(glm::radians(options.crease_degrees)), options.clip};
+  const MeshCreases creases{std::cos(glm::radians(options.crease_degrees)), options.clip,
+                            shared.empty() ? nullptr : &shared};
   append_points(object.points, part.sampled ? sample_surface(*part.mesh, weld, part.samples, seed, creases)
                                             : vertex_points(*part.mesh, weld, creases));
 }
@@ -193,9 +223,10 @@ void points_from_meshes(Input& input, const ReadOptions& options) {
   stage.report(0.0);
   std::vector<Part> parts = list_parts(input, options);
   choose_samples(parts, input, options);
+  const std::vector<std::vector<bool>> shared = shared_vertices(parts);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(parts.size());
-    points_from_part(parts[i], options, options.seed + i, stage, share, input.notes);
+    points_from_part(parts[i], shared[i], options, options.seed + i, stage, share, input.notes);
     if (!options.keep_meshes) {
       *parts[i].mesh = Mesh{};
     }

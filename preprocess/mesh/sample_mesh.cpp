@@ -93,13 +93,13 @@ std::vector<std::uint32_t> morton_order(const Mesh& mesh) {
 class SampleWriter {
  public:
   SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
-               double crease_cosine)
+               const MeshCreases& creases)
       : mesh_(mesh),
         mask_(mesh),
         maps_(mesh),
-        normals_(corner_normals(mesh, weld, crease_cosine)),
-        edges_(mesh, weld, normals_, crease_cosine),
-        surface_(mesh, weld, normals_, edges_) {
+        normals_(corner_normals(mesh, weld, creases.cosine)),
+        edges_(mesh, weld, normals_, creases.cosine),
+        surface_(mesh, weld, normals_, edges_, creases.shared) {
     triangles_.reserve(count);
     points_.position.reserve(count);
     points_.normal.reserve(count);
@@ -406,7 +406,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   }
   const double step = total / static_cast<double>(count);
   assert(step > 0.0 && std::isfinite(step));
-  SampleWriter writer(mesh, weld, count, creases.cosine);
+  SampleWriter writer(mesh, weld, count, creases);
   std::uint64_t written = 0;
   double passed = 0.0;
   std::size_t last_proper = 0;

@@ -10,8 +10,9 @@ namespace splatray {
 
 /// What points on a mesh know of its creases and borders.
 struct MeshCreases {
-  double cosine = DEFAULT_CREASE_COSINE;  ///< of the angle by which a mesh turns at a crease
-  bool clip = false;                      ///< discs end there: fills Points::clip
+  double cosine = DEFAULT_CREASE_COSINE;      ///< of the angle by which a mesh turns at a crease
+  bool clip = false;                          ///< discs end there: fills Points::clip
+  const std::vector<bool>* shared = nullptr;  ///< vertices where other meshes have some too; null = none
 };
 
 /// Sum of the triangles' areas, world units^2.

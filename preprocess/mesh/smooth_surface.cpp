@@ -55,6 +55,8 @@ glm::dvec3 SmoothSurface::bow_of(std::uint32_t triangle, std::uint32_t side) con
   if (beside == MeshEdges::NONE) return glm::dvec3(0.0);
   const glm::uvec3& t = mesh_.triangles[triangle];
   const auto from = static_cast<glm::length_t>(side), to = (from + 1) % 3;
+  if (beside == triangle && shared_ != nullptr && (*shared_)[t[from]] && (*shared_)[t[to]])
+    return glm::dvec3(0.0);
   const std::size_t first = 3 * std::size_t{triangle};
   const glm::dvec3 normal_from(corners_[first + side]), normal_to(corners_[first + (side + 1) % 3]);
   const glm::dvec3 other_from = corner_normal(beside, weld_[t[from]]),

@@ -26,13 +26,14 @@ struct SmoothTriangle {
 
 /// Each edge has its own share in the surface, so that triangles join. Both triangles at an edge decide it: at a crease it runs
 /// in the tangent planes of both, so that a round rim is round on both sides; a border follows its one triangle. Edges of
-/// more than two triangles, and those along which normals turn by more than 45 degrees, stay straight.
+/// more than two triangles, those along which normals turn by more than 45 degrees, and borders shared with other meshes, whose
+/// normals are not known, stay straight.
 class SmoothSurface {
  public:
-  /// `corners`: corner_normals. All must outlive the surface.
+  /// `corners`: corner_normals; `shared`: the vertices where other meshes have some too, null = none. All must outlive the surface.
   SmoothSurface(const Mesh& mesh, const std::vector<glm::uint>& weld, const std::vector<glm::vec3>& corners,
-                const MeshEdges& edges)
-      : mesh_(mesh), weld_(weld), corners_(corners), edges_(edges) {}
+                const MeshEdges& edges, const std::vector<bool>* shared = nullptr)
+      : mesh_(mesh), weld_(weld), corners_(corners), edges_(edges), shared_(shared) {}
 
   [[nodiscard]] SmoothTriangle triangle(std::uint32_t index) const;
 
@@ -44,6 +45,7 @@ class SmoothSurface {
   const std::vector<glm::uint>& weld_;
   const std::vector<glm::vec3>& corners_;
   const MeshEdges& edges_;
+  const std::vector<bool>* shared_;
 };
 
 }  // namespace splatray

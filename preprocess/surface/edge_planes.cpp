@@ -164,4 +164,10 @@ std::vector<Side> find_sides(const Around& around, double crease) {
   return sides;
 }
 
+bool is_flat(const Around& around) {
+  const Members all = SELF | ((1U << around.count) - 1U);
+  const auto plane = best_plane(around, SELF_BIT, all, {});
+  return plane && members_of(around, *plane) == all;
+}
+
 }  // namespace splatray

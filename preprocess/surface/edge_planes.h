@@ -36,4 +36,7 @@ struct Side {
 /// radians.
 [[nodiscard]] std::vector<Side> find_sides(const Around& around, double crease);
 
+/// Whether one plane holds the point and all its neighbours.
+[[nodiscard]] bool is_flat(const Around& around);
+
 }  // namespace splatray

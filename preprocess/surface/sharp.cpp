@@ -19,7 +19,8 @@ namespace {
 constexpr std::array<std::size_t, 3> COUNTS = {24, 16, 12};  // of which the first that shows planes is taken
 constexpr std::size_t SPACING_RANK = 5;                      // the sixth neighbour is one spacing away
 constexpr std::size_t CLOSE = 12;                            // neighbours that may agree
-constexpr double GIVEN_COSINE = 0.95;  // 18 degrees: a given normal agrees with its plane
+constexpr double GIVEN_COSINE = 0.95;   // 18 degrees: a given normal agrees with its plane
+constexpr double SAME_COSINE = 0.9945;  // 6 degrees: it is more exact than the plane, else interpolated, too
 constexpr double SMOOTH_SHARE =
     1.0 / 3.0;                     // of the crease's angle: normals that differ less have none among them
 constexpr std::size_t AGREED = 2;  // of the close neighbours, that must show the same
@@ -28,8 +29,11 @@ constexpr double BORDER_COSINE = 0.9;        // 26 degrees: two borders do
 constexpr std::size_t TRIALS = 2000;         // points that show whether there is anything to find
 constexpr std::size_t TRIAL_NEIGHBOURS = 4;  // beside each of them
 constexpr std::size_t TRIAL_AGREED = 2;      // of which at least this many must agree
-constexpr double PROMISE = 0.06;             // of those that lie where the surface bends
+constexpr double NOISE_TRIALS = 0.5;   // of the trials, that lie where the surface bends: noise hides borders
+constexpr double PROMISE = 0.06;       // of those that lie where the surface bends
 constexpr double BORDER_TRIALS = 4.0;  // times the root of all points: as many as a square has at its border
+constexpr std::size_t BENT_ENDS =
+    8;  // of them at borders, where the surface bends: half of what a square has
 constexpr double STRAIGHT_GAP = 160.0 * std::numbers::pi / 180.0;
 constexpr double CORNER_GAP = 200.0 * std::numbers::pi / 180.0;
 constexpr double ROUND_LEAST =
@@ -118,13 +122,14 @@ class SharpSearch {
         estimated_(estimated),
         crease_(crease_degrees * std::numbers::pi / 180.0),
         cos_smooth_(std::cos(SMOOTH_SHARE * crease_)),
+        sin_smooth_(std::sin(SMOOTH_SHARE * crease_)),
         search_(search) {}
 
   /// Whether a few points, spread over the cloud, show that there is something to find: noise bends surfaces everywhere, and
-  /// where nothing bends there may be borders.
+  /// where nothing bends, or less than noise would where normals are given, there may be borders.
   [[nodiscard]] bool promises() const {
     std::atomic<std::size_t> bent = 0, agreed = 0;
-    try_points(TRIALS, [&](const Found& found, std::span<const Neighbour> nearest) {
+    const std::size_t tried = try_points(TRIALS, [&](const Found& found, std::span<const Neighbour> nearest) {
       if (!found.crease) return;
       ++bent;
       if (found.sides.empty()) return;
@@ -135,14 +140,17 @@ class SharpSearch {
       }
       agreed += alike >= TRIAL_AGREED ? 1 : 0;
     });
-    if (bent > 0) return static_cast<double>(agreed) >= PROMISE * static_cast<double>(bent);
-    std::atomic<bool> ends = false;
+    if (bent > 0 && static_cast<double>(agreed) >= PROMISE * static_cast<double>(bent)) return true;
+    const bool given = std::find(estimated_.begin(), estimated_.end(), 0) != estimated_.end();
+    if (bent > 0 && (!given || static_cast<double>(bent) > NOISE_TRIALS * static_cast<double>(tried)))
+      return false;
+    std::atomic<std::size_t> ends = 0;
     const auto trials =
         static_cast<std::size_t>(BORDER_TRIALS * std::sqrt(static_cast<double>(cloud_.size())));
     try_points(trials, [&](const Found& found, std::span<const Neighbour>) {
-      if (!found.sides.empty()) ends = true;
+      if ((bent == 0 || !found.crease) && !found.sides.empty()) ++ends;
     });
-    return ends;
+    return ends >= (bent > 0 ? BENT_ENDS : 1);
   }
 
   /// All sides of all points that enough of their neighbours agree with.
@@ -174,14 +182,15 @@ class SharpSearch {
   }
 
  private:
-  /// Calls use(what was found at a point, its nearest sites) for about `trials` points, spread over the cloud.
+  /// Calls use(what was found at a point, its nearest sites) for about `trials` points, spread over the cloud; for how many.
   template <typename Use>
-  void try_points(std::size_t trials, const Use& use) const {
+  std::size_t try_points(std::size_t trials, const Use& use) const {
     const std::size_t step = cloud_.size() / trials + 1;
     tbb::parallel_for(std::size_t{0}, cloud_.size() / step, [&](std::size_t trial) {
       std::array<Neighbour, Around::MOST> nearest;
       use(look_at(static_cast<std::uint32_t>(trial * step), nearest), nearest);
     });
+    return cloud_.size() / step;
   }
 
   /// What a point's nearest sites show; `nearest` has them then, ascending.
@@ -196,20 +205,29 @@ class SharpSearch {
     around.count = nearest.size();
     found.spacing = std::sqrt(double(nearest[SPACING_RANK].distance_squared()));
     const glm::dvec3 place(cloud_.coord[point]), normal(cloud_.normal[point]);
+    const bool given = estimated_[point] == 0;
     for (std::size_t j = 0; j < around.count; ++j) {
       const std::uint32_t other = nearest[j].index();
-      around.offset[j] = (glm::dvec3(cloud_.coord[other]) - place) / found.spacing;
-      found.crease =
-          found.crease || !(std::abs(glm::dot(glm::dvec3(cloud_.normal[other]), normal)) > cos_smooth_);
+      const glm::dvec3& offset = around.offset[j] = (glm::dvec3(cloud_.coord[other]) - place) / found.spacing;
+      const bool steep = given && std::abs(glm::dot(offset, normal)) > sin_smooth_ * glm::length(offset);
+      found.crease = found.crease || steep ||
+                     !(std::abs(glm::dot(glm::dvec3(cloud_.normal[other]), normal)) > cos_smooth_);
     }
+    // Normals that were interpolated bend where the surface does not.
+    if (given && found.crease && is_flat(around)) found.crease = false;
     if (!found.crease) found.sides = border_at(around, found.spacing, place, normal);
     for (const std::size_t count : COUNTS) {
       if (!found.crease || !found.sides.empty()) break;
       around.count = count;
       found.sides = find_sides(around, crease_);
     }
+    if (given && found.crease && found.sides.empty()) {  // a bent surface may end, too
+      around.count = nearest.size();
+      found.sides = border_at(around, found.spacing, place, normal);
+      found.crease = found.sides.empty();
+    }
     found.reach = around.reach();
-    if (estimated_[point] == 0) keep_given(found.sides, normal);
+    if (given) keep_given(found.sides, normal);
     return found;
   }
 
@@ -228,17 +246,16 @@ class SharpSearch {
     }
   }
 
-  /// The side that a given normal belongs to, with that normal.
+  /// The side that a given normal belongs to, with that normal where it is the plane's. A normal between two planes was
+  /// interpolated across their crease and says nothing of it.
   static void keep_given(std::vector<Side>& sides, const glm::dvec3& normal) {
-    const auto agrees = [&](const Side& side) {
-      return std::abs(glm::dot(side.normal, normal)) > GIVEN_COSINE;
-    };
-    const auto found = std::find_if(sides.begin(), sides.end(), agrees);
-    if (found == sides.end()) {
-      sides.clear();
-      return;
-    }
+    const auto cosine = [&](const Side& side) { return std::abs(glm::dot(side.normal, normal)); };
+    const auto found = std::max_element(sides.begin(), sides.end(),
+                                        [&](const Side& a, const Side& b) { return cosine(a) < cosine(b); });
+    if (found == sides.end() || cosine(*found) < GIVEN_COSINE) return;
     Side side = *found;
+    sides = {side};
+    if (cosine(side) < SAME_COSINE) return;
     for (std::size_t i = 0; i < side.count; ++i) {
       glm::dvec3& out = side.lines[i].out;
       out = glm::normalize(out - normal * glm::dot(out, normal));
@@ -284,7 +301,7 @@ class SharpSearch {
 
   const Cloud& cloud_;
   std::span<const std::uint8_t> estimated_;
-  const double crease_, cos_smooth_;
+  const double crease_, cos_smooth_, sin_smooth_;
   const NeighbourSearch& search_;
 };
 

@@ -164,5 +164,40 @@ TEST(Sharp, GivenNormalsStay) {
   EXPECT_EQ(found.scene.data_pool.size(), found.stats.points_read);
 }
 
+TEST(Sharp, GivenNormalsThatWereInterpolatedHideNoCrease) {
+  InputObject cube = cube_points(0.0);
+  for (const dvec3& place :
+       cube.points.position) {  // within three spacings of an edge they turn to the other face's
+    const dvec3 share = glm::max(glm::abs(place - 0.5) - 0.5 + 3.0 * SPACING, 0.0);
+    cube.points.normal.emplace_back(glm::normalize(share * glm::sign(place - 0.5)));
+  }
+  const Built sharp = built(cube), blunt = built(cube, {.clip = false});
+  const auto edge_points = std::uint64_t{12} * (SIDE - 2) + 8;
+  EXPECT_GE(sharp.stats.creased, edge_points * 9 / 10);
+  EXPECT_EQ(uncovered(sharp.scene), 0.0);
+  EXPECT_LT(test::Discs(sharp.scene).overhang(outside_cube), 0.45)
+      << "discs on flat faces lean as they were given";
+  EXPECT_GT(test::Discs(blunt.scene).overhang(outside_cube), 0.6) << "or there was nothing to find";
+}
+
+TEST(Sharp, BordersOfABentSheetAreFound) {
+  InputObject bent;
+  for (int x = -12; x <= 12; ++x)
+    for (int y = 0; y <= 24; ++y) {
+      const double angle = x / 12.0;
+      const dvec3 out(std::sin(angle), 0.0, std::cos(angle));
+      bent.points.position.push_back(12.0 * out + dvec3(0.0, y, 0.0));
+      bent.points.normal.emplace_back(out);
+    }
+  bent.name = "bent sheet";
+  bent.material = default_material();
+  const Built found = built(std::move(bent));
+  EXPECT_GT(found.stats.bordered, 80U) << "of 96 at the border";
+  EXPECT_LT(test::Discs(found.scene).overhang([](const dvec3& place) {
+    return std::max({-place.y, place.y - 24.0, 0.0});
+  }),
+            0.1);
+}
+
 }  // namespace
 }  // namespace splatray

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "preprocess/build.h"
+#include "preprocess/mesh/mesh_points.h"
 #include "preprocess/mesh/refined_mesh.h"
 #include "preprocess/mesh/sample_mesh.h"
 #include "tests/preprocess/discs.h"
@@ -100,6 +101,33 @@ TEST(SmoothSurface, BothTrianglesAtAnEdgeBendItAlike) {
           std::any_of(others.begin(), others.end(), [&](const dvec3& other) { return other == bow; }));
     }
   EXPECT_EQ(bent, 6 * int(SIDES)) << "diagonals and rims, each twice, are bent";
+}
+
+TEST(SmoothSurface, BordersSharedWithAnotherMeshStayStraight) {
+  const auto highest_at_rim = [](bool with_lid) {
+    Input input;
+    input.objects.emplace_back().meshes.push_back(tube(false));
+    if (with_lid) {
+      Mesh lid;
+      for (glm::uint side = 0; side < SIDES; ++side)
+        lid.vertices.position.push_back(around(side / double(SIDES)) + dvec3(0.0, 1.0, 0.0));
+      for (glm::uint side = 1; side + 1 < SIDES; ++side) lid.triangles.emplace_back(0, side, side + 1);
+      input.objects.emplace_back().meshes.push_back(std::move(lid));
+    }
+    ReadOptions options;
+    options.samples = 20000;
+    points_from_meshes(input, options);
+    double highest = 0.0;
+    for (const dvec3& place : input.objects[0].points.position) {
+      const double turns = std::atan2(place.z, place.x) / (2.0 * M_PI) * SIDES;
+      const double along_chord = std::cos(2.0 * M_PI / SIDES * (turns - std::floor(turns) - 0.5));
+      if (place.y > 0.99)
+        highest = std::max(highest, std::hypot(place.x, place.z) - std::cos(M_PI / SIDES) / along_chord);
+    }
+    return highest;
+  };
+  EXPECT_LT(highest_at_rim(true), 0.001) << "or the lid, which is flat, does not meet the rim";
+  EXPECT_GT(highest_at_rim(false), 0.01);
 }
 
 TEST(SmoothSurface, PartsOfARefinedMeshJoin) {
