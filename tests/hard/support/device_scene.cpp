@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/splat.h"
 #include "tests/trace/agreement.h"
 #include "tests/trace/rays.h"
@@ -44,8 +43,11 @@ bool is_tie(const BruteForce& brute, const RayQuery& ray, const TrueHit& truth, 
 }  // namespace
 
 const Device& shared_device() {
-  static const VulkanDevice device;
-  return device;
+  static const std::unique_ptr<Device> device = [] {
+    const char* wanted = std::getenv("SPLATRAY_HARD_DEVICE");
+    return open_device(wanted == nullptr ? "" : wanted);
+  }();
+  return *device;
 }
 
 std::size_t hard_rays() {
