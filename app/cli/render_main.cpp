@@ -22,10 +22,6 @@ using namespace splatray;
 
 int print_devices() {
   const std::vector<DeviceInfo> devices = list_devices();
-  if (devices.empty())
-    throw Error(ExitCode::no_device,
-                "found no Vulkan device, expected a driver such as mesa-vulkan-drivers, or --device cpu, "
-                "which needs none");
   for (std::size_t i = 0; i < devices.size(); ++i)
     std::printf("%zu: %s (%s), %s, Vulkan %s%s%s\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
                 devices[i].driver.c_str(), devices[i].api.c_str(),

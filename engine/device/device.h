@@ -60,7 +60,8 @@ class Device {
 /// What a user asks for who wants no Vulkan device but the host's CPU (engine/cpu).
 inline constexpr const char* HOST_DEVICE = "cpu";
 
-/// The device that a user asks for: "" = Vulkan's best (discrete > integrated > virtual > other > CPU), a number of list_devices, or
+/// The device that a user asks for: "" = Vulkan's best (discrete > integrated > virtual > other > CPU), or the host where Vulkan has
+/// none, a number of list_devices, or
 /// part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not even loaded. Throws Error (no_device) with every
 /// device's reason when none fits.
 [[nodiscard]] std::unique_ptr<Device> open_device(const std::string& wanted);
