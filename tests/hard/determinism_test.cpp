@@ -115,8 +115,8 @@ Image picture_with_threads(std::size_t threads) {
   setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
   const VulkanDevice device;
   unsetenv("LP_NUM_THREADS");
-  DeviceScene device(some_of_everything(), device);
-  Image image = picture_of(device);
+  DeviceScene scene(some_of_everything(), device);
+  Image image = picture_of(scene);
   EXPECT_EQ(lavapipe_threads() - before, threads);
   return image;
 }

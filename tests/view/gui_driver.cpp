@@ -34,7 +34,7 @@ ImGuiID id_of(const ImGuiWindow& window, const ControlPath& path) {
 
 }  // namespace
 
-GuiDriver::GuiDriver(float width_px, float height_px, double ui_scale) : device_(ImGui::CreateContext()) {
+GuiDriver::GuiDriver(float width_px, float height_px, double ui_scale) : context_(ImGui::CreateContext()) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.DisplaySize = {width_px, height_px};
@@ -54,7 +54,7 @@ Requests GuiDriver::frame() {
 }
 
 ImGuiWindow* GuiDriver::find(const std::string& window) const {
-  for (ImGuiWindow* candidate : device_->Windows)
+  for (ImGuiWindow* candidate : context_->Windows)
     if (candidate->WasActive && !candidate->Hidden &&
         std::string(candidate->Name).find(window) != std::string::npos)
       return candidate;
@@ -71,7 +71,7 @@ bool GuiDriver::point_at(const std::string& window, const ControlPath& path) {
     for (float x = area.Min.x + 1.0F; x < area.Max.x; x += 2.0F * STEP_PX) {
       ImGui::GetIO().MousePos = {x, y};
       frame();
-      if (device_->HoveredId == wanted && !device_->HoveredIdDisabled) return true;
+      if (context_->HoveredId == wanted && !context_->HoveredIdDisabled) return true;
     }
   return false;
 }
@@ -107,7 +107,7 @@ std::vector<bool> GuiDriver::are_there(const std::string& window, const std::vec
   for (float y = area.Min.y + 1.0F; y < area.Max.y; y += STEP_PX) {
     ImGui::GetIO().MousePos = {area.Min.x + INSIDE_PX, y};
     frame();
-    met.insert(device_->HoveredId);
+    met.insert(context_->HoveredId);
   }
   std::vector<bool> there;
   for (const ControlPath& path : paths)
@@ -118,10 +118,10 @@ std::vector<bool> GuiDriver::are_there(const std::string& window, const std::vec
 float GuiDriver::width(const std::string& window, const ControlPath& path) {
   EXPECT_TRUE(point_at(window, path)) << "nothing to measure in " << window;
   ImVec2& mouse = ImGui::GetIO().MousePos;
-  const ImGuiID wanted = device_->HoveredId;
+  const ImGuiID wanted = context_->HoveredId;
   const float start = mouse.x;
   const auto reach = [&](float step) {
-    for (mouse.x = start; device_->HoveredId == wanted; frame()) mouse.x += step;
+    for (mouse.x = start; context_->HoveredId == wanted; frame()) mouse.x += step;
     const float end = mouse.x - step;
     mouse.x = start;
     frame();

@@ -15,11 +15,11 @@ namespace splatray {
 /// A place among the controls: names and numbers as ImGui::PushID takes them, the control's own last.
 using ControlPath = std::vector<std::variant<std::string, int>>;
 
-/// One device, document and set of panels.
+/// One context, document and set of panels.
 class GuiDriver {
  public:
   GuiDriver(float width_px, float height_px, double ui_scale = 1.0);
-  ~GuiDriver() { ImGui::DestroyContext(device_); }
+  ~GuiDriver() { ImGui::DestroyContext(context_); }
   GuiDriver(const GuiDriver&) = delete;
   GuiDriver& operator=(const GuiDriver&) = delete;
 
@@ -47,7 +47,7 @@ class GuiDriver {
   [[nodiscard]] ImGuiWindow* find(const std::string& window) const;
   [[nodiscard]] bool point_at(const std::string& window, const ControlPath& path);
 
-  ImGuiContext* device_;
+  ImGuiContext* context_;
 };
 
 }  // namespace splatray
