@@ -16,6 +16,10 @@ namespace {
 
 /// The normal field of a splat that has been packed.
 std::uint32_t packed_field(const Cloud& cloud, std::size_t i, const glm::dvec3& packed_normal) {
+  if (!cloud.shading.empty() && cloud.shading[i] != glm::vec3(0.0F)) {
+    const glm::dvec3 shading(cloud.shading[i]);
+    return pack_lean(shading / glm::dot(shading, packed_normal) - packed_normal, packed_normal);
+  }
   const TangentFrame frame(glm::normalize(glm::dvec3(cloud.normal[i])));
   const glm::dvec3 slope = glm::dvec3(cloud.field[i]) * static_cast<double>(cloud.radius[i]);
   const glm::dmat3 matrix =

@@ -50,9 +50,11 @@ struct TrackPlace {
 struct Points {
   std::vector<glm::dvec3> position;  ///< world units
   std::vector<glm::vec3> normal;     ///< any length; empty = none given. A zero normal means "estimate me"
-  std::vector<glm::vec3> color;      ///< linear rgb, 0..1; empty = none
-  std::vector<float> radius;         ///< world units; empty = none given
-  std::vector<PointClip> clip;       ///< where the surface ends; empty = nowhere
+  /// Unit normals that light sees, where they are not those of the points' planes, else zero; empty = none
+  std::vector<glm::vec3> shading;
+  std::vector<glm::vec3> color;  ///< linear rgb, 0..1; empty = none
+  std::vector<float> radius;     ///< world units; empty = none given
+  std::vector<PointClip> clip;   ///< where the surface ends; empty = nowhere
   /// Display-encoded rgb of scans as stored, instead of `color`; empty = none. 1.0 is at `stored_color_most`, which 0 leaves
   /// to be judged from all files of the input: LAS has 8-bit colours in 16-bit fields.
   std::vector<glm::u16vec3> stored_color;

@@ -21,6 +21,9 @@
 /// symmetric matrix [[uu, uv], [uv, vv]] in the tangent frame of the splat's normal (Duff et al. 2017, "Building an
 /// Orthonormal Basis, Revisited"): at the offset (u, v) from the centre the normal is n + [[uu, uv], [uv, vv]] (u, v) / r.
 ///   bits 9..0 uu, 19..10 uv, 29..20 vv; each q + 512, q in [-511, 511], value = sign(q) (q / 511)^2 / 2
+/// A disc that lies in the large facet of a mesh that is shaded smoothly has a constant term instead: bit 31 is set, and
+/// everywhere on it the normal is n + lean_u u + lean_v v.
+///   bits 14..0 lean_u, 29..15 lean_v; each q + 16383, q in [-16383, 16383], value = q / 16383
 ///
 /// Clip lines, 32 bits beside a splat, only in scenes whose surfaces end or have creases: up to two lines of its plane that the
 /// disc ends at (Zwicker et al. 2004, "Perspective Accurate Splatting"), 16 bits each, bits 15..0 and 31..16. Exact integers: of
@@ -109,6 +112,8 @@ SPLATRAY_CONST OCT_SCALE = 32767u;        ///< octahedral normals: |u| + |v| + |
 SPLATRAY_CONST OBJECT_MASK = 0xFFFFu;     ///< word 3: object index
 SPLATRAY_CONST FIELD_FLAT = 0x20080200u;  ///< the normal field of a flat disc
 SPLATRAY_CONST FIELD_SCALE = 511u;        ///< largest |q| of a normal field
+SPLATRAY_CONST FIELD_LEANS = 0x80000000u;  ///< the normal field is a constant term
+SPLATRAY_CONST LEAN_SCALE = 16383u;        ///< largest |q| of one
 SPLATRAY_CONST TEXTURE_NORMAL_SCALE = 2047u;  ///< normal maps' normals: |u| + |v| + |w| = TEXTURE_NORMAL_SCALE
 SPLATRAY_CONST CLIP_NONE = 0xFF00FF00u;   ///< clip lines that cut nothing off
 SPLATRAY_CONST CLIP_STEPS = 64u;          ///< directions of clip lines: |a| + |b| = CLIP_STEPS
@@ -379,6 +384,7 @@ SPLATRAY_CONST FEATURE_SHADOWS = 64u;       ///< shadow rays
 SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, else constant
 SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
 SPLATRAY_CONST FEATURE_ELLIPSES = 524288u; ///< some splat is an ellipse
+SPLATRAY_CONST FEATURE_LEANS = 33554432u;  ///< some normal field is a constant term
 SPLATRAY_CONST FEATURE_OPACITY = 16777216u;  ///< some splat is see-through, and has the texture word LAYER
 SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word
 SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;

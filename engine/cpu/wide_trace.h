@@ -160,6 +160,7 @@ Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uv
   wide.inverse_depth = window.inverse_depth;
   wide.object = window.object;
   wide.fields = FIELDS;
+  wide.leans = LEANS;
   wide.colors = COLORS;
   const WideSums sums = bound->functions.blend(all, wide);
   Cluster cluster = empty_cluster();

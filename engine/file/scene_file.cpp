@@ -19,6 +19,7 @@
 #include "engine/file/scene_file_header.h"
 #include "engine/scene/pool_table.h"
 #include "engine/scene/scene_check.h"
+#include "engine/scene/splat.h"
 #include "engine/scene/texture_factors.h"
 
 namespace splatray {
@@ -72,7 +73,8 @@ std::string joined_strings(const Scene& scene) {
 std::uint32_t version_of(const Scene& scene) {
   const auto any = [&scene](auto has) { return std::any_of(scene.lights.begin(), scene.lights.end(), has); };
   const bool aimed = any([](const SceneLight& light) { return is_spot(light) || light.range > 0.0; });
-  if (aimed || texture_features(scene.columns) != 0) return SCENE_FILE_VERSION;
+  if (any_leans(scene.field_pool)) return SCENE_FILE_VERSION;
+  if (aimed || texture_features(scene.columns) != 0) return TEXTURED_SCENE_FILE_VERSION;
   return any(is_sized) ? SIZED_SCENE_FILE_VERSION : PLAIN_SCENE_FILE_VERSION;
 }
 

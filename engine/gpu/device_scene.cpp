@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/scene/look_style.h"
+#include "engine/scene/splat.h"
 #include "engine/table/albedo_table.h"
 
 namespace splatray {
@@ -41,6 +42,7 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   shows_look_ = false;
   cells_ = filled_cells(scene);
   clip_content_ = clip_content(scene.clip_pool);
+  leans_ = any_leans(scene.field_pool);
   std::vector<std::uint32_t> order;
   splat_tree_ = queue_.make_tree(scene.data_pool, order);
   pools_ = Pools(queue_, device_.limits(), scene, request_, spent, order);
@@ -172,6 +174,7 @@ SceneContent DeviceScene::content() const {
   return {.materials = material_content_,
           .pools = pools_.features & (clip_content_.lines ? ~0U : ~FEATURE_CLIPS),
           .ellipses = clip_content_.ellipses,
+          .leans = leans_,
           .references = pools_.references,
           .top_levels = pools_.top_levels,
           .pages = pools_.paging.pages,

@@ -71,6 +71,7 @@ class DeviceScene {
   Pools pools_;
   std::unique_ptr<SplatTree> splat_tree_;  ///< null where programs walk the octree
   ClipContent clip_content_;
+  bool leans_ = false;             ///< any_leans
   std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
   Look shown_;                     ///< as uploaded
   bool shows_look_ = false;        ///< else the pools are another scene's

@@ -96,6 +96,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
       (look_style(settings.look).colors ? 0 : FEATURE_COLORS) | (flat_blend ? FEATURE_FIELDS : 0);
   constants[SPEC_FEATURES] |= content.pools & ~unseen;
   add(content.ellipses, FEATURE_ELLIPSES);
+  add(content.leans && !flat_blend, FEATURE_LEANS);
   const bool textured = settings.look != LOOK_PAPER && look_style(settings.look).surfaces;
   add(textured || (content.textures & FEATURE_OPACITY) != 0, content.textures);
   add(content.references, FEATURE_REFERENCES);

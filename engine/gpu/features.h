@@ -29,6 +29,7 @@ struct SceneContent {
   MaterialContent materials{};
   std::uint32_t pools = 0;                   ///< FEATURE_* of the optional pools that some splat needs
   bool ellipses = false;                     ///< some splat is an ellipse
+  bool leans = false;                        ///< some normal field is a constant term
   bool references = false;                   ///< the data pool is read through the reference pool
   std::uint32_t top_levels = 0;              ///< of the top table
   std::array<std::uint32_t, POOLS> pages{};  ///< Paging::pages

@@ -79,11 +79,32 @@ std::uint32_t pack_field(const glm::dmat3& slope, const glm::dvec3& normal) {
 }
 
 glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal) {
+  if (field >= FIELD_LEANS) return glm::dmat3(0.0);
   const TangentFrame frame(normal);
   const double uv = decode_slope(field >> 10);
   return decode_slope(field) * glm::outerProduct(frame.u, frame.u) +
          uv * (glm::outerProduct(frame.u, frame.v) + glm::outerProduct(frame.v, frame.u)) +
          decode_slope(field >> 20) * glm::outerProduct(frame.v, frame.v);
+}
+
+std::uint32_t pack_lean(const glm::dvec3& lean, const glm::dvec3& normal) {
+  const TangentFrame frame(normal);
+  const auto encode = [&](const glm::dvec3& axis) {
+    const double q = std::clamp(glm::dot(axis, lean), -1.0, 1.0) * LEAN_SCALE;
+    return static_cast<std::uint32_t>(std::lround(q) + static_cast<long>(LEAN_SCALE));
+  };
+  return FIELD_LEANS | encode(frame.v) << 15 | encode(frame.u);
+}
+
+glm::dvec3 unpack_lean(std::uint32_t field, const glm::dvec3& normal) {
+  if (field < FIELD_LEANS) return glm::dvec3(0.0);
+  const TangentFrame frame(normal);
+  const auto decode = [](std::uint32_t bits) { return double(bits & 0x7FFFU) / LEAN_SCALE - 1.0; };
+  return decode(field) * frame.u + decode(field >> 15) * frame.v;
+}
+
+bool any_leans(std::span<const std::uint32_t> fields) {
+  return std::any_of(fields.begin(), fields.end(), [](std::uint32_t field) { return field >= FIELD_LEANS; });
 }
 
 }  // namespace splatray

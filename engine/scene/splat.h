@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "engine/scene/octahedral.h"
 #include "shaders/layout.h"
@@ -58,7 +59,15 @@ struct TangentFrame {
 /// The normal field of a splat (layout.h): `slope` maps an offset on the disc, in units of the radius, to the change of
 /// the unit normal. Symmetric; what it does along the normal is ignored; entries beyond 1/2 are clamped.
 [[nodiscard]] std::uint32_t pack_field(const glm::dmat3& slope, const glm::dvec3& normal);
-/// The reference implementation of the decoding; `normal` is the splat's own, as unpack_splat gives it.
+/// The reference implementation of the decoding; `normal` is the splat's own, as unpack_splat gives it. Zero of a constant term.
 [[nodiscard]] glm::dmat3 unpack_field(std::uint32_t field, const glm::dvec3& normal);
+
+/// A constant term in the place of the field: `lean` is added to the unit normal all over the disc. What of it is along the
+/// normal is ignored, components beyond 1 are clamped.
+[[nodiscard]] std::uint32_t pack_lean(const glm::dvec3& lean, const glm::dvec3& normal);
+/// Likewise. Zero of a field.
+[[nodiscard]] glm::dvec3 unpack_lean(std::uint32_t field, const glm::dvec3& normal);
+/// Whether some of these normal fields are constant terms.
+[[nodiscard]] bool any_leans(std::span<const std::uint32_t> fields);
 
 }  // namespace splatray

@@ -104,6 +104,7 @@ void append_points(Points& to, Points&& more) {
     mine.resize(after, fill);
   };
   append(to.normal, more.normal, glm::vec3(0.0F));
+  append(to.shading, more.shading, glm::vec3(0.0F));
   append(to.color, more.color, glm::vec3(1.0F));
   append(to.radius, more.radius, 0.0F);
   append(to.clip, more.clip, PointClip{});

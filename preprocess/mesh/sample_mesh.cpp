@@ -15,6 +15,7 @@
 #include <utility>
 #include <variant>
 
+#include "preprocess/base/append.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/mesh/alpha_mask.h"
@@ -31,10 +32,9 @@
 namespace splatray {
 namespace {
 
-constexpr float COS_SAME = 0.9994F;  // 2 degrees: normals of corners that are one point
-constexpr double EDGE_REACH =
-    2.0;  // of a sample, in units of the samples' distance: more than twice its disc's radius
-constexpr double OFF_SURFACE = 0.02;       // of the samples' distance: facets that discs end at
+constexpr float COS_SAME = 0.9994F;   // 2 degrees: normals of corners that are one point
+constexpr double EDGE_REACH = 2.0;    // of a sample, in samples' distances: more than twice its disc's radius
+constexpr double OFF_SURFACE = 0.02;  // of the samples' distance: facets that discs end at
 constexpr double VERTEX_EDGE_REACH = 1.2;  // of a vertex, in units of its longest edge
 
 std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
@@ -63,11 +63,8 @@ double longest_edge(const std::array<glm::dvec3, 3>& corners) {
 
 Bounds bounds_of_triangles(const Mesh& mesh) {
   Bounds bounds;
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    for (const glm::dvec3& corner : corners_of(mesh, triangle)) {
-      bounds.add(corner);
-    }
-  }
+  for (const glm::uvec3& triangle : mesh.triangles)
+    for (const glm::dvec3& corner : corners_of(mesh, triangle)) bounds.add(corner);
   return bounds;
 }
 
@@ -93,13 +90,14 @@ std::vector<std::uint32_t> morton_order(const Mesh& mesh) {
 class SampleWriter {
  public:
   SampleWriter(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
-               const MeshCreases& creases)
+               double spacing_world, const MeshCreases& creases)
       : mesh_(mesh),
         mask_(mesh),
         maps_(mesh),
         normals_(corner_normals(mesh, weld, creases.cosine)),
         edges_(mesh, weld, normals_, creases.cosine),
-        surface_(mesh, weld, normals_, edges_, creases.shared) {
+        surface_(mesh, weld, normals_, edges_, creases.shared),
+        spacing_world_(spacing_world) {
     triangles_.reserve(count);
     points_.position.reserve(count);
     points_.normal.reserve(count);
@@ -113,10 +111,10 @@ class SampleWriter {
   }
 
   /// Adds points where edges lack them, at most as many as there are, and gives all their clip lines.
-  void clip(double spacing_world) {
+  void clip() {
     if (!edges_.any() && !mask_.any()) return;
     add_pending();
-    const RefinedMesh refined(mesh_, edges_, surface_, OFF_SURFACE * spacing_world);
+    const RefinedMesh refined(mesh_, edges_, surface_, OFF_SURFACE * spacing_world_);
     const std::vector<glm::uint> weld = weld_positions(refined.mesh().vertices.position);
     const MeshEdges edges = refined.edges(weld);
     std::vector<std::uint32_t> parts(points_.size());
@@ -124,7 +122,7 @@ class SampleWriter {
       parts[i] = refined.part_at(triangles_[i], weights_.empty() ? glm::dvec3(0.0) : glm::dvec3(weights_[i]));
     });
     for (const MeshPlace& site :
-         edge_sites(refined.mesh(), edges, parts, points_.position, spacing_world, points_.size())) {
+         edge_sites(refined.mesh(), edges, parts, points_.position, spacing_world_, points_.size())) {
       const MeshPlace place{refined.triangle_of(site.triangle),
                             refined.weights_of(site.triangle, site.weights)};
       if (mask_.cut_out(place.triangle, place.weights)) continue;
@@ -132,7 +130,7 @@ class SampleWriter {
       parts.push_back(site.triangle);
     }
     add_pending();
-    const double reach_world = EDGE_REACH * spacing_world;
+    const double reach_world = EDGE_REACH * spacing_world_;
     clip_points(
         refined.mesh(), weld, edges,
         [&](std::size_t i) {
@@ -164,28 +162,37 @@ class SampleWriter {
     points_.normal.resize(size);
     if (colored()) points_.color.resize(size);
     if (!mesh_.vertices.columns.empty() || edges_.any()) weights_.resize(size);
+    std::vector<glm::vec3> seen(places.size());
     using Range = tbb::blocked_range<std::size_t>;
     tbb::parallel_for(Range(0, places.size(), 1024), [&](const Range& range) {
       SmoothTriangle smooth;  // of many samples one after the other
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         const std::uint32_t triangle = places[i].triangle;
         if (i == range.begin() || triangle != places[i - 1].triangle) smooth = surface_.triangle(triangle);
-        set(first + i, places[i], smooth);
+        seen[i] = set(first + i, places[i], smooth);
       }
     });
     for (std::size_t i = 0; i < places.size() && !mesh_.maps.empty(); ++i)
-      maps_.add(mesh_.triangles[places[i].triangle], glm::vec3(places[i].weights), points_.normal[first + i]);
+      maps_.add(mesh_.triangles[places[i].triangle], glm::vec3(places[i].weights), seen[i]);
+    const auto own = points_.normal.begin() + static_cast<std::ptrdiff_t>(first);
+    if (std::equal(seen.begin(), seen.end(), own)) seen.clear();
+    std::transform(seen.begin(), seen.end(), own, seen.begin(),
+                   [](const glm::vec3& normal, const glm::vec3& its) {
+                     return normal == its ? glm::vec3(0.0F) : normal;
+                   });
+    append(points_.shading, first, std::move(seen), places.size(), glm::vec3(0.0F));
   }
 
-  /// Gives a point its place on the smooth triangle.
-  void set(std::size_t point, const MeshPlace& place, const SmoothTriangle& smooth) {
+  /// Gives a point its place on the smooth triangle; the normal that light sees there.
+  glm::vec3 set(std::size_t point, const MeshPlace& place, const SmoothTriangle& smooth) {
     const glm::uvec3& triangle = mesh_.triangles[place.triangle];
     triangles_[point] = place.triangle;
     const glm::vec3 w(place.weights);
     if (!weights_.empty()) weights_[point] = w;
     points_.position[point] = smooth.place(place.weights);
-    points_.normal[point] = normal_on_triangle(mesh_, normals_, place.triangle, place.weights);
-    if (!colored()) return;
+    const glm::vec3 normal = normal_on_triangle(mesh_, normals_, place.triangle, place.weights);
+    points_.normal[point] = smooth.disc_normal(place.weights, normal, spacing_world_);
+    if (!colored()) return normal;
     glm::vec3 color{1.0F};
     if (const auto& colors = mesh_.vertices.color; !colors.empty())
       color = w.x * colors[triangle.x] + w.y * colors[triangle.y] + w.z * colors[triangle.z];
@@ -194,6 +201,7 @@ class SampleWriter {
       color *= mesh_.texture->color(w.x * uv[triangle.x] + w.y * uv[triangle.y] + w.z * uv[triangle.z]);
     }
     points_.color[point] = color;
+    return normal;
   }
 
   /// An attribute of the vertices at the points: numbers with a fraction are interpolated, whole ones are the nearest corner's.
@@ -225,6 +233,7 @@ class SampleWriter {
   std::vector<glm::vec3> normals_;
   MeshEdges edges_;
   SmoothSurface surface_;
+  double spacing_world_;            ///< of the samples where they are least dense
   std::vector<MeshPlace> pending_;  ///< samples that are no points yet
   Points points_;
   std::vector<std::uint32_t> triangles_;  ///< beside points_
@@ -376,9 +385,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
       const glm::vec3 own = mesh.vertices.color.empty() ? glm::vec3(1.0F) : mesh.vertices.color[i];
       points.color.push_back(mesh.texture ? own * mesh.texture->color(mesh.texcoord[i]) : own);
     }
-    if (!mesh.vertices.radius.empty()) {
-      points.radius.push_back(mesh.vertices.radius[i]);
-    }
+    if (!mesh.vertices.radius.empty()) points.radius.push_back(mesh.vertices.radius[i]);
   }
   for (const Column& column : mesh.vertices.columns) {
     const auto take = [&kept](const auto& values) { return Column::Values(gather(values, kept)); };
@@ -392,9 +399,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
 Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
                       std::uint64_t seed, const MeshCreases& creases) {
   constexpr double GOLDEN_RATIO_PART = 0.6180339887498949;
-  if (count == 0) {
-    return {};
-  }
+  if (count == 0) return {};
   std::mt19937_64 random(seed);
   const double share_offset = 0.1 + 0.8 * static_cast<double>(random() >> 11U) * 0x1p-53;
   double side = static_cast<double>(random() >> 11U) * 0x1p-53;
@@ -406,23 +411,19 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   }
   const double step = total / static_cast<double>(count);
   assert(step > 0.0 && std::isfinite(step));
-  SampleWriter writer(mesh, weld, count, creases);
+  SampleWriter writer(mesh, weld, count, std::sqrt(step / least_density), creases);
   std::uint64_t written = 0;
   double passed = 0.0;
   std::size_t last_proper = 0;
   for (const SamplePiece& piece : pieces) {
     const std::array<glm::dvec3, 3> corners = corners_of(mesh, piece);
     const double area = piece.density * triangle_area(corners);
-    if (!(area > 0.0)) {
-      continue;
-    }
+    if (!(area > 0.0)) continue;
     last_proper = piece.triangle;
     const int apex = apex_of(corners, area / step);
     while (written < count) {
       const double at = (static_cast<double>(written) + share_offset) * step;
-      if (at >= passed + area) {
-        break;
-      }
+      if (at >= passed + area) break;
       const double height = std::sqrt(std::max(at - passed, 0.0) / area);
       side -= side >= 1.0 ? 1.0 : 0.0;
       glm::dvec3 weights;
@@ -439,7 +440,7 @@ Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std:
   for (; written < count; ++written) {  // rounding of the summed area may leave the last share over
     writer.add(last_proper, glm::dvec3(1.0 / 3.0));
   }
-  if (creases.clip) writer.clip(std::sqrt(step / least_density));
+  if (creases.clip) writer.clip();
   return writer.finish();
 }
 

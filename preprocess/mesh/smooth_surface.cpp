@@ -10,6 +10,8 @@ namespace {
 
 /// Cosines of 45 and 30 degrees: normals that turn by more along an edge are of a coarse drawing, not of a smooth surface.
 constexpr double SHARP_COSINE = 0.7071067811865476, SMOOTH_COSINE = 0.8660254037844387;
+constexpr double LEANS_COSINE = 0.9986;  // 3 degrees: discs that lean less leave no slits
+constexpr double COARSE = 8.0;  // least height of a facet, in samples' distances, that a disc is small beside
 constexpr double ONE_PLANE = 0.99;  // cosine, 8 degrees: planes that meet in no clear line
 
 /// The shortest vector from which `along` leads into both planes through the origin with these unit normals.
@@ -41,6 +43,21 @@ glm::dvec3 SmoothTriangle::normal(const glm::dvec3& weights) const {
     slope[i] = corners[i] + 0.5 * (weights[next] * bow[i] + weights[before] * bow[(i + 2) % 3]);
   }
   return unit_or_zero(glm::cross(slope[1] - slope[0], slope[2] - slope[0]));
+}
+
+double SmoothTriangle::least_height() const {
+  const glm::dvec3 first = corners[1] - corners[0], second = corners[2] - corners[1];
+  const double longest = std::max({glm::length(first), glm::length(second), glm::length(first + second)});
+  return longest > 0.0 ? glm::length(glm::cross(first, second)) / longest : 0.0;
+}
+
+glm::vec3 SmoothTriangle::disc_normal(const glm::dvec3& weights, const glm::vec3& seen,
+                                      double spacing_world) const {
+  if (least_height() < COARSE * spacing_world) return seen;
+  const glm::dvec3 plane = normal(weights);
+  const double along = glm::dot(plane, glm::dvec3(seen));
+  if (std::abs(along) > LEANS_COSINE || std::abs(along) < SHARP_COSINE) return seen;
+  return glm::vec3(along < 0.0 ? -plane : plane);
 }
 
 glm::dvec3 SmoothSurface::corner_normal(std::uint32_t triangle, glm::uint place) const {

@@ -22,6 +22,13 @@ struct SmoothTriangle {
   [[nodiscard]] glm::dvec3 place(const glm::dvec3& weights) const;
   /// The unit normal of the surface's tangent plane there, on the triangle's side; zero of triangles without area.
   [[nodiscard]] glm::dvec3 normal(const glm::dvec3& weights) const;
+  /// The unit normal of a disc there, where light sees `seen`: that of the tangent plane, on the side of `seen`, where this leans out of it
+  /// by 3 to 45 degrees and the triangle is large beside the samples' distance, as discs that lean leave slits. Else `seen`: neighbouring
+  /// discs are parts of one round surface. Slivers may be bent by more, and have no plane worth it.
+  [[nodiscard]] glm::vec3 disc_normal(const glm::dvec3& weights, const glm::vec3& seen,
+                                      double spacing_world) const;
+  /// Of the flat triangle.
+  [[nodiscard]] double least_height() const;
 };
 
 /// Each edge has its own share in the surface, so that triangles join. Both triangles at an edge decide it: at a crease it runs

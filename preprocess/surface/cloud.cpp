@@ -33,6 +33,7 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   cloud.position = take(points.position);
   cloud.normal = take(points.normal);
   cloud.normal.resize(usable.size(), glm::vec3(0.0F));
+  cloud.shading = take(points.shading);
   const std::vector<glm::vec3> color = take(points.color);
   cloud.color.resize(color.size());
   for (Column& column : points.columns)
@@ -93,9 +94,10 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
     const std::uint16_t station = cloud.station.empty() ? std::uint16_t{0} : cloud.station[i];
     const std::uint32_t cell = cloud.grid_cell.empty() ? NO_CELL : cloud.grid_cell[i];
     const float radius = cloud.radius.empty() ? 0.0F : cloud.radius[i];
+    const glm::vec3 shading = cloud.shading.empty() ? glm::vec3(0.0F) : cloud.shading[i];
     const ScanKind kind = cloud.kind.empty() ? ScanKind::surface : cloud.kind[i];
-    return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), p.x, p.y, p.z, color, radius,
-                      station, cell, kind);
+    return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), sort_key(shading), p.x, p.y, p.z,
+                      color, radius, station, cell, kind);
   };
   const auto key_a = key(a), key_b = key(b);
   if (key_a != key_b) return key_a < key_b;
@@ -129,6 +131,7 @@ void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
   reorder(cloud.position);
   reorder(cloud.coord);
   reorder(cloud.normal);
+  reorder(cloud.shading);
   reorder(cloud.color);
   reorder(cloud.radius);
   reorder(cloud.clip);

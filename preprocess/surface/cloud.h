@@ -30,8 +30,9 @@ struct Cloud {
   glm::dvec3 center_world{0.0};      ///< centre of the points' bounding box
   double half_extent_world = 1.0;    ///< half its longest side; 1 when all points coincide
   std::vector<glm::dvec3> position;  ///< world units; empty = as `coord` says
-  std::vector<glm::vec3> coord;   ///< (position - center) / half_extent in [-1, 1], multiples of COORD_STEP
-  std::vector<glm::vec3> normal;  ///< unit; zero = unknown
+  std::vector<glm::vec3> coord;    ///< (position - center) / half_extent in [-1, 1], multiples of COORD_STEP
+  std::vector<glm::vec3> normal;   ///< unit; zero = unknown
+  std::vector<glm::vec3> shading;  ///< Points::shading
   std::vector<std::uint32_t> color;      ///< pack_color; empty = none
   std::vector<float> radius;             ///< in units of half_extent_world; zero = unknown; empty = all are
   std::vector<glm::vec3> field;          ///< normal field: uu, uv, vv of the change of the unit normal per

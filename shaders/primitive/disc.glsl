@@ -195,6 +195,9 @@ float field_slope(uint bits) {
   return 0.5f * q * abs(q);
 }
 
+/// One component of a constant term.
+float field_lean(uint bits) { return (float(bits & 0x7FFFu) - float(LEAN_SCALE)) * (1.0f / float(LEAN_SCALE)); }
+
 /// What a disc's normal field makes of a meeting with the disc's plane.
 struct FieldPoint {
   vec3 normal;     ///< longer than 1; may point away from the ray
@@ -202,8 +205,8 @@ struct FieldPoint {
 };
 
 /// The field's normal, and the height of the surface it belongs to, at an offset on the disc (layout.h). `normal` is the
-/// disc's unit normal.
-FieldPoint field_point(uint word, vec3 normal, vec3 from_center, float inverse_radius) {
+/// disc's unit normal; `leans`: whether words may be constant terms.
+FieldPoint field_point(uint word, bool leans, vec3 normal, vec3 from_center, float inverse_radius) {
   float side = normal.z >= 0.0f ? 1.0f : -1.0f;
   float a = -1.0f / (side + normal.z);
   vec3 u = vec3(1.0f + side * normal.x * normal.x * a, side * normal.x * normal.y * a, -side * normal.x);
@@ -212,9 +215,11 @@ FieldPoint field_point(uint word, vec3 normal, vec3 from_center, float inverse_r
   float uv = field_slope(word >> 10u);
   vec2 lean = vec2(field_slope(word) * offset.x + uv * offset.y, uv * offset.x + field_slope(word >> 20u) * offset.y);
   lean *= inverse_radius;
+  bool constant = leans && word >= FIELD_LEANS;
+  if (constant) lean = vec2(field_lean(word), field_lean(word >> 15u));
   FieldPoint point;
   point.normal = normal + u * lean.x + v * lean.y;
-  point.height = -0.5f * (lean.x * offset.x + lean.y * offset.y);
+  point.height = constant ? 0.0f : -0.5f * (lean.x * offset.x + lean.y * offset.y);
   return point;
 }
 

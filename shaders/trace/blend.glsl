@@ -1,6 +1,6 @@
 // The first splat that a ray hits, and the blend of its cluster: the splats of the same object with like normals in a window of
 // depth behind it. Sums are integers, so the blend does not depend on the order in which splats are found. Needs, beside
-// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS, WATCHES.
+// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS, LEANS, WATCHES.
 #ifndef SPLATRAY_BLEND_GLSL
 #define SPLATRAY_BLEND_GLSL
 #include "trace/accept.glsl"
@@ -86,7 +86,7 @@ Facet facet_at(uvec4 words, uint splat, vec3 from_center, float inverse_radius, 
   facet.normal = cosine > 0.0f ? -normal : normal;
   facet.behind = 0.0f;
   if (FIELDS) {
-    FieldPoint point = field_point(field_word(splat), normal, from_center, inverse_radius);
+    FieldPoint point = field_point(field_word(splat), LEANS, normal, from_center, inverse_radius);
     vec3 turned = cosine > 0.0f ? -point.normal : point.normal;
     turned -= dir * max(dot(turned, dir), 0.0f);
     facet.normal = turned * inversesqrt(dot(turned, turned));

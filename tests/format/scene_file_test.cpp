@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/scene/clip.h"
+#include "engine/scene/splat.h"
 #include "tests/format/scene_bytes.h"
 #include "tests/format/tiny_scene.h"
 #include "tests/temp_folder.h"
@@ -161,7 +162,7 @@ TEST_F(SizedLights, SpotsAndRangesAreKeptAsTheyAre) {
   scene.lights.front().range = 8.0;
   write_scene(scene, path);
   bytes = load();
-  EXPECT_EQ(get<std::uint32_t>(bytes, 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(get<std::uint32_t>(bytes, 4), TEXTURED_SCENE_FILE_VERSION);
   const std::size_t lights = section_offset(bytes, 10);
   EXPECT_EQ(get<double>(bytes, lights + 104 + 8), -2.0);
   EXPECT_EQ(get<double>(bytes, lights + 104 + 24), 0.25);
@@ -179,7 +180,7 @@ TEST_F(SceneFile, OfTextureFactorsIsOfTheirVersion) {
   Scene scene = tiny_scene();
   scene.columns = {{"texture-emission-g", std::vector<std::uint8_t>(scene.data_pool.size(), 17)}};
   write_scene(scene, path);
-  EXPECT_EQ(get<std::uint32_t>(load(), 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), TEXTURED_SCENE_FILE_VERSION);
   EXPECT_EQ(read_scene(path).columns[0].number(0), 17.0);
   scene.columns[0].name = "emission-g";
   write_scene(scene, path);
@@ -187,6 +188,14 @@ TEST_F(SceneFile, OfTextureFactorsIsOfTheirVersion) {
   scene.columns = {{"texture-emission-g", std::vector<float>(scene.data_pool.size(), 1.0F)}};
   write_scene(scene, path);
   EXPECT_EQ(get<std::uint32_t>(load(), 4), PLAIN_SCENE_FILE_VERSION) << "of a type that factors are not of";
+}
+
+TEST_F(SceneFile, OfConstantTermsIsOfTheirVersion) {
+  Scene scene = tiny_scene();
+  scene.field_pool[1] = pack_lean({0.25, 0.0, 0.0}, unpack_splat(scene.data_pool[1]).normal);
+  write_scene(scene, path);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(read_scene(path).field_pool, scene.field_pool);
 }
 
 TEST_F(SizedLights, TruncatedOrDamagedAreRefused) {
@@ -205,10 +214,10 @@ TEST_F(SizedLights, ForgedOnesAreRefused) {
     const std::string sentence = refusal(forged);
     EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
   };
-  for (const std::uint32_t version : {9U, 13U}) {
+  for (const std::uint32_t version : {9U, 14U}) {
     Bytes forged = bytes;
     put<std::uint32_t>(forged, 4, version);
-    says(forged, "expected version 10 to 12");
+    says(forged, "expected version 10 to 13");
   }
   Bytes forged = bytes;
   put<std::uint32_t>(forged, 4, PLAIN_SCENE_FILE_VERSION);
@@ -283,7 +292,7 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
   put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 10 to 12");
+  says(other, "found version 2, expected version 10 to 13");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");

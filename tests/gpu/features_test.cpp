@@ -37,12 +37,13 @@ TEST(Features, OnlyWhatTheSceneHasIsOn) {
   const SceneContent everything{.materials = material_content(materials),
                                 .pools = FEATURE_COLORS | FEATURE_FIELDS | FEATURE_CLIPS,
                                 .ellipses = true,
+                                .leans = true,
                                 .references = true,
                                 .lights = true,
                                 .environment_texture = true};
   EXPECT_EQ(picture_features(everything, {})[SPEC_FEATURES],
             FEATURE_MIRRORS | FEATURE_GLASS | FEATURE_COLORS | FEATURE_FIELDS | FEATURE_CLIPS |
-                FEATURE_ELLIPSES | FEATURE_REFERENCES | FEATURE_LIGHTS | FEATURE_SHADOWS |
+                FEATURE_ELLIPSES | FEATURE_LEANS | FEATURE_REFERENCES | FEATURE_LIGHTS | FEATURE_SHADOWS |
                 FEATURE_ENVIRONMENT);
 }
 

@@ -73,6 +73,24 @@ TEST(NormalField, FlatAndSteepAreAsTheLayoutSays) {
   EXPECT_EQ(pack_field(glm::dmat3(-7.0), normal), 1U | 512U << 10 | 1U << 20);
 }
 
+TEST(NormalField, ConstantTermsStayWithinTheirStep) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> component(-1.0, 1.0);
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 normal = random_splat(random).normal;
+    const TangentFrame frame(normal);
+    const glm::dvec3 lean = component(random) * frame.u + component(random) * frame.v;
+    const std::uint32_t packed = pack_lean(lean + 0.3 * normal, normal);
+    EXPECT_LT(glm::length(unpack_lean(packed, normal) - lean), 0.8 / LEAN_SCALE);
+    EXPECT_EQ(unpack_field(packed, normal), glm::dmat3(0.0));
+    EXPECT_EQ(pack_lean(unpack_lean(packed, normal), normal), packed);
+  }
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  EXPECT_EQ(pack_lean(glm::dvec3(0.0), up), FIELD_LEANS | LEAN_SCALE << 15 | LEAN_SCALE);
+  EXPECT_EQ(pack_lean({7.0, -7.0, 0.0}, up), FIELD_LEANS | 2 * LEAN_SCALE) << "clamped to 1";
+  EXPECT_EQ(unpack_lean(FIELD_FLAT, up), glm::dvec3(0.0));
+}
+
 TEST(Splat, WordsAreAsTheLayoutDrawsThem) {
   const Splat splat{{1.0, 3.0 * 1024.0 + 5.0, 7.0}, {0.0, 0.0, 1.0}, 2.0, 9};
   EXPECT_EQ(pack_splat(splat), uvec4(1U << 11 | 3U, 5U << 22 | 7U, 32767U << 16 | 32767U, 9U));

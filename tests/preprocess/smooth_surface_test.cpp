@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "engine/scene/splat.h"
 #include "preprocess/build.h"
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/mesh/refined_mesh.h"
@@ -81,6 +82,32 @@ TEST(SmoothSurface, RimsOfACoarseTubeAreRound) {
     EXPECT_EQ(holes(Discs(scene), lids), 0U) << (lids ? "with lids" : "open");
     EXPECT_LT(Discs(scene).overhang(beyond), 0.25) << (lids ? "with lids" : "open");
   }
+}
+
+TEST(SmoothSurface, DiscsOfACoarseDrawingLieInItsFacets) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.position.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
+    mesh.vertices.normal.emplace_back(mesh.vertices.position.back() - 0.5);
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  const Scene scene = scene_of(mesh, 3000);
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const Splat splat = unpack_splat(scene.data_pool[i]);
+    const dvec3 lean = unpack_lean(scene.field_pool[i], splat.normal);
+    const dvec3 place = scene.root.to_world(splat.center) - 0.5;
+    dvec3 face(0.0);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+      if (std::abs(place[axis]) > 0.4999) face[axis] = std::copysign(1.0, place[axis]);
+    if (glm::length(face) > 1.0) continue;  // on an edge
+    EXPECT_GT(glm::dot(splat.normal, glm::normalize(face)), std::cos(4.0 * M_PI / 180.0)) << "discs lean";
+    const dvec3 seen = glm::normalize(splat.normal + lean);
+    const dvec3 wanted = glm::normalize(place);
+    const double most = std::max(glm::dot(wanted, glm::normalize(face)), std::cos(20.0 * M_PI / 180.0));
+    EXPECT_NEAR(glm::dot(seen, glm::normalize(face)), most, 0.005) << "what light sees";
+  }
+  EXPECT_FALSE(any_leans(scene_of(mesh, 300).field_pool)) << "facets of few discs";
 }
 
 TEST(SmoothSurface, BothTrianglesAtAnEdgeBendItAlike) {

@@ -205,6 +205,17 @@ void clip_some(RandomScene& random) {
   }
 }
 
+/// Lets most discs be shaded with normals that are not theirs, likewise.
+void lean_some(RandomScene& random) {
+  Dice dice(random.leaf_sizes[1]);
+  for (InputObject& object : random.input.objects)
+    for (const glm::vec3& normal : object.points.normal)
+      object.points.shading.push_back(
+          dice.chance(0.3)
+              ? glm::vec3(0.0F)
+              : glm::normalize(normal + float(dice.between(0.0, 0.4)) * glm::vec3(dice.direction())));
+}
+
 InputObject anchor_object() {
   InputObject object;
   object.material = test_material(MATERIAL_TWO_SIDED);
@@ -248,6 +259,10 @@ RandomScene random_scene(Dice& dice) {
   if (random.leaf_sizes[0] % 3 == 0) {
     clip_some(random);
     text << " clipped";
+  }
+  if (random.leaf_sizes[1] % 3 == 0) {
+    lean_some(random);
+    text << " leaning";
   }
   random.description = text.str();
   return random;

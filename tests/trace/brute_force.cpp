@@ -38,6 +38,8 @@ BruteForce::BruteForce(const Scene& scene) : materials_(scene.materials) {
     splats_.push_back(unpack_splat(words));
     slopes_.push_back(scene.field_pool.empty() ? glm::dmat3(0.0)
                                                : unpack_field(scene.field_pool[i], splats_.back().normal));
+    leans_.push_back(scene.field_pool.empty() ? dvec3(0.0)
+                                              : unpack_lean(scene.field_pool[i], splats_.back().normal));
     if (!scene.color_pool.empty()) colors_.push_back(scene.color_pool[i]);
     x_.push_back(splats_.back().center.x);
     y_.push_back(splats_.back().center.y);
@@ -183,7 +185,7 @@ BruteForce::Facet BruteForce::facet(const Meeting& meeting, const RayQuery& quer
   const double radius = std::sqrt(splat.radius_squared);
   const dvec3 from_center = dvec3(query.origin) + meeting.t * dvec3(query.dir) - splat.center;
   const dvec3 lean = slopes_[meeting.index] * (from_center / radius);
-  dvec3 normal = glm::normalize(splat.normal + lean);
+  dvec3 normal = glm::normalize(splat.normal + lean + leans_[meeting.index]);
   if (meeting.cosine > 0.0) normal = -normal;
   if (const double away = glm::dot(normal, dir); away > 0.0) normal = glm::normalize(normal - away * dir);
   const double height = -0.5 * glm::dot(from_center, lean);

@@ -78,6 +78,7 @@ class BruteForce {
   std::vector<uvec4> words_;
   std::vector<Splat> splats_;
   std::vector<glm::dmat3> slopes_;  ///< normal fields; zero for flat discs
+  std::vector<glm::dvec3> leans_;   ///< their constant terms
   std::vector<std::uint32_t> colors_;
   std::vector<std::uint32_t> clips_;  ///< clip lines; empty where all discs are whole
   std::vector<Material> materials_;

@@ -131,12 +131,14 @@ TEST(Exactness, GlassInsideARoomOfCoplanarSplats) {
   compare_gpu({scene_of(objects, 10), scene_of(objects, 25)}, 30000);
 }
 
-/// A cube whose discs end at its edges, of points sampled on its faces.
-Scene clipped_cube(std::uint32_t flags, std::uint32_t leaf_size) {
+/// A cube of points sampled on its faces, whose discs end at its edges, or which is shaded as a ball.
+Scene cube_scene(bool clipped, std::uint32_t flags, std::uint32_t leaf_size) {
   Mesh cube;
   for (int i = 0; i < 8; ++i) cube.vertices.position.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
   cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  if (!clipped)
+    for (const glm::dvec3& corner : cube.vertices.position) cube.vertices.normal.emplace_back(corner - 0.5);
   Input input;
   InputObject& object = input.objects.emplace_back();
   object.points = sample_surface(cube, weld_positions(cube.vertices.position), 10000, 1, {.clip = true});
@@ -147,6 +149,16 @@ Scene clipped_cube(std::uint32_t flags, std::uint32_t leaf_size) {
   params.leaf_size = leaf_size;
   BuildStats stats;
   return build_scene(std::move(input), params, 0, stats);
+}
+
+Scene clipped_cube(std::uint32_t flags, std::uint32_t leaf_size) {
+  return cube_scene(true, flags, leaf_size);
+}
+
+TEST(Exactness, GlassCubeThatIsShadedAsABall) {
+  const Scene scene = cube_scene(false, MATERIAL_DIELECTRIC, 10);
+  ASSERT_TRUE(any_leans(scene.field_pool));
+  compare_gpu({scene, cube_scene(false, MATERIAL_DIELECTRIC, 4)}, 100000);
 }
 
 TEST(Exactness, GlassCubeThatEndsAtItsEdges) {

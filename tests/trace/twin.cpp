@@ -80,7 +80,8 @@ Features twin_features(const Scene& scene, const Settings& settings) {
   const bool bends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
   chosen[SPEC_FEATURES] =
       FEATURE_GLASS | FEATURE_COUNTERS | (pool_counts(scene).pools & (bends ? ~0U : ~FEATURE_FIELDS)) |
-      (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0) | texture_features(scene.columns);
+      (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0) |
+      (bends && any_leans(scene.field_pool) ? FEATURE_LEANS : 0) | texture_features(scene.columns);
   chosen[SPEC_TOP_LEVELS] = 5;
   return chosen;
 }

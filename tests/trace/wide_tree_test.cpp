@@ -105,6 +105,26 @@ TEST(WideTree, HasTheOctreesBitsWhateverTheVectors) {
   expect_twins_bits(scene, rays, gaussian);
 }
 
+TEST(WideTree, NormalFieldsAndConstantTerms) {
+  Scene scene = scene_of({{sphere({.count = 6000, .seed = 5}, 1.0), test_material(MATERIAL_DIELECTRIC)}});
+  const std::vector<RayQuery> rays = rays_through(scene, 20000);
+  const std::vector<RayHit> before = twin_intersect(scene, rays, {});
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> component(-0.4, 0.4);
+  for (std::size_t i = 0; i < scene.field_pool.size(); ++i) {
+    if (random() % 3 == 0) continue;
+    const glm::dvec3 lean(component(random), component(random), component(random));
+    scene.field_pool[i] = pack_lean(lean, unpack_splat(scene.data_pool[i]).normal);
+  }
+  ASSERT_TRUE(any_leans(scene.field_pool));
+  EXPECT_GT(different_bits(before, twin_intersect(scene, rays, {})), 10000U);
+  for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST, BLEND_PAPER, BLEND_LEAF}) {
+    Settings settings;
+    settings.blend = blend;
+    expect_twins_bits(scene, rays, settings);
+  }
+}
+
 TEST(WideTree, SeesAnotherSceneAsAnother) {
   Scene scene = scene_of({{sphere({.count = 500}, 1.0), test_material(0)}});
   const std::vector<RayQuery> rays = rays_through(scene, 2000);

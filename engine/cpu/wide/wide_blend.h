@@ -34,9 +34,16 @@ Lanes field_slope(Words bits) {
   return of(0.5F) * q * hn::Abs(q);
 }
 
-/// facet_at where there are normal fields: sets the facet's normal, which is the plane's, and returns how far behind the plane it is.
-Lanes apply_field(Words word, const Vectors& plane_normal, Lanes cosine, const Vectors& from_center,
-                  Lanes inverse_radius, const Vectors& dir, Vectors& facet_normal) {
+Lanes field_lean(Words bits) {
+  const float scale = static_cast<float>(LEAN_SCALE);
+  return (number(masked(bits, 0x7FFFU)) - of(scale)) * of(1.0F / scale);
+}
+
+/// facet_at where there are normal fields, and constant terms where `leans`: sets the facet's normal, which is the plane's, and returns
+/// how far behind the plane it is.
+Lanes apply_field(Words word, bool leans, const Vectors& plane_normal, Lanes cosine,
+                  const Vectors& from_center, Lanes inverse_radius, const Vectors& dir,
+                  Vectors& facet_normal) {
   const Lanes one = of(1.0F), minus = of(-1.0F);
   const auto& [x, y, z] = plane_normal;
   const Lanes side = hn::IfThenElse(z >= of(0.0F), one, minus);
@@ -45,13 +52,19 @@ Lanes apply_field(Words word, const Vectors& plane_normal, Lanes cosine, const V
   const Vectors v{x * y * a, side + y * y * a, hn::Neg(y)};
   const Lanes along_u = dot(from_center, u), along_v = dot(from_center, v);
   const Lanes uv = field_slope(hn::ShiftRight<10>(word));
-  const Lanes lean_u = (field_slope(word) * along_u + uv * along_v) * inverse_radius;
-  const Lanes lean_v = (uv * along_u + field_slope(hn::ShiftRight<20>(word)) * along_v) * inverse_radius;
+  Lanes lean_u = (field_slope(word) * along_u + uv * along_v) * inverse_radius;
+  Lanes lean_v = (uv * along_u + field_slope(hn::ShiftRight<20>(word)) * along_v) * inverse_radius;
+  Lanes height = of(-0.5F) * (lean_u * along_u + lean_v * along_v);
+  if (leans) {
+    const auto constant = hn::RebindMask(TAG, hn::TestBit(word, hn::Set(WORD_TAG, FIELD_LEANS)));
+    height = hn::IfThenZeroElse(constant, height);
+    lean_u = hn::IfThenElse(constant, field_lean(word), lean_u);
+    lean_v = hn::IfThenElse(constant, field_lean(hn::ShiftRight<15>(word)), lean_v);
+  }
   const auto away = cosine > of(0.0F);
   Vectors turned = turned_where(away, plane_normal + u * lean_u + v * lean_v);
   turned = turned - dir * hn::Max(dot(turned, dir), of(0.0F));
   facet_normal = turned * inverse_sqrt(dot(turned, turned));
-  const Lanes height = of(-0.5F) * (lean_u * along_u + lean_v * along_v);
   return height / hn::IfThenElse(away, hn::Max(cosine, of(MIN_COSINE)), hn::Min(cosine, of(-MIN_COSINE)));
 }
 
@@ -100,8 +113,8 @@ void blend_lanes(WideMeetings& meetings, std::uint32_t from, const WideWindow& w
   const Lanes weight = hn::IfThenElseZero(member, weight_at(u_squared, share) * of(WEIGHT_UNIT));
   Lanes beyond = of(0.0F);
   if (window.fields)
-    beyond = apply_field(hn::Load(WORD_TAG, &meetings.field[from]), plane_normal, cosine, from_center,
-                         inverse_radius, dir, normal);
+    beyond = apply_field(hn::Load(WORD_TAG, &meetings.field[from]), window.leans, plane_normal, cosine,
+                         from_center, inverse_radius, dir, normal);
   share = hn::IfThenElseZero(member, clamp((behind + beyond) * inverse_depth, -1.0F, 1.0F));
   hn::Store(weight, TAG, &meetings.weight[from]);
   sums.weight += sum_of(weight + of(0.5F));

@@ -98,7 +98,7 @@ struct WideWindow {
   float t, t_low;
   float inverse_depth;
   std::uint32_t object;
-  bool fields, colors;
+  bool fields, leans, colors;
 };
 
 /// Sums; as Cluster there.

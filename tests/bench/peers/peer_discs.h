@@ -16,7 +16,7 @@ struct alignas(32) Disc {
   std::uint32_t object;
 };
 
-/// A normal field (unpack_field): a symmetric matrix.
+/// A normal field (unpack_field): a symmetric matrix. Constant terms are left out: no model of the peers' has them.
 struct alignas(32) Slope {
   vec3 diagonal;  ///< xx, yy, zz
   vec3 beside;    ///< yz, xz, xy
