@@ -120,9 +120,7 @@ TEST_F(CliOptions, NoDevice) {
   const std::string grid = write("grid.ply", grid_ply(true));
   const std::vector<std::string> none = {"VK_DRIVER_FILES=/nonexistent.json",
                                          "VK_ICD_FILENAMES=/nonexistent.json"};
-  const ChildResult on_host = render({grid}, none);
-  EXPECT_EQ(on_host.code, 0) << on_host.err;
-  EXPECT_NE(on_host.err.find("the host's CPU"), std::string::npos) << on_host.err;
+  EXPECT_EQ(render({grid}, none).code, 0);
   EXPECT_EQ(run_program({RENDER, "--list-devices"}, none).out.substr(0, 5), "cpu: ");
   EXPECT_EQ(render({grid, "--device=cpu"}, none).code, 0);
   expect_refused([&] { return render({grid, "--device=0"}, none); }, 4, "device");
