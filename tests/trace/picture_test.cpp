@@ -58,27 +58,33 @@ Image gpu_picture(const Scene& scene, const View& view, const Environment& envir
   return made_on(device, scene, view, small_settings(), environment).image;
 }
 
-/// Takes the truth for those pixels of `pictures.gpu` whose truth moves by more than half of `threshold` (display
-/// values) in one of the `nudged` pictures.
-void settle(Pictures& pictures, const std::array<Image, 2>& nudged, double threshold) {
+float most_of(const vec3& difference) { return std::max({difference.x, difference.y, difference.z}); }
+
+/// Takes the truth for those pixels of `pictures.gpu` that are further than `error` from it and whose truth moves by more than `move`
+/// (display values) in one of the `nudged` pictures.
+void settle(Pictures& pictures, const std::array<Image, 2>& nudged, double error, double move) {
   const std::vector<vec3> truth = display_image(pictures.reference, 0.0).rgb;
+  const std::vector<vec3> made = display_image(pictures.gpu, 0.0).rgb;
   std::vector<bool> unsettled(truth.size(), false);
   for (const Image& image : nudged) {
     const std::vector<vec3> moved = display_image(image, 0.0).rgb;
-    for (std::size_t pixel = 0; pixel < truth.size(); ++pixel) {
-      const vec3 by = glm::abs(moved[pixel] - truth[pixel]);
-      if (std::max({by.x, by.y, by.z}) > float(0.5 * threshold)) unsettled[pixel] = true;
-    }
+    for (std::size_t pixel = 0; pixel < truth.size(); ++pixel)
+      if (most_of(glm::abs(made[pixel] - truth[pixel])) >= float(error) &&
+          most_of(glm::abs(moved[pixel] - truth[pixel])) > float(move))
+        unsettled[pixel] = true;
   }
   for (std::size_t pixel = 0; pixel < truth.size(); ++pixel)
     if (unsettled[pixel]) pictures.gpu.rgba[pixel] = pictures.reference.rgba[pixel];
-  pictures.unsettled = double(std::count(unsettled.begin(), unsettled.end(), true)) / double(truth.size());
+  pictures.unsettled += double(std::count(unsettled.begin(), unsettled.end(), true)) / double(truth.size());
 }
 
 /// A few of float32's last bits: what a direction of the GPU is off by after a hit.
 constexpr double NUDGE = 0x1p-21;
+/// What a normal is off by where a hit's position is by two of float32's steps, a quarter of a lattice unit, on discs of some 20 000
+/// units. Asked only of pixels that are off by more than any may be.
+constexpr double STEPPED = 0x1p-16;
 
-Pictures pictures_of(Scene scene, double threshold) {
+Pictures pictures_of(Scene scene, const Tolerance& tolerance) {
   View view{default_camera(scene, 4.0 / 3.0), 96, 72};
   if (scene.lights.empty()) scene.lights = default_lights(scene, view.camera);
   const Environment environment =
@@ -87,9 +93,14 @@ Pictures pictures_of(Scene scene, double threshold) {
   const auto truth = [&](const glm::dvec3& nudge) {
     return reference_picture(scene, brute, view, small_settings(), environment, nudge);
   };
+  const auto nudged = [&](double by) {
+    return std::array{truth(by * glm::dvec3(1.0, -1.0, 1.0)), truth(by * glm::dvec3(-1.0, 1.0, 1.0))};
+  };
   Pictures pictures{gpu_picture(scene, view, environment), truth(glm::dvec3(0.0))};
-  settle(pictures, {truth(NUDGE * glm::dvec3(1.0, -1.0, 1.0)), truth(NUDGE * glm::dvec3(-1.0, 1.0, 1.0))},
-         threshold);
+  settle(pictures, nudged(NUDGE), 0.0, 0.5 * tolerance.threshold);
+  if (compare(display_image(pictures.gpu, 0.0), display_image(pictures.reference, 0.0), tolerance).worst >
+      tolerance.limit)
+    settle(pictures, nudged(STEPPED), tolerance.limit, 0.5 * tolerance.limit);
   return pictures;
 }
 
@@ -130,7 +141,7 @@ TEST_P(ScenePicture, MatchesBruteForce) {
   const std::filesystem::path file = std::filesystem::path(SPLATRAY_SCENES) / (name + ".gltf");
   const Pictures pictures =
       pictures_of(scene_of_file(file, SPLATS, 10, scene_case.needs_data ? *data_folder() : points.path()),
-                  scene_case.tolerance.threshold);
+                  scene_case.tolerance);
   std::cout << name << ": " << 100.0 * pictures.unsettled << " % of pixels turn on last bits\n";
   EXPECT_LE(pictures.unsettled, scene_case.unsettled);
   EXPECT_TRUE(compare_pictures(pictures.gpu, pictures.reference, scene_case.tolerance, name).passed)
@@ -154,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "texture units filter with 8-bit weights, and mirrored rays may graze past a disc"},
         SceneCase{"refractive_dragon",
                   true,
-                  {0.02, 0.004, 0.45},  // 0.25 until 414c357: one pixel is 0.43 off, which is not explained
+                  {0.02, 0.004, 0.25},
                   0.01,
                   "as the Buddha; glass magnifies last bits, so that a choice tips at Fresnel's share"},
         SceneCase{"teapot", true, {0.02, 0.0005, 0.1}, 0.001, "as the dragon, in a part of the picture"},
