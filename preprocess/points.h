@@ -154,7 +154,8 @@ struct ScanOptions {
   /// Further ones to keep, by name (LAS's extra bytes, columns of text, PCD, PLY).
   std::vector<std::string> attributes;
 
-  /// Where the scanner stood, world units after z_scale, for points whose file does not say; it decides the sides of their normals.
+  /// Where the scanner stood, world units after z_scale, for points whose file does not say; it decides the sides of their
+  /// normals.
   std::optional<glm::dvec3> sensor_world;
   /// Text of times and places, where the sensor of points with times moved; empty = not known.
   std::filesystem::path trajectory;

@@ -1,10 +1,12 @@
 // The pools that rays read, a row each, and nowhere else: numbers of bindings (layout.h), declarations and readers on devices
-// (scene/bindings.glsl), on the host (engine/cpu/bindings_as_cpp.h) and in tests (tests/trace/twin.cpp), sections of the file, checks,
-// uploads, JSON and panels (engine/scene/pool_table.h) are made of these rows. A new row comes last of its kind in a scene's.
+// (scene/bindings.glsl), on the host (engine/cpu/bindings_as_cpp.h) and in tests (tests/trace/twin.cpp), sections of the file,
+// checks, uploads, JSON and panels (engine/scene/pool_table.h) are made of these rows. A new row comes last of its kind in a
+// scene's.
 //   SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT): a member of Scene of this name, in every scene
 //   SPLATRAY_OPTIONAL_POOL(..., HAS, bit, ABOUT): that a scene may be without; shaders ask whether the pipeline HAS it, FEATURE_HAS
 //   SPLATRAY_MADE_POOL(place, NAME, pool, Value, reader, ABOUT): made of the scene when it is uploaded
-// `place` counts the rows, BIND_NAME follows from it; `Value` is uint or uvec4; ABOUT is what PoolTraits (pool_table.h) is made of.
+// `place` counts the rows, BIND_NAME follows from it; `Value` is uint or uvec4; ABOUT is what PoolTraits (pool_table.h) is made
+// of.
 #ifndef SPLATRAY_OPTIONAL_POOL
 #define SPLATRAY_OPTIONAL_POOL(place, NAME, pool, Value, reader, HAS, bit, ABOUT) \
   SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT)

@@ -19,7 +19,7 @@ struct KernelWork {
   FrameParams frame{};
   std::array<std::byte*, BINDINGS> bound{};  ///< arrays in host memory, by BIND_*; pools in one page
   WideView tree;                             ///< over the splats
-  WideFunctions functions{};                 ///< of this processor
+  WideFunctions functions{};                 ///< of this CPU
   std::uint32_t environment_width = 1;       ///< texels, vec4, at BIND_ENVIRONMENT
   std::uint32_t environment_height = 1;
 };

@@ -8,6 +8,10 @@
 
 namespace splatray {
 
+unsigned host_threads(unsigned asked) {
+  return asked > 0 ? asked : std::max(std::thread::hardware_concurrency(), 1U);
+}
+
 void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count, unsigned threads,
                 std::array<std::uint64_t, COUNTER_COUNT>& counts) {
   std::atomic<std::uint32_t> next = 0;
@@ -18,7 +22,7 @@ void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count, unsi
     const std::lock_guard lock(mutex);
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += counted[i];
   };
-  if (threads == 0) threads = std::max(std::thread::hardware_concurrency(), 1U);
+  threads = host_threads(threads);
   std::vector<std::jthread> others(std::min(threads, count) - (count > 0));
   for (std::jthread& other : others) other = std::jthread(run);
   run();

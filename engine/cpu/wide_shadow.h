@@ -32,7 +32,7 @@ vec3 trace_shadow(Ray ray, Tally& tally) {
       return df_less(a.hit.t, b.hit.t) || (a.hit.t == b.hit.t && words_less(a.words, b.words));
     });
     Sheets sheets = no_sheets();
-    for (const Meeting& met : met_through) meet_sheet(sheets, met.splat, met.words, ray);
+    for (const Meeting& met : met_through) meet_sheet(sheets, met.splat, met.words, met.hit, ray);
     light *= sheets.passed * sheet_passes(sheets.last) * sheet_passes(sheets.other);
   }
 #endif

@@ -1,5 +1,5 @@
-/// What shaders/trace/blend.glsl declares with HOST: rays traced by the wide tree, which finds the hits that the octree finds. After the
-/// programs' text, in the same namespace.
+/// What shaders/trace/blend.glsl declares with HOST: rays traced by the wide tree, which finds the hits that the octree finds.
+/// After the programs' text, in the same namespace.
 
 /// A splat where a ray hits it.
 struct Meeting {
@@ -25,8 +25,8 @@ PlaneHit hit_of(const WideWalk& walk, uint lane) {
   return hit;
 }
 
-/// Calls visit(meeting) for the ray's hits with t in [t_in, t_end), all but those behind the least end that it returns, in no strict
-/// order.
+/// Calls visit(meeting) for the ray's hits with t in [t_in, t_end), all but those behind the least end that it returns, in no
+/// strict order.
 template <class Visit>
 void visit_hits(const Ray& ray, float t_in, float t_end, Tally& tally, const Visit& visit) {
   const WideView& tree = bound->tree;

@@ -1,4 +1,5 @@
-/// The door to what can trace: Vulkan's devices (engine/device/vulkan) and the host's CPU (engine/device/host), behind one interface.
+/// The door to what can trace: Vulkan's devices (engine/device/vulkan) and the host's CPU (engine/device/host), behind one
+/// interface.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -60,10 +61,9 @@ class Device {
 /// What a user asks for who wants no Vulkan device but the host's CPU (engine/cpu).
 inline constexpr const char* HOST_DEVICE = "cpu";
 
-/// The device that a user asks for: "" = Vulkan's best (discrete > integrated > virtual > other > CPU), or the host where Vulkan has
-/// none, a number of list_devices, or
-/// part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not even loaded. Throws Error (no_device) with every
-/// device's reason when none fits.
+/// The device that a user asks for: "" = Vulkan's best (discrete > integrated > virtual > other > CPU), or the host where
+/// Vulkan has none, a number of list_devices, or part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not
+/// even loaded. Throws Error (no_device) with every device's reason when none fits.
 [[nodiscard]] std::unique_ptr<Device> open_device(const std::string& wanted);
 
 /// All Vulkan devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver

@@ -69,8 +69,8 @@ struct Paging {
 };
 
 /// What programs find at each of BIND_*, for one paging. Buffers and textures are of the same device, and must outlive their use.
-/// Every binding but BIND_FRAME and BIND_COUNTERS, which are the queue's, needs one before a dispatch, also one that the program does
-/// not use.
+/// Every binding but BIND_FRAME and BIND_COUNTERS, which are the queue's, needs one before a dispatch, also one that the
+/// program does not use.
 class Bindings {
  public:
   Bindings() = default;
@@ -109,8 +109,9 @@ class Queue {
   /// Of an environment that has texels, at most DeviceLimits::texture_size across and down.
   [[nodiscard]] virtual std::unique_ptr<Texture> make_texture(const Environment& environment) = 0;
   [[nodiscard]] virtual std::unique_ptr<Bindings> make_bindings(const Paging& paging) = 0;
-  /// Makes the tree over a data pool's splats, if the device has one of its own, and sets `order` to their indices in the order that
-  /// the tree has them in, as what lies beside the data pool must then lie too. Null and no order: programs walk the octree.
+  /// Makes the tree over a data pool's splats, if the device has one of its own, and sets `order` to their indices in the order
+  /// that the tree has them in, as what lies beside the data pool must then lie too. Null and no order: programs walk the
+  /// octree.
   [[nodiscard]] virtual std::unique_ptr<SplatTree> make_tree(std::span<const uvec4> splats,
                                                              std::vector<std::uint32_t>& order);
   /// Copies to the buffer's bytes from `begin` on; at most to its end.

@@ -69,8 +69,8 @@
 
 namespace splatray {
 
-/// The versions of files with what those before do not know: constant terms of normal fields; texture factors among the columns, spots and lights with a range;
-/// lights that have a size. All others are of version 10, byte for byte.
+/// The versions of files with what those before do not know: constant terms of normal fields; texture factors among the
+/// columns, spots and lights with a range; lights that have a size. All others are of version 10, byte for byte.
 inline constexpr std::uint32_t SCENE_FILE_VERSION = 13, TEXTURED_SCENE_FILE_VERSION = 12,
                                SIZED_SCENE_FILE_VERSION = 11, PLAIN_SCENE_FILE_VERSION = 10;
 

@@ -62,8 +62,8 @@ struct PoolKind {
 struct Pools {
   Pools() = default;
   /// Uploads and waits; throws as choose_paging does. `spent` is null or the scene itself, whose pools are then freed, each as
-  /// soon as it is on the device; after an Error some of them may be gone. `order`: all splats' indices, in the order that a SplatTree
-  /// has them in, which is then the data pool; leaves of the octree have references to it. Empty = as `request` says.
+  /// soon as it is on the device; after an Error some of them may be gone. `order`: all splats' indices, in the order that a
+  /// SplatTree has them in, which is then the data pool; leaves of the octree have references to it. Empty = as `request` says.
   Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
         Scene* spent = nullptr, std::span<const std::uint32_t> order = {});
 

@@ -25,9 +25,9 @@ inline constexpr std::uint64_t MOST_CLIP_BYTES = 8;
 /// And for each texture word, so that scenes whose copies fit without textures have them with textures too.
 inline constexpr std::uint64_t MOST_TEXTURE_BYTES = 13;
 
-/// Whether all pools and the top table stay within MOST_SPLAT_BYTES, and MOST_CLIP_BYTES and MOST_TEXTURE_BYTES where there are clip
-/// lines and texture words, with a copy of a splat and all that is beside it for each reference. Through references instead a test is two
-/// fetches, and a splat takes about 40 bytes.
+/// Whether all pools and the top table stay within MOST_SPLAT_BYTES, and MOST_CLIP_BYTES and MOST_TEXTURE_BYTES where there are
+/// clip lines and texture words, with a copy of a splat and all that is beside it for each reference. Through references
+/// instead a test is two fetches, and a splat takes about 40 bytes.
 [[nodiscard]] bool copies_fit(const PoolCounts& counts);
 
 }  // namespace splatray

@@ -22,9 +22,9 @@ struct SmoothTriangle {
   [[nodiscard]] glm::dvec3 place(const glm::dvec3& weights) const;
   /// The unit normal of the surface's tangent plane there, on the triangle's side; zero of triangles without area.
   [[nodiscard]] glm::dvec3 normal(const glm::dvec3& weights) const;
-  /// The unit normal of a disc there, where light sees `seen`: that of the tangent plane, on the side of `seen`, where this leans out of it
-  /// by 3 to 45 degrees and the triangle is large beside the samples' distance, as discs that lean leave slits. Else `seen`: neighbouring
-  /// discs are parts of one round surface. Slivers may be bent by more, and have no plane worth it.
+  /// The unit normal of a disc there, where light sees `seen`: that of the tangent plane, on the side of `seen`, where this
+  /// leans out of it by 3 to 45 degrees and the triangle is large beside the samples' distance, as discs that lean leave slits.
+  /// Else `seen`: neighbouring discs are parts of one round surface. Slivers may be bent by more, and have no plane worth it.
   [[nodiscard]] glm::vec3 disc_normal(const glm::dvec3& weights, const glm::vec3& seen,
                                       double spacing_world) const;
   /// Of the flat triangle.
@@ -37,7 +37,8 @@ struct SmoothTriangle {
 /// normals are not known, stay straight.
 class SmoothSurface {
  public:
-  /// `corners`: corner_normals; `shared`: the vertices where other meshes have some too, null = none. All must outlive the surface.
+  /// `corners`: corner_normals; `shared`: the vertices where other meshes have some too, null = none. All must outlive the
+  /// surface.
   SmoothSurface(const Mesh& mesh, const std::vector<glm::uint>& weld, const std::vector<glm::vec3>& corners,
                 const MeshEdges& edges, const std::vector<bool>* shared = nullptr)
       : mesh_(mesh), weld_(weld), corners_(corners), edges_(edges), shared_(shared) {}

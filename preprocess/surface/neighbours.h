@@ -47,8 +47,8 @@ class NeighbourSearch {
 
   /// Whether every point is a site, as none is at the place of another: then all kinds of sites are the same.
   [[nodiscard]] bool has_all() const { return copies_.empty(); }
-  /// Leaves the points that have a number in `number`, ascending like the points, which they have from then on; those with NO_CELL
-  /// are no more. Every point must be a site.
+  /// Leaves the points that have a number in `number`, ascending like the points, which they have from then on; those with
+  /// NO_CELL are no more. Every point must be a site.
   void keep(const std::vector<std::uint32_t>& number);
 
   /// The nearest sites at a distance > 0 from `query` (cloud coordinates), ascending; fills `nearest` from

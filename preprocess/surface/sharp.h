@@ -19,12 +19,13 @@ struct SharpSide {
   PointClip clip;        ///< cloud coordinates
 };
 
-/// Where the evidence is clear, and with a search among the cloud's positions, what a mesh would say of the points' planes and lines; by point.
-/// Creases: the neighbourhood is two or three planes to within a twentieth of the spacing, each has points of its own, on one
-/// side of the line that two share, and they turn by more than `crease_degrees` there. A point has a side for each plane that
-/// it is on. A point whose normal came from the file (`estimated`, one for each point, is 0) keeps only the side that agrees with it.
-/// Borders: half of a point's surroundings, or three quarters at a corner, has no neighbours, those at the ends of the gap lie on
-/// its line, and far more room behind it is empty: where sampling is denser on one side nothing ends.
+/// Where the evidence is clear, and with a search among the cloud's positions, what a mesh would say of the points' planes and
+/// lines; by point. Creases: the neighbourhood is two or three planes to within a twentieth of the spacing, each has points of
+/// its own, on one side of the line that two share, and they turn by more than `crease_degrees` there. A point has a side for
+/// each plane that it is on. A point whose normal came from the file (`estimated`, one for each point, is 0) keeps only the
+/// side that agrees with it. Borders: half of a point's surroundings, or three quarters at a corner, has no neighbours, those
+/// at the ends of the gap lie on its line, and far more room behind it is empty: where sampling is denser on one side nothing
+/// ends.
 [[nodiscard]] std::vector<SharpSide> find_sharp(const Cloud& cloud, const NeighbourSearch& search,
                                                 double crease_degrees,
                                                 std::span<const std::uint8_t> estimated, const Stage& stage);

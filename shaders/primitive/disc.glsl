@@ -4,9 +4,7 @@
 #define SPLATRAY_DISC_GLSL
 #include "lang/double_float.glsl"
 #include "layout.h"
-
-/// Bound of the float32 error of n.(c - o) / |n| in lattice units, for origins at most a root's edge outside the root.
-const float PLANE_ERROR = 4.0f;
+#include "lang/hit_numbers.h"
 
 /// Cosine of a ray that leaves a sheet level, counted as upwards: normals that the ray grazes are made square to it, and
 /// rounding shall not decide.

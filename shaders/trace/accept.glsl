@@ -45,8 +45,8 @@ bool side_expected(uint object, float facing, uint inside) {
   return (material.flags & MATERIAL_HIDDEN) == 0u && (SIDE != SIDE_SIDE || is_two_sided(object) || as_expected);
 }
 
-/// Whether a splat turns its front to the eye, and so is there in a picture that leaves all else out (FACES_CUT). Of whole splats, not
-/// of rays: what hides a room from the eye keeps no light from it either.
+/// Whether a splat turns its front to the eye, and so is there in a picture that leaves all else out (FACES_CUT). Of whole
+/// splats, not of rays: what hides a room from the eye keeps no light from it either.
 bool faces_eye(uvec4 words) { return dot(splat_normal(words), cut_eye() - splat_center(words)) > 0.0f; }
 
 /// Everything but the geometry that a hit needs in order to count.

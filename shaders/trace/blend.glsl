@@ -5,11 +5,7 @@
 #define SPLATRAY_BLEND_GLSL
 #include "trace/accept.glsl"
 
-const float WEIGHT_UNIT = 4194304.0f;       ///< 2^22: sums are integers in this unit
-const float WEIGHT_LEAST = 0.00390625f;     ///< 2^-8: a lone hit at the rim still has a normal of 14 bits
-const uint MEMBERS_MOST = 500u;             ///< further members do not count, so that the sums stay in 31 bits
 const float WINDOW_SLACK = 1.0f;            ///< lattice units; float32's step of t: no leaf with a member is left out
-const float MIN_COSINE = 0.1f;              ///< the window grows as 1 / |n.d| up to this
 
 /// Integer sums over a cluster.
 struct Cluster {
@@ -112,34 +108,6 @@ Window window_of(First first, Ray ray, float depth) {
   return window;
 }
 
-/// Adds a meeting to the cluster, if it is a hit in [t_in, t_out) and belongs to it.
-void add_to_cluster(uint splat, uvec4 words, PlaneHit hit, Ray ray, float t_in, float t_out, Window window, uvec4 watched,
-                    INOUT(Cluster) cluster) {
-  float behind = df_add(hit.t, -window.t).x;
-  float inverse_radius = inversesqrt(splat_radius_squared(words));
-  float u_squared = hit.rho_squared.x * (inverse_radius * inverse_radius);
-  Facet facet = facet_at(words, splat, hit.from_center, inverse_radius, ray.dir);
-  float share = behind * window.inverse_depth;
-  bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == window.object &&
-                dot(normal_against(words, ray.dir), window.normal) > 0.5f && cluster.members < MEMBERS_MOST &&
-                hit_accepted(words, splat, hit, ray, t_in, t_out);
-  float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
-  weight = member ? weight * WEIGHT_UNIT : 0.0f;
-  share = member ? clamp((behind + facet.behind) * window.inverse_depth, -1.0f, 1.0f) : 0.0f;
-  cluster.weight += int(weight + 0.5f);
-  vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
-  cluster.normal += ivec3(floor(normal + vec3(0.5f)));
-  cluster.depth += int(floor(weight * share + 0.5f));
-  if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
-  if (WATCHES) cluster.watched += member && words == watched ? 1u : 0u;
-#ifdef LIT
-  add_factors(cluster.factors, factors_at(splat), weight);
-  if (TEXTURE_NORMAL && member)
-    cluster.tilt += ivec3(floor(tilt_at(splat, normal_against(words, ray.dir)) * weight + vec3(0.5f)));
-#endif
-  cluster.members += member ? 1u : 0u;
-}
-
 /// Adds the candidates that are hits and belong to the first splat's cluster: bit i of x is splat chunk + i, of y splat
 /// chunk + CHUNK + i. Where each is met is computed anew in double-float, so that grazing rays and small discs far away have
 /// exact weights.
@@ -155,7 +123,29 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       candidates = low ? uvec2(mask, candidates.y) : uvec2(0u, mask);
       uvec4 words = splat_words(splat);
       PlaneHit hit = meet_splat(splat, words, ray);
-      add_to_cluster(splat, words, hit, ray, walk.t_in, walk.t_out, window, watched, cluster);
+      float behind = df_add(hit.t, -window.t).x;
+      float inverse_radius = inversesqrt(splat_radius_squared(words));
+      float u_squared = hit.rho_squared.x * (inverse_radius * inverse_radius);
+      Facet facet = facet_at(words, splat, hit.from_center, inverse_radius, ray.dir);
+      float share = behind * window.inverse_depth;
+      bool member = share <= 1.0f && share >= -1.0f && splat_object(words) == window.object &&
+                    dot(normal_against(words, ray.dir), window.normal) > 0.5f && cluster.members < MEMBERS_MOST &&
+                    hit_accepted(words, splat, hit, ray, walk.t_in, walk.t_out);
+      float weight = max(blend_kernel(u_squared) * window_fall(share), WEIGHT_LEAST);
+      weight = member ? weight * WEIGHT_UNIT : 0.0f;
+      share = member ? clamp((behind + facet.behind) * window.inverse_depth, -1.0f, 1.0f) : 0.0f;
+      cluster.weight += int(weight + 0.5f);
+      vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
+      cluster.normal += ivec3(floor(normal + vec3(0.5f)));
+      cluster.depth += int(floor(weight * share + 0.5f));
+      if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
+      if (WATCHES) cluster.watched += member && words == watched ? 1u : 0u;
+#ifdef LIT
+      add_factors(cluster.factors, factors_at(splat), weight);
+      if (TEXTURE_NORMAL && member)
+        cluster.tilt += ivec3(floor(tilt_at(splat, normal_against(words, ray.dir)) * weight + vec3(0.5f)));
+#endif
+      cluster.members += member ? 1u : 0u;
     }
   } while ((candidates.x | candidates.y) != 0u);
 }
@@ -213,9 +203,9 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, 
 /// No splat of the cluster of BLEND_WINDOW is met behind it.
 float window_end(First first, float depth) { return first.t.x + depth * 1.0001f + WINDOW_SLACK; }
 
-/// What the ray sees first, and whether a splat is a member of it, by the octree. The ray may start anywhere; one that ends before
-/// it starts is not traced. The leaf with the first hit is looked through to its end before any of its splats is accumulated; one of
-/// more than two CHUNKs is then gone through again.
+/// What the ray sees first, and whether a splat is a member of it, by the octree. The ray may start anywhere; one that ends
+/// before it starts is not traced. The leaf with the first hit is looked through to its end before any of its splats is
+/// accumulated; one of more than two CHUNKs is then gone through again.
 Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;

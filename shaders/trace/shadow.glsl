@@ -54,8 +54,7 @@ Sheets no_sheets() {
 }
 
 /// Adds a splat that the ray hits to its sheet.
-void meet_sheet(INOUT(Sheets) sheets, uint splat, uvec4 words, Ray ray) {
-  PlaneHit hit = meet_splat(splat, words, ray);
+void meet_sheet(INOUT(Sheets) sheets, uint splat, uvec4 words, PlaneHit hit, Ray ray) {
   uint object = splat_object(words);
   float weight = max(blend_kernel(hit.rho_squared.x / splat_radius_squared(words)), WEIGHT_LEAST) * WEIGHT_UNIT;
   if (!of_sheet(sheets.last, object, hit.t.x)) {
@@ -77,8 +76,8 @@ void meet_sheet(INOUT(Sheets) sheets, uint splat, uvec4 words, Ray ray) {
 }
 #endif
 
-/// Whether a splat that a shadow ray meets is of a dielectric that the ray passes; tints the light by each object that has not a bit of
-/// `passed` yet.
+/// Whether a splat that a shadow ray meets is of a dielectric that the ray passes; tints the light by each object that has not
+/// a bit of `passed` yet.
 bool pass_glass(uvec4 words, INOUT(vec3) light, INOUT(uint) passed) {
   Material material = material_at(splat_object(words));
   bool glass = TINTED && (material.flags & MATERIAL_DIELECTRIC) != 0u;
@@ -96,7 +95,7 @@ bool pass_glass(uvec4 words, INOUT(vec3) light, INOUT(uint) passed) {
 /// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root; one that ends before it
 /// starts is not traced.
 #ifdef HOST
-// engine/cpu/wide_trace.h, by the wide tree.
+// engine/cpu/wide_shadow.h, by the wide tree.
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally);
 #else
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
@@ -126,7 +125,7 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
           uvec4 words = splat_words(splat);
           bool glass = pass_glass(words, light, passed);
 #ifdef LIT
-          if (OPACITY && !glass) meet_sheet(sheets, splat, words, ray);
+          if (OPACITY && !glass) meet_sheet(sheets, splat, words, meet_splat(splat, words, ray), ray);
           opaque = opaque || (!OPACITY && !glass);
 #else
           opaque = opaque || !glass;

@@ -41,8 +41,8 @@ class Textures : public Plane {
     scene.columns.push_back({std::string(column), bytes});
     return scene;
   }
-  /// Mean radiance of rgb that is sent from around (x, 0, 0) to an eye at the side. A sun shines on what sends out no light itself:
-  /// beside such light, which lights are looked for is chance.
+  /// Mean radiance of rgb that is sent from around (x, 0, 0) to an eye at the side. A sun shines on what sends out no light
+  /// itself: beside such light, which lights are looked for is chance.
   vec3 radiance(const Scene& scene, double x) {
     std::vector<SceneLight> sun = {{LIGHT_DIRECTIONAL, {0.6, 1.0, 0.2}, vec3(3.0F)}};
     if (scene.surfaces.front().emission != vec3(0.0F)) sun.clear();
@@ -151,8 +151,8 @@ TEST_F(SeeThrough, PathsPassEachSheetAsOftenAsItsOpacitySays) {
   }
 }
 
-/// Splats far wider than the ring's tube bend so that each may be met again from the next. Light is neither lost nor added: white in
-/// white.
+/// Splats far wider than the ring's tube bend so that each may be met again from the next. Light is neither lost nor added:
+/// white in white.
 TEST_F(SeeThrough, PathsLeaveSheetsThatTheyMeetAgain) {
   Scene scene = scene_of({{torus({.count = 60, .even = false}, 0.35, 0.005, 0.0, 2.0 * pi), grey(1.0F)}});
   scene.surfaces = surfaces_of(scene);

@@ -8,6 +8,7 @@
 #include "preprocess/build.h"
 #include "preprocess/mesh/sample_mesh.h"
 #include "tests/preprocess/discs.h"
+#include "tests/preprocess/sampled_scene.h"
 
 namespace splatray {
 namespace {
@@ -21,16 +22,6 @@ Mesh quad(double aspect) {
   mesh.vertices.position = {{-x, -y, 0.0}, {x, -y, 0.0}, {x, y, 0.0}, {-x, y, 0.0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   return mesh;
-}
-
-Scene scene_of(const Mesh& mesh, std::uint64_t points) {
-  Input input;
-  InputObject& object = input.objects.emplace_back();
-  object.points = sample_surface(mesh, weld_positions(mesh.vertices.position), points, 1, {.clip = true});
-  object.surface_area = surface_area(mesh);
-  object.measured = false;
-  BuildStats stats;
-  return build_scene(std::move(input), {}, 1, stats);
 }
 
 /// Of `rays` along z to random places of the quad, those that meet no disc.
@@ -57,15 +48,15 @@ TEST(FlatQuads, HaveNoHolesWhateverTheirLengthAndDensity) {
        {std::pair(1.0, 300), std::pair(1.0, 10000), std::pair(2.0, 3000), std::pair(5.0, 1000),
         std::pair(10.0, 30), std::pair(14.0, 10000), std::pair(38.1842, 33), std::pair(60.0026, 48345),
         std::pair(100.0, 300), std::pair(100.0, 30000)}) {
-    const Scene scene = scene_of(quad(aspect), std::uint64_t(points));
+    const Scene scene = test::sampled_scene(quad(aspect), std::uint64_t(points));
     EXPECT_EQ(holes(scene, aspect, 1000000), 0U) << "1:" << aspect << ", " << points << " points";
   }
 }
 
 TEST(FlatQuads, ThatAreLongHaveDiscsAsSmallAsASquares) {
-  const double square = overlap(scene_of(quad(1.0), 10000));
+  const double square = overlap(test::sampled_scene(quad(1.0), 10000));
   for (const double aspect : {4.0, 5.0, 10.0, 20.0, 50.0})
-    EXPECT_LT(overlap(scene_of(quad(aspect), 10000)), square) << "1:" << aspect;
+    EXPECT_LT(overlap(test::sampled_scene(quad(aspect), 10000)), square) << "1:" << aspect;
 }
 
 }  // namespace

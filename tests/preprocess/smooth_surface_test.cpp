@@ -12,6 +12,7 @@
 #include "preprocess/mesh/refined_mesh.h"
 #include "preprocess/mesh/sample_mesh.h"
 #include "tests/preprocess/discs.h"
+#include "tests/preprocess/sampled_scene.h"
 
 namespace splatray {
 namespace {
@@ -23,8 +24,8 @@ constexpr glm::uint SIDES = 18;
 
 dvec3 around(double turns) { return {std::cos(2.0 * M_PI * turns), 0.0, std::sin(2.0 * M_PI * turns)}; }
 
-/// A tube of flat sides around the y axis, of radius 1 and height 2, with normals of a round one; with lids of their own normals or
-/// open.
+/// A tube of flat sides around the y axis, of radius 1 and height 2, with normals of a round one; with lids of their own
+/// normals or open.
 Mesh tube(bool lids) {
   Mesh mesh;
   const auto ring = [&](bool of_lids) {
@@ -48,16 +49,6 @@ Mesh tube(bool lids) {
   return mesh;
 }
 
-Scene scene_of(const Mesh& mesh, std::uint64_t points) {
-  Input input;
-  InputObject& object = input.objects.emplace_back();
-  object.points = sample_surface(mesh, weld_positions(mesh.vertices.position), points, 1, {.clip = true});
-  object.surface_area = surface_area(mesh);
-  object.measured = false;
-  BuildStats stats;
-  return build_scene(std::move(input), {}, 1, stats);
-}
-
 /// Places of the round tube that no disc covers, of 4000 on its side, half of them at its rims, and 4000 on its lids.
 std::size_t holes(const Discs& discs, bool lids) {
   std::mt19937_64 random(3);
@@ -78,7 +69,7 @@ TEST(SmoothSurface, RimsOfACoarseTubeAreRound) {
     return std::max({std::hypot(place.x, place.z) - 1.0, std::abs(place.y) - 1.0, 0.0});
   };
   for (const bool lids : {false, true}) {
-    const Scene scene = scene_of(tube(lids), 6000);
+    const Scene scene = test::sampled_scene(tube(lids), 6000);
     EXPECT_EQ(holes(Discs(scene), lids), 0U) << (lids ? "with lids" : "open");
     EXPECT_LT(Discs(scene).overhang(beyond), 0.25) << (lids ? "with lids" : "open");
   }
@@ -92,7 +83,7 @@ TEST(SmoothSurface, DiscsOfACoarseDrawingLieInItsFacets) {
   }
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  const Scene scene = scene_of(mesh, 3000);
+  const Scene scene = test::sampled_scene(mesh, 3000);
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     const Splat splat = unpack_splat(scene.data_pool[i]);
     const dvec3 lean = unpack_lean(scene.field_pool[i], splat.normal);
@@ -107,7 +98,7 @@ TEST(SmoothSurface, DiscsOfACoarseDrawingLieInItsFacets) {
     const double most = std::max(glm::dot(wanted, glm::normalize(face)), std::cos(20.0 * M_PI / 180.0));
     EXPECT_NEAR(glm::dot(seen, glm::normalize(face)), most, 0.005) << "what light sees";
   }
-  EXPECT_FALSE(any_leans(scene_of(mesh, 300).field_pool)) << "facets of few discs";
+  EXPECT_FALSE(any_leans(test::sampled_scene(mesh, 300).field_pool)) << "facets of few discs";
 }
 
 TEST(SmoothSurface, BothTrianglesAtAnEdgeBendItAlike) {

@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "shaders/lang/hit_numbers.h"
+
 namespace splatray::testing {
 namespace {
 

@@ -60,8 +60,8 @@ Image gpu_picture(const Scene& scene, const View& view, const Environment& envir
 
 float most_of(const vec3& difference) { return std::max({difference.x, difference.y, difference.z}); }
 
-/// Takes the truth for those pixels of `pictures.gpu` that are further than `error` from it and whose truth moves by more than `move`
-/// (display values) in one of the `nudged` pictures.
+/// Takes the truth for those pixels of `pictures.gpu` that are further than `error` from it and whose truth moves by more than
+/// `move` (display values) in one of the `nudged` pictures.
 void settle(Pictures& pictures, const std::array<Image, 2>& nudged, double error, double move) {
   const std::vector<vec3> truth = display_image(pictures.reference, 0.0).rgb;
   const std::vector<vec3> made = display_image(pictures.gpu, 0.0).rgb;
@@ -80,8 +80,8 @@ void settle(Pictures& pictures, const std::array<Image, 2>& nudged, double error
 
 /// A few of float32's last bits: what a direction of the GPU is off by after a hit.
 constexpr double NUDGE = 0x1p-21;
-/// What a normal is off by where a hit's position is by two of float32's steps, a quarter of a lattice unit, on discs of some 20 000
-/// units. Asked only of pixels that are off by more than any may be.
+/// What a normal is off by where a hit's position is by two of float32's steps, a quarter of a lattice unit, on discs of some
+/// 20 000 units. Asked only of pixels that are off by more than any may be.
 constexpr double STEPPED = 0x1p-16;
 
 Pictures pictures_of(Scene scene, const Tolerance& tolerance) {

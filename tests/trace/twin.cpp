@@ -12,6 +12,7 @@
 #include "engine/scene/splat.h"
 #include "engine/scene/texture_factors.h"
 #include "engine/scene/tree.h"
+#include "shaders/lang/hit_numbers.h"
 
 namespace splatray::testing {
 namespace {

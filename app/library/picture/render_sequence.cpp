@@ -36,8 +36,8 @@ std::string goal_text(const RenderStats& stats) {
   return text.data();
 }
 
-/// Writes a picture that was stopped, as the one of fewer samples that it is, and beside a PNG the EXR that --resume needs. Throws
-/// Error (interrupted), which says so.
+/// Writes a picture that was stopped, as the one of fewer samples that it is, and beside a PNG the EXR that --resume needs.
+/// Throws Error (interrupted), which says so.
 [[noreturn]] void write_unfinished(const Run& run, const Camera& camera, const SequenceFrame& frame,
                                    const MadePicture& made) {
   take_time_to_end();

@@ -1,10 +1,8 @@
-/// Blending, for the processor that this file is compiled for; after wide_step.h. What add_to_cluster of shaders/trace/blend.glsl does
-/// for one splat after the other, by the same operations in the same order, so to the same bits.
+/// Blending, for the CPU that this file is compiled for; after wide_step.h. What accumulate_candidates of
+/// shaders/trace/blend.glsl does for one splat after the other, by the same operations in the same order, so to the same bits.
 
 namespace splatray {
 namespace {
-
-constexpr float WEIGHT_UNIT = 4194304.0F, WEIGHT_LEAST = 0.00390625F, MIN_COSINE = 0.1F;
 
 Lanes of(float value) { return hn::Set(TAG, value); }
 
@@ -39,8 +37,8 @@ Lanes field_lean(Words bits) {
   return (number(masked(bits, 0x7FFFU)) - of(scale)) * of(1.0F / scale);
 }
 
-/// facet_at where there are normal fields, and constant terms where `leans`: sets the facet's normal, which is the plane's, and returns
-/// how far behind the plane it is.
+/// facet_at where there are normal fields, and constant terms where `leans`: sets the facet's normal, which is the plane's, and
+/// returns how far behind the plane it is.
 Lanes apply_field(Words word, bool leans, const Vectors& plane_normal, Lanes cosine,
                   const Vectors& from_center, Lanes inverse_radius, const Vectors& dir,
                   Vectors& facet_normal) {

@@ -1,4 +1,4 @@
-/// A step of a walk through the wide tree, for the processor that this file is compiled for: each wide_*.cpp includes it.
+/// A step of a walk through the wide tree, for the CPU that this file is compiled for: each wide_*.cpp includes it.
 #define HWY_COMPILE_ONLY_STATIC
 #include <hwy/highway.h>
 
@@ -25,9 +25,6 @@ using DoubleTag = hn::CappedTag<double, WIDE>;
 using Doubles = hn::Vec<DoubleTag>;
 constexpr DoubleTag DOUBLE_TAG;
 constexpr std::uint32_t DOUBLE_LANES = hn::MaxLanes(DOUBLE_TAG);
-
-/// Bound of the float32 error of n.(c - o) / |n|, lattice units (shaders/primitive/disc.glsl).
-constexpr float PLANE_ERROR = 4.0F;
 
 /// Squared distances are compared with a little more than r^2, as float64 is a little more than the pair of floats that decides.
 constexpr double RHO_SLACK = 1.0 + 1e-12;
@@ -132,7 +129,8 @@ std::uint32_t maybe_hits(const Decoded& leaf, const WideWalk& walk) {
   return met;
 }
 
-/// Where the ray meets the planes of those splats, by the operations of splat_plane_hit in their order; which it meets on the disc.
+/// Where the ray meets the planes of those splats, by the operations of splat_plane_hit in their order; which it meets on the
+/// disc.
 std::uint32_t meet_splats(const Decoded& leaf, std::uint32_t maybe, WideWalk& walk) {
   std::uint32_t met = 0;
   for (std::uint32_t from = 0; from < WIDE; from += DOUBLE_LANES) {

@@ -5,23 +5,20 @@
 #include <limits>
 #include <thread>
 
+#include "engine/cpu/run_groups.h"
 #include "engine/scene/splat.h"
 
 namespace splatray {
 namespace {
 
-/// Boxes are that much larger on each side, lattice units: more than float32 takes from a plane's t, times the direction, plus what
-/// a ray's origin loses of its double-float.
+/// Boxes are that much larger on each side, lattice units: more than float32 takes from a plane's t, times the direction, plus
+/// what a ray's origin loses of its double-float.
 constexpr float BOX_SLACK = 2.0F;
 
 struct Item {
   glm::vec3 center;
   std::uint32_t splat;
 };
-
-unsigned threads_of(unsigned asked) {
-  return asked > 0 ? asked : std::max(std::thread::hardware_concurrency(), 1U);
-}
 
 /// Runs work(begin, end) on parts of 0 .. count - 1.
 template <class Work>
@@ -109,13 +106,14 @@ Box fill(WideNode& node, std::span<const Box> children) {
 WideTree::WideTree(std::span<const uvec4> splats, unsigned threads, std::vector<std::uint32_t>& order) {
   order.clear();
   if (splats.empty()) return;
-  threads = threads_of(threads);
+  threads = host_threads(threads);
   std::vector<Item> items(splats.size());
   in_parts(items.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       items[i] = {glm::vec3(unpack_center(splats[i])), static_cast<std::uint32_t>(i)};
   });
   sort(items, std::size_t{1} << 28U, threads);
+  order.reserve(items.size());
   for (const Item& item : items) order.push_back(item.splat);
   std::vector<Box> boxes(groups_of(items.size(), WIDE));
   leaves_.resize(boxes.size());

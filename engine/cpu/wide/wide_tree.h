@@ -1,5 +1,6 @@
-/// The tree over splats that tracing on the host walks: 16 boxes and 16 splats at a time fit vector instructions, so a ray is tested
-/// against many splats at once and need not wait for other rays (Wald, Benthin and Boulos 2008, "Getting Rid of Packets").
+/// The tree over splats that tracing on the host walks: 16 boxes and 16 splats at a time fit vector instructions, so a ray is
+/// tested against many splats at once and need not wait for other rays (Wald, Benthin and Boulos 2008, "Getting Rid of
+/// Packets").
 #pragma once
 #include <cstdint>
 #include <span>
@@ -15,8 +16,8 @@ namespace splatray {
 class WideTree {
  public:
   WideTree() = default;
-  /// Of a scene's data pool, on `threads` threads, 0 = one a core. Sets `order` to the indices that its splats have there, leaf by leaf:
-  /// so what is beside the data pool is to lie too. Takes 18 bytes a splat, their own words among them.
+  /// Of a scene's data pool, on `threads` threads, 0 = one a core. Sets `order` to the indices that its splats have there, leaf
+  /// by leaf: so what is beside the data pool is to lie too. Takes 18 bytes a splat, their own words among them.
   WideTree(std::span<const uvec4> splats, unsigned threads, std::vector<std::uint32_t>& order);
 
   [[nodiscard]] WideView view() const;

@@ -1,8 +1,10 @@
-/// A ray's way through the wide tree. Plain data alone: it is compiled for several processors (wide_step.h), and a function of a
-/// library that one of these compiled first could be taken for all.
+/// A ray's way through the wide tree. Plain data alone: it is compiled for several kinds of CPUs (wide_step.h), and a function of
+/// a library that one of these compiled first could be taken for all.
 #pragma once
 #include <array>
 #include <cstdint>
+
+#include "shaders/lang/hit_numbers.h"
 
 namespace splatray {
 
@@ -16,8 +18,8 @@ using WideFloats = std::array<float, WIDE>;
 using WideDoubles = std::array<double, WIDE>;
 using WideWords = std::array<std::uint32_t, WIDE>;
 
-/// The boxes of a node's children, lattice units, a little too large, so that float32 loses no hit. Those that are not there have a
-/// lower bound above the upper one.
+/// The boxes of a node's children, lattice units, a little too large, so that float32 loses no hit. Those that are not there
+/// have a lower bound above the upper one.
 struct alignas(64) WideNode {
   std::array<std::array<WideFloats, 2>, 3> bounds;  ///< of each axis, lower and upper
 };
@@ -59,8 +61,8 @@ struct alignas(64) WideWalk {
   std::uint32_t nodes = 0;      ///< looked at
   std::uint32_t leaves = 0;     ///< tested
   std::uint32_t leaf;           ///< that the last step went to
-  /// Of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64, bit for
-  /// bit; of others anything.
+  /// Of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64,
+  /// bit for bit; of others anything.
   alignas(64) WideDoubles t;
   WideDoubles rho_squared, facing;
   std::array<WideDoubles, 3> from_center;
@@ -68,12 +70,12 @@ struct alignas(64) WideWalk {
   std::array<WideBox, (WIDE - 1) * WIDE_LEVELS + 1> stack;
 };
 
-/// Goes on to the next leaf where the ray meets discs with t in [t_min, t_max), and reports them, a bit each; perhaps a few that it
-/// passes just beside. 0: the walk has ended.
+/// Goes on to the next leaf where the ray meets discs with t in [t_min, t_max), and reports them, a bit each; perhaps a few
+/// that it passes just beside. 0: the walk has ended.
 using WideStepper = std::uint32_t (*)(const WideView& tree, WideWalk& walk);
 
-/// Most meetings that are blended together: all may be members (MEMBERS_MOST in shaders/trace/blend.glsl).
-inline constexpr std::uint32_t WIDE_MEETINGS = 496;
+/// Most meetings that are blended together: all may be members.
+inline constexpr std::uint32_t WIDE_MEETINGS = MEMBERS_MOST / WIDE * WIDE;
 
 /// A number of each meeting.
 template <class Value>
@@ -108,17 +110,17 @@ struct WideSums {
   std::uint32_t members = 0;
 };
 
-/// Blends them as add_to_cluster does with KERNEL_RIM and BLEND_WINDOW, to the same bits.
+/// Blends them as accumulate_candidates does with KERNEL_RIM and BLEND_WINDOW, to the same bits.
 using WideBlender = WideSums (*)(WideMeetings& meetings, const WideWindow& window);
 
-/// The functions for one kind of processor.
+/// The functions for one kind of CPU.
 struct WideFunctions {
   WideStepper step;
   WideBlender blend;
 };
 
-/// The fastest that this processor runs, of vectors of at most so many bits: 512, 256 and 128 on x86-64, else those of any
-/// processor that the compiler is asked for. All give the same bits.
+/// The fastest that this CPU runs, of vectors of at most `vector_bits`: 512, 256 and 128 on x86-64, else those of any CPU that
+/// the compiler is asked for. All give the same bits.
 [[nodiscard]] const WideFunctions& wide_functions(std::uint32_t vector_bits);
 
 }  // namespace splatray

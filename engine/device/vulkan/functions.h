@@ -111,8 +111,8 @@ enum class VulkanFunctionNumber : std::size_t {
 /// Whether the loader's library and all functions in it were found.
 [[nodiscard]] bool vulkan_is_installed();
 
-/// Throws Error (no_device) in a process that was forked off by one that had loaded the loader: drivers keep threads and locks, which
-/// no fork copies. Whoever makes an instance asks first.
+/// Throws Error (no_device) in a process that was forked off by one that had loaded the loader: drivers keep threads and locks,
+/// which no fork copies. Whoever makes an instance asks first.
 void refuse_vulkan_of_parent();
 
 /// The function itself. Throws Error (no_device), which names Debian's packages, where there is no loader.

@@ -12,8 +12,8 @@ class PipelineStore {
   /// Reads what was kept for this device and driver in `folder`, which is made when it is missing; empty = none is kept. A file
   /// that is damaged, or another driver's, is not used. The device must outlive it.
   PipelineStore(const VulkanDevice& vulkan, const std::filesystem::path& folder);
-  /// Writes the file where pipelines were added. One that cannot be written is left out, as it only saves time; so is one that would
-  /// follow a link or replace what this class has not written.
+  /// Writes the file where pipelines were added. One that cannot be written is left out, as it only saves time; so is one that
+  /// would follow a link or replace what this class has not written.
   ~PipelineStore();
   PipelineStore(const PipelineStore&) = delete;
   PipelineStore& operator=(const PipelineStore&) = delete;

@@ -1,8 +1,8 @@
-/// splatray-bench-models SCENE.soct... -o MODELS.json [--rounds N] [--device D]: splatray and Embree, each in all its settings, one frame of
-/// primary rays of the same view each in turn, on scanned models. JSON: a list of {case, splats, coverage, method, settings,
-/// commit, date, device, ms: [of each round], wall_ms: [likewise], unlike_ppm}. splatray's ms are those of its dispatches, its
-/// wall_ms of the whole call with shading and read-back; Embree's are both the wall time of tracing. splatray runs with culling
-/// of pixels that no leaf projects to ("cull") and without; Embree has none.
+/// splatray-bench-models SCENE.soct... -o MODELS.json [--rounds N] [--device D]: splatray and Embree, each in all its settings,
+/// one frame of primary rays of the same view each in turn, on scanned models. JSON: a list of {case, splats, coverage, method,
+/// settings, commit, date, device, ms: [of each round], wall_ms: [likewise], unlike_ppm}. splatray's ms are those of its
+/// dispatches, its wall_ms of the whole call with shading and read-back; Embree's are both the wall time of tracing. splatray
+/// runs with culling of pixels that no leaf projects to ("cull") and without; Embree has none.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -69,8 +69,8 @@ class Gathering {
   /// nearly zero there).
   [[nodiscard]] float end() const { return end_; }
 
-  /// The answer (ARCHITECTURE.md, "What a hit is"): the nearest disc's facet, or the weighted mean of its cluster's. Settings used: blend, kernel,
-  /// kappa.
+  /// The answer (ARCHITECTURE.md, "What a hit is"): the nearest disc's facet, or the weighted mean of its cluster's. Settings
+  /// used: blend, kernel, kappa.
   [[nodiscard]] RayHit blended(const RayQuery& ray, const Discs& discs, const Settings& settings) const;
 
  private:
