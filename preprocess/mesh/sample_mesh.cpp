@@ -1,5 +1,4 @@
 #include "preprocess/mesh/sample_mesh.h"
-#include "preprocess/base/bounds.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -16,6 +15,7 @@
 #include <variant>
 
 #include "preprocess/base/append.h"
+#include "preprocess/base/bounds.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/mesh/alpha_mask.h"

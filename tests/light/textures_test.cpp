@@ -1,4 +1,5 @@
 /// Texture factors: a floor, half of which has them, looks there as one whose surface has these values.
+#include "engine/device/host/host_device.h"
 #include "engine/scene/octahedral.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/surface.h"
@@ -177,6 +178,12 @@ TEST_F(SeeThrough, LightOfLightsIsWeakenedByEachSheet) {
     const Camera camera{dvec3(0.2, 0.4, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 10.0, 0.001};
     const Mean seen = mean_of(picture(camera, lit(16), 8));
     EXPECT_NEAR(seen.value, cosine * std::pow(1.0 - OPACITY, 3), 1e-3) << joined;
+    // The host looks for sheets by a tree of its own.
+    const HostDevice host;
+    ShownTracer on_host(host);
+    on_host.upload(scene);
+    on_host.look = tracer_.look;
+    EXPECT_NEAR(mean_of(on_host.render({camera, 8, 8}, lit(16))).value, seen.value, 1e-4) << joined;
   }
 }
 
