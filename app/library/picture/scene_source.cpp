@@ -7,6 +7,7 @@
 
 #include "app/library/image_file.h"
 #include "app/library/materials.h"
+#include "app/library/sheet/sheet.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/number_text.h"
@@ -152,6 +153,7 @@ void show_as_asked(const Request& request, LoadedScene& loaded) {
   SuitedPicture suited = suited_picture(loaded.scene, request);
   loaded.request = std::move(suited.request);
   loaded.choices = std::move(suited.choices);
+  place_sheet(loaded.scene, loaded.request);
   suit_region(loaded.scene, loaded.request);
   loaded.legend = show_attributes(loaded.scene, loaded.request.look.attributes);
   loaded.environment_name = choose_environment_name(loaded.scene, request);
@@ -310,7 +312,8 @@ std::uint32_t choose_look(const Scene& scene, const Request& request) {
 Region region_of(const RegionRequest& asked, const glm::dvec3& up) {
   Region region;
   region.kept = asked.cuts;
-  region.cuts_light = asked.light_kept;
+  region.kept.insert(region.kept.end(), asked.of_sheet.begin(), asked.of_sheet.end());
+  region.cuts_light = asked.light_kept.value_or(false);
   if (asked.keep_box)
     for (const HalfSpace& half : half_spaces(*asked.keep_box, up)) region.kept.push_back(half);
   if (asked.drop_box)
