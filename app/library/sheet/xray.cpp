@@ -5,12 +5,14 @@
 
 #include "engine/base/error.h"
 #include "engine/base/rank.h"
+#include "engine/base/srgb.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::uint32_t GRID = 256;  ///< rays each way that decide what is black
-constexpr double BLACKEST = 0.999;   ///< of their counts above 0
+constexpr std::uint32_t GRID = 256;                  ///< rays each way that decide what is black
+constexpr double LIGHTEST = 0.05, BLACKEST = 0.999;  ///< ranks of their counts above 0
+constexpr double LIGHT = 0.92;                       ///< the shade of few, as shown
 constexpr std::size_t BATCH = 1U << 18U;
 
 /// A sheet's rays, root space.
@@ -40,15 +42,26 @@ std::vector<std::uint32_t> counts_of(Tracer& tracer, const Look& look, const std
   return counts;
 }
 
-double black_count(Tracer& tracer, const Look& look, const SheetRays& rays, const Sheet& sheet,
-                   const Settings& settings) {
+/// What counts are shown as: LIGHT for the lightest, 0 for the blackest, by the logarithm.
+struct Shades {
+  double light = 0.0, black = 1.0;  ///< log2(1 + count)
+
+  [[nodiscard]] float linear(std::uint32_t count) const {
+    const double share = (std::log2(1.0 + count) - light) / std::max(black - light, 1.0);
+    return srgb_to_linear(static_cast<float>(std::clamp(LIGHT * (1.0 - share), 0.0, 1.0)));
+  }
+};
+
+Shades shades_of(Tracer& tracer, const Look& look, const SheetRays& rays, const Sheet& sheet,
+                 const Settings& settings) {
   std::vector<RayQuery> grid;
   for (std::uint32_t i = 0; i < GRID * GRID; ++i)
     grid.push_back(rays.at((i % GRID + 0.5) / GRID * sheet.width, (i / GRID + 0.5) / GRID * sheet.height));
   std::vector<double> counts;
   for (const std::uint32_t count : counts_of(tracer, look, grid, settings))
-    if (count > 0) counts.push_back(count);
-  return counts.empty() ? 1.0 : std::max(value_at(counts, BLACKEST), 1.0);
+    if (count > 0) counts.push_back(std::log2(1.0 + count));
+  if (counts.empty()) return {};
+  return {value_at(counts, LIGHTEST), value_at(counts, BLACKEST)};
 }
 
 }  // namespace
@@ -58,7 +71,7 @@ Image xray_image(Tracer& tracer, const RootTransform& root, const Look& look, co
   Settings settings = asked;
   settings.blend = BLEND_COUNT;
   const SheetRays rays(root, sheet);
-  const double black = std::log2(1.0 + black_count(tracer, look, rays, sheet, settings));
+  const Shades shades = shades_of(tracer, look, rays, sheet, settings);
   Image image{window.width, window.height, {}, {}};
   const std::size_t pixels = std::size_t{window.width} * window.height;
   image.rgba.reserve(pixels);
@@ -67,10 +80,8 @@ Image xray_image(Tracer& tracer, const RootTransform& root, const Look& look, co
     batch.push_back(rays.at(window.x + static_cast<double>(i % window.width) + 0.5,
                             window.y + static_cast<double>(i / window.width) + 0.5));
     if (batch.size() < BATCH && i + 1 < pixels) continue;
-    for (const std::uint32_t count : counts_of(tracer, look, batch, settings)) {
-      const double left = std::max(1.0 - std::log2(1.0 + count) / black, 0.0);
-      image.rgba.emplace_back(vec3(static_cast<float>(left * left)), count > 0 ? 1.0F : 0.0F);
-    }
+    for (const std::uint32_t count : counts_of(tracer, look, batch, settings))
+      image.rgba.push_back(count > 0 ? vec4(vec3(shades.linear(count)), 1.0F) : vec4(0.0F));
     batch.clear();
     if (progress && !progress(static_cast<double>(i + 1) / static_cast<double>(pixels)))
       throw Error(ExitCode::interrupted, "rendering was interrupted");
