@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/library/sheet/drawing.h"
-#include "app/library/sheet/geotiff.h"
+#include "app/library/codec/drawing.h"
+#include "app/library/codec/geo_raster.h"
 
 namespace splatray {
 

@@ -9,9 +9,9 @@
 #include "app/library/picture/picture_notes.h"
 #include "app/library/picture/resume.h"
 #include "app/library/picture/scene_source.h"
+#include "app/library/picture/xray.h"
 #include "app/library/sheet/cut_lines.h"
 #include "app/library/sheet/ink.h"
-#include "app/library/sheet/xray.h"
 #include "engine/base/stopwatch.h"
 #include "engine/image/sparks.h"
 

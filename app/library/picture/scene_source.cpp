@@ -309,18 +309,6 @@ std::uint32_t choose_look(const Scene& scene, const Request& request) {
   return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;
 }
 
-Region region_of(const RegionRequest& asked, const glm::dvec3& up) {
-  Region region;
-  region.kept = asked.cuts;
-  region.kept.insert(region.kept.end(), asked.of_sheet.begin(), asked.of_sheet.end());
-  region.cuts_light = asked.light_kept.value_or(false);
-  if (asked.keep_box)
-    for (const HalfSpace& half : half_spaces(*asked.keep_box, up)) region.kept.push_back(half);
-  if (asked.drop_box)
-    for (const HalfSpace& half : half_spaces(*asked.drop_box, up)) region.dropped.push_back(half);
-  return region;
-}
-
 Settings choose_settings(const Scene& scene, const Request& request) {
   Settings settings = request.settings;
   settings.region = region_of(request.view.region, choose_up(scene, request));

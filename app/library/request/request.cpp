@@ -83,6 +83,7 @@ void check_sheet(const Request& request) {
   const Request::View& view = request.view;
   if (!view.sheet) {
     if (view.ink || view.xray) fail("found --ink or --xray without --sheet, expected them with one");
+    if (!request.output.measures.empty()) fail("found --measures without --sheet, expected it with one");
     if (!request.output.height_raster.empty())
       fail("found --height-raster without --sheet, expected it with one");
     return;
@@ -133,6 +134,18 @@ void set_camera(Request::View& view, const Camera& camera) {
   view.ortho_height = camera.ortho_height;
   view.lens_shift = camera.lens_shift;
   view.pixel_aspect = camera.pixel_aspect;
+}
+
+Region region_of(const RegionRequest& asked, const glm::dvec3& up) {
+  Region region;
+  region.kept = asked.cuts;
+  region.kept.insert(region.kept.end(), asked.of_sheet.begin(), asked.of_sheet.end());
+  region.cuts_light = asked.light_kept.value_or(false);
+  if (asked.keep_box)
+    for (const HalfSpace& half : half_spaces(*asked.keep_box, up)) region.kept.push_back(half);
+  if (asked.drop_box)
+    for (const HalfSpace& half : half_spaces(*asked.drop_box, up)) region.dropped.push_back(half);
+  return region;
 }
 
 void forget_sheet(Request::View& view) {

@@ -39,8 +39,8 @@ struct LightRequest {
 struct RegionRequest {
   std::optional<TurnedBox> keep_box, drop_box;
   std::vector<HalfSpace> cuts;
-  std::optional<bool>
-      light_kept;  ///< what is cut off sends no light back and shades nothing; unset = of sheets
+  /// What is cut off sends no light back and shades nothing; unset = of sheets.
+  std::optional<bool> light_kept;
   std::vector<HalfSpace> of_sheet;  ///< what the sheet adds, once the scene is known; no field has it
 
   bool operator==(const RegionRequest&) const = default;
@@ -123,6 +123,7 @@ struct Request {
     bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
     AovSet aovs = 0;
     std::string title;                    ///< of a sheet's page; empty = the input's name
+    std::filesystem::path measures;       ///< drawn on a sheet's page, measure_file.h; empty = none
     std::filesystem::path height_raster;  ///< of a sheet, .tif; empty = none
     std::filesystem::path camera_path;    ///< camera_file.h; empty = none
     std::uint32_t turntable = 0;          ///< frames of a full turn, 0 .. turntable - 1; 0 = none
@@ -153,6 +154,9 @@ struct Request {
 
 /// Makes the request's camera exactly this one.
 void set_camera(Request::View& view, const Camera& camera);
+
+/// The region: --keep-box, --drop-box, --cut, and what a sheet adds. `up` of the scene as shown, about which boxes are turned.
+[[nodiscard]] Region region_of(const RegionRequest& asked, const glm::dvec3& up);
 
 /// Without what came of the scene: as it was asked for, but for the size of the sheet's picture.
 void forget_sheet(Request::View& view);

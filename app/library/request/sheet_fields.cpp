@@ -31,23 +31,29 @@ Field sheet_row() {
 }  // namespace
 
 std::vector<Field> sheet_fields() {
-  return {only_rendered(sheet_row()),
-          only_rendered(switch_row("ink", SHEET, MEMBER(view.ink),
-                                   "of a sheet: lines where depth, direction or object change")),
-          only_rendered(switch_row(
-              "xray", SHEET, MEMBER(view.xray),
-              "of a sheet: how many splats lie one behind the other, by the logarithm, dark for many")),
-          only_rendered(value_row(
-              "title", SHEET, "TEXT",
-              "of a sheet as .svg or .pdf: what stands below it; default the input's name",
-              [](Request& request, const std::string& text) { request.output.title = text; },
-              [](const Request& request) { return request.output.title; })),
-          only_rendered(value_row(
-              "height-raster", SHEET, "FILE.tif",
-              "of a sheet: heights, or of sections and elevations distances behind the cut, world units, as "
-              "GeoTIFF of floats",
-              [](Request& request, const std::string& text) { request.output.height_raster = text; },
-              [](const Request& request) { return request.output.height_raster.string(); }))};
+  return {
+      only_rendered(sheet_row()),
+      only_rendered(switch_row("ink", SHEET, MEMBER(view.ink),
+                               "of a sheet: lines where depth, direction or object change")),
+      only_rendered(switch_row(
+          "xray", SHEET, MEMBER(view.xray),
+          "of a sheet: how many splats lie one behind the other, by the logarithm, dark for many")),
+      only_rendered(value_row(
+          "title", SHEET, "TEXT",
+          "of a sheet as .svg or .pdf: what stands below it; default the input's name",
+          [](Request& request, const std::string& text) { request.output.title = text; },
+          [](const Request& request) { return request.output.title; })),
+      only_rendered(value_row(
+          "measures", SHEET, "FILE.geojson",
+          "of a sheet as .svg or .pdf: measures of splatray-measure or splatray-view that are drawn on it",
+          [](Request& request, const std::string& text) { request.output.measures = text; },
+          [](const Request& request) { return request.output.measures.string(); })),
+      only_rendered(value_row(
+          "height-raster", SHEET, "FILE.tif",
+          "of a sheet: heights, or of sections and elevations distances behind the cut, world units, as "
+          "GeoTIFF of floats",
+          [](Request& request, const std::string& text) { request.output.height_raster = text; },
+          [](const Request& request) { return request.output.height_raster.string(); }))};
 }
 
 }  // namespace splatray

@@ -19,8 +19,8 @@ struct SheetRequest {
   /// the direction DX,DY,DZ that one looks in; in the file's coordinates.
   std::vector<double> place;
   std::optional<double> height;  ///< of a plan's cut, along the up axis, world units
-  std::optional<double>
-      depth;  ///< how far behind the cut, or what is nearest, something is shown, world units; unset = all
+  /// How far behind the cut, or what is nearest, something is shown, world units; unset = all.
+  std::optional<double> depth;
   double scale = 50.0;                ///< 1 : scale
   double dpi = 300.0;                 ///< pixels an inch of paper
   double weight_mm = 0.35;            ///< width of the lines of what is cut, on paper; 0 = none

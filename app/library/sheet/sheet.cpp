@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "app/library/picture/scene_source.h"
 #include "app/library/sheet/cut_lines.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
@@ -142,6 +141,7 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
   Sheet sheet;
   sheet.asked = *request.view.sheet;
   sheet.crs = scene.crs;
+  sheet.up = scene.up;
   const PlanAxes plan(scene.up);
   set_axes(plan, sheet);
   set_unit(sheet);

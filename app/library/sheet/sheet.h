@@ -29,6 +29,7 @@ struct Sheet {
   double unit_metres = 1.0;             ///< length of a world unit
   bool unit_known = false;              ///< the file or the request says so
   bool north_up = false;                ///< right, top are the file's x, y: coordinates are the file's
+  glm::dvec3 up{0.0, 0.0, 1.0};         ///< of the scene
   std::string crs;                      ///< Scene::crs
   std::vector<CutLine> cut_lines;
 

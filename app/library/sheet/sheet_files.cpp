@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/library/codec/sheet_codec.h"
+#include "app/library/measure/measure_file.h"
 #include "app/library/sheet/geotiff.h"
 #include "app/library/sheet/sheet_page.h"
 #include "engine/base/error.h"
@@ -122,7 +123,10 @@ void write_sheet(const Request& request, const DisplayImage& picture, const Meta
   }
   const std::string& title = request.output.title;
   const std::string name = request.source.inputs.empty() ? "" : request.source.inputs.front().stem().string();
-  write_page(sheet_page(sheet, window, picture, title.empty() ? name : title), extension.substr(1), path);
+  Drawing page = sheet_page(sheet, window, picture, title.empty() ? name : title);
+  if (!request.output.measures.empty())
+    draw_measures(sheet, window, read_measures(request.output.measures), sheet.up, page);
+  write_page(page, extension.substr(1), path);
 }
 
 void write_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path) {

@@ -197,4 +197,33 @@ Drawing sheet_page(const Sheet& sheet, const PixelWindow& window, const DisplayI
   return drawing;
 }
 
+void draw_measures(const Sheet& sheet, const PixelWindow& window, std::span<const Measure> measures,
+                   const glm::dvec3& up, Drawing& page) {
+  constexpr double MARK = 0.8, LINE = 0.25, BESIDE = 1.2;
+  const auto on_page = [&](const glm::dvec3& place) {
+    const glm::dvec2 pixel =
+        (glm::dvec2(glm::dot(place, sheet.right), glm::dot(place, sheet.top)) - sheet.corner) /
+        sheet.pixel_world;
+    return page.raster.corner + glm::dvec2(pixel.x - window.x, -pixel.y - window.y) * sheet.pixel_mm();
+  };
+  const glm::dvec2 low = page.raster.corner, high = low + page.raster.size;
+  const auto is_on = [&](const glm::dvec2& at) {
+    return at.x >= low.x && at.y >= low.y && at.x <= high.x && at.y <= high.y;
+  };
+  for (const Measure& measure : measures) {
+    std::vector<glm::dvec2> places;
+    for (const SurfacePoint& point : measure.points) places.push_back(on_page(point.place));
+    if (places.empty() || !std::all_of(places.begin(), places.end(), is_on)) continue;
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2& at : places) {
+      middle += at / static_cast<double>(places.size());
+      page.boxes.push_back({at - glm::dvec2(0.5 * MARK), glm::dvec2(MARK)});
+    }
+    for (std::size_t i = 1; i < places.size(); ++i) page.lines.push_back({places[i - 1], places[i], LINE});
+    if (measure.kind == MeasureKind::area) page.lines.push_back({places.back(), places.front(), LINE});
+    page.texts.push_back(
+        {middle + glm::dvec2(BESIDE, -BESIDE), TEXT_SIZE, TextAnchor::begin, short_text(measure, up)});
+  }
+}
+
 }  // namespace splatray

@@ -1,4 +1,4 @@
-#include "app/library/sheet/xray.h"
+#include "app/library/picture/xray.h"
 
 #include <algorithm>
 #include <cmath>
