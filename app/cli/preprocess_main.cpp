@@ -7,6 +7,8 @@
 
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
+#include "app/library/picture/change.h"
+#include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/memory.h"
@@ -27,6 +29,7 @@ using namespace splatray;
 struct Options {
   Request request;
   bool keep_dropped = false;
+  std::filesystem::path change_from;  ///< empty = no comparison
   std::vector<std::string> notes;
 };
 
@@ -46,6 +49,9 @@ bool parse(int argc, char** argv, Options& options) {
   list.add_switch(
       "--keep-dropped", options.keep_dropped,
       "with -o of points: those that the scene leaves out are written too, as class 7 (low noise)");
+  add_path(list, "--change-from", options.change_from,
+           "an earlier scan or scene: adds the attribute change, how far each point lies before (+) or "
+           "behind (-) its surface");
   if (!list.parse(argc, argv)) return false;
   assign(request, given, DOOR_PREPROCESS);
   options.notes = given.notes;
@@ -75,6 +81,8 @@ void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
 }
 
+bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
+
 /// Writes the scene, or its points and what was left out.
 void write(const Scene& scene, const LeftOut& left_out, const std::filesystem::path& path,
            const Progress& progress) {
@@ -84,14 +92,36 @@ void write(const Scene& scene, const LeftOut& left_out, const std::filesystem::p
     write_scene(scene, path, progress);
 }
 
-/// Writes the points of a scene that is built already.
-void convert(const Request& request, const Progress& progress) {
-  require_scene_alone(request.source.inputs);
-  write(read_scene(request.source.inputs.front(), progress), {}, request.output.path, progress);
+/// The scene of a .soct alone, or of the inputs.
+Scene load(const Request::Source& source, BuildStats& stats, const Progress& progress) {
+  if (is_scene_file(source.inputs.front())) {
+    require_scene_alone(source.inputs);
+    return read_scene(source.inputs.front(), progress);
+  }
+  return build_scene(read(source, stats, progress), source.params, source.threads, stats, progress);
 }
 
-/// Builds a scene of the inputs and writes it; what it says goes to the line, which is cleared before.
-void build(const Options& options, const Progress& progress, ProgressLine& line) {
+/// Adds how the scene differs from the earlier one, and says how much that is.
+void compare(Scene& scene, const Options& options, const Progress& progress, ProgressLine& line) {
+  Request::Source source = options.request.source;
+  source.inputs = {options.change_from};
+  BuildStats stats;
+  const Scene earlier = load(source, stats, progress);
+  if (!scene.crs.empty() && !earlier.crs.empty() && !is_same_crs(scene.crs, earlier.crs))
+    print_notes({"the two are in the coordinate systems '" + describe_crs(scene.crs).name + "' and '" +
+                 describe_crs(earlier.crs).name + "', expected one"});
+  const ChangeFound found = add_change(scene, earlier, *open_device(HOST_DEVICE), progress);
+  line.clear();
+  std::printf("change: %zu of %zu splats meet the earlier surface, median size %.4g", std::size_t{found.met},
+              scene.data_pool.size(), found.median_world);
+  if (found.significant_world > 0.0)
+    std::printf("; %zu differ by more than the %.4g that noise explains (95 %%)",
+                std::size_t{found.significant}, found.significant_world);
+  std::printf("\n");
+}
+
+/// Makes the scene of the inputs and writes it, or its points; what it says goes to the line, which is cleared before.
+void make(const Options& options, const Progress& progress, ProgressLine& line) {
   const Request::Source& source = options.request.source;
   const Request::Output& output = options.request.output;
   BuildStats stats;
@@ -102,6 +132,7 @@ void build(const Options& options, const Progress& progress, ProgressLine& line)
   if (options.keep_dropped) left_out.emplace(input);
   Scene scene = build_scene(std::move(input), source.params, source.threads, stats, progress);
   const LeftOut kept = left_out ? std::move(*left_out).take(scene) : LeftOut{};
+  if (!options.change_from.empty()) compare(scene, options, progress, line);
   write(scene, kept, output.path, progress);
   line.clear();
   print_notes(stats.notes);
@@ -109,12 +140,20 @@ void build(const Options& options, const Progress& progress, ProgressLine& line)
   std::fputs(build_summary(stats, output.path).c_str(), stdout);
 }
 
+/// The same of a scene that is built already.
+void convert(const Options& options, const Progress& progress, ProgressLine& line) {
+  BuildStats stats;
+  Scene scene = load(options.request.source, stats, progress);
+  if (!options.change_from.empty()) compare(scene, options, progress, line);
+  write(scene, {}, options.request.output.path, progress);
+}
+
 int run(int argc, char** argv) {
   Options options;
   if (!parse(argc, argv, options)) return static_cast<int>(ExitCode::done);
   print_notes(options.notes);
   const Request::Output& output = options.request.output;
-  const bool has_points = is_point_output(output.path);
+  const bool is_new = is_point_output(output.path) || !options.change_from.empty();
   require_writable(output.path);
   if (!output.stats_json.empty()) require_writable(output.stats_json);
   catch_interrupts();
@@ -125,10 +164,10 @@ int run(int argc, char** argv) {
     line.show(stage, share);
     return !interrupted();
   });
-  if (has_points && lower_extension(options.request.source.inputs.front()) == ".soct")
-    convert(options.request, progress);
+  if (is_new && is_scene_file(options.request.source.inputs.front()))
+    convert(options, progress, line);
   else
-    build(options, progress, line);
+    make(options, progress, line);
   return static_cast<int>(ExitCode::done);
 }
 

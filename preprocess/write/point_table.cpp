@@ -87,11 +87,13 @@ void add_columns(const Scene& scene, const LeftOut& left_out, PointTable& table)
   for (const Column& column : scene.columns) {
     const Column* more = find_column(left_out.columns, column.name);
     const bool is_class = column.name == COLUMN_CLASS;
+    const bool is_whole = column.values.index() < 2;
+    const double absent = is_whole ? 0.0 : std::nan("");
     table.properties.push_back({file_name(column.name, table.properties), TYPES[column.values.index()],
-                                [&column, more, is_class, splats](std::size_t i) {
+                                [&column, more, is_class, absent, splats](std::size_t i) {
                                   if (i < splats) return column.number(i);
                                   if (is_class) return double{PointTable::LOW_NOISE};
-                                  return more == nullptr ? 0.0 : more->number(i - splats);
+                                  return more == nullptr ? absent : more->number(i - splats);
                                 }});
   }
   if (marks && find_column(scene.columns, COLUMN_CLASS) == nullptr)
