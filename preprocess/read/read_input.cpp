@@ -33,6 +33,7 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
   object.material = default_material();
   object.meshes.push_back(read_mesh(path, options, listener));
   input.crs = object.meshes.front().vertices.crs;
+  input.up = object.meshes.front().vertices.up;
   if (!object.meshes.front().vertices.color.empty()) {
     object.material.diffuse = COLORED_DIFFUSE;
   }
