@@ -5,6 +5,7 @@
 
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/command_line.h"
+#include "app/library/user_folders.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/navigation.h"
@@ -36,6 +37,12 @@ Request sized(Request request, const UserState& user) {
   return request;
 }
 
+/// In the user's cache folder, where there is one.
+SceneCache scene_cache() {
+  const std::filesystem::path folder = user_cache_folder();
+  return SceneCache(folder.empty() ? folder : folder / "scenes");
+}
+
 }  // namespace
 
 Viewer::Viewer(const Request& request, Clock::time_point start)
@@ -43,7 +50,7 @@ Viewer::Viewer(const Request& request, Clock::time_point start)
       stats_(start),
       window_("splatray", request_.view.width, request_.view.height),
       presenter_(window_),
-      loader_([this] { window_.wake(); }),
+      loader_([this] { window_.wake(); }, scene_cache()),
       renderer_(request_.settings.device, [this] { window_.wake(); }) {
   panels_.recent_files = user_.state().recent_files;
   asked_exposure_ev_ = request.look.exposure_ev;
@@ -108,7 +115,9 @@ void Viewer::take_load_news() {
   if (news.progress) work_ = {news.progress->stage, news.progress->share};
   if (!news.notice.empty()) add_line(panels_.notice, news.notice);
   if (!news.error.empty()) panels_.error = news.error;
+  if (news.points) attempt_to("showing points", [&] { show(std::move(*news.points)); });
   if (news.opened) attempt_to("showing the scene", [&] { show(std::move(*news.opened)); });
+  if (!news.progress) leave_points();
 }
 
 void Viewer::take_render_news() {
@@ -148,7 +157,7 @@ void Viewer::handle_inputs() {
       if (command && (!gui.wants_keyboard() || command->action == Action::escape)) handle(*command);
       continue;
     }
-    const bool over_controls = gui.wants_mouse() || !scene_;
+    const bool over_controls = gui.wants_mouse() || !has_view();
     if (const std::optional<Gesture> gesture = mouse_.take(event, over_controls, Clock::now()))
       handle(*gesture);
   }
@@ -213,7 +222,7 @@ void Viewer::handle(const Command& command) {
 
 /// Goes round the views of --view.
 void Viewer::look_from_next() {
-  if (!scene_) return;
+  if (!scene_ || of_points_) return;
   viewpoint_ = viewpoint_ == Viewpoint::sensor ? Viewpoint::front
                                                : static_cast<Viewpoint>(static_cast<int>(viewpoint_) + 1);
   document_.camera = viewpoint_camera(*scene_, viewpoint_, aspect(), {});
@@ -236,8 +245,8 @@ void Viewer::draw_controls() {
 void Viewer::handle(const Requests& requests) {
   for (const Command& command : requests.commands) handle(command);
   if (requests.open) requests.add ? add(*requests.open) : open(*requests.open);
-  if (requests.save && scene_) renderer_.save(save_job(document_, *requests.save));
-  if (requests.change && scene_) open(*requests.change);
+  if (requests.save && scene_ && !of_points_) renderer_.save(save_job(document_, *requests.save));
+  if (requests.change && scene_ && !of_points_) open(*requests.change);
   if (requests.cancel) cancel();
 }
 
@@ -247,7 +256,7 @@ void Viewer::cancel() {
 }
 
 void Viewer::copy() {
-  if (!scene_) return;
+  if (!scene_ || of_points_) return;
   Request request = request_of(document_, picture_px().x, picture_px().y);
   request.output.path = panels_.save.output.path;
   window_.set_clipboard(command_line(request));
@@ -257,7 +266,7 @@ void Viewer::copy() {
 /// Hands the document over; the render thread finds out whether anything has changed.
 void Viewer::submit() {
   const glm::uvec2 size = picture_px();
-  if (scene_ && size.x > 0 && size.y > 0) renderer_.show(document_, size);
+  if (has_view() && size.x > 0 && size.y > 0) renderer_.show(document_, size);
 }
 
 /// The part of the window that shows the picture, pixels; 0 x 0 while minimised.

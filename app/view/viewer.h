@@ -35,6 +35,9 @@ class Viewer {
   void add(const SceneFiles& files);
   void open(Request request);
   void show(OpenedScene opened);
+  void show(OpenedPoints opened);
+  void leave_points();
+  void load(const Request& request);
   void require_scene(const std::filesystem::path& file, const char* found) const;
   void take_files(const SceneFiles& files);
   void take_file(const std::filesystem::path& file);
@@ -56,6 +59,8 @@ class Viewer {
   void write_stats();
   [[nodiscard]] glm::uvec2 picture_px() const;
   [[nodiscard]] double aspect() const;
+  /// Whether there is something to look at and move about.
+  [[nodiscard]] bool has_view() const { return scene_ || of_points_; }
   [[nodiscard]] double patience() const;
 
   UserMemory user_{user_state_path()};
@@ -69,9 +74,11 @@ class Viewer {
   RenderThread renderer_;
 
   Document document_;
-  std::optional<double> asked_exposure_ev_;     ///< by an option; unset = what suits a scan, else as it was
-  std::optional<double> found_exposure_ev_;     ///< that suits the scan shown
-  SharedScene scene_;                           ///< null: none is open
+  std::optional<double> asked_exposure_ev_;  ///< by an option; unset = what suits a scan, else as it was
+  std::optional<double> found_exposure_ev_;  ///< that suits the scan shown
+  SharedScene scene_;                        ///< null: none is open
+  bool of_points_ = false;  ///< document_ is that of points, which are shown until their scene is made
+  Document before_;         ///< then: that of scene_
   Viewpoint viewpoint_ = Viewpoint::automatic;  ///< that look_from_next took last
   Mouse mouse_;
   PanelState panels_;

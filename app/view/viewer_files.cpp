@@ -13,6 +13,13 @@
 
 namespace splatray {
 
+void Viewer::load(const Request& request) {
+  leave_points();
+  of_points_ = false;
+  panels_.notice.clear();
+  loader_.load(request);
+}
+
 /// Opens another scene; the first one as the command line says.
 void Viewer::open(const SceneFiles& files) {
   Request request = scene_ ? kept_request(document_) : request_;
@@ -21,15 +28,14 @@ void Viewer::open(const SceneFiles& files) {
   request.look.material.clear();
   request.view.width = picture_px().x;
   request.view.height = picture_px().y;
-  panels_.notice.clear();
-  loader_.load(request);
+  load(request);
 }
 
 /// Loads the scene shown together with more files.
 void Viewer::add(const SceneFiles& files) {
   if (!scene_) return open(files);
-  panels_.notice.clear();
-  loader_.load(request_with(document_, files));
+  leave_points();
+  load(request_with(document_, files));
 }
 
 /// A request of the scene shown changes what it looks like, at once; another is loaded.
@@ -39,14 +45,42 @@ void Viewer::open(Request request) {
     request.view.height = std::max(picture_px().y, 1U);
     document_ = shown_as(*scene_, document_, request);
   } else {
-    panels_.notice.clear();
-    loader_.load(request);
+    load(request);
   }
   asked_exposure_ev_ = request.look.exposure_ev;
   document_.exposure_ev = request.look.exposure_ev.value_or(0.0);
 }
 
+/// Points of the scene that is being made, more each time: where the camera was moved it stays.
+void Viewer::show(OpenedPoints opened) {
+  const bool moved = of_points_ && document_.camera != panels_.home;
+  if (!of_points_) before_ = document_;
+  of_points_ = true;
+  panels_.home = opened.document.camera;
+  if (moved) {
+    opened.document.camera = document_.camera;
+    opened.document.settings.cutaway = document_.settings.cutaway;
+  }
+  document_ = std::move(opened.document);
+  renderer_.open_points(std::move(opened.points), document_, picture_px());
+}
+
+/// Goes back to the scene from the points of another that does not come; where there is none, they stay.
+void Viewer::leave_points() {
+  if (!of_points_ || !scene_) return;
+  of_points_ = false;
+  document_ = std::move(before_);
+  renderer_.open_points(nullptr, document_, picture_px());
+}
+
 void Viewer::show(OpenedScene opened) {
+  panels_.home = opened.document.camera;
+  if (of_points_) {  // the view stays as it is
+    opened.document.camera = document_.camera;
+    opened.document.settings.cutaway = document_.settings.cutaway;
+    document_ = std::move(before_);
+    of_points_ = false;
+  }
   const bool exposes = !asked_exposure_ev_ && !opened.scene->stations.empty();
   const bool kept = document_.exposure_ev != found_exposure_ev_;
   opened.document.exposure_ev = asked_exposure_ev_.value_or(kept ? document_.exposure_ev : 0.0);
@@ -62,7 +96,6 @@ void Viewer::show(OpenedScene opened) {
   scene_ = std::move(opened.scene);
   const SceneFiles& files = document_.loaded->asked.source.inputs;
   remember([&files](UserState& state) { remember_files(state, files); });
-  panels_.home = document_.camera;
   panels_.can_add = true;
   viewpoint_ = Viewpoint::automatic;
   panels_.object = panels_.light = 0;

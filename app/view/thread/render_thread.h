@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "app/view/points/point_cloud.h"
 #include "app/view/thread/live_scene.h"
 #include "app/view/thread/progressive.h"
 #include "app/view/thread/save.h"
@@ -51,6 +52,8 @@ class RenderThread {
   void show(const Document& document, glm::uvec2 window_px);
   /// As show, of another scene; `exposes`: its picture's exposure is reported as soon as it is known.
   void open(SharedScene scene, const Document& document, glm::uvec2 window_px, bool exposes = false);
+  /// Shows points of this document until a scene is opened; null: what was shown before, anew.
+  void open_points(SharedPoints points, const Document& document, glm::uvec2 window_px);
   /// The newest counts.
   void pick(const PickRequest& request);
   void save(SaveJob job);
@@ -64,17 +67,19 @@ class RenderThread {
   /// What the window asked for and the thread has not yet taken.
   struct Pending {
     SharedScene scene;
+    std::optional<SharedPoints> points;
     std::optional<Document> document;
     glm::uvec2 window_px{0};
     bool exposes = false;
     std::optional<PickRequest> pick;
     std::optional<SaveJob> save;
-    [[nodiscard]] bool any() const { return scene || document || pick || save; }
+    [[nodiscard]] bool any() const { return scene || points || document || pick || save; }
   };
 
   void run();
   [[nodiscard]] std::optional<Pending> wait_for_requests();
   void fulfil(const Pending& pending);
+  void show_points(bool others, glm::uvec2 window_px);
   void expose();
   void answer(const PickRequest& request);
   void save_now(const SaveJob& job);
@@ -85,7 +90,9 @@ class RenderThread {
   std::unique_ptr<Device> device_;
   LiveScene live_{*device_};
   Progressive progressive_{live_, device_->info().name};
-  Document shown_;  ///< by the thread
+  Document shown_;       ///< by the thread
+  SharedPoints points_;  ///< shown instead of the scene; null = none are
+  View points_view_;     ///< in which they were drawn last
   std::function<void()> wake_;
 
   std::mutex mutex_;  ///< of what follows
