@@ -6,7 +6,8 @@
 namespace splatray {
 namespace {
 
-constexpr double MOVING_MS = 1000.0 / 30.0;  ///< of a coarse picture
+constexpr double MOVING_MS = 1000.0 / 20.0;  ///< of a coarse picture
+constexpr double EYE_DOME = 1.0;             ///< strength
 constexpr double BAND_MS = 30.0;             ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
 /// Of trace_samples, so that reading back costs little.
@@ -32,6 +33,11 @@ void Progressive::show(const Document& document, glm::uvec2 window_px) {
 }
 
 void Progressive::restart() { stage_ = Stage::coarse; }
+
+void Progressive::restart_with_scene() {
+  moving_.forget();
+  restart();
+}
 
 std::optional<Progressive::Clock::time_point> Progressive::next_work() const {
   if (recolour_) return Clock::time_point{};
@@ -64,6 +70,11 @@ SharedFrame Progressive::trace_coarse() {
   frame.moving = true;
   Settings coarse = settings();
   coarse.samples = 1;
+  if (coarse.look != LOOK_PAPER) {  // whose one sample has no noise
+    coarse.look = LOOK_SEEN;
+    coarse.lens_radius_world = 0.0;
+    frame.is_seen = true;
+  }
   const Clock::time_point start = Clock::now();
   if (document_.mode == ViewMode::shaded)
     frame.image = live_.tracer().render(live_.look(), frame.view, coarse);
@@ -144,7 +155,10 @@ SharedFrame Progressive::coloured(Frame frame) {
   frame.pools_uploaded = live_.tracer().pools_uploaded();
   if (frame.mode == ViewMode::shaded) {
     if (!table_ || table_->display() != display_of(document_)) table_.emplace(display_of(document_));
-    frame.display = table_->rgba(frame.image.rgba);
+    const double strength = EYE_DOME;
+    frame.display = frame.is_seen ? moving_.display(frame.image, frame.view, strength, *table_)
+                                  : table_->rgba(frame.image.rgba);
+    if (!frame.moving) moving_.rest(frame.image, frame.display);
   } else {
     frame.range = color_range(frame.image.aov, frame.mode);
     frame.display = false_color(frame.image.aov, frame.mode, frame.range);
