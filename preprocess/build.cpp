@@ -80,6 +80,7 @@ Scene describe_scene(Input& input, const BuildParams& params) {
   scene.camera = input.camera;
   scene.up = input.up.value_or(glm::dvec3(0.0, 1.0, 0.0));
   scene.environment_path = std::move(input.environment_path);
+  scene.crs = std::move(input.crs);
   bool area_known = !input.objects.empty();
   for (InputObject& object : input.objects) {
     scene.materials.push_back(object.material);
@@ -118,8 +119,10 @@ void number_objects(const std::vector<Cloud>& clouds, std::vector<Material>& mat
 void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const Progress& progress,
                        BuildStats& stats) {
   const AddedTime watch(stats.normals_ms);
+  std::size_t station = 0;  // of the scene: the object's first
   for (std::size_t object = 0; object < clouds.size(); ++object) {
     Cloud& cloud = clouds[object];
+    std::size_t stations = cloud.stations.size();
     const glm::dvec3 up = glm::normalize(scene.up);
     const Stage stage{"normals", progress};
     require_stage_memory(stage.name, cloud.size(), cloud.measured ? SCAN_BYTES : SEARCH_BYTES);
@@ -130,7 +133,13 @@ void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const Progress&
     if (estimated > 0 && estimated == cloud.size() && (flags & MATERIAL_DIELECTRIC) == 0)
       flags |= MATERIAL_TWO_SIDED;
     // Bare points are a scan, also in a format that meshes and samples come in too.
-    if (estimated > 0 && cloud.measured && scene.stations.empty()) scene.stations.emplace_back();
+    if (estimated > 0 && cloud.measured && scene.stations.empty())
+      scene.stations.emplace_back(), stations = 1;
+    for (std::size_t s = 0; s < std::min(stations, cloud.stations.size()); ++s) {
+      scene.stations[station + s].noise_world = cloud.stations[s].noise_world;
+      scene.stations[station + s].step_world = cloud.stations[s].step_world;
+    }
+    station += stations;
   }
 }
 

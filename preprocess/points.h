@@ -1,5 +1,6 @@
 /// What readers deliver and preprocess works on: objects of points in world space, float64.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -66,6 +67,7 @@ struct Points {
   std::vector<std::uint32_t> grid_cell;  ///< row * columns + column in the station's grid; empty = no grids
   /// Where points with COLUMN_TIME were measured from, by time; empty = unknown
   std::vector<TrackPlace> track;
+  std::string crs;  ///< Scene::crs
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
@@ -112,12 +114,21 @@ struct ScanCounts {
   }
 };
 
+/// Something that a file's head says: what, and a text for people.
+struct FileFact {
+  std::string name;
+  std::string text;
+};
+
 /// A file of points without materials, which joins the others of its kind in one object.
 struct ScanFile {
   Points points;
   ScanCounts counts;
   glm::dvec3 up{0.0, 0.0, 1.0};      ///< the format's own: z for what surveyors use
   std::optional<bool> in_degrees{};  ///< x and y: degrees, or lengths; unset where the file does not say
+  std::vector<FileFact> facts{};     ///< version, how points are stored, by what and when it was made
+  /// The lowest and highest corner by the file's head, which may be wrong; unset where it says none.
+  std::optional<std::array<glm::dvec3, 2>> said_box{};
 };
 
 /// One object of the input: points, and what they are made of.
@@ -141,6 +152,7 @@ struct Input {
   std::optional<Camera> camera;
   std::optional<glm::dvec3> up;  ///< the format's own up axis (glTF: +y, scans: +z)
   ScanCounts scan_counts;        ///< of all files of scans
+  std::string crs;               ///< Scene::crs; of files that differ unknown
   std::string environment_path;  ///< resolved path of the environment map the scene names; empty = none
   /// One sentence each: unknown properties, skipped parts, ignored extensions.
   std::vector<std::string> notes;
@@ -183,6 +195,8 @@ struct ReadOptions {
   /// Folders searched for models a scene names, after the scene's own folder.
   std::vector<std::filesystem::path> data_paths;
   bool keep_meshes = false;
+  /// Of scans whose head counts their points, which are not read then; those of other formats are.
+  bool heads_only = false;
   bool clip = true;  ///< points on meshes know where the surface ends or has a crease
   /// Edges that turn by more, and are not shaded smoothly, are creases.
   double crease_degrees = BuildParams{}.crease_degrees;

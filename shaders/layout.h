@@ -203,6 +203,10 @@ SPLATRAY_CONST LIGHT_NODE_TWO_SIDED = 0x20000000u;  ///< something below it shin
 SPLATRAY_CONST LIGHT_NODE_DISTANT = 0x10000000u;    ///< all below it are at infinity
 SPLATRAY_CONST LIGHT_NODE_INDEX = 0x0FFFFFFFu;
 
+/// Half-spaces whose intersection a region keeps, at most; a box has six.
+SPLATRAY_CONST REGION_PLANES_MOST = 16u;
+SPLATRAY_CONST REGION_BOX_PLANES = 6u;
+
 /// Parameters of a dispatch; std140: every vec3 is followed by a scalar. Root space unless said.
 struct FrameParams {
   vec3 origin_00;  ///< primary ray through pixel position (0, 0) (top left corner): point on the ray
@@ -260,6 +264,12 @@ struct FrameParams {
   uint nodes_sized_end;
   uint lights_met;         ///< how many of the lights that have a size are not at infinity
   vec4 absorption[32];  ///< per lattice unit, inside each bit of a ray's mask
+  uint region_kept;     ///< FEATURE_REGION: planes on whose inner side a ray meets splats
+  uint region_dropped;  ///< planes on whose inner sides, all of them together, it meets none
+  uint region_light;    ///< whether secondary rays, too, meet only what the region keeps
+  uint region_unused;
+  /// Planes n.x >= w, n a unit vector, root space: those kept, then those dropped.
+  vec4 region[REGION_PLANES_MOST + REGION_BOX_PLANES];
 };
 
 /// A path between two of its rays, where paths are traced in stages (STAGE_*). Five texels.
@@ -385,6 +395,7 @@ SPLATRAY_CONST FEATURE_ENVIRONMENT = 128u;  ///< the environment is a texture, e
 SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
 SPLATRAY_CONST FEATURE_ELLIPSES = 524288u; ///< some splat is an ellipse
 SPLATRAY_CONST FEATURE_LEANS = 33554432u;  ///< some normal field is a constant term
+SPLATRAY_CONST FEATURE_REGION = 67108864u;  ///< rays meet only what a region keeps (trace/region.glsl)
 SPLATRAY_CONST FEATURE_OPACITY = 16777216u;  ///< some splat is see-through, and has the texture word LAYER
 SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word
 SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;
@@ -430,6 +441,7 @@ SPLATRAY_CONST BLEND_WINDOW = 0u;   ///< all splats behind the first within a wi
 SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1
 SPLATRAY_CONST BLEND_NEAREST = 2u;  ///< first splat only
 SPLATRAY_CONST BLEND_LEAF = 3u;  ///< first leaf only: the wrong blending of Goradia et al. 2010, Fig. 7 (a)
+SPLATRAY_CONST BLEND_COUNT = 4u;  ///< of ray queries alone: no cluster, members = all splats that the ray hits
 SPLATRAY_CONST KERNEL_RIM = 0u;  ///< (1 - u^2)^2, zero at the rim
 SPLATRAY_CONST KERNEL_GAUSSIAN = 1u;  ///< exp(-2 u^2)
 SPLATRAY_CONST SIDE_SIDE = 0u;        ///< expected side per object and own-sheet exclusion
@@ -448,7 +460,7 @@ SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixel
 static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 96 &&
               sizeof(LightNode) == 16 * LIGHT_NODE_TEXELS &&
               sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
-              sizeof(FrameParams) == 1088 && sizeof(PathState) == 16 * PATH_TEXELS);
+              sizeof(FrameParams) == 1456 && sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif
 #endif

@@ -265,6 +265,11 @@ AttributeColors color_by(const Scene& scene, const AttributeOptions& options) {
   return ramp_colors(scene, options);
 }
 
+std::string class_name(std::uint32_t value) {
+  const auto known = asprs_classes().find(value);
+  return known != asprs_classes().end() ? known->second.name : "";
+}
+
 std::vector<Category> categories_of(const Scene& scene, std::string_view name) {
   const Column* column = find_column(scene.columns, name);
   if (column == nullptr || !has_categories(*column)) return {};

@@ -56,6 +56,9 @@ struct AttributeColors {
 /// Whether values of the attribute of this name stand for themselves: class, return, returns, source and scan.
 [[nodiscard]] bool is_category(std::string_view column);
 
+/// ASPRS's name of a class (LAS 1.4 R15, table 17); empty where it has none.
+[[nodiscard]] std::string class_name(std::uint32_t value);
+
 /// The categories of a column, with the points that have each; none where there is no such column
 /// of categories.
 [[nodiscard]] std::vector<Category> categories_of(const Scene& scene, std::string_view column);

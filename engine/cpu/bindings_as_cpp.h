@@ -75,6 +75,10 @@ Value pool_element(uint index) {
 
 float medium_at(uint bit) { return frame.media[bit >> 2U][static_cast<int>(bit & 3U)]; }
 vec3 cut_eye() { return frame.cut_eye; }
+vec4 region_plane(uint index) { return frame.region[index]; }
+uint region_kept() { return frame.region_kept; }
+uint region_dropped() { return frame.region_dropped; }
+bool region_light() { return frame.region_light != 0U; }
 vec3 absorption_at(uint bit) { return vec3(frame.absorption[bit]); }
 uint splat_at(uint place) { return REFERENCES ? reference_word(place) : place; }
 Material material_at(uint object) { return materials[object]; }

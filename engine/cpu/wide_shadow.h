@@ -8,6 +8,8 @@ thread_local std::vector<Meeting> sheets_met;
 vec3 trace_shadow(Ray ray, Tally& tally) {
   vec3 light = vec3(1.0f);
   if (!(ray.t_max >= 0.0f)) return light;
+  if (REGION) clip_to_region(ray);
+  if (!(ray.t_max >= 0.0f)) return light;
   uint passed = 0u;
   bool opaque = false;
 #ifdef LIT

@@ -173,17 +173,34 @@ Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uv
   return cluster;
 }
 
+/// All that the ray hits, and what of it comes first.
+Found count_hits(const Ray& ray, Tally& tally, Cluster& cluster) {
+  Found found{no_first(), 0.0f, true};
+  visit_hits(ray, -INFINITY_F, ray.t_max, tally, [&](const Meeting& met) {
+    take_first(met.splat, met.words, met.hit, true, found.first);
+    cluster.members += 1u;
+    return INFINITY_F;
+  });
+  return found;
+}
+
 Hit trace_watching(Ray ray, float kappa, uvec4 watched, Tally& tally) {
-  const bool wide = BLEND == BLEND_NEAREST || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
+  const bool wide = BLEND == BLEND_NEAREST || BLEND == BLEND_COUNT || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
   if (!wide) return trace_octree(ray, kappa, watched, tally);
   const Ray given = ray;
   bool enters = true;
   float t_start = 0.0f;
   const float shift = clip_to_root(ray, enters, t_start);
+  if (REGION) {
+    clip_to_region(ray);
+    enters = enters && ray.t_min < ray.t_max;
+  }
   if (WATCHES) enters = enters && ray.t_max >= 0.0f;
   Found found{no_first(), 0.0f, true};
   Cluster cluster = empty_cluster();
-  if (enters) {
+  if (enters && BLEND == BLEND_COUNT) {
+    found = count_hits(ray, tally, cluster);
+  } else if (enters) {
     WideMeetings all;
     found = find_cluster(ray, kappa, tally, all);
     if (!found.all) return trace_octree(given, kappa, watched, tally);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <future>
@@ -51,12 +52,25 @@ CameraRecord camera_record(const Camera& camera) {
   return {camera.eye, camera.target, camera.up, camera.fov_y_deg, camera.ortho_height};
 }
 
-std::vector<StationRecord> station_records(const std::vector<Station>& stations) {
-  std::vector<StationRecord> records;
-  for (const Station& station : stations)
-    records.push_back({station.sensor_world.value_or(glm::dvec3(0.0)), station.sensor_world ? 1U : 0U,
-                       station.rows, station.columns, 0});
-  return records;
+/// The bytes of the stations' section, `record_bytes` of each.
+std::vector<char> station_bytes(const std::vector<Station>& stations, std::uint32_t record_bytes) {
+  std::vector<char> bytes;
+  for (const Station& station : stations) {
+    const MeasuredStationRecord record{{station.sensor_world.value_or(glm::dvec3(0.0)),
+                                        station.sensor_world ? 1U : 0U, station.rows, station.columns, 0},
+                                       station.noise_world,
+                                       station.step_world};
+    const char* begin = reinterpret_cast<const char*>(&record);
+    bytes.insert(bytes.end(), begin, begin + record_bytes);
+  }
+  return bytes;
+}
+
+bool is_measured(const Scene& scene) {
+  return !scene.crs.empty() ||
+         std::any_of(scene.stations.begin(), scene.stations.end(), [](const Station& station) {
+           return station.noise_world > 0.0 || station.step_world > 0.0;
+         });
 }
 
 std::string joined_strings(const Scene& scene) {
@@ -66,6 +80,7 @@ std::string joined_strings(const Scene& scene) {
   add(scene.environment_path);
   for (const Station& station : scene.stations) add(station.name);
   for (const Column& column : scene.columns) add(column.name);
+  if (is_measured(scene)) add(scene.crs);
   return strings;
 }
 
@@ -73,7 +88,8 @@ std::string joined_strings(const Scene& scene) {
 std::uint32_t version_of(const Scene& scene) {
   const auto any = [&scene](auto has) { return std::any_of(scene.lights.begin(), scene.lights.end(), has); };
   const bool aimed = any([](const SceneLight& light) { return is_spot(light) || light.range > 0.0; });
-  if (any_leans(scene.field_pool)) return SCENE_FILE_VERSION;
+  if (is_measured(scene)) return SCENE_FILE_VERSION;
+  if (any_leans(scene.field_pool)) return LEANING_SCENE_FILE_VERSION;
   if (aimed || texture_features(scene.columns) != 0) return TEXTURED_SCENE_FILE_VERSION;
   return any(is_sized) ? SIZED_SCENE_FILE_VERSION : PLAIN_SCENE_FILE_VERSION;
 }
@@ -264,12 +280,22 @@ void read_lights(Reader& reader, Scene& scene) {
 }
 
 void read_stations(Reader& reader, Scene& scene) {
-  for (const StationRecord& record : reader.section<StationRecord>(STATIONS)) {
+  const std::uint32_t record_bytes = station_record_bytes(reader.header());
+  const std::vector<char> bytes = reader.section<char>(STATIONS);
+  for (std::size_t at = 0; at < bytes.size(); at += record_bytes) {
+    MeasuredStationRecord measured{};
+    std::memcpy(&measured, bytes.data() + at, record_bytes);
+    const StationRecord& record = measured.station;
+    if (!(measured.noise_world >= 0.0 && measured.noise_world < INFINITY && measured.step_world >= 0.0 &&
+          measured.step_world < INFINITY))
+      reader.refuse("a station's noise or step that is no length", "finite numbers >= 0");
     if (record.has_sensor > 1) reader.refuse("a station's flag above 1", "0 or 1");
     Station& station = scene.stations.emplace_back();
     if (record.has_sensor == 1) station.sensor_world = record.sensor;
     station.rows = record.rows;
     station.columns = record.columns;
+    station.noise_world = measured.noise_world;
+    station.step_world = measured.step_world;
   }
 }
 
@@ -283,15 +309,18 @@ void read_strings(Reader& reader, Scene& scene) {
   std::vector<std::string> strings;
   for (const char* p = bytes.data(); p != bytes.data() + bytes.size(); p += strings.back().size() + 1)
     strings.emplace_back(p);
-  const std::size_t expected = header.objects + 1ULL + scene.stations.size() + scene.columns.size();
+  const std::size_t expected =
+      header.objects + 1ULL + scene.stations.size() + scene.columns.size() + (is_measured(header) ? 1U : 0U);
   if (strings.size() != expected)
-    reader.refuse(std::to_string(strings.size()) + " names",
-                  std::to_string(expected) + ", of objects, environment, stations and columns");
+    reader.refuse(
+        std::to_string(strings.size()) + " names",
+        std::to_string(expected) + ", of objects, environment, stations and columns, and of the system");
   auto next = strings.begin();
   for (std::uint32_t i = 0; i < header.objects; ++i) scene.object_names.push_back(std::move(*next++));
   scene.environment_path = std::move(*next++);
   for (Station& station : scene.stations) station.name = std::move(*next++);
   for (Column& column : scene.columns) column.name = std::move(*next++);
+  if (is_measured(header)) scene.crs = std::move(*next++);
 }
 
 void read_columns(Reader& reader, Scene& scene) {
@@ -330,11 +359,11 @@ void write_bytes(AtomicFile& file, const Header& header,
 
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
   assert(!find_scene_defect(scene));
-  const std::vector<StationRecord> stations = station_records(scene.stations);
   const std::string strings = joined_strings(scene);
   Header header = describe(scene, strings.size());
   lay_out(header);
   const std::vector<char> lights = light_bytes(scene.lights, light_record_bytes(header));
+  const std::vector<char> stations = station_bytes(scene.stations, station_record_bytes(header));
   const CameraRecord camera = camera_record(scene.camera.value_or(Camera{}));
   std::array<const void*, SECTION_COUNT> contents{};
   std::size_t section = 0;

@@ -4,7 +4,7 @@
 /// Header, 288 bytes:
 ///   offset | type      | field
 ///        0 | char[4]   | magic "SOCT"
-///        4 | uint32    | version: 13 where a normal field is a constant term, else 12 where splats have texture factors (texture_factors.h), or lights a range or a cone, else 11
+///        4 | uint32    | version: 14 where the coordinate system, or a station's noise or step, is known, else 13 where a normal field is a constant term, else 12 where splats have texture factors (texture_factors.h), or lights a range or a cone, else 11
 ///      |           | where a light has a size, else 10
 ///        8 | uint32    | endianness mark 0x01020304
 ///       12 | uint32    | bytes of header and section table together, 1760
@@ -55,8 +55,9 @@
 ///      | from version 12 on also float64[3] spot's axis, float64 inner angle, outer angle, range | 152 |
 ///   11 | float64[3] eye, target, up, float64 fov_y_deg, ortho_height | 88 | camera, world
 ///   12 | float64[3] the scanner's place, uint32 is it known, uint32 rows, columns of its grid, uint32 zero | 40 | stations
+///      | from version 14 on also float64 noise, float64 step of the coordinates, world, 0 = unknown | 56 |
 ///   13 | char                          |     1 | names, each ended by a zero byte: objects', the environment's path,
-///      |                               |       | stations', columns'
+///      |                               |       | stations', columns'; from version 14 on the coordinate system's text
 ///   14 | Surface                       |    80 | surfaces, beside the materials
 ///   15 | a column's type               | 1 - 8 | columns, beside the data pool; up to 46
 /// Sections lie in this order, each at the next multiple of 16 bytes, gaps zero; the 8 bytes "SOCT.END" follow at the next
@@ -69,10 +70,11 @@
 
 namespace splatray {
 
-/// The versions of files with what those before do not know: constant terms of normal fields; texture factors among the
+/// The versions of files with what those before do not know: coordinate systems, noise and steps of scans; constant terms of normal fields; texture factors among the
 /// columns, spots and lights with a range; lights that have a size. All others are of version 10, byte for byte.
-inline constexpr std::uint32_t SCENE_FILE_VERSION = 13, TEXTURED_SCENE_FILE_VERSION = 12,
-                               SIZED_SCENE_FILE_VERSION = 11, PLAIN_SCENE_FILE_VERSION = 10;
+inline constexpr std::uint32_t SCENE_FILE_VERSION = 14, LEANING_SCENE_FILE_VERSION = 13,
+                               TEXTURED_SCENE_FILE_VERSION = 12, SIZED_SCENE_FILE_VERSION = 11,
+                               PLAIN_SCENE_FILE_VERSION = 10;
 
 /// Writes to a temporary name beside `path`, then renames. Throws Error (failed) when it cannot, (interrupted) when
 /// `progress`, called with the stage "writing", says so; leaves nothing behind.

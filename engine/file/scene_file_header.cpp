@@ -37,7 +37,7 @@ std::array<SectionShape, SECTION_COUNT> section_shapes(const Header& header) {
   shapes[MATERIALS] = {header.objects, sizeof(Material)};
   shapes[LIGHTS] = {header.lights, light_record_bytes(header)};
   shapes[CAMERA] = {header.has_camera, sizeof(CameraRecord)};
-  shapes[STATIONS] = {header.stations, sizeof(StationRecord)};
+  shapes[STATIONS] = {header.stations, station_record_bytes(header)};
   shapes[STRINGS] = {header.string_bytes, 1};
   shapes[SURFACES] = {header.surfaces, sizeof(Surface)};
   for (std::size_t i = 0; i < COLUMNS_MOST; ++i)

@@ -84,9 +84,16 @@ struct StationRecord {
   std::uint32_t has_sensor, rows, columns, zero;
 };
 
+/// That of version 14.
+struct MeasuredStationRecord {
+  StationRecord station;
+  double noise_world, step_world;
+};
+
 inline constexpr std::uint32_t HEADER_BYTES = sizeof(Header);
 static_assert(HEADER_BYTES == 1760 && sizeof(LightRecord) == 48 && sizeof(SizedLightRecord) == 104 &&
-              sizeof(AimedLightRecord) == 152 && sizeof(CameraRecord) == 88 && sizeof(StationRecord) == 40);
+              sizeof(AimedLightRecord) == 152 && sizeof(CameraRecord) == 88 && sizeof(StationRecord) == 40 &&
+              sizeof(MeasuredStationRecord) == 56);
 
 /// Bytes of a value of each column type.
 inline constexpr std::uint32_t COLUMN_BYTES[] = {0, sizeof(std::uint8_t), sizeof(std::uint16_t),
@@ -97,6 +104,12 @@ static_assert(std::variant_size_v<Column::Values> + 1 == std::size(COLUMN_BYTES)
 [[nodiscard]] inline std::uint32_t light_record_bytes(const Header& header) {
   return header.version >= 12 ? sizeof(AimedLightRecord)
                               : (header.version >= 11 ? sizeof(SizedLightRecord) : sizeof(LightRecord));
+}
+
+/// Whether the version has the coordinate system, and noise and step of stations.
+[[nodiscard]] inline bool is_measured(const Header& header) { return header.version >= 14; }
+[[nodiscard]] inline std::uint32_t station_record_bytes(const Header& header) {
+  return is_measured(header) ? sizeof(MeasuredStationRecord) : sizeof(StationRecord);
 }
 
 /// The section table (but for checksums) and the file's size follow from the header's counts.

@@ -225,6 +225,7 @@ FrameParams DeviceScene::query_params(const Settings& settings) const {
   frame.kappa = settings.kappa;
   frame.root_unit_world = static_cast<float>(outline_.root.unit_world);
   frame.delta = static_cast<float>(settings.delta_world / outline_.root.unit_world);
+  set_region(outline_.root, settings.region, frame);
   return frame;
 }
 

@@ -85,7 +85,7 @@ std::uint32_t phong_features(const SceneContent& content, const Settings& settin
 }  // namespace
 
 SpecConstants picture_features(const SceneContent& content, const Settings& settings) {
-  const bool flat_blend = settings.blend == BLEND_PAPER || settings.blend == BLEND_LEAF;
+  const bool flat_blend = settings.blend == BLEND_PAPER || settings.blend == BLEND_LEAF || settings.blend == BLEND_COUNT;
   SpecConstants constants{};
   const auto add = [&](bool needed, std::uint32_t feature) {
     if (needed) constants[SPEC_FEATURES] |= feature;
@@ -102,6 +102,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   add(content.references, FEATURE_REFERENCES);
   add(content.environment_texture, FEATURE_ENVIRONMENT);
   add(settings.counters, FEATURE_COUNTERS);
+  add(!settings.region.empty(), FEATURE_REGION);
   constants[SPEC_BLEND] = settings.blend;
   constants[SPEC_KERNEL] = settings.kernel;
   constants[SPEC_SIDE] = settings.side;
@@ -109,6 +110,8 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   const bool opaque = look_style(settings.look).opaque;
   const std::uint32_t opaque_faces = content.materials.open ? FACES_BOTH : FACES_OPAQUE;
   constants[SPEC_FACES] = opaque && content.materials.glass ? opaque_faces : content.materials.faces;
+  // What is opaque is two-sided in a region (shaders/trace/accept.glsl).
+  if (!settings.region.empty() && constants[SPEC_FACES] == FACES_FRONT) constants[SPEC_FACES] = FACES_BOTH;
   if (settings.cutaway && constants[SPEC_FACES] == FACES_BOTH) constants[SPEC_FACES] = FACES_CUT;
   constants[SPEC_ORDER] = settings.order;
   constants[SPEC_STAGE] = STAGE_ALL;

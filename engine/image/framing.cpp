@@ -58,8 +58,8 @@ PointSample within_box(const PointSample& sample, const glm::dmat3& axes, double
 
 /// What must be in the picture, world space: of scans the main parts without their outermost points, else an even choice of the
 /// splat centres, or the bounding box's corners.
-PointSample framed_points(const Scene& scene) {
-  PointSample sample = sample_points(scene);
+PointSample framed_points(const Scene& scene, const Region& region) {
+  PointSample sample = sample_points(scene, region);
   if (!scene.stations.empty()) {
     sample = main_parts(sample);
     const double outside = outside_of(kind_of_scan(scene));
@@ -121,10 +121,10 @@ glm::dmat3 angled_axes(const glm::dmat3& axes, double azimuth_deg, double elevat
 }
 
 /// Into a room from above, its frame about what faces the eye: the rest is left out.
-Camera camera_into_dollhouse(const Scene& scene, double aspect, double fov_y_deg) {
+Camera camera_into_dollhouse(const Scene& scene, double aspect, double fov_y_deg, const Region& region) {
   const glm::dmat3 upright = upright_axes(scene.up),
                    axes = angled_axes(upright, DOLL_AZIMUTH_DEG, DOLL_ELEVATION_DEG);
-  const PointSample sample = framed_points(scene);
+  const PointSample sample = framed_points(scene, region);
   std::vector<glm::dvec3> facing;
   for (std::size_t i = 0; i < sample.normal.size(); ++i)
     if (glm::dot(sample.normal[i], axes[2]) > 0.0) facing.push_back(sample.position[i]);
@@ -136,7 +136,7 @@ Camera camera_into_dollhouse(const Scene& scene, double aspect, double fov_y_deg
 /// From the first sensor's place, as wide as holds what it saw.
 Camera camera_at_sensor(const Scene& scene, const glm::dvec3& sensor, double aspect,
                         std::optional<double> fov_y_deg) {
-  const PointSample sample = framed_points(scene);
+  const PointSample sample = framed_points(scene, {});
   glm::dvec3 ahead(0.0);
   double reach = 0.0;
   for (const glm::dvec3& point : sample.position) {
@@ -185,8 +185,8 @@ Camera sensor_camera(const Scene& scene, double aspect, std::optional<double> fo
                                         : framing_camera(scene, aspect, fov);
 }
 
-Camera camera_inside(const Scene& scene, double fov_y_deg) {
-  const PointSample sample = framed_points(scene);
+Camera camera_inside(const Scene& scene, double fov_y_deg, const Region& region) {
+  const PointSample sample = framed_points(scene, region);
   const glm::dmat3 axes = upright_axes(scene.up);
   const glm::dvec3 center = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
   glm::dvec3 size(0.0), middle(0.0);
@@ -232,25 +232,25 @@ const char* viewpoint_name(Viewpoint viewpoint) {
 }
 
 Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
-                        std::optional<double> fov_y_deg) {
+                        std::optional<double> fov_y_deg, const Region& region) {
   const double fov = fov_y_deg.value_or(DEFAULT_FOV_Y_DEG);
   const glm::dmat3 axes = upright_axes(scene.up);
   switch (viewpoint == Viewpoint::automatic ? choose_viewpoint(scene) : viewpoint) {
     case Viewpoint::oblique:
-      return angled_camera(scene, aspect, fov, DEFAULT_AZIMUTH_DEG, OBLIQUE_DEG);
+      return angled_camera(scene, aspect, fov, DEFAULT_AZIMUTH_DEG, OBLIQUE_DEG, region);
     case Viewpoint::top:
-      return framing_camera(scene, aspect, fov, {axes[0], -axes[2], axes[1]});
+      return framing_camera(scene, aspect, fov, {axes[0], -axes[2], axes[1]}, region);
     case Viewpoint::inside:
-      return camera_inside(scene, fov_y_deg.value_or(INSIDE_FOV_Y_DEG));
+      return camera_inside(scene, fov_y_deg.value_or(INSIDE_FOV_Y_DEG), region);
     case Viewpoint::dollhouse:
-      return camera_into_dollhouse(scene, aspect, fov_y_deg.value_or(DOLL_FOV_Y_DEG));
+      return camera_into_dollhouse(scene, aspect, fov_y_deg.value_or(DOLL_FOV_Y_DEG), region);
     case Viewpoint::sensor:
       return sensor_camera(scene, aspect, fov_y_deg);
     case Viewpoint::automatic:
     case Viewpoint::front:
       break;
   }
-  return framing_camera(scene, aspect, fov);
+  return angled_camera(scene, aspect, fov, DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG, region);
 }
 
 Camera default_camera(const Scene& scene, double aspect) {
@@ -262,15 +262,17 @@ Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg) {
 }
 
 Camera angled_camera(const Scene& scene, double aspect, double fov_y_deg, double azimuth_deg,
-                     double elevation_deg) {
+                     double elevation_deg, const Region& region) {
   const glm::dmat3 axes = upright_axes(scene.up);
-  Camera camera = framing_camera(scene, aspect, fov_y_deg, angled_axes(axes, azimuth_deg, elevation_deg));
+  Camera camera =
+      framing_camera(scene, aspect, fov_y_deg, angled_axes(axes, azimuth_deg, elevation_deg), region);
   if (std::abs(elevation_deg) <= STEEPEST_DEG) camera.up = axes[1];
   return camera;
 }
 
-Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg, const glm::dmat3& axes) {
-  return fitted_camera(scene, framed_points(scene).position, aspect, fov_y_deg, axes);
+Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg, const glm::dmat3& axes,
+                      const Region& region) {
+  return fitted_camera(scene, framed_points(scene, region).position, aspect, fov_y_deg, axes);
 }
 
 }  // namespace splatray

@@ -12,7 +12,8 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t SAMPLE_MOST = 1U << 16;
-constexpr double PART_CELLS = 32.0;  ///< along the longest side of what holds most points
+constexpr std::size_t FEW_KEPT = 64;  ///< that say little of what a region holds
+constexpr double PART_CELLS = 32.0;   ///< along the longest side of what holds most points
 constexpr double PART_OUTSIDE = 0.01;
 /// A part with less than 1 / SMALL_PART of the largest one's points is left out.
 constexpr std::size_t SMALL_PART = 10;
@@ -60,19 +61,39 @@ class Parts {
 
 }  // namespace
 
-PointSample sample_points(const Scene& scene) {
+namespace {
+
+PointSample every(std::size_t stride, const Scene& scene, const Region& region) {
   PointSample sample;
-  const std::size_t stride = scene.data_pool.size() / SAMPLE_MOST + 1;
   const glm::dvec3 rounding(2.0 * scene.root.unit_world);
   const glm::dvec3 low = scene.bounds_min_world - rounding, high = scene.bounds_max_world + rounding;
   for (std::size_t i = 0; i < scene.data_pool.size(); i += stride) {
     const Splat splat = unpack_splat(scene.data_pool[i]);
     const glm::dvec3 place = scene.root.to_world(splat.center);
     if (glm::any(glm::lessThan(place, low)) || glm::any(glm::greaterThan(place, high))) continue;
+    if (!region.holds(place)) continue;
     sample.position.push_back(place);
     sample.normal.push_back(splat.normal);
   }
   return sample;
+}
+
+}  // namespace
+
+PointSample sample_points(const Scene& scene, const Region& region) {
+  const std::size_t stride = scene.data_pool.size() / SAMPLE_MOST + 1;
+  PointSample sample = every(stride, scene, region);
+  return stride > 1 && sample.size() < FEW_KEPT ? every(1, scene, region) : sample;
+}
+
+double diagonal_of(const PointSample& sample) {
+  if (sample.size() == 0) return 0.0;
+  glm::dvec3 low = sample.position.front(), high = low;
+  for (const glm::dvec3& point : sample.position) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  return glm::length(high - low);
 }
 
 std::array<double, 2> range_along(const std::vector<glm::dvec3>& points, const glm::dvec3& direction,

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/image/region.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
@@ -14,12 +15,16 @@ struct PointSample {
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
-/// Every n-th splat of the scene's order, at most 2^16 of them, without those beyond the scene's bounds: its ground's.
-[[nodiscard]] PointSample sample_points(const Scene& scene);
+/// Every n-th splat of the scene's order that the region holds, without those beyond the scene's bounds: its ground's. At most
+/// 2^16, but all of a region that holds few of these.
+[[nodiscard]] PointSample sample_points(const Scene& scene, const Region& region = {});
 
 /// Without what hangs together with less than a tenth of the largest part: strays, what was seen through a window. Points hang
 /// together that lie in cells which touch, 1/32 of what holds 98 % of the points along its longest side.
 [[nodiscard]] PointSample main_parts(const PointSample& sample);
+
+/// Length of the diagonal of the points' bounding box; 0 without points.
+[[nodiscard]] double diagonal_of(const PointSample& sample);
 
 /// The values along a unit direction that leave `outside` of all points out at each end, 0..0.5; 0, 0 without points.
 [[nodiscard]] std::array<double, 2> range_along(const std::vector<glm::dvec3>& points,

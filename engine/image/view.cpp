@@ -10,9 +10,6 @@
 namespace splatray {
 namespace {
 
-/// Of the scene's diagonal: how far away something darkens a point by occlusion.
-constexpr double REACH_SHARE = 0.1;
-
 /// Beyond this distance, in root edges, primary rays start on a plane through the root instead of at the eye:
 /// float32 ray parameters measured from a farther eye would be coarser than half a lattice unit.
 constexpr double FAR_EDGES = 4.0;
@@ -149,6 +146,7 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   frame.kappa = settings.kappa;
   frame.delta = static_cast<float>(settings.delta_world / scene.root.unit_world);
 
+  set_region(scene.root, settings.region, frame);
   set_lens(scene, view.camera, settings, frame);
   const ImagePlane plane = image_plane(scene.root, view);
   frame.cut_eye =

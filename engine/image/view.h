@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "engine/image/region.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
@@ -29,6 +30,9 @@ struct View {
     return window.width > 0 ? window : PixelWindow{0, 0, width, height};
   }
 };
+
+/// Of the scene's diagonal: how far away something darkens a point by occlusion where nothing is said of it.
+inline constexpr double REACH_SHARE = 0.1;
 
 /// What make_frame_params accepts of Camera::lens_shift (its length) and Camera::pixel_aspect (and its inverse).
 inline constexpr double MOST_LENS_SHIFT = 100.0, MOST_PIXEL_ASPECT = 100.0;
@@ -56,6 +60,7 @@ struct Settings {
   /// Leave out what faces away from the eye, for all rays: a room lies open to whoever looks into it. Of scenes whose objects are all
   /// two-sided, as those of scans are.
   bool cutaway = false;
+  Region region{};  ///< what of the scene rays meet; as given, all
   std::uint32_t blend = BLEND_WINDOW;
   std::uint32_t kernel = KERNEL_RIM;
   float kappa = 1.0F;  ///< window depth / radius of the first splat, > 0
@@ -113,14 +118,14 @@ inline constexpr double DEFAULT_FOV_Y_DEG = 30.0;
 [[nodiscard]] Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg = DEFAULT_FOV_Y_DEG);
 /// As framing_camera, with the picture's axes given: columns right, up and back (towards the camera), orthonormal.
 [[nodiscard]] Camera framing_camera(const Scene& scene, double aspect, double fov_y_deg,
-                                    const glm::dmat3& axes);
+                                    const glm::dmat3& axes, const Region& region = {});
 
 /// Where framing_camera looks from, degrees.
 inline constexpr double DEFAULT_AZIMUTH_DEG = 27.0;    ///< from the front towards the scene's right
 inline constexpr double DEFAULT_ELEVATION_DEG = 17.0;  ///< above the horizon
 /// As framing_camera, from elsewhere: `elevation_deg` -90 to 90.
 [[nodiscard]] Camera angled_camera(const Scene& scene, double aspect, double fov_y_deg, double azimuth_deg,
-                                   double elevation_deg);
+                                   double elevation_deg, const Region& region = {});
 
 /// From where a scene is looked at that says nothing of a camera.
 enum class Viewpoint {
@@ -142,10 +147,10 @@ enum class Viewpoint {
 /// Vertical field of view from inside that names none, degrees.
 inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 
-/// A camera at that viewpoint, without a look at the scene's own but for Viewpoint::sensor. Scans are framed by their main parts
+/// A camera at that viewpoint onto what the region holds, without a look at the scene's own but for Viewpoint::sensor. Scans are framed by their main parts
 /// (point_sample.h), sites and rooms without half a percent of the points at each end of each axis, sweeps without two.
 [[nodiscard]] Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
-                                      std::optional<double> fov_y_deg);
+                                      std::optional<double> fov_y_deg, const Region& region = {});
 
 /// The light a scene without lights is shown in: a key light over the viewer's left shoulder.
 [[nodiscard]] std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera);

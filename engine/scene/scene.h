@@ -79,6 +79,8 @@ struct Scene {
   glm::dvec3 bounds_max_world{0.0};
   double surface_area_world = 0.0;  ///< of the source meshes; 0 = unknown
   std::string environment_path;     ///< environment map named by the scene; empty = none
+  /// The world's coordinate reference system as the files have it (describe_crs, base/crs.h); empty = unknown.
+  std::string crs;
 
   /// Length of the bounding box's diagonal, world units.
   [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }

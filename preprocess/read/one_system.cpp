@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "preprocess/base/far_points.h"
 
@@ -72,6 +73,20 @@ void require_one_system(const std::vector<NamedScan>& scans) {
       intervals[static_cast<std::size_t>(axis)].push_back({box.low[axis], box.high[axis], &scan});
   }
   for (std::vector<Interval>& along : intervals) require_no_gap(std::move(along));
+}
+
+std::string one_crs(const std::vector<NamedCrs>& files, std::vector<std::string>& notes) {
+  const auto first =
+      std::find_if(files.begin(), files.end(), [](const NamedCrs& file) { return !file.crs.empty(); });
+  if (first == files.end()) return "";
+  const auto other = std::find_if(first, files.end(), [&](const NamedCrs& file) {
+    return !file.crs.empty() && !is_same_crs(first->crs, file.crs);
+  });
+  if (other == files.end()) return first->crs;
+  notes.push_back(first->path.string() + ", " + other->path.string() + ": found the coordinate systems '" +
+                  describe_crs(first->crs).name + "' and '" + describe_crs(other->crs).name +
+                  "', expected one; the scene's is left unknown");
+  return "";
 }
 
 }  // namespace splatray

@@ -11,4 +11,13 @@ namespace splatray {
 /// both without blurring them, and what is in different coordinate systems lies so.
 void require_one_system(const std::vector<NamedScan>& scans);
 
+/// A file and the coordinate system that it names.
+struct NamedCrs {
+  std::filesystem::path path;
+  std::string crs;  ///< Scene::crs
+};
+
+/// The system of all these files: that of those which name one. Where two name different ones it is unknown, and a note says so.
+[[nodiscard]] std::string one_crs(const std::vector<NamedCrs>& files, std::vector<std::string>& notes);
+
 }  // namespace splatray

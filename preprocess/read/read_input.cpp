@@ -33,6 +33,7 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
   object.material = default_material();
   object.meshes.push_back(read_mesh(path, options, listener));
   listener.show(object.meshes.front().vertices, object.meshes.front().triangles.empty());
+  input.crs = object.meshes.front().vertices.crs;
   if (!object.meshes.front().vertices.color.empty()) {
     object.material.diffuse = COLORED_DIFFUSE;
   }
@@ -45,6 +46,7 @@ Input add_scan(const std::filesystem::path& path, ScanFile file, std::vector<Nam
   Input input;
   input.up = file.up;
   input.scan_counts = file.counts;
+  input.crs = file.points.crs;
   scans.push_back({path.stem().string(), std::move(file), path});
   return input;
 }
@@ -221,6 +223,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   const ThreadLimit limit(options.threads);
   Input input;
   std::vector<NamedScan> scans;
+  std::vector<NamedCrs> systems;
   std::optional<Error> left_out;  // the first of a folder's files that are something else
   const auto share = [&](std::size_t i) {
     return static_cast<double>(i) / static_cast<double>(files.size());
@@ -232,6 +235,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
     try {
       Input more = read_file(files[i].path, options, listener, scans);
       more.notes = std::move(notes);
+      systems.push_back({files[i].path, more.crs});
       merge(input, std::move(more));
     } catch (const Error& error) {
       if (!files[i].may_be_left_out || error.code() != ExitCode::input_unreadable) throw;
@@ -241,6 +245,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   }
   if (left_out && scans.empty() && input.objects.empty()) throw Error(*left_out);
   require_one_system(scans);
+  input.crs = one_crs(systems, input.notes);
   if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
   finish_objects(input, options);
   drop_empty_objects(input);

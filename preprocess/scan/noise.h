@@ -15,6 +15,14 @@ namespace splatray {
 /// 0 without such points.
 [[nodiscard]] double measure_noise(const Cloud& cloud, const Survey& survey);
 
+/// The same as a length of each of the cloud's stations, world units, one where there are none: the standard deviation of
+/// heights over the planes, of which two points' disagreement has the root of 2; 0 without such points.
+[[nodiscard]] std::vector<double> station_noise_world(const Cloud& cloud, const Survey& survey);
+
+/// What the coordinates of each station's points are multiples of, world units, along the axis where that is most
+/// (coordinate_step). The cloud's positions must be there.
+[[nodiscard]] std::vector<double> station_step_world(const Cloud& cloud);
+
 /// What the places' coordinates are multiples of, along each axis, in cloud coordinates: the least difference among at most 65
 /// 536 of them, which is next to nothing where they were not rounded. The cloud's positions must be there.
 [[nodiscard]] glm::vec3 coordinate_step(const Cloud& cloud);

@@ -96,6 +96,15 @@ GridSurface find_grids(Cloud& cloud, const BuildParams& params, const Stage& sta
   return grids;
 }
 
+/// Writes what was found of each station's points into it; a cloud without stations gets one.
+void note_quality(Cloud& cloud, const std::vector<double>& steps, const std::vector<double>& noise) {
+  cloud.stations.resize(std::max<std::size_t>(cloud.stations.size(), 1));
+  for (std::size_t s = 0; s < cloud.stations.size(); ++s) {
+    cloud.stations[s].step_world = steps[s];
+    if (s < noise.size()) cloud.stations[s].noise_world = noise[s];
+  }
+}
+
 /// Moves points onto the surface that they are of: as far as `params` ask for, else by their grids or by what is near.
 void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, double noise, bool sided,
                      const Stage& stage, BuildStats& stats) {
@@ -118,9 +127,11 @@ void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, do
 
 std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildParams& params,
                                 const Stage& stage, BuildStats& stats) {
+  const std::vector<double> steps = station_step_world(cloud);
   const GridSurface grids = params.keep_strays ? GridSurface{} : find_grids(cloud, params, stage, stats);
   const bool all_in_grids = grids.points > 0 && grids.points == cloud.size();
   if (all_in_grids && !(params.smooth_world > 0.0)) {
+    note_quality(cloud, steps, {});
     if (grids.normals > 0) ++stats.sides_by[static_cast<std::size_t>(SideRung::sensor)];
     return grids.normals;
   }
@@ -144,6 +155,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
     make_scatter_discs(cloud, survey, up, !terrain && is_room(cloud, survey) ? CLUTTER : LEAVES);
   }
   stats.noise = std::max(stats.noise, noise);
+  note_quality(cloud, steps, station_noise_world(cloud, survey));
   const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
   const bool noisy = noise > NOISY && estimated.size() >= FEWEST && !sharply;
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {

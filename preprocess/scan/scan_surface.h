@@ -9,7 +9,7 @@ namespace splatray {
 /// (find_grid_surface). Of others, strays are dropped (find_strays), unknown normals estimated (survey_points), surfaces laid
 /// through lines (find_lines, join_lines), what is on no surface recognised (find_kinds) and shown as small discs
 /// (make_scatter_discs), other normals turned (turn_to_sides), and where these show noise, their points are smoothed
-/// (smooth_points); all of surfaces are where params.smooth_world asks for it. What has normals, or is clean, stays as it is. `up`
+/// (smooth_points); all of surfaces are where params.smooth_world asks for it. Each station learns how noisy its points were and in what steps they came. What has normals, or is clean, stays as it is. `up`
 /// is unit. Adds to the counts of `stats`; returns the number of estimated normals.
 std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildParams& params,
                                 const Stage& stage, BuildStats& stats);

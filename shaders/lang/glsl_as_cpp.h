@@ -9,6 +9,7 @@
 using glm::abs;
 using glm::acos;
 using glm::atan;
+using glm::bitCount;
 using glm::bvec3;
 using glm::clamp;
 using glm::cross;

@@ -6,7 +6,7 @@
 #ifdef LIT
 #include "light/sampling.glsl"
 #endif
-#include "primitive/disc.glsl"
+#include "trace/region.glsl"
 
 /// The ray through pixel position (x, y), direction of unit length; `eye_distance` is the distance from the
 /// eye to its t = 0.
@@ -23,6 +23,8 @@ Ray primary_ray(float x, float y, OUT(float) eye_distance) {
   ray.inside = 0u;
   ray.from_normal = vec3(0.0f);
   ray.from_object = NO_OBJECT;
+  ray = unbounded(ray);
+  ray.bounded = REGION;
   return ray;
 }
 

@@ -1,9 +1,10 @@
-// Where light goes on from a hit: mirrored or through glass. Needs `frame`, medium_at(bit) and the constant SIDE.
+// Where light goes on from a hit: mirrored or through glass. Needs `frame`, medium_at(bit), the constant SIDE, and what
+// region.glsl needs.
 #ifndef SPLATRAY_MATERIAL_GLSL
 #define SPLATRAY_MATERIAL_GLSL
 #include "light/microfacet.glsl"
-#include "primitive/disc.glsl"
 #include "trace/hit.glsl"
+#include "trace/region.glsl"
 
 /// A ray that leaves a surface. It ignores the sheet it leaves (splat_of_sheet_left) or, with SIDE_DELTA, everything nearer than
 /// delta (Linsen et al. 2007).
@@ -17,6 +18,8 @@ Ray secondary_ray(vec3 origin, vec3 dir, uint inside, vec3 from_normal, uint fro
   ray.inside = inside;
   ray.from_normal = from_normal;
   ray.from_object = from_object;
+  ray = unbounded(ray);
+  if (REGION) ray.bounded = region_light();
   return ray;
 }
 

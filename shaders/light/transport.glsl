@@ -97,7 +97,9 @@ Hit trace_seen(Ray ray, uvec4 watched, uint of_ray, INOUT(Tally) tally) {
       // Never back: from where a sheet's blend lies before its first splat, the sheets before would be met again and again.
       float ahead = max(hit.t, hit.t_first);
       vec3 origin = ray.origin + ray.dir * ahead;
+      bool bounded = ray.bounded;
       ray = ray_from_hit(hit, ray.dir, ray.inside);
+      ray.bounded = bounded;
       ray.origin = origin;
       hit.t += passed;
       hit.t_first += passed;

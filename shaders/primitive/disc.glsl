@@ -20,6 +20,9 @@ struct Ray {
   uint inside;        ///< mask of the dielectrics the ray is inside of
   vec3 from_normal;   ///< secondary rays: blended normal of the sheet left, on the side its splats' normals point to
   uint from_object;   ///< secondary rays: object left; NO_OBJECT for primary rays
+  bool bounded;       ///< REGION: meets only what the region keeps
+  float t_drop_in;    ///< REGION: meets nothing with t from here
+  float t_drop_out;   ///< to here
 };
 
 /// Centre, lattice units; exact.

@@ -49,12 +49,18 @@ void read_frame() { frame = frame_block; }
 /// through all of an array there.
 float medium_at(uint bit) { return frame_block.media[bit >> 2u][bit & 3u]; }
 vec3 absorption_at(uint bit) { return frame_block.absorption[bit].xyz; }
+vec4 region_plane(uint index) { return frame_block.region[index]; }
 #else
 layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame; };
 void read_frame() {}  // a copy would take 116 registers
 float medium_at(uint bit) { return frame.media[bit >> 2u][bit & 3u]; }
 vec3 absorption_at(uint bit) { return frame.absorption[bit].xyz; }
+vec4 region_plane(uint index) { return frame.region[index]; }
 #endif
+uint region_kept() { return frame.region_kept; }
+uint region_dropped() { return frame.region_dropped; }
+bool region_light() { return frame.region_light != 0u; }
+
 
 layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
 layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };

@@ -13,6 +13,8 @@ Ray query_ray(RayQuery query, float delta) {
   ray.inside = query.inside;
   ray.from_normal = query.from_normal;
   ray.from_object = query.from_object;
+  ray = unbounded(ray);
+  ray.bounded = REGION;
   return ray;
 }
 

@@ -1,9 +1,10 @@
 // Which splats of a leaf's list a ray hits, decided exactly: each hit counts in one leaf, so what is found depends on the splats
 // alone, not on the tree. Needs, beside walk.glsl: splat_words(splat), clip_word(splat), material_at(object), and the constants
-// BLEND, SIDE, FACES, CLIPS, ELLIPSES, with FACES_CUT cut_eye(), and what factors.glsl needs.
+// BLEND, SIDE, FACES, CLIPS, ELLIPSES, with FACES_CUT cut_eye(), and what factors.glsl and region.glsl need.
 #ifndef SPLATRAY_ACCEPT_GLSL
 #define SPLATRAY_ACCEPT_GLSL
 #include "trace/factors.glsl"
+#include "trace/region.glsl"
 #include "trace/walk.glsl"
 
 /// The splat that decides the cluster, while the ray looks for it.
@@ -27,12 +28,14 @@ First no_first() {
   return first;
 }
 
+/// With a region all that is opaque is: whoever looks into a body that is cut open sees it from behind.
 bool is_two_sided(uint object) {
   if (FACES == FACES_BOTH || FACES == FACES_CUT) return true;
   if (FACES == FACES_FRONT) return false;
   uint flags = MATERIAL_TWO_SIDED;
   if (FACES == FACES_OPAQUE) flags |= MATERIAL_DIELECTRIC;
-  return (material_at(object).flags & flags) != 0u;
+  uint own = material_at(object).flags;
+  return (own & flags) != 0u || (REGION && (own & MATERIAL_DIELECTRIC) == 0u);
 }
 
 /// The side a ray expects (Goradia et al. 2010, sec. IV-C2, made per object): fronts outside, backs inside.
@@ -80,7 +83,8 @@ bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, float t_in, fl
       !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
   bool in_range = hit.t.x >= t_in && hit.t.x < t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
   bool kept = true;
-  if (CLIPS) kept = clip_keeps(clip_word(splat), words, hit);
+  if (REGION) kept = region_keeps(ray, hit.t.x);
+  if (CLIPS) kept = kept && clip_keeps(clip_word(splat), words, hit);
 #ifndef LIT
   // Without paths there is no chance to be had: what is see-through is cut out.
   if (OPACITY) kept = kept && opacity_at(splat) >= 0.5f;

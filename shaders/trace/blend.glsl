@@ -210,6 +210,11 @@ Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);
+  if (REGION) {
+    clip_to_region(ray);
+    enters = enters && ray.t_min < ray.t_max;
+    t_start = region_start(ray, t_start);
+  }
   if (WATCHES) enters = enters && ray.t_max >= 0.0f;
   Walk walk = walk_start(ray, t_start, enters);
   First first = no_first();
@@ -217,15 +222,19 @@ Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   uint candidates = 0u;
   uvec2 hits = uvec2(0u, 0u);  // of this leaf: none in the leaves before
   bool found = false;
+  uint counted = 0u;
   do {
     candidates = walk_candidates(walk, ray, ray.t_max, found, chunk, tally);
     candidates = accept_candidates(chunk, candidates, ray, walk, true, first);
     hits = uvec2(chunk == walk.begin ? candidates : hits.x, chunk == walk.begin + CHUNK ? candidates : hits.y);
-    found = first.measure.x < INFINITY_F;
+    counted += uint(bitCount(candidates));
+    found = first.measure.x < INFINITY_F && BLEND != BLEND_COUNT;
   } while (walk.inside && !(found && walk.next >= walk.end));
   Cluster cluster = empty_cluster();
   float depth = 0.0f;
-  if (BLEND != BLEND_NEAREST) {
+  if (BLEND == BLEND_COUNT) {
+    cluster.members = counted;
+  } else if (BLEND != BLEND_NEAREST) {
     depth = window_depth(first, ray.dir, kappa);
     float t_end = BLEND == BLEND_WINDOW ? window_end(first, depth) : ray.t_max;
     uint last_leaf = BLEND == BLEND_WINDOW ? MAX_LEAVES : (BLEND == BLEND_PAPER ? walk.leaves + 1u : walk.leaves);

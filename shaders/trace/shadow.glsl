@@ -100,7 +100,14 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally);
 #else
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   First first = no_first();
-  Walk walk = walk_start(ray, 0.0f, ray.t_max >= 0.0f);
+  bool traced = ray.t_max >= 0.0f;
+  float t_start = 0.0f;
+  if (REGION) {
+    clip_to_region(ray);
+    traced = traced && ray.t_min < ray.t_max && ray.t_max >= 0.0f;
+    t_start = region_start(ray, t_start);
+  }
+  Walk walk = walk_start(ray, t_start, traced);
   vec3 light = vec3(1.0f);
   uint passed = 0u;
 #ifdef LIT

@@ -194,8 +194,39 @@ TEST_F(SceneFile, OfConstantTermsIsOfTheirVersion) {
   Scene scene = tiny_scene();
   scene.field_pool[1] = pack_lean({0.25, 0.0, 0.0}, unpack_splat(scene.data_pool[1]).normal);
   write_scene(scene, path);
-  EXPECT_EQ(get<std::uint32_t>(load(), 4), SCENE_FILE_VERSION);
+  EXPECT_EQ(get<std::uint32_t>(load(), 4), LEANING_SCENE_FILE_VERSION);
   EXPECT_EQ(read_scene(path).field_pool, scene.field_pool);
+}
+
+TEST_F(SceneFile, SystemAndQualityOfScansAreOptional) {
+  EXPECT_EQ(read_scene(path).crs, "");
+  EXPECT_EQ(read_scene(path).stations[0].noise_world, 0.0);
+  Scene scene = tiny_scene();
+  scene.crs = "PROJCS[\"ETRS89 / UTM zone 32N\",UNIT[\"metre\",1]]";
+  scene.stations[1].noise_world = 0.003;
+  scene.stations[0].step_world = 1e-4;
+  write_scene(scene, path);
+  const Bytes whole = load();
+  EXPECT_EQ(get<std::uint32_t>(whole, 4), SCENE_FILE_VERSION);
+  const Scene copy = read_scene(path);
+  EXPECT_EQ(copy.crs, scene.crs);
+  EXPECT_EQ(copy.stations[1].noise_world, 0.003);
+  EXPECT_EQ(copy.stations[0].step_world, 1e-4);
+  EXPECT_EQ(copy.stations[0].sensor_world, scene.stations[0].sensor_world);
+  EXPECT_EQ(copy.columns[3].name, "time");
+  for (std::size_t length = 0; length < whole.size(); length += 3)
+    EXPECT_NE(refusal(whole.substr(0, length)), "") << length;
+  Bytes forged = whole;
+  put(forged, section_offset(whole, 12) + 40, -0.25);
+  reseal(forged);
+  EXPECT_NE(refusal(forged).find("a station's noise"), std::string::npos);
+  forged = whole;
+  put<std::uint32_t>(forged, 4, LEANING_SCENE_FILE_VERSION);
+  reseal(forged);
+  EXPECT_NE(refusal(forged), "") << "no bytes that the version does not know";
+  scene.stations = tiny_scene().stations;
+  write_scene(scene, path);
+  EXPECT_EQ(read_scene(path).crs, scene.crs) << "alone";
 }
 
 TEST_F(SizedLights, TruncatedOrDamagedAreRefused) {
@@ -214,10 +245,10 @@ TEST_F(SizedLights, ForgedOnesAreRefused) {
     const std::string sentence = refusal(forged);
     EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
   };
-  for (const std::uint32_t version : {9U, 14U}) {
+  for (const std::uint32_t version : {9U, 15U}) {
     Bytes forged = bytes;
     put<std::uint32_t>(forged, 4, version);
-    says(forged, "expected version 10 to 13");
+    says(forged, "expected version 10 to 14");
   }
   Bytes forged = bytes;
   put<std::uint32_t>(forged, 4, PLAIN_SCENE_FILE_VERSION);
@@ -292,7 +323,7 @@ TEST_F(SceneFile, SaysWhatIsWrong) {
   says("ply\nformat ascii 1.0\n", "another file type");
   Bytes other = bytes;
   put<std::uint32_t>(other, 4, 2);
-  says(other, "found version 2, expected version 10 to 13");
+  says(other, "found version 2, expected version 10 to 14");
   other = bytes;
   put<std::uint32_t>(other, 8, 0x04030201);
   says(other, "a foreign byte order");

@@ -58,6 +58,28 @@ TEST(Folder, WhatIsNamedOrCanOnlyBeAScanIsNotLeftOut) {
   EXPECT_NE(refusal({folder.path() / "tiles"}).find("b.las"), std::string::npos);
 }
 
+TEST(Systems, OneThatIsKnownIsThatOfAll) {
+  const TempFolder folder;
+  const std::string utm = R"(PROJCS["UTM 32",UNIT["metre",1],AUTHORITY["EPSG","25832"]])";
+  const auto a = folder.write("a.las", in_system(tile(0.0, 0.0), utm).bytes());
+  const auto b = folder.write("b.las", tile(1.0, 0.0).bytes());
+  const auto c = folder.write(
+      "c.las", in_system(tile(2.0, 0.0), R"(PROJCRS["32N",LENGTHUNIT["metre",1],ID["EPSG",25832]])").bytes());
+  const Input input = read_input({b, a, c}, {});
+  EXPECT_EQ(input.crs, utm) << "the same by number";
+  EXPECT_FALSE(has_note(input, "coordinate systems"));
+}
+
+TEST(Systems, DifferentOnesAreUnknownAndReported) {
+  const TempFolder folder;
+  const auto a = folder.write("a.las", in_system(tile(0.0, 0.0), R"(PROJCS["32N",UNIT["metre",1]])").bytes());
+  const auto b = folder.write("b.las", in_system(tile(1.0, 0.0), R"(PROJCS["33N",UNIT["metre",1]])").bytes());
+  const Input input = read_input({a, b}, {});
+  EXPECT_EQ(input.crs, "");
+  EXPECT_TRUE(has_note(input, "a.las, "));
+  EXPECT_TRUE(has_note(input, "found the coordinate systems '32N' and '33N', expected one"));
+}
+
 TEST(Folder, PlyScansAreScans) {
   const TempFolder folder;
   const std::string ply =

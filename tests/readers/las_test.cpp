@@ -278,6 +278,22 @@ TEST(Las, UnitsThatDifferAreReported) {
   EXPECT_EQ(wkt("COMPD_CS[\"both\"," + projected + R"(,VERT_CS["h",UNIT["metre",1]]])"), "");
 }
 
+TEST(Las, CoordinateSystemIsKept) {
+  const auto crs = [](const std::vector<std::string>& vlrs) {
+    LasFile file = three_points();
+    file.vlrs = vlrs;
+    return read_bytes(file.bytes()).file.points.crs;
+  };
+  const std::string text = R"(PROJCS["UTM",UNIT["metre",1]])";
+  const std::string keys = geo_keys({{1024, 1}, {3072, 2264}, {3076, 9003}, {4096, 5703}, {4099, 9001}});
+  EXPECT_EQ(crs({}), "");
+  EXPECT_EQ(crs({las_vlr("LASF_Projection", 2112, text + std::string(3, '\0'))}), text);
+  EXPECT_EQ(crs({keys, las_vlr("LASF_Projection", 2112, text)}), text) << "the text says more";
+  EXPECT_EQ(crs({keys}), "EPSG:2264+5703;xy=0.3048006096012192;z=1");
+  EXPECT_EQ(crs({geo_keys({{1024, 2}, {2048, 4326}})}), "EPSG:4326;deg");
+  EXPECT_EQ(crs({geo_keys({{1024, 1}, {3072, 32767}})}), "") << "a system of the user's own";
+}
+
 TEST(Las, EveryPrefixIsReadOrRefused) {
   const TempFolder folder;
   LasFile file = three_points();

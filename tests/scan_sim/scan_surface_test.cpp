@@ -64,6 +64,27 @@ TEST(ScanSurface, StraysAndMixedPixelsAreNotDrawn) {
             scan.size() - built.scene.data_pool.size());
 }
 
+/// The noise is along the beam; off the surface it is less where a beam grazes.
+TEST(ScanSurface, NoiseAndStepOfEachStationAreKept) {
+  for (const double noise : {0.001, 0.004}) {
+    const Tripod tripod{
+        .sensors = {{-0.3, 0.2, 1.6}, {0.4, -0.2, 1.5}}, .step_deg = 2.0, .highest_deg = 75.0};
+    SimulatedScan scan = scan_from_tripods(TriangleTree(room_mesh()), tripod, {.noise = noise});
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      const double step = scan.points.station[i] == 0 ? 0x1p-13 : 0x1p-11;
+      scan.points.position[i] = glm::round(scan.points.position[i] / step) * step;
+    }
+    const Scene scene = build_scan(scan.points).scene;
+    ASSERT_EQ(scene.stations.size(), 2U);
+    EXPECT_EQ(scene.stations[0].step_world, 0x1p-13);
+    EXPECT_EQ(scene.stations[1].step_world, 0x1p-11);
+    for (const Station& station : scene.stations) {
+      EXPECT_GT(station.noise_world, 0.5 * noise);
+      EXPECT_LT(station.noise_world, 1.5 * noise);
+    }
+  }
+}
+
 TEST(ScanSurface, SidesAreTheSensors) {
   const SimulatedScan scan = ball_scan();
   const BuiltScan built = build_scan(scan.points);

@@ -30,7 +30,7 @@ double fall_of(double share) {
 
 }  // namespace
 
-BruteForce::BruteForce(const Scene& scene) : materials_(scene.materials) {
+BruteForce::BruteForce(const Scene& scene) : root_(scene.root), materials_(scene.materials) {
   clips_ = scene.clip_pool;
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     const uvec4& words = scene.data_pool[i];
@@ -65,7 +65,8 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
   const Material& material = materials_[splat.object];
   if ((material.flags & MATERIAL_HIDDEN) != 0) return false;
   if (settings.side != SIDE_SIDE) return true;
-  const bool two_sided = (material.flags & MATERIAL_TWO_SIDED) != 0;
+  const bool cut_open = !settings.region.empty() && (material.flags & MATERIAL_DIELECTRIC) == 0;
+  const bool two_sided = cut_open || (material.flags & MATERIAL_TWO_SIDED) != 0;
   const bool inside =
       (material.flags & MATERIAL_DIELECTRIC) != 0 && (query.inside & (1U << material.mask_bit)) != 0;
   if (!two_sided && (inside ? meeting.cosine <= 0.0 : meeting.cosine >= 0.0)) return false;
@@ -85,6 +86,15 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
   const bool from_behind =
       leaves_upwards == crosses_upwards && glm::length(from_center) < 4.0 * radius && like > 0.5;
   return !(in_slab || from_behind);
+}
+
+bool BruteForce::in_region(const dvec3& place, const Region& region) const {
+  if (region.empty()) return true;
+  const auto planes = region_planes(root_, region);
+  const auto inside = [&](const vec4& plane) { return glm::dot(dvec3(plane), place) > double(plane.w); };
+  const auto kept_end = planes.begin() + static_cast<std::ptrdiff_t>(region.kept.size());
+  const bool dropped = kept_end != planes.end() && std::all_of(kept_end, planes.end(), inside);
+  return std::all_of(planes.begin(), kept_end, inside) && !dropped;
 }
 
 bool BruteForce::is_ellipse(std::size_t index) const {
@@ -165,6 +175,7 @@ std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, con
     const double rho_squared = this->rho_squared(index, from_center);
     if (!(rho_squared <= splat.radius_squared) || !(t > double(query.t_min)) || !std::isfinite(t)) continue;
     if (!kept(index, from_center)) continue;
+    if (!in_region(origin + t * dir, settings.region)) continue;
     const Meeting meeting{t, rho_squared / splat.radius_squared, cosine, index};
     if (counts(meeting, query, settings)) found.push_back(meeting);
   }
@@ -213,6 +224,11 @@ TrueHit BruteForce::nearest(const RayQuery& query, const Settings& settings) con
   hit.first = first.index;
   hit.object = first_splat.object;
   hit.front = first.cosine < 0.0;
+  if (settings.blend == BLEND_COUNT) {
+    hit.members = static_cast<std::uint32_t>(met.size());
+    hit.t = first.t;
+    return hit;
+  }
   double weight_sum = 0.0;
   double depth_sum = 0.0;
   dvec3 normal_sum(0.0);

@@ -31,7 +31,7 @@ class BruteForce {
   BruteForce(const BruteForce&) = default;
   BruteForce& operator=(const BruteForce&) = default;
 
-  /// Settings used: blend (BLEND_WINDOW or BLEND_NEAREST), kernel, kappa, side (SIDE_SIDE or SIDE_NONE).
+  /// Settings used: blend (BLEND_WINDOW or BLEND_NEAREST), kernel, kappa, side (SIDE_SIDE or SIDE_NONE), region.
   [[nodiscard]] TrueHit nearest(const RayQuery& query, const Settings& settings) const;
   /// The objects of all hits with t < t_max, in no order, with repetition.
   [[nodiscard]] std::vector<std::uint32_t> objects_met(const RayQuery& query, const Settings& settings,
@@ -66,6 +66,8 @@ class BruteForce {
   };
   /// Whether an offset from a disc's centre is before its clip lines, by the rule in shaders/layout.h.
   [[nodiscard]] bool kept(std::size_t index, const glm::dvec3& from_center) const;
+  /// Whether a place, root space, is in the region.
+  [[nodiscard]] bool in_region(const glm::dvec3& place, const Region& region) const;
   [[nodiscard]] bool is_ellipse(std::size_t index) const;
   /// The squared distance from a splat's centre as an ellipse takes it, by the same rule.
   [[nodiscard]] double rho_squared(std::size_t index, const glm::dvec3& from_center) const;
@@ -75,6 +77,7 @@ class BruteForce {
   [[nodiscard]] std::vector<Meeting> meetings(const RayQuery& query, const Settings& settings) const;
   [[nodiscard]] bool counts(const Meeting& meeting, const RayQuery& query, const Settings& settings) const;
 
+  RootTransform root_;
   std::vector<uvec4> words_;
   std::vector<Splat> splats_;
   std::vector<glm::dmat3> slopes_;  ///< normal fields; zero for flat discs

@@ -17,11 +17,16 @@ namespace glsl {
 
 #define SIDE SIDE_SIDE
 #define ENVIRONMENT true
+#define REGION false
 
 thread_local FrameParams frame;
 
 float medium_at(uint bit) { return frame.media[bit >> 2U][static_cast<int>(bit & 3U)]; }
 vec3 environment_texel(vec2) { return vec3(0.0F); }
+vec4 region_plane(uint index) { return frame.region[index]; }
+uint region_kept() { return 0; }
+uint region_dropped() { return 0; }
+bool region_light() { return false; }
 
 #include "shaders/lang/random.glsl"
 #include "shaders/light/camera.glsl"

@@ -24,6 +24,7 @@ struct MadePools {
   std::vector<std::uint32_t> texture_pool, top_table;
 };
 thread_local MadePools made;
+thread_local FrameParams region_frame;
 
 namespace glsl {
 
@@ -53,6 +54,9 @@ uint splat_at(uint place) { return reference_word(place); }
 Material material_at(uint object) { return bound->materials.at(object); }
 vec3 color_at(uint splat) { return unpack_color(color_word(splat)); }
 vec3 cut_eye() { return vec3(0.0F); }
+vec4 region_plane(uint index) { return region_frame.region[index]; }
+uint region_kept() { return region_frame.region_kept; }
+uint region_dropped() { return region_frame.region_dropped; }
 
 #include "shaders/stage/query.glsl"
 
@@ -78,11 +82,13 @@ Features twin_features(const Scene& scene, const Settings& settings) {
   chosen[SPEC_KERNEL] = settings.kernel;
   chosen[SPEC_SIDE] = settings.side;
   chosen[SPEC_FACES] = faces_of(scene);
+  if (!settings.region.empty() && chosen[SPEC_FACES] == FACES_FRONT) chosen[SPEC_FACES] = FACES_BOTH;
   const bool bends = settings.blend == BLEND_WINDOW || settings.blend == BLEND_NEAREST;
-  chosen[SPEC_FEATURES] =
-      FEATURE_GLASS | FEATURE_COUNTERS | (pool_counts(scene).pools & (bends ? ~0U : ~FEATURE_FIELDS)) |
-      (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0) |
-      (bends && any_leans(scene.field_pool) ? FEATURE_LEANS : 0) | texture_features(scene.columns);
+  chosen[SPEC_FEATURES] = FEATURE_GLASS | FEATURE_COUNTERS |
+                          (pool_counts(scene).pools & (bends ? ~0U : ~FEATURE_FIELDS)) |
+                          (clip_content(scene.clip_pool).ellipses ? FEATURE_ELLIPSES : 0) |
+                          (bends && any_leans(scene.field_pool) ? FEATURE_LEANS : 0) |
+                          (settings.region.empty() ? 0 : FEATURE_REGION) | texture_features(scene.columns);
   chosen[SPEC_TOP_LEVELS] = 5;
   return chosen;
 }
@@ -91,6 +97,7 @@ std::vector<RayHit> twin_intersect(const Scene& scene, std::span<const RayQuery>
                                    const Settings& settings) {
   bound = &scene;
   features = twin_features(scene, settings);
+  set_region(scene.root, settings.region, region_frame);
   made.top_table = top_table(scene, features[SPEC_TOP_LEVELS]);
   std::vector<std::uint32_t> splats(scene.data_pool.size());
   std::iota(splats.begin(), splats.end(), 0U);

@@ -36,7 +36,7 @@ splatray::Request request_for(const LoadedScene& loaded, const splatray::Request
     request.look.style = LOOK_LIT;
   if (!request.view.eye && request.view.viewpoint == Viewpoint::automatic && !request.look.up)
     request.view.viewpoint = suited.view.viewpoint;
-  request.settings.cutaway = request.view.viewpoint == Viewpoint::dollhouse;
+  request.settings.cutaway = request.view.look_in || request.view.viewpoint == Viewpoint::dollhouse;
   request.look.attributes = suited.look.attributes;
   return request;
 }

@@ -11,6 +11,7 @@
 #include "engine/base/memory.h"
 #include "engine/base/number_text.h"
 #include "engine/file/scene_file.h"
+#include "engine/image/point_sample.h"
 #include "engine/image/upright.h"
 #include "engine/scene/sky/daylight.h"
 #include "engine/scene/surface.h"
@@ -125,6 +126,20 @@ std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLigh
 
 bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
 
+/// Has occlusion reach as far as suits what a region holds. Throws Error (usage) where that is nothing.
+void suit_region(const Scene& scene, Request& request) {
+  const Region region = region_of(request.view.region, scene.up);
+  if (region.empty()) return;
+  const PointSample kept = sample_points(scene, region);
+  if (kept.size() == 0)
+    throw Error(ExitCode::usage, "the region holds nothing of the scene, whose points lie between " +
+                                     number_text(scene.bounds_min_world) + " and " +
+                                     number_text(scene.bounds_max_world) +
+                                     "; expected boxes and cuts that do");
+  double& reach = request.settings.reach_world;
+  if (reach == 0.0) reach = REACH_SHARE * diagonal_of(kept);
+}
+
 /// Applies --material, --object, --up (else upright of upright.h) and what is shown of attributes, and keeps what suits the
 /// scene.
 void show_as_asked(const Request& request, LoadedScene& loaded) {
@@ -137,6 +152,7 @@ void show_as_asked(const Request& request, LoadedScene& loaded) {
   SuitedPicture suited = suited_picture(loaded.scene, request);
   loaded.request = std::move(suited.request);
   loaded.choices = std::move(suited.choices);
+  suit_region(loaded.scene, loaded.request);
   loaded.legend = show_attributes(loaded.scene, loaded.request.look.attributes);
   loaded.environment_name = choose_environment_name(loaded.scene, request);
 }
@@ -153,7 +169,8 @@ Camera placed_camera(const Scene& scene, const Request& request) {
   // A depth camera's view suits the picture's shape; a model's own camera is its author's.
   if (!scene.camera || !scene.stations.empty() || request.look.up ||
       request.view.viewpoint != Viewpoint::automatic)
-    return viewpoint_camera(scene, request.view.viewpoint, aspect, request.view.fov_y_deg);
+    return viewpoint_camera(scene, request.view.viewpoint, aspect, request.view.fov_y_deg,
+                            region_of(request.view.region, choose_up(scene, request)));
   Camera camera = *scene.camera;
   camera.fov_y_deg = request.view.fov_y_deg.value_or(camera.fov_y_deg);
   return camera;
@@ -292,8 +309,20 @@ std::uint32_t choose_look(const Scene& scene, const Request& request) {
   return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;
 }
 
+Region region_of(const RegionRequest& asked, const glm::dvec3& up) {
+  Region region;
+  region.kept = asked.cuts;
+  region.cuts_light = asked.light_kept;
+  if (asked.keep_box)
+    for (const HalfSpace& half : half_spaces(*asked.keep_box, up)) region.kept.push_back(half);
+  if (asked.drop_box)
+    for (const HalfSpace& half : half_spaces(*asked.drop_box, up)) region.dropped.push_back(half);
+  return region;
+}
+
 Settings choose_settings(const Scene& scene, const Request& request) {
   Settings settings = request.settings;
+  settings.region = region_of(request.view.region, choose_up(scene, request));
   settings.look = choose_look(scene, request);
   settings.lens_radius_world = 0.5 * request.view.aperture_world;
   settings.delta_world = request.settings.asked_delta_world.value_or(1e-3 * scene.diagonal_world());

@@ -28,7 +28,7 @@ struct LoadListener {
 };
 
 /// Reads or preprocesses the scene; applies --material, --object, --up (else upright of upright.h) and what is shown of
-/// attributes. Throws Error.
+/// attributes. Throws Error, also where the request's region holds nothing of the scene.
 [[nodiscard]] LoadedScene load_scene(const Request& request, const LoadListener& listener);
 
 /// The same of objects that are in memory, without what files alone have; their numbers stay. Throws Error.
@@ -70,6 +70,9 @@ struct LoadListener {
 /// The look, LOOK_*: that of --look, else LOOK_SCAN for scans in no light of their own or of the options' and without
 /// materials of either, else LOOK_LIT.
 [[nodiscard]] std::uint32_t choose_look(const Scene& scene, const Request& request);
+
+/// The region: --keep-box, --drop-box, --cut. `up` of the scene as shown, about which boxes are turned.
+[[nodiscard]] Region region_of(const RegionRequest& asked, const glm::dvec3& up);
 
 /// The settings, with defaults that depend on the scene filled in.
 [[nodiscard]] Settings choose_settings(const Scene& scene, const Request& request);

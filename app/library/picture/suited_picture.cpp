@@ -59,13 +59,13 @@ const char* suited_colors(const Scene& scene, SceneKind kind, bool inside) {
 SuitedPicture suited_picture(const Scene& scene, const Request& asked) {
   SuitedPicture suited{asked, {}};
   Request& request = suited.request;
-  request.settings.cutaway = request.view.viewpoint == Viewpoint::dollhouse;
+  request.settings.cutaway = request.view.look_in || request.view.viewpoint == Viewpoint::dollhouse;
   const SceneKind kind = kind_of_scan(scene);
   if (kind == SceneKind::none) return suited;
   const auto note = [&suited](const std::string& option) { suited.choices += " " + option; };
   if (!request.view.eye && request.view.viewpoint == Viewpoint::automatic) {
     request.view.viewpoint = choose_viewpoint(scene);
-    request.settings.cutaway = request.view.viewpoint == Viewpoint::dollhouse;
+    request.settings.cutaway = request.view.look_in || request.view.viewpoint == Viewpoint::dollhouse;
     note(std::string("--view ") + viewpoint_name(request.view.viewpoint));
   }
   const bool inside = kind == SceneKind::room && request.view.viewpoint == Viewpoint::inside;

@@ -7,7 +7,7 @@
 namespace splatray {
 
 const char* group_title(FieldGroup group) {
-  constexpr std::array TITLES = {"Input",   "Look",   "Light", "Camera",
+  constexpr std::array TITLES = {"Input",   "Look",   "Light", "Camera",  "Region",
                                  "Quality", "Output", "Files", "Research"};  // FieldGroup
   return TITLES[static_cast<std::size_t>(group)];
 }

@@ -33,6 +33,15 @@ struct LightRequest {
   bool operator==(const LightRequest&) const = default;
 };
 
+/// What of the scene a picture shows.
+struct RegionRequest {
+  std::optional<TurnedBox> keep_box, drop_box;
+  std::vector<HalfSpace> cuts;
+  bool light_kept = false;  ///< what is cut off sends no light back and shades nothing
+
+  bool operator==(const RegionRequest&) const = default;
+};
+
 struct Request {
   /// Input files and how they become a scene: one .soct, or files that preprocess reads.
   struct Source {
@@ -68,12 +77,14 @@ struct Request {
     std::optional<glm::dvec3> camera_up;        ///< world; of the camera, where that is another than Look::up
     std::optional<double> fov_y_deg;
     Viewpoint viewpoint = Viewpoint::automatic;  ///< where no eye is given
-    double ortho_height = 0.0;                   ///< world units; 0 = perspective
-    glm::dvec2 lens_shift{0.0};                  ///< Camera::lens_shift
-    double pixel_aspect = 1.0;                   ///< Camera::pixel_aspect
-    double aperture_world = 0.0;                 ///< diameter of the lens
-    PixelWindow crop{};                          ///< without pixels: all
-    std::uint32_t tile = 0, tiles = 0;           ///< of `tiles` bands of rows this one, from 1 on; 0 = all
+    bool look_in = false;                        ///< Settings::cutaway, from wherever one looks
+    RegionRequest region;
+    double ortho_height = 0.0;          ///< world units; 0 = perspective
+    glm::dvec2 lens_shift{0.0};         ///< Camera::lens_shift
+    double pixel_aspect = 1.0;          ///< Camera::pixel_aspect
+    double aperture_world = 0.0;        ///< diameter of the lens
+    PixelWindow crop{};                 ///< without pixels: all
+    std::uint32_t tile = 0, tiles = 0;  ///< of `tiles` bands of rows this one, from 1 on; 0 = all
 
     /// What of the picture is made: the crop's or the tile's window.
     [[nodiscard]] PixelWindow window() const;
@@ -98,7 +109,7 @@ struct Request {
     std::filesystem::path path;    ///< empty = nowhere
     std::filesystem::path resume;  ///< an EXR of fewer samples that they are added to; empty = none
     bool denoise = false;
-    bool despeckle = false;  ///< sparks.h
+    bool despeckle = false;   ///< sparks.h
     bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
     AovSet aovs = 0;
     std::filesystem::path camera_path;   ///< camera_file.h; empty = none

@@ -40,7 +40,8 @@ struct Document {
   std::vector<SceneLight> lights;
   std::string environment;  ///< as --environment has it
   Camera camera;
-  Settings settings;  ///< samples: where a still picture stops
+  Settings settings;     ///< samples: where a still picture stops
+  RegionRequest region;  ///< what of the scene is shown; Settings::region is made of it
   double exposure_ev = 0.0;
   Tone tone = Tone::neutral;
   ViewMode mode = ViewMode::shaded;

@@ -23,7 +23,8 @@ Request request_of(const Document& document, std::uint32_t width, std::uint32_t 
   request.view.width = width;
   request.view.height = height;
   set_camera(request.view, document.camera);
-  if (document.settings.cutaway) request.view.viewpoint = Viewpoint::dollhouse;
+  request.view.look_in = document.settings.cutaway;
+  request.view.region = document.region;
   request.view.aperture_world = 2.0 * document.settings.lens_radius_world;
   static_cast<Settings&>(request.settings) = document.settings;
   if (document.settings.side == SIDE_DELTA)
@@ -74,6 +75,7 @@ Document shown_as(const Scene& scene, const Document& document, const Request& a
   shown.lights = choose_lights(scene, request, shown.camera);
   shown.environment = choose_environment_name(scene, request);
   shown.settings = choose_settings(scene, request);
+  shown.region = request.view.region;
   shown.tone = choose_tone(request);
   static_cast<void>(color_by(scene, request.look.attributes));  // throws where the scene does not have it
   shown.attributes = request.look.attributes;
@@ -88,6 +90,7 @@ Request kept_request(const Document& document) {
   Request kept;
   static_cast<Settings&>(kept.settings) = document.settings;
   kept.settings.cutaway = false;
+  kept.settings.region = {};
   if (loaded.asked.look.style || document.settings.look != loaded.look)
     kept.look.style = document.settings.look;
   if (loaded.asked.look.tone || document.tone != choose_tone(loaded.asked)) kept.look.tone = document.tone;

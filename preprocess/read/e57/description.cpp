@@ -41,6 +41,8 @@ class DescriptionReader : public XmlReceiver {
   }
 
   void end(const XmlPath& at, const std::string& text) override {
+    if (at.size() == 2 && at[0] == "e57Root" && at[1] == "coordinateMetadata") crs_ = trimmed(text);
+    if (at.size() == 2 && at[0] == "e57Root" && at[1] == "e57LibraryVersion") library_ = trimmed(text);
     if (!is_in_scan(at)) return;
     if (at.size() == SCAN_DEPTH) {
       end_scan();
@@ -53,7 +55,7 @@ class DescriptionReader : public XmlReceiver {
     }
   }
 
-  std::vector<E57Scan> take() { return std::move(scans_); }
+  E57Description take() { return {std::move(scans_), std::move(crs_), std::move(library_)}; }
 
  private:
   static bool is_in_scan(const XmlPath& at) {
@@ -126,6 +128,7 @@ class DescriptionReader : public XmlReceiver {
 
   const std::filesystem::path& path_;
   std::vector<E57Scan> scans_;
+  std::string crs_, library_;
   E57Field number_type_;  ///< of the innermost element that began: its scale and offset
   /// x, y, z, w of the scan that is being read; all zero where there is none.
   std::array<double, 4> quaternion_{};
@@ -133,7 +136,7 @@ class DescriptionReader : public XmlReceiver {
 
 }  // namespace
 
-std::vector<E57Scan> read_e57_description(PagedFile& file) {
+E57Description read_e57_description(PagedFile& file) {
   const E57Header& header = file.header();
   const std::uint64_t begin = file.content_offset(header.xml_physical_offset, "the XML section");
   if (begin > file.size() || header.xml_bytes > file.size() - begin)

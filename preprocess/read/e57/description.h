@@ -46,12 +46,19 @@ struct E57Scan {
   std::uint64_t column_maximum = 0;
 };
 
+/// What the section says of the whole file.
+struct E57Description {
+  std::vector<E57Scan> scans;
+  std::string crs;      ///< coordinateMetadata: the coordinate system as text; may be empty
+  std::string library;  ///< that wrote the file; may be empty
+};
+
 /// Most scans of a file: Points numbers stations with 16 bits.
 inline constexpr std::size_t E57_MOST_SCANS = 65535;
 
 /// Reads the XML section as a stream; what is no scan (images, descriptions) is not kept. Throws Error (input_unreadable) for
 /// XML that is not well-formed, nests more than 64 deep or has a document type (so no entities), and for numbers and types
 /// that are none.
-[[nodiscard]] std::vector<E57Scan> read_e57_description(PagedFile& file);
+[[nodiscard]] E57Description read_e57_description(PagedFile& file);
 
 }  // namespace splatray

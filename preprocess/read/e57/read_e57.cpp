@@ -69,16 +69,30 @@ void judge(const PagedFile& pages, const ScanCounts& counts, bool strict, const 
                       " and maybe more do not match their checksums; they are read as they are");
 }
 
+/// The file as its XML section alone describes it.
+ScanFile for_heads(const std::vector<E57Scan>& scans, ScanFile file) {
+  for (const E57Scan& scan : scans) {
+    file.counts.stored += scan.records;
+    Station& station = file.points.stations.emplace_back();
+    station.name = scan.name;
+  }
+  return file;
+}
+
 }  // namespace
 
 ScanFile read_e57(const std::filesystem::path& path, const ReadOptions& options,
                   const ReadListener& listener) {
   PagedFile pages(path, options.scans.ignore_checksums);
-  const std::vector<E57Scan> scans = read_e57_description(pages);
+  const auto [scans, crs, library] = read_e57_description(pages);
   const std::vector<E57Section> sections = find_sections(pages, scans);
   std::uint64_t likely = 0;
   for (std::size_t i = 0; i < scans.size(); ++i) likely += likely_records(scans[i], sections[i]);
   ScanFile file;
+  file.points.crs = crs;
+  file.facts = {{"version", "E57 1.0"}};
+  if (!library.empty()) file.facts.push_back({"software", library});
+  if (options.heads_only) return for_heads(scans, std::move(file));
   file.points.position.reserve(likely);
   std::vector<std::string> notes;
   std::vector<std::size_t> last_of_scan;

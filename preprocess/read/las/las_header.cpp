@@ -1,5 +1,6 @@
 #include "preprocess/read/las/las_header.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -22,6 +23,24 @@ constexpr LasFields FIELDS[] = {
 
 glm::dvec3 load_vector(const unsigned char* bytes) {
   return {load<double>(bytes), load<double>(bytes + 8), load<double>(bytes + 16)};
+}
+
+/// A field of 32 bytes, up to its first zero.
+std::string load_text(const unsigned char* bytes) {
+  constexpr std::size_t TEXT_BYTES = 32;
+  return {bytes, std::find(bytes, bytes + TEXT_BYTES, 0)};
+}
+
+/// What only people read.
+void load_making(const unsigned char* bytes, LasHeader& header) {
+  header.system = load_text(bytes + 26);
+  header.software = load_text(bytes + 58);
+  header.day = load<std::uint16_t>(bytes + 90);
+  header.year = load<std::uint16_t>(bytes + 92);
+  for (int axis = 0; axis < 3; ++axis) {
+    header.box_high[axis] = load<double>(bytes + 179 + 16 * axis);
+    header.box_low[axis] = load<double>(bytes + 187 + 16 * axis);
+  }
 }
 
 /// Counts and places of LAS 1.4, which the header has behind the older ones.
@@ -76,6 +95,7 @@ LasHeader read_las_header(ByteReader& in) {
   header.point_count = load<std::uint32_t>(bytes + 107);
   header.scale = load_vector(bytes + 131);
   header.offset = load_vector(bytes + 155);
+  load_making(bytes, header);
   if (header.version_minor >= 4 && header.header_bytes >= HEADER_BYTES_1_4 && size >= HEADER_BYTES_1_4) {
     in.seek(0);
     bytes = in.take(HEADER_BYTES_1_4);

@@ -2,12 +2,14 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string>
 
 #include "preprocess/read/byte_reader.h"
 
 namespace splatray {
 
-/// What of the header matters to points. Its box and its counts by return are never used: they are often wrong.
+/// What of the header matters to points, and what it says of the file. Its box is for people only, and its counts by return are
+/// never used: they are often wrong.
 struct LasHeader {
   unsigned version_minor = 0;  ///< of version 1
   std::uint64_t header_bytes = 0;
@@ -21,6 +23,9 @@ struct LasHeader {
   std::uint64_t point_count = 0;  ///< as the header says
   glm::dvec3 scale{1.0};          ///< position = scale * stored integer + offset
   glm::dvec3 offset{0.0};
+  std::string system, software;  ///< that made the points, and the file
+  unsigned year = 0, day = 0;    ///< of its making, and of that year from 1 on; 0 = unknown
+  glm::dvec3 box_low{0.0}, box_high{0.0};
 
   /// Formats 6 to 10 have records of their own, with 8 bits for the class and flags apart.
   [[nodiscard]] bool is_extended() const { return point_format >= 6; }

@@ -1,9 +1,8 @@
 #include "preprocess/read/las/las_units.h"
 
-#include <charconv>
 #include <cmath>
-#include <string_view>
 
+#include "engine/base/crs.h"
 #include "preprocess/base/little_endian.h"
 
 namespace splatray {
@@ -11,77 +10,43 @@ namespace {
 
 constexpr double FOOT = 0.3048;
 
-/// What a file says; lengths of 0 metres are unknown.
-struct Units {
-  bool is_degrees = false;
-  bool is_projected = false;
-  double horizontal_metres = 0.0;
-  double vertical_metres = 0.0;
-};
-
-/// Metres of a unit by EPSG's code; 0 = another.
-double epsg_metres(unsigned code) {
-  constexpr unsigned METRE = 9001;
-  constexpr unsigned INTERNATIONAL_FOOT = 9002;
-  constexpr unsigned US_SURVEY_FOOT = 9003;
-  if (code == METRE) return 1.0;
-  return code == INTERNATIONAL_FOOT || code == US_SURVEY_FOOT ? FOOT : 0.0;
+/// EPSG's number that a key has, 0 where it has none of EPSG's.
+unsigned epsg_number(unsigned value) {
+  constexpr unsigned LEAST = 1024, MOST = 32766;
+  return value >= LEAST && value <= MOST ? value : 0;
 }
 
-Units units_of_keys(const std::vector<unsigned char>& keys) {
+/// What GeoTIFF's keys say.
+struct KeyedCrs {
+  Crs crs;  ///< without a name
+  unsigned geographic = 0, projected = 0, vertical = 0;
+};
+
+KeyedCrs crs_of_keys(const std::vector<unsigned char>& keys) {
   constexpr std::size_t ENTRY_BYTES = 8;  ///< the head and each key: four 16-bit numbers
   constexpr unsigned MODEL_TYPE = 1024;
   constexpr unsigned PROJECTED = 1;
   constexpr unsigned GEOGRAPHIC = 2;
+  constexpr unsigned GEOGRAPHIC_SYSTEM = 2048;
+  constexpr unsigned PROJECTED_SYSTEM = 3072;
   constexpr unsigned LINEAR_UNITS = 3076;
+  constexpr unsigned VERTICAL_SYSTEM = 4096;
   constexpr unsigned VERTICAL_UNITS = 4099;
-  Units units;
+  KeyedCrs found;
+  Crs& crs = found.crs;
   for (std::size_t at = ENTRY_BYTES; at + ENTRY_BYTES <= keys.size(); at += ENTRY_BYTES) {
     const unsigned key = load<std::uint16_t>(keys.data() + at);
     const unsigned location = load<std::uint16_t>(keys.data() + at + 2);
     const unsigned value = load<std::uint16_t>(keys.data() + at + 6);
     if (location != 0) continue;  // values that stand elsewhere
-    if (key == MODEL_TYPE) units.is_degrees = value == GEOGRAPHIC, units.is_projected = value == PROJECTED;
-    if (key == LINEAR_UNITS) units.horizontal_metres = epsg_metres(value);
-    if (key == VERTICAL_UNITS) units.vertical_metres = epsg_metres(value);
+    if (key == MODEL_TYPE) crs.is_degrees = value == GEOGRAPHIC, crs.is_projected = value == PROJECTED;
+    if (key == GEOGRAPHIC_SYSTEM) found.geographic = epsg_number(value);
+    if (key == PROJECTED_SYSTEM) found.projected = epsg_number(value);
+    if (key == VERTICAL_SYSTEM) found.vertical = epsg_number(value);
+    if (key == LINEAR_UNITS) crs.horizontal_metres = epsg_unit_metres(value);
+    if (key == VERTICAL_UNITS) crs.vertical_metres = epsg_unit_metres(value);
   }
-  return units;
-}
-
-/// The text from a keyword such as "PROJCS[" to the bracket that closes it; empty where it is not there.
-std::string_view block(std::string_view text, std::string_view keyword) {
-  const std::size_t begin = text.find(keyword);
-  if (begin == std::string_view::npos) return {};
-  int depth = 0;
-  for (std::size_t i = begin; i < text.size(); ++i) {
-    depth += text[i] == '[' ? 1 : 0;
-    depth -= text[i] == ']' ? 1 : 0;
-    if (text[i] == ']' && depth == 0) return text.substr(begin, i - begin);
-  }
-  return text.substr(begin);
-}
-
-/// Metres of a block's last unit, which is its own: UNIT["foot",0.3048]; 0 = none.
-double last_unit_metres(std::string_view text) {
-  const std::size_t unit = text.rfind("UNIT[\"");
-  if (unit == std::string_view::npos) return 0.0;
-  text = text.substr(unit);
-  text = text.substr(std::min(text.find("\",") + 2, text.size()));
-  double metres = 0.0;
-  std::from_chars(text.data(), text.data() + text.size(), metres);
-  return metres;
-}
-
-Units units_of_text(std::string_view text) {
-  std::string_view projected = block(text, "PROJCS[");
-  if (projected.empty()) projected = block(text, "PROJCRS[");
-  std::string_view vertical = block(text, "VERT_CS[");
-  if (vertical.empty()) vertical = block(text, "VERTCRS[");
-  const bool has_angles = text.find("GEOGCS[") != std::string_view::npos ||
-                          text.find("GEOGCRS[") != std::string_view::npos ||
-                          text.find("GEODCRS[") != std::string_view::npos;
-  return {projected.empty() && has_angles, !projected.empty(), last_unit_metres(projected),
-          last_unit_metres(vertical)};
+  return found;
 }
 
 std::string unit_name(double metres) {
@@ -91,14 +56,21 @@ std::string unit_name(double metres) {
   return "units of " + std::to_string(metres) + " m";
 }
 
-Units units_of(const LasVlrs& vlrs) {
-  return vlrs.wkt.empty() ? units_of_keys(vlrs.geo_keys) : units_of_text(vlrs.wkt);
+Crs units_of(const LasVlrs& vlrs) {
+  return vlrs.wkt.empty() ? crs_of_keys(vlrs.geo_keys).crs : describe_crs(vlrs.wkt);
 }
 
 }  // namespace
 
+std::string las_crs(const LasVlrs& vlrs) {
+  if (!vlrs.wkt.empty()) return vlrs.wkt;
+  const KeyedCrs keyed = crs_of_keys(vlrs.geo_keys);
+  const unsigned number = keyed.projected != 0 ? keyed.projected : keyed.geographic;
+  return number == 0 ? "" : epsg_text(number, keyed.vertical, keyed.crs);
+}
+
 std::optional<std::string> differing_las_units(const LasVlrs& vlrs) {
-  const Units units = units_of(vlrs);
+  const Crs units = units_of(vlrs);
   if (units.is_degrees) return "x and y are degrees; the shape is right only in a projected system";
   const std::string horizontal = unit_name(units.horizontal_metres);
   const std::string vertical = unit_name(units.vertical_metres);
@@ -108,7 +80,7 @@ std::optional<std::string> differing_las_units(const LasVlrs& vlrs) {
 }
 
 std::optional<bool> las_in_degrees(const LasVlrs& vlrs) {
-  const Units units = units_of(vlrs);
+  const Crs units = units_of(vlrs);
   return units.is_degrees || units.is_projected ? std::optional(units.is_degrees) : std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-/// Units that differ between the axes of LAS files.
+/// Coordinate systems of LAS files.
 #pragma once
 #include <optional>
 #include <string>
@@ -6,6 +6,9 @@
 #include "preprocess/read/las/las_vlrs.h"
 
 namespace splatray {
+
+/// Scene::crs of a file: its text or, without one, epsg_text of what GeoTIFF's keys name.
+[[nodiscard]] std::string las_crs(const LasVlrs& vlrs);
 
 /// A sentence where the file's coordinate system has degrees, or other units for z than for x and y; of neither, nothing.
 /// Reads of GeoTIFF's keys (OGC GeoTIFF Standard 1.1, annex B) and of well-known text (OGC 12-063r5) only what says so.

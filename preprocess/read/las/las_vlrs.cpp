@@ -1,5 +1,6 @@
 #include "preprocess/read/las/las_vlrs.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
 
@@ -36,7 +37,7 @@ void keep(LasVlrs& vlrs, const Head& head, const unsigned char* content) {
   } else if (head.user == "LASF_Projection" && head.id == GEO_KEYS) {
     vlrs.geo_keys.assign(content, end);
   } else if (head.user == "LASF_Projection" && head.id == WKT) {
-    vlrs.wkt.assign(content, end);
+    vlrs.wkt.assign(content, std::find(content, end, '\0'));
   } else if (head.user == "LASF_Spec" && head.id == EXTRA_BYTES &&
              vlrs.extra_bytes.size() + head.bytes <= MOST_CONTENT_BYTES) {
     vlrs.extra_bytes.insert(vlrs.extra_bytes.end(), content, end);

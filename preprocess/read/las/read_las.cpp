@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/number_text.h"
 #include "preprocess/read/las/las_columns.h"
 #include "preprocess/read/las/las_extra_bytes.h"
 #include "preprocess/read/las/las_header.h"
@@ -64,6 +65,20 @@ void count_points(ByteReader& in, LasHeader& header, const ReadListener& listene
     listener.note(in.path(), "the header counts no points; found " + std::to_string(header.point_count));
 }
 
+/// What the header says.
+std::vector<FileFact> facts_of(const LasHeader& header) {
+  std::vector<FileFact> facts = {{"version", "LAS 1." + std::to_string(header.version_minor)},
+                                 {"point format", std::to_string(header.point_format) +
+                                                      (header.is_compressed ? ", compressed by LASzip" : "")},
+                                 {"scale", number_text(header.scale, ' ')},
+                                 {"offset", number_text(header.offset, ' ')}};
+  if (!header.system.empty()) facts.push_back({"system", header.system});
+  if (!header.software.empty()) facts.push_back({"software", header.software});
+  if (header.year != 0)
+    facts.push_back({"made", "day " + std::to_string(header.day) + " of " + std::to_string(header.year)});
+  return facts;
+}
+
 }  // namespace
 
 ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
@@ -77,6 +92,12 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   ScanFile file;
   file.in_degrees = las_in_degrees(vlrs);
   file.counts.stored = header.point_count;
+  file.facts = facts_of(header);
+  file.said_box = {header.box_low, header.box_high};
+  if (options.heads_only) {
+    file.points.crs = las_crs(vlrs);
+    return file;
+  }
   const std::uint64_t found = header.is_compressed
                                   ? read_laz_points(in, header, vlrs.laszip, columns, file.counts, listener)
                                   : read_records(in, header, columns, file.counts, listener);
@@ -88,6 +109,7 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
     listener.note(path, sentence);
   }
   file.points = columns.take();
+  file.points.crs = las_crs(vlrs);
   return file;
 }
 

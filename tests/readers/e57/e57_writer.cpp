@@ -103,7 +103,7 @@ std::string file_xml(const E57TestFile& file, const std::vector<std::size_t>& at
       "type=\"Integer\">0</versionMinor><data3D type=\"Vector\" allowHeterogeneousChildren=\"1\">";
   for (std::size_t i = 0; i < file.scans.size(); ++i) xml += scan_xml(file.scans[i], at[i]);
   return xml + "</data3D><images2D type=\"Vector\" allowHeterogeneousChildren=\"1\">" + file.images +
-         "</images2D></e57Root>\n";
+         "</images2D>" + file.elements + "</e57Root>\n";
 }
 
 E57TestField integers(const std::string& name, std::int64_t minimum, std::int64_t maximum,

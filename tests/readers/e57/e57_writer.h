@@ -37,6 +37,7 @@ struct E57TestFile {
   std::string prolog = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>";
   std::string namespaces{};  ///< further attributes of the root
   std::string images{};      ///< in images2D
+  std::string elements{};    ///< further ones of the root
   bool xml_first = false;    ///< the XML section stands before the points
   std::uint64_t hole = 0;    ///< pages after the first that are not in e57_bytes but belong between
 };

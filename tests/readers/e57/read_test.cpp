@@ -27,6 +27,15 @@ TEST(E57, ChecksumIsCrc32C) {
       << "RFC 3720, appendix B.4";
 }
 
+TEST(E57, CoordinateSystemIsKept) {
+  E57TestFile file{{line_scan(3)}};
+  EXPECT_EQ(read_bytes(e57_bytes(file)).points.crs, "");
+  file.elements =
+      "<coordinateMetadata type=\"String\"><![CDATA[ PROJCS[\"UTM\",UNIT[\"metre\",1]] "
+      "]]></coordinateMetadata>";
+  EXPECT_EQ(read_bytes(e57_bytes(file)).points.crs, "PROJCS[\"UTM\",UNIT[\"metre\",1]]");
+}
+
 TEST(E57, EveryBitWidthAcrossPacketBorders) {
   std::mt19937_64 random(1);
   constexpr int COUNT = 150;

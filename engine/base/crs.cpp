@@ -1,0 +1,121 @@
+#include "engine/base/crs.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "engine/base/number_text.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::string_view EPSG = "EPSG:";
+
+/// The text from a keyword such as "PROJCS[" to the bracket that closes it; empty where it is not there.
+std::string_view block(std::string_view text, std::string_view keyword) {
+  const std::size_t begin = text.find(keyword);
+  if (begin == std::string_view::npos) return {};
+  int depth = 0;
+  for (std::size_t i = begin; i < text.size(); ++i) {
+    depth += text[i] == '[' ? 1 : 0;
+    depth -= text[i] == ']' ? 1 : 0;
+    if (text[i] == ']' && depth == 0) return text.substr(begin, i - begin);
+  }
+  return text.substr(begin);
+}
+
+template <typename Number>
+Number leading_number(std::string_view text) {
+  Number number{};
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// Metres of a block's last unit, which is its own: UNIT["foot",0.3048]; 0 = none.
+double last_unit_metres(std::string_view text) {
+  const std::size_t unit = text.rfind("UNIT[\"");
+  if (unit == std::string_view::npos) return 0.0;
+  text = text.substr(unit);
+  return leading_number<double>(text.substr(std::min(text.find("\",") + 2, text.size())));
+}
+
+/// EPSG's number of the system that the whole text is, which stands last in it: AUTHORITY["EPSG","25832"]] or ID["EPSG",25832]].
+unsigned own_number(std::string_view text) {
+  for (const std::string_view keyword : {"AUTHORITY[\"EPSG\",", "ID[\"EPSG\","}) {
+    const std::size_t begin = text.rfind(keyword);
+    if (begin == std::string_view::npos) continue;
+    std::string_view number = text.substr(begin + keyword.size());
+    if (std::count(number.begin(), number.end(), ']') != 2) continue;
+    number.remove_prefix(std::min(number.find_first_not_of(" \""), number.size()));
+    return leading_number<unsigned>(number);
+  }
+  return 0;
+}
+
+Crs describe_wkt(std::string_view text) {
+  Crs crs;
+  const std::size_t name = text.find("[\"");
+  if (name == std::string_view::npos) return crs;
+  crs.name = text.substr(name + 2, text.substr(name + 2).find('"'));
+  std::string_view projected = block(text, "PROJCS[");
+  if (projected.empty()) projected = block(text, "PROJCRS[");
+  std::string_view vertical = block(text, "VERT_CS[");
+  if (vertical.empty()) vertical = block(text, "VERTCRS[");
+  const bool has_angles = text.find("GEOGCS[") != std::string_view::npos ||
+                          text.find("GEOGCRS[") != std::string_view::npos ||
+                          text.find("GEODCRS[") != std::string_view::npos;
+  crs.epsg = own_number(text);
+  crs.is_projected = !projected.empty();
+  crs.is_degrees = projected.empty() && has_angles;
+  crs.horizontal_metres = last_unit_metres(projected);
+  crs.vertical_metres = last_unit_metres(vertical);
+  return crs;
+}
+
+Crs describe_numbers(std::string_view text) {
+  Crs crs;
+  crs.name = text.substr(0, text.find(';'));
+  const std::string_view number = std::string_view(crs.name).substr(EPSG.size());
+  if (number.find('+') == std::string_view::npos) crs.epsg = leading_number<unsigned>(number);
+  for (std::size_t at = text.find(';'); at != std::string_view::npos; at = text.find(';', at + 1)) {
+    const std::string_view part = text.substr(at + 1);
+    if (part.starts_with("deg")) crs.is_degrees = true;
+    if (part.starts_with("xy=")) crs.horizontal_metres = leading_number<double>(part.substr(3));
+    if (part.starts_with("z=")) crs.vertical_metres = leading_number<double>(part.substr(2));
+  }
+  crs.is_projected = crs.horizontal_metres > 0.0;
+  return crs;
+}
+
+}  // namespace
+
+std::string epsg_text(unsigned horizontal, unsigned vertical, const Crs& units) {
+  std::string text = std::string(EPSG) + std::to_string(horizontal);
+  if (vertical != 0) text += "+" + std::to_string(vertical);
+  if (units.is_degrees) text += ";deg";
+  if (units.horizontal_metres > 0.0) text += ";xy=" + number_text(units.horizontal_metres);
+  if (units.vertical_metres > 0.0) text += ";z=" + number_text(units.vertical_metres);
+  return text;
+}
+
+Crs describe_crs(std::string_view text) {
+  return text.starts_with(EPSG) ? describe_numbers(text) : describe_wkt(text);
+}
+
+bool is_same_crs(std::string_view a, std::string_view b) {
+  if (a == b) return true;
+  const Crs first = describe_crs(a), second = describe_crs(b);
+  if (first.epsg != 0 && second.epsg != 0) return first.epsg == second.epsg;
+  return !first.name.empty() && first.name == second.name;
+}
+
+double epsg_unit_metres(unsigned code) {
+  constexpr unsigned METRE = 9001;
+  constexpr unsigned INTERNATIONAL_FOOT = 9002;
+  constexpr unsigned US_SURVEY_FOOT = 9003;
+  constexpr double FOOT = 0.3048;
+  if (code == METRE) return 1.0;
+  if (code == US_SURVEY_FOOT) return 1200.0 / 3937.0;
+  return code == INTERNATIONAL_FOOT ? FOOT : 0.0;
+}
+
+}  // namespace splatray

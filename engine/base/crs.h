@@ -1,0 +1,31 @@
+/// Coordinate reference systems as files name them: well-known text (OGC 01-009, ISO 19162), or EPSG's numbers.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace splatray {
+
+/// What the text of a system says; what it does not say is empty, 0 or false.
+struct Crs {
+  std::string name;
+  unsigned epsg = 0;  ///< of the system as a whole
+  bool is_degrees = false;
+  bool is_projected = false;
+  double horizontal_metres = 0.0;  ///< of a unit of x and y where they are lengths
+  double vertical_metres = 0.0;    ///< of a unit of z
+};
+
+/// The text of a system that a file names by EPSG's numbers alone: "EPSG:25832", "EPSG:25832+7837" with one of heights; behind
+/// it, where the file says so, ";deg" or ";xy=0.3048" and ";z=1", metres of a unit. `vertical` and what `units` lacks are 0.
+[[nodiscard]] std::string epsg_text(unsigned horizontal, unsigned vertical, const Crs& units);
+
+/// Reads either kind of text. What is neither has no name.
+[[nodiscard]] Crs describe_crs(std::string_view text);
+
+/// Whether two texts mean one system, as far as they say: they are equal, or their numbers or names are.
+[[nodiscard]] bool is_same_crs(std::string_view a, std::string_view b);
+
+/// Metres of a unit of length by EPSG's number; 0 = another.
+[[nodiscard]] double epsg_unit_metres(unsigned code);
+
+}  // namespace splatray
