@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "app/view/edit/history.h"
+#include "app/view/edit/region_edit.h"
 #include "app/view/model/user_files.h"
 #include "app/view/thread/load_thread.h"
 #include "app/view/thread/render_thread.h"
@@ -45,7 +47,13 @@ class Viewer {
   void handle(const Gesture& gesture);
   void handle(const Command& command);
   void fly_on();
-  void look_from_next();
+  void look_from(Viewpoint viewpoint);
+  void take_pick(const Pick& pick);
+  [[nodiscard]] bool take_hold(const InputEvent& event);
+  [[nodiscard]] bool flies() const;
+  void change_walk_speed(double notches);
+  void empty_cache();
+  void remember_choices();
   void draw_controls();
   void handle(const Requests& requests);
   void cancel();
@@ -79,7 +87,12 @@ class Viewer {
   SharedScene scene_;                        ///< null: none is open
   bool of_points_ = false;  ///< document_ is that of points, which are shown until their scene is made
   Document before_;         ///< then: that of scene_
-  Viewpoint viewpoint_ = Viewpoint::automatic;  ///< that look_from_next took last
+  Viewpoint viewpoint_ = Viewpoint::automatic;  ///< that look_from took last
+  History history_;                             ///< of the scene shown
+  std::optional<glm::dvec3> about_world_;       ///< what lay under the cursor when its button was pressed
+  std::optional<Grip> handle_;                ///< that is held
+  std::uint64_t cache_bytes_ = 0;               ///< as it was when a scene was opened last
+  glm::dvec2 hold_px_{0.0};                     ///< where the cursor held it last
   Mouse mouse_;
   PanelState panels_;
   SharedFrame frame_;

@@ -55,6 +55,8 @@ void Viewer::open(Request request) {
 void Viewer::show(OpenedPoints opened) {
   const bool moved = of_points_ && document_.camera != panels_.home;
   if (!of_points_) before_ = document_;
+  opened.document.eye_dome = document_.eye_dome;
+  opened.document.point_size = document_.point_size;
   of_points_ = true;
   panels_.home = opened.document.camera;
   if (moved) {
@@ -85,6 +87,8 @@ void Viewer::show(OpenedScene opened) {
   const bool kept = document_.exposure_ev != found_exposure_ev_;
   opened.document.exposure_ev = asked_exposure_ev_.value_or(kept ? document_.exposure_ev : 0.0);
   opened.document.mode = document_.mode;
+  opened.document.eye_dome = document_.eye_dome;
+  opened.document.point_size = document_.point_size;
   document_ = std::move(opened.document);
   if (!scene_) {
     for (Request* asked : {&panels_.save, &panels_.record}) {
@@ -97,6 +101,10 @@ void Viewer::show(OpenedScene opened) {
   const SceneFiles& files = document_.loaded->asked.source.inputs;
   remember([&files](UserState& state) { remember_files(state, files); });
   panels_.can_add = true;
+  history_.start(document_);
+  cache_bytes_ = user_scene_cache().bytes();
+  handle_.reset();
+  about_world_.reset();
   viewpoint_ = Viewpoint::automatic;
   panels_.object = panels_.light = 0;
   inspected_.reset();
@@ -175,6 +183,19 @@ void Viewer::remember_bookmarks() {
     for (std::size_t i = 0; i < now.size(); ++i)
       if (now[i] != before[i]) kept[i] = now[i];
   });
+}
+
+void Viewer::empty_cache() {
+  user_scene_cache().clear();
+  cache_bytes_ = user_scene_cache().bytes();
+  panels_.notice = "the cache of made scenes is empty";
+}
+
+/// Keeps what a person likes to have in any scene.
+void Viewer::remember_choices() {
+  const Choices now{document_.eye_dome, document_.point_size, panels_.walk_speed, panels_.shows_handles};
+  if (now == user_.state().choices) return;
+  remember([now](UserState& state) { state.choices = now; });
 }
 
 void Viewer::remember_window() {

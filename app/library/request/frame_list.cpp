@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "engine/base/error.h"
+
 namespace splatray {
 namespace {
 

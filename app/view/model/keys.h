@@ -29,6 +29,11 @@ enum class Action {
   view_top,
   view_bottom,
   next_viewpoint,  ///< those of --view in turn
+  view_oblique,    ///< others of --view
+  view_inside,
+  view_dollhouse,
+  view_sensor,
+  look_in,  ///< leaves out what faces away from the eye
   orthographic,    ///< perspective or orthographic
   up_axis,         ///< x, y, z in turn
   mode_next,       ///< next ViewMode
@@ -42,6 +47,16 @@ enum class Action {
   zoom,        ///< wheel
   pivot,       ///< the point under the cursor becomes the pivot
   inspect,     ///< the splat under the cursor
+  walk,        ///< the fly keys move along the ground, without the mouse
+  box,         ///< a box that is kept, or none
+  section,     ///< a slice: level, across two axes, none
+  move_slice,  ///< wheel
+  handles,     ///< of boxes and planes, shown or not
+  measure,     ///< the next kind, or none
+  unpoint,     ///< takes a measure's last point away
+  undo,        ///< what changed but the camera
+  redo,
+  empty_cache,  ///< removes the scenes that are kept
   fly,         ///< keys held while look lasts
   fly_fast,
 };

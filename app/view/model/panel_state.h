@@ -34,6 +34,10 @@ struct PanelState {
   std::uint32_t object = 0;   ///< selected in the material panel
   std::uint32_t light = 0;    ///< selected in the light panel; what Action::drag_light drags
   std::string object_filter;  ///< part of the names listed
+  bool shows_handles = true;  ///< of the region's boxes and planes, in the picture
+  std::optional<MeasureKind> measuring;  ///< what clicks in the picture add points to
+  bool walks = false;                    ///< the fly keys move along the ground, without the mouse
+  double walk_speed = 1.0;               ///< factor on that of walk
   Camera home;                ///< as loaded
   std::array<std::optional<Camera>, BOOKMARK_COUNT> bookmarks;
   std::vector<SceneFiles> recent_files;  ///< newest first
@@ -52,8 +56,8 @@ struct PanelState {
 [[nodiscard]] bool dialog_is_open(const PanelState& state);
 
 /// Does what needs neither window nor threads: camera, view mode, bookmarks, which panels are open. `aspect` of the
-/// picture. Returns false when the command is the caller's: quit, copy_command, paste_command, pivot, inspect, drags,
-/// and escape when nothing was open to be closed.
+/// picture. Returns false when the command is the caller's: quit, copy_command, paste_command, pivot, inspect, drags, views of
+/// --view, undo, redo, empty_cache, and escape when nothing was open to be closed and nothing went on.
 [[nodiscard]] bool apply(const Command& command, double aspect, Document& document, PanelState& state);
 
 }  // namespace splatray

@@ -7,7 +7,6 @@ namespace splatray {
 namespace {
 
 constexpr double MOVING_MS = 1000.0 / 20.0;  ///< of a coarse picture
-constexpr double EYE_DOME = 1.0;             ///< strength
 constexpr double BAND_MS = 30.0;             ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
 /// Of trace_samples, so that reading back costs little.
@@ -16,7 +15,7 @@ constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
 /// Whether a picture of one is a picture of the other, but for the exposure.
 bool same_picture(const Document& a, const Document& b) {
   return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights &&
-         a.up == b.up && a.attributes == b.attributes && a.environment == b.environment &&
+         a.up == b.up && a.eye_dome == b.eye_dome && a.attributes == b.attributes && a.environment == b.environment &&
          same_looks(a.looks, b.looks);
 }
 
@@ -155,8 +154,7 @@ SharedFrame Progressive::coloured(Frame frame) {
   frame.pools_uploaded = live_.tracer().pools_uploaded();
   if (frame.mode == ViewMode::shaded) {
     if (!table_ || table_->display() != display_of(document_)) table_.emplace(display_of(document_));
-    const double strength = EYE_DOME;
-    frame.display = frame.is_seen ? moving_.display(frame.image, frame.view, strength, *table_)
+    frame.display = frame.is_seen ? moving_.display(frame.image, frame.view, document_.eye_dome, *table_)
                                   : table_->rgba(frame.image.rgba);
     if (!frame.moving) moving_.rest(frame.image, frame.display);
   } else {

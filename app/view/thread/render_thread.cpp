@@ -130,6 +130,8 @@ void RenderThread::show_points(bool others, glm::uvec2 window_px) {
   frame.device = device_->info().name;
   PointStyle style;
   style.cutaway = shown_.settings.cutaway;
+  style.eye_dome = shown_.eye_dome;
+  style.size = shown_.point_size;
   const auto start = std::chrono::steady_clock::now();
   frame.display = draw_points(*points_, frame.view, style).rgba;
   frame.ms = milliseconds_since(start);
@@ -149,7 +151,7 @@ void RenderThread::answer(const PickRequest& request) {
   live_.match(shown_, shown_.mode);
   const RayQuery query = cursor_query(live_.scene(), view, request.position_px);
   const RayHit hit = live_.tracer().intersect(live_.look(), {&query, 1}, shown_.settings).front();
-  Pick pick{inspect(live_.scene(), shown_.camera, query, hit), request.as_pivot};
+  Pick pick{inspect(live_.scene(), shown_.camera, query, hit), request.purpose};
   deliver([&](RenderNews& news) { news.pick = std::move(pick); });
 }
 

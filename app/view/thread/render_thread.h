@@ -15,17 +15,25 @@
 
 namespace splatray {
 
-/// Where in a picture of `size_px` pixels a person points, and what for.
+/// What a person points for.
+enum class PickFor {
+  inspect,
+  pivot,   ///< it becomes the middle of the picture
+  orbit,   ///< while the button is down
+  measure  ///< it becomes a point of a measure
+};
+
+/// Where in a picture of `size_px` pixels a person points.
 struct PickRequest {
   glm::dvec2 position_px{0.0};
   glm::uvec2 size_px{0};
-  bool as_pivot = false;  ///< else to inspect
+  PickFor purpose = PickFor::inspect;
 };
 
 /// What it hit; nothing on a miss.
 struct Pick {
   std::optional<Inspected> inspected;
-  bool as_pivot = false;
+  PickFor purpose = PickFor::inspect;
 };
 
 /// What has come from the render thread since it was last asked.

@@ -11,6 +11,7 @@
 
 #include "app/library/commit.h"
 #include "app/library/request/command_line.h"
+#include "app/library/user_folders.h"
 #include "app/view/model/scene_files.h"
 #include "engine/base/error.h"
 #include "engine/file/scene_file.h"
@@ -141,6 +142,11 @@ void SceneCache::make_room() const {
     fs::remove(one.path, failed);
     kept -= one.bytes;
   }
+}
+
+SceneCache user_scene_cache() {
+  const fs::path folder = user_cache_folder();
+  return SceneCache(folder.empty() ? folder : folder / "scenes");
 }
 
 std::uint64_t SceneCache::bytes() const { return bytes_of(kept_in(folder_)); }

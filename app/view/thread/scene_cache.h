@@ -40,4 +40,7 @@ class SceneCache {
   std::uint64_t most_bytes_;
 };
 
+/// That in the user's cache folder (user_folders.h).
+[[nodiscard]] SceneCache user_scene_cache();
+
 }  // namespace splatray
