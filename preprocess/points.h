@@ -179,8 +179,8 @@ struct ScanOptions {
 
 /// Points of a file as they are read, for whoever shows them before all are.
 struct SeenPoints {
-  const Points&
-      points;  ///< as the file has them: before ScanOptions::z_scale; of stored colours the scale may be open
+  /// As the file has them: before ScanOptions::z_scale; of stored colours the scale may be open.
+  const Points& points;
   std::size_t first;             ///< those before it were seen earlier, of the same file; 0 = a file begins
   bool measured;                 ///< a scanner's, else a mesh's vertices
   glm::dvec3 up{0.0, 0.0, 1.0};  ///< the format's own, of what is measured

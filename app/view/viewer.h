@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "app/view/edit/history.h"
-#include "app/view/edit/region_edit.h"
+#include "app/view/model/history.h"
+#include "app/view/model/region_edit.h"
 #include "app/view/model/user_files.h"
 #include "app/view/thread/load_thread.h"
 #include "app/view/thread/render_thread.h"
@@ -90,7 +90,7 @@ class Viewer {
   Viewpoint viewpoint_ = Viewpoint::automatic;  ///< that look_from took last
   History history_;                             ///< of the scene shown
   std::optional<glm::dvec3> about_world_;       ///< what lay under the cursor when its button was pressed
-  std::optional<Grip> handle_;                ///< that is held
+  std::optional<Grip> handle_;                  ///< that is held
   std::uint64_t cache_bytes_ = 0;               ///< as it was when a scene was opened last
   glm::dvec2 hold_px_{0.0};                     ///< where the cursor held it last
   Mouse mouse_;

@@ -8,9 +8,9 @@
 
 #include "app/library/picture/scene_source.h"
 #include "app/view/model/document_request.h"
-#include "app/view/model/eye_dome.h"
-#include "app/view/points/point_picture.h"
-#include "app/view/points/point_sampler.h"
+#include "app/view/thread/eye_dome.h"
+#include "app/view/thread/point_picture.h"
+#include "app/view/thread/point_sampler.h"
 #include "tests/view/documents.h"
 
 namespace splatray {

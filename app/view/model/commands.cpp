@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 
-#include "app/view/edit/region_edit.h"
 #include "app/view/model/false_color.h"
 #include "app/view/model/navigation.h"
 #include "app/view/model/panel_state.h"
+#include "app/view/model/region_edit.h"
 
 namespace splatray {
 namespace {
@@ -51,7 +51,8 @@ void next_section(Document& document, PanelState& state) {
 void next_measure(PanelState& state) {
   const int next = state.measuring ? static_cast<int>(*state.measuring) + 1 : 0;
   state.measuring = next < MEASURE_KINDS ? std::optional(static_cast<MeasureKind>(next)) : std::nullopt;
-  state.notice = state.measuring ? std::string("measure: ") + measure_name(*state.measuring) : "measure: none";
+  state.notice =
+      state.measuring ? std::string("measure: ") + measure_name(*state.measuring) : "measure: none";
 }
 
 void take_back_point(Document& document) {

@@ -10,8 +10,8 @@
 #include "app/library/picture/scene_source.h"
 #include "app/library/request/request.h"
 #include "app/view/model/document.h"
-#include "app/view/points/point_sampler.h"
 #include "app/view/thread/live_scene.h"
+#include "app/view/thread/point_sampler.h"
 #include "app/view/thread/scene_cache.h"
 
 namespace splatray {

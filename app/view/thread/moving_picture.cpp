@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/view/model/eye_dome.h"
+#include "app/view/thread/eye_dome.h"
 #include "engine/base/srgb.h"
 
 namespace splatray {

@@ -22,8 +22,7 @@ class MovingPicture {
   void forget() { *this = {}; }
 
  private:
-  std::optional<double>
-      rest_;  ///< brightness of the last picture at rest that no picture has been matched to yet
+  std::optional<double> rest_;  ///< brightness of the last picture at rest; unset: gain_ is matched to it
   float gain_ = 1.0F;
 };
 

@@ -7,9 +7,9 @@
 
 #include "app/view/model/document.h"
 #include "app/view/model/frame.h"
-#include "app/view/model/resolution.h"
 #include "app/view/thread/live_scene.h"
 #include "app/view/thread/moving_picture.h"
+#include "app/view/thread/resolution.h"
 #include "app/view/window/display_table.h"
 
 namespace splatray {

@@ -6,7 +6,7 @@
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/inspect.h"
-#include "app/view/points/point_picture.h"
+#include "app/view/thread/point_picture.h"
 #include "engine/base/stopwatch.h"
 
 namespace splatray {
@@ -81,6 +81,7 @@ void RenderThread::run() {
     attempt_to("tracing the picture", [this] {
       if (SharedFrame frame = progressive_.work([this] { return something_waits(); }))
         deliver([&](RenderNews& news) { news.frame = std::move(frame); });
+      if (std::exchange(exposes_, false)) expose();  // what is seen first does not wait for it
     });
   }
 }
@@ -111,7 +112,7 @@ void RenderThread::fulfil(const Pending& pending) {
   if (pending.scene) progressive_.restart_with_scene();
   if (pending.points) progressive_.restart();
   if (!live_.is_open()) return;
-  if (pending.scene && pending.exposes) expose();
+  if (pending.scene) exposes_ = pending.exposes;
   if (pending.pick) answer(*pending.pick);
   if (pending.save) save_now(*pending.save);
 }

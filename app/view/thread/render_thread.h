@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "app/view/points/point_cloud.h"
 #include "app/view/thread/live_scene.h"
+#include "app/view/thread/point_cloud.h"
 #include "app/view/thread/progressive.h"
 #include "app/view/thread/save.h"
 #include "engine/device/device.h"
@@ -98,9 +98,10 @@ class RenderThread {
   std::unique_ptr<Device> device_;
   LiveScene live_{*device_};
   Progressive progressive_{live_, device_->info().name};
-  Document shown_;       ///< by the thread
-  SharedPoints points_;  ///< shown instead of the scene; null = none are
-  View points_view_;     ///< in which they were drawn last
+  Document shown_;        ///< by the thread
+  bool exposes_ = false;  ///< the scene's exposure is to be found
+  SharedPoints points_;   ///< shown instead of the scene; null = none are
+  View points_view_;      ///< in which they were drawn last
   std::function<void()> wake_;
 
   std::mutex mutex_;  ///< of what follows

@@ -1,4 +1,4 @@
-#include "app/view/model/resolution.h"
+#include "app/view/thread/resolution.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "app/view/points/point_picture.h"
+#include "app/view/thread/point_picture.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "app/view/model/eye_dome.h"
+#include "app/view/thread/eye_dome.h"
 
 namespace splatray {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "app/view/model/document.h"
-#include "app/view/points/point_cloud.h"
+#include "app/view/thread/point_cloud.h"
 #include "preprocess/points.h"
 
 namespace splatray {

@@ -1,4 +1,4 @@
-#include "app/view/edit/region_edit.h"
+#include "app/view/model/region_edit.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,8 @@ glm::dvec3 middle_of(const Document& document) {
   return 0.5 * (document.bounds_min_world + document.bounds_max_world);
 }
 
-void add_box(const std::optional<TurnedBox>& box, GripOf of, const Document& document, std::vector<Grip>& handles) {
+void add_box(const std::optional<TurnedBox>& box, GripOf of, const Document& document,
+             std::vector<Grip>& handles) {
   if (!box) return;
   std::size_t number = 0;
   for (const HalfSpace& half : half_spaces(*box, document.up))
@@ -30,7 +31,8 @@ void add_box(const std::optional<TurnedBox>& box, GripOf of, const Document& doc
 double travel(const Document& document, const Grip& handle, glm::dvec2 px, glm::dvec2 size_px) {
   const glm::dvec3 under = point_under(document.camera, px, size_px);
   const bool ortho = document.camera.ortho_height > 0.0;
-  const glm::dvec3 dir = glm::normalize(ortho ? document.camera.target - document.camera.eye : under - document.camera.eye);
+  const glm::dvec3 dir =
+      glm::normalize(ortho ? document.camera.target - document.camera.eye : under - document.camera.eye);
   const glm::dvec3 origin = ortho ? under : document.camera.eye;
   const double along = glm::dot(handle.normal, dir), across = 1.0 - along * along;
   const glm::dvec3 between = handle.place_world - origin;
@@ -67,7 +69,8 @@ std::vector<Grip> handles_of(const Document& document) {
   return handles;
 }
 
-std::optional<Grip> handle_at(const Document& document, glm::dvec2 position_px, glm::dvec2 size_px, double near_px) {
+std::optional<Grip> handle_at(const Document& document, glm::dvec2 position_px, glm::dvec2 size_px,
+                              double near_px) {
   std::optional<Grip> nearest;
   for (const Grip& handle : handles_of(document)) {
     const auto place = place_in_picture(document.camera, handle.place_world, size_px);
@@ -78,8 +81,10 @@ std::optional<Grip> handle_at(const Document& document, glm::dvec2 position_px, 
   return nearest;
 }
 
-void drag_handle(Document& document, const Grip& handle, glm::dvec2 from_px, glm::dvec2 to_px, glm::dvec2 size_px) {
-  const double distance = travel(document, handle, to_px, size_px) - travel(document, handle, from_px, size_px);
+void drag_handle(Document& document, const Grip& handle, glm::dvec2 from_px, glm::dvec2 to_px,
+                 glm::dvec2 size_px) {
+  const double distance =
+      travel(document, handle, to_px, size_px) - travel(document, handle, from_px, size_px);
   if (!std::isfinite(distance)) return;
   const double least = LEAST_EDGE * scene_radius_world(document);
   RegionRequest& region = document.region;
@@ -97,7 +102,8 @@ std::array<glm::dvec3, 8> corners_of(const TurnedBox& box, const glm::dvec3& up)
   std::array<glm::dvec3, 8> corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     corners[i] = middle;
-    for (std::size_t axis = 0; axis < 3; ++axis) corners[i] += planes[2 * axis + (i >> axis & 1U)].point - middle;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      corners[i] += planes[2 * axis + (i >> axis & 1U)].point - middle;
   }
   return corners;
 }

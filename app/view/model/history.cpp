@@ -1,4 +1,4 @@
-#include "app/view/edit/history.h"
+#include "app/view/model/history.h"
 
 namespace splatray {
 namespace {
@@ -7,9 +7,10 @@ namespace {
 bool same(const Document& a, const Document& b) {
   Settings settings = a.settings;
   settings.region = b.settings.region;
-  return settings == b.settings && a.region == b.region && a.lights == b.lights && a.environment == b.environment &&
-         a.exposure_ev == b.exposure_ev && a.tone == b.tone && a.mode == b.mode && a.attributes == b.attributes &&
-         a.up == b.up && a.measures == b.measures && same_looks(a.looks, b.looks);
+  return settings == b.settings && a.region == b.region && a.lights == b.lights &&
+         a.environment == b.environment && a.exposure_ev == b.exposure_ev && a.tone == b.tone &&
+         a.mode == b.mode && a.attributes == b.attributes && a.up == b.up && a.measures == b.measures &&
+         same_looks(a.looks, b.looks);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "app/view/model/eye_dome.h"
+#include "app/view/thread/eye_dome.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,8 +10,8 @@ namespace splatray {
 namespace {
 
 constexpr float NO_LEVEL = std::numeric_limits<float>::infinity();
-constexpr double DARKENING =
-    120.0;  ///< of a step of one octave of distance to all neighbours, as an exponent, at USUAL_HEIGHT
+/// Of a step of one octave of distance to all neighbours, as an exponent, at USUAL_HEIGHT.
+constexpr double DARKENING = 120.0;
 constexpr double USUAL_HEIGHT = 720.0;  ///< pixels
 constexpr double USUAL_PIXEL = 1.0e-3;  ///< of perspective pictures: a pixel's width over its distance
 

@@ -1,4 +1,4 @@
-#include "app/view/points/point_sampler.h"
+#include "app/view/thread/point_sampler.h"
 
 #include <tbb/parallel_for.h>
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/view/points/point_cloud.h"
+#include "app/view/thread/point_cloud.h"
 #include "engine/image/view.h"
 
 namespace splatray {

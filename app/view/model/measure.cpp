@@ -1,4 +1,4 @@
-#include "app/view/edit/measure.h"
+#include "app/view/model/measure.h"
 
 #include <algorithm>
 #include <cmath>
