@@ -38,8 +38,8 @@ Request sized(Request request, const UserState& user) {
   return request;
 }
 
-constexpr int LEFT_BUTTON = 0;      ///< GLFW_MOUSE_BUTTON_LEFT
-constexpr double HOLD_EM = 0.7;     ///< how near to a handle it is taken hold of
+constexpr int LEFT_BUTTON = 0;   ///< GLFW_MOUSE_BUTTON_LEFT
+constexpr double HOLD_EM = 0.7;  ///< how near to a handle it is taken hold of
 constexpr double WALK_NOTCH = 1.25, FAST_WALK = 5.0;
 
 }  // namespace
@@ -150,7 +150,8 @@ void Viewer::take_pick(const Pick& pick) {
   const glm::dvec3& hit_world = pick.inspected->hit_world;
   if (pick.purpose == PickFor::pivot) set_pivot(document_, hit_world);
   if (pick.purpose == PickFor::orbit && mouse_.is_held()) about_world_ = hit_world;
-  if (pick.purpose == PickFor::measure && panels_.measuring) add_point(document_.measures, *panels_.measuring, hit_world);
+  if (pick.purpose == PickFor::measure && panels_.measuring)
+    add_point(document_.measures, *panels_.measuring, hit_world);
 }
 
 /// What goes wrong becomes a sentence in the window.
@@ -192,7 +193,8 @@ bool Viewer::take_hold(const InputEvent& event) {
   }
   if (event.kind != Kind::press || !left || mouse_.is_held()) return false;
   about_world_.reset();
-  if (panels_.shows_handles) handle_ = handle_at(document_, event.position_px, picture_px(), HOLD_EM * presenter_.gui().em_px());
+  if (panels_.shows_handles)
+    handle_ = handle_at(document_, event.position_px, picture_px(), HOLD_EM * presenter_.gui().em_px());
   if (handle_) hold_px_ = event.position_px;
   if (!handle_ && scene_ && !panels_.walks) renderer_.pick({event.position_px, picture_px(), PickFor::orbit});
   return handle_.has_value();
@@ -220,7 +222,8 @@ void Viewer::handle(const Gesture& gesture) {
     case Action::pivot:
       return renderer_.pick({gesture.to_px, picture_px(), PickFor::pivot});
     case Action::inspect:
-      return renderer_.pick({gesture.to_px, picture_px(), panels_.measuring ? PickFor::measure : PickFor::inspect});
+      return renderer_.pick(
+          {gesture.to_px, picture_px(), panels_.measuring ? PickFor::measure : PickFor::inspect});
     default:
       return;
   }
@@ -230,7 +233,8 @@ void Viewer::handle(const Gesture& gesture) {
 void Viewer::fly_on() {
   const Clock::time_point now = Clock::now();
   const glm::dvec3 direction = fly_direction([this](int key) { return window_.is_down(key); });
-  if (!flies() || direction == glm::dvec3(0.0) || presenter_.gui().wants_keyboard() || dialog_is_open(panels_)) {
+  if (!flies() || direction == glm::dvec3(0.0) || presenter_.gui().wants_keyboard() ||
+      dialog_is_open(panels_)) {
     flown_ = now;
     return;
   }
@@ -264,8 +268,9 @@ void Viewer::handle(const Command& command) {
     case Action::paste_command:
       return attempt_to("pasting", [this] { paste(); });
     case Action::next_viewpoint:
-      return look_from(viewpoint_ == Viewpoint::sensor ? Viewpoint::front
-                                                       : static_cast<Viewpoint>(static_cast<int>(viewpoint_) + 1));
+      return look_from(viewpoint_ == Viewpoint::sensor
+                           ? Viewpoint::front
+                           : static_cast<Viewpoint>(static_cast<int>(viewpoint_) + 1));
     case Action::view_oblique:
       return look_from(Viewpoint::oblique);
     case Action::view_inside:
@@ -290,7 +295,8 @@ void Viewer::handle(const Command& command) {
 void Viewer::look_from(Viewpoint viewpoint) {
   if (!scene_ || of_points_) return;
   viewpoint_ = viewpoint;
-  document_.camera = viewpoint_camera(*scene_, viewpoint_, aspect(), {}, region_of(document_.region, document_.up));
+  document_.camera =
+      viewpoint_camera(*scene_, viewpoint_, aspect(), {}, region_of(document_.region, document_.up));
   document_.settings.cutaway = viewpoint_ == Viewpoint::dollhouse;
   panels_.notice = std::string("view: ") + viewpoint_name(viewpoint_);
 }
@@ -336,7 +342,8 @@ void Viewer::copy() {
 void Viewer::submit() {
   const glm::uvec2 size = picture_px();
   document_.settings.region = region_of(document_.region, document_.up);
-  if (scene_ && !of_points_) history_.see(document_, mouse_.is_held() || handle_ || presenter_.gui().is_editing());
+  if (scene_ && !of_points_)
+    history_.see(document_, mouse_.is_held() || handle_ || presenter_.gui().is_editing());
   if (has_view() && size.x > 0 && size.y > 0) renderer_.show(document_, size);
 }
 

@@ -1,4 +1,6 @@
 // What the viewer does with files: those of scenes and others that a person opens, drops or pastes, and its own.
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -124,7 +126,8 @@ void Viewer::take_files(const SceneFiles& files) {
   SceneFiles scene;
   for (const std::filesystem::path& file : files)
     drop_kind(file) == DropKind::scene ? scene.push_back(file) : take_file(file);
-  if (!scene.empty()) open(scene);
+  if (scene.empty()) return;
+  window_.is_down(GLFW_KEY_LEFT_SHIFT) || window_.is_down(GLFW_KEY_RIGHT_SHIFT) ? add(scene) : open(scene);
 }
 
 /// A file of no scene.

@@ -33,10 +33,10 @@ enum class Action {
   view_inside,
   view_dollhouse,
   view_sensor,
-  look_in,  ///< leaves out what faces away from the eye
-  orthographic,    ///< perspective or orthographic
-  up_axis,         ///< x, y, z in turn
-  mode_next,       ///< next ViewMode
+  look_in,       ///< leaves out what faces away from the eye
+  orthographic,  ///< perspective or orthographic
+  up_axis,       ///< x, y, z in turn
+  mode_next,     ///< next ViewMode
   mode_previous,
   bookmark_go,   ///< digit 1..9
   bookmark_set,  ///< digit 1..9
@@ -57,7 +57,7 @@ enum class Action {
   undo,        ///< what changed but the camera
   redo,
   empty_cache,  ///< removes the scenes that are kept
-  fly,         ///< keys held while look lasts
+  fly,          ///< keys held while look lasts
   fly_fast,
 };
 

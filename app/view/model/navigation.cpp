@@ -179,7 +179,8 @@ glm::dvec3 point_under(const Camera& camera, glm::dvec2 position_px, glm::dvec2 
   return camera.target + offset.x * axes.right - offset.y * axes.top;
 }
 
-std::optional<glm::dvec2> place_in_picture(const Camera& camera, const glm::dvec3& point_world, glm::dvec2 size_px) {
+std::optional<glm::dvec2> place_in_picture(const Camera& camera, const glm::dvec3& point_world,
+                                           glm::dvec2 size_px) {
   const PictureAxes axes = picture_axes(camera);
   const glm::dvec3 from_eye = point_world - camera.eye;
   const double depth = -glm::dot(from_eye, axes.back);
@@ -189,12 +190,14 @@ std::optional<glm::dvec2> place_in_picture(const Camera& camera, const glm::dvec
   return 0.5 * size_px + offset / pixel_world(camera, axes.distance, size_px);
 }
 
-void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px, std::optional<glm::dvec3> about_world) {
+void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px,
+           std::optional<glm::dvec3> about_world) {
   if (!finite(drag_px)) return;
   Camera camera = start_of(document);
   const glm::dvec3 about = about_world && finite(*about_world) ? *about_world : camera.target;
   const PictureAxes before = picture_axes(camera);
-  const PictureAxes after = picture_axes(turned(stand_of(camera, document.up), drag_px, size_px, 1.0), document.up);
+  const PictureAxes after =
+      picture_axes(turned(stand_of(camera, document.up), drag_px, size_px, 1.0), document.up);
   const auto turned_about = [&](const glm::dvec3& point) {
     const glm::dvec3 v = point - about;
     return about + glm::dot(v, before.right) * after.right + glm::dot(v, before.top) * after.top +
@@ -261,7 +264,8 @@ void walk(Document& document, glm::dvec3 direction, double seconds, double speed
   Camera camera = start_of(document);
   const glm::dvec3 up = upright_axes(document.up)[1];
   const glm::dvec3 right = picture_axes(camera).right, ahead = glm::cross(up, right);
-  const double way = WALK_RADII_A_SECOND * speed * std::clamp(seconds, 0.0, LONGEST_FLIGHT_S) * scene_radius_world(document);
+  const double way =
+      WALK_RADII_A_SECOND * speed * std::clamp(seconds, 0.0, LONGEST_FLIGHT_S) * scene_radius_world(document);
   const glm::dvec3 step = glm::clamp(direction, -1.0, 1.0);
   move(camera, way * (step.x * right + step.y * up + step.z * ahead));
   finish(document, camera);

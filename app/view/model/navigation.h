@@ -28,7 +28,8 @@ enum class AxisView { front, back, right, left, top, bottom };
 /// Turns the camera about a point, unset = the pivot, half a turn for a drag over the smaller edge of the picture: to the right turns
 /// the scene to the right, down shows more of its top. The point stays where it is in the picture. Stops exactly above and below. A
 /// rolled camera is levelled.
-void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px, std::optional<glm::dvec3> about_world = {});
+void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px,
+           std::optional<glm::dvec3> about_world = {});
 /// Moves camera and pivot across the view so that what lay under `from_px` at the pivot's depth lies under `to_px`.
 void pan(Document& document, glm::dvec2 from_px, glm::dvec2 to_px, glm::dvec2 size_px);
 /// Nearer (`notches` > 0, of a wheel) or farther; the point under `position_px` at the pivot's depth stays there.

@@ -10,16 +10,19 @@
 namespace splatray {
 namespace {
 
-constexpr ImU32 BOX = IM_COL32(255, 200, 60, 255), DROPPED = IM_COL32(240, 110, 90, 255), CUT = IM_COL32(90, 200, 250, 255),
-                MEASURE = IM_COL32(255, 240, 120, 255), PIVOT = IM_COL32(255, 255, 255, 230),
-                DARK = IM_COL32(0, 0, 0, 160);
+constexpr ImU32 BOX = IM_COL32(255, 200, 60, 255), DROPPED = IM_COL32(240, 110, 90, 255),
+                CUT = IM_COL32(90, 200, 250, 255), MEASURE = IM_COL32(255, 240, 120, 255),
+                PIVOT = IM_COL32(255, 255, 255, 230), DARK = IM_COL32(0, 0, 0, 160);
 constexpr float ARROW_EM = 2.0F, DOT_EM = 0.35F;
 
 /// Draws at world places, in the picture alone.
 class Marks {
  public:
   Marks(const Document& document, const PanelView& view, float width_px)
-      : camera_(document.camera), size_px_(view.picture_px), em_(ImGui::GetFontSize()), list_(*ImGui::GetBackgroundDrawList()) {
+      : camera_(document.camera),
+        size_px_(view.picture_px),
+        em_(ImGui::GetFontSize()),
+        list_(*ImGui::GetBackgroundDrawList()) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     to_window_ = {width_px / static_cast<float>(size_px_.x), display.y / static_cast<float>(size_px_.y)};
     list_.PushClipRect({0.0F, 0.0F}, {width_px, display.y});
@@ -48,8 +51,10 @@ class Marks {
   void text(const glm::dvec3& world, const std::string& words) {
     const auto place = at(world);
     if (!place || words.empty()) return;
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str()), corner{place->x + 0.6F * em_, place->y - 1.6F * em_};
-    list_.AddRectFilled({corner.x - 4.0F, corner.y - 2.0F}, {corner.x + size.x + 4.0F, corner.y + size.y + 2.0F}, DARK, 3.0F);
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str()),
+                 corner{place->x + 0.6F * em_, place->y - 1.6F * em_};
+    list_.AddRectFilled({corner.x - 4.0F, corner.y - 2.0F},
+                        {corner.x + size.x + 4.0F, corner.y + size.y + 2.0F}, DARK, 3.0F);
     list_.AddText(corner, MEASURE, words.c_str());
   }
   /// A dot with an arrow that is as long everywhere.
@@ -87,7 +92,9 @@ void region_marks(const Document& document, const Grip* held, Marks& marks) {
   box_edges(document.region.drop_box, document.up, DROPPED, marks);
   for (const Grip& handle : handles_of(document)) {
     const bool is_held = held != nullptr && held->of == handle.of && held->number == handle.number;
-    marks.handle(handle, handle.of == GripOf::keep_box ? BOX : (handle.of == GripOf::drop_box ? DROPPED : CUT), is_held);
+    marks.handle(handle,
+                 handle.of == GripOf::keep_box ? BOX : (handle.of == GripOf::drop_box ? DROPPED : CUT),
+                 is_held);
   }
 }
 
@@ -95,9 +102,12 @@ void measure_marks(const Document& document, Marks& marks) {
   for (const Measure& measure : document.measures) {
     const std::vector<glm::dvec3>& points = measure.points;
     for (std::size_t i = 1; i < points.size(); ++i) marks.line(points[i - 1], points[i], MEASURE);
-    if (measure.kind == MeasureKind::area && points.size() > 2) marks.line(points.back(), points.front(), MEASURE);
+    if (measure.kind == MeasureKind::area && points.size() > 2)
+      marks.line(points.back(), points.front(), MEASURE);
     for (const glm::dvec3& point : points) marks.dot(point, MEASURE, 0.6F * DOT_EM);
-    if (!points.empty()) marks.text(measure.kind == MeasureKind::angle ? points[points.size() / 2] : points.back(), short_text(measure, document.up));
+    if (!points.empty())
+      marks.text(measure.kind == MeasureKind::angle ? points[points.size() / 2] : points.back(),
+                 short_text(measure, document.up));
   }
 }
 

@@ -21,7 +21,8 @@ void kind_buttons(PanelState& state) {
 bool measure_facts(const Measure& measure, const glm::dvec3& up) {
   const std::vector<MeasureValue> values = values_of(measure, up);
   if (values.empty())
-    ImGui::TextDisabled("%s: %zu of %zu points", measure_name(measure.kind), measure.points.size(), points_needed(measure.kind));
+    ImGui::TextDisabled("%s: %zu of %zu points", measure_name(measure.kind), measure.points.size(),
+                        points_needed(measure.kind));
   for (const MeasureValue& value : values) fact(value.name.c_str(), value.text);
   return ImGui::SmallButton("remove");
 }

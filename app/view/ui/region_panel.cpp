@@ -10,14 +10,16 @@ namespace splatray {
 namespace {
 
 /// A box: switched on about all there is, turned, switched off.
-void box_controls(const char* label, std::optional<TurnedBox>& box, const TurnedBox& first, const char* words) {
+void box_controls(const char* label, std::optional<TurnedBox>& box, const TurnedBox& first,
+                  const char* words) {
   ImGui::PushID(label);
   bool on = box.has_value();
   if (ImGui::Checkbox(label, &on)) box = on ? std::optional(first) : std::nullopt;
   tip(words);
   if (box) {
     const double least = -180.0, most = 180.0;
-    ImGui::SliderScalar("turn", ImGuiDataType_Double, &box->turn_deg, &least, &most, "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderScalar("turn", ImGuiDataType_Double, &box->turn_deg, &least, &most, "%.1f\u00B0",
+                        ImGuiSliderFlags_AlwaysClamp);
   }
   ImGui::PopID();
 }
@@ -47,10 +49,11 @@ void slice_controls(Document& document) {
   const glm::dvec3 middle = 0.5 * (document.bounds_min_world + document.bounds_max_world);
   double place = glm::dot(slice->point - middle, slice->normal);
   const double nearest = -radius, farthest = radius, thinnest = 1e-4 * radius, thickest = 2.0 * radius;
-  bool changed = ImGui::SliderScalar("place", ImGuiDataType_Double, &place, &nearest, &farthest, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+  bool changed = ImGui::SliderScalar("place", ImGuiDataType_Double, &place, &nearest, &farthest, "%.4g",
+                                     ImGuiSliderFlags_AlwaysClamp);
   tip("from the middle of what there is, world units; Ctrl and the wheel move it");
-  changed |= ImGui::SliderScalar("thickness", ImGuiDataType_Double, &slice->thickness, &thinnest, &thickest, "%.4g",
-                                 ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+  changed |= ImGui::SliderScalar("thickness", ImGuiDataType_Double, &slice->thickness, &thinnest, &thickest,
+                                 "%.4g", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
   if (!changed) return;
   slice->point += (place - glm::dot(slice->point - middle, slice->normal)) * slice->normal;
   set_slice(document.region, *slice);
@@ -86,8 +89,10 @@ void cut_controls(Document& document) {
 void region_panel(Document& document, PanelState& state) {
   ImGui::Checkbox("look in", &document.settings.cutaway);
   tip("leave out what faces away from the eye, such as walls and ceilings before a room");
-  box_controls("keep a box", document.region.keep_box, box_of_all(document), "only what is in it is shown; drag its faces in the picture");
-  box_controls("drop a box", document.region.drop_box, middle_box(document), "all but what is in it is shown");
+  box_controls("keep a box", document.region.keep_box, box_of_all(document),
+               "only what is in it is shown; drag its faces in the picture");
+  box_controls("drop a box", document.region.drop_box, middle_box(document),
+               "all but what is in it is shown");
   slice_controls(document);
   cut_controls(document);
   ImGui::Checkbox("light of what is kept alone", &document.region.light_kept);
