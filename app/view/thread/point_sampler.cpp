@@ -99,40 +99,63 @@ std::vector<glm::vec3> normals_near(const std::vector<glm::dvec3>& position, con
   return normal;
 }
 
+/// Leaves out what a region does not hold.
+void keep_region(const Region& region, PointCloud& cloud) {
+  if (region.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.position.size(); ++i) {
+    if (!region.holds(cloud.origin_world + glm::dvec3(cloud.position[i]))) continue;
+    cloud.position[kept] = cloud.position[i];
+    cloud.color[kept] = cloud.color[i];
+    if (!cloud.normal.empty()) cloud.normal[kept] = cloud.normal[i];
+    ++kept;
+  }
+  cloud.position.resize(kept);
+  cloud.color.resize(kept);
+  if (!cloud.normal.empty()) cloud.normal.resize(kept);
+}
+
 }  // namespace
 
 void PointSampler::add(const SeenPoints& seen) {
   const Points& points = seen.points;
   if (seen.first == 0) {
     first_station_ = kept_.stations.size();
-    kept_.stations.insert(kept_.stations.end(), points.stations.begin(), points.stations.end());
-    if (points.stations.empty()) kept_.stations.emplace_back();
     measured_ = measured_ && seen.measured;
     if (seen.measured) up_ = up_.value_or(seen.up);
   }
+  kept_.stations.resize(first_station_);
+  kept_.stations.insert(kept_.stations.end(), points.stations.begin(), points.stations.end());
+  if (points.stations.empty()) kept_.stations.emplace_back();
   for (std::size_t i = seen.first; i < points.size(); ++i) {
     if (!is_usable_position(points.position[i]) || passed_++ % stride_ != 0) continue;
-    kept_.position.push_back(points.position[i]);
-    kept_.position.back().z *= asked_.source.scans.z_scale;
-    const std::size_t station = first_station_ + (points.station.empty() ? 0 : points.station[i]);
-    kept_.station.push_back(static_cast<std::uint16_t>(std::min<std::size_t>(station, 0xFFFF)));
-    kept_.normal.push_back(points.normal.empty() ? glm::vec3(0.0F) : points.normal[i]);
-    std::uint8_t colored = 0;
-    glm::u16vec3 color(0);
-    if (!points.stored_color.empty()) {
-      color = points.stored_color[i];
-      colored = points.stored_color_most == 0 ? 2 : 1;
-      if (colored == 1) color = glm::u16vec3(glm::uvec3(color) * 255U / unsigned{points.stored_color_most});
-      if (colored == 2) largest_ = std::max({largest_, color.x, color.y, color.z});
-    } else if (!points.color.empty()) {
-      const glm::vec3& linear = points.color[i];
-      color = {encoded(linear.x), encoded(linear.y), encoded(linear.z)};
-      colored = 1;
-    }
-    stored_.push_back(color);
-    colored_.push_back(colored);
+    keep(points, i);
     if (size() == MOST) thin_out();
   }
+}
+
+/// Arrays that are not yet as long as the positions do not know of the point; it is of the newest station then.
+void PointSampler::keep(const Points& points, std::size_t i) {
+  kept_.position.push_back(points.position[i]);
+  kept_.position.back().z *= asked_.source.scans.z_scale;
+  const std::size_t newest = kept_.stations.size() - 1;
+  const std::size_t station = i < points.station.size() ? first_station_ + points.station[i] : newest;
+  kept_.station.push_back(static_cast<std::uint16_t>(std::min<std::size_t>({station, newest, 0xFFFF})));
+  kept_.normal.push_back(i < points.normal.size() ? points.normal[i] : glm::vec3(0.0F));
+  std::uint8_t colored = 0;
+  glm::u16vec3 color(0);
+  if (i < points.stored_color.size()) {
+    color = points.stored_color[i];
+    colored = points.stored_color_most == 0 ? 2 : 1;
+    if (colored == 1) color = glm::u16vec3(glm::uvec3(color) * 255U / unsigned{points.stored_color_most});
+    if (colored == 2) largest_ = std::max({largest_, color.x, color.y, color.z});
+  } else if (i < points.color.size()) {
+    const glm::vec3& linear = points.color[i];
+    color = {encoded(linear.x), encoded(linear.y), encoded(linear.z)};
+    colored = 1;
+  }
+  stored_.push_back(color);
+  colored_.push_back(colored);
 }
 
 void PointSampler::thin_out() {
@@ -210,6 +233,7 @@ OpenedPoints PointSampler::make() const {
     cloud.position.emplace_back(position - cloud.origin_world);
   if (opened.document.settings.cutaway)
     cloud.normal = normals_near(kept_.position, scene, CELLS_OF_SPACING * spacing_of(scene));
+  keep_region(region_of(asked_.view.region, scene.up), cloud);
   opened.document.looks = {};
   opened.points = std::make_shared<const PointCloud>(std::move(cloud));
   return opened;

@@ -36,6 +36,7 @@ class PointSampler {
  private:
   [[nodiscard]] Scene small_scene() const;
   [[nodiscard]] std::vector<std::uint32_t> own_colors() const;
+  void keep(const Points& points, std::size_t i);
   void thin_out();
 
   Request asked_;

@@ -104,7 +104,7 @@ void measure_marks(const Document& document, Marks& marks) {
     for (std::size_t i = 1; i < points.size(); ++i) marks.line(points[i - 1], points[i], MEASURE);
     if (measure.kind == MeasureKind::area && points.size() > 2)
       marks.line(points.back(), points.front(), MEASURE);
-    for (const glm::dvec3& point : points) marks.dot(point, MEASURE, 0.6F * DOT_EM);
+    for (const glm::dvec3& point : points) marks.dot(point, MEASURE, 0.9F * DOT_EM);
     if (!points.empty())
       marks.text(measure.kind == MeasureKind::angle ? points[points.size() / 2] : points.back(),
                  short_text(measure, document.up));
