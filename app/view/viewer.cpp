@@ -52,7 +52,7 @@ Viewer::Viewer(const Request& request, Clock::time_point start)
       loader_([this] { window_.wake(); }, user_scene_cache()),
       renderer_(request_.settings.device, [this] { window_.wake(); }) {
   panels_.recent_files = user_.state().recent_files;
-  const Choices& choices = user_.state().choices;
+  const Choices& choices = choices_kept_ = user_.state().choices;
   document_.eye_dome = choices.eye_dome;
   document_.point_size = choices.point_size;
   panels_.walk_speed = choices.walk_speed;
@@ -170,7 +170,7 @@ void Viewer::handle_inputs() {
       continue;
     }
     const bool over_controls = gui.wants_mouse() || !has_view();
-    if (!over_controls && take_hold(event)) continue;
+    if ((handle_ || !over_controls) && take_hold(event)) continue;
     if (const std::optional<Gesture> gesture = mouse_.take(event, over_controls, Clock::now()))
       handle(*gesture);
   }

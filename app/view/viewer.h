@@ -74,6 +74,7 @@ class Viewer {
   UserMemory user_{user_state_path()};
   std::string unkept_;         ///< why the last change of user_ could not be kept; empty = it was
   glm::uvec2 window_kept_{0};  ///< size of the window as user_ has it
+  Choices choices_kept_;       ///< those of this window
   Request request_;            ///< of the command line
   ViewStats stats_;
   Window window_;

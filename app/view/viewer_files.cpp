@@ -197,7 +197,8 @@ void Viewer::empty_cache() {
 /// Keeps what a person likes to have in any scene.
 void Viewer::remember_choices() {
   const Choices now{document_.eye_dome, document_.point_size, panels_.walk_speed, panels_.shows_handles};
-  if (now == user_.state().choices) return;
+  if (now == choices_kept_) return;
+  choices_kept_ = now;
   remember([now](UserState& state) { state.choices = now; });
 }
 

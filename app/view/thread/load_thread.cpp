@@ -37,6 +37,7 @@ LoadThread::~LoadThread() {
 void LoadThread::load(const Request& request) {
   const std::lock_guard lock(mutex_);
   waiting_ = request;
+  news_.points.reset();
   news_.progress = {stage_text("reading", request), 0.0};
   cancelled_ = true;  // what is being loaded
   changed_.notify_one();

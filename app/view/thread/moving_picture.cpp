@@ -1,6 +1,7 @@
 #include "app/view/thread/moving_picture.h"
 
 #include <algorithm>
+#include <array>
 
 #include "app/view/thread/eye_dome.h"
 #include "engine/base/srgb.h"
@@ -29,11 +30,14 @@ std::optional<double> mean_brightness(const Image& image, const Linear& linear) 
 }  // namespace
 
 void MovingPicture::rest(const Image& image, const std::vector<std::uint8_t>& display) {
+  static const std::array<float, 256> LINEAR = [] {
+    std::array<float, 256> linear{};
+    for (std::size_t i = 0; i < linear.size(); ++i)
+      linear[i] = srgb_to_linear(static_cast<float>(i) / 255.0F);
+    return linear;
+  }();
   rest_ = mean_brightness(image, [&display](std::size_t i) {
-    const auto channel = [&](std::size_t c) {
-      return srgb_to_linear(static_cast<float>(display[4 * i + c]) / 255.0F);
-    };
-    return vec3(channel(0), channel(1), channel(2));
+    return vec3(LINEAR[display[4 * i]], LINEAR[display[4 * i + 1]], LINEAR[display[4 * i + 2]]);
   });
 }
 

@@ -15,8 +15,8 @@ constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
 /// Whether a picture of one is a picture of the other, but for the exposure.
 bool same_picture(const Document& a, const Document& b) {
   return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights &&
-         a.up == b.up && a.eye_dome == b.eye_dome && a.attributes == b.attributes && a.environment == b.environment &&
-         same_looks(a.looks, b.looks);
+         a.up == b.up && a.eye_dome == b.eye_dome && a.attributes == b.attributes &&
+         a.environment == b.environment && same_looks(a.looks, b.looks);
 }
 
 Display display_of(const Document& document) { return {document.exposure_ev, document.tone}; }
