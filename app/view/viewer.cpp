@@ -281,14 +281,18 @@ void Viewer::handle(const Command& command) {
       return look_from(Viewpoint::sensor);
     case Action::undo:
     case Action::redo:
-      if (!(command.action == Action::undo ? history_.undo(document_) : history_.redo(document_)))
-        panels_.notice = command.action == Action::undo ? "nothing to undo" : "nothing to redo";
-      return;
+      return go_back(command.action == Action::undo);
     case Action::empty_cache:
       return empty_cache();
     default:
       return;
   }
+}
+
+void Viewer::go_back(bool undo) {
+  if (!scene_ || of_points_) return;
+  if (!(undo ? history_.undo(document_) : history_.redo(document_)))
+    panels_.notice = undo ? "nothing to undo" : "nothing to redo";
 }
 
 /// One of the views of --view, of what the region holds.

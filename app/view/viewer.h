@@ -52,6 +52,7 @@ class Viewer {
   [[nodiscard]] bool take_hold(const InputEvent& event);
   [[nodiscard]] bool flies() const;
   void change_walk_speed(double notches);
+  void go_back(bool undo);
   void empty_cache();
   void remember_choices();
   void draw_controls();

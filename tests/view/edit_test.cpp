@@ -16,12 +16,7 @@
 namespace splatray {
 namespace {
 
-constexpr glm::dvec2 SIZE(800.0, 600.0);
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double most) {
-  EXPECT_LT(glm::length(a - b), most)
-      << a.x << " " << a.y << " " << a.z << " and " << b.x << " " << b.y << " " << b.z;
-}
+constexpr glm::dvec2 PICTURE(800.0, 600.0);
 
 TEST(MeasureTest, ValuesAreThoseOfGeometry) {
   const glm::dvec3 at(560000.0, 5900000.0, 100.0);
@@ -29,8 +24,7 @@ TEST(MeasureTest, ValuesAreThoseOfGeometry) {
   EXPECT_NEAR(height_above(at, at + glm::dvec3(1, 2, 2.5), {0, 0, 3}), 2.5, 1e-9);
   EXPECT_NEAR(height_above(at, at + glm::dvec3(1, 2, 2.5), {0, -1, 0}), -2.0, 1e-9);
   EXPECT_NEAR(angle_deg(at + glm::dvec3(1, 0, 0), at, at + glm::dvec3(0, 0, 2)), 90.0, 1e-9);
-  EXPECT_NEAR(angle_deg(at + glm::dvec3(1, 1e-7, 0), at, at + glm::dvec3(1, 0, 0)), 1e-7 * 180.0 / M_PI,
-              1e-8);
+  EXPECT_NEAR(angle_deg({1, 1e-7, 0}, {0, 0, 0}, {1, 0, 0}), 1e-7 * 180.0 / M_PI, 1e-8);
   EXPECT_EQ(angle_deg(at, at, at), 0.0);
   EXPECT_EQ(path_length(std::vector{at, at}), 0.0) << "a point and itself";
   std::vector<glm::dvec3> around;
@@ -77,13 +71,13 @@ TEST_P(RegionEdit, AFaceFollowsTheCursorAndTheOthersStay) {
         const std::vector<Grip> before = handles_of(document);
         const Grip& grip = before[number];
         const glm::dvec3 wanted = grip.place_world + 0.1 * size * grip.normal;
-        const auto from = place_in_picture(document.camera, grip.place_world, SIZE);
-        const auto to = place_in_picture(document.camera, wanted, SIZE);
+        const auto from = place_in_picture(document.camera, grip.place_world, PICTURE);
+        const auto to = place_in_picture(document.camera, wanted, PICTURE);
         ASSERT_TRUE(from && to);
         if (glm::distance(*from, *to) < 5.0) continue;  // looked at from its end
-        EXPECT_EQ(handle_at(document, *from + glm::dvec2(2.0, 0.0), SIZE, 6.0).value_or(Grip{}).number,
+        EXPECT_EQ(handle_at(document, *from + glm::dvec2(2.0, 0.0), PICTURE, 6.0).value_or(Grip{}).number,
                   number);
-        drag_handle(document, grip, *from, *to, SIZE);
+        drag_handle(document, grip, *from, *to, PICTURE);
         const std::vector<Grip> after = handles_of(document);
         for (std::size_t i = 0; i < 6; ++i) {
           const double moved = glm::dot(after[i].place_world - before[i].place_world, before[i].normal);
@@ -98,7 +92,7 @@ TEST_P(RegionEdit, ABoxIsNeverTurnedInsideOut) {
   for (std::size_t number = 0; number < 6; ++number) {
     Grip grip = handles_of(document)[number];
     for (const double far : {-1e3, 1e3})
-      drag_handle(document, grip, {400, 300}, {400 + far, 300 - far}, SIZE);
+      drag_handle(document, grip, {400, 300}, {400 + far, 300 - far}, PICTURE);
   }
   EXPECT_TRUE(glm::all(glm::lessThan(document.region.keep_box->low, document.region.keep_box->high)));
 }
@@ -125,12 +119,12 @@ TEST_P(RegionEdit, ASliceMovesAndKeepsItsThickness) {
 
 /// A point beside the middle of the picture stays where it is in it, and as far from the eye.
 TEST_P(RegionEdit, TurningAboutAPointKeepsItInItsPlace) {
-  const glm::dvec3 about = point_under(document.camera, {620.0, 140.0}, SIZE);
+  const glm::dvec3 about = point_under(document.camera, {620.0, 140.0}, PICTURE);
   const double before = glm::distance(about, document.camera.eye);
   const Camera camera = document.camera;
   for (const glm::dvec2& drag : {glm::dvec2(40.0, 10.0), glm::dvec2(-90.0, 35.0), glm::dvec2(3.0, -20.0)}) {
-    orbit(document, drag, SIZE, about);
-    const auto place = place_in_picture(document.camera, about, SIZE);
+    orbit(document, drag, PICTURE, about);
+    const auto place = place_in_picture(document.camera, about, PICTURE);
     ASSERT_TRUE(place);
     EXPECT_LT(glm::distance(*place, glm::dvec2(620.0, 140.0)), 0.05);
   }
@@ -145,15 +139,16 @@ TEST_P(RegionEdit, PlacesInThePictureAreWhereTheyAreSeen) {
     if (i == 10) toggle_orthographic(document);
     const glm::dvec3 point =
         document.camera.target + size * glm::dvec3(share(random), share(random), share(random));
-    const auto place = place_in_picture(document.camera, point, SIZE);
+    const auto place = place_in_picture(document.camera, point, PICTURE);
     ASSERT_TRUE(place);
-    EXPECT_LT(glm::distance(*place, projected(document.camera, point, SIZE)), 0.05);
+    EXPECT_LT(glm::distance(*place, projected(document.camera, point, PICTURE)), 0.05);
   }
-  EXPECT_FALSE(place_in_picture(document.camera, 2.0 * document.camera.eye - document.camera.target, SIZE));
+  EXPECT_FALSE(
+      place_in_picture(document.camera, 2.0 * document.camera.eye - document.camera.target, PICTURE));
 }
 
 TEST_P(RegionEdit, WalkingStaysLevelWhereverOneLooks) {
-  orbit(document, {0.0, 120.0}, SIZE);  // looks down
+  orbit(document, {0.0, 120.0}, PICTURE);  // looks down
   const glm::dvec3 up = glm::normalize(document.up), eye = document.camera.eye;
   walk(document, {0.0, 0.0, 1.0}, 0.2, 2.0);
   EXPECT_NEAR(glm::dot(document.camera.eye - eye, up), 0.0, 1e-6 * size);

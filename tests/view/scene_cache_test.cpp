@@ -127,7 +127,7 @@ TEST_F(SceneCacheTest, TheLongestUnusedGoesFirst) {
   const auto now = fs::file_time_type::clock::now();
   for (int i = 0; i < 3; ++i) {
     asked.push_back(request);
-    asked.back().source.params.seed = static_cast<std::uint64_t>(i + 2);
+    asked.back().source.params.radius_scale = i + 2.0;
     cache.keep(asked.back(), loaded.scene, {});
     fs::last_write_time(cache.place_of(asked.back()), now - std::chrono::hours(10 - i));
     if (i == 1) {
