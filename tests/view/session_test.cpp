@@ -127,7 +127,7 @@ class ViewSession : public CliTest {
   }
 
   /// The middle of the slider of Material::mirror.
-  static constexpr int MIRROR_X = 755, MIRROR_Y = 338;
+  static constexpr int MIRROR_X = 755, MIRROR_Y = 468;
 
   Desktop desktop;
   std::optional<Program> viewer;

@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "app/view/model/navigation.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 namespace {
 
+constexpr double HANDLES_APART = 0.1;     ///< of planes, of the scene's radius
 constexpr double MARGIN = 0.02;           ///< of box_of_all, of the scene's size
 constexpr double LEAST_EDGE = 1e-3;       ///< of a box that is dragged, of the scene's radius
 constexpr double THICKNESS = 0.05;        ///< of a first slice, of the scene's size across it
@@ -61,9 +63,12 @@ std::vector<Grip> handles_of(const Document& document) {
   std::vector<Grip> handles;
   add_box(document.region.keep_box, GripOf::keep_box, document, handles);
   add_box(document.region.drop_box, GripOf::drop_box, document, handles);
+  const double apart = HANDLES_APART * scene_radius_world(document);
   for (std::size_t i = 0; i < document.region.cuts.size(); ++i) {
     const HalfSpace& cut = document.region.cuts[i];
-    const glm::dvec3 normal = glm::normalize(cut.normal), middle = middle_of(document);
+    const glm::dvec3 normal = glm::normalize(cut.normal);
+    // Side by side: those of a thin slice are not one above the other.
+    const glm::dvec3 middle = middle_of(document) + static_cast<double>(i) * apart * TangentFrame(normal).u;
     handles.push_back({GripOf::cut, i, middle + glm::dot(cut.point - middle, normal) * normal, normal});
   }
   return handles;
