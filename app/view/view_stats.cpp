@@ -27,7 +27,7 @@ void ViewStats::shown(const SharedFrame& frame, Clock::time_point now) {
   }
   last_ = now;
   frame_ = frame;
-  has_news_ |= !frame->moving;
+  has_news_ |= !frame->moving || pictures_ == 1;
   std::erase_if(recent_, [now](Clock::time_point time) { return now - time > std::chrono::seconds(1); });
   recent_.push_back(now);
 }

@@ -21,7 +21,7 @@ class ViewStats {
   void shown(const SharedFrame& frame, Clock::time_point now);
   /// `error`: the sentence that the window shows as its error, in every frame.
   void add_error(const std::string& error);
-  /// Whether an error, or a picture that is not of something moving, came since the last write().
+  /// Whether an error, the first picture, or one that is not of something moving, came since the last write().
   [[nodiscard]] bool has_news() const { return has_news_; }
   /// Pictures of the last second that were handed to the window.
   [[nodiscard]] double per_second(Clock::time_point now) const;
