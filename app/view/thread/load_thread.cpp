@@ -130,9 +130,9 @@ void LoadThread::load_now(const Request& asked) {
   request.look.attributes.color_by = "rgb";
   bool worth_keeping = false;
   Scene scene = made_scene(request, listener, worth_keeping);
-  const std::string choices = suited_picture(scene, asked).choices;
-  if (!choices.empty()) listener.note(choices);
-  OpenedScene opened{nullptr, first_document(scene, asked)};
+  const SuitedPicture suited = suited_picture(scene, asked);
+  if (!suited.choices.empty()) listener.note(suited.choices);
+  OpenedScene opened{nullptr, first_document(scene, asked, suited.request)};
   opened.scene = std::make_shared<const Scene>(std::move(scene));
   const SharedScene kept = worth_keeping ? opened.scene : nullptr;
   if (is_cancelled()) return;

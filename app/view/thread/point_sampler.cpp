@@ -22,9 +22,11 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t FEW = std::size_t{1} << 14U;  ///< points of the scene that tells how all are seen
-constexpr double OUTSIDE = 0.02;                    ///< of the heights at each end, beyond the colours' range
-constexpr std::uint32_t PLAIN = 0xFFC8CDD2;         ///< of points without colours, display-encoded
-constexpr double CELLS_OF_SPACING = 2.0;            ///< edge of a cell in which one normal stands for all
+constexpr std::size_t FEW_HUNDRED_THOUSAND =
+    400'000;                                 ///< points of a scene that a picture is made of in no time
+constexpr double OUTSIDE = 0.02;             ///< of the heights at each end, beyond the colours' range
+constexpr std::uint32_t PLAIN = 0xFFC8CDD2;  ///< of points without colours, display-encoded
+constexpr double CELLS_OF_SPACING = 2.0;     ///< edge of a cell in which one normal stands for all
 
 /// The display-encoded 8 bits of a linear channel.
 std::uint8_t encoded(float linear) {
@@ -73,7 +75,8 @@ std::vector<std::uint32_t> height_colors(const std::vector<glm::dvec3>& position
 /// Distance to the next of points that are spread over their surface as a scene's splats are.
 double spacing_of(const Scene& scene) {
   std::vector<double> radius;
-  for (const uvec4& words : scene.data_pool) radius.push_back(std::sqrt(unpack_radius_squared(words)));
+  for (std::size_t i = 0; i < scene.data_pool.size(); i += scene.data_pool.size() / FEW + 1)
+    radius.push_back(std::sqrt(unpack_radius_squared(scene.data_pool[i])));
   return value_at(radius, 0.5) * scene.root.unit_world;
 }
 
@@ -116,6 +119,29 @@ void keep_region(const Region& region, PointCloud& cloud) {
 }
 
 }  // namespace
+
+PointCloud points_of(const Scene& scene, const Document& document) {
+  const std::size_t stride = scene.data_pool.size() / FEW_HUNDRED_THOUSAND + 1;
+  const Region region = region_of(document.region, document.up);
+  const std::string& color_by = document.attributes.color_by;
+  const bool own = !scene.color_pool.empty() && (color_by.empty() || color_by == "rgb");
+  PointCloud cloud;
+  cloud.origin_world = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+  cloud.spacing_world = spacing_of(scene) * std::sqrt(static_cast<double>(stride));
+  std::vector<glm::dvec3> position;
+  for (std::size_t i = 0; i < scene.data_pool.size(); i += stride) {
+    const Splat splat = unpack_splat(scene.data_pool[i]);
+    position.push_back(scene.root.to_world(splat.center));
+    cloud.normal.emplace_back(splat.normal);
+    const glm::vec3 linear = own ? unpack_color(scene.color_pool[i]) : glm::vec3(0.0F);
+    cloud.color.push_back(own ? packed(glm::u16vec3(encoded(linear.x), encoded(linear.y), encoded(linear.z)))
+                              : PLAIN);
+  }
+  if (color_by.starts_with("height")) cloud.color = height_colors(position, document.up);
+  for (const glm::dvec3& place : position) cloud.position.emplace_back(place - cloud.origin_world);
+  keep_region(region, cloud);
+  return cloud;
+}
 
 void PointSampler::add(const SeenPoints& seen) {
   const Points& points = seen.points;

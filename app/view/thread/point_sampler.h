@@ -14,6 +14,9 @@ struct OpenedPoints {
   Document document;
 };
 
+/// An even sample of a scene's splats, coloured as the document asks for, about: what is seen while the scene is brought to the device.
+[[nodiscard]] PointCloud points_of(const Scene& scene, const Document& document);
+
 /// For one thread at a time.
 class PointSampler {
  public:

@@ -7,9 +7,15 @@
 #include "app/view/model/document_request.h"
 #include "app/view/model/inspect.h"
 #include "app/view/thread/point_picture.h"
+#include "app/view/thread/point_sampler.h"
 #include "engine/base/stopwatch.h"
 
 namespace splatray {
+namespace {
+
+constexpr std::size_t MANY_SPLATS = 500'000;
+
+}  // namespace
 
 RenderThread::RenderThread(const std::string& wanted, std::function<void()> wake)
     : device_(open_device(wanted)), wake_(std::move(wake)), thread_([this] { run(); }) {}
@@ -99,10 +105,7 @@ std::optional<RenderThread::Pending> RenderThread::wait_for_requests() {
 }
 
 void RenderThread::fulfil(const Pending& pending) {
-  if (pending.scene) {
-    points_.reset();
-    live_.open(pending.scene);
-  }
+  if (pending.scene) open_now(pending);
   if (pending.points) points_ = *pending.points;
   if (pending.document) {
     shown_ = *pending.document;
@@ -115,6 +118,17 @@ void RenderThread::fulfil(const Pending& pending) {
   if (pending.scene) exposes_ = pending.exposes;
   if (pending.pick) answer(*pending.pick);
   if (pending.save) save_now(*pending.save);
+}
+
+/// Brings a scene to the device. A large one takes a while there: its points are seen until then.
+void RenderThread::open_now(const Pending& pending) {
+  if (!points_ && pending.document && pending.scene->data_pool.size() > MANY_SPLATS) {
+    shown_ = *pending.document;
+    points_ = std::make_shared<const PointCloud>(points_of(*pending.scene, shown_));
+    show_points(true, pending.window_px);
+  }
+  points_.reset();
+  live_.open(pending.scene);
 }
 
 /// Draws the points where they, or how they are seen, are new.

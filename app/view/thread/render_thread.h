@@ -87,6 +87,7 @@ class RenderThread {
   void run();
   [[nodiscard]] std::optional<Pending> wait_for_requests();
   void fulfil(const Pending& pending);
+  void open_now(const Pending& pending);
   void show_points(bool others, glm::uvec2 window_px);
   void expose();
   void answer(const PickRequest& request);
