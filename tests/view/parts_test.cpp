@@ -51,6 +51,25 @@ TEST(MovingResolution, TakesTheWantedTime) {
   }
 }
 
+TEST(MovingResolution, AThirdOfTheWindowIsWorthWaitingFor) {
+  constexpr glm::uvec2 WINDOW{1200, 900};
+  for (const double third_ms : {20.0, 60.0, 85.0, 200.0}) {
+    MovingResolution resolution;
+    for (int i = 0; i < 30; ++i) {
+      const double scale = resolution.scale(WINDOW, 50.0, 90.0);
+      resolution.learn(scale * scale * 1200 * 900, 9.0 * scale * scale * third_ms);
+    }
+    const double scale = resolution.scale(WINDOW, 50.0, 90.0), ms = 9.0 * scale * scale * third_ms;
+    EXPECT_LT(ms, 90.0 * 1.28) << third_ms;
+    if (third_ms < 90.0) {
+      EXPECT_GT(scale, 0.29) << third_ms;
+    }
+    if (third_ms < 45.0) {
+      EXPECT_LT(ms, 50.0 * 1.28) << "no slower than asked for where there is enough";
+    }
+  }
+}
+
 TEST(MovingResolution, OneOutlierDoesLittle) {
   MovingResolution resolution;
   const double before = resolution.scale({1280, 720}, 33.0);

@@ -7,7 +7,9 @@ namespace splatray {
 namespace {
 
 constexpr double MOVING_MS = 1000.0 / 20.0;  ///< of a coarse picture
-constexpr double BAND_MS = 30.0;             ///< of work before changes are looked for
+constexpr double SLOWEST_MS =
+    1000.0 / 11.0;                ///< the same where it would be coarser than a third of the window
+constexpr double BAND_MS = 30.0;  ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
 /// Of trace_samples, so that reading back costs little.
 constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
@@ -64,7 +66,7 @@ SharedFrame Progressive::work(const std::function<bool()>& stop) {
 }
 
 SharedFrame Progressive::trace_coarse() {
-  const double scale = resolution_.scale(window_px_, MOVING_MS);
+  const double scale = resolution_.scale(window_px_, MOVING_MS, SLOWEST_MS);
   Frame frame = new_frame(scaled_size(window_px_, scale), scale);
   frame.moving = true;
   Settings coarse = settings();
