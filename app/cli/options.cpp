@@ -1,5 +1,7 @@
 #include "app/cli/options.h"
 
+#include <algorithm>
+
 namespace splatray {
 namespace {
 
@@ -20,9 +22,11 @@ void add_option(OptionList& list, const Field& field, const std::string& name, G
 
 }  // namespace
 
-void add_fields(OptionList& list, FieldDoors door, const std::string& inputs, GivenFields& given) {
+void add_fields(OptionList& list, FieldDoors door, const std::string& inputs, GivenFields& given,
+                const std::vector<FieldGroup>& groups) {
   for (const Field& field : fields()) {
-    if (!field.in(door)) continue;
+    const bool asked = groups.empty() || std::find(groups.begin(), groups.end(), field.group) != groups.end();
+    if (!asked || !field.in(door)) continue;
     list.set_group(group_title(field.group));
     const std::string dashed = "--" + field.name;
     const std::string name = field.letter.empty() ? dashed : field.letter + "," + dashed;

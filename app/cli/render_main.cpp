@@ -56,10 +56,9 @@ void expose(const Sequence& sequence, SceneOnDevice& shown, const Camera& still,
 /// The request with what suits the scan where nothing is asked for.
 Request suited(const Request& asked, const LoadedScene& loaded) {
   Request request = loaded.request;
-  if (lower_extension(request.output.path) == ".png" && suits_denoising(loaded.scene, asked)) {
-    request.output.denoise = true;
-    require_picture_memory(request);
-  }
+  const bool shows = lower_extension(request.output.path) != ".exr" && !request.view.xray;
+  request.output.denoise = request.output.denoise || (shows && suits_denoising(loaded.scene, asked));
+  require_picture_memory(request);
   return request;
 }
 

@@ -9,6 +9,9 @@
 #include "app/library/picture/picture_notes.h"
 #include "app/library/picture/resume.h"
 #include "app/library/picture/scene_source.h"
+#include "app/library/picture/xray.h"
+#include "app/library/sheet/cut_lines.h"
+#include "app/library/sheet/ink.h"
 #include "engine/base/stopwatch.h"
 #include "engine/image/sparks.h"
 
@@ -55,8 +58,11 @@ void render_samples(const Request& request, SceneOnDevice& shown, const Look& lo
 
 }  // namespace
 
-MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
-                         const Tracer::Progress& progress, Stopped stopped) {
+namespace {
+
+/// The picture of a request's own look.
+MadePicture traced_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
+                           const Tracer::Progress& progress, Stopped stopped) {
   const View view{camera, request.view.width, request.view.height, request.view.window()};
   Settings settings = choose_settings(shown.scene(), request);
   LitLook lit = picture_look(request, shown, camera, settings);
@@ -82,6 +88,28 @@ MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Cam
   Stopwatch watch;
   made.denoiser = remove_noise(shown.tracer(), look, view, settings, made.image);
   made.denoise_ms = watch.lap_ms();
+  return made;
+}
+
+}  // namespace
+
+MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
+                         const Tracer::Progress& progress, Stopped stopped) {
+  if (!request.view.made_sheet) return traced_picture(request, shown, camera, progress, stopped);
+  const Sheet& sheet = *request.view.made_sheet;
+  const PixelWindow window =
+      View{camera, request.view.width, request.view.height, request.view.window()}.made();
+  MadePicture made;
+  if (request.view.xray) {
+    const Scene& scene = shown.scene();
+    made.image = xray_image(shown.tracer(), scene.root, shown.look(), sheet, window,
+                            choose_settings(scene, request), progress);
+  } else {
+    made = traced_picture(request, shown, camera, progress, stopped);
+  }
+  if (made.samples_missing > 0) return made;
+  if (request.view.ink) draw_ink(sheet, made.image);
+  draw_cut(sheet, window, made.image);
   return made;
 }
 

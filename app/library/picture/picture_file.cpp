@@ -6,6 +6,7 @@
 #include "app/library/compare.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/command_line.h"
+#include "app/library/sheet/sheet_files.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/number_text.h"
@@ -54,6 +55,7 @@ void require_picture_memory(const Request& request) {
 
 void require_outputs_writable(const Request& request) {
   require_writable(request.output.path);
+  if (!request.output.height_raster.empty()) require_writable(request.output.height_raster);
   if (!request.output.stats_json.empty()) require_writable(request.output.stats_json);
 }
 
@@ -86,7 +88,10 @@ Metadata picture_metadata(const Request& request, const Scene& scene, const View
 
 void write_output(const Request& request, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path) {
+  if (request.view.made_sheet) write_sheet_places(request, image, path);
   if (is_png(path)) return write_png(display_image(image, display_of(request)), metadata, path);
+  if (lower_extension(path) != ".exr")
+    return write_sheet(request, display_image(image, display_of(request)), metadata, path);
   ExrPicture picture = exr_picture(image, request.output.aovs, metadata);
   if (const PixelWindow window = request.view.window(); window.width > 0) {
     picture.width = request.view.width;

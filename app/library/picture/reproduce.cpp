@@ -41,7 +41,10 @@ fs::path find_beside(const fs::path& path, const fs::path& picture) {
 
 Request still_request(const Request& request, const Camera& camera) {
   Request still = looks_only(request);
-  set_camera(still.view, camera);
+  if (request.view.made_sheet)
+    forget_sheet(still.view);
+  else
+    set_camera(still.view, camera);
   return still;
 }
 

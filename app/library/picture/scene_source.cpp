@@ -7,6 +7,7 @@
 
 #include "app/library/image_file.h"
 #include "app/library/materials.h"
+#include "app/library/sheet/sheet.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/number_text.h"
@@ -152,6 +153,7 @@ void show_as_asked(const Request& request, LoadedScene& loaded) {
   SuitedPicture suited = suited_picture(loaded.scene, request);
   loaded.request = std::move(suited.request);
   loaded.choices = std::move(suited.choices);
+  place_sheet(loaded.scene, loaded.request);
   suit_region(loaded.scene, loaded.request);
   loaded.legend = show_attributes(loaded.scene, loaded.request.look.attributes);
   loaded.environment_name = choose_environment_name(loaded.scene, request);
@@ -307,17 +309,6 @@ std::uint32_t choose_look(const Scene& scene, const Request& request) {
   const bool materials = std::any_of(scene.materials.begin(), scene.materials.end(), is_chosen) ||
                          std::any_of(request.look.objects.begin(), request.look.objects.end(), changes_look);
   return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;
-}
-
-Region region_of(const RegionRequest& asked, const glm::dvec3& up) {
-  Region region;
-  region.kept = asked.cuts;
-  region.cuts_light = asked.light_kept;
-  if (asked.keep_box)
-    for (const HalfSpace& half : half_spaces(*asked.keep_box, up)) region.kept.push_back(half);
-  if (asked.drop_box)
-    for (const HalfSpace& half : half_spaces(*asked.drop_box, up)) region.dropped.push_back(half);
-  return region;
 }
 
 Settings choose_settings(const Scene& scene, const Request& request) {

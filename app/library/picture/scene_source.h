@@ -71,9 +71,6 @@ struct LoadListener {
 /// materials of either, else LOOK_LIT.
 [[nodiscard]] std::uint32_t choose_look(const Scene& scene, const Request& request);
 
-/// The region: --keep-box, --drop-box, --cut. `up` of the scene as shown, about which boxes are turned.
-[[nodiscard]] Region region_of(const RegionRequest& asked, const glm::dvec3& up);
-
 /// The settings, with defaults that depend on the scene filled in.
 [[nodiscard]] Settings choose_settings(const Scene& scene, const Request& request);
 

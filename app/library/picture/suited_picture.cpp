@@ -63,7 +63,7 @@ SuitedPicture suited_picture(const Scene& scene, const Request& asked) {
   const SceneKind kind = kind_of_scan(scene);
   if (kind == SceneKind::none) return suited;
   const auto note = [&suited](const std::string& option) { suited.choices += " " + option; };
-  if (!request.view.eye && request.view.viewpoint == Viewpoint::automatic) {
+  if (!request.view.eye && !request.view.sheet && request.view.viewpoint == Viewpoint::automatic) {
     request.view.viewpoint = choose_viewpoint(scene);
     request.settings.cutaway = request.view.look_in || request.view.viewpoint == Viewpoint::dollhouse;
     note(std::string("--view ") + viewpoint_name(request.view.viewpoint));

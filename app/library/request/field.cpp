@@ -7,8 +7,8 @@
 namespace splatray {
 
 const char* group_title(FieldGroup group) {
-  constexpr std::array TITLES = {"Input",   "Look",   "Light", "Camera",  "Region",
-                                 "Quality", "Output", "Files", "Research"};  // FieldGroup
+  constexpr std::array TITLES = {"Input", "Look",    "Light",  "Camera", "Region",
+                                 "Sheet", "Quality", "Output", "Files",  "Research"};  // FieldGroup
   return TITLES[static_cast<std::size_t>(group)];
 }
 

@@ -12,7 +12,7 @@
 namespace splatray {
 
 /// Parts of the help, in its order.
-enum class FieldGroup { input, look, light, camera, region, quality, output, files, research };
+enum class FieldGroup { input, look, light, camera, region, sheet, quality, output, files, research };
 /// "Input" and so on.
 [[nodiscard]] const char* group_title(FieldGroup group);
 

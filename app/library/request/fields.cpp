@@ -11,7 +11,7 @@ namespace {
 std::vector<Field> all_fields() {
   std::vector<Field> all;
   for (std::vector<Field> (*group)() : {input_fields, look_fields, light_fields, camera_fields, region_fields,
-                                        quality_fields, output_fields, research_fields})
+                                        sheet_fields, quality_fields, output_fields, research_fields})
     for (Field& field : group()) all.push_back(std::move(field));
   return all;
 }

@@ -45,6 +45,7 @@ void read_value(const Field& field, const std::string& text, Request& request,
 [[nodiscard]] std::vector<Field> light_fields();
 [[nodiscard]] std::vector<Field> camera_fields();
 [[nodiscard]] std::vector<Field> region_fields();
+[[nodiscard]] std::vector<Field> sheet_fields();
 [[nodiscard]] std::vector<Field> quality_fields();
 [[nodiscard]] std::vector<Field> output_fields();
 [[nodiscard]] std::vector<Field> research_fields();

@@ -57,17 +57,18 @@ Field cut_row() {
 }  // namespace
 
 std::vector<Field> region_fields() {
-  return {
-      box_row("keep-box", MEMBER(view.region.keep_box),
-              "only what is in this box, in the file's coordinates; TURN: degrees about the up axis "
-              "through its middle, counter-clockwise seen from above"),
-      box_row("drop-box", MEMBER(view.region.drop_box), "all but what is in this box"), cut_row(),
-      choice_row<bool>("cut-light", REGION, MEMBER(view.region.light_kept), {{"all", false}, {"kept", true}},
-                       "whether all of the scene darkens and lights what is shown, or only what the region "
-                       "keeps; default all"),
-      switch_row("look-in", REGION, MEMBER(view.look_in),
-                 "leave out what faces away from the eye, as --view dollhouse does: walls and ceilings "
-                 "before a room; of scenes whose objects are two-sided, as those of scans are")};
+  return {box_row("keep-box", MEMBER(view.region.keep_box),
+                  "only what is in this box, in the file's coordinates; TURN: degrees about the up axis "
+                  "through its middle, counter-clockwise seen from above"),
+          box_row("drop-box", MEMBER(view.region.drop_box), "all but what is in this box"), cut_row(),
+          choice_row<std::optional<bool>>(
+              "cut-light", REGION, MEMBER(view.region.light_kept),
+              {{"auto", std::nullopt}, {"all", false}, {"kept", true}},
+              "whether all of the scene darkens and lights what is shown, or only what the region "
+              "keeps; default auto: all, of sheets kept"),
+          switch_row("look-in", REGION, MEMBER(view.look_in),
+                     "leave out what faces away from the eye, as --view dollhouse does: walls and ceilings "
+                     "before a room; of scenes whose objects are two-sided, as those of scans are")};
 }
 
 }  // namespace splatray

@@ -33,10 +33,12 @@ void check_part(const Request& request) {
   if (view.tiles == 0 && window.width == 0 && !is_range) return;
   check_sample_range(request);
   if (view.tiles > 0 && view.crop.width > 0) fail("found --crop and --tile, expected one of them");
-  if (view.tiles > view.height)
+  // How many pixels a sheet has, its scene says.
+  const bool known = !view.sheet || view.made_sheet;
+  if (known && view.tiles > view.height)
     fail("found --tile of " + std::to_string(view.tiles) + " parts, expected at most the picture's " +
          std::to_string(view.height) + " rows");
-  if (window.x + window.width > view.width || window.y + window.height > view.height)
+  if (known && (window.x + window.width > view.width || window.y + window.height > view.height))
     fail("found --crop beyond the picture's " + std::to_string(view.width) + "x" +
          std::to_string(view.height) + " pixels, expected a part of it (--resolution)");
   const std::string part = is_range ? "--sample-offset" : (view.tiles > 0 ? "--tile" : "--crop");
@@ -77,6 +79,26 @@ void check_camera(const Request::View& view) {
   if (view.camera_up && !view.eye) fail("found --camera-up without --eye, expected both");
 }
 
+void check_sheet(const Request& request) {
+  const Request::View& view = request.view;
+  if (!view.sheet) {
+    if (view.ink || view.xray) fail("found --ink or --xray without --sheet, expected them with one");
+    if (!request.output.measures.empty()) fail("found --measures without --sheet, expected it with one");
+    if (!request.output.height_raster.empty())
+      fail("found --height-raster without --sheet, expected it with one");
+    return;
+  }
+  if (view.made_sheet) return;
+  const Request::View unset;
+  if (has_camera(view) || view.ortho_height > 0.0)
+    fail("found a camera beside --sheet, expected only the sheet, which has one");
+  if (view.width != unset.width || view.height != unset.height)
+    fail("found --resolution beside --sheet, expected scale= and dpi= in the sheet, which make its size");
+  if (request.output.many()) fail("found --sheet with a sequence of pictures, expected a single one");
+  if (view.ink && view.window().width > 0) fail("found --ink with --crop or --tile, expected a whole sheet");
+  if (view.ink && view.xray) fail("found --ink and --xray, expected one of them");
+}
+
 void check_noise(const Request& request) {
   const Request::Output& output = request.output;
   const bool one_sample = !request.settings.has_goal() && request.settings.samples < 2;
@@ -114,6 +136,30 @@ void set_camera(Request::View& view, const Camera& camera) {
   view.pixel_aspect = camera.pixel_aspect;
 }
 
+Region region_of(const RegionRequest& asked, const glm::dvec3& up) {
+  Region region;
+  region.kept = asked.cuts;
+  region.kept.insert(region.kept.end(), asked.of_sheet.begin(), asked.of_sheet.end());
+  region.cuts_light = asked.light_kept.value_or(false);
+  if (asked.keep_box)
+    for (const HalfSpace& half : half_spaces(*asked.keep_box, up)) region.kept.push_back(half);
+  if (asked.drop_box)
+    for (const HalfSpace& half : half_spaces(*asked.drop_box, up)) region.dropped.push_back(half);
+  return region;
+}
+
+void forget_sheet(Request::View& view) {
+  if (!view.made_sheet) return;
+  const Request::View unset;
+  view.made_sheet.reset();
+  view.region.of_sheet.clear();
+  view.eye = view.target = view.camera_up = std::nullopt;
+  view.fov_y_deg.reset();
+  view.ortho_height = 0.0;
+  view.width = unset.width;
+  view.height = unset.height;
+}
+
 void require_scene_alone(const std::vector<std::filesystem::path>& inputs) {
   if (inputs.size() > 1 && std::any_of(inputs.begin(), inputs.end(), is_scene_file))
     fail("found a .soct beside other inputs, expected it alone");
@@ -128,11 +174,16 @@ void require_inputs(const Request::Source& source) {
 void require_consistent(const Request& request) {
   const Request::Output& output = request.output;
   const std::string extension = lower_extension(output.path);
-  if (!output.path.empty() && extension != ".png" && extension != ".exr")
-    fail("found output '" + output.path.string() + "', expected a name ending in .png or .exr");
-  if ((request.settings.aov || needs_noise(output.aovs)) && extension == ".png")
-    fail("found --aov with a .png output, expected .exr");
+  const bool on_sheet =
+      request.view.sheet && (extension == ".tif" || extension == ".svg" || extension == ".pdf");
+  if (!output.path.empty() && extension != ".png" && extension != ".exr" && !on_sheet)
+    fail("found output '" + output.path.string() + "', expected a name ending in .png or .exr" +
+         (request.view.sheet ? std::string(", .tif, .svg or .pdf") : std::string()));
+  const bool aov = !request.view.sheet && request.settings.aov;
+  if ((aov || output.aovs != 0) && !output.path.empty() && extension != ".exr")
+    fail("found --aov with a " + extension + " output, expected .exr");
   check_camera(request.view);
+  check_sheet(request);
   check_noise(request);
   check_sequence(request);
   check_resume(request);

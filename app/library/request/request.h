@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/library/display_image.h"
 #include "app/library/request/frame_list.h"
 #include "app/library/request/object_change.h"
+#include "app/library/request/sheet_request.h"
 #include "engine/base/progress.h"
 #include "engine/image/aovs.h"
 #include "engine/image/view.h"
@@ -37,10 +39,14 @@ struct LightRequest {
 struct RegionRequest {
   std::optional<TurnedBox> keep_box, drop_box;
   std::vector<HalfSpace> cuts;
-  bool light_kept = false;  ///< what is cut off sends no light back and shades nothing
+  /// What is cut off sends no light back and shades nothing; unset = of sheets.
+  std::optional<bool> light_kept;
+  std::vector<HalfSpace> of_sheet;  ///< what the sheet adds, once the scene is known; no field has it
 
   bool operator==(const RegionRequest&) const = default;
 };
+
+struct Sheet;
 
 struct Request {
   /// Input files and how they become a scene: one .soct, or files that preprocess reads.
@@ -79,6 +85,10 @@ struct Request {
     Viewpoint viewpoint = Viewpoint::automatic;  ///< where no eye is given
     bool look_in = false;                        ///< Settings::cutaway, from wherever one looks
     RegionRequest region;
+    std::optional<SheetRequest> sheet;
+    bool ink = false, xray = false;  ///< of a sheet
+    /// What the sheet comes to, once the scene is known; no field has it.
+    std::shared_ptr<const Sheet> made_sheet;
     double ortho_height = 0.0;          ///< world units; 0 = perspective
     glm::dvec2 lens_shift{0.0};         ///< Camera::lens_shift
     double pixel_aspect = 1.0;          ///< Camera::pixel_aspect
@@ -112,15 +122,18 @@ struct Request {
     bool despeckle = false;   ///< sparks.h
     bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
     AovSet aovs = 0;
-    std::filesystem::path camera_path;   ///< camera_file.h; empty = none
-    std::uint32_t turntable = 0;         ///< frames of a full turn, 0 .. turntable - 1; 0 = none
-    std::vector<FrameRange> frames;      ///< empty = all
-    bool skip_existing = false;          ///< leave out pictures that exist
-    std::filesystem::path stats_json;    ///< empty = none
-    std::filesystem::path reference;     ///< empty = no comparison
-    double reference_threshold = 0.004;  ///< allowed error of a pixel, display-encoded 0..1
-    double reference_share = 0.0002;     ///< allowed share of pixels beyond it
-    double reference_limit = 0.012;      ///< no pixel may be beyond this
+    std::string title;                    ///< of a sheet's page; empty = the input's name
+    std::filesystem::path measures;       ///< drawn on a sheet's page, measure_file.h; empty = none
+    std::filesystem::path height_raster;  ///< of a sheet, .tif; empty = none
+    std::filesystem::path camera_path;    ///< camera_file.h; empty = none
+    std::uint32_t turntable = 0;          ///< frames of a full turn, 0 .. turntable - 1; 0 = none
+    std::vector<FrameRange> frames;       ///< empty = all
+    bool skip_existing = false;           ///< leave out pictures that exist
+    std::filesystem::path stats_json;     ///< empty = none
+    std::filesystem::path reference;      ///< empty = no comparison
+    double reference_threshold = 0.004;   ///< allowed error of a pixel, display-encoded 0..1
+    double reference_share = 0.0002;      ///< allowed share of pixels beyond it
+    double reference_limit = 0.012;       ///< no pixel may be beyond this
     bool list_devices = false;
     bool quiet = false;
     ProgressStyle progress = ProgressStyle::line;
@@ -141,6 +154,12 @@ struct Request {
 
 /// Makes the request's camera exactly this one.
 void set_camera(Request::View& view, const Camera& camera);
+
+/// The region: --keep-box, --drop-box, --cut, and what a sheet adds. `up` of the scene as shown, about which boxes are turned.
+[[nodiscard]] Region region_of(const RegionRequest& asked, const glm::dvec3& up);
+
+/// Without what came of the scene: as it was asked for, but for the size of the sheet's picture.
+void forget_sheet(Request::View& view);
 
 /// Throws Error (usage), one sentence, where no input is named, or a .soct beside others.
 void require_inputs(const Request::Source& source);

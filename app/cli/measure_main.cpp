@@ -1,0 +1,165 @@
+/// splatray-measure: a scene and places in, lengths, heights, angles, areas and radii out, each with its uncertainty.
+#include <algorithm>
+#include <cstdio>
+
+#include "app/cli/option_types.h"
+#include "app/cli/options.h"
+#include "app/library/measure/measure_file.h"
+#include "app/library/measure/measure_text.h"
+#include "app/library/measure/surface_point.h"
+#include "app/library/picture/scene_on_device.h"
+#include "app/library/picture/scene_source.h"
+#include "engine/base/error.h"
+#include "engine/base/interrupt.h"
+#include "engine/base/number_text.h"
+#include "engine/base/progress.h"
+#include "engine/file/atomic_file.h"
+#include "engine/image/scan_kind.h"
+
+namespace {
+
+using namespace splatray;
+
+struct Asked {
+  Request request;
+  std::vector<GivenMeasure> measures;
+  std::filesystem::path output;
+};
+
+constexpr const char* PLACES =
+    "; each place X,Y,Z in the file's coordinates, snapped to the nearest surface, or a ray X,Y,Z>DX,DY,DZ, "
+    "of which the "
+    "first hit counts; several with ; between them; repeatable";
+
+void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
+  list.set_group("Measures");
+  const auto add = [&](MeasureKind kind, const std::string& help, const char* value) {
+    const std::string name = std::string("--") + measure_name(kind);
+    list.add_repeated(
+        name,
+        [&measures, kind, name](const std::string& text) {
+          try {
+            measures.push_back(read_measure(kind, text));
+          } catch (const Expected& expected) {
+            throw Error(ExitCode::usage, name + ": found '" + text + "', expected " + expected.what);
+          }
+        },
+        help, value);
+  };
+  add(MeasureKind::point, std::string("coordinates of a place") + PLACES, "PLACE");
+  add(MeasureKind::distance, "distance along two places and more", "PLACE;PLACE...");
+  add(MeasureKind::height, "height of the second place above the first", "PLACE;PLACE");
+  add(MeasureKind::angle, "angle at the second of three places", "PLACE;PLACE;PLACE");
+  add(MeasureKind::area, "area and perimeter of the polygon of three places and more",
+      "PLACE;PLACE;PLACE...");
+  add(MeasureKind::sphere, "radius of the sphere through what is within REACH of a place", "PLACE;REACH");
+  add(MeasureKind::cylinder, "radius of the cylinder through what is within REACH of a place", "PLACE;REACH");
+}
+
+/// Nothing when help was asked for and printed.
+std::optional<Asked> parse(int argc, char** argv) {
+  OptionList list(
+      "Measures on the surface of a scan or scene, with the interval that holds the true value 95 times of "
+      "100.",
+      "splatray-measure");
+  GivenFields given;
+  Asked asked;
+  add_fields(list, DOOR_RENDER, "SCENE", given, {FieldGroup::input, FieldGroup::region});
+  add_measures(list, asked.measures);
+  list.set_group("Files");
+  add_path(list, "-o,--output", asked.output,
+           "file to write: .geojson, .dxf or .csv; default: a table on stdout");
+  list.add_answer(
+      "--version", [] { return SPLATRAY_VERSION; }, "print the version");
+  if (!list.parse(argc, argv)) return {};
+  assign(asked.request, given, DOOR_RENDER);
+  require_inputs(asked.request.source);
+  if (asked.measures.empty())
+    throw Error(ExitCode::usage, "found nothing to measure, expected for example --distance '0,0,0;1,0,0'");
+  if (!asked.output.empty()) {
+    require_measures_name(asked.output);
+    require_writable(asked.output);
+  }
+  return asked;
+}
+
+/// A scene whose pools stay here, and the rays that meet it.
+class Measured {
+ public:
+  Measured(const Asked& asked, LoadedScene& loaded)
+      : scene_(loaded.scene),
+        region_(region_of(asked.request.view.region, loaded.scene.up)),
+        device_(open_device(HOST_DEVICE)),
+        shown_(*device_) {
+    shown_.open(scene_);
+  }
+
+  [[nodiscard]] Measure measure(const GivenMeasure& given) {
+    Measure measure{given.kind, {}};
+    for (const GivenPlace& place : given.places) measure.points.push_back(find(place));
+    if (given.reach > 0.0)
+      measure.fit = radius_near(scene_, region_, measure.points[0].place, given.reach, given.kind);
+    if (given.reach > 0.0 && !measure.fit)
+      throw Error(ExitCode::failed, std::string("cannot fit a ") + measure_name(given.kind) + " within " +
+                                        number_text(given.reach) + " of " +
+                                        number_text(measure.points[0].place) +
+                                        ": what is there lies in a plane, or is too little");
+    return measure;
+  }
+
+ private:
+  SurfacePoint find(const GivenPlace& given) {
+    if (!given.direction) return *nearest_point(scene_, region_, given.place);  // the region holds something
+    Settings settings;
+    settings.region = region_;
+    RayQuery ray{};
+    ray.origin = vec3(scene_.root.to_root(given.place));
+    ray.dir = vec3(glm::normalize(*given.direction));
+    ray.from_object = NO_OBJECT;
+    const RayHit hit = shown_.tracer().intersect(shown_.look(), {&ray, 1}, settings).front();
+    if (hit.object == NO_OBJECT)
+      throw Error(ExitCode::failed, "the ray from " + number_text(given.place) + " towards " +
+                                        number_text(*given.direction) + " meets nothing");
+    const glm::dvec3 place =
+        scene_.root.to_world(glm::dvec3(ray.origin) + double(hit.t) * glm::dvec3(ray.dir));
+    return point_on_ray(scene_, {place, glm::dvec3(hit.normal)}, *given.direction);
+  }
+
+  const Scene& scene_;
+  Region region_;
+  std::unique_ptr<Device> device_;
+  SceneOnDevice shown_;
+};
+
+int run(int argc, char** argv) {
+  const std::optional<Asked> asked = parse(argc, argv);
+  if (!asked) return static_cast<int>(ExitCode::done);
+  catch_interrupts();
+  ProgressLine line(/*quiet=*/false);
+  LoadedScene loaded =
+      load_scene(asked->request, {[&](const char* stage, double share) {
+                                    line.show(stage, share);
+                                    return !interrupted();
+                                  },
+                                  [&](const std::string& note) {
+                                    line.clear();
+                                    std::fprintf(stderr, "splatray-measure: note: %s\n", note.c_str());
+                                  }});
+  line.clear();
+  if (kind_of_scan(loaded.scene) == SceneKind::camera)
+    std::fprintf(
+        stderr,
+        "splatray-measure: note: the scan is a depth camera's, whose depths may be farther off than the "
+        "intervals say\n");
+  Measured measured(*asked, loaded);
+  std::vector<Measure> measures;
+  for (const GivenMeasure& given : asked->measures) measures.push_back(measured.measure(given));
+  const MeasureFrame frame{loaded.scene.up, loaded.scene.crs};
+  if (!asked->output.empty()) write_measures(measures, frame, asked->output);
+  std::fputs(table_of(measures, frame.up).c_str(), stdout);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return splatray::run_main("splatray-measure", run, argc, argv); }

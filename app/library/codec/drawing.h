@@ -1,0 +1,47 @@
+/// A page of lines, letters and one raster, in millimetres from its top left corner, x to the right, y down.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "shaders/layout.h"
+
+namespace splatray {
+
+struct DrawnLine {
+  glm::dvec2 from, to;
+  double width_mm = 0.18;
+};
+
+/// Filled with black.
+struct DrawnBox {
+  glm::dvec2 corner, size;
+};
+
+enum class TextAnchor { begin, middle, end };
+
+struct DrawnText {
+  glm::dvec2 at;         ///< on the base line
+  double size_mm = 3.0;  ///< height of the letters' body
+  TextAnchor anchor = TextAnchor::begin;
+  std::string text;      ///< UTF-8
+  bool upwards = false;  ///< turned by a quarter, to be read from the right
+};
+
+/// Pixels, top row first, four bytes each: sRGB that alpha is not multiplied into, and alpha.
+struct DrawnRaster {
+  glm::dvec2 corner{0.0}, size{0.0};
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+struct Drawing {
+  glm::dvec2 size{0.0};
+  std::string title;  ///< of the document
+  DrawnRaster raster;
+  std::vector<DrawnLine> lines;
+  std::vector<DrawnBox> boxes;
+  std::vector<DrawnText> texts;
+};
+
+}  // namespace splatray

@@ -1,0 +1,24 @@
+/// What writes sheets, a library of its own (engine/base/module.h): splatray_sheet, SVG and PDF by cairo, TIFF by libtiff. The functions
+/// return whether all went well; `error` receives a message on failure.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/library/codec/drawing.h"
+#include "app/library/codec/geo_raster.h"
+
+namespace splatray {
+
+struct SheetCodec {
+  /// The bytes of a drawing, "svg" or "pdf".
+  bool (*encode_drawing)(const Drawing& drawing, const std::string& format, std::vector<unsigned char>& bytes,
+                         std::string& error);
+  /// The bytes of a raster, with further tags of GeoTIFF.
+  bool (*encode_tiff)(const GeoRaster& raster, const GeoTags& tags, std::vector<unsigned char>& bytes,
+                      std::string& error);
+};
+
+}  // namespace splatray
+
+/// The library's only symbol.
+extern "C" const splatray::SheetCodec* splatray_sheet_codec();

@@ -1,0 +1,78 @@
+/// What is measured on a surface: lengths, heights, angles, areas, radii. World units of the file, float64, each value with how far off
+/// it may be.
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/library/measure/radius_fit.h"
+
+namespace splatray {
+
+/// A place on a surface.
+struct SurfacePoint {
+  glm::dvec3 place{0.0};  ///< world
+  /// Which way it moves where the surface is elsewhere, as long as the standard deviation of that; 0 = exact.
+  glm::dvec3 error{0.0};
+
+  bool operator==(const SurfacePoint&) const = default;
+};
+
+enum class MeasureKind {
+  point,     ///< its coordinates
+  distance,  ///< along two points and more
+  height,    ///< of the second above the first, along the up direction
+  angle,     ///< at the second of three
+  area,      ///< of the polygon of three and more
+  sphere,    ///< its radius
+  cylinder   ///< its radius
+};
+inline constexpr int MEASURE_KINDS = 7;
+[[nodiscard]] const char* measure_name(MeasureKind kind);
+/// Points that complete a measure; more may follow where `is_open_ended`.
+[[nodiscard]] std::size_t points_needed(MeasureKind kind);
+[[nodiscard]] bool is_open_ended(MeasureKind kind);
+
+/// A measure, maybe of too few points yet.
+struct Measure {
+  MeasureKind kind = MeasureKind::distance;
+  std::vector<SurfacePoint> points;
+  std::optional<RadiusFit> fit{};  ///< of spheres and cylinders
+
+  bool operator==(const Measure&) const = default;
+};
+
+/// Adds a point to the last measure of a kind that takes more, else to a new one.
+void add_point(std::vector<Measure>& measures, MeasureKind kind, const SurfacePoint& point);
+
+/// Sum of the lengths from point to point.
+[[nodiscard]] double path_length(std::span<const glm::dvec3> points);
+/// Of b above a; `up` of any length > 0.
+[[nodiscard]] double height_above(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& up);
+/// At b, degrees 0..180; 0 where points coincide.
+[[nodiscard]] double angle_deg(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+/// Of a polygon, whose corners need not lie in one plane exactly: half the length of its vector area (Newell).
+[[nodiscard]] double polygon_area(std::span<const glm::dvec3> points);
+
+enum class MeasureUnit { length, area, degrees };
+
+/// A value, and half the width of the interval around it that holds the true one 95 times of 100, as errors of points propagate to
+/// it (JCGM 100:2008, sec. 5): of the surface, as smooth_error has it, not of the scans' registration and scale.
+struct MeasureValue {
+  std::string name;
+  double value = 0.0;
+  double within = 0.0;
+  MeasureUnit unit = MeasureUnit::length;
+};
+/// What a measure says: of a distance also its level and upright part, of an area also its perimeter. Empty while points are missing.
+[[nodiscard]] std::vector<MeasureValue> values_of(const Measure& measure, const glm::dvec3& up);
+/// "12.346 +-0.002" and so on: as many digits as the interval has two of; six where it is 0.
+[[nodiscard]] std::string value_text(const MeasureValue& value);
+/// The value that stands beside the marks in the picture.
+[[nodiscard]] std::string short_text(const Measure& measure, const glm::dvec3& up);
+/// A line for each value and each point, tabs between.
+[[nodiscard]] std::string table_of(std::span<const Measure> measures, const glm::dvec3& up);
+
+}  // namespace splatray

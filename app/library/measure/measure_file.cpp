@@ -1,0 +1,218 @@
+#include "app/library/measure/measure_file.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "engine/base/crs.h"
+#include "engine/base/error.h"
+#include "engine/base/json_depth.h"
+#include "engine/base/number_text.h"
+#include "engine/file/atomic_file.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json coordinates_of(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+const char* unit_name(MeasureUnit unit) {
+  return unit == MeasureUnit::degrees ? "degree" : (unit == MeasureUnit::area ? "unit^2" : "unit");
+}
+
+Json geometry_of(const Measure& measure) {
+  Json places = Json::array();
+  for (const SurfacePoint& point : measure.points) places.push_back(coordinates_of(point.place));
+  if (measure.points.size() == 1) return {{"type", "Point"}, {"coordinates", places[0]}};
+  if (measure.kind != MeasureKind::area) return {{"type", "LineString"}, {"coordinates", places}};
+  places.push_back(places[0]);
+  return {{"type", "Polygon"}, {"coordinates", Json::array({places})}};
+}
+
+Json properties_of(const Measure& measure, const glm::dvec3& up) {
+  Json properties{{"kind", measure_name(measure.kind)}};
+  for (const MeasureValue& value : values_of(measure, up)) {
+    properties[value.name] = value.value;
+    properties[value.name + "_within_95"] = value.within;
+  }
+  Json errors = Json::array();
+  for (const SurfacePoint& point : measure.points) errors.push_back(coordinates_of(point.error));
+  properties["errors"] = errors;
+  if (!measure.fit) return properties;
+  properties["radius_error"] = measure.fit->radius_error;
+  properties["center"] = coordinates_of(measure.fit->center);
+  properties["axis"] = coordinates_of(measure.fit->axis);
+  properties["fitted_points"] = measure.fit->points;
+  return properties;
+}
+
+/// A DXF in the making: pairs of a group's code and a value.
+class Dxf {
+ public:
+  void pair(int code, const std::string& value) { text_ << code << "\n" << value << "\n"; }
+  void place(int code, const glm::dvec3& p) {
+    for (int axis = 0; axis < 3; ++axis) pair(code + 10 * axis, number_text(p[axis]));
+  }
+  void entity(const char* type, const char* layer) {
+    pair(0, type);
+    pair(8, layer);
+  }
+  void line(const char* layer, const glm::dvec3& from, const glm::dvec3& to) {
+    entity("LINE", layer);
+    place(10, from);
+    place(11, to);
+  }
+  void text(const char* layer, const glm::dvec3& at, double height, const std::string& value) {
+    entity("TEXT", layer);
+    place(10, at);
+    pair(40, number_text(height));
+    pair(1, value);
+  }
+  [[nodiscard]] std::string str() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+};
+
+/// In ASCII, as R12 has it: %%p is its plus-minus, %%d its degree.
+std::string dxf_letters(std::string text) {
+  for (const auto& [from, to] : {std::pair("\u00B1", "%%p"), std::pair("\u00B0", "%%d")})
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
+      text.replace(at, std::string(from).size(), to);
+  return text;
+}
+
+double letter_height(std::span<const Measure> measures) {
+  double longest = 0.0;
+  for (const Measure& measure : measures)
+    for (const SurfacePoint& point : measure.points)
+      longest = std::max(longest, glm::distance(point.place, measure.points.front().place));
+  constexpr double SHARE = 0.03;
+  return longest > 0.0 ? SHARE * longest : SHARE;
+}
+
+glm::dvec3 vector_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Measure measure_of(const Json& feature) {
+  const Json& properties = feature.at("properties");
+  const Json& geometry = feature.at("geometry");
+  const std::string name = properties.at("kind");
+  Measure measure;
+  int kind = 0;
+  while (kind < MEASURE_KINDS && name != measure_name(static_cast<MeasureKind>(kind))) ++kind;
+  if (kind == MEASURE_KINDS) throw std::runtime_error("found kind '" + name + "'");
+  measure.kind = static_cast<MeasureKind>(kind);
+  Json places = geometry.at("coordinates");
+  if (geometry.at("type") == "Point") places = Json::array({places});
+  if (geometry.at("type") == "Polygon") {
+    places = Json(places.at(0));
+    if (!places.empty()) places.erase(places.size() - 1);
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    measure.points.push_back({vector_of(places[i]), vector_of(properties.at("errors").at(i))});
+  if (!properties.contains("center")) return measure;
+  measure.fit = RadiusFit{properties.at("radius"),          properties.at("radius_error"),
+                          properties.at("residual"),        vector_of(properties.at("center")),
+                          vector_of(properties.at("axis")), properties.at("fitted_points")};
+  return measure;
+}
+
+}  // namespace
+
+std::string geojson_text(std::span<const Measure> measures, const MeasureFrame& frame) {
+  Json features = Json::array();
+  for (const Measure& measure : measures)
+    features.push_back({{"type", "Feature"},
+                        {"properties", properties_of(measure, frame.up)},
+                        {"geometry", geometry_of(measure)}});
+  Json collection{{"type", "FeatureCollection"}};
+  if (const Crs crs = describe_crs(frame.crs); !frame.crs.empty()) {
+    const std::string name = crs.epsg > 0 ? "urn:ogc:def:crs:EPSG::" + std::to_string(crs.epsg) : crs.name;
+    collection["crs"] = {{"type", "name"}, {"properties", {{"name", name}}}};
+  }
+  collection["up"] = coordinates_of(frame.up);
+  collection["features"] = features;
+  return collection.dump(1) + "\n";
+}
+
+std::string dxf_text(std::span<const Measure> measures, const MeasureFrame& frame) {
+  Dxf dxf;
+  const double height = letter_height(measures);
+  dxf.pair(0, "SECTION");
+  dxf.pair(2, "ENTITIES");
+  for (const Measure& measure : measures) {
+    const char* layer = measure_name(measure.kind);
+    const std::vector<SurfacePoint>& points = measure.points;
+    glm::dvec3 middle(0.0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      middle += points[i].place / static_cast<double>(points.size());
+      dxf.entity("POINT", layer);
+      dxf.place(10, points[i].place);
+      if (i > 0) dxf.line(layer, points[i - 1].place, points[i].place);
+    }
+    if (measure.kind == MeasureKind::area && points.size() > 2)
+      dxf.line(layer, points.back().place, points.front().place);
+    if (measure.fit) {
+      dxf.entity("CIRCLE", layer);
+      dxf.place(10, measure.fit->center);
+      dxf.pair(40, number_text(measure.fit->radius));
+      if (measure.fit->axis != glm::dvec3(0.0)) dxf.place(210, measure.fit->axis);
+    }
+    dxf.text(layer, middle, height, dxf_letters(short_text(measure, frame.up)));
+  }
+  dxf.pair(0, "ENDSEC");
+  dxf.pair(0, "EOF");
+  return dxf.str();
+}
+
+std::string csv_text(std::span<const Measure> measures, const MeasureFrame& frame) {
+  std::string text = "number,kind,name,value,within_95,unit\n";
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    for (const MeasureValue& value : values_of(measures[i], frame.up))
+      text += std::to_string(i + 1) + "," + measure_name(measures[i].kind) + "," + value.name + "," +
+              number_text(value.value) + "," + number_text(value.within) + "," + unit_name(value.unit) + "\n";
+  return text;
+}
+
+void require_measures_name(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".geojson" && extension != ".dxf" && extension != ".csv")
+    throw Error(ExitCode::usage,
+                "found output '" + path.string() + "', expected a name ending in .geojson, .dxf or .csv");
+}
+
+void write_measures(std::span<const Measure> measures, const MeasureFrame& frame,
+                    const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".geojson") return write_text_file(geojson_text(measures, frame), path);
+  if (extension == ".dxf") return write_text_file(dxf_text(measures, frame), path);
+  if (extension == ".csv") return write_text_file(csv_text(measures, frame), path);
+  require_measures_name(path);
+}
+
+std::vector<Measure> read_measures(const std::filesystem::path& path) {
+  const auto refuse = [&path](const std::string& found) {
+    throw Error(ExitCode::input_unreadable, "cannot read measures '" + path.string() + "': " + found +
+                                                ", expected a .geojson of splatray-measure");
+  };
+  std::ifstream in(path, std::ios::binary);
+  if (!in) refuse("no such file");
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (json_is_too_deep(text)) refuse("JSON that is nested too deep");
+  std::vector<Measure> measures;
+  try {
+    const Json collection = Json::parse(text);
+    const Json& features = collection.at("features");
+    if (!features.is_array()) throw std::runtime_error("features that are no list");
+    for (const Json& feature : features) measures.push_back(measure_of(feature));
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
+  return measures;
+}
+
+}  // namespace splatray

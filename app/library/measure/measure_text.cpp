@@ -1,0 +1,54 @@
+#include "app/library/measure/measure_text.h"
+
+#include "app/library/request/value_text.h"
+#include "engine/base/number_text.h"
+
+namespace splatray {
+namespace {
+
+GivenPlace read_place(const std::string& text) {
+  const std::size_t arrow = text.find('>');
+  GivenPlace place;
+  place.place = read_vector(text.substr(0, arrow));
+  if (arrow == std::string::npos) return place;
+  place.direction = read_vector(text.substr(arrow + 1));
+  if (*place.direction == glm::dvec3(0.0)) throw Expected{"a direction DX,DY,DZ other than 0,0,0"};
+  return place;
+}
+
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == ';')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+std::string expected_places(MeasureKind kind) {
+  const std::size_t needed = points_needed(kind);
+  return std::to_string(needed) +
+         (is_open_ended(kind) ? " or more places" : (needed == 1 ? " place" : " places")) +
+         " X,Y,Z or X,Y,Z>DX,DY,DZ with ; between them";
+}
+
+}  // namespace
+
+GivenMeasure read_measure(MeasureKind kind, const std::string& text) {
+  GivenMeasure given{kind, {}};
+  std::vector<std::string> parts = parts_of(text);
+  if (kind == MeasureKind::sphere || kind == MeasureKind::cylinder) {
+    const auto reach = split_numbers(parts.back(), ',', 1);
+    if (parts.size() != 2 || reach.empty() || !(reach[0] > 0.0))
+      throw Expected{"a place and a reach above 0, such as 1,2,3;0.5"};
+    given.reach = reach[0];
+    parts.pop_back();
+  }
+  for (const std::string& part : parts) given.places.push_back(read_place(part));
+  const std::size_t needed = points_needed(kind), found = given.places.size();
+  if (found < needed || (found > needed && !is_open_ended(kind))) throw Expected{expected_places(kind)};
+  return given;
+}
+
+}  // namespace splatray

@@ -1,0 +1,123 @@
+#include "app/library/measure/surface_point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "app/library/measure/least_squares.h"
+#include "engine/scene/splat.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::size_t NEAR = 64;     ///< splats that say how smooth a surface is
+constexpr std::size_t AVERAGED = 3;  ///< points whose mean a smoothed surface is as good as
+constexpr double SAME_SIDE = 0.5;    ///< cosine of normals of one surface
+constexpr double STEEPEST = 0.1;     ///< least cosine of a ray with the surface that its error grows by
+
+struct Near {
+  double distance_squared;
+  glm::dvec3 place;
+
+  bool operator<(const Near& other) const { return distance_squared < other.distance_squared; }
+};
+
+/// The splats of the spot's surface that are nearest.
+std::vector<Near> near_splats(const Scene& scene, const SurfaceSpot& spot) {
+  std::vector<Near> heap;
+  for (const uvec4& words : scene.data_pool) {
+    const glm::dvec3 place = scene.root.to_world(unpack_center(words));
+    const glm::dvec3 to = place - spot.place;
+    const Near near{glm::dot(to, to), place};
+    if (heap.size() == NEAR && !(near < heap.front())) continue;
+    if (std::abs(glm::dot(unpack_splat(words).normal, spot.normal)) < SAME_SIDE) continue;
+    heap.push_back(near);
+    std::push_heap(heap.begin(), heap.end());
+    if (heap.size() <= NEAR) continue;
+    std::pop_heap(heap.begin(), heap.end());
+    heap.pop_back();
+  }
+  return heap;
+}
+
+/// Root of the mean square of what a quadric leaves of the heights of the splats.
+double quadric_residual(const std::vector<Near>& near, const SurfaceSpot& spot) {
+  const glm::dvec3 any =
+      std::abs(spot.normal.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+  const glm::dvec3 u = glm::normalize(glm::cross(spot.normal, any)), v = glm::cross(spot.normal, u);
+  double scale = 0.0;
+  for (const Near& splat : near) scale = std::max(scale, std::sqrt(splat.distance_squared));
+  if (!(scale > 0.0)) return 0.0;
+  const auto row_of = [&](const Near& splat) {
+    const glm::dvec3 to = (splat.place - spot.place) / scale;
+    const double a = glm::dot(to, u), b = glm::dot(to, v);
+    return std::array<double, 6>{1.0, a, b, a * a, a * b, b * b};
+  };
+  LeastSquares<6> sums;
+  for (const Near& splat : near) sums.add(row_of(splat), glm::dot(splat.place - spot.place, spot.normal));
+  const auto quadric = sums.solve();
+  double squares = 0.0;
+  for (const Near& splat : near) {
+    double height = glm::dot(splat.place - spot.place, spot.normal);
+    if (quadric) {
+      const auto row = row_of(splat);
+      for (std::size_t i = 0; i < row.size(); ++i) height -= row[i] * (*quadric)[i];
+    }
+    squares += height * height;
+  }
+  return std::sqrt(squares / std::max(static_cast<double>(near.size()) - 6.0, 1.0));
+}
+
+}  // namespace
+
+double surface_error(const Scene& scene, const SurfaceSpot& spot) {
+  const std::vector<Near> near = near_splats(scene, spot);
+  double noise = 0.0, step = scene.root.unit_world;
+  for (const Station& station : scene.stations) {
+    noise = std::max(noise, station.noise_world);
+    step = std::max(step, station.step_world);
+  }
+  const double residual = near.empty() ? 0.0 : quadric_residual(near, spot);
+  return std::sqrt(residual * residual + noise * noise / AVERAGED + step * step / 12.0);
+}
+
+SurfacePoint point_on_ray(const Scene& scene, const SurfaceSpot& spot, const glm::dvec3& direction) {
+  const glm::dvec3 along = glm::normalize(direction);
+  const double facing = std::max(std::abs(glm::dot(along, spot.normal)), STEEPEST);
+  return {spot.place, surface_error(scene, spot) / facing * along};
+}
+
+std::optional<SurfacePoint> nearest_point(const Scene& scene, const Region& region, const glm::dvec3& place) {
+  double least = std::numeric_limits<double>::infinity();
+  SurfaceSpot spot;
+  for (const uvec4& words : scene.data_pool) {
+    const Splat splat = unpack_splat(words);
+    const glm::dvec3 center = scene.root.to_world(splat.center), to = place - center;
+    const double radius = std::sqrt(splat.radius_squared) * scene.root.unit_world;
+    if (glm::length(to) - radius > least || !region.holds(center)) continue;
+    glm::dvec3 on_disc = to - glm::dot(to, splat.normal) * splat.normal;
+    if (const double length = glm::length(on_disc); length > radius) on_disc *= radius / length;
+    const double distance = glm::distance(to, on_disc);
+    if (!(distance < least)) continue;
+    least = distance;
+    spot = {center + on_disc, splat.normal};
+  }
+  if (!std::isfinite(least)) return {};
+  return SurfacePoint{spot.place, surface_error(scene, spot) * spot.normal};
+}
+
+std::optional<RadiusFit> radius_near(const Scene& scene, const Region& region, const glm::dvec3& place,
+                                     double reach, MeasureKind kind) {
+  std::vector<glm::dvec3> points, normals;
+  for (const uvec4& words : scene.data_pool) {
+    const glm::dvec3 center = scene.root.to_world(unpack_center(words));
+    if (glm::distance(center, place) > reach || !region.holds(center)) continue;
+    points.push_back(center);
+    normals.push_back(unpack_splat(words).normal);
+  }
+  return kind == MeasureKind::sphere ? fit_sphere(points, normals) : fit_cylinder(points, normals);
+}
+
+}  // namespace splatray

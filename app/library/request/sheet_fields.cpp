@@ -1,0 +1,59 @@
+#include "app/library/request/fields.h"
+
+namespace splatray {
+namespace {
+
+constexpr FieldGroup SHEET = FieldGroup::sheet;
+constexpr const char* ONE_PICTURE = "a sheet is a file with others beside it, which splatray-render writes";
+
+Field only_rendered(Field row) {
+  row.doors = DOOR_RENDER;
+  row.why_not = ONE_PICTURE;
+  return row;
+}
+
+Field sheet_row() {
+  return value_row(
+      "sheet", SHEET, "KIND[:VALUE,...]",
+      "a drawing to scale: plan[:z=HEIGHT], cut at that height; section:X0,Y0,X1,Y1, along that line, "
+      "looking to its "
+      "left; elevation:north|east|south|west|DEGREES, from that side; ortho:DX,DY,DZ, in that direction; "
+      "with "
+      "depth=D behind the cut, scale=50 for 1:50, dpi=300, weight=0.35 for the cut's lines in mm, "
+      "unit=m|cm|mm|ft|us-ft "
+      "where the file does not say; a pixel is 25.4 mm / dpi x scale; a region limits it",
+      [](Request& request, const std::string& text) { request.view.sheet = read_sheet(text); },
+      [](const Request& request) {
+        return request.view.sheet ? sheet_text(*request.view.sheet) : std::string();
+      });
+}
+
+}  // namespace
+
+std::vector<Field> sheet_fields() {
+  return {
+      only_rendered(sheet_row()),
+      only_rendered(switch_row("ink", SHEET, MEMBER(view.ink),
+                               "of a sheet: lines where depth, direction or object change")),
+      only_rendered(switch_row(
+          "xray", SHEET, MEMBER(view.xray),
+          "of a sheet: how many splats lie one behind the other, by the logarithm, dark for many")),
+      only_rendered(value_row(
+          "title", SHEET, "TEXT",
+          "of a sheet as .svg or .pdf: what stands below it; default the input's name",
+          [](Request& request, const std::string& text) { request.output.title = text; },
+          [](const Request& request) { return request.output.title; })),
+      only_rendered(value_row(
+          "measures", SHEET, "FILE.geojson",
+          "of a sheet as .svg or .pdf: measures of splatray-measure or splatray-view that are drawn on it",
+          [](Request& request, const std::string& text) { request.output.measures = text; },
+          [](const Request& request) { return request.output.measures.string(); })),
+      only_rendered(value_row(
+          "height-raster", SHEET, "FILE.tif",
+          "of a sheet: heights, or of sections and elevations distances behind the cut, world units, as "
+          "GeoTIFF of floats",
+          [](Request& request, const std::string& text) { request.output.height_raster = text; },
+          [](const Request& request) { return request.output.height_raster.string(); }))};
+}
+
+}  // namespace splatray

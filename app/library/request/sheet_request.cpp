@@ -1,0 +1,137 @@
+#include "app/library/request/sheet_request.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/library/request/value_text.h"
+#include "engine/base/number_text.h"
+
+namespace splatray {
+namespace {
+
+/// A kind's name and how many numbers it takes that have no key.
+struct KindRow {
+  const char* name;
+  SheetKind kind;
+  std::size_t numbers;
+  const char* expected;
+};
+constexpr std::array KINDS = {
+    KindRow{"plan", SheetKind::plan, 0, "plan with keys alone, such as plan:z=1.2,scale=50"},
+    KindRow{"section", SheetKind::section, 4, "section:X0,Y0,X1,Y1, a line of some length in plan"},
+    KindRow{"elevation", SheetKind::elevation, 1,
+            "elevation:SIDE, one of north, east, south, west or degrees"},
+    KindRow{"ortho", SheetKind::ortho, 3, "ortho:DX,DY,DZ, a direction to look in other than 0,0,0"},
+};
+
+struct UnitRow {
+  const char* name;
+  double metres;
+};
+constexpr std::array UNITS = {UnitRow{"m", 1.0}, UnitRow{"cm", 0.01}, UnitRow{"mm", 0.001},
+                              UnitRow{"ft", 0.3048}, UnitRow{"us-ft", 1200.0 / 3937.0}};
+constexpr std::array SIDES = {"north", "east", "south", "west"};
+
+const KindRow& row_of(SheetKind kind) {
+  return *std::find_if(KINDS.begin(), KINDS.end(), [kind](const KindRow& row) { return row.kind == kind; });
+}
+
+double positive(const std::string& key, const std::string& text, double most) {
+  const auto numbers = split_numbers(text, ',', 1);
+  if (numbers.empty() || !(numbers[0] > 0.0 && numbers[0] <= most))
+    throw Expected{"a " + key + " above 0 and at most " + number_text(most)};
+  return numbers[0];
+}
+
+double any_number(const std::string& key, const std::string& text) {
+  const auto numbers = split_numbers(text, ',', 1);
+  if (numbers.empty()) throw Expected{"a finite number for " + key};
+  return numbers[0];
+}
+
+double unit_of(const std::string& text) {
+  for (const UnitRow& unit : UNITS)
+    if (text == unit.name) return unit.metres;
+  const auto numbers = split_numbers(text, ',', 1);
+  if (numbers.empty() || !(numbers[0] > 0.0))
+    throw Expected{"a unit of m, cm, mm, ft, us-ft or so many metres"};
+  return numbers[0];
+}
+
+void read_key(const std::string& key, const std::string& text, SheetRequest& sheet) {
+  constexpr double MOST_SCALE = 1e7, MOST_DPI = 2400.0, MOST_WEIGHT = 20.0, MOST_LENGTH = 1e30;
+  if (key == "z" && sheet.kind == SheetKind::plan) {
+    sheet.height = any_number(key, text);
+  } else if (key == "depth") {
+    sheet.depth = positive(key, text, MOST_LENGTH);
+  } else if (key == "scale") {
+    sheet.scale = positive(key, text, MOST_SCALE);
+  } else if (key == "dpi") {
+    sheet.dpi = positive(key, text, MOST_DPI);
+  } else if (key == "weight") {
+    sheet.weight_mm = text == "0" ? 0.0 : positive(key, text, MOST_WEIGHT);
+  } else if (key == "unit") {
+    sheet.unit_metres = unit_of(text);
+  } else {
+    throw Expected{"keys depth, scale, dpi, weight and unit, of a plan also z"};
+  }
+}
+
+/// A number without a key; of elevations also the name of a side.
+double read_place(const std::string& text, SheetKind kind) {
+  if (kind == SheetKind::elevation)
+    for (std::size_t i = 0; i < SIDES.size(); ++i)
+      if (text == SIDES[i]) return 90.0 * static_cast<double>(i);
+  const auto numbers = split_numbers(text, ',', 1);
+  if (numbers.empty()) throw Expected{row_of(kind).expected};
+  return numbers[0];
+}
+
+bool is_point(const SheetRequest& sheet) {
+  const std::vector<double>& p = sheet.place;
+  if (sheet.kind == SheetKind::section) return std::hypot(p[2] - p[0], p[3] - p[1]) == 0.0;
+  return sheet.kind == SheetKind::ortho && std::hypot(p[0], p[1], p[2]) == 0.0;
+}
+
+}  // namespace
+
+SheetRequest read_sheet(const std::string& text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto row = std::find_if(KINDS.begin(), KINDS.end(),
+                                [&](const KindRow& kind) { return text.substr(0, colon) == kind.name; });
+  if (row == KINDS.end())
+    throw Expected{"plan, section, elevation or ortho, such as plan:z=1.2,scale=50,dpi=300"};
+  SheetRequest sheet;
+  sheet.kind = row->kind;
+  if (colon < text.size())
+    for (const std::string& part : split_names(text.substr(colon + 1))) {
+      const std::size_t equals = part.find('=');
+      if (equals == std::string::npos)
+        sheet.place.push_back(read_place(part, sheet.kind));
+      else
+        read_key(part.substr(0, equals), part.substr(equals + 1), sheet);
+    }
+  if (sheet.place.size() != row->numbers || is_point(sheet)) throw Expected{row->expected};
+  return sheet;
+}
+
+std::string sheet_text(const SheetRequest& sheet) {
+  const SheetRequest plain;
+  std::string text = row_of(sheet.kind).name;
+  char before = ':';
+  const auto add = [&](const std::string& part) {
+    text += before + part;
+    before = ',';
+  };
+  for (const double number : sheet.place) add(number_text(number));
+  if (sheet.height) add("z=" + number_text(*sheet.height));
+  if (sheet.depth) add("depth=" + number_text(*sheet.depth));
+  if (sheet.scale != plain.scale) add("scale=" + number_text(sheet.scale));
+  if (sheet.dpi != plain.dpi) add("dpi=" + number_text(sheet.dpi));
+  if (sheet.weight_mm != plain.weight_mm) add("weight=" + number_text(sheet.weight_mm));
+  if (sheet.unit_metres) add("unit=" + number_text(*sheet.unit_metres));
+  return text;
+}
+
+}  // namespace splatray

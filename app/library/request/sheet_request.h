@@ -1,0 +1,37 @@
+/// A drawing to scale: from where, how large, how fine. What it comes to for a scene is in app/library/sheet.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splatray {
+
+enum class SheetKind {
+  plan,       ///< from above, below a level cut where there is one
+  section,    ///< cut along a line, looking to the line's left
+  elevation,  ///< level, from one side
+  ortho,      ///< along any direction
+};
+
+struct SheetRequest {
+  SheetKind kind = SheetKind::plan;
+  /// Of a section X0,Y0,X1,Y1, of an elevation the degrees of where one stands, clockwise from north (the plan's top), of an ortho
+  /// the direction DX,DY,DZ that one looks in; in the file's coordinates.
+  std::vector<double> place;
+  std::optional<double> height;  ///< of a plan's cut, along the up axis, world units
+  /// How far behind the cut, or what is nearest, something is shown, world units; unset = all.
+  std::optional<double> depth;
+  double scale = 50.0;                ///< 1 : scale
+  double dpi = 300.0;                 ///< pixels an inch of paper
+  double weight_mm = 0.35;            ///< width of the lines of what is cut, on paper; 0 = none
+  std::optional<double> unit_metres;  ///< length of a world unit; unset = as the file says, else a metre
+
+  bool operator==(const SheetRequest&) const = default;
+};
+
+/// What --sheet takes: KIND[:VALUE,...], such as plan:z=1.2,depth=1.4,scale=50,dpi=300. Throws Expected.
+[[nodiscard]] SheetRequest read_sheet(const std::string& text);
+/// The text that read_sheet makes the same of.
+[[nodiscard]] std::string sheet_text(const SheetRequest& sheet);
+
+}  // namespace splatray

@@ -1,0 +1,182 @@
+#include "app/library/sheet/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "app/library/sheet/cut_lines.h"
+#include "engine/base/crs.h"
+#include "engine/base/error.h"
+#include "engine/base/number_text.h"
+#include "engine/image/point_sample.h"
+
+namespace splatray {
+namespace {
+
+constexpr double METRE_MM = 1000.0;
+/// Paper around what is there, millimetres.
+constexpr double MARGIN_MM = 4.0;
+/// Pixels of a side that rays are numbered by.
+constexpr double MOST_PIXELS = 1U << 20U;
+constexpr double DEG = std::numbers::pi / 180.0;
+
+/// The plan's right and top in the world, and up.
+struct PlanAxes {
+  glm::dvec3 east, north, up;
+
+  explicit PlanAxes(const glm::dvec3& scene_up) {
+    const glm::dmat3 axes = upright_axes(scene_up);
+    east = axes[0];
+    up = axes[1];
+    north = -axes[2];
+  }
+  [[nodiscard]] glm::dvec3 world(double x, double y) const { return x * east + y * north; }
+};
+
+/// How the paper lies in the world.
+void set_axes(const PlanAxes& plan, Sheet& sheet) {
+  const std::vector<double>& place = sheet.asked.place;
+  switch (sheet.asked.kind) {
+    case SheetKind::plan:
+      sheet.right = plan.east;
+      sheet.toward = plan.up;
+      break;
+    case SheetKind::section:
+      sheet.right = glm::normalize(plan.world(place[2] - place[0], place[3] - place[1]));
+      sheet.toward = glm::cross(sheet.right, plan.up);
+      break;
+    case SheetKind::elevation:
+      sheet.toward = plan.world(std::sin(place[0] * DEG), std::cos(place[0] * DEG));
+      sheet.right = glm::cross(plan.up, sheet.toward);
+      break;
+    case SheetKind::ortho:
+      sheet.toward = -glm::normalize(glm::dvec3(place[0], place[1], place[2]));
+      const glm::dvec3 across = glm::cross(plan.up, sheet.toward);
+      sheet.right = glm::length(across) > 1e-9 ? glm::normalize(across) : plan.east;
+      break;
+  }
+  sheet.top = glm::cross(sheet.toward, sheet.right);
+  const glm::dvec3 x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0);
+  sheet.north_up = glm::distance(sheet.right, x) < 1e-12 && glm::distance(sheet.top, y) < 1e-12;
+}
+
+void set_unit(Sheet& sheet) {
+  const Crs crs = describe_crs(sheet.crs);
+  if (crs.is_degrees && !sheet.asked.unit_metres)
+    throw Error(
+        ExitCode::usage,
+        "the file's coordinates are degrees (" + crs.name +
+            "), of which a sheet cannot be to scale; expected a projected system, or unit= in --sheet");
+  sheet.unit_known = sheet.asked.unit_metres || crs.horizontal_metres > 0.0;
+  const double of_file = crs.horizontal_metres > 0.0 ? crs.horizontal_metres : 1.0;
+  sheet.unit_metres = sheet.asked.unit_metres.value_or(of_file);
+  sheet.pixel_world = sheet.pixel_mm() * sheet.asked.scale / METRE_MM / sheet.unit_metres;
+}
+
+/// Where the sheet begins and ends along `toward`; a section's also where it begins and ends along its line.
+void set_depths(const PlanAxes& plan, const PointSample& all, Sheet& sheet) {
+  const auto [low, high] = range_along(all.position, sheet.toward, 0.0);
+  const double slack = 1e-3 * (high - low) + sheet.pixel_world;
+  sheet.near = high + slack;
+  const std::vector<double>& place = sheet.asked.place;
+  if (sheet.asked.kind == SheetKind::section) {
+    const glm::dvec3 begin = plan.world(place[0], place[1]);
+    sheet.near = glm::dot(begin, sheet.toward);
+    sheet.origin.x = glm::dot(begin, sheet.right);
+    sheet.cuts = true;
+  } else if (sheet.asked.height) {
+    sheet.near = *sheet.asked.height;
+    sheet.cuts = true;
+  }
+  const double first = sheet.cuts ? sheet.near : high;
+  sheet.far = sheet.asked.depth ? first - *sheet.asked.depth : low - slack;
+}
+
+void set_pixels(const PointSample& shown, Sheet& sheet) {
+  const double margin = MARGIN_MM / sheet.pixel_mm() * sheet.pixel_world;
+  std::array<double, 2> across = range_along(shown.position, sheet.right, 0.0);
+  const std::array<double, 2> along = range_along(shown.position, sheet.top, 0.0);
+  if (sheet.asked.kind == SheetKind::section) {
+    const std::vector<double>& place = sheet.asked.place;
+    across = {sheet.origin.x, sheet.origin.x + std::hypot(place[2] - place[0], place[3] - place[1])};
+  } else {
+    across = {across[0] - margin, across[1] + margin};
+  }
+  const double pixel = sheet.pixel_world;
+  sheet.corner.x = sheet.origin.x + pixel * std::floor((across[0] - sheet.origin.x) / pixel);
+  sheet.corner.y = sheet.origin.y + pixel * std::ceil((along[1] + margin - sheet.origin.y) / pixel);
+  const double width = std::ceil((across[1] - sheet.corner.x) / pixel);
+  const double height = std::ceil((sheet.corner.y - along[0] + margin) / pixel);
+  if (!(width <= MOST_PIXELS && height <= MOST_PIXELS))
+    throw Error(ExitCode::usage, "the sheet would be " + number_text(width) + " x " + number_text(height) +
+                                     " pixels, expected at most " + number_text(MOST_PIXELS) +
+                                     " a side: a scale of a larger number, fewer dpi, or --keep-box");
+  sheet.width = std::max(static_cast<std::uint32_t>(width), 1U);
+  sheet.height = std::max(static_cast<std::uint32_t>(height), 1U);
+}
+
+}  // namespace
+
+Camera Sheet::camera() const {
+  const glm::dvec2 middle = corner + 0.5 * glm::dvec2(width, -static_cast<double>(height)) * pixel_world;
+  // Behind the plane of the cut, which ends rays by itself.
+  const double eye = near + (near - far) * 0.01;
+  Camera camera;
+  camera.eye = middle.x * right + middle.y * top + eye * toward;
+  camera.target = camera.eye - std::max(near - far, pixel_world) * toward;
+  camera.up = top;
+  camera.ortho_height = height * pixel_world;
+  return camera;
+}
+
+std::vector<HalfSpace> Sheet::planes() const {
+  std::vector<HalfSpace> planes;
+  if (cuts) planes.push_back({near * toward, -toward});
+  if (asked.depth) planes.push_back({far * toward, toward});
+  return planes;
+}
+
+Sheet make_sheet(const Scene& scene, const Request& request) {
+  Sheet sheet;
+  sheet.asked = *request.view.sheet;
+  sheet.crs = scene.crs;
+  sheet.up = scene.up;
+  const PlanAxes plan(scene.up);
+  set_axes(plan, sheet);
+  set_unit(sheet);
+  Region region = region_of(request.view.region, scene.up);
+  const PointSample all = main_parts(sample_points(scene, region));
+  set_depths(plan, all, sheet);
+  for (const HalfSpace& plane : sheet.planes()) region.kept.push_back(plane);
+  const PointSample shown = main_parts(sample_points(scene, region));
+  if (shown.size() == 0)
+    throw Error(ExitCode::usage, "the sheet has nothing of the scene on it, whose points lie between " +
+                                     number_text(scene.bounds_min_world) + " and " +
+                                     number_text(scene.bounds_max_world) +
+                                     "; expected a cut that leaves some");
+  set_pixels(shown, sheet);
+  if (sheet.cuts && sheet.asked.weight_mm > 0.0) sheet.cut_lines = cut_lines(scene, region, sheet);
+  return sheet;
+}
+
+void place_sheet(const Scene& scene, Request& request) {
+  if (!request.view.sheet) return;
+  Request::View& view = request.view;
+  const auto sheet = std::make_shared<const Sheet>(make_sheet(scene, request));
+  set_camera(view, sheet->camera());
+  view.width = sheet->width;
+  view.height = sheet->height;
+  view.region.of_sheet = sheet->planes();
+  view.region.light_kept = view.region.light_kept.value_or(true);
+  view.made_sheet = sheet;
+  if (!request.settings.background) request.settings.transparent = true;
+  request.settings.aov = request.settings.aov || view.ink || !request.output.height_raster.empty();
+  if (view.xray) {
+    request.look.exposure_ev = 0.0;
+    request.look.tone = Tone::none;
+  }
+  require_consistent(request);
+}
+
+}  // namespace splatray

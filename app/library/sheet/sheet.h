@@ -1,0 +1,56 @@
+/// A sheet of a scene: which rectangle of which plane it shows, in pixels that are exactly so large.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "app/library/request/request.h"
+#include "engine/scene/scene.h"
+
+namespace splatray {
+
+/// A line of what is cut, places along Sheet::right and Sheet::top, world units.
+using CutLine = std::array<glm::dvec2, 2>;
+
+struct Sheet {
+  SheetRequest asked;
+  /// Unit vectors of the paper in the world: to the right, to its top, out of it. A place p of the world lies on the paper at
+  /// (p.right, p.top), p.toward above it.
+  glm::dvec3 right{1.0, 0.0, 0.0}, top{0.0, 1.0, 0.0}, toward{0.0, 0.0, 1.0};
+  /// What the paper's coordinates are counted from: the place (0, 0); of sections the line's beginning, else the world's origin.
+  glm::dvec2 origin{0.0};
+  /// The outer corner of the top left pixel, along right and top; a whole number of pixels from the origin.
+  glm::dvec2 corner{0.0};
+  double near = 0.0;  ///< along toward: the cut, or just before all that is there
+  double far = 0.0;   ///< along toward: what is behind is not shown
+  bool cuts = false;  ///< whether `near` is a cut
+  double pixel_world = 1.0;
+  std::uint32_t width = 1, height = 1;  ///< pixels
+  double unit_metres = 1.0;             ///< length of a world unit
+  bool unit_known = false;              ///< the file or the request says so
+  bool north_up = false;                ///< right, top are the file's x, y: coordinates are the file's
+  glm::dvec3 up{0.0, 0.0, 1.0};         ///< of the scene
+  std::string crs;                      ///< Scene::crs
+  std::vector<CutLine> cut_lines;
+
+  /// Orthographic, of the whole sheet.
+  [[nodiscard]] Camera camera() const;
+  /// What the sheet adds to the region.
+  [[nodiscard]] std::vector<HalfSpace> planes() const;
+  /// Millimetres of paper that a pixel takes.
+  [[nodiscard]] double pixel_mm() const { return 25.4 / asked.dpi; }
+  /// Where pixel position (x, y), from the top left corner of the sheet, lies in the paper's coordinates.
+  [[nodiscard]] glm::dvec2 at(double x, double y) const {
+    return corner - origin + glm::dvec2(x, -y) * pixel_world;
+  }
+};
+
+/// The sheet of what the request's region holds. The scene has its pools. Throws Error (usage), one sentence, for one that has
+/// nothing on it, more pixels than a picture may have, or lengths in degrees.
+[[nodiscard]] Sheet make_sheet(const Scene& scene, const Request& request);
+
+/// Gives a request with --sheet the camera, size and region of its sheet, and what suits one: light of what is kept, nothing in the
+/// background, for --xray no tone. Throws as make_sheet does, and where --crop or --tile are beyond its pixels.
+void place_sheet(const Scene& scene, Request& request);
+
+}  // namespace splatray

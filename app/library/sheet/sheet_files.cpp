@@ -1,0 +1,151 @@
+#include "app/library/sheet/sheet_files.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/library/codec/sheet_codec.h"
+#include "app/library/measure/measure_file.h"
+#include "app/library/sheet/geotiff.h"
+#include "app/library/sheet/sheet_page.h"
+#include "engine/base/error.h"
+#include "engine/base/module.h"
+#include "engine/base/number_text.h"
+#include "engine/file/atomic_file.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray {
+namespace {
+
+const SheetCodec& codec() {
+  static void* const function = module_function("splatray_sheet", "splatray_sheet_codec", ExitCode::failed,
+                                                "cannot load what writes sheets", ": the package splatray");
+  return *reinterpret_cast<decltype(&splatray_sheet_codec)>(function)();
+}
+
+PixelWindow made_window(const Request& request) {
+  return View{{}, request.view.width, request.view.height, request.view.window()}.made();
+}
+
+GeoPlace place_of(const Sheet& sheet, const PixelWindow& window) {
+  return {sheet.at(window.x, window.y), sheet.pixel_world, sheet.north_up ? sheet.crs : std::string()};
+}
+
+void write_bytes(const std::vector<unsigned char>& bytes, const std::filesystem::path& path) {
+  AtomicFile file(path);
+  file.write(bytes.data(), bytes.size());
+  file.commit();
+}
+
+void write_tiff(const GeoRaster& raster, const GeoTags& tags, const std::filesystem::path& path) {
+  std::vector<unsigned char> bytes;
+  std::string reason;
+  if (!codec().encode_tiff(raster, tags, bytes, reason))
+    throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
+  write_bytes(bytes, path);
+}
+
+void write_page(const Drawing& drawing, const std::string& format, const std::filesystem::path& path) {
+  std::vector<unsigned char> bytes;
+  std::string reason;
+  if (!codec().encode_drawing(drawing, format, bytes, reason))
+    throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
+  write_bytes(bytes, path);
+}
+
+/// Heights of a sheet from above, else distances behind the cut or the eye's plane.
+void write_heights(const Request& request, const Image& image) {
+  const Sheet& sheet = *request.view.made_sheet;
+  const Camera camera = sheet.camera();
+  const double eye = glm::dot(camera.eye, sheet.toward);
+  const bool from_above = sheet.asked.kind == SheetKind::plan;
+  GeoRaster raster{image.width, image.height, {}, {}};
+  raster.floats.reserve(image.aov.size());
+  for (const AovPixel& pixel : image.aov) {
+    const double height = eye - static_cast<double>(pixel.z);
+    const double value = from_above ? height : sheet.near - height;
+    raster.floats.push_back(std::isfinite(pixel.z) ? static_cast<float>(value)
+                                                   : std::numeric_limits<float>::quiet_NaN());
+  }
+  GeoTags tags = geo_tags(place_of(sheet, made_window(request)));
+  tags.no_data = "nan";
+  tags.description = from_above ? "heights, world units" : "distances behind the sheet's plane, world units";
+  write_tiff(raster, tags, request.output.height_raster);
+}
+
+nlohmann::ordered_json json_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// Where the file's pixels lie in the world.
+std::string description_of(const Sheet& sheet, const PixelWindow& window) {
+  const glm::dvec2 corner = sheet.at(window.x, window.y) + sheet.origin;
+  nlohmann::ordered_json json{
+      {"sheet", sheet_text(sheet.asked)},
+      {"width", window.width},
+      {"height", window.height},
+      {"pixel_world", sheet.pixel_world},
+      {"unit_metres", sheet.unit_metres},
+      {"crs", sheet.crs},
+      {"right", json_of(sheet.right)},
+      {"top", json_of(sheet.top)},
+      {"toward", json_of(sheet.toward)},
+      {"corner", json_of(corner.x * sheet.right + corner.y * sheet.top + sheet.near * sheet.toward)},
+      {"corner_on_paper", {sheet.at(window.x, window.y).x, sheet.at(window.x, window.y).y}},
+      {"depth_world", sheet.near - sheet.far}};
+  return json.dump(1) + "\n";
+}
+
+std::string world_file(const GeoPlace& place) {
+  const glm::dvec2 center = place.corner + glm::dvec2(0.5, -0.5) * place.pixel;
+  return number_text(place.pixel) + "\n0\n0\n" + number_text(-place.pixel) + "\n" + number_text(center.x) +
+         "\n" + number_text(center.y) + "\n";
+}
+
+std::string xml_text(const std::string& text) {
+  std::string escaped;
+  for (const char c : text)
+    escaped += c == '<' ? "&lt;" : (c == '>' ? "&gt;" : (c == '&' ? "&amp;" : std::string(1, c)));
+  return escaped;
+}
+
+}  // namespace
+
+void write_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
+                 const std::filesystem::path& path) {
+  const Sheet& sheet = *request.view.made_sheet;
+  const PixelWindow window = made_window(request);
+  const std::string extension = lower_extension(path);
+  if (extension == ".tif") {
+    GeoTags tags = geo_tags(place_of(sheet, window));
+    tags.dots_per_inch = sheet.asked.dpi;
+    for (const auto& [name, value] : metadata)
+      if (name == "command_line") tags.description = value;
+    return write_tiff({picture.width, picture.height, rgba_bytes(picture), {}}, tags, path);
+  }
+  const std::string& title = request.output.title;
+  const std::string name = request.source.inputs.empty() ? "" : request.source.inputs.front().stem().string();
+  Drawing page = sheet_page(sheet, window, picture, title.empty() ? name : title);
+  if (!request.output.measures.empty())
+    draw_measures(sheet, window, read_measures(request.output.measures), sheet.up, page);
+  write_page(page, extension.substr(1), path);
+}
+
+void write_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path) {
+  const Sheet& sheet = *request.view.made_sheet;
+  const PixelWindow window = made_window(request);
+  const GeoPlace place = place_of(sheet, window);
+  const auto beside = [&path](const char* extension) {
+    return std::filesystem::path(path).replace_extension(extension);
+  };
+  write_text_file(description_of(sheet, window), beside(".sheet.json"));
+  if (!request.output.height_raster.empty()) write_heights(request, image);
+  const std::string extension = lower_extension(path);
+  if (extension == ".tif") write_text_file(world_file(place), beside(".tfw"));
+  if (extension != ".png") return;
+  write_text_file(world_file(place), beside(".pgw"));
+  if (place.crs.empty()) return;
+  write_text_file(place.crs + "\n", beside(".prj"));
+  write_text_file("<PAMDataset>\n  <SRS>" + xml_text(place.crs) + "</SRS>\n</PAMDataset>\n",
+                  beside(".png.aux.xml"));
+}
+
+}  // namespace splatray

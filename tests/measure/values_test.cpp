@@ -1,0 +1,146 @@
+// Values of measures, how errors propagate to them, and the files they are kept in.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/library/measure/measure_file.h"
+#include "app/library/measure/measure_text.h"
+#include "app/library/measure/surface_point.h"
+#include "app/library/request/value_text.h"
+#include "data/shapes.h"
+#include "engine/base/error.h"
+#include "tests/temp_folder.h"
+#include "tests/trace/scenes.h"
+
+namespace splatray {
+namespace {
+
+const glm::dvec3 UP(0.0, 0.0, 1.0);
+const glm::dvec3 FAR_AWAY(431250.0, 5412360.0, 217.0);
+
+Measure measure_of(MeasureKind kind, const std::vector<glm::dvec3>& places,
+                   const glm::dvec3& error = glm::dvec3(0.0)) {
+  Measure measure{kind, {}};
+  for (const glm::dvec3& place : places) measure.points.push_back({FAR_AWAY + place, error});
+  return measure;
+}
+
+double value_of(const Measure& measure, const std::string& name) {
+  for (const MeasureValue& value : values_of(measure, UP))
+    if (value.name == name) return value.value;
+  return std::nan("");
+}
+
+TEST(Measures, AreThoseOfGeometryAtLargeCoordinates) {
+  const Measure path = measure_of(MeasureKind::distance, {{0, 0, 0}, {3, 0, 0}, {3, 4, 12}});
+  EXPECT_NEAR(value_of(path, "distance"), 3.0 + std::sqrt(160.0), 1e-8);
+  EXPECT_NEAR(value_of(path, "straight"), 13.0, 1e-8);
+  EXPECT_NEAR(value_of(path, "level"), 5.0, 1e-8);
+  EXPECT_NEAR(value_of(path, "upright"), 12.0, 1e-8);
+  EXPECT_NEAR(value_of(measure_of(MeasureKind::height, {{0, 0, 5}, {9, 9, 2}}), "height"), -3.0, 1e-8);
+  EXPECT_NEAR(value_of(measure_of(MeasureKind::angle, {{1, 0, 0}, {0, 0, 0}, {0, 0, 2}}), "angle"), 90.0,
+              1e-6);
+  const Measure square = measure_of(MeasureKind::area, {{0, 0, 0}, {2, 0, 0}, {2, 2, 2}, {0, 2, 2}});
+  EXPECT_NEAR(value_of(square, "area"), 4.0 * std::sqrt(2.0), 1e-7);
+  EXPECT_NEAR(value_of(square, "perimeter"), 4.0 + 2.0 * std::sqrt(8.0), 1e-8);
+}
+
+TEST(Measures, OfAPlaceToItselfAreZeroWithItsError) {
+  const Measure none = measure_of(MeasureKind::distance, {{1, 2, 3}, {1, 2, 3}}, {0.0, 0.0, 0.01});
+  const MeasureValue value = values_of(none, UP).front();
+  EXPECT_EQ(value.value, 0.0);
+  EXPECT_NEAR(value.within, 1.96 * 0.01 * std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(angle_deg(glm::dvec3(1.0), glm::dvec3(1.0), glm::dvec3(1.0)), 0.0);
+  EXPECT_TRUE(values_of(measure_of(MeasureKind::area, {{0, 0, 0}, {1, 0, 0}}), UP).empty()) << "too few";
+}
+
+TEST(Measures, TakeOfErrorsWhatLiesAlongThem) {
+  const auto within = [](const glm::dvec3& error) {
+    return values_of(measure_of(MeasureKind::distance, {{0, 0, 0}, {5, 0, 0}}, error), UP).front().within;
+  };
+  EXPECT_NEAR(within({0.003, 0.0, 0.0}), 1.96 * 0.003 * std::sqrt(2.0), 1e-8);
+  EXPECT_NEAR(within({0.0, 0.003, 0.0}), 0.0, 1e-5);
+}
+
+TEST(Measures, AreWrittenWithTheDigitsThatCount) {
+  EXPECT_EQ(value_text({"", 12.345678, 0.0023, MeasureUnit::length}), "12.3457 \u00B10.0023");
+  EXPECT_EQ(value_text({"", 12.345678, 3.0, MeasureUnit::length}), "12.3 \u00B13.0");
+  EXPECT_EQ(value_text({"", 90.0, 0.0, MeasureUnit::degrees}), "90\u00B0");
+}
+
+TEST(MeasureText, TakesPointsAndRays) {
+  const GivenMeasure given = read_measure(MeasureKind::distance, "1,2,3>0,0,-1;4,5,6");
+  ASSERT_EQ(given.places.size(), 2U);
+  EXPECT_EQ(given.places[0].direction, glm::dvec3(0.0, 0.0, -1.0));
+  EXPECT_EQ(given.places[1].place, glm::dvec3(4.0, 5.0, 6.0));
+  EXPECT_EQ(read_measure(MeasureKind::sphere, "1,2,3;0.5").reach, 0.5);
+  for (const char* text : {"", "1,2,3", "1,2;3,4", "1,2,3>0,0,0;1,2,3", "1,2,3;1,2,nan"})
+    EXPECT_THROW((void)read_measure(MeasureKind::distance, text), Expected) << text;
+  EXPECT_THROW((void)read_measure(MeasureKind::height, "0,0,0;1,1,1;2,2,2"), Expected);
+  EXPECT_THROW((void)read_measure(MeasureKind::cylinder, "0,0,0;0"), Expected);
+}
+
+std::vector<Measure> all_kinds() {
+  std::vector<Measure> measures = {
+      measure_of(MeasureKind::point, {{1, 2, 3}}),
+      measure_of(MeasureKind::distance, {{0, 0, 0}, {1, 0, 0}, {1, 1, 1}}),
+      measure_of(MeasureKind::height, {{0, 0, 0}, {1, 0, 4}}),
+      measure_of(MeasureKind::angle, {{0, 0, 0}, {1, 0, 4}, {2, 2, 2}}),
+      measure_of(MeasureKind::area, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0.0, 0.0, 0.001}),
+      measure_of(MeasureKind::cylinder, {{1, 2, 3}})};
+  measures.back().fit = RadiusFit{0.25, 0.001, 0.002, FAR_AWAY, {0.0, 0.6, 0.8}, 77};
+  return measures;
+}
+
+TEST(MeasureFile, OfGeoJsonIsReadAgain) {
+  const TempFolder folder;
+  const std::vector<Measure> measures = all_kinds();
+  write_measures(measures, {UP, "EPSG:25832"}, folder.path() / "m.geojson");
+  EXPECT_EQ(read_measures(folder.path() / "m.geojson"), measures);
+  EXPECT_NE(geojson_text(measures, {UP, "EPSG:25832"}).find("urn:ogc:def:crs:EPSG::25832"),
+            std::string::npos);
+}
+
+TEST(MeasureFile, ThatIsNoneIsRefused) {
+  const TempFolder folder;
+  const std::filesystem::path path = folder.path() / "m.geojson";
+  for (const std::string text :
+       {"", "{", "[]", "{\"features\": 5}", "{\"features\": [{}]}",
+        "{\"features\": [{\"properties\": {\"kind\": \"girth\"}, \"geometry\": {}}]}"}) {
+    folder.write("m.geojson", text);
+    EXPECT_THROW((void)read_measures(path), Error) << text;
+  }
+  EXPECT_THROW((void)read_measures(folder.path() / "none.geojson"), Error);
+  EXPECT_THROW(write_measures({}, {}, folder.path() / "m.txt"), Error);
+}
+
+TEST(MeasureFile, OfDxfHasPairsOfCodeAndValueInAscii) {
+  const std::string text = dxf_text(all_kinds(), {UP, ""});
+  EXPECT_TRUE(
+      std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n') % 2, 0);
+  EXPECT_TRUE(text.starts_with("0\nSECTION\n2\nENTITIES\n"));
+  EXPECT_TRUE(text.ends_with("0\nENDSEC\n0\nEOF\n"));
+  EXPECT_NE(text.find("%%p"), std::string::npos);
+}
+
+TEST(SurfacePoint, IsTheNearestOfTheDiscsInTheRegion) {
+  const Scene scene = testing::scene_of(
+      {{sphere({.count = 20000, .even = true, .seed = 7}, 1.0), testing::test_material(0)}});
+  const auto point = nearest_point(scene, {}, {0.0, 0.0, 3.0});
+  ASSERT_TRUE(point);
+  EXPECT_LT(glm::distance(point->place, glm::dvec3(0.0, 0.0, 1.0)), 0.02);
+  EXPECT_LT(glm::length(point->error), 1e-3);
+  Region below;
+  below.kept = {{glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -1.0)}};
+  const auto lower = nearest_point(scene, below, {0.0, 0.5, 3.0});
+  ASSERT_TRUE(lower);
+  EXPECT_LT(lower->place.z, 0.02);
+  const auto fit = radius_near(scene, {}, {0.0, 0.0, 1.0}, 0.5, MeasureKind::sphere);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->radius, 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace splatray

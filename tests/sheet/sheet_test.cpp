@@ -1,0 +1,199 @@
+// Sheets: their size and place, what is cut, what is drawn on them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/library/request/fields.h"
+#include "app/library/sheet/cut_lines.h"
+#include "app/library/sheet/geotiff.h"
+#include "app/library/sheet/ink.h"
+#include "app/library/sheet/sheet.h"
+#include "app/library/sheet/sheet_page.h"
+#include "data/shapes.h"
+#include "engine/base/error.h"
+#include "tests/trace/scenes.h"
+
+namespace splatray {
+namespace {
+
+constexpr double FAR_AWAY = 500000.0;  ///< as coordinates of surveys are
+
+/// A ball of radius 1 that stands at large coordinates, z up.
+Scene ball() {
+  testing::TestObject object{sphere({.count = 20000, .even = true, .seed = 7}, 1.0),
+                             testing::test_material(MATERIAL_TWO_SIDED)};
+  for (glm::dvec3& place : object.points.position) place += glm::dvec3(FAR_AWAY, 10.0 * FAR_AWAY, 100.0);
+  Scene scene = testing::scene_of({object});
+  scene.up = {0.0, 0.0, 1.0};
+  return scene;
+}
+
+Request with_sheet(const std::string& text) {
+  Request request;
+  assign(request, {{"sheet", text}}, DOOR_RENDER);
+  return request;
+}
+
+TEST(SheetText, IsReadAndWrittenAlike) {
+  for (const char* text : {"plan", "plan:z=1.2,depth=1.4,scale=20,dpi=150", "section:0,1,2.5,1,depth=3",
+                           "elevation:180,weight=0", "ortho:1,1,-1,unit=0.3048"}) {
+    EXPECT_EQ(sheet_text(read_sheet(text)), text);
+  }
+  EXPECT_EQ(sheet_text(read_sheet("elevation:south,unit=ft")), "elevation:180,unit=0.3048");
+}
+
+TEST(SheetText, OfAnythingElseIsRefused) {
+  for (const char* text : {"", "plane", "plan:scale=0", "plan:scale=-5", "plan:scale=nan", "plan:1",
+                           "plan:dpi=0", "plan:dpi=1e9", "plan:depth=0", "plan:colour=1", "section:0,0,1",
+                           "section:1,1,1,1", "section:0,0,1,1,z=2", "elevation", "elevation:up",
+                           "ortho:0,0,0", "plan:unit=yard", "plan:weight=-1", "plan:"})
+    EXPECT_THROW((void)with_sheet(text), Error) << text;
+}
+
+TEST(Sheet, PixelsAreExactAndWholeInTheFilesCoordinates) {
+  const Scene scene = ball();
+  for (const char* text :
+       {"plan:scale=50,dpi=300", "elevation:south,scale=20,dpi=254", "plan:z=100.3,scale=33,dpi=97"}) {
+    const Sheet sheet = make_sheet(scene, with_sheet(text));
+    EXPECT_DOUBLE_EQ(sheet.pixel_world, 0.0254 / sheet.asked.dpi * sheet.asked.scale);
+    EXPECT_DOUBLE_EQ(sheet.camera().ortho_height, sheet.height * sheet.pixel_world);
+    for (const double place : {sheet.corner.x, sheet.corner.y})
+      EXPECT_NEAR(place / sheet.pixel_world, std::round(place / sheet.pixel_world), 1e-4) << text;
+    EXPECT_LT(glm::length(glm::cross(sheet.right, sheet.top) - sheet.toward), 1e-12);
+    // All of it, and some millimetres of paper around.
+    const glm::dvec2 middle(glm::dot(glm::dvec3(FAR_AWAY, 10.0 * FAR_AWAY, 100.0), sheet.right),
+                            glm::dot(glm::dvec3(FAR_AWAY, 10.0 * FAR_AWAY, 100.0), sheet.top));
+    const glm::dvec2 pixel = (middle - sheet.corner) / sheet.pixel_world;
+    const double radius = 1.0 / sheet.pixel_world, margin = 3.0 / sheet.pixel_mm();
+    EXPECT_GT(pixel.x, radius + margin - 3.0) << text;
+    EXPECT_LT(pixel.x + radius + margin - 3.0, sheet.width) << text;
+    EXPECT_GT(-pixel.y, radius + margin - 3.0) << text;
+    EXPECT_LT(-pixel.y + radius + margin - 3.0, sheet.height) << text;
+  }
+}
+
+TEST(Sheet, UnitsAreThoseOfTheFileOrTheRequest) {
+  Scene scene = ball();
+  EXPECT_FALSE(make_sheet(scene, with_sheet("plan")).unit_known);
+  const double metres = make_sheet(scene, with_sheet("plan:unit=m")).pixel_world;
+  EXPECT_DOUBLE_EQ(make_sheet(scene, with_sheet("plan:unit=ft")).pixel_world, metres / 0.3048);
+  scene.crs =
+      "PROJCS[\"x\",GEOGCS[\"g\",UNIT[\"degree\",0.0174]],UNIT[\"US survey foot\",0.3048006096012192]]";
+  EXPECT_DOUBLE_EQ(make_sheet(scene, with_sheet("plan")).pixel_world, metres / 0.3048006096012192);
+  scene.crs = "GEOGCS[\"WGS 84\",DATUM[\"d\"],UNIT[\"degree\",0.0174532925199433]]";
+  EXPECT_THROW((void)make_sheet(scene, with_sheet("plan")), Error);
+}
+
+TEST(Sheet, SidesAreWhereASurveyorExpectsThem) {
+  const Scene scene = ball();
+  const auto axes = [&](const char* text) {
+    const Sheet sheet = make_sheet(scene, with_sheet(text));
+    return std::array{sheet.right, sheet.top, sheet.toward};
+  };
+  const auto expect = [](const std::array<glm::dvec3, 3>& found, glm::dvec3 right, glm::dvec3 top,
+                         glm::dvec3 toward) {
+    EXPECT_LT(glm::distance(found[0], right) + glm::distance(found[1], top) + glm::distance(found[2], toward),
+              1e-9);
+  };
+  const glm::dvec3 x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
+  expect(axes("plan"), x, y, z);
+  expect(axes("elevation:south"), x, z, -y);
+  expect(axes("elevation:north"), -x, z, y);
+  expect(axes("elevation:east"), y, z, x);
+  expect(axes("ortho:0,0,-1"), x, y, z);
+  expect(axes("section:499990,5000000,500010,5000000"), x, z, -y);
+  expect(axes("section:500010,5000000,499990,5000000"), -x, z, y);
+}
+
+TEST(Sheet, OfNothingOrTooManyPixelsIsRefused) {
+  const Scene scene = ball();
+  for (const char* text : {"plan:z=50", "section:0,0,1,0,depth=1", "plan:scale=1e-4,dpi=2400"})
+    EXPECT_THROW((void)make_sheet(scene, with_sheet(text)), Error) << text;
+}
+
+TEST(CutLines, LieOnTheCircleThatABallIsCutIn) {
+  const Scene scene = ball();
+  const double radius = std::sqrt(1.0 - 0.3 * 0.3), length = 2.0 * 3.14159265 * radius;
+  Sheet sheet = make_sheet(scene, with_sheet("plan:z=100.3"));
+  ASSERT_GT(sheet.cut_lines.size(), 100U);
+  double covered = 0.0;
+  for (const CutLine& line : sheet.cut_lines) {
+    covered += glm::distance(line[0], line[1]);
+    for (const glm::dvec2& end : line)
+      ASSERT_NEAR(glm::distance(end, glm::dvec2(FAR_AWAY, 10.0 * FAR_AWAY)), radius, 0.01);
+  }
+  EXPECT_GT(covered, length) << "lines overlap";
+  EXPECT_TRUE(make_sheet(scene, with_sheet("plan:z=100.3,weight=0")).cut_lines.empty());
+  EXPECT_TRUE(make_sheet(scene, with_sheet("plan")).cut_lines.empty()) << "nothing is cut";
+}
+
+TEST(CutLines, AreAsWideOnPaperAsAskedFor) {
+  Sheet sheet;
+  sheet.asked.dpi = 254.0;  // ten pixels a millimetre
+  sheet.asked.weight_mm = 0.8;
+  sheet.corner = {0.0, 20.0};
+  sheet.cut_lines = {{glm::dvec2(-50.0, 10.0), glm::dvec2(50.0, 10.0)}};
+  Image image{20, 20, std::vector<vec4>(400, vec4(1.0F)), {}};
+  draw_cut(sheet, {0, 0, 20, 20}, image);
+  double black = 0.0;
+  for (std::size_t row = 0; row < 20; ++row) black += 1.0 - static_cast<double>(image.rgba[row * 20 + 10].x);
+  EXPECT_NEAR(black, 8.0, 1e-3);
+  EXPECT_EQ(image.rgba[10 * 20 + 10], vec4(0.0F, 0.0F, 0.0F, 1.0F));
+}
+
+/// A slope of `rise` a pixel, and a step of `step` in its middle.
+Image slope(float rise, float step) {
+  Image image{16, 8, std::vector<vec4>(128, vec4(1.0F)), std::vector<AovPixel>(128)};
+  for (std::size_t i = 0; i < 128; ++i) {
+    const auto x = static_cast<float>(i % 16);
+    image.aov[i].normal = glm::normalize(vec3(rise, 0.0F, 1.0F));
+    image.aov[i].z = 10.0F + rise * x + (i % 16 >= 8 ? step : 0.0F);
+  }
+  return image;
+}
+
+TEST(Ink, IsWhereDepthStepsAndNotOnSlopes) {
+  Sheet sheet;
+  sheet.asked.dpi = 100.0;
+  Image flat = slope(3.0F, 0.0F), stepped = slope(3.0F, 20.0F), lower = slope(3.0F, 2.0F);
+  draw_ink(sheet, flat);
+  draw_ink(sheet, stepped);
+  draw_ink(sheet, lower);
+  for (std::size_t i = 0; i < 128; ++i) {
+    EXPECT_EQ(flat.rgba[i].x, 1.0F) << i;
+    EXPECT_EQ(lower.rgba[i].x, 1.0F) << i;
+    EXPECT_EQ(stepped.rgba[i].x, i % 16 == 7 ? 0.0F : 1.0F) << i;
+  }
+}
+
+TEST(GeoTags, SayWhereARasterLies) {
+  const GeoTags local = geo_tags({{5.0, 9.0}, 0.25, ""});
+  EXPECT_EQ(local.tiepoint, (std::vector<double>{0.0, 0.0, 0.0, 5.0, 9.0, 0.0}));
+  EXPECT_EQ(local.pixel_scale, (std::vector<double>{0.25, 0.25, 0.0}));
+  EXPECT_EQ(local.keys, (std::vector<std::uint16_t>{1, 1, 1, 2, 1024, 0, 1, 32767, 1025, 0, 1, 1}));
+  const GeoTags utm = geo_tags({{5.0, 9.0}, 0.25, "EPSG:25832"});
+  const std::vector<std::uint16_t> projected{3072, 0, 1, 25832};
+  EXPECT_NE(std::search(utm.keys.begin(), utm.keys.end(), projected.begin(), projected.end()),
+            utm.keys.end());
+}
+
+TEST(SheetPage, HasItsPictureAtScaleAndWordsAroundIt) {
+  const Scene scene = ball();
+  const Sheet sheet = make_sheet(scene, with_sheet("plan:scale=20,dpi=100"));
+  DisplayImage picture{sheet.width, sheet.height, std::vector<vec3>(std::size_t{sheet.width} * sheet.height)};
+  const Drawing page = sheet_page(sheet, {0, 0, sheet.width, sheet.height}, picture, "Ball");
+  EXPECT_DOUBLE_EQ(page.raster.size.x, sheet.width * 25.4 / 100.0);
+  const auto has = [&](const std::string& text) {
+    return std::any_of(page.texts.begin(), page.texts.end(),
+                       [&](const DrawnText& t) { return t.text == text; });
+  };
+  EXPECT_TRUE(has("Ball") && has("1 : 20") && has("N") && has("500000") && has("5000000"));
+  for (const DrawnText& text : page.texts) {
+    EXPECT_GE(text.at.x, 0.0);
+    EXPECT_LE(text.at.x, page.size.x);
+    EXPECT_LE(text.at.y, page.size.y) << text.text;
+  }
+}
+
+}  // namespace
+}  // namespace splatray
