@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -181,6 +182,17 @@ struct ScanOptions {
   bool operator==(const ScanOptions&) const = default;
 };
 
+/// Points of a file as they are read, for whoever shows them before all are.
+struct SeenPoints {
+  /// As the file has them: before ScanOptions::z_scale; of stored colours the scale may be open.
+  const Points& points;
+  std::size_t first;             ///< those before it were seen earlier, of the same file; 0 = a file begins
+  bool measured;                 ///< a scanner's, else a mesh's vertices
+  glm::dvec3 up{0.0, 0.0, 1.0};  ///< the format's own, of what is measured
+};
+/// Hears them on the reading thread, at intervals.
+using PointsListener = std::function<void(const SeenPoints&)>;
+
 struct ReadOptions {
   /// Points to sample on all meshes together, by area; 0 = one point per used vertex.
   std::uint64_t samples = 0;
@@ -195,8 +207,9 @@ struct ReadOptions {
   double crease_degrees = BuildParams{}.crease_degrees;
   bool turn_outwards = false;  ///< closed meshes of all objects, not only of dielectrics, are turned outwards
   ScanOptions scans;
-  unsigned threads = 0;  ///< 0 = all cores
-  Progress progress{};   ///< of the stages "reading" and "sampling"; may be empty
+  unsigned threads = 0;     ///< 0 = all cores
+  Progress progress{};      ///< of the stages "reading" and "sampling"; may be empty
+  PointsListener points{};  ///< of files that are scans, or one mesh; may be empty
 };
 
 /// Reads one or more files into one Input (several files: one object each, but all scans together one; glTF: its own objects), by

@@ -418,6 +418,9 @@ SPLATRAY_CONST LOOK_CLAY = 2u;   ///< the same, everything diffuse and of albedo
 SPLATRAY_CONST LOOK_AO = 3u;  ///< ambient occlusion: the share of the sky, by cosine, that nothing near hides
 SPLATRAY_CONST LOOK_SCAN = 4u;  ///< the points' colours under ambient occlusion and the lights
 SPLATRAY_CONST LOOK_BASE = 5u;  ///< base colours without light, for the denoiser
+/// The same through the pixels' centres, darker where they face away, with the distance from the eye, world units, in place of
+/// coverage: for pictures of what moves
+SPLATRAY_CONST LOOK_SEEN = 6u;
 
 SPLATRAY_CONST PAGES_MOST = 8u;  ///< of a pool: buffers one behind the other, where one cannot be as large
 

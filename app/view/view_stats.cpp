@@ -17,8 +17,9 @@ double milliseconds(ViewStats::Clock::duration time) {
 }  // namespace
 
 void ViewStats::shown(const SharedFrame& frame, Clock::time_point now) {
-  if (!first_ms_) first_ms_ = milliseconds(now - start_);
-  ++pictures_;
+  std::optional<double>& first_ms = frame->of_points ? first_points_ms_ : first_ms_;
+  if (!first_ms) first_ms = milliseconds(now - start_);
+  ++(frame->of_points ? point_pictures_ : pictures_);
   if (frame->moving && frame_ && frame_->moving && now - last_ < STANDSTILL) {
     ++moving_pictures_;
     moving_ms_ += milliseconds(now - last_);
@@ -26,7 +27,7 @@ void ViewStats::shown(const SharedFrame& frame, Clock::time_point now) {
   }
   last_ = now;
   frame_ = frame;
-  has_news_ |= !frame->moving;
+  has_news_ |= !frame->moving || pictures_ == 1;
   std::erase_if(recent_, [now](Clock::time_point time) { return now - time > std::chrono::seconds(1); });
   recent_.push_back(now);
 }
@@ -49,7 +50,9 @@ void ViewStats::write(const std::filesystem::path& path, std::uint32_t validatio
   nlohmann::ordered_json json;
   json["device"] = frame_ ? frame_->device : "";
   json["first_picture_ms"] = first_ms_.value_or(0.0);
+  json["first_points_ms"] = first_points_ms_.value_or(0.0);
   json["pictures"] = pictures_;
+  json["pictures_of_points"] = point_pictures_;
   json["moving"] = {{"pictures", moving_pictures_},
                     {"per_second", moving_ms_ > 0.0 ? 1000.0 * moving / moving_ms_ : 0.0},
                     {"mean_scale", moving_pictures_ > 0 ? scale_sum_ / moving : 0.0}};

@@ -1,9 +1,11 @@
 #include "app/view/viewer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/library/picture/reproduce.h"
+#include "app/library/picture/scene_source.h"
 #include "app/library/request/command_line.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
@@ -36,6 +38,10 @@ Request sized(Request request, const UserState& user) {
   return request;
 }
 
+constexpr int LEFT_BUTTON = 0;   ///< GLFW_MOUSE_BUTTON_LEFT
+constexpr double HOLD_EM = 0.7;  ///< how near to a handle it is taken hold of
+constexpr double WALK_NOTCH = 1.25, FAST_WALK = 5.0;
+
 }  // namespace
 
 Viewer::Viewer(const Request& request, Clock::time_point start)
@@ -43,9 +49,14 @@ Viewer::Viewer(const Request& request, Clock::time_point start)
       stats_(start),
       window_("splatray", request_.view.width, request_.view.height),
       presenter_(window_),
-      loader_([this] { window_.wake(); }),
+      loader_([this] { window_.wake(); }, user_scene_cache()),
       renderer_(request_.settings.device, [this] { window_.wake(); }) {
   panels_.recent_files = user_.state().recent_files;
+  const Choices& choices = choices_kept_ = user_.state().choices;
+  document_.eye_dome = choices.eye_dome;
+  document_.point_size = choices.point_size;
+  panels_.walk_speed = choices.walk_speed;
+  panels_.shows_handles = choices.shows_handles;
   asked_exposure_ev_ = request.look.exposure_ev;
   Request first = request_;
   first.view.width = std::max(picture_px().x, 1U);
@@ -59,7 +70,7 @@ void Viewer::run() {
     if (window_.wait(frames_left > 0 ? 0.0 : patience()))
       frames_left = FRAMES_TO_SETTLE;
     else if (frames_left == 0)
-      remember_window();
+      remember_window(), remember_choices();
     if (frames_left == 0 && !presenter_.gui().wants_keyboard() && panels_.notice.empty()) continue;
     frames_left = std::max(frames_left - 1, 0);
     take_news();
@@ -108,7 +119,9 @@ void Viewer::take_load_news() {
   if (news.progress) work_ = {news.progress->stage, news.progress->share};
   if (!news.notice.empty()) add_line(panels_.notice, news.notice);
   if (!news.error.empty()) panels_.error = news.error;
+  if (news.points) attempt_to("showing points", [&] { show(std::move(*news.points)); });
   if (news.opened) attempt_to("showing the scene", [&] { show(std::move(*news.opened)); });
+  if (!news.progress) leave_points();
 }
 
 void Viewer::take_render_news() {
@@ -123,14 +136,22 @@ void Viewer::take_render_news() {
   if (news.exposure_ev) {
     found_exposure_ev_ = news.exposure_ev;
     document_.exposure_ev = *news.exposure_ev;
+    if (scene_ && !of_points_) history_.start(document_);
   }
   if (!news.notice.empty()) panels_.notice = news.notice;
   if (!news.error.empty()) panels_.error = news.error;
   if (!news.pick) return;
-  if (!news.pick->as_pivot)
-    inspected_ = news.pick->inspected;
-  else if (news.pick->inspected)
-    set_pivot(document_, news.pick->inspected->hit_world);
+  take_pick(*news.pick);
+}
+
+void Viewer::take_pick(const Pick& pick) {
+  if (pick.purpose == PickFor::inspect) inspected_ = pick.inspected;
+  if (!pick.inspected) return;
+  const glm::dvec3& hit_world = pick.inspected->hit_world;
+  if (pick.purpose == PickFor::pivot) set_pivot(document_, hit_world);
+  if (pick.purpose == PickFor::orbit && mouse_.is_held()) about_world_ = hit_world;
+  if (pick.purpose == PickFor::measure && panels_.measuring)
+    add_point(document_.measures, *panels_.measuring, hit_world);
 }
 
 /// What goes wrong becomes a sentence in the window.
@@ -142,37 +163,67 @@ void Viewer::handle_inputs() {
   const Gui& gui = presenter_.gui();
   for (const InputEvent& event : window_.take_inputs()) {
     if (event.kind == InputEvent::Kind::key) {
-      if (mouse_.drags(Action::look) && command_for(InputKind::fly_key, event.code, 0))
-        continue;  // see fly_on
       const std::optional<Command> command = command_for(InputKind::key, event.code, event.modifiers);
+      if (flies() && command_for(InputKind::fly_key, event.code, 0) && (!command || event.modifiers == 0))
+        continue;  // see fly_on
       if (command && (!gui.wants_keyboard() || command->action == Action::escape)) handle(*command);
       continue;
     }
-    const bool over_controls = gui.wants_mouse() || !scene_;
+    const bool over_controls = gui.wants_mouse() || !has_view();
+    if ((handle_ || !over_controls) && take_hold(event)) continue;
     if (const std::optional<Gesture> gesture = mouse_.take(event, over_controls, Clock::now()))
       handle(*gesture);
   }
   fly_on();
 }
 
+/// Of a handle, which then follows the cursor until the button is up; of a point to orbit about. Returns whether the event is a
+/// handle's.
+bool Viewer::take_hold(const InputEvent& event) {
+  using Kind = InputEvent::Kind;
+  const bool left = event.code == LEFT_BUTTON && event.modifiers == 0;
+  if (event.kind == Kind::release && handle_) {
+    handle_.reset();
+    return true;
+  }
+  if (event.kind == Kind::move && handle_) {
+    drag_handle(document_, *handle_, hold_px_, event.position_px, picture_px());
+    hold_px_ = event.position_px;
+    return true;
+  }
+  if (event.kind != Kind::press || !left || mouse_.is_held()) return false;
+  about_world_.reset();
+  if (panels_.shows_handles)
+    handle_ = handle_at(document_, event.position_px, picture_px(), HOLD_EM * presenter_.gui().em_px());
+  if (handle_) hold_px_ = event.position_px;
+  if (!handle_ && scene_ && !panels_.walks) renderer_.pick({event.position_px, picture_px(), PickFor::orbit});
+  return handle_.has_value();
+}
+
 void Viewer::handle(const Gesture& gesture) {
   const glm::dvec2 size(picture_px()), step = gesture.to_px - gesture.from_px;
   switch (gesture.action) {
     case Action::orbit:
-      return orbit(document_, step, size);
+      return panels_.walks ? look(document_, step, size) : orbit(document_, step, size, about_world_);
     case Action::pan:
       return pan(document_, gesture.from_px, gesture.to_px, size);
     case Action::look:
       return look(document_, step, size);
+    case Action::move_slice:
+      static_cast<void>(move_slice(document_, gesture.notches));
+      return;
     case Action::zoom:
+      if (panels_.walks) return change_walk_speed(gesture.notches);
       return zoom(document_, gesture.notches, gesture.to_px, size);
     case Action::drag_light:
       if (panels_.light < document_.lights.size())
         drag_light(document_, gesture.to_px, size, document_.lights[panels_.light]);
       return;
     case Action::pivot:
+      return renderer_.pick({gesture.to_px, picture_px(), PickFor::pivot});
     case Action::inspect:
-      return renderer_.pick({gesture.to_px, picture_px(), gesture.action == Action::pivot});
+      return renderer_.pick(
+          {gesture.to_px, picture_px(), panels_.measuring ? PickFor::measure : PickFor::inspect});
     default:
       return;
   }
@@ -182,13 +233,25 @@ void Viewer::handle(const Gesture& gesture) {
 void Viewer::fly_on() {
   const Clock::time_point now = Clock::now();
   const glm::dvec3 direction = fly_direction([this](int key) { return window_.is_down(key); });
-  if (!mouse_.drags(Action::look) || direction == glm::dvec3(0.0)) {
+  if (!flies() || direction == glm::dvec3(0.0) || presenter_.gui().wants_keyboard() ||
+      dialog_is_open(panels_)) {
     flown_ = now;
     return;
   }
-  fly(document_, direction, std::chrono::duration<double>(now - flown_).count(), flies_fast(window_));
+  const double seconds = std::chrono::duration<double>(now - flown_).count();
+  if (panels_.walks)
+    walk(document_, direction, seconds, panels_.walk_speed * (flies_fast(window_) ? FAST_WALK : 1.0));
+  else
+    fly(document_, direction, seconds, flies_fast(window_));
   flown_ = now;
   window_.wake();
+}
+
+bool Viewer::flies() const { return panels_.walks || mouse_.drags(Action::look); }
+
+void Viewer::change_walk_speed(double notches) {
+  panels_.walk_speed = std::clamp(panels_.walk_speed * std::pow(WALK_NOTCH, notches), 1e-3, 1e3);
+  remember_choices();
 }
 
 void Viewer::handle(const Command& command) {
@@ -205,18 +268,39 @@ void Viewer::handle(const Command& command) {
     case Action::paste_command:
       return attempt_to("pasting", [this] { paste(); });
     case Action::next_viewpoint:
-      return look_from_next();
+      return look_from(viewpoint_ == Viewpoint::sensor
+                           ? Viewpoint::front
+                           : static_cast<Viewpoint>(static_cast<int>(viewpoint_) + 1));
+    case Action::view_oblique:
+      return look_from(Viewpoint::oblique);
+    case Action::view_inside:
+      return look_from(Viewpoint::inside);
+    case Action::view_dollhouse:
+      return look_from(Viewpoint::dollhouse);
+    case Action::view_sensor:
+      return look_from(Viewpoint::sensor);
+    case Action::undo:
+    case Action::redo:
+      return go_back(command.action == Action::undo);
+    case Action::empty_cache:
+      return empty_cache();
     default:
       return;
   }
 }
 
-/// Goes round the views of --view.
-void Viewer::look_from_next() {
-  if (!scene_) return;
-  viewpoint_ = viewpoint_ == Viewpoint::sensor ? Viewpoint::front
-                                               : static_cast<Viewpoint>(static_cast<int>(viewpoint_) + 1);
-  document_.camera = viewpoint_camera(*scene_, viewpoint_, aspect(), {});
+void Viewer::go_back(bool undo) {
+  if (!scene_ || of_points_) return;
+  if (!(undo ? history_.undo(document_) : history_.redo(document_)))
+    panels_.notice = undo ? "nothing to undo" : "nothing to redo";
+}
+
+/// One of the views of --view, of what the region holds.
+void Viewer::look_from(Viewpoint viewpoint) {
+  if (!scene_ || of_points_) return;
+  viewpoint_ = viewpoint;
+  document_.camera =
+      viewpoint_camera(*scene_, viewpoint_, aspect(), {}, region_of(document_.region, document_.up));
   document_.settings.cutaway = viewpoint_ == Viewpoint::dollhouse;
   panels_.notice = std::string("view: ") + viewpoint_name(viewpoint_);
 }
@@ -228,6 +312,10 @@ void Viewer::draw_controls() {
   view.inspected = inspected_ ? &*inspected_ : nullptr;
   view.frames_per_second = stats_.per_second(Clock::now());
   view.work = work_ ? &*work_ : nullptr;
+  view.picture_px = picture_px();
+  view.about_world = mouse_.drags(Action::orbit) ? about_world_ : std::nullopt;
+  view.handle = handle_ ? &*handle_ : nullptr;
+  view.cache_bytes = cache_bytes_;
   const Requests requests = draw_panels(document_, panels_, view);
   if (!panels_.error.empty()) stats_.add_error(panels_.error);
   attempt_to("doing what was asked for", [&] { handle(requests); });
@@ -236,8 +324,8 @@ void Viewer::draw_controls() {
 void Viewer::handle(const Requests& requests) {
   for (const Command& command : requests.commands) handle(command);
   if (requests.open) requests.add ? add(*requests.open) : open(*requests.open);
-  if (requests.save && scene_) renderer_.save(save_job(document_, *requests.save));
-  if (requests.change && scene_) open(*requests.change);
+  if (requests.save && scene_ && !of_points_) renderer_.save(save_job(document_, *requests.save));
+  if (requests.change && scene_ && !of_points_) open(*requests.change);
   if (requests.cancel) cancel();
 }
 
@@ -247,7 +335,7 @@ void Viewer::cancel() {
 }
 
 void Viewer::copy() {
-  if (!scene_) return;
+  if (!scene_ || of_points_) return;
   Request request = request_of(document_, picture_px().x, picture_px().y);
   request.output.path = panels_.save.output.path;
   window_.set_clipboard(command_line(request));
@@ -257,7 +345,10 @@ void Viewer::copy() {
 /// Hands the document over; the render thread finds out whether anything has changed.
 void Viewer::submit() {
   const glm::uvec2 size = picture_px();
-  if (scene_ && size.x > 0 && size.y > 0) renderer_.show(document_, size);
+  document_.settings.region = region_of(document_.region, document_.up);
+  if (scene_ && !of_points_)
+    history_.see(document_, mouse_.is_held() || handle_ || presenter_.gui().is_editing());
+  if (has_view() && size.x > 0 && size.y > 0) renderer_.show(document_, size);
 }
 
 /// The part of the window that shows the picture, pixels; 0 x 0 while minimised.

@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "app/view/model/history.h"
+#include "app/view/model/region_edit.h"
 #include "app/view/model/user_files.h"
 #include "app/view/thread/load_thread.h"
 #include "app/view/thread/render_thread.h"
@@ -35,6 +37,9 @@ class Viewer {
   void add(const SceneFiles& files);
   void open(Request request);
   void show(OpenedScene opened);
+  void show(OpenedPoints opened);
+  void leave_points();
+  void load(const Request& request);
   void require_scene(const std::filesystem::path& file, const char* found) const;
   void take_files(const SceneFiles& files);
   void take_file(const std::filesystem::path& file);
@@ -42,7 +47,14 @@ class Viewer {
   void handle(const Gesture& gesture);
   void handle(const Command& command);
   void fly_on();
-  void look_from_next();
+  void look_from(Viewpoint viewpoint);
+  void take_pick(const Pick& pick);
+  [[nodiscard]] bool take_hold(const InputEvent& event);
+  [[nodiscard]] bool flies() const;
+  void change_walk_speed(double notches);
+  void go_back(bool undo);
+  void empty_cache();
+  void remember_choices();
   void draw_controls();
   void handle(const Requests& requests);
   void cancel();
@@ -56,11 +68,14 @@ class Viewer {
   void write_stats();
   [[nodiscard]] glm::uvec2 picture_px() const;
   [[nodiscard]] double aspect() const;
+  /// Whether there is something to look at and move about.
+  [[nodiscard]] bool has_view() const { return scene_ || of_points_; }
   [[nodiscard]] double patience() const;
 
   UserMemory user_{user_state_path()};
   std::string unkept_;         ///< why the last change of user_ could not be kept; empty = it was
   glm::uvec2 window_kept_{0};  ///< size of the window as user_ has it
+  Choices choices_kept_;       ///< those of this window
   Request request_;            ///< of the command line
   ViewStats stats_;
   Window window_;
@@ -69,10 +84,17 @@ class Viewer {
   RenderThread renderer_;
 
   Document document_;
-  std::optional<double> asked_exposure_ev_;     ///< by an option; unset = what suits a scan, else as it was
-  std::optional<double> found_exposure_ev_;     ///< that suits the scan shown
-  SharedScene scene_;                           ///< null: none is open
-  Viewpoint viewpoint_ = Viewpoint::automatic;  ///< that look_from_next took last
+  std::optional<double> asked_exposure_ev_;  ///< by an option; unset = what suits a scan, else as it was
+  std::optional<double> found_exposure_ev_;  ///< that suits the scan shown
+  SharedScene scene_;                        ///< null: none is open
+  bool of_points_ = false;  ///< document_ is that of points, which are shown until their scene is made
+  Document before_;         ///< then: that of scene_
+  Viewpoint viewpoint_ = Viewpoint::automatic;  ///< that look_from took last
+  History history_;                             ///< of the scene shown
+  std::optional<glm::dvec3> about_world_;       ///< what lay under the cursor when its button was pressed
+  std::optional<Grip> handle_;                  ///< that is held
+  std::uint64_t cache_bytes_ = 0;               ///< as it was when a scene was opened last
+  glm::dvec2 hold_px_{0.0};                     ///< where the cursor held it last
   Mouse mouse_;
   PanelState panels_;
   SharedFrame frame_;

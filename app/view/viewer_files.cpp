@@ -1,4 +1,6 @@
 // What the viewer does with files: those of scenes and others that a person opens, drops or pastes, and its own.
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -13,6 +15,13 @@
 
 namespace splatray {
 
+void Viewer::load(const Request& request) {
+  leave_points();
+  of_points_ = false;
+  panels_.notice.clear();
+  loader_.load(request);
+}
+
 /// Opens another scene; the first one as the command line says.
 void Viewer::open(const SceneFiles& files) {
   Request request = scene_ ? kept_request(document_) : request_;
@@ -21,15 +30,14 @@ void Viewer::open(const SceneFiles& files) {
   request.look.material.clear();
   request.view.width = picture_px().x;
   request.view.height = picture_px().y;
-  panels_.notice.clear();
-  loader_.load(request);
+  load(request);
 }
 
 /// Loads the scene shown together with more files.
 void Viewer::add(const SceneFiles& files) {
   if (!scene_) return open(files);
-  panels_.notice.clear();
-  loader_.load(request_with(document_, files));
+  leave_points();
+  load(request_with(document_, files));
 }
 
 /// A request of the scene shown changes what it looks like, at once; another is loaded.
@@ -39,18 +47,50 @@ void Viewer::open(Request request) {
     request.view.height = std::max(picture_px().y, 1U);
     document_ = shown_as(*scene_, document_, request);
   } else {
-    panels_.notice.clear();
-    loader_.load(request);
+    load(request);
   }
   asked_exposure_ev_ = request.look.exposure_ev;
   document_.exposure_ev = request.look.exposure_ev.value_or(0.0);
 }
 
+/// Points of the scene that is being made, more each time: where the camera was moved it stays.
+void Viewer::show(OpenedPoints opened) {
+  const bool moved = of_points_ && document_.camera != panels_.home;
+  if (!of_points_) before_ = document_;
+  opened.document.eye_dome = document_.eye_dome;
+  opened.document.point_size = document_.point_size;
+  of_points_ = true;
+  panels_.home = opened.document.camera;
+  if (moved) {
+    opened.document.camera = document_.camera;
+    opened.document.settings.cutaway = document_.settings.cutaway;
+  }
+  document_ = std::move(opened.document);
+  renderer_.open_points(std::move(opened.points), document_, picture_px());
+}
+
+/// Goes back to the scene from the points of another that does not come; where there is none, they stay.
+void Viewer::leave_points() {
+  if (!of_points_ || !scene_) return;
+  of_points_ = false;
+  document_ = std::move(before_);
+  renderer_.open_points(nullptr, document_, picture_px());
+}
+
 void Viewer::show(OpenedScene opened) {
+  panels_.home = opened.document.camera;
+  if (of_points_) {  // the view stays as it is
+    opened.document.camera = document_.camera;
+    opened.document.settings.cutaway = document_.settings.cutaway;
+    document_ = std::move(before_);
+    of_points_ = false;
+  }
   const bool exposes = !asked_exposure_ev_ && !opened.scene->stations.empty();
   const bool kept = document_.exposure_ev != found_exposure_ev_;
   opened.document.exposure_ev = asked_exposure_ev_.value_or(kept ? document_.exposure_ev : 0.0);
   opened.document.mode = document_.mode;
+  opened.document.eye_dome = document_.eye_dome;
+  opened.document.point_size = document_.point_size;
   document_ = std::move(opened.document);
   if (!scene_) {
     for (Request* asked : {&panels_.save, &panels_.record}) {
@@ -62,8 +102,11 @@ void Viewer::show(OpenedScene opened) {
   scene_ = std::move(opened.scene);
   const SceneFiles& files = document_.loaded->asked.source.inputs;
   remember([&files](UserState& state) { remember_files(state, files); });
-  panels_.home = document_.camera;
   panels_.can_add = true;
+  history_.start(document_);
+  cache_bytes_ = user_scene_cache().bytes();
+  handle_.reset();
+  about_world_.reset();
   viewpoint_ = Viewpoint::automatic;
   panels_.object = panels_.light = 0;
   inspected_.reset();
@@ -83,7 +126,8 @@ void Viewer::take_files(const SceneFiles& files) {
   SceneFiles scene;
   for (const std::filesystem::path& file : files)
     drop_kind(file) == DropKind::scene ? scene.push_back(file) : take_file(file);
-  if (!scene.empty()) open(scene);
+  if (scene.empty()) return;
+  window_.is_down(GLFW_KEY_LEFT_SHIFT) || window_.is_down(GLFW_KEY_RIGHT_SHIFT) ? add(scene) : open(scene);
 }
 
 /// A file of no scene.
@@ -142,6 +186,20 @@ void Viewer::remember_bookmarks() {
     for (std::size_t i = 0; i < now.size(); ++i)
       if (now[i] != before[i]) kept[i] = now[i];
   });
+}
+
+void Viewer::empty_cache() {
+  user_scene_cache().clear();
+  cache_bytes_ = user_scene_cache().bytes();
+  panels_.notice = "the cache of made scenes is empty";
+}
+
+/// Keeps what a person likes to have in any scene.
+void Viewer::remember_choices() {
+  const Choices now{document_.eye_dome, document_.point_size, panels_.walk_speed, panels_.shows_handles};
+  if (now == choices_kept_) return;
+  choices_kept_ = now;
+  remember([now](UserState& state) { state.choices = now; });
 }
 
 void Viewer::remember_window() {

@@ -16,12 +16,13 @@ struct LookStyle {
 };
 
 [[nodiscard]] constexpr LookStyle look_style(std::uint32_t look) {
-  constexpr std::array<LookStyle, 6> STYLES = {{{false, true, true, true, false},      // LOOK_PAPER
-                                                {true, true, true, true, false},       // LOOK_LIT
-                                                {true, false, false, true, true},      // LOOK_CLAY
-                                                {false, false, false, false, true},    // LOOK_AO
-                                                {false, false, true, true, true},      // LOOK_SCAN
-                                                {false, false, true, false, false}}};  // LOOK_BASE
+  constexpr std::array<LookStyle, 7> STYLES = {{{false, true, true, true, false},     // LOOK_PAPER
+                                                {true, true, true, true, false},      // LOOK_LIT
+                                                {true, false, false, true, true},     // LOOK_CLAY
+                                                {false, false, false, false, true},   // LOOK_AO
+                                                {false, false, true, true, true},     // LOOK_SCAN
+                                                {false, false, true, false, false},   // LOOK_BASE
+                                                {false, false, true, false, true}}};  // LOOK_SEEN
   return STYLES.at(look);
 }
 

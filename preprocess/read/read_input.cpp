@@ -32,6 +32,7 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
   object.name = path.stem().string();
   object.material = default_material();
   object.meshes.push_back(read_mesh(path, options, listener));
+  listener.show(object.meshes.front().vertices, object.meshes.front().triangles.empty());
   input.crs = object.meshes.front().vertices.crs;
   input.up = object.meshes.front().vertices.up;
   if (!object.meshes.front().vertices.color.empty()) {
@@ -149,8 +150,11 @@ std::vector<NamedFile> with_folders_opened(const std::vector<std::filesystem::pa
 Input read_file(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener,
                 std::vector<NamedScan>& scans) {
   const Format* format = find_format(path);
-  if (format != nullptr && format->read_scan != nullptr)
-    return add_scan(path, format->read_scan(path, options, listener), scans);
+  if (format != nullptr && format->read_scan != nullptr) {
+    ScanFile file = format->read_scan(path, options, listener);
+    listener.show(file.points, true, file.up);
+    return add_scan(path, std::move(file), scans);
+  }
   if (format != nullptr && format->read_scene != nullptr) return format->read_scene(path, options, listener);
   return read_geometry(path, options, listener);
 }
@@ -227,7 +231,8 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   };
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::vector<std::string> notes;
-    const ReadListener listener{notes, options.progress, share(i), share(i + 1)};
+    std::size_t seen = 0;
+    const ReadListener listener{notes, options.progress, share(i), share(i + 1), &options.points, &seen};
     try {
       Input more = read_file(files[i].path, options, listener, scans);
       more.notes = std::move(notes);

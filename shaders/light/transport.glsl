@@ -91,7 +91,8 @@ Hit trace_seen(Ray ray, uvec4 watched, uint of_ray, INOUT(Tally) tally) {
     if (OPACITY) {
       // The mean of what is all opaque may be a rounding below 1.
       float opacity = hit.factors.layer.w > 0.999999f ? 2.0f : hit.factors.layer.w;
-      passes = hit.found && unit_float(hash_uint(of_ray ^ hash_words(hit.first))) >= opacity;
+      float chance = LOOK == LOOK_SEEN ? 0.5f : unit_float(hash_uint(of_ray ^ hash_words(hit.first)));
+      passes = hit.found && chance >= opacity;
       of_ray += 0x9e3779b9u;
       // Never back: from where a sheet's blend lies before its first splat, the sheets before would be met again and again.
       float ahead = max(hit.t, hit.t_first);
@@ -231,6 +232,14 @@ void meet_environment(INOUT(Path) path) {
   path.alive = false;
 }
 
+/// LOOK_SEEN: half of the colour is as bright wherever it faces.
+void show_seen(INOUT(Path) path, Hit hit, Bsdf bsdf, vec3 to_eye, uint pixel) {
+  float eye_distance = 0.0f;
+  center_ray(uvec2(pixel % frame.width, pixel / frame.width), eye_distance);
+  path.radiance = bsdf.base * (0.5f + 0.5f * to_eye.z);
+  path.coverage = (hit.t + eye_distance) * frame.root_unit_world;
+}
+
 /// What a path finds at a hit, and whether and how it goes on. `emitter` as look_for_light has it.
 void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Probe) emitter, INOUT(Tally) tally) {
   path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
@@ -253,7 +262,8 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   if (LIGHTS || SKY || EMISSION || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
     look_for_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, emitter, tally);
   if (LOOK == LOOK_BASE) path.radiance = bsdf.base;
-  if (LOOK == LOOK_AO || LOOK == LOOK_SCAN || LOOK == LOOK_BASE) {
+  if (LOOK == LOOK_SEEN) show_seen(path, hit, bsdf, to_eye, pixel);
+  if (LOOK == LOOK_AO || LOOK == LOOK_SCAN || LOOK == LOOK_BASE || LOOK == LOOK_SEEN) {
     path.alive = false;
   } else {
     go_on(path, hit, bsdf, basis, to_eye, sobol_sample(pixel, sample_index, 2u + 2u * path.bounce, frame.seed));

@@ -37,7 +37,7 @@ Ray center_ray(uvec2 pixel, OUT(float) eye_distance) {
 #ifdef LIT
 Ray sample_ray(uvec2 pixel, uint sample_index) {
   vec4 random = sobol_sample(pixel.y * frame.width + pixel.x, sample_index, 0u, frame.seed);
-  vec2 at = vec2(pixel) + vec2(random);
+  vec2 at = vec2(pixel) + (LOOK == LOOK_SEEN ? vec2(0.5f) : vec2(random));
   float eye_distance = 0.0f;
   Ray ray = primary_ray(at.x, at.y, eye_distance);
   if (LENS) ray = through_lens(ray, eye_distance, vec2(random.z, random.w));

@@ -55,10 +55,11 @@ bool hidden(const Document& document, std::size_t object) {
 /// All members of a document: whoever adds one must name it here.
 bool same(const Document& a, const Document& b) {
   const auto members = [](const Document& document) {
-    const auto& [loaded, looks, lights, environment, camera, settings, exposure_ev, tone, mode, attributes,
-                 up, bounds_min_world, bounds_max_world] = document;
-    return std::tie(loaded, lights, environment, camera, settings, exposure_ev, tone, mode, attributes, up,
-                    bounds_min_world, bounds_max_world);
+    const auto& [loaded, looks, lights, environment, camera, settings, region, exposure_ev, tone, mode,
+                 eye_dome, point_size, measures, attributes, up, bounds_min_world, bounds_max_world] =
+        document;
+    return std::tie(loaded, lights, environment, camera, settings, region, exposure_ev, tone, mode, eye_dome,
+                    point_size, measures, attributes, up, bounds_min_world, bounds_max_world);
   };
   return same_looks(a.looks, b.looks) && members(a) == members(b);
 }
@@ -69,7 +70,8 @@ TEST(PanelsTest, AllPanelsRunOverAnyDocumentAndChangeNothing) {
       for (const double scale : {1.0, 2.0}) {
         GuiDriver gui(size.x, size.y, scale);
         gui.document = document_of(objects);
-        for (const char* section : {"Lights", "Environment", "Camera", "Quality", "Splat under the cursor"})
+        for (const char* section : {"Points", "Regions", "Measures", "Lights", "Environment", "Camera",
+                                    "Quality", "Cache", "Splat under the cursor", "Statistics"})
           gui.open_section(section);
         const Document before = gui.document;
         const Inspected inspected{.object = 1, .object_name = "", .radius_world = 1e-3};
@@ -236,7 +238,7 @@ TEST(PanelsTest, LightsAreAddedAndRemoved) {
 TEST(PanelsTest, QualityAndEnvironmentChangeTheSettings) {
   GuiDriver gui(1280, 1600);
   gui.document = document_of(1);
-  for (const char* section : {"Quality", "Environment"}) gui.click("##column", {section});
+  for (const char* section : {"Quality", "Environment", "Statistics"}) gui.click("##column", {section});
   gui.click("##column", {"shadows"});
   EXPECT_FALSE(gui.document.settings.shadows);
   gui.click("##column", {"black"});
@@ -371,6 +373,7 @@ TEST(PanelsTest, EscapeClosesADropDownList) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(1);
   EXPECT_FALSE(close_drop_down());
+  gui.click("##column", {"Statistics"});
   gui.click("##column", {"view"});
   EXPECT_GT(gui.rectangle("##Combo").GetArea(), 0.0F);
   EXPECT_TRUE(close_drop_down());

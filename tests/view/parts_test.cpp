@@ -10,7 +10,7 @@
 #include "app/library/image_file.h"
 #include "app/library/request/command_line.h"
 #include "app/view/model/document_request.h"
-#include "app/view/model/resolution.h"
+#include "app/view/thread/resolution.h"
 #include "app/view/window/display_table.h"
 #include "app/view/window/drop.h"
 #include "app/view/window/mouse.h"
@@ -48,6 +48,25 @@ TEST(MovingResolution, TakesTheWantedTime) {
     const double scale = resolution.scale(WINDOW, 33.0), ms = scale * scale * 1280 * 720 * ms_per_pixel;
     EXPECT_LT(ms, 43.0);
     EXPECT_TRUE(scale == 1.0 || ms > 23.0) << ms;
+  }
+}
+
+TEST(MovingResolution, AThirdOfTheWindowIsWorthWaitingFor) {
+  constexpr glm::uvec2 WINDOW{1200, 900};
+  for (const double third_ms : {20.0, 60.0, 85.0, 200.0}) {
+    MovingResolution resolution;
+    for (int i = 0; i < 30; ++i) {
+      const double scale = resolution.scale(WINDOW, 50.0, 90.0);
+      resolution.learn(scale * scale * 1200 * 900, 9.0 * scale * scale * third_ms);
+    }
+    const double scale = resolution.scale(WINDOW, 50.0, 90.0), ms = 9.0 * scale * scale * third_ms;
+    EXPECT_LT(ms, 90.0 * 1.28) << third_ms;
+    if (third_ms < 90.0) {
+      EXPECT_GT(scale, 0.29) << third_ms;
+    }
+    if (third_ms < 45.0) {
+      EXPECT_LT(ms, 50.0 * 1.28) << "no slower than asked for where there is enough";
+    }
   }
 }
 

@@ -95,6 +95,47 @@ TEST_F(ProgressiveTest, EnvironmentAndUp) {
   expect_live_change();
 }
 
+/// Colours and distances of LOOK_SEEN: the brute truth of an orthographic view of two discs.
+TEST_F(ProgressiveTest, WhatMovesIsSeenWithoutNoise) {
+  document.settings.look = LOOK_LIT;
+  document.camera.eye.x = document.camera.target.x = 0.1;
+  const std::vector<SharedFrame> once = finish();
+  document.camera.eye.x = document.camera.target.x = 0.0;
+  (void)finish();
+  document.camera.eye.x = document.camera.target.x = 0.1;
+  const std::vector<SharedFrame> again = finish();
+  const Frame &moving = *once.front(), &same = *again.front();
+  ASSERT_TRUE(moving.moving && moving.is_seen);
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < moving.image.rgba.size(); ++i) {
+    const vec4& pixel = moving.image.rgba[i];
+    if (moving.view.width == same.view.width && moving.view.height == same.view.height) {
+      EXPECT_EQ(pixel, same.image.rgba[i]);
+    }
+    if (!(pixel.w > 0.0F)) continue;
+    ++hits;
+    EXPECT_NEAR(pixel.w, document.camera.eye.z, 1e-3)
+        << "the discs' plane, whatever the device clips rays to";
+    EXPECT_EQ(vec3(pixel), vec3(document.looks.materials[0].diffuse)) << "facing the eye: its colour";
+  }
+  EXPECT_GT(hits, moving.image.rgba.size() / 20);
+}
+
+TEST_F(ProgressiveTest, WhatMovesIsAsBrightAsThePictureAtRest) {
+  document.settings.look = LOOK_LIT;
+  const auto mean = [](const Frame& frame) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < frame.image.rgba.size(); ++i)
+      if (frame.image.rgba[i].w > 0.0F) sum += frame.display[4 * i], ++count;
+    return sum / double(count);
+  };
+  document.exposure_ev = -1.5;
+  const double rest = mean(*finish().back());
+  document.camera.eye.x = document.camera.target.x = 0.05;
+  EXPECT_NEAR(mean(*finish().front()), rest, 0.05 * rest);
+}
+
 TEST_F(ProgressiveTest, EveryPictureIsWhole) {
   document.camera.eye.x = document.camera.target.x = 0.1;
   for (const SharedFrame& frame : finish()) {

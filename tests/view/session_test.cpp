@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "app/library/image_file.h"
@@ -125,7 +127,7 @@ class ViewSession : public CliTest {
   }
 
   /// The middle of the slider of Material::mirror.
-  static constexpr int MIRROR_X = 755, MIRROR_Y = 338;
+  static constexpr int MIRROR_X = 755, MIRROR_Y = 468;
 
   Desktop desktop;
   std::optional<Program> viewer;
@@ -277,6 +279,103 @@ TEST_F(ViewSession, StateThatCannotBeKeptIsNotedAndNothingIsLost) {
   EXPECT_EQ(viewer->wait(), 0);
   EXPECT_NE(content(file("log")).find("note: "), std::string::npos) << content(file("log"));
   EXPECT_EQ(stats()["samples"], 2);
+}
+
+/// A bent sheet of points with some noise, as a scan is.
+std::string scan_of(int side) {
+  std::string text;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j)
+      text += std::to_string(0.01 * i) + " " + std::to_string(0.01 * j) + " " +
+              std::to_string(0.2 * std::sin(0.03 * i) + 0.0005 * ((i * 7 + j * 13) % 5)) + "\n";
+  return text;
+}
+
+TEST_F(ViewSession, AScanIsSeenAsPointsAndOpensFromTheCacheTheNextTime) {
+  const std::string scan = write("scan.xyz", scan_of(150));
+  const std::vector<std::string> cache = {"XDG_CACHE_HOME=" + file("cache")};
+  const fs::path scenes = file("cache/splatray/scenes");
+  start({scan}, cache);
+  const unsigned long window = desktop.wait_for_window("splatray");
+  ASSERT_NE(window, 0U);
+  await("points", [this] { return stats().value("first_points_ms", 0.0) > 0.0; });
+  drag("1", 10);  // while the scene is made
+  await_finished_picture();
+  await("the kept scene", [&] { return fs::exists(scenes) && !fs::is_empty(scenes); });
+  const nlohmann::json first_time = end(window);
+  EXPECT_LT(first_time["first_points_ms"], first_time["first_picture_ms"]);
+  EXPECT_GE(first_time["pictures_of_points"], 1);
+
+  fs::remove(file("stats.json"));
+  start({scan}, cache);
+  const unsigned long again = desktop.wait_for_window("scan.xyz");
+  ASSERT_NE(again, 0U);
+  await_finished_picture();
+  desktop.xdotool({"key", "ctrl+Delete"});
+  await("an empty cache", [&] { return fs::is_empty(scenes); });
+  EXPECT_EQ(end(again)["first_points_ms"], 0.0) << "nothing was made";
+}
+
+/// The middle of a disc of this colour; nothing where there is none.
+std::optional<std::pair<int, int>> find_disc(const std::vector<std::uint32_t>& pixels, int width,
+                                             std::uint32_t color) {
+  const auto is = [&](std::size_t i) { return i < pixels.size() && (pixels[i] & 0xFFFFFFU) == color; };
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    bool all = true;
+    for (int y = -2; y <= 2 && all; ++y)
+      for (int x = -2; x <= 2 && all; ++x)
+        all = is(i + static_cast<std::size_t>(static_cast<std::ptrdiff_t>(y) * width + x));
+    if (all) return std::pair(static_cast<int>(i) % width, static_cast<int>(i) / width);
+  }
+  return {};
+}
+
+TEST_F(ViewSession, ABoxIsDraggedAPointIsMeasuredAndBothAreUndone) {
+  start({first});
+  const unsigned long window = desktop.wait_for_window("first.ply");
+  ASSERT_NE(window, 0U);
+  await_finished_picture();
+  const auto command = [this] {
+    fs::remove(file("splatray.png"));
+    save();
+    return read_metadata(file("splatray.png")).front().second;
+  };
+  const auto box = [](const std::string& text) {
+    const std::size_t at = text.find("--keep-box");
+    return at == std::string::npos ? "" : text.substr(at, text.find(' ', at + 12) - at);
+  };
+  desktop.xdotool({"key", "b"});
+  std::optional<std::pair<int, int>> grip;
+  await("a handle", [&] { return (grip = find_disc(desktop.pixels(window), 960, 0xFFC83C)).has_value(); });
+  const std::string before = box(command());
+  ASSERT_NE(before, "");
+  desktop.xdotool({"mousemove", std::to_string(grip->first), std::to_string(grip->second), "mousedown", "1"});
+  pause(0.3);
+  for (int i = 0; i < 10; ++i) {
+    desktop.xdotool({"mousemove_relative", "--", "3", "5"});
+    pause(0.03);
+  }
+  desktop.xdotool({"mouseup", "1"});
+  pause(0.3);
+  const std::string after = box(command());
+  EXPECT_NE(after, before);
+  EXPECT_NE(after, "");
+  desktop.xdotool({"key", "ctrl+z"});
+  pause(0.3);
+  EXPECT_EQ(box(command()), before) << "one drag is one step";
+  desktop.xdotool({"key", "ctrl+z"});
+  pause(0.3);
+  EXPECT_EQ(box(command()), "");
+
+  desktop.xdotool({"key", "t"});
+  click(360, 300);
+  await("a mark", [&] { return find_disc(desktop.pixels(window), 960, 0xFFF078).has_value(); });
+  desktop.xdotool({"key", "BackSpace"});
+  await("no mark", [&] { return !find_disc(desktop.pixels(window), 960, 0xFFF078).has_value(); });
+  desktop.xdotool({"key", "l"});
+  pause(0.3);
+  EXPECT_NE(command().find("--look-in"), std::string::npos);
+  (void)end(window);
 }
 
 TEST_F(ViewSession, InterruptEndsIt) {

@@ -73,14 +73,14 @@ TEST_F(RenderThreadTest, FinishesThePicture) {
 
 TEST_F(RenderThreadTest, AnswersWhatIsUnderTheCursor) {
   thread.open(scene, document, SIZE);
-  thread.pick({glm::dvec2(SIZE) * 0.5, SIZE, true});
+  thread.pick({glm::dvec2(SIZE) * 0.5, SIZE, PickFor::pivot});
   await([](const RenderNews& news) {
     if (!news.pick) return false;
-    EXPECT_TRUE(news.pick->as_pivot);
+    EXPECT_EQ(news.pick->purpose, PickFor::pivot);
     EXPECT_NEAR(glm::length(news.pick->inspected.value().hit_world), 0.0, 1e-6);
     return true;
   });
-  thread.pick({{0.5, 0.5}, SIZE, false});
+  thread.pick({{0.5, 0.5}, SIZE});
   await([](const RenderNews& news) { return news.pick && !news.pick->inspected; });
 }
 

@@ -195,7 +195,9 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
     loaded.scene = read_scene(inputs.front(), listener.progress);
   } else {
     const Progress progress = watching_memory(listener.progress);
-    build(read_input(inputs, reading_of(request, progress)), request, listener, progress, loaded);
+    ReadOptions reading = reading_of(request, progress);
+    reading.points = listener.points;
+    build(read_input(inputs, reading), request, listener, progress, loaded);
   }
   loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   show_as_asked(request, loaded);

@@ -24,6 +24,7 @@ struct LoadedScene {
 struct LoadListener {
   Progress progress;  ///< returns false to stop: load_scene then throws Error (interrupted)
   std::function<void(const std::string&)> note;  ///< a sentence about something odd in the files
+  PointsListener points{};                       ///< as ReadOptions::points
 };
 
 /// Reads or preprocesses the scene; applies --material, --object, --up (else upright of upright.h) and what is shown of

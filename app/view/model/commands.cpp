@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/view/model/false_color.h"
 #include "app/view/model/navigation.h"
 #include "app/view/model/panel_state.h"
+#include "app/view/model/region_edit.h"
 
 namespace splatray {
 namespace {
@@ -19,7 +21,74 @@ bool close_topmost(PanelState& state) {
     *open = false;
     return true;
   }
-  return false;
+  const bool goes_on = state.measuring || state.walks;
+  state.measuring.reset();
+  state.walks = false;
+  return goes_on;
+}
+
+void toggle_box(Document& document, PanelState& state) {
+  std::optional<TurnedBox>& box = document.region.keep_box;
+  box = box ? std::nullopt : std::optional(box_of_all(document));
+  state.shows_handles = true;
+}
+
+/// Level, along the scene, across it, none.
+void next_section(Document& document, PanelState& state) {
+  constexpr std::array ORDER = {1, 2, 0};
+  const std::optional<Slice> slice = slice_of(document.region);
+  std::size_t next = 0;
+  const glm::dmat3 axes = upright_axes(document.up);
+  for (std::size_t i = 0; slice && i < ORDER.size(); ++i)
+    if (std::abs(glm::dot(slice->normal, axes[ORDER[i]])) > 0.5) next = i + 1;
+  if (next < ORDER.size())
+    set_slice(document.region, first_slice(document, ORDER[next]));
+  else
+    remove_slice(document.region);
+  state.shows_handles = true;
+}
+
+void next_measure(PanelState& state) {
+  const int next = state.measuring ? static_cast<int>(*state.measuring) + 1 : 0;
+  state.measuring = next < MEASURE_KINDS ? std::optional(static_cast<MeasureKind>(next)) : std::nullopt;
+  state.notice =
+      state.measuring ? std::string("measure: ") + measure_name(*state.measuring) : "measure: none";
+}
+
+void take_back_point(Document& document) {
+  if (document.measures.empty()) return;
+  std::vector<glm::dvec3>& points = document.measures.back().points;
+  if (!points.empty()) points.pop_back();
+  if (points.empty()) document.measures.pop_back();
+}
+
+/// What changes the region, measures or how one moves; returns whether the action is one of them.
+bool apply_to_edit(Action action, Document& document, PanelState& state) {
+  switch (action) {
+    case Action::look_in:
+      document.settings.cutaway = !document.settings.cutaway;
+      return true;
+    case Action::walk:
+      state.walks = !state.walks;
+      return true;
+    case Action::box:
+      toggle_box(document, state);
+      return true;
+    case Action::section:
+      next_section(document, state);
+      return true;
+    case Action::handles:
+      state.shows_handles = !state.shows_handles;
+      return true;
+    case Action::measure:
+      next_measure(state);
+      return true;
+    case Action::unpoint:
+      take_back_point(document);
+      return true;
+    default:
+      return false;
+  }
 }
 
 void next_up_axis(Document& document) {
@@ -98,6 +167,7 @@ bool apply(const Command& command, double aspect, Document& document, PanelState
   if (command.action == Action::quit) return false;
   if (dialog_is_open(state)) return true;
   if (apply_to_camera(command.action, aspect, document, state)) return true;
+  if (apply_to_edit(command.action, document, state)) return true;
   switch (command.action) {
     case Action::help:
       state.show_help = !state.show_help;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/library/request/request.h"
+#include "app/view/model/measure.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 
@@ -45,8 +46,11 @@ struct Document {
   double exposure_ev = 0.0;
   Tone tone = Tone::neutral;
   ViewMode mode = ViewMode::shaded;
-  AttributeOptions attributes;       ///< what is shown of the points' attributes
-  glm::dvec3 up{0.0, 1.0, 0.0};      ///< the scene's up axis: of orbits, framing and the environment
+  double eye_dome = 1.0;          ///< strength of the shading of what moves and of points, as eye_dome has it
+  double point_size = 1.0;        ///< of points, in their spacings
+  std::vector<Measure> measures;  ///< in the order they were made
+  AttributeOptions attributes;    ///< what is shown of the points' attributes
+  glm::dvec3 up{0.0, 1.0, 0.0};   ///< the scene's up axis: of orbits, framing and the environment
   glm::dvec3 bounds_min_world{0.0};  ///< of the scene's splat centres
   glm::dvec3 bounds_max_world{0.0};
 };

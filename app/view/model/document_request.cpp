@@ -15,6 +15,25 @@ Request::Source plain(Request::Source source) {
   return source;
 }
 
+/// The document of the scene as a request of which nothing is left open shows it.
+Document shown_in(const Scene& scene, const Document& document, const Request& request) {
+  Document shown = document;
+  shown.looks = document.loaded->looks;
+  apply_object_changes(request.look.objects, scene.object_names, shown.looks);
+  shown.camera = choose_camera(scene, request);
+  shown.lights = choose_lights(scene, request, shown.camera);
+  shown.environment = choose_environment_name(scene, request);
+  shown.settings = choose_settings(scene, request);
+  shown.region = request.view.region;
+  shown.tone = choose_tone(request);
+  static_cast<void>(color_by(scene, request.look.attributes));  // throws where the scene does not have it
+  shown.attributes = request.look.attributes;
+  shown.up = choose_up(scene, request);
+  shown.bounds_min_world = scene.bounds_min_world;
+  shown.bounds_max_world = scene.bounds_max_world;
+  return shown;
+}
+
 }  // namespace
 
 Request request_of(const Document& document, std::uint32_t width, std::uint32_t height) {
@@ -45,17 +64,20 @@ Request request_of(const Document& document, std::uint32_t width, std::uint32_t 
 }
 
 Document first_document(const Scene& scene, const Request& asked) {
+  return first_document(scene, asked, suited_picture(scene, asked).request);
+}
+
+Document first_document(const Scene& scene, const Request& asked, const Request& suited) {
   Document document;
-  document.loaded =
-      std::make_shared<const LoadedPart>(LoadedPart{asked,
-                                                    choose_look(scene, suited_picture(scene, asked).request),
-                                                    scene.object_names,
-                                                    {scene.materials, surfaces_of(scene)},
-                                                    color_sources(scene),
-                                                    categories_of(scene, COLUMN_CLASS),
-                                                    categories_of(scene, COLUMN_SCAN),
-                                                    !scene.stations.empty()});
-  return shown_as(scene, document, asked);
+  document.loaded = std::make_shared<const LoadedPart>(LoadedPart{asked,
+                                                                  choose_look(scene, suited),
+                                                                  scene.object_names,
+                                                                  {scene.materials, surfaces_of(scene)},
+                                                                  color_sources(scene),
+                                                                  categories_of(scene, COLUMN_CLASS),
+                                                                  categories_of(scene, COLUMN_SCAN),
+                                                                  !scene.stations.empty()});
+  return shown_in(scene, document, suited);
 }
 
 bool is_of_scene(const Document& document, const Request& request) {
@@ -67,22 +89,7 @@ bool is_of_scene(const Document& document, const Request& request) {
 }
 
 Document shown_as(const Scene& scene, const Document& document, const Request& asked) {
-  const Request request = suited_picture(scene, asked).request;
-  Document shown = document;
-  shown.looks = document.loaded->looks;
-  apply_object_changes(request.look.objects, scene.object_names, shown.looks);
-  shown.camera = choose_camera(scene, request);
-  shown.lights = choose_lights(scene, request, shown.camera);
-  shown.environment = choose_environment_name(scene, request);
-  shown.settings = choose_settings(scene, request);
-  shown.region = request.view.region;
-  shown.tone = choose_tone(request);
-  static_cast<void>(color_by(scene, request.look.attributes));  // throws where the scene does not have it
-  shown.attributes = request.look.attributes;
-  shown.up = choose_up(scene, request);
-  shown.bounds_min_world = scene.bounds_min_world;
-  shown.bounds_max_world = scene.bounds_max_world;
-  return shown;
+  return shown_in(scene, document, suited_picture(scene, asked).request);
 }
 
 Request kept_request(const Document& document) {

@@ -12,6 +12,8 @@ namespace splatray {
 /// The document of a scene that load_scene read without the objects and attributes of the look, with the camera, lights, materials
 /// and settings that the request asks for. Throws Error (usage) for objects that the scene does not have.
 [[nodiscard]] Document first_document(const Scene& scene, const Request& asked);
+/// The same where `suited` is the request of suited_picture, which takes a while.
+[[nodiscard]] Document first_document(const Scene& scene, const Request& asked, const Request& suited);
 
 /// Whether the document's scene is the one of this request, so that it changes the look alone.
 [[nodiscard]] bool is_of_scene(const Document& document, const Request& request);

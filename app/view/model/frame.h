@@ -21,11 +21,13 @@ struct Frame {
   std::vector<std::uint8_t> display;  ///< what a screen shows: sRGB 8 bit rgba, r first
   std::uint32_t samples = 0;          ///< in every pixel
   ColorRange range;                   ///< of the colours of `mode`
-  bool moving = false;                ///< coarse: what is shown changes
-  double scale = 1.0;                 ///< traced pixels / window pixels, along an edge; below 1 while moving
-  double ms = 0.0;                    ///< wall time of the last whole pass over the picture
-  RenderStats stats;                  ///< of all of the picture so far
-  ColorLegend legend;                 ///< of the points' colours
+  bool of_points = false;  ///< points stand in for the scene, which is not there yet: `image` is empty
+  bool is_seen = false;    ///< `image` is of LOOK_SEEN
+  bool moving = false;     ///< coarse: what is shown changes
+  double scale = 1.0;      ///< traced pixels / window pixels, along an edge; below 1 while moving
+  double ms = 0.0;         ///< wall time of the last whole pass over the picture
+  RenderStats stats;       ///< of all of the picture so far
+  ColorLegend legend;      ///< of the points' colours
   PoolBytes pool_bytes;
   std::uint32_t pools_uploaded = 0;  ///< since start
   std::string device;

@@ -29,10 +29,11 @@ constexpr Binding flight(Action action, int code, const char* does) {
 
 constexpr std::array BINDINGS = {
     mouse(Action::orbit, InputKind::drag, LEFT, 0,
-          "orbit about the pivot, the point in the middle of the picture"),
+          "orbit about the point under the cursor, where there is none about the middle; drag a handle"),
     mouse(Action::pan, InputKind::drag, MIDDLE, 0, "pan: the point taken hold of stays under the cursor"),
     mouse(Action::pan, InputKind::drag, LEFT, SHIFT, ""),
     mouse(Action::zoom, InputKind::wheel, 0, 0, "zoom to the cursor"),
+    mouse(Action::move_slice, InputKind::wheel, 0, CTRL, "move the slice"),
     mouse(Action::look, InputKind::drag, RIGHT, 0, "look around from where you are"),
     flight(Action::fly, GLFW_KEY_W,
            "while the right button is down: fly forward, left, back, right, down, up"),
@@ -41,10 +42,14 @@ constexpr std::array BINDINGS = {
     flight(Action::fly, GLFW_KEY_D, ""),
     flight(Action::fly, GLFW_KEY_Q, ""),
     flight(Action::fly, GLFW_KEY_E, ""),
-    flight(Action::fly_fast, GLFW_KEY_LEFT_SHIFT, "while flying: five times as fast"),
+    flight(Action::fly_fast, GLFW_KEY_LEFT_SHIFT, "while flying or walking: five times as fast"),
+    key(Action::walk, GLFW_KEY_G, 0,
+        "walk: the keys above move along the ground without the mouse, left drag looks around, the wheel "
+        "changes the speed"),
     mouse(Action::pivot, InputKind::double_click, LEFT, 0, "make the point under the cursor the pivot"),
     mouse(Action::pivot, InputKind::click, MIDDLE, 0, ""),
-    mouse(Action::inspect, InputKind::click, LEFT, 0, "inspect the splat under the cursor"),
+    mouse(Action::inspect, InputKind::click, LEFT, 0,
+          "inspect the splat under the cursor; while measuring, add the point there"),
     mouse(Action::drag_light, InputKind::drag, LEFT, CTRL,
           "drag the light selected in the panel about the scene"),
     key(Action::frame_all, GLFW_KEY_F, 0, "frame the whole scene"),
@@ -57,19 +62,35 @@ constexpr std::array BINDINGS = {
     key(Action::view_bottom, GLFW_KEY_7, CTRL, ""),
     key(Action::next_viewpoint, GLFW_KEY_V, 0,
         "next of the views: front, oblique, top, inside, dollhouse (open to the eye), sensor"),
+    key(Action::view_oblique, GLFW_KEY_2, 0, "view oblique, inside, dollhouse, from the sensor"),
+    key(Action::view_inside, GLFW_KEY_4, 0, ""),
+    key(Action::view_dollhouse, GLFW_KEY_6, 0, ""),
+    key(Action::view_sensor, GLFW_KEY_8, 0, ""),
+    key(Action::look_in, GLFW_KEY_L, 0,
+        "look in: leave out what faces away, such as walls and ceilings before a room"),
     key(Action::orthographic, GLFW_KEY_5, 0, "perspective or orthographic"),
+    key(Action::box, GLFW_KEY_B, 0, "a box to look into, or none; its faces have handles"),
+    key(Action::section, GLFW_KEY_X, 0,
+        "next section: a slice that is level, along the scene, across it, none"),
+    key(Action::handles, GLFW_KEY_K, 0, "show or hide the handles of boxes and planes"),
+    key(Action::measure, GLFW_KEY_T, 0, "next measure: distance, height, angle, area, none"),
+    key(Action::unpoint, GLFW_KEY_BACKSPACE, 0, "take back the last point measured"),
+    key(Action::undo, GLFW_KEY_Z, CTRL, "undo what changed but the camera; redo"),
+    key(Action::redo, GLFW_KEY_Z, CTRL | SHIFT, ""),
     key(Action::up_axis, GLFW_KEY_U, 0, "next up axis: y, z, x"),
     digits(Action::bookmark_set, SHIFT, "remember the camera as a bookmark of this scene"),
     digits(Action::bookmark_go, ALT, "go to a bookmark"),
     key(Action::mode_next, GLFW_KEY_M, 0,
         "next view mode: shaded, normal, depth, object, splat, facing, tests, steps"),
     key(Action::mode_previous, GLFW_KEY_M, SHIFT, "previous view mode"),
-    key(Action::open, GLFW_KEY_O, CTRL, "open a file; or drop it on the window"),
+    key(Action::open, GLFW_KEY_O, CTRL,
+        "open files and folders; or drop them on the window, with Shift beside what is shown"),
     key(Action::save, GLFW_KEY_S, 0, "save the picture, at any size and number of samples"),
     key(Action::save, GLFW_KEY_S, CTRL, ""),
     key(Action::record, GLFW_KEY_R, 0, "record a turntable or a camera path"),
     key(Action::copy_command, GLFW_KEY_C, CTRL, "copy the view as a command line of splatray-render"),
     key(Action::paste_command, GLFW_KEY_V, CTRL, "take the view from a command line that was copied"),
+    key(Action::empty_cache, GLFW_KEY_DELETE, CTRL, "empty the cache of scenes made before"),
     key(Action::panels, GLFW_KEY_TAB, 0, "show or hide the panels"),
     key(Action::help, GLFW_KEY_H, 0, "show or hide these keys"),
     key(Action::escape, GLFW_KEY_ESCAPE, 0,
@@ -82,6 +103,10 @@ const char* key_name(int code) {
   switch (code) {
     case GLFW_KEY_HOME:
       return "Home";
+    case GLFW_KEY_BACKSPACE:
+      return "Backspace";
+    case GLFW_KEY_DELETE:
+      return "Delete";
     case GLFW_KEY_TAB:
       return "Tab";
     case GLFW_KEY_ESCAPE:

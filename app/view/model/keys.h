@@ -29,9 +29,14 @@ enum class Action {
   view_top,
   view_bottom,
   next_viewpoint,  ///< those of --view in turn
-  orthographic,    ///< perspective or orthographic
-  up_axis,         ///< x, y, z in turn
-  mode_next,       ///< next ViewMode
+  view_oblique,    ///< others of --view
+  view_inside,
+  view_dollhouse,
+  view_sensor,
+  look_in,       ///< leaves out what faces away from the eye
+  orthographic,  ///< perspective or orthographic
+  up_axis,       ///< x, y, z in turn
+  mode_next,     ///< next ViewMode
   mode_previous,
   bookmark_go,   ///< digit 1..9
   bookmark_set,  ///< digit 1..9
@@ -42,7 +47,17 @@ enum class Action {
   zoom,        ///< wheel
   pivot,       ///< the point under the cursor becomes the pivot
   inspect,     ///< the splat under the cursor
-  fly,         ///< keys held while look lasts
+  walk,        ///< the fly keys move along the ground, without the mouse
+  box,         ///< a box that is kept, or none
+  section,     ///< a slice: level, across two axes, none
+  move_slice,  ///< wheel
+  handles,     ///< of boxes and planes, shown or not
+  measure,     ///< the next kind, or none
+  unpoint,     ///< takes a measure's last point away
+  undo,        ///< what changed but the camera
+  redo,
+  empty_cache,  ///< removes the scenes that are kept
+  fly,          ///< keys held while look lasts
   fly_fast,
 };
 

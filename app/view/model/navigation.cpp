@@ -14,6 +14,7 @@ constexpr double ZOOM_PER_NOTCH = 0.85;     ///< of the distance
 constexpr double MOST_NOTCHES = 50.0;       ///< of one zoom
 constexpr double FLY_RADII_A_SECOND = 0.5;  ///< scene radii
 constexpr double FLY_FAST = 5.0;
+constexpr double WALK_RADII_A_SECOND = 0.1;
 constexpr double LONGEST_FLIGHT_S = 0.25;  ///< a stall must not carry the camera away
 constexpr double LOOK_SHARE = 0.5;         ///< of the angle that the same drag orbits
 /// Distances and orthographic heights that zoom reaches, scene radii.
@@ -178,10 +179,33 @@ glm::dvec3 point_under(const Camera& camera, glm::dvec2 position_px, glm::dvec2 
   return camera.target + offset.x * axes.right - offset.y * axes.top;
 }
 
-void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px) {
+std::optional<glm::dvec2> place_in_picture(const Camera& camera, const glm::dvec3& point_world,
+                                           glm::dvec2 size_px) {
+  const PictureAxes axes = picture_axes(camera);
+  const glm::dvec3 from_eye = point_world - camera.eye;
+  const double depth = -glm::dot(from_eye, axes.back);
+  if (!(depth > 0.0)) return {};
+  const glm::dvec3 at = camera.ortho_height > 0.0 ? from_eye : from_eye * (axes.distance / depth);
+  const glm::dvec2 offset(glm::dot(at, axes.right), -glm::dot(at, axes.top));
+  return 0.5 * size_px + offset / pixel_world(camera, axes.distance, size_px);
+}
+
+void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px,
+           std::optional<glm::dvec3> about_world) {
   if (!finite(drag_px)) return;
   Camera camera = start_of(document);
-  stand_about(camera, turned(stand_of(camera, document.up), drag_px, size_px, 1.0), document.up);
+  const glm::dvec3 about = about_world && finite(*about_world) ? *about_world : camera.target;
+  const PictureAxes before = picture_axes(camera);
+  const PictureAxes after =
+      picture_axes(turned(stand_of(camera, document.up), drag_px, size_px, 1.0), document.up);
+  const auto turned_about = [&](const glm::dvec3& point) {
+    const glm::dvec3 v = point - about;
+    return about + glm::dot(v, before.right) * after.right + glm::dot(v, before.top) * after.top +
+           glm::dot(v, before.back) * after.back;
+  };
+  camera.target = turned_about(camera.target);
+  camera.eye = camera.target + after.distance * after.back;
+  camera.up = after.top;
   finish(document, camera);
 }
 
@@ -232,6 +256,18 @@ void fly(Document& document, glm::dvec3 direction, double seconds, bool fast) {
         scaled(document, camera.ortho_height, std::exp(-radii * std::clamp(direction.z, -1.0, 1.0)));
   else
     move(camera, -way.z * axes.back);
+  finish(document, camera);
+}
+
+void walk(Document& document, glm::dvec3 direction, double seconds, double speed) {
+  if (!finite(direction) || !std::isfinite(seconds) || !std::isfinite(speed)) return;
+  Camera camera = start_of(document);
+  const glm::dvec3 up = upright_axes(document.up)[1];
+  const glm::dvec3 right = picture_axes(camera).right, ahead = glm::cross(up, right);
+  const double way =
+      WALK_RADII_A_SECOND * speed * std::clamp(seconds, 0.0, LONGEST_FLIGHT_S) * scene_radius_world(document);
+  const glm::dvec3 step = glm::clamp(direction, -1.0, 1.0);
+  move(camera, way * (step.x * right + step.y * up + step.z * ahead));
   finish(document, camera);
 }
 

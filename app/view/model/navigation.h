@@ -5,6 +5,7 @@
 /// cameras are kept outside the scene, so that none of it lies behind them.
 #pragma once
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "app/view/model/document.h"
 
@@ -20,9 +21,15 @@ enum class AxisView { front, back, right, left, top, bottom };
 /// The point under `position_px` in the plane of the pivot across the view direction.
 [[nodiscard]] glm::dvec3 point_under(const Camera& camera, glm::dvec2 position_px, glm::dvec2 size_px);
 
-/// Turns the camera about the pivot, half a turn for a drag over the smaller edge of the picture: to the right turns the
-/// scene to the right, down shows more of its top. Stops exactly above and below. A rolled camera is levelled.
-void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px);
+/// Where a world point lies in the picture; nothing behind the eye.
+[[nodiscard]] std::optional<glm::dvec2> place_in_picture(const Camera& camera, const glm::dvec3& point_world,
+                                                         glm::dvec2 size_px);
+
+/// Turns the camera about a point, unset = the pivot, half a turn for a drag over the smaller edge of the picture: to the right turns
+/// the scene to the right, down shows more of its top. The point stays where it is in the picture. Stops exactly above and below. A
+/// rolled camera is levelled.
+void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px,
+           std::optional<glm::dvec3> about_world = {});
 /// Moves camera and pivot across the view so that what lay under `from_px` at the pivot's depth lies under `to_px`.
 void pan(Document& document, glm::dvec2 from_px, glm::dvec2 to_px, glm::dvec2 size_px);
 /// Nearer (`notches` > 0, of a wheel) or farther; the point under `position_px` at the pivot's depth stays there.
@@ -34,6 +41,10 @@ void look(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px);
 /// of scene_radius_world() a second, five times that when `fast`; at most a quarter of a second counts. In orthographic
 /// pictures forward enlarges.
 void fly(Document& document, glm::dvec3 direction, double seconds, bool fast);
+
+/// Moves camera and pivot along the ground, level whichever way the camera looks, and up and down: `speed` times a tenth of
+/// scene_radius_world() a second, else as fly.
+void walk(Document& document, glm::dvec3 direction, double seconds, double speed);
 
 /// Makes a world point the pivot: camera and pivot move across the view until it lies in the middle, as large as before.
 /// Points that are not before the eye change nothing.

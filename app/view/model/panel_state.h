@@ -8,6 +8,7 @@
 
 #include "app/library/request/request.h"
 #include "app/view/model/document.h"
+#include "app/view/model/folder_listing.h"
 #include "app/view/model/keys.h"
 #include "app/view/model/scene_files.h"
 
@@ -31,15 +32,21 @@ inline constexpr double NOTICE_SECONDS = 10.0;  ///< after the work that they re
 struct PanelState {
   double ui_scale = 1.0;  ///< of fonts and sizes; 1 at 96 dots per inch
   bool show_panels = true, show_help = false, show_save = false, show_record = false, show_open = false;
-  std::uint32_t object = 0;   ///< selected in the material panel
-  std::uint32_t light = 0;    ///< selected in the light panel; what Action::drag_light drags
-  std::string object_filter;  ///< part of the names listed
-  Camera home;                ///< as loaded
+  std::uint32_t object = 0;              ///< selected in the material panel
+  std::uint32_t light = 0;               ///< selected in the light panel; what Action::drag_light drags
+  std::string object_filter;             ///< part of the names listed
+  bool shows_handles = true;             ///< of the region's boxes and planes, in the picture
+  std::optional<MeasureKind> measuring;  ///< what clicks in the picture add points to
+  bool walks = false;                    ///< the fly keys move along the ground, without the mouse
+  double walk_speed = 1.0;               ///< factor on that of walk
+  Camera home;                           ///< as loaded
   std::array<std::optional<Camera>, BOOKMARK_COUNT> bookmarks;
-  std::vector<SceneFiles> recent_files;  ///< newest first
-  std::string open_path;                 ///< of the open dialog
-  bool add = false;                      ///< of the open dialog: beside what is shown
-  bool can_add = false;                  ///< something is shown
+  std::vector<SceneFiles> recent_files;       ///< newest first
+  std::string open_path;                      ///< of the open dialog: what is written there
+  std::optional<FolderListing> open_listing;  ///< what it shows; unset while it is closed
+  SceneFiles open_chosen;                     ///< of that
+  bool add = false;                           ///< of the open dialog: beside what is shown
+  bool can_add = false;                       ///< something is shown
   Request save = first_save();
   Request record = first_record();
   std::string error;         ///< a sentence in a pop-up until closed; empty = none
@@ -52,8 +59,8 @@ struct PanelState {
 [[nodiscard]] bool dialog_is_open(const PanelState& state);
 
 /// Does what needs neither window nor threads: camera, view mode, bookmarks, which panels are open. `aspect` of the
-/// picture. Returns false when the command is the caller's: quit, copy_command, paste_command, pivot, inspect, drags,
-/// and escape when nothing was open to be closed.
+/// picture. Returns false when the command is the caller's: quit, copy_command, paste_command, pivot, inspect, drags, views of
+/// --view, undo, redo, empty_cache, and escape when nothing was open to be closed and nothing went on.
 [[nodiscard]] bool apply(const Command& command, double aspect, Document& document, PanelState& state);
 
 }  // namespace splatray

@@ -112,6 +112,13 @@ UserState state_of(const json& all) {
       if (SceneFiles files = files_of(recent); !files.empty() && state.recent_files.size() < RECENT_COUNT)
         state.recent_files.push_back(std::move(files));
   });
+  const auto number = [&](const char* name, double most, double& value) {
+    if_sound([&] { value = std::clamp(all.at(name).get<double>(), 0.0, most); });
+  };
+  number("eye_dome", 100.0, state.choices.eye_dome);
+  number("point_size", 100.0, state.choices.point_size);
+  number("walk_speed", 1000.0, state.choices.walk_speed);
+  if_sound([&] { state.choices.shows_handles = all.at("shows_handles").get<bool>(); });
   if_sound([&] {
     for (const auto& scene : all.at("bookmarks").items())
       if_sound([&] { state.bookmarks[scene.key()] = bookmarks_of(scene.value()); });
@@ -149,6 +156,10 @@ void write_state(const UserState& state, const fs::path& path) {
   json all = {{"window_width", state.window_width}, {"window_height", state.window_height}};
   all["recent_files"] = json::array();
   for (const SceneFiles& files : state.recent_files) all["recent_files"].push_back(to_json(files));
+  all["eye_dome"] = state.choices.eye_dome;
+  all["point_size"] = state.choices.point_size;
+  all["walk_speed"] = state.choices.walk_speed;
+  all["shows_handles"] = state.choices.shows_handles;
   all["bookmarks"] = json::object();
   for (const auto& [scene, bookmarks] : state.bookmarks) all["bookmarks"][scene] = to_json(bookmarks);
   write_text_file(all.dump(2, ' ', false, json::error_handler_t::replace) + "\n", path, Links::refuse);

@@ -16,11 +16,21 @@ namespace splatray {
 
 using Bookmarks = std::array<std::optional<Camera>, BOOKMARK_COUNT>;
 
+/// What a person likes to have in any scene.
+struct Choices {
+  double eye_dome = 1.0, point_size = 1.0;  ///< of Document; 0..100
+  double walk_speed = 1.0;                  ///< of PanelState; 0..1000
+  bool shows_handles = true;
+
+  bool operator==(const Choices&) const = default;
+};
+
 /// What is remembered.
 struct UserState {
   int window_width = 1280, window_height = 720;  ///< screen coordinates, 320..16384
   std::vector<SceneFiles> recent_files;          ///< newest first, at most RECENT_COUNT, absolute
   std::map<std::string, Bookmarks> bookmarks;    ///< by scene_name
+  Choices choices;
 };
 
 inline constexpr std::size_t RECENT_COUNT = 10;

@@ -1,5 +1,7 @@
 #include "app/view/thread/load_thread.h"
 
+#include <chrono>
+#include <string_view>
 #include <utility>
 
 #include "app/library/picture/scene_source.h"
@@ -10,13 +12,18 @@
 namespace splatray {
 namespace {
 
+constexpr std::chrono::duration<double> FIRST_POINTS{0.3};  ///< after reading began
+constexpr double WORTH_KEEPING_MS = 500.0;                  ///< that a scene took
+constexpr double POINTS_PAUSE = 2.0;  ///< points are shown again when reading has taken as many times as long
+
 std::string stage_text(const char* stage, const Request& request) {
   return std::string(stage) + " " + scene_title(request.source.inputs);
 }
 
 }  // namespace
 
-LoadThread::LoadThread(std::function<void()> wake) : wake_(std::move(wake)), thread_([this] { run(); }) {}
+LoadThread::LoadThread(std::function<void()> wake, SceneCache cache)
+    : wake_(std::move(wake)), cache_(std::move(cache)), thread_([this] { run(); }) {}
 
 LoadThread::~LoadThread() {
   {
@@ -30,6 +37,7 @@ LoadThread::~LoadThread() {
 void LoadThread::load(const Request& request) {
   const std::lock_guard lock(mutex_);
   waiting_ = request;
+  news_.points.reset();
   news_.progress = {stage_text("reading", request), 0.0};
   cancelled_ = true;  // what is being loaded
   changed_.notify_one();
@@ -67,6 +75,46 @@ void LoadThread::run() {
   }
 }
 
+/// The scene that was made before, or a new one.
+Scene LoadThread::made_scene(const Request& request, const LoadListener& listener, bool& worth_keeping) {
+  if (std::optional<Scene> made = cache_.find(request, listener.progress)) return *std::move(made);
+  LoadedScene loaded = load_and_show_points(request, listener);
+  worth_keeping = loaded.load_ms > WORTH_KEEPING_MS;
+  return std::move(loaded.scene);
+}
+
+/// Loads the scene, and delivers its points as they are read: soon, then ever more seldom, and all that are kept at the end.
+LoadedScene LoadThread::load_and_show_points(const Request& request, const LoadListener& listener) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  PointSampler sampler(request);
+  std::chrono::duration<double> next = FIRST_POINTS;
+  bool all = false;
+  const auto show = [&] {
+    if (sampler.is_small()) return;
+    static_cast<void>(attempt("showing points", [&] {
+      OpenedPoints points = sampler.make();
+      deliver([&](LoadNews& news) {
+        if (!cancelled_) news.points = std::move(points);
+      });
+    }));  // what is wrong with them is said of the scene
+  };
+  LoadListener watching = listener;
+  watching.points = [&](const SeenPoints& seen) {
+    sampler.add(seen);
+    if (Clock::now() - start < next) return;
+    show();
+    next = POINTS_PAUSE * (Clock::now() - start);
+  };
+  watching.progress = [&](const char* stage, double share) {
+    const bool is_read = std::string_view(stage) != "reading";
+    if (is_read && !std::exchange(all, true)) show();
+    all = is_read;
+    return listener.progress(stage, share);
+  };
+  return load_scene(request, watching);
+}
+
 void LoadThread::load_now(const Request& asked) {
   const LoadListener listener{
       [&](const char* stage, double share) {
@@ -80,13 +128,19 @@ void LoadThread::load_now(const Request& asked) {
   request.look.objects.clear();  // the document keeps the materials without them
   request.look.attributes = {};  // the render thread applies them
   request.look.attributes.color_by = "rgb";
-  LoadedScene loaded = load_scene(request, listener);
-  const std::string choices = suited_picture(loaded.scene, asked).choices;
-  if (!choices.empty()) listener.note(choices);
-  OpenedScene opened{nullptr, first_document(loaded.scene, asked)};
-  opened.scene = std::make_shared<const Scene>(std::move(loaded.scene));
+  bool worth_keeping = false;
+  Scene scene = made_scene(request, listener, worth_keeping);
+  const SuitedPicture suited = suited_picture(scene, asked);
+  if (!suited.choices.empty()) listener.note(suited.choices);
+  OpenedScene opened{nullptr, first_document(scene, asked, suited.request)};
+  opened.scene = std::make_shared<const Scene>(std::move(scene));
+  const SharedScene kept = worth_keeping ? opened.scene : nullptr;
   if (is_cancelled()) return;
-  deliver([&](LoadNews& news) { news.opened = std::move(opened); });
+  deliver([&](LoadNews& news) {
+    news.opened = std::move(opened);
+    news.progress.reset();
+  });
+  if (kept) cache_.keep(request, *kept, [this](const char*, double) { return !is_cancelled(); });
 }
 
 /// `change` runs with the mutex held.

@@ -7,9 +7,12 @@
 #include <string>
 #include <thread>
 
+#include "app/library/picture/scene_source.h"
 #include "app/library/request/request.h"
 #include "app/view/model/document.h"
 #include "app/view/thread/live_scene.h"
+#include "app/view/thread/point_sampler.h"
+#include "app/view/thread/scene_cache.h"
 
 namespace splatray {
 
@@ -27,6 +30,7 @@ struct OpenedScene {
 
 /// What has come from the load thread since it was last asked.
 struct LoadNews {
+  std::optional<OpenedPoints> points;  ///< to look at until the scene comes
   std::optional<OpenedScene> opened;
   std::optional<LoadProgress> progress;  ///< of what is being loaded, as it is now
   std::string notice;                    ///< sentences, one a line
@@ -37,8 +41,8 @@ struct LoadNews {
 /// read.
 class LoadThread {
  public:
-  /// `wake` is called on its thread after each delivery.
-  explicit LoadThread(std::function<void()> wake);
+  /// `wake` is called on its thread after each delivery. What took a while to make is kept in `cache`.
+  explicit LoadThread(std::function<void()> wake, SceneCache cache = SceneCache({}));
   ~LoadThread();
   LoadThread(const LoadThread&) = delete;
   LoadThread& operator=(const LoadThread&) = delete;
@@ -52,10 +56,13 @@ class LoadThread {
  private:
   void run();
   void load_now(const Request& asked);
+  [[nodiscard]] Scene made_scene(const Request& request, const LoadListener& listener, bool& worth_keeping);
+  [[nodiscard]] LoadedScene load_and_show_points(const Request& request, const LoadListener& listener);
   void deliver(const std::function<void(LoadNews&)>& change);
   [[nodiscard]] bool is_cancelled();
 
   std::function<void()> wake_;
+  SceneCache cache_;
   std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;
   std::optional<Request> waiting_;

@@ -6,8 +6,10 @@
 namespace splatray {
 namespace {
 
-constexpr double MOVING_MS = 1000.0 / 30.0;  ///< of a coarse picture
-constexpr double BAND_MS = 30.0;             ///< of work before changes are looked for
+constexpr double MOVING_MS = 1000.0 / 20.0;  ///< of a coarse picture
+constexpr double SLOWEST_MS =
+    1000.0 / 11.0;                ///< the same where it would be coarser than a third of the window
+constexpr double BAND_MS = 30.0;  ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
 /// Of trace_samples, so that reading back costs little.
 constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
@@ -15,8 +17,8 @@ constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
 /// Whether a picture of one is a picture of the other, but for the exposure.
 bool same_picture(const Document& a, const Document& b) {
   return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights &&
-         a.up == b.up && a.attributes == b.attributes && a.environment == b.environment &&
-         same_looks(a.looks, b.looks);
+         a.up == b.up && a.eye_dome == b.eye_dome && a.attributes == b.attributes &&
+         a.environment == b.environment && same_looks(a.looks, b.looks);
 }
 
 Display display_of(const Document& document) { return {document.exposure_ev, document.tone}; }
@@ -32,6 +34,11 @@ void Progressive::show(const Document& document, glm::uvec2 window_px) {
 }
 
 void Progressive::restart() { stage_ = Stage::coarse; }
+
+void Progressive::restart_with_scene() {
+  moving_.forget();
+  restart();
+}
 
 std::optional<Progressive::Clock::time_point> Progressive::next_work() const {
   if (recolour_) return Clock::time_point{};
@@ -59,11 +66,16 @@ SharedFrame Progressive::work(const std::function<bool()>& stop) {
 }
 
 SharedFrame Progressive::trace_coarse() {
-  const double scale = resolution_.scale(window_px_, MOVING_MS);
+  const double scale = resolution_.scale(window_px_, MOVING_MS, SLOWEST_MS);
   Frame frame = new_frame(scaled_size(window_px_, scale), scale);
   frame.moving = true;
   Settings coarse = settings();
   coarse.samples = 1;
+  if (coarse.look != LOOK_PAPER) {  // whose one sample has no noise
+    coarse.look = LOOK_SEEN;
+    coarse.lens_radius_world = 0.0;
+    frame.is_seen = true;
+  }
   const Clock::time_point start = Clock::now();
   if (document_.mode == ViewMode::shaded)
     frame.image = live_.tracer().render(live_.look(), frame.view, coarse);
@@ -144,7 +156,9 @@ SharedFrame Progressive::coloured(Frame frame) {
   frame.pools_uploaded = live_.tracer().pools_uploaded();
   if (frame.mode == ViewMode::shaded) {
     if (!table_ || table_->display() != display_of(document_)) table_.emplace(display_of(document_));
-    frame.display = table_->rgba(frame.image.rgba);
+    frame.display = frame.is_seen ? moving_.display(frame.image, frame.view, document_.eye_dome, *table_)
+                                  : table_->rgba(frame.image.rgba);
+    if (!frame.moving) moving_.rest(frame.image, frame.display);
   } else {
     frame.range = color_range(frame.image.aov, frame.mode);
     frame.display = false_color(frame.image.aov, frame.mode, frame.range);

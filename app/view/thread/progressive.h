@@ -7,8 +7,9 @@
 
 #include "app/view/model/document.h"
 #include "app/view/model/frame.h"
-#include "app/view/model/resolution.h"
 #include "app/view/thread/live_scene.h"
+#include "app/view/thread/moving_picture.h"
+#include "app/view/thread/resolution.h"
 #include "app/view/window/display_table.h"
 
 namespace splatray {
@@ -26,8 +27,10 @@ class Progressive {
   /// Shows this from now on, in a window of `window_px` pixels. A document equal to the last changes nothing; another starts
   /// the picture anew, with a coarse one until nothing has changed for a while. Only another exposure recolours it.
   void show(const Document& document, glm::uvec2 window_px);
-  /// Traces anew what is shown: the live scene is another, or was used for something else.
+  /// Traces anew what is shown: the live scene was used for something else.
   void restart();
+  /// The same where the live scene is another.
+  void restart_with_scene();
   [[nodiscard]] glm::uvec2 window_px() const { return window_px_; }
   /// When work() has something to do: nothing = the picture is finished.
   [[nodiscard]] std::optional<Clock::time_point> next_work() const;
@@ -56,6 +59,7 @@ class Progressive {
   Clock::time_point published_{};   ///< last time that trace_samples gave a picture
   MovingResolution resolution_;
   std::optional<DisplayTable> table_;
+  MovingPicture moving_;
   SharedFrame last_;
   bool recolour_ = false;  ///< last_ has another exposure
 };

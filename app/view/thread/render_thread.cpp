@@ -6,8 +6,16 @@
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/inspect.h"
+#include "app/view/thread/point_picture.h"
+#include "app/view/thread/point_sampler.h"
+#include "engine/base/stopwatch.h"
 
 namespace splatray {
+namespace {
+
+constexpr std::size_t MANY_SPLATS = 500'000;
+
+}  // namespace
 
 RenderThread::RenderThread(const std::string& wanted, std::function<void()> wake)
     : device_(open_device(wanted)), wake_(std::move(wake)), thread_([this] { run(); }) {}
@@ -32,6 +40,15 @@ void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 
     pending_.scene = std::move(scene);
     pending_.exposes = exposes;
   }
+  std::swap(pending_.document, copy);
+  pending_.window_px = window_px;
+  changed_.notify_one();
+}
+
+void RenderThread::open_points(SharedPoints points, const Document& document, glm::uvec2 window_px) {
+  std::optional<Document> copy(document);
+  const std::lock_guard lock(mutex_);
+  pending_.points = std::move(points);
   std::swap(pending_.document, copy);
   pending_.window_px = window_px;
   changed_.notify_one();
@@ -65,11 +82,12 @@ RenderNews RenderThread::take_news() {
 void RenderThread::run() {
   while (const std::optional<Pending> pending = wait_for_requests()) {
     attempt_to("showing the scene", [&] { fulfil(*pending); });
-    const auto when = progressive_.next_work();
+    const auto when = points_ ? std::nullopt : progressive_.next_work();
     if (!when || *when > Progressive::Clock::now()) continue;
     attempt_to("tracing the picture", [this] {
       if (SharedFrame frame = progressive_.work([this] { return something_waits(); }))
         deliver([&](RenderNews& news) { news.frame = std::move(frame); });
+      if (std::exchange(exposes_, false)) expose();  // what is seen first does not wait for it
     });
   }
 }
@@ -78,7 +96,7 @@ void RenderThread::run() {
 std::optional<RenderThread::Pending> RenderThread::wait_for_requests() {
   std::unique_lock lock(mutex_);
   const auto awaited = [this] { return ending_ || pending_.any(); };
-  if (const auto when = progressive_.next_work())
+  if (const auto when = points_ ? std::nullopt : progressive_.next_work())
     changed_.wait_until(lock, *when, awaited);
   else
     changed_.wait(lock, awaited);
@@ -87,16 +105,52 @@ std::optional<RenderThread::Pending> RenderThread::wait_for_requests() {
 }
 
 void RenderThread::fulfil(const Pending& pending) {
-  if (pending.scene) live_.open(pending.scene);
+  if (pending.scene) open_now(pending);
+  if (pending.points) points_ = *pending.points;
   if (pending.document) {
     shown_ = *pending.document;
-    progressive_.show(shown_, pending.window_px);
+    if (!points_) progressive_.show(shown_, pending.window_px);
   }
-  if (pending.scene) progressive_.restart();
+  if (points_) return show_points(pending.points.has_value(), pending.window_px);
+  if (pending.scene) progressive_.restart_with_scene();
+  if (pending.points) progressive_.restart();
   if (!live_.is_open()) return;
-  if (pending.scene && pending.exposes) expose();
+  if (pending.scene) exposes_ = pending.exposes;
   if (pending.pick) answer(*pending.pick);
   if (pending.save) save_now(*pending.save);
+}
+
+/// Brings a scene to the device. A large one takes a while there: its points are seen until then.
+void RenderThread::open_now(const Pending& pending) {
+  if (!points_ && pending.document && pending.scene->data_pool.size() > MANY_SPLATS) {
+    shown_ = *pending.document;
+    points_ = std::make_shared<const PointCloud>(points_of(*pending.scene, shown_));
+    show_points(true, pending.window_px);
+  }
+  points_.reset();
+  live_.open(pending.scene);
+}
+
+/// Draws the points where they, or how they are seen, are new.
+void RenderThread::show_points(bool others, glm::uvec2 window_px) {
+  if (window_px.x == 0 || window_px.y == 0) return;
+  const View view{shown_.camera, window_px.x, window_px.y};
+  if (!others && view.camera == points_view_.camera && view.width == points_view_.width &&
+      view.height == points_view_.height)
+    return;
+  points_view_ = view;
+  Frame frame;
+  frame.view = view;
+  frame.of_points = true;
+  frame.device = device_->info().name;
+  PointStyle style;
+  style.cutaway = shown_.settings.cutaway;
+  style.eye_dome = shown_.eye_dome;
+  style.size = shown_.point_size;
+  const auto start = std::chrono::steady_clock::now();
+  frame.display = draw_points(*points_, frame.view, style).rgba;
+  frame.ms = milliseconds_since(start);
+  deliver([&](RenderNews& news) { news.frame = std::make_shared<const Frame>(std::move(frame)); });
 }
 
 /// Reports the exposure that suits the scene opened.
@@ -112,7 +166,7 @@ void RenderThread::answer(const PickRequest& request) {
   live_.match(shown_, shown_.mode);
   const RayQuery query = cursor_query(live_.scene(), view, request.position_px);
   const RayHit hit = live_.tracer().intersect(live_.look(), {&query, 1}, shown_.settings).front();
-  Pick pick{inspect(live_.scene(), shown_.camera, query, hit), request.as_pivot};
+  Pick pick{inspect(live_.scene(), shown_.camera, query, hit), request.purpose};
   deliver([&](RenderNews& news) { news.pick = std::move(pick); });
 }
 

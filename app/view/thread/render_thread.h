@@ -8,23 +8,32 @@
 #include <thread>
 
 #include "app/view/thread/live_scene.h"
+#include "app/view/thread/point_cloud.h"
 #include "app/view/thread/progressive.h"
 #include "app/view/thread/save.h"
 #include "engine/device/device.h"
 
 namespace splatray {
 
-/// Where in a picture of `size_px` pixels a person points, and what for.
+/// What a person points for.
+enum class PickFor {
+  inspect,
+  pivot,   ///< it becomes the middle of the picture
+  orbit,   ///< while the button is down
+  measure  ///< it becomes a point of a measure
+};
+
+/// Where in a picture of `size_px` pixels a person points.
 struct PickRequest {
   glm::dvec2 position_px{0.0};
   glm::uvec2 size_px{0};
-  bool as_pivot = false;  ///< else to inspect
+  PickFor purpose = PickFor::inspect;
 };
 
 /// What it hit; nothing on a miss.
 struct Pick {
   std::optional<Inspected> inspected;
-  bool as_pivot = false;
+  PickFor purpose = PickFor::inspect;
 };
 
 /// What has come from the render thread since it was last asked.
@@ -51,6 +60,8 @@ class RenderThread {
   void show(const Document& document, glm::uvec2 window_px);
   /// As show, of another scene; `exposes`: its picture's exposure is reported as soon as it is known.
   void open(SharedScene scene, const Document& document, glm::uvec2 window_px, bool exposes = false);
+  /// Shows points of this document until a scene is opened; null: what was shown before, anew.
+  void open_points(SharedPoints points, const Document& document, glm::uvec2 window_px);
   /// The newest counts.
   void pick(const PickRequest& request);
   void save(SaveJob job);
@@ -64,17 +75,20 @@ class RenderThread {
   /// What the window asked for and the thread has not yet taken.
   struct Pending {
     SharedScene scene;
+    std::optional<SharedPoints> points;
     std::optional<Document> document;
     glm::uvec2 window_px{0};
     bool exposes = false;
     std::optional<PickRequest> pick;
     std::optional<SaveJob> save;
-    [[nodiscard]] bool any() const { return scene || document || pick || save; }
+    [[nodiscard]] bool any() const { return scene || points || document || pick || save; }
   };
 
   void run();
   [[nodiscard]] std::optional<Pending> wait_for_requests();
   void fulfil(const Pending& pending);
+  void open_now(const Pending& pending);
+  void show_points(bool others, glm::uvec2 window_px);
   void expose();
   void answer(const PickRequest& request);
   void save_now(const SaveJob& job);
@@ -85,7 +99,10 @@ class RenderThread {
   std::unique_ptr<Device> device_;
   LiveScene live_{*device_};
   Progressive progressive_{live_, device_->info().name};
-  Document shown_;  ///< by the thread
+  Document shown_;        ///< by the thread
+  bool exposes_ = false;  ///< the scene's exposure is to be found
+  SharedPoints points_;   ///< shown instead of the scene; null = none are
+  View points_view_;      ///< in which they were drawn last
   std::function<void()> wake_;
 
   std::mutex mutex_;  ///< of what follows

@@ -74,6 +74,16 @@ void category_swatch(const Category& category) {
   ImGui::SameLine();
 }
 
+void drawing_controls(Document& document) {
+  const double none = 0.0, most = 4.0, smallest = 0.25;
+  ImGui::SliderScalar("depth shade", ImGuiDataType_Double, &document.eye_dome, &none, &most, "%.2f",
+                      ImGuiSliderFlags_AlwaysClamp);
+  tip("how much darker what lies behind is, while the picture moves and while points are loaded");
+  ImGui::SliderScalar("point size", ImGuiDataType_Double, &document.point_size, &smallest, &most, "%.2f",
+                      ImGuiSliderFlags_AlwaysClamp);
+  tip("of points while they are loaded, in distances between them");
+}
+
 void attribute_panel(Document& document, const PanelView& view) {
   source_combo(document);
   range_edit(document, view);

@@ -29,6 +29,16 @@ void axis_buttons(Requests& requests) {
   }
 }
 
+void viewpoint_buttons(Requests& requests) {
+  command_button("oblique", Action::view_oblique, requests);
+  ImGui::SameLine();
+  command_button("inside", Action::view_inside, requests);
+  ImGui::SameLine();
+  command_button("dollhouse", Action::view_dollhouse, requests);
+  ImGui::SameLine();
+  command_button("sensor", Action::view_sensor, requests);
+}
+
 void up_axis_buttons(Document& document) {
   static constexpr std::array NAMES = {"x", "y", "z"};
   ImGui::TextUnformatted("up");
@@ -97,9 +107,14 @@ void camera_panel(Document& document, PanelState& state, Requests& requests) {
   ImGui::SameLine();
   command_button("as loaded", Action::home, requests);
   axis_buttons(requests);
-  command_button("next view", Action::next_viewpoint, requests);
-  ImGui::Checkbox("cutaway", &document.settings.cutaway);
-  tip("leave out what faces away from the eye, so that rooms lie open");
+  viewpoint_buttons(requests);
+  ImGui::Checkbox("walk", &state.walks);
+  tip("W, A, S, D, Q, E move along the ground; the wheel changes the speed");
+  if (state.walks) {
+    const double slowest = 1e-3, fastest = 1e3;
+    ImGui::SliderScalar("walk speed", ImGuiDataType_Double, &state.walk_speed, &slowest, &fastest, "%.3g",
+                        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+  }
   bool ortho = document.camera.ortho_height > 0.0;
   if (ImGui::Checkbox("orthographic", &ortho)) toggle_orthographic(document);
   if (document.camera.ortho_height == 0.0)

@@ -4,62 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <utility>
 
 #include "app/library/camera_file.h"
 #include "app/view/model/attempt.h"
+#include "app/view/ui/dialog.h"
 #include "app/view/ui/field_controls.h"
 #include "app/view/ui/panel_parts.h"
-#include "preprocess/read/formats.h"
 
 namespace splatray {
 namespace {
 
-constexpr float WIDTH_EM = 26.0F, FIELD_EM = 17.0F;
 constexpr std::uint32_t LEAST = 1, MOST_EDGE = 32768, MOST_SAMPLES = 65536, MOST_FRAMES = 999999;
-
-/// A dialog in the middle of the window for as long as it is open; its fields go between construction and destruction when
-/// it is true.
-class Dialog {
- public:
-  Dialog(const char* title, bool& open) : open_(open) {
-    const float em = ImGui::GetFontSize();
-    const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
-    if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
-    ImGui::SetNextWindowPos(center, ImGuiCond_Always, {0.5F, 0.5F});
-    ImGui::SetNextWindowSize({WIDTH_EM * em, 0.0F});
-    constexpr ImGuiWindowFlags FLAGS = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
-    shown_ = ImGui::BeginPopupModal(title, &open_, FLAGS);
-    if (shown_) ImGui::PushItemWidth(FIELD_EM * em);
-  }
-  ~Dialog() {
-    if (!shown_) return;
-    if (!open_) ImGui::CloseCurrentPopup();
-    ImGui::PopItemWidth();
-    ImGui::EndPopup();
-  }
-  Dialog(const Dialog&) = delete;
-  Dialog& operator=(const Dialog&) = delete;
-
-  explicit operator bool() const { return shown_; }
-
-  /// The last row: returns whether the work is to be done, for which Enter stands too; `refusal`: why it cannot be.
-  [[nodiscard]] bool done_or_cancelled(const char* verb, const std::string& refusal) {
-    if (!refusal.empty()) ImGui::TextWrapped("%s", refusal.c_str());
-    ImGui::Spacing();
-    ImGui::BeginDisabled(!refusal.empty());
-    const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) && refusal.empty();
-    const bool done = ImGui::Button(verb) || entered;
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    if (ImGui::Button("cancel") || done) open_ = false;
-    return done;
-  }
-
- private:
-  bool& open_;
-  bool shown_ = false;
-};
 
 void edge_input(const char* label, std::uint32_t& value, std::uint32_t most) {
   ImGui::InputScalar(label, ImGuiDataType_U32, &value);
@@ -158,27 +113,6 @@ void path_inputs(PanelState& state) {
 }
 
 }  // namespace
-
-void open_dialog(PanelState& state, Requests& requests) {
-  if (!state.show_open) return;
-  Dialog dialog("Open", state.show_open);
-  if (!dialog) return;
-  const std::string hint = ".soct " + format_extensions();
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered =
-      ImGui::InputTextWithHint("file", hint.c_str(), &state.open_path, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (state.can_add) {
-    ImGui::Checkbox("beside what is shown", &state.add);
-    tip("loads the files shown and this one together");
-  }
-  recent_list(state, requests);
-  const std::string refusal = state.open_path.empty() ? "Name a file, or drop one on the window." : "";
-  if (dialog.done_or_cancelled("open", refusal) || (entered && refusal.empty()))
-    requests.open = SceneFiles{state.open_path};
-  if (!requests.open) return;
-  requests.add = std::exchange(state.add, false);
-  state.show_open = false;
-}
 
 void save_dialog(const Document& document, PanelState& state, Requests& requests) {
   if (!state.show_save) return;

@@ -43,6 +43,7 @@ std::string samples_text(const Document& document, const Frame& frame) {
 
 std::string status_text(const Document& document, const Frame& frame, double frames_per_second) {
   std::array<char, 200> text{};
+  if (frame.of_points) return "points of the file, until the scene is made";
   std::snprintf(text.data(), text.size(),
                 "%s%s  \u00B7  %u x %u, scale %.2f  \u00B7  %.0f ms  \u00B7  %.1f a second",
                 view_mode_name(document.mode), samples_text(document, frame).c_str(), frame.image.width,

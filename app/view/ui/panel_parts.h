@@ -8,10 +8,16 @@ namespace splatray {
 void object_panel(Document& document, PanelState& state);
 void material_panel(Document& document, PanelState& state);
 void attribute_panel(Document& document, const PanelView& view);
+/// How points and what moves are drawn.
+void drawing_controls(Document& document);
+void region_panel(Document& document, PanelState& state);
+void measure_panel(Document& document, PanelState& state);
 void light_panel(Document& document, PanelState& state);
 void environment_panel(Document& document);
 void quality_panel(Document& document, PanelState& state);
 void camera_panel(Document& document, PanelState& state, Requests& requests);
+/// Scenes kept for the next opening.
+void cache_panel(const PanelView& view, Requests& requests);
 void statistics_panel(const PanelView& view);
 void inspector_panel(const PanelView& view);
 
@@ -21,7 +27,8 @@ void save_dialog(const Document& document, PanelState& state, Requests& requests
 void record_dialog(PanelState& state, Requests& requests);
 void error_dialog(PanelState& state);
 
-/// Over the picture, which is `width_px` wide.
+/// Over the picture, which is `width_px` wide: at places of the scene, and at its edges.
+void scene_marks(const Document& document, const PanelState& state, const PanelView& view, float width_px);
 void status_line(const Document& document, PanelState& state, const PanelView& view, float width_px);
 void work_bar(const PanelView& view, float width_px, Requests& requests);
 void legend(const PanelView& view, float width_px);

@@ -40,17 +40,25 @@ bool section(const char* title, bool open_first) {
 void column(Document& document, PanelState& state, const PanelView& view, Requests& requests) {
   toolbar(requests);
   if (document.looks.materials.empty()) return;
-  mode_combo(document);
-  if (section("Objects", true)) object_panel(document, state);
-  if (section("Material", true)) material_panel(document, state);
-  if (!document.loaded->color_sources.empty() && section("Points", false)) attribute_panel(document, view);
+  if (section("Points", document.loaded->is_scan)) {
+    if (!document.loaded->color_sources.empty()) attribute_panel(document, view);
+    drawing_controls(document);
+  }
+  if (section("Regions", document.loaded->is_scan)) region_panel(document, state);
+  if (section("Measures", document.loaded->is_scan)) measure_panel(document, state);
+  if (section("Camera", false)) camera_panel(document, state, requests);
   if (section("Lights", false)) light_panel(document, state);
   if (section("Environment", false)) environment_panel(document);
-  if (section("Camera", false)) camera_panel(document, state, requests);
+  if (section("Objects", !document.loaded->is_scan)) object_panel(document, state);
+  if (section("Material", !document.loaded->is_scan)) material_panel(document, state);
   if (section("Quality", false)) quality_panel(document, state);
-  if (section("Splat under the cursor", true)) inspector_panel(view);
-  if (section("Statistics", true)) statistics_panel(view);
+  if (section("Cache", false)) cache_panel(view, requests);
   if (section("All options", false)) all_fields(document, state, requests);
+  if (section("Splat under the cursor", false)) inspector_panel(view);
+  if (section("Statistics", false)) {
+    mode_combo(document);
+    statistics_panel(view);
+  }
 }
 
 void column_window(Document& document, PanelState& state, const PanelView& view, float width_px,
@@ -88,6 +96,7 @@ Requests draw_panels(Document& document, PanelState& state, const PanelView& vie
   const float column_px = panel_column_px(state, window_px), picture_px = window_px - column_px;
   if (column_px > 0.0F) column_window(document, state, view, column_px, requests);
   if (document.looks.materials.empty() && view.work == nullptr) welcome(state, picture_px, requests);
+  scene_marks(document, state, view, picture_px);
   legend(view, picture_px);
   status_line(document, state, view, picture_px);
   work_bar(view, picture_px, requests);

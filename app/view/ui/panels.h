@@ -9,6 +9,7 @@
 #include "app/view/model/frame.h"
 #include "app/view/model/keys.h"
 #include "app/view/model/panel_state.h"
+#include "app/view/model/region_edit.h"
 #include "app/view/model/scene_files.h"
 
 namespace splatray {
@@ -25,10 +26,14 @@ struct Requests {
 
 /// What the panels show beside the document.
 struct PanelView {
-  const Frame* frame = nullptr;          ///< newest; null before the first
-  const Inspected* inspected = nullptr;  ///< null: nothing inspected
-  double frames_per_second = 0.0;        ///< pictures handed to the window
-  const Work* work = nullptr;            ///< loading, saving or recording; null when idle
+  const Frame* frame = nullptr;             ///< newest; null before the first
+  const Inspected* inspected = nullptr;     ///< null: nothing inspected
+  double frames_per_second = 0.0;           ///< pictures handed to the window
+  const Work* work = nullptr;               ///< loading, saving or recording; null when idle
+  glm::uvec2 picture_px{0};                 ///< size of the picture, pixels of the framebuffer
+  std::optional<glm::dvec3> about_world{};  ///< what the camera turns about just now
+  std::uint64_t cache_bytes = 0;            ///< of scenes kept for the next opening
+  const Grip* handle = nullptr;             ///< that is held; null = none
 };
 
 /// Font and colours for `ui_scale`; replaces the font atlas (its texture must be uploaded anew).

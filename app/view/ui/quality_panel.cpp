@@ -37,6 +37,14 @@ void environment_text(std::string& environment) {
   tip("an HDR or EXR file, studio, white, black, or a radiance r,g,b; Enter takes it. Or drop a file.");
 }
 
+/// One colour behind everything, instead of the surroundings.
+void background_controls(Settings& settings) {
+  bool plain = settings.background.has_value();
+  if (ImGui::Checkbox("plain background", &plain))
+    settings.background = plain ? std::optional(glm::vec3(1.0F)) : std::nullopt;
+  if (settings.background) color_edit("background", *settings.background);
+}
+
 }  // namespace
 
 void environment_panel(Document& document) {
@@ -49,6 +57,7 @@ void environment_panel(Document& document) {
   ImGui::DragFloat("strength", &document.settings.environment_strength, 0.01F, 0.0F, 1e6F, "%.3g",
                    ImGuiSliderFlags_AlwaysClamp);
   float degrees = 360.0F * document.settings.environment_turn;
+  background_controls(document.settings);
   if (ImGui::SliderFloat("turn", &degrees, 0.0F, 360.0F, "%.0f\u00B0", ImGuiSliderFlags_AlwaysClamp))
     document.settings.environment_turn = degrees / 360.0F;
 }

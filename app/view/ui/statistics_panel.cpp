@@ -54,6 +54,11 @@ void vector_facts(const char* what, const glm::dvec3& v, int decimals) {
 
 }  // namespace
 
+void cache_panel(const PanelView& view, Requests& requests) {
+  fact("scenes made", text("%.1f MB", 1e-6 * static_cast<double>(view.cache_bytes)));
+  command_button("empty the cache", Action::empty_cache, requests);
+}
+
 void statistics_panel(const PanelView& view) {
   if (view.frame == nullptr) return;
   const Frame& frame = *view.frame;

@@ -4,6 +4,8 @@
 #include <backends/imgui_impl_vulkan.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "app/view/ui/panels.h"
 
 namespace splatray {
@@ -80,6 +82,12 @@ void Gui::end() { ImGui::Render(); }
 void Gui::record(VkCommandBuffer commands) {
   ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands);
 }
+
+double Gui::em_px() const {
+  return double(ImGui::GetFontSize()) * std::max(ImGui::GetIO().DisplayFramebufferScale.y, 1.0F);
+}
+
+bool Gui::is_editing() const { return ImGui::IsAnyItemActive(); }
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 

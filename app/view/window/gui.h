@@ -24,6 +24,10 @@ class Gui {
   void record(VkCommandBuffer commands);
 
   [[nodiscard]] float scale() const { return scale_; }
+  /// Size of the font, pixels of the framebuffer.
+  [[nodiscard]] double em_px() const;
+  /// Whether a control is held or written into.
+  [[nodiscard]] bool is_editing() const;
   /// Whether the mouse is over, or the keyboard writes into, a control.
   [[nodiscard]] bool wants_mouse() const;
   [[nodiscard]] bool wants_keyboard() const;

@@ -34,6 +34,16 @@ std::string reason_not_to_present(VkInstance instance, VkPhysicalDevice device) 
              : "it cannot show pictures on this display";
 }
 
+/// GLFW_MOD_* of the keys that are down.
+int modifiers_down(GLFWwindow* window) {
+  const auto either = [window](int left, int right, int modifier) {
+    return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS ? modifier : 0;
+  };
+  return either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT, GLFW_MOD_SHIFT) |
+         either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, GLFW_MOD_CONTROL) |
+         either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT, GLFW_MOD_ALT);
+}
+
 Window& window_of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
 }  // namespace
@@ -71,7 +81,8 @@ void Window::listen() {
                                 window_of(window).cursor_px()});
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double notches) {
-    window_of(window).on_input({Kind::wheel, 0, 0, window_of(window).cursor_px(), notches});
+    window_of(window).on_input(
+        {Kind::wheel, 0, modifiers_down(window), window_of(window).cursor_px(), notches});
   });
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
     if (action == GLFW_PRESS) window_of(window).on_input({Kind::key, key, modifiers});

@@ -17,7 +17,7 @@ struct InputEvent {
   enum class Kind { key, press, release, move, wheel };
   Kind kind = Kind::move;
   int code = 0;                 ///< key: GLFW_KEY_*; press, release: GLFW_MOUSE_BUTTON_*
-  int modifiers = 0;            ///< GLFW_MOD_*; of key and press
+  int modifiers = 0;            ///< GLFW_MOD_*; of key, press and wheel
   glm::dvec2 position_px{0.0};  ///< of the cursor, framebuffer pixels from the top left corner; not of key
   double notches = 0.0;         ///< wheel: away from the person is positive
 };

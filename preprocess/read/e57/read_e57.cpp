@@ -108,6 +108,7 @@ ScanFile read_e57(const std::filesystem::path& path, const ReadOptions& options,
     decoder.decode(pages, sections[i], listener.part(share_of(from), share_of(done)));
     decoder.finish(notes);
     last_of_scan.push_back(file.points.size());
+    listener.show(file.points);
   }
   finish_scans(file.points, last_of_scan);
   note_once(std::move(notes), path, listener);

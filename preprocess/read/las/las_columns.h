@@ -38,6 +38,8 @@ class LasColumns {
   /// Drops all points from `count` on.
   void cut(std::size_t count);
   [[nodiscard]] std::size_t size() const { return points_.size(); }
+  /// Those that are there.
+  [[nodiscard]] const Points& points() const { return points_; }
 
   /// All points; attributes that are zero throughout are left out.
   [[nodiscard]] Points take();

@@ -51,6 +51,7 @@ std::uint64_t read_records(ByteReader& in, const LasHeader& header, LasColumns& 
     counts.withheld += filled.withheld;
     counts.noise += filled.noise;
     done += step;
+    listener.show(columns.points());
   }
   return count;
 }

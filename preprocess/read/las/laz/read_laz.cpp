@@ -96,8 +96,10 @@ class LazReader {
   void read_chunks(std::span<const LazChunk> chunks) {
     const std::size_t threads =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    const std::uint64_t most_bytes = std::max<std::uint64_t>(8, 2 * threads) << 20U;
-    while (!chunks.empty()) {
+    const std::uint64_t enough_bytes = std::max<std::uint64_t>(8, 2 * threads) << 20U;
+    // Whoever watches sees the first points soon.
+    for (std::uint64_t most_bytes = std::uint64_t{1} << 20U; !chunks.empty();
+         most_bytes = std::min(2 * most_bytes, enough_bytes)) {
       std::size_t count = 0;
       for (std::uint64_t bytes = 0;
            count < chunks.size() && is_plausible(chunks[count]) && bytes < most_bytes; ++count)
@@ -132,6 +134,7 @@ class LazReader {
       if (loaded.is_whole) count(loaded.chunk.points, loaded.filled);
     }
     columns_.cut(end);
+    listener_.show(columns_.points());
   }
 
   /// Chunks without a table, each from where the last one ends, until one is not whole.

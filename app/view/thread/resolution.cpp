@@ -1,14 +1,15 @@
-#include "app/view/model/resolution.h"
+#include "app/view/thread/resolution.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace splatray {
 
-double MovingResolution::scale(glm::uvec2 window_px, double wanted_ms) {
-  constexpr double LEAST = 1.0 / 16.0, STEP = 1.125;
+double MovingResolution::scale(glm::uvec2 window_px, double wanted_ms, double most_ms) {
+  constexpr double LEAST = 1.0 / 16.0, ENOUGH = 1.0 / 3.0, STEP = 1.125;
   const double pixels = double(window_px.x) * window_px.y;
-  const double wanted = std::clamp(std::sqrt(wanted_ms / (ms_per_pixel_ * pixels)), LEAST, 1.0);
+  const auto of_ms = [&](double ms) { return std::sqrt(ms / (ms_per_pixel_ * pixels)); };
+  const double wanted = std::clamp(std::max(of_ms(wanted_ms), std::min(ENOUGH, of_ms(most_ms))), LEAST, 1.0);
   const bool close = wanted < scale_ * STEP && wanted > scale_ / STEP && (wanted < 1.0 || scale_ == 1.0);
   if (!close) scale_ = wanted;
   return scale_;

@@ -7,9 +7,9 @@ namespace splatray {
 /// Learns how long a pixel takes, and chooses the size that takes the wanted time.
 class MovingResolution {
  public:
-  /// Traced pixels per window pixel along an edge, 1/16 to 1. Changes only by an eighth and more, so that the picture
-  /// does not flicker.
-  [[nodiscard]] double scale(glm::uvec2 window_px, double wanted_ms);
+  /// Traced pixels per window pixel along an edge, 1/16 to 1: those of `wanted_ms`, but where these are less than a third of the
+  /// window, of up to `most_ms`. Changes only by an eighth and more, so that the picture does not flicker.
+  [[nodiscard]] double scale(glm::uvec2 window_px, double wanted_ms, double most_ms = 0.0);
   /// A picture of `pixels` took `ms`. One outlier at most halves or doubles what is believed.
   void learn(double pixels, double ms);
 

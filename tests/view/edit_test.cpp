@@ -1,0 +1,320 @@
+// Regions taken hold of, slices, measures, undo, turning about a point, walking, and folders.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "app/view/model/folder_listing.h"
+#include "app/view/model/history.h"
+#include "app/view/model/measure.h"
+#include "app/view/model/navigation.h"
+#include "app/view/model/region_edit.h"
+#include "tests/temp_folder.h"
+#include "tests/view/documents.h"
+#include "tests/view/gui_driver.h"
+
+namespace splatray {
+namespace {
+
+constexpr glm::dvec2 PICTURE(800.0, 600.0);
+
+TEST(MeasureTest, ValuesAreThoseOfGeometry) {
+  const glm::dvec3 at(560000.0, 5900000.0, 100.0);
+  EXPECT_NEAR(path_length(std::vector{at, at + glm::dvec3(3, 4, 0), at + glm::dvec3(3, 4, 12)}), 17.0, 1e-9);
+  EXPECT_NEAR(height_above(at, at + glm::dvec3(1, 2, 2.5), {0, 0, 3}), 2.5, 1e-9);
+  EXPECT_NEAR(height_above(at, at + glm::dvec3(1, 2, 2.5), {0, -1, 0}), -2.0, 1e-9);
+  EXPECT_NEAR(angle_deg(at + glm::dvec3(1, 0, 0), at, at + glm::dvec3(0, 0, 2)), 90.0, 1e-9);
+  EXPECT_NEAR(angle_deg({1, 1e-7, 0}, {0, 0, 0}, {1, 0, 0}), 1e-7 * 180.0 / M_PI, 1e-8);
+  EXPECT_EQ(angle_deg(at, at, at), 0.0);
+  EXPECT_EQ(path_length(std::vector{at, at}), 0.0) << "a point and itself";
+  std::vector<glm::dvec3> around;
+  const glm::dvec3 u = glm::normalize(glm::dvec3(1, 2, 3)),
+                   v = glm::normalize(glm::cross(u, glm::dvec3(0, 0, 1)));
+  for (int i = 0; i < 6; ++i)
+    around.push_back(at + 2.0 * std::cos(i * M_PI / 3) * u + 2.0 * std::sin(i * M_PI / 3) * v);
+  EXPECT_NEAR(polygon_area(around), 1.5 * std::sqrt(3.0) * 4.0, 1e-6) << "a hexagon, however it lies";
+  EXPECT_NEAR(
+      polygon_area(std::vector<glm::dvec3>{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}),
+      3.0, 1e-12)
+      << "not convex";
+}
+
+TEST(MeasureTest, PointsGoToTheMeasureThatTakesThem) {
+  std::vector<Measure> measures;
+  for (int i = 0; i < 3; ++i) add_point(measures, MeasureKind::height, {i, 0, i});
+  ASSERT_EQ(measures.size(), 2U) << "a height has two points";
+  EXPECT_TRUE(values_of(measures[1], {0, 0, 1}).empty());
+  EXPECT_EQ(short_text(measures[0], {0, 0, 1}), "1");
+  for (int i = 0; i < 4; ++i) add_point(measures, MeasureKind::distance, {0, i, 0});
+  ASSERT_EQ(measures.size(), 3U);
+  EXPECT_EQ(short_text(measures[2], {0, 0, 1}), "3");
+  const std::string table = table_of(measures, {0, 0, 1});
+  EXPECT_NE(table.find("height\t1\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("point\t0\t3\t0\n"), std::string::npos) << table;
+}
+
+class RegionEdit : public testing::TestWithParam<NamedDocument> {
+ protected:
+  Document document = GetParam().document;
+  double size = 2.0 * scene_radius_world(document);
+};
+
+/// The handle of this number moves as far as the cursor, and all other faces stay.
+TEST_P(RegionEdit, AFaceFollowsTheCursorAndTheOthersStay) {
+  for (const double turn : {0.0, 30.0})
+    for (std::size_t number = 0; number < 6; ++number)
+      for (const bool ortho : {false, true}) {
+        document = GetParam().document;
+        if (ortho) toggle_orthographic(document);
+        document.region.keep_box = box_of_all(document);
+        document.region.keep_box->turn_deg = turn;
+        const std::vector<Grip> before = handles_of(document);
+        const Grip& grip = before[number];
+        const glm::dvec3 wanted = grip.place_world + 0.1 * size * grip.normal;
+        const auto from = place_in_picture(document.camera, grip.place_world, PICTURE);
+        const auto to = place_in_picture(document.camera, wanted, PICTURE);
+        ASSERT_TRUE(from && to);
+        if (glm::distance(*from, *to) < 5.0) continue;  // looked at from its end
+        EXPECT_EQ(handle_at(document, *from + glm::dvec2(2.0, 0.0), PICTURE, 6.0).value_or(Grip{}).number,
+                  number);
+        drag_handle(document, grip, *from, *to, PICTURE);
+        const std::vector<Grip> after = handles_of(document);
+        for (std::size_t i = 0; i < 6; ++i) {
+          const double moved = glm::dot(after[i].place_world - before[i].place_world, before[i].normal);
+          EXPECT_NEAR(moved, i == number ? 0.1 * size : 0.0, 2e-3 * size)
+              << i << " of " << number << " turned " << turn;
+        }
+      }
+}
+
+TEST_P(RegionEdit, ABoxIsNeverTurnedInsideOut) {
+  document.region.keep_box = box_of_all(document);
+  for (std::size_t number = 0; number < 6; ++number) {
+    Grip grip = handles_of(document)[number];
+    for (const double far : {-1e3, 1e3})
+      drag_handle(document, grip, {400, 300}, {400 + far, 300 - far}, PICTURE);
+  }
+  EXPECT_TRUE(glm::all(glm::lessThan(document.region.keep_box->low, document.region.keep_box->high)));
+}
+
+TEST_P(RegionEdit, ASliceMovesAndKeepsItsThickness) {
+  document.region.cuts = {{document.bounds_min_world, {1.0, 1.0, 0.0}}};
+  EXPECT_FALSE(slice_of(document.region));
+  for (int axis = 0; axis < 3; ++axis) {
+    const Slice first = first_slice(document, axis);
+    set_slice(document.region, first);
+    ASSERT_EQ(document.region.cuts.size(), 3U) << "one slice, beside the plane";
+    const Slice slice = slice_of(document.region).value();
+    EXPECT_NEAR(slice.thickness, first.thickness, 1e-6 * size);
+    for (int i = 0; i < 7; ++i) EXPECT_TRUE(move_slice(document, 1.0));
+    const Slice moved = slice_of(document.region).value();
+    EXPECT_NEAR(glm::dot(moved.point - slice.point, slice.normal), 0.035 * size, 1e-6 * size);
+    EXPECT_NEAR(moved.thickness, first.thickness, 1e-6 * size);
+  }
+  remove_slice(document.region);
+  remove_slice(document.region);
+  EXPECT_EQ(document.region.cuts.size(), 1U);
+  EXPECT_FALSE(move_slice(document, 1.0));
+}
+
+/// A point beside the middle of the picture stays where it is in it, and as far from the eye.
+TEST_P(RegionEdit, TurningAboutAPointKeepsItInItsPlace) {
+  const glm::dvec3 about = point_under(document.camera, {620.0, 140.0}, PICTURE);
+  const double before = glm::distance(about, document.camera.eye);
+  const Camera camera = document.camera;
+  for (const glm::dvec2& drag : {glm::dvec2(40.0, 10.0), glm::dvec2(-90.0, 35.0), glm::dvec2(3.0, -20.0)}) {
+    orbit(document, drag, PICTURE, about);
+    const auto place = place_in_picture(document.camera, about, PICTURE);
+    ASSERT_TRUE(place);
+    EXPECT_LT(glm::distance(*place, glm::dvec2(620.0, 140.0)), 0.05);
+  }
+  EXPECT_NEAR(glm::distance(about, document.camera.eye), before, 1e-6 * before);
+  EXPECT_GT(glm::distance(document.camera.target, camera.target), 1e-3 * size);
+}
+
+TEST_P(RegionEdit, PlacesInThePictureAreWhereTheyAreSeen) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(-0.5, 0.5);
+  for (int i = 0; i < 20; ++i) {
+    if (i == 10) toggle_orthographic(document);
+    const glm::dvec3 point =
+        document.camera.target + size * glm::dvec3(share(random), share(random), share(random));
+    const auto place = place_in_picture(document.camera, point, PICTURE);
+    ASSERT_TRUE(place);
+    EXPECT_LT(glm::distance(*place, projected(document.camera, point, PICTURE)), 0.05);
+  }
+  EXPECT_FALSE(
+      place_in_picture(document.camera, 2.0 * document.camera.eye - document.camera.target, PICTURE));
+}
+
+TEST_P(RegionEdit, WalkingStaysLevelWhereverOneLooks) {
+  orbit(document, {0.0, 120.0}, PICTURE);  // looks down
+  const glm::dvec3 up = glm::normalize(document.up), eye = document.camera.eye;
+  walk(document, {0.0, 0.0, 1.0}, 0.2, 2.0);
+  EXPECT_NEAR(glm::dot(document.camera.eye - eye, up), 0.0, 1e-6 * size);
+  EXPECT_NEAR(glm::distance(document.camera.eye, eye), 0.02 * size, 1e-6 * size)
+      << "twice a tenth of the radius a second";
+  walk(document, {0.0, 1.0, 0.0}, 0.2, 2.0);
+  EXPECT_NEAR(glm::dot(document.camera.eye - eye, up), 0.02 * size, 1e-6 * size);
+}
+
+INSTANTIATE_TEST_SUITE_P(Documents, RegionEdit, testing::ValuesIn([] {
+                           std::vector<NamedDocument> documents = navigated_documents();
+                           std::erase_if(documents,
+                                         [](const NamedDocument& one) { return one.name == "one point"; });
+                           return documents;
+                         }()));
+
+TEST(HistoryTest, StepsBackAndForthWithoutTheCamera) {
+  Document document = box_document({0, 0, 0}, 2.0);
+  History history;
+  history.start(document);
+  EXPECT_FALSE(history.undo(document));
+  document.exposure_ev = 1.0;
+  history.see(document, true);
+  document.exposure_ev = 2.0;
+  history.see(document, false);  // a drag is one step
+  document.camera.eye.x += 1.0;
+  history.see(document, false);
+  document.measures.push_back({MeasureKind::distance, {{1, 2, 3}}});
+  history.see(document, false);
+  const Camera camera = document.camera;
+  EXPECT_TRUE(history.undo(document));
+  EXPECT_TRUE(document.measures.empty());
+  EXPECT_EQ(document.exposure_ev, 2.0);
+  history.see(document, false);  // as each frame does
+  EXPECT_TRUE(history.undo(document));
+  EXPECT_EQ(document.exposure_ev, 0.0);
+  EXPECT_EQ(document.camera, camera) << "it is not moved";
+  EXPECT_FALSE(history.undo(document));
+  EXPECT_TRUE(history.redo(document));
+  EXPECT_TRUE(history.redo(document));
+  EXPECT_FALSE(history.redo(document));
+  EXPECT_EQ(document.measures.size(), 1U);
+  EXPECT_TRUE(history.undo(document));
+  document.region.light_kept = true;
+  history.see(document, false);
+  EXPECT_FALSE(history.redo(document)) << "another way was taken";
+  for (std::size_t i = 0; i < 2 * History::MOST; ++i) {
+    document.exposure_ev += 1.0;
+    history.see(document, false);
+  }
+  std::size_t steps = 0;
+  while (history.undo(document)) ++steps;
+  EXPECT_EQ(steps, History::MOST - 1);
+}
+
+TEST(FolderListingTest, ShowsFoldersAndWhatCanBeOpened) {
+  const TempFolder folder;
+  for (const char* name : {"b.laz", "a.PLY", "c.soct", "notes.doc", ".hidden.ply", "zoo/x.ply"})
+    folder.write(name, "12345");
+  const FolderListing listing = list_folder(folder.path());
+  ASSERT_EQ(listing.entries.size(), 4U);
+  EXPECT_TRUE(listing.entries[0].is_folder && listing.entries[0].name == "zoo");
+  EXPECT_EQ(listing.entries[1].name, "a.PLY");
+  EXPECT_EQ(listing.entries[1].bytes, 5U);
+  EXPECT_EQ(listing.error, "");
+  EXPECT_NE(list_folder(folder.path() / "none").error, "");
+  EXPECT_EQ(size_text(5), "0.0 kB");
+  EXPECT_EQ(size_text(9664413), "9.7 MB");
+  EXPECT_EQ(size_text(12'000'000'000), "12 GB");
+}
+
+class EditPanels : public testing::Test {
+ protected:
+  void SetUp() override {
+    gui.document = box_document({1.0, 2.0, 3.0}, 2.0);
+    gui.document.looks.materials.resize(1);
+    gui.document.looks.surfaces.resize(1);
+    LoadedPart loaded;
+    loaded.looks = gui.document.looks;
+    loaded.object_names = {"scan"};
+    loaded.is_scan = true;
+    gui.document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
+    gui.view.picture_px = {980, 1600};
+  }
+
+  GuiDriver gui{1280, 1600};
+};
+
+TEST_F(EditPanels, RegionsAreSwitchedOnAndOff) {
+  gui.click("##column", {"look in"});
+  EXPECT_TRUE(gui.document.settings.cutaway);
+  gui.click("##column", {"keep a box", "keep a box"});
+  ASSERT_TRUE(gui.document.region.keep_box);
+  gui.click("##column", {"level"});
+  ASSERT_TRUE(slice_of(gui.document.region));
+  EXPECT_EQ(slice_of(gui.document.region)->normal, glm::dvec3(0.0, 1.0, 0.0));
+  gui.click("##column", {"plane across the view"});
+  ASSERT_EQ(gui.document.region.cuts.size(), 3U);
+  EXPECT_TRUE(slice_of(gui.document.region)) << "the slice stays the last";
+  const glm::dvec3 normal = gui.document.region.cuts[0].normal;
+  gui.click("##column", {0, "flip"});
+  EXPECT_EQ(gui.document.region.cuts[0].normal, -normal);
+  gui.click("##column", {0, "remove"});
+  EXPECT_EQ(gui.document.region.cuts.size(), 2U);
+  gui.click("##column", {"none"});
+  EXPECT_TRUE(gui.document.region.cuts.empty());
+  gui.click("##column", {"light of what is kept alone"});
+  gui.click("##column", {"show all of it"});
+  EXPECT_EQ(gui.document.region, RegionRequest{});
+}
+
+TEST_F(EditPanels, MeasuresAreListedAndCopied) {
+  gui.click("##column", {"height"});
+  EXPECT_EQ(gui.state.measuring, MeasureKind::height);
+  gui.document.measures = {{MeasureKind::distance, {{1, 2, 3}, {1, 2, 5}}}, {MeasureKind::area, {{1, 2, 3}}}};
+  gui.click("##column", {"copy all"});
+  EXPECT_NE(std::string(ImGui::GetClipboardText()).find("distance\t2\n"), std::string::npos)
+      << ImGui::GetClipboardText();
+  gui.click("##column", {0, "remove"});
+  ASSERT_EQ(gui.document.measures.size(), 1U);
+  EXPECT_EQ(gui.document.measures[0].kind, MeasureKind::area);
+  gui.click("##column", {"remove all"});
+  EXPECT_TRUE(gui.document.measures.empty());
+}
+
+TEST_F(EditPanels, MarksAreDrawnWhateverIsThere) {
+  gui.document.region.keep_box = box_of_all(gui.document);
+  gui.document.region.drop_box = gui.document.region.keep_box;
+  set_slice(gui.document.region, first_slice(gui.document, 1));
+  gui.document.measures = {{MeasureKind::area, {{1, 2, 3}, {1, 2, 4}, {2, 2, 3}}}, {MeasureKind::angle, {}}};
+  gui.view.about_world = gui.document.camera.target;
+  const auto vertices = [this] {
+    gui.frame();
+    return ImGui::GetDrawData()->TotalVtxCount;
+  };
+  const int with = vertices();
+  gui.document.measures.clear();
+  EXPECT_LT(vertices(), with);
+  gui.document.camera.eye = gui.document.camera.target + glm::dvec3(0.0, 0.0, 1e-3);  // within all of it
+  EXPECT_GT(vertices(), 0);
+  gui.view.picture_px = {0, 0};
+  EXPECT_GT(vertices(), 0);
+}
+
+TEST_F(EditPanels, TheOpenDialogEntersFoldersAndTakesSeveralFiles) {
+  const TempFolder folder;
+  for (const char* name : {"a.ply", "deep/b.laz", "deep/c.laz"}) folder.write(name, "x");
+  gui.state.recent_files = {{folder.path() / "a.ply"}};
+  gui.state.show_open = true;
+  gui.click("/files", {"deep/"});
+  ASSERT_TRUE(gui.state.open_listing);
+  EXPECT_EQ(gui.state.open_listing->folder, folder.path() / "deep");
+  gui.click("/files", {"c.laz"});
+  gui.click("/files", {"b.laz"});
+  gui.click("/files", {"c.laz"});
+  ASSERT_EQ(gui.state.open_chosen.size(), 1U) << "chosen, and no longer";
+  gui.click("/files", {"c.laz"});
+  EXPECT_EQ(gui.click("Open", {"open"}).open,
+            (SceneFiles{folder.path() / "deep/b.laz", folder.path() / "deep/c.laz"}));
+  EXPECT_FALSE(gui.state.show_open);
+  gui.state.show_open = true;
+  gui.frame();
+  gui.frame();
+  EXPECT_EQ(gui.state.open_listing->folder, folder.path()) << "again where files were opened last";
+  EXPECT_EQ(gui.click("Open", {"all scans of this folder"}).open, SceneFiles{folder.path()});
+}
+
+}  // namespace
+}  // namespace splatray
