@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include "app/library/measure/measure.h"
 #include "app/view/model/folder_listing.h"
 #include "app/view/model/history.h"
-#include "app/view/model/measure.h"
 #include "app/view/model/navigation.h"
 #include "app/view/model/region_edit.h"
 #include "tests/temp_folder.h"
@@ -17,6 +17,12 @@ namespace splatray {
 namespace {
 
 constexpr glm::dvec2 PICTURE(800.0, 600.0);
+
+Measure measure_at(MeasureKind kind, const std::vector<glm::dvec3>& places) {
+  Measure measure{kind, {}};
+  for (const glm::dvec3& place : places) measure.points.push_back({place});
+  return measure;
+}
 
 TEST(MeasureTest, ValuesAreThoseOfGeometry) {
   const glm::dvec3 at(560000.0, 5900000.0, 100.0);
@@ -41,16 +47,16 @@ TEST(MeasureTest, ValuesAreThoseOfGeometry) {
 
 TEST(MeasureTest, PointsGoToTheMeasureThatTakesThem) {
   std::vector<Measure> measures;
-  for (int i = 0; i < 3; ++i) add_point(measures, MeasureKind::height, {i, 0, i});
+  for (int i = 0; i < 3; ++i) add_point(measures, MeasureKind::height, {glm::dvec3(i, 0, i)});
   ASSERT_EQ(measures.size(), 2U) << "a height has two points";
   EXPECT_TRUE(values_of(measures[1], {0, 0, 1}).empty());
   EXPECT_EQ(short_text(measures[0], {0, 0, 1}), "1");
-  for (int i = 0; i < 4; ++i) add_point(measures, MeasureKind::distance, {0, i, 0});
+  for (int i = 0; i < 4; ++i) add_point(measures, MeasureKind::distance, {glm::dvec3(0, i, 0)});
   ASSERT_EQ(measures.size(), 3U);
   EXPECT_EQ(short_text(measures[2], {0, 0, 1}), "3");
   const std::string table = table_of(measures, {0, 0, 1});
-  EXPECT_NE(table.find("height\t1\n"), std::string::npos) << table;
-  EXPECT_NE(table.find("point\t0\t3\t0\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("height\theight\t1\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("\tat\t0\t3\t0\n"), std::string::npos) << table;
 }
 
 class RegionEdit : public testing::TestWithParam<NamedDocument> {
@@ -176,7 +182,7 @@ TEST(HistoryTest, StepsBackAndForthWithoutTheCamera) {
   history.see(document, false);  // a drag is one step
   document.camera.eye.x += 1.0;
   history.see(document, false);
-  document.measures.push_back({MeasureKind::distance, {{1, 2, 3}}});
+  document.measures.push_back(measure_at(MeasureKind::distance, {{1, 2, 3}}));
   history.see(document, false);
   const Camera camera = document.camera;
   EXPECT_TRUE(history.undo(document));
@@ -263,9 +269,10 @@ TEST_F(EditPanels, RegionsAreSwitchedOnAndOff) {
 TEST_F(EditPanels, MeasuresAreListedAndCopied) {
   gui.click("##column", {"height"});
   EXPECT_EQ(gui.state.measuring, MeasureKind::height);
-  gui.document.measures = {{MeasureKind::distance, {{1, 2, 3}, {1, 2, 5}}}, {MeasureKind::area, {{1, 2, 3}}}};
+  gui.document.measures = {measure_at(MeasureKind::distance, {{1, 2, 3}, {1, 2, 5}}),
+                           measure_at(MeasureKind::area, {{1, 2, 3}})};
   gui.click("##column", {"copy all"});
-  EXPECT_NE(std::string(ImGui::GetClipboardText()).find("distance\t2\n"), std::string::npos)
+  EXPECT_NE(std::string(ImGui::GetClipboardText()).find("distance\tdistance\t2\n"), std::string::npos)
       << ImGui::GetClipboardText();
   gui.click("##column", {0, "remove"});
   ASSERT_EQ(gui.document.measures.size(), 1U);
@@ -278,7 +285,8 @@ TEST_F(EditPanels, MarksAreDrawnWhateverIsThere) {
   gui.document.region.keep_box = box_of_all(gui.document);
   gui.document.region.drop_box = gui.document.region.keep_box;
   set_slice(gui.document.region, first_slice(gui.document, 1));
-  gui.document.measures = {{MeasureKind::area, {{1, 2, 3}, {1, 2, 4}, {2, 2, 3}}}, {MeasureKind::angle, {}}};
+  gui.document.measures = {measure_at(MeasureKind::area, {{1, 2, 3}, {1, 2, 4}, {2, 2, 3}}),
+                           measure_at(MeasureKind::angle, {})};
   gui.view.about_world = gui.document.camera.target;
   const auto vertices = [this] {
     gui.frame();

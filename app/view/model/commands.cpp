@@ -57,7 +57,7 @@ void next_measure(PanelState& state) {
 
 void take_back_point(Document& document) {
   if (document.measures.empty()) return;
-  std::vector<glm::dvec3>& points = document.measures.back().points;
+  std::vector<SurfacePoint>& points = document.measures.back().points;
   if (!points.empty()) points.pop_back();
   if (points.empty()) document.measures.pop_back();
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/library/request/request.h"
-#include "app/view/model/measure.h"
+#include "app/library/measure/measure.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 

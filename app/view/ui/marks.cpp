@@ -100,7 +100,8 @@ void region_marks(const Document& document, const Grip* held, Marks& marks) {
 
 void measure_marks(const Document& document, Marks& marks) {
   for (const Measure& measure : document.measures) {
-    const std::vector<glm::dvec3>& points = measure.points;
+    std::vector<glm::dvec3> points;
+    for (const SurfacePoint& point : measure.points) points.push_back(point.place);
     for (std::size_t i = 1; i < points.size(); ++i) marks.line(points[i - 1], points[i], MEASURE);
     if (measure.kind == MeasureKind::area && points.size() > 2)
       marks.line(points.back(), points.front(), MEASURE);

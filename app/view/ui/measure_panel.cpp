@@ -8,13 +8,14 @@ namespace {
 void kind_buttons(PanelState& state) {
   for (int i = 0; i < MEASURE_KINDS; ++i) {
     const auto kind = static_cast<MeasureKind>(i);
-    if (i > 0) ImGui::SameLine();
+    if (i % 4 != 0) ImGui::SameLine();
     const bool on = state.measuring == kind;
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     if (ImGui::Button(measure_name(kind))) state.measuring = on ? std::nullopt : std::optional(kind);
     if (on) ImGui::PopStyleColor();
   }
-  tip("click points in the picture; Backspace takes the last one back, Esc ends");
+  tip("click points in the picture, of a sphere or cylinder its middle; Backspace takes the last one back, "
+      "Esc ends");
 }
 
 /// Returns whether it is to be removed.
@@ -23,7 +24,7 @@ bool measure_facts(const Measure& measure, const glm::dvec3& up) {
   if (values.empty())
     ImGui::TextDisabled("%s: %zu of %zu points", measure_name(measure.kind), measure.points.size(),
                         points_needed(measure.kind));
-  for (const MeasureValue& value : values) fact(value.name.c_str(), value.text);
+  for (const MeasureValue& value : values) fact(value.name.c_str(), value_text(value));
   return ImGui::SmallButton("remove");
 }
 
