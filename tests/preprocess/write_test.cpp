@@ -118,6 +118,20 @@ TEST(WritePly, AnyWordsOfFieldsClipsAndEllipsesAreKept) {
   expect_same_pools(again, read_again(again));
 }
 
+TEST(WritePly, UnknownChangesStayUnknown) {
+  Scene scene = built(test::input_of(test::even_sphere(100)));
+  std::vector<float> change(scene.data_pool.size(), 0.25F);
+  change[3] = NAN;
+  scene.columns.push_back({std::string(COLUMN_CHANGE), change});
+  const Column column = *find_column(read_again(scene).columns, COLUMN_CHANGE);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (i == 3)
+      EXPECT_TRUE(std::isnan(column.number(i)));
+    else
+      ASSERT_EQ(column.number(i), 0.25);
+  }
+}
+
 /// Directions on the borders of the octahedron's square have two codes, of which packing must choose one.
 TEST(WritePly, NormalsOfDownwardFacesAreTheSameBits) {
   InputObject object = test::square_lattice(12, 0.1);

@@ -8,9 +8,6 @@
 
 namespace splatray {
 
-/// The name of the attribute that add_change adds.
-inline constexpr std::string_view COLUMN_CHANGE = "change";
-
 /// What add_change found.
 struct ChangeFound {
   std::uint64_t met = 0;      ///< splats whose line meets the other scene
