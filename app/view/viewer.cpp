@@ -151,7 +151,7 @@ void Viewer::take_pick(const Pick& pick) {
   if (pick.purpose == PickFor::pivot) set_pivot(document_, hit_world);
   if (pick.purpose == PickFor::orbit && mouse_.is_held()) about_world_ = hit_world;
   if (pick.purpose == PickFor::measure && panels_.measuring)
-    add_point(document_.measures, *panels_.measuring, hit_world);
+    add_point(document_.measures, *panels_.measuring, pick.point);
 }
 
 /// What goes wrong becomes a sentence in the window.

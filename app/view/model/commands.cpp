@@ -50,14 +50,14 @@ void next_section(Document& document, PanelState& state) {
 
 void next_measure(PanelState& state) {
   const int next = state.measuring ? static_cast<int>(*state.measuring) + 1 : 0;
-  state.measuring = next < MEASURE_KINDS ? std::optional(static_cast<MeasureKind>(next)) : std::nullopt;
+  state.measuring = next < CLICKED_MEASURES ? std::optional(static_cast<MeasureKind>(next)) : std::nullopt;
   state.notice =
       state.measuring ? std::string("measure: ") + measure_name(*state.measuring) : "measure: none";
 }
 
 void take_back_point(Document& document) {
   if (document.measures.empty()) return;
-  std::vector<glm::dvec3>& points = document.measures.back().points;
+  std::vector<SurfacePoint>& points = document.measures.back().points;
   if (!points.empty()) points.pop_back();
   if (points.empty()) document.measures.pop_back();
 }
