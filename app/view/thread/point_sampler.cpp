@@ -22,8 +22,8 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t FEW = std::size_t{1} << 14U;  ///< points of the scene that tells how all are seen
-constexpr std::size_t FEW_HUNDRED_THOUSAND =
-    400'000;                                 ///< points of a scene that a picture is made of in no time
+/// Points of a scene that a picture is made of in no time.
+constexpr std::size_t FEW_HUNDRED_THOUSAND = 400'000;
 constexpr double OUTSIDE = 0.02;             ///< of the heights at each end, beyond the colours' range
 constexpr std::uint32_t PLAIN = 0xFFC8CDD2;  ///< of points without colours, display-encoded
 constexpr double CELLS_OF_SPACING = 2.0;     ///< edge of a cell in which one normal stands for all

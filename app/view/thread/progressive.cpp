@@ -7,8 +7,8 @@ namespace splatray {
 namespace {
 
 constexpr double MOVING_MS = 1000.0 / 20.0;  ///< of a coarse picture
-constexpr double SLOWEST_MS =
-    1000.0 / 11.0;                ///< the same where it would be coarser than a third of the window
+/// The same where it would be coarser than a third of the window.
+constexpr double SLOWEST_MS = 1000.0 / 11.0;
 constexpr double BAND_MS = 30.0;  ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
 /// Of trace_samples, so that reading back costs little.
