@@ -151,15 +151,14 @@ void Viewer::take_pick(const Pick& pick) {
   const glm::dvec3& hit_world = pick.inspected->hit_world;
   if (pick.purpose == PickFor::pivot) set_pivot(document_, hit_world);
   if (pick.purpose == PickFor::orbit && mouse_.is_held()) about_world_ = hit_world;
-  if (pick.purpose == PickFor::measure && panels_.measuring) measure_at(*pick.inspected, *panels_.measuring);
+  if (pick.purpose == PickFor::measure && panels_.measuring)
+    measure_at(*pick.inspected, pick.point, *panels_.measuring);
 }
 
 /// Adds what was picked to the measures; of a sphere or cylinder what is around the cursor.
-void Viewer::measure_at(const Inspected& picked, MeasureKind kind) {
+void Viewer::measure_at(const Inspected& picked, const SurfacePoint& point, MeasureKind kind) {
   constexpr double AROUND_PX = 40.0;
   const Camera& camera = document_.camera;
-  const SurfacePoint point =
-      point_on_ray(*scene_, {picked.hit_world, picked.normal}, picked.hit_world - camera.eye);
   if (kind != MeasureKind::sphere && kind != MeasureKind::cylinder)
     return add_point(document_.measures, kind, point);
   const double height_world =

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/library/request/request.h"
 #include "app/library/measure/measure.h"
+#include "app/library/request/request.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 
@@ -32,6 +32,7 @@ struct LoadedPart {
   ObjectLooks looks{};                       ///< one per object, as the scene has them
   std::vector<std::string> color_sources{};  ///< attributes that colours may show (attributes.h)
   std::vector<Category> classes{}, scans{};  ///< of the points; empty = not known
+  std::string crs{};                         ///< Scene::crs
   bool is_scan = false;                      ///< its exposure is automatic where nothing is said of it
 };
 

@@ -76,6 +76,7 @@ Document first_document(const Scene& scene, const Request& asked, const Request&
                                                                   color_sources(scene),
                                                                   categories_of(scene, COLUMN_CLASS),
                                                                   categories_of(scene, COLUMN_SCAN),
+                                                                  scene.crs,
                                                                   !scene.stations.empty()});
   return shown_in(scene, document, suited);
 }

@@ -73,7 +73,7 @@ constexpr std::array BINDINGS = {
     key(Action::section, GLFW_KEY_X, 0,
         "next section: a slice that is level, along the scene, across it, none"),
     key(Action::handles, GLFW_KEY_K, 0, "show or hide the handles of boxes and planes"),
-    key(Action::measure, GLFW_KEY_T, 0, "next measure: distance, height, angle, area, none"),
+    key(Action::measure, GLFW_KEY_T, 0, "next measure: point, distance, height, angle, area, none"),
     key(Action::unpoint, GLFW_KEY_BACKSPACE, 0, "take back the last point measured"),
     key(Action::undo, GLFW_KEY_Z, CTRL, "undo what changed but the camera; redo"),
     key(Action::redo, GLFW_KEY_Z, CTRL | SHIFT, ""),
@@ -94,7 +94,8 @@ constexpr std::array BINDINGS = {
     key(Action::panels, GLFW_KEY_TAB, 0, "show or hide the panels"),
     key(Action::help, GLFW_KEY_H, 0, "show or hide these keys"),
     key(Action::escape, GLFW_KEY_ESCAPE, 0,
-        "close what is open: message, dialog, help; with nothing open, stop loading, saving or recording; "
+        "close what is open: message, dialog, help; with nothing open, end measuring and walking, then stop "
+        "loading, saving or recording; "
         "never ends the program"),
     key(Action::quit, GLFW_KEY_Q, CTRL, "quit, as closing the window does"),
 };

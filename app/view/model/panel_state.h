@@ -32,14 +32,15 @@ inline constexpr double NOTICE_SECONDS = 10.0;  ///< after the work that they re
 struct PanelState {
   double ui_scale = 1.0;  ///< of fonts and sizes; 1 at 96 dots per inch
   bool show_panels = true, show_help = false, show_save = false, show_record = false, show_open = false;
-  std::uint32_t object = 0;              ///< selected in the material panel
-  std::uint32_t light = 0;               ///< selected in the light panel; what Action::drag_light drags
-  std::string object_filter;             ///< part of the names listed
-  bool shows_handles = true;             ///< of the region's boxes and planes, in the picture
-  std::optional<MeasureKind> measuring;  ///< what clicks in the picture add points to
-  bool walks = false;                    ///< the fly keys move along the ground, without the mouse
-  double walk_speed = 1.0;               ///< factor on that of walk
-  Camera home;                           ///< as loaded
+  std::uint32_t object = 0;   ///< selected in the material panel
+  std::uint32_t light = 0;    ///< selected in the light panel; what Action::drag_light drags
+  std::string object_filter;  ///< part of the names listed
+  bool shows_handles = true;  ///< of the region's boxes and planes, in the picture
+  std::string measures_path = "measures.geojson";  ///< to be written
+  std::optional<MeasureKind> measuring;            ///< what clicks in the picture add points to
+  bool walks = false;                              ///< the fly keys move along the ground, without the mouse
+  double walk_speed = 1.0;                         ///< factor on that of walk
+  Camera home;                                     ///< as loaded
   std::array<std::optional<Camera>, BOOKMARK_COUNT> bookmarks;
   std::vector<SceneFiles> recent_files;       ///< newest first
   std::string open_path;                      ///< of the open dialog: what is written there

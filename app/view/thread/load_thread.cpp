@@ -13,7 +13,8 @@ namespace splatray {
 namespace {
 
 constexpr std::chrono::duration<double> FIRST_POINTS{0.3};  ///< after reading began
-constexpr double WORTH_KEEPING_MS = 500.0;                  ///< that a scene took
+constexpr std::size_t WORTH_KEEPING = std::size_t{1}
+                                      << 14U;  ///< splats of a scene that takes a while to make
 constexpr double POINTS_PAUSE = 2.0;  ///< points are shown again when reading has taken as many times as long
 
 std::string stage_text(const char* stage, const Request& request) {
@@ -79,7 +80,7 @@ void LoadThread::run() {
 Scene LoadThread::made_scene(const Request& request, const LoadListener& listener, bool& worth_keeping) {
   if (std::optional<Scene> made = cache_.find(request, listener.progress)) return *std::move(made);
   LoadedScene loaded = load_and_show_points(request, listener);
-  worth_keeping = loaded.load_ms > WORTH_KEEPING_MS;
+  worth_keeping = loaded.build && loaded.scene.data_pool.size() > WORTH_KEEPING;
   return std::move(loaded.scene);
 }
 

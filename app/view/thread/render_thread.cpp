@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/library/measure/surface_point.h"
 #include "app/library/picture/make_picture.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
@@ -167,6 +168,9 @@ void RenderThread::answer(const PickRequest& request) {
   const RayQuery query = cursor_query(live_.scene(), view, request.position_px);
   const RayHit hit = live_.tracer().intersect(live_.look(), {&query, 1}, shown_.settings).front();
   Pick pick{inspect(live_.scene(), shown_.camera, query, hit), request.purpose};
+  if (pick.inspected && request.purpose == PickFor::measure)
+    pick.point = point_on_ray(live_.scene(), {pick.inspected->hit_world, glm::dvec3(hit.normal)},
+                              glm::dvec3(query.dir));
   deliver([&](RenderNews& news) { news.pick = std::move(pick); });
 }
 

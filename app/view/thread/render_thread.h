@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "app/library/measure/measure.h"
 #include "app/view/thread/live_scene.h"
 #include "app/view/thread/point_cloud.h"
 #include "app/view/thread/progressive.h"
@@ -34,6 +35,7 @@ struct PickRequest {
 struct Pick {
   std::optional<Inspected> inspected;
   PickFor purpose = PickFor::inspect;
+  SurfacePoint point{};  ///< PickFor::measure
 };
 
 /// What has come from the render thread since it was last asked.

@@ -100,15 +100,15 @@ void region_marks(const Document& document, const Grip* held, Marks& marks) {
 
 void measure_marks(const Document& document, Marks& marks) {
   for (const Measure& measure : document.measures) {
-    std::vector<glm::dvec3> points;
-    for (const SurfacePoint& point : measure.points) points.push_back(point.place);
-    for (std::size_t i = 1; i < points.size(); ++i) marks.line(points[i - 1], points[i], MEASURE);
-    if (measure.kind == MeasureKind::area && points.size() > 2)
-      marks.line(points.back(), points.front(), MEASURE);
-    for (const glm::dvec3& point : points) marks.dot(point, MEASURE, 0.9F * DOT_EM);
-    if (!points.empty())
-      marks.text(measure.kind == MeasureKind::angle ? points[points.size() / 2] : points.back(),
-                 short_text(measure, document.up));
+    if (measure.points.empty()) continue;
+    std::vector<glm::dvec3> places;
+    for (const SurfacePoint& point : measure.points) places.push_back(point.place);
+    for (std::size_t i = 1; i < places.size(); ++i) marks.line(places[i - 1], places[i], MEASURE);
+    if (measure.kind == MeasureKind::area && places.size() > 2)
+      marks.line(places.back(), places.front(), MEASURE);
+    for (const glm::dvec3& place : places) marks.dot(place, MEASURE, 0.9F * DOT_EM);
+    const bool at_corner = measure.kind == MeasureKind::angle;
+    marks.text(at_corner ? places[places.size() / 2] : places.back(), short_text(measure, document.up));
   }
 }
 

@@ -1,5 +1,8 @@
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
+#include "app/library/measure/measure_file.h"
+#include "app/view/model/attempt.h"
 #include "app/view/ui/panel_parts.h"
 
 namespace splatray {
@@ -8,14 +11,26 @@ namespace {
 void kind_buttons(PanelState& state) {
   for (int i = 0; i < MEASURE_KINDS; ++i) {
     const auto kind = static_cast<MeasureKind>(i);
-    if (i % 4 != 0) ImGui::SameLine();
+    if (i % 3 != 0) ImGui::SameLine();
     const bool on = state.measuring == kind;
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     if (ImGui::Button(measure_name(kind))) state.measuring = on ? std::nullopt : std::optional(kind);
     if (on) ImGui::PopStyleColor();
   }
-  tip("click points in the picture, of a sphere or cylinder its middle; Backspace takes the last one back, "
-      "Esc ends");
+  tip("click points in the picture; Backspace takes the last one back, Esc ends");
+}
+
+/// Writes all of them in the format of the name.
+void save_control(const Document& document, PanelState& state) {
+  ImGui::InputText("file##measures", &state.measures_path);
+  tip(".geojson, .dxf or .csv");
+  if (!ImGui::SmallButton("save all")) return;
+  const MeasureFrame frame{document.up, document.loaded->crs};
+  const auto write = [&] { write_measures(document.measures, frame, state.measures_path); };
+  if (const std::optional<Failure> failure = attempt("writing " + state.measures_path, write))
+    state.error = failure->sentence;
+  else
+    state.notice = "Written: " + state.measures_path;
 }
 
 /// Returns whether it is to be removed.
@@ -39,6 +54,7 @@ void measure_panel(Document& document, PanelState& state) {
   }
   ImGui::SameLine();
   if (ImGui::SmallButton("remove all")) return document.measures.clear();
+  save_control(document, state);
   for (std::size_t i = 0; i < document.measures.size(); ++i) {
     ImGui::Separator();
     ImGui::PushID(static_cast<int>(i));

@@ -95,7 +95,8 @@ void region_panel(Document& document, PanelState& state) {
                "all but what is in it is shown");
   slice_controls(document);
   cut_controls(document);
-  ImGui::Checkbox("light of what is kept alone", &document.region.light_kept);
+  bool kept_alone = document.region.light_kept.value_or(false);
+  if (ImGui::Checkbox("light of what is kept alone", &kept_alone)) document.region.light_kept = kept_alone;
   tip("else what is cut away still shades and lights what is shown");
   ImGui::Checkbox("handles", &state.shows_handles);
   ImGui::SameLine();
