@@ -116,30 +116,30 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     python = reader()
     places = centers()
-    for unit, name in ((1.0, "m"), (0.3048, "ft")):
-        ply = folder / f"spheres_{name}.ply"
-        write_ply(ply, places, unit)
-        sheet = f"plan:{SHEET},unit={name}"
-        png, tif, heights = folder / f"{name}.png", folder / f"{name}.tif", folder / f"{name}_heights.tif"
-        run(ply, "--up", "0,0,1", "--sheet", sheet, "--height-raster", heights, "-o", png)
-        require(*find(python, places, unit, [png]))
-        # The highest pixel's centre is at most half a diagonal from a sphere's top.
-        fall = RADIUS - math.sqrt(RADIUS ** 2 - PIXEL ** 2 / 2)
-        assert find(python, places, unit, [heights])[2] <= fall + 1e-3
-        if name == "ft":
-            continue
-        run(ply, "--up", "0,0,1", "--sheet", sheet, "-o", tif)
-        require(*find(python, places, unit, [tif]))
-        tiles = [folder / f"tile{i}.tif" for i in (1, 2, 3)]
-        for i, tile in enumerate(tiles):
-            run(ply, "--up", "0,0,1", "--sheet", sheet, "--tile", f"{i + 1}/3", "-o", tile)
-        require(*find(python, places, unit, tiles))
-        # The comparison fails where it should: a world file that takes pixels' corners for their centres.
-        world = png.with_suffix(".pgw")
-        lines = world.read_text().split("\n")
-        lines[4] = repr(float(lines[4]) - PIXEL / 2)
-        world.write_text("\n".join(lines))
-        assert find(python, places, unit, [png])[0] > 0.1, "half a pixel was not noticed"
+    # The highest pixel's centre is at most half a diagonal from a sphere's top.
+    fall = RADIUS - math.sqrt(RADIUS ** 2 - PIXEL ** 2 / 2)
+
+    ply, png, heights = folder / "m.ply", folder / "m.png", folder / "m_heights.tif"
+    write_ply(ply, places, 1.0)
+    in_metres = ply, "--up", "0,0,1", "--sheet", f"plan:{SHEET},unit=m"
+    run(*in_metres, "--height-raster", heights, "-o", png)
+    require(*find(python, places, 1.0, [png]))
+    assert find(python, places, 1.0, [heights])[2] <= fall + 1e-3
+    tiles = [folder / f"tile{i}.tif" for i in (1, 2, 3)]
+    for i, tile in enumerate(tiles):
+        run(*in_metres, "--tile", f"{i + 1}/3", "-o", tile)
+    require(*find(python, places, 1.0, tiles))
+    # The comparison fails where it should: a world file that takes pixels' corners for their centres.
+    world = png.with_suffix(".pgw")
+    lines = world.read_text().split("\n")
+    lines[4] = repr(float(lines[4]) - PIXEL / 2)
+    world.write_text("\n".join(lines))
+    assert find(python, places, 1.0, [png])[0] > 0.1, "half a pixel was not noticed"
+
+    foot, ply, tif = 0.3048, folder / "ft.ply", folder / "ft.tif"
+    write_ply(ply, places, foot)
+    run(ply, "--up", "0,0,1", "--sheet", f"plan:{SHEET},unit=ft", "-o", tif)
+    require(*find(python, places, foot, [tif]))
 
 
 main()
