@@ -25,6 +25,7 @@
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/clouds.h"
 #include "preprocess/ground.h"
+#include "preprocess/lattice.h"
 #include "preprocess/pack_clouds.h"
 #include "preprocess/scan/grid/pinhole.h"
 #include "preprocess/scan/scan_surface.h"
@@ -157,8 +158,8 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const Progre
   const double isolated_world = (diagonal > 0.0 ? ISOLATED_SHARE * diagonal : 1.0) * scene.build.radius_scale;
   for (Cloud& cloud : clouds) {
     require_stage_memory("radii", cloud.size(), RADII_BYTES);
-    find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale, scene.build.normal_fields,
-               {"radii", progress});
+    find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale,
+               scene.build.normal_fields && !cloud.lattice, {"radii", progress});
     const auto isolated =
         numbers_where(cloud.size(), [&](std::size_t i) { return !(cloud.radius[i] > 0.0F); });
     for (const std::uint32_t i : isolated)
@@ -310,6 +311,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   Scene scene = describe_scene(input, params);
   std::vector<Cloud> clouds = make_clouds(input, scene.object_names, stats);
   if (!scene.camera) scene.camera = camera_of_scan(clouds);
+  const std::optional<RootTransform> lattice = kept_lattice(clouds, params);
   find_all_surfaces(clouds, scene, progress, stats);
   require_points(clouds, stats);
   find_bounds(clouds, scene);
@@ -320,7 +322,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   std::vector<Column> columns = take_columns(clouds);
   {
     const AddedTime octree_watch(stats.octree_ms);
-    scene.root = fit_root(clouds);
+    scene.root = lattice ? *lattice : fit_root(clouds);
     note_coarse_objects(clouds, scene.object_names, scene.root.unit_world, stats);
     splats = pack_clouds(std::move(clouds), scene.root, !columns.empty(), {"packing", progress});
     require_stage_memory("order", splats.size(), ORDER_BYTES);

@@ -48,7 +48,8 @@ std::string far_note(const std::string& name, const Cloud& cloud) {
 std::vector<Cloud> make_clouds(Input& input, const std::vector<std::string>& names, BuildStats& stats) {
   std::vector<Cloud> clouds;
   for (InputObject& object : input.objects) {
-    const bool measured = object.measured && !object.oriented && !(object.surface_area > 0.0);
+    const bool measured =
+        object.measured && !object.oriented && !(object.surface_area > 0.0) && !object.points.lattice;
     clouds.push_back(make_cloud(std::move(object.points), object.oriented, measured, stats));
     if (!clouds.back().far.numbers.empty())
       stats.notes.push_back(far_note(names[clouds.size() - 1], clouds.back()));
@@ -71,8 +72,8 @@ void require_points(const std::vector<Cloud>& clouds, const BuildStats& stats) {
       {stats.dropped_mixed, "between two surfaces"},
       {stats.dropped_unsupported, "with too few neighbours"}};
   throw Error(ExitCode::input_unreadable, "the input has no point on a surface: found " +
-                                              counted_points(stats.points_read) + ", of them " + counted_list(lost) +
-                                              ", expected at least one other");
+                                              counted_points(stats.points_read) + ", of them " +
+                                              counted_list(lost) + ", expected at least one other");
 }
 
 void note_coarse_objects(const std::vector<Cloud>& clouds, const std::vector<std::string>& names,

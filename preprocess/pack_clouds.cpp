@@ -16,6 +16,7 @@ namespace {
 
 /// The normal field of a splat that has been packed.
 std::uint32_t packed_field(const Cloud& cloud, std::size_t i, const glm::dvec3& packed_normal) {
+  if (!cloud.field_words.empty()) return cloud.field_words[i];
   if (!cloud.shading.empty() && cloud.shading[i] != glm::vec3(0.0F)) {
     const glm::dvec3 shading(cloud.shading[i]);
     return pack_lean(shading / glm::dot(shading, packed_normal) - packed_normal, packed_normal);
@@ -44,6 +45,7 @@ std::uint32_t packed_clip(const Cloud& cloud, std::size_t i, const RootTransform
 
 /// The same with the ellipse of a point that lies on a line.
 std::uint32_t packed_shape(const Cloud& cloud, std::size_t i, const RootTransform& root, const uvec4& words) {
+  if (!cloud.clip_words.empty()) return cloud.clip_words[i];
   const std::uint32_t clip = packed_clip(cloud, i, root, words);
   if (cloud.line.empty() || !(cloud.line[i].reach > 0.0F)) return clip;
   return pack_ellipse(words, glm::normalize(glm::dvec3(cloud.line[i].along)), cloud.line[i].aspect, clip);
@@ -67,8 +69,8 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
   bool has_clips = false;
   for (const Cloud& cloud : clouds) {
     total += cloud.size();
-    has_fields = has_fields || !cloud.field.empty();
-    has_clips = has_clips || !cloud.clip.empty() || !cloud.line.empty();
+    has_fields = has_fields || !cloud.field.empty() || !cloud.field_words.empty();
+    has_clips = has_clips || !cloud.clip.empty() || !cloud.line.empty() || !cloud.clip_words.empty();
     has_colors = has_colors || !cloud.color.empty();
   }
   SplatList splats;
@@ -94,7 +96,8 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
       const Splat splat = unpack_splat(words);
       splats.words[first + i] = words;
       splats.key[first + i] = morton_key(glm::uvec3(splat.center));
-      if (!cloud.field.empty()) splats.field[first + i] = packed_field(cloud, i, splat.normal);
+      if (!cloud.field.empty() || !cloud.field_words.empty())
+        splats.field[first + i] = packed_field(cloud, i, splat.normal);
       if (has_clips) splats.clip[first + i] = packed_shape(cloud, i, root, words);
     });
     std::copy(cloud.color.begin(), cloud.color.end(),

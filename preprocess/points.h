@@ -67,7 +67,12 @@ struct Points {
   std::vector<std::uint32_t> grid_cell;  ///< row * columns + column in the station's grid; empty = no grids
   /// Where points with COLUMN_TIME were measured from, by time; empty = unknown
   std::vector<TrackPlace> track;
-  std::string crs;  ///< Scene::crs
+  std::string crs;               ///< Scene::crs
+  std::optional<glm::dvec3> up;  ///< Input::up, where a file says it beside points
+  /// Of points that were splats: the lattice that these were on, and their words of normal fields and clip lines (splat.h,
+  /// clip.h), each empty = none (lattice.h).
+  std::optional<RootTransform> lattice;
+  std::vector<std::uint32_t> field_words, clip_words;
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };

@@ -1,38 +1,63 @@
-/// splatray-preprocess: points or meshes in, a scene file out.
+/// splatray-preprocess: points or meshes in, a scene file or its points out.
 #include <malloc.h>
 
 #include <chrono>
 #include <cstdio>
+#include <optional>
 
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
+#include "app/library/picture/change.h"
+#include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/memory.h"
 #include "engine/base/progress.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/scene_file.h"
+#include "preprocess/base/file_extension.h"
 #include "preprocess/build.h"
 #include "preprocess/build_report.h"
 #include "preprocess/read/formats.h"
+#include "preprocess/write/left_out.h"
+#include "preprocess/write/write_points.h"
 
 namespace {
 
 using namespace splatray;
 
+struct Options {
+  Request request;
+  bool keep_dropped = false;
+  std::filesystem::path change_from;  ///< empty = no comparison
+  std::vector<std::string> notes;
+};
+
 /// False when help was asked for and printed.
-bool parse(int argc, char** argv, Request& request, std::vector<std::string>& notes) {
+bool parse(int argc, char** argv, Options& options) {
+  Request& request = options.request;
   OptionList list("Turns points or meshes into a scene of splats for splatray-render and splatray-view.",
                   "splatray-preprocess");
   GivenFields given;
   add_fields(list, DOOR_PREPROCESS, "INPUT", given);
   list.require("INPUT");
   list.set_group(group_title(FieldGroup::files));
-  add_path(list, "-o,--output", request.output.path, "scene file to write (.soct)");
+  add_path(list, "-o,--output", request.output.path,
+           "scene file to write (.soct), or its points with normals, radii and attributes (.ply, .las, .csv, "
+           ".vtp)");
   list.require("--output");
+  list.add_switch(
+      "--keep-dropped", options.keep_dropped,
+      "with -o of points: those that the scene leaves out are written too, as class 7 (low noise)");
+  add_path(list, "--change-from", options.change_from,
+           "an earlier scan or scene: adds the attribute change, how far each point lies before (+) or "
+           "behind (-) its surface");
   if (!list.parse(argc, argv)) return false;
   assign(request, given, DOOR_PREPROCESS);
-  notes = given.notes;
+  options.notes = given.notes;
+  if (options.keep_dropped && !is_point_output(request.output.path))
+    throw Error(ExitCode::usage, "found --keep-dropped with '" + request.output.path.string() +
+                                     "', expected -o with a .ply, .las, .csv or .vtp");
   return true;
 }
 
@@ -56,12 +81,79 @@ void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
 }
 
+bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
+
+/// Writes the scene, or its points and what was left out.
+void write(const Scene& scene, const LeftOut& left_out, const std::filesystem::path& path,
+           const Progress& progress) {
+  if (is_point_output(path))
+    write_points(make_point_table(scene, left_out), path, progress);
+  else
+    write_scene(scene, path, progress);
+}
+
+/// The scene of a .soct alone, or of the inputs.
+Scene load(const Request::Source& source, BuildStats& stats, const Progress& progress) {
+  if (is_scene_file(source.inputs.front())) {
+    require_scene_alone(source.inputs);
+    return read_scene(source.inputs.front(), progress);
+  }
+  return build_scene(read(source, stats, progress), source.params, source.threads, stats, progress);
+}
+
+/// Adds how the scene differs from the earlier one, and says how much that is.
+void compare(Scene& scene, const Options& options, const Progress& progress, ProgressLine& line) {
+  Request::Source source = options.request.source;
+  source.inputs = {options.change_from};
+  BuildStats stats;
+  const Scene earlier = load(source, stats, progress);
+  if (!scene.crs.empty() && !earlier.crs.empty() && !is_same_crs(scene.crs, earlier.crs))
+    print_notes({"the two are in the coordinate systems '" + describe_crs(scene.crs).name + "' and '" +
+                 describe_crs(earlier.crs).name + "', expected one"});
+  const ChangeFound found = add_change(scene, earlier, *open_device(HOST_DEVICE), progress);
+  line.clear();
+  std::printf("change: %zu of %zu splats meet the earlier surface, median size %.4g", std::size_t{found.met},
+              scene.data_pool.size(), found.median_world);
+  if (found.significant_world > 0.0)
+    std::printf("; %zu differ by more than the %.4g that noise explains (95 %%)",
+                std::size_t{found.significant}, found.significant_world);
+  std::printf("\n");
+}
+
+/// Makes the scene of the inputs and writes it, or its points; what it says goes to the line, which is cleared before.
+void make(const Options& options, const Progress& progress, ProgressLine& line) {
+  const Request::Source& source = options.request.source;
+  const Request::Output& output = options.request.output;
+  BuildStats stats;
+  Input input = read(source, stats, progress);
+  line.clear();
+  print_notes(input.notes);
+  std::optional<LeftOutPoints> left_out;
+  if (options.keep_dropped) left_out.emplace(input);
+  Scene scene = build_scene(std::move(input), source.params, source.threads, stats, progress);
+  const LeftOut kept = left_out ? std::move(*left_out).take(scene) : LeftOut{};
+  if (!options.change_from.empty()) compare(scene, options, progress, line);
+  write(scene, kept, output.path, progress);
+  line.clear();
+  print_notes(stats.notes);
+  if (!output.stats_json.empty()) write_text_file(build_stats_json(stats) + '\n', output.stats_json);
+  std::fputs(build_summary(stats, output.path).c_str(), stdout);
+}
+
+/// The same of a scene that is built already.
+void convert(const Options& options, const Progress& progress, ProgressLine& line) {
+  BuildStats stats;
+  Scene scene = load(options.request.source, stats, progress);
+  if (!options.change_from.empty()) compare(scene, options, progress, line);
+  write(scene, {}, options.request.output.path, progress);
+}
+
 int run(int argc, char** argv) {
-  Request request;
-  std::vector<std::string> notes;
-  if (!parse(argc, argv, request, notes)) return static_cast<int>(ExitCode::done);
-  print_notes(notes);
-  const Request::Output& output = request.output;
+  Options options;
+  if (!parse(argc, argv, options)) return static_cast<int>(ExitCode::done);
+  print_notes(options.notes);
+  const Request::Output& output = options.request.output;
+  const bool is_new = is_point_output(output.path) || !options.change_from.empty();
   require_writable(output.path);
   if (!output.stats_json.empty()) require_writable(output.stats_json);
   catch_interrupts();
@@ -72,17 +164,10 @@ int run(int argc, char** argv) {
     line.show(stage, share);
     return !interrupted();
   });
-  const Request::Source& source = request.source;
-  BuildStats stats;
-  Input input = read(source, stats, progress);
-  line.clear();
-  print_notes(input.notes);
-  const Scene scene = build_scene(std::move(input), source.params, source.threads, stats, progress);
-  write_scene(scene, output.path, progress);
-  line.clear();
-  print_notes(stats.notes);
-  if (!output.stats_json.empty()) write_text_file(build_stats_json(stats) + '\n', output.stats_json);
-  std::fputs(build_summary(stats, output.path).c_str(), stdout);
+  if (is_new && is_scene_file(options.request.source.inputs.front()))
+    convert(options, progress, line);
+  else
+    make(options, progress, line);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -18,6 +18,7 @@ namespace {
 /// Shares of all values at the ends of a range.
 constexpr double RANGE_FIRST = 0.02, RANGE_LAST = 0.98;
 constexpr std::size_t RAMP_STEPS = 256;
+constexpr glm::vec3 UNKNOWN_COLOR(0.35F);  // beside signed_color, which has no such grey
 constexpr double INTENSITY_GAMMA = 2.2;
 /// Display values of its ends: on black and on white no shade is seen.
 constexpr const char* HEIGHT_AND_INTENSITY = "height+intensity";
@@ -157,6 +158,21 @@ std::array<double, 2> robust_range(std::vector<double> values) {
   return {value_at(values, RANGE_FIRST), value_at(values, RANGE_LAST)};
 }
 
+/// Whether values say how far something is from what it should be, so that 0 is the middle.
+bool is_signed(const Scene& scene, const std::string& name, double low, double high) {
+  return find_column(scene.columns, name) != nullptr && name != COLUMN_INTENSITY && low < 0.0 && high > 0.0;
+}
+
+/// From `low` to `high`, neutral at 0.
+std::vector<std::uint32_t> signed_ramp(double low, double high) {
+  std::vector<std::uint32_t> ramp;
+  for (std::size_t i = 0; i < RAMP_STEPS; ++i) {
+    const double value = std::lerp(low, high, static_cast<double>(i) / (RAMP_STEPS - 1));
+    ramp.push_back(color_of(signed_color(static_cast<float>(value / std::max(-low, high)))));
+  }
+  return ramp;
+}
+
 std::vector<std::uint32_t> ramp_for(const std::string& name) {
   if (name == COLUMN_INTENSITY) return grey_ramp();
   return ramp_of(name == "height" ? land_color : heat_color);
@@ -164,14 +180,19 @@ std::vector<std::uint32_t> ramp_for(const std::string& name) {
 
 AttributeColors ramp_colors(const Scene& scene, const AttributeOptions& options) {
   const std::vector<double> values = values_of(scene, options.color_by);
-  const auto [low, high] = options.color_range ? *options.color_range : robust_range(values);
+  auto [low, high] = options.color_range ? *options.color_range : robust_range(values);
+  const bool both_signs = is_signed(scene, options.color_by, low, high);
+  if (both_signs && !options.color_range) low = -(high = std::max(-low, high));
   AttributeColors result;
-  result.legend = {options.color_by, low, high, ramp_for(options.color_by), {}};
+  result.legend = {
+      options.color_by, low, high, both_signs ? signed_ramp(low, high) : ramp_for(options.color_by), {}};
+  const std::uint32_t unknown = both_signs ? color_of(UNKNOWN_COLOR) : result.legend.ramp.front();
   result.colors.reserve(values.size());
   for (const double value : values) {
     const double share = high > low ? (value - low) / (high - low) : 0.5;
-    const double step = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * (RAMP_STEPS - 1) : 0.0;
-    result.colors.push_back(result.legend.ramp[static_cast<std::size_t>(std::lround(step))]);
+    const double step = std::clamp(share, 0.0, 1.0) * (RAMP_STEPS - 1);
+    result.colors.push_back(
+        std::isfinite(share) ? result.legend.ramp[static_cast<std::size_t>(std::lround(step))] : unknown);
   }
   return result;
 }

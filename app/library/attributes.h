@@ -48,7 +48,8 @@ struct AttributeColors {
 [[nodiscard]] std::vector<std::string> color_sources(const Scene& scene);
 
 /// The colours that the options ask for: categories for class, return, returns, source, scan and kind, a ramp over `color_range`
-/// for others (intensity: greys from dark to light with gamma 1/2.2, as its values are of any scale; height: land_color). Throws
+/// for others (intensity: greys from dark to light with gamma 1/2.2, as its values are of any scale; height: land_color; values of
+/// both signs: signed_color, as far to either side of 0 where no range is asked for, grey where there is no number). Throws
 /// Error (usage) for an attribute that
 /// the scene does not have.
 [[nodiscard]] AttributeColors color_by(const Scene& scene, const AttributeOptions& options);

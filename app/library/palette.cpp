@@ -52,6 +52,12 @@ glm::vec3 heat_color(float share) {
   return COLORS[static_cast<std::size_t>(std::lround(255.0F * std::min(share, 1.0F)))];
 }
 
+glm::vec3 signed_color(float deviation) {
+  constexpr float WHITE = 0.95F, END = 0.5F, MOST_CHROMA = 0.17F, RED = 27.0F, BLUE = 260.0F;
+  const float size = std::min(std::abs(deviation), 1.0F);
+  return oklch(std::lerp(WHITE, END, size), MOST_CHROMA * size, deviation < 0.0F ? BLUE : RED);
+}
+
 glm::vec3 land_color(float share) {
   static constexpr std::array STOPS = {glm::vec3(0.31F, 0.48F, 0.52F), glm::vec3(0.45F, 0.60F, 0.44F),
                                        glm::vec3(0.76F, 0.66F, 0.43F), glm::vec3(0.80F, 0.60F, 0.58F)};

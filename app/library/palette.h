@@ -13,6 +13,9 @@ namespace splatray {
 /// are seen as they are on land.
 [[nodiscard]] glm::vec3 land_color(float share);
 
+/// The same of a deviation, -1..1: blue over near white at 0 to red, as dark on either side.
+[[nodiscard]] glm::vec3 signed_color(float deviation);
+
 /// A colour of its own for each number, display-encoded; consecutive ones differ in hue and lightness.
 [[nodiscard]] glm::vec3 number_color(std::uint32_t number);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/library/measure/surface_point.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/picture/scene_source.h"
 #include "app/library/request/command_line.h"
@@ -151,7 +152,25 @@ void Viewer::take_pick(const Pick& pick) {
   if (pick.purpose == PickFor::pivot) set_pivot(document_, hit_world);
   if (pick.purpose == PickFor::orbit && mouse_.is_held()) about_world_ = hit_world;
   if (pick.purpose == PickFor::measure && panels_.measuring)
-    add_point(document_.measures, *panels_.measuring, pick.point);
+    measure_at(*pick.inspected, pick.point, *panels_.measuring);
+}
+
+/// Adds what was picked to the measures; of a sphere or cylinder what is around the cursor.
+void Viewer::measure_at(const Inspected& picked, const SurfacePoint& point, MeasureKind kind) {
+  constexpr double AROUND_PX = 40.0;
+  const Camera& camera = document_.camera;
+  if (kind != MeasureKind::sphere && kind != MeasureKind::cylinder)
+    return add_point(document_.measures, kind, point);
+  const double height_world =
+      camera.ortho_height > 0.0
+          ? camera.ortho_height
+          : 2.0 * std::tan(glm::radians(0.5 * camera.fov_y_deg)) * picked.distance_world;
+  const double reach = AROUND_PX * height_world / std::max(picture_px().y, 1U);
+  const auto fit = radius_near(*scene_, document_.settings.region, picked.hit_world, reach, kind);
+  if (!fit)
+    return void(panels_.notice = std::string("found no ") + measure_name(kind) + " around the cursor");
+  add_point(document_.measures, kind, point);
+  document_.measures.back().fit = fit;
 }
 
 /// What goes wrong becomes a sentence in the window.

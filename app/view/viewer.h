@@ -49,6 +49,7 @@ class Viewer {
   void fly_on();
   void look_from(Viewpoint viewpoint);
   void take_pick(const Pick& pick);
+  void measure_at(const Inspected& picked, const SurfacePoint& point, MeasureKind kind);
   [[nodiscard]] bool take_hold(const InputEvent& event);
   [[nodiscard]] bool flies() const;
   void change_walk_speed(double notches);

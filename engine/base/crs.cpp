@@ -75,7 +75,9 @@ Crs describe_numbers(std::string_view text) {
   Crs crs;
   crs.name = text.substr(0, text.find(';'));
   const std::string_view number = std::string_view(crs.name).substr(EPSG.size());
-  if (number.find('+') == std::string_view::npos) crs.epsg = leading_number<unsigned>(number);
+  crs.epsg = leading_number<unsigned>(number);
+  if (const std::size_t plus = number.find('+'); plus != std::string_view::npos)
+    crs.vertical_epsg = leading_number<unsigned>(number.substr(plus + 1));
   for (std::size_t at = text.find(';'); at != std::string_view::npos; at = text.find(';', at + 1)) {
     const std::string_view part = text.substr(at + 1);
     if (part.starts_with("deg")) crs.is_degrees = true;
@@ -104,7 +106,8 @@ Crs describe_crs(std::string_view text) {
 bool is_same_crs(std::string_view a, std::string_view b) {
   if (a == b) return true;
   const Crs first = describe_crs(a), second = describe_crs(b);
-  if (first.epsg != 0 && second.epsg != 0) return first.epsg == second.epsg;
+  if (first.epsg != 0 && second.epsg != 0)
+    return first.epsg == second.epsg && first.vertical_epsg == second.vertical_epsg;
   return !first.name.empty() && first.name == second.name;
 }
 

@@ -8,7 +8,8 @@ namespace splatray {
 /// What the text of a system says; what it does not say is empty, 0 or false.
 struct Crs {
   std::string name;
-  unsigned epsg = 0;  ///< of the system as a whole
+  unsigned epsg = 0;           ///< of the system as a whole, or of x and y alone
+  unsigned vertical_epsg = 0;  ///< of heights beside it
   bool is_degrees = false;
   bool is_projected = false;
   double horizontal_metres = 0.0;  ///< of a unit of x and y where they are lengths

@@ -20,6 +20,8 @@ inline constexpr std::string_view COLUMN_SCAN = "scan";  ///< the station's numb
 inline constexpr std::string_view COLUMN_TIME = "time";  ///< GPS time, seconds
 /// What each point of a scan is part of (ScanKind); made by the build, and absent where all are of surfaces.
 inline constexpr std::string_view COLUMN_KIND = "kind";
+/// How far each point lies before (+) or behind (-) an earlier surface, world units; NaN = unknown. Made by add_change.
+inline constexpr std::string_view COLUMN_CHANGE = "change";
 
 /// What a point of a scan is part of, as its neighbourhood shows.
 enum class ScanKind : std::uint8_t {

@@ -32,6 +32,9 @@ glm::ivec2 octahedral_nearest(const glm::dvec3& normal, int scale) {
       best = {u, v};
     }
   }
+  // On the border two coordinates are one direction, of which this is the one that the direction itself gives.
+  if (std::abs(best.x) == scale) best.y = std::abs(best.y);
+  if (std::abs(best.y) == scale) best.x = std::abs(best.x);
   return best;
 }
 

@@ -15,7 +15,7 @@ namespace splatray {
 [[nodiscard]] glm::dvec2 octahedral_exact(const glm::dvec3& normal, int scale);
 
 /// The two octahedral coordinates, of the four around the exact ones, whose direction is nearest the normal
-/// ("precise" encoding, Cigolle et al. 2014, sec. 3.3).
+/// ("precise" encoding, Cigolle et al. 2014, sec. 3.3); those of each direction that coordinates stand for are always the same.
 [[nodiscard]] glm::ivec2 octahedral_nearest(const glm::dvec3& normal, int scale);
 
 }  // namespace splatray

@@ -34,6 +34,7 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
   object.meshes.push_back(read_mesh(path, options, listener));
   listener.show(object.meshes.front().vertices, object.meshes.front().triangles.empty());
   input.crs = object.meshes.front().vertices.crs;
+  input.up = object.meshes.front().vertices.up;
   if (!object.meshes.front().vertices.color.empty()) {
     object.material.diffuse = COLORED_DIFFUSE;
   }

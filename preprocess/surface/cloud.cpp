@@ -44,6 +44,9 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   cloud.grid_cell = take(points.grid_cell);
   cloud.radius = take(points.radius);
   cloud.clip = take(points.clip);
+  cloud.lattice = points.lattice;
+  cloud.field_words = take(points.field_words);
+  cloud.clip_words = take(points.clip_words);
   cloud.ends_known = !cloud.clip.empty();
   tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
     cloud.normal[i] = glm::vec3(unit_or_zero(glm::dvec3(cloud.normal[i])));
@@ -136,6 +139,8 @@ void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
   reorder(cloud.radius);
   reorder(cloud.clip);
   reorder(cloud.line);
+  reorder(cloud.field_words);
+  reorder(cloud.clip_words);
   reorder(cloud.kind);
   reorder(cloud.radius_most);
   reorder(cloud.station);

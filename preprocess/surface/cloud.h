@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "preprocess/base/far_points.h"
@@ -46,10 +47,12 @@ struct Cloud {
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< Points::grid_cell
   std::vector<TrackPlace> track;         ///< Points::track
-  bool ends_known = false;               ///< the surface ends, or has a crease, only where `clip` says so
-  bool measured = false;                 ///< by a scanner: neither a mesh's nor made
-  bool oriented = false;                 ///< normals point outwards: opposite normals are opposite sheets
-  FarPoints far;                         ///< as they were found; in the cloud only where it is not measured
+  std::optional<RootTransform> lattice;  ///< Points::lattice, with the words of such points
+  std::vector<std::uint32_t> field_words, clip_words;
+  bool ends_known = false;  ///< the surface ends, or has a crease, only where `clip` says so
+  bool measured = false;    ///< by a scanner: neither a mesh's nor made
+  bool oriented = false;    ///< normals point outwards: opposite normals are opposite sheets
+  FarPoints far;            ///< as they were found; in the cloud only where it is not measured
   /// Of these coordinates, all different and of surfaces; null = not looked for yet, or the points have changed since.
   std::shared_ptr<const NearPlaces> near;
 

@@ -121,6 +121,30 @@ TEST(Attributes, HeightIsDarkerWhereIntensityIsLow) {
   EXPECT_GT(bright, 1.5F * dark);
 }
 
+TEST(Attributes, ValuesOfBothSignsAreNeutralAtZero) {
+  Scene scene = sheet();
+  std::vector<float> change;
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i)
+    change.push_back(i == 3 ? NAN : 0.1F * static_cast<float>(i % 5) - 0.1F);  // -0.1 to 0.3
+  scene.columns.push_back({"change", change});
+  const AttributeColors shown = color_by(scene, {"change", {}, {}, {}});
+  EXPECT_NEAR(shown.legend.high, 0.3, 1e-6);
+  EXPECT_EQ(shown.legend.low, -shown.legend.high);
+  const auto spread = [](std::uint32_t color) {
+    const glm::vec3 rgb = unpack_color(color);
+    return std::max({rgb.x, rgb.y, rgb.z}) - std::min({rgb.x, rgb.y, rgb.z});
+  };
+  EXPECT_LT(spread(shown.colors[1]), 0.02F) << "no change has no colour";
+  EXPECT_GT(unpack_color(shown.colors[4]).x, unpack_color(shown.colors[4]).z + 0.3F) << "red before";
+  EXPECT_GT(unpack_color(shown.colors[0]).z, unpack_color(shown.colors[0]).x + 0.05F) << "blue behind";
+  EXPECT_LT(spread(shown.colors[3]), 0.01F);
+  EXPECT_NE(shown.colors[3], shown.colors[1]) << "no number is not no change";
+  const AttributeColors ranged = color_by(scene, {"change", std::array{-0.1, 0.3}, {}, {}});
+  EXPECT_EQ(ranged.legend.low, -0.1);
+  EXPECT_LT(spread(ranged.colors[1]), 0.02F) << "nor in a range that is not even";
+  EXPECT_LT(spread(ranged.legend.ramp[64]), 0.02F);
+}
+
 TEST(Attributes, CategoriesAreCountedAndNamed) {
   const Scene scene = sheet();
   const auto classes = categories_of(scene, COLUMN_CLASS);

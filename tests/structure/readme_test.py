@@ -27,6 +27,8 @@ INPUT_UNREADABLE = 3
 SMALLER = {"splatray-render": "--resolution=16x16 --samples=2", "splatray-preprocess": ""}
 SMALLER_IF = {"splatray-render": {"--mesh-points": "--mesh-points=2000", "--error": "--time=0.2", "--time": "--time=0.2", "--turntable": "--frames=0-1"},
               "splatray-preprocess": {"--mesh-points": "--mesh-points=2000"}}
+# In place of both, behind those that name one of these: a sheet has a size of its own.
+INSTEAD_IF = {"splatray-render": {"--sheet": "--samples=2"}}
 
 
 def blocks(text, language):
@@ -74,6 +76,7 @@ def make_programs(folder, programs):
             (target / program.name).symlink_to(program)
             continue
         more = "".join(f'case "$*" in *{option}[=\\ ]*) more="$more {smaller}";; esac\n' for option, smaller in SMALLER_IF[program.name].items())
+        more += "".join(f'case "$*" in *{option}[=\\ ]*) more="{instead}";; esac\n' for option, instead in INSTEAD_IF.get(program.name, {}).items())
         (target / program.name).write_text(f'#!/bin/sh\ncase "$*" in *--list-devices*|*--help*) exec {program} "$@";; esac\n'
                                            f'more="{SMALLER[program.name]}"\n{more}exec {program} "$@" $more\n')
         (target / program.name).chmod(0o755)

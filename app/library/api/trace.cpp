@@ -4,6 +4,7 @@
 
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
+#include "app/library/picture/aimed_ray.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 
@@ -11,14 +12,6 @@ namespace splatray::api {
 namespace {
 
 constexpr std::size_t RAYS_AT_ONCE = std::size_t{1} << 17;
-constexpr double ROOT_EDGE = 1U << LATTICE_BITS;
-
-/// A ray that meets the root cube: the query, and what is added to its t.
-struct Aimed {
-  RayQuery query{};
-  double start = 0.0;  ///< root units
-};
-
 bool finite(const Double3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
 /// The unit vector along v, whatever its length; zero where that is.
@@ -38,29 +31,6 @@ void check_rays(std::span<const Double3> origins, std::span<const Double3> direc
     if (unit(vector(directions[i])) == glm::dvec3(0.0))
       refuse("a direction of length 0 in ray " + std::to_string(i), "any other");
   }
-}
-
-/// Begins the ray where it enters the root cube, as float32 is finest there; nothing for a ray that passes it.
-std::optional<Aimed> aim(const RootTransform& root, const Double3& origin, const Double3& direction) {
-  const glm::dvec3 from = root.to_root(vector(origin));
-  const glm::dvec3 dir = unit(vector(direction));
-  double enter = 0.0, leave = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (dir[axis] == 0.0) {
-      if (!(from[axis] >= 0.0 && from[axis] <= ROOT_EDGE)) return {};
-      continue;
-    }
-    const double a = -from[axis] / dir[axis], b = (ROOT_EDGE - from[axis]) / dir[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  if (!(enter < leave)) return {};
-  Aimed aimed;
-  aimed.query.origin = glm::clamp(from + enter * dir, 0.0, ROOT_EDGE);
-  aimed.query.dir = dir;
-  aimed.query.from_object = NO_OBJECT;
-  aimed.start = enter;
-  return aimed;
 }
 
 /// The number of the splat with these words; splats lie in Z-order.
@@ -109,7 +79,8 @@ Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const
       std::vector<RayQuery> queries;
       std::vector<double> starts;
       for (std::size_t i = begin; i < std::min(begin + RAYS_AT_ONCE, origins.size()); ++i) {
-        const std::optional<Aimed> aimed = aim(inner.root, origins[i], directions[i]);
+        const std::optional<AimedRay> aimed =
+            aim_ray(inner.root, vector(origins[i]), unit(vector(directions[i])));
         if (!aimed) continue;
         rays.push_back(i);
         queries.push_back(aimed->query);

@@ -4,6 +4,7 @@
 
 #include "app/library/commit.h"
 #include "app/library/compare.h"
+#include "app/library/measure/measure_file.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/command_line.h"
 #include "app/library/sheet/sheet_files.h"
@@ -56,6 +57,7 @@ void require_picture_memory(const Request& request) {
 void require_outputs_writable(const Request& request) {
   require_writable(request.output.path);
   if (!request.output.height_raster.empty()) require_writable(request.output.height_raster);
+  if (!request.output.measures.empty()) static_cast<void>(read_measures(request.output.measures));
   if (!request.output.stats_json.empty()) require_writable(request.output.stats_json);
 }
 

@@ -18,7 +18,7 @@ namespace splatray {
 /// Throws Error (out_of_memory) where there is less memory than a picture takes until it is written.
 void require_picture_memory(const Request& request);
 
-/// Throws Error (failed) when the pictures or the statistics have no place to go.
+/// Throws Error (failed) when the pictures or the statistics have no place to go, and as read_measures does for --measures.
 void require_outputs_writable(const Request& request);
 
 /// The picture of --reference; nothing without the option. Throws Error: input_unreadable, or failed when its

@@ -95,6 +95,9 @@ void check_sheet(const Request& request) {
   if (view.width != unset.width || view.height != unset.height)
     fail("found --resolution beside --sheet, expected scale= and dpi= in the sheet, which make its size");
   if (request.output.many()) fail("found --sheet with a sequence of pictures, expected a single one");
+  const std::string extension = lower_extension(request.output.path);
+  if (!request.output.measures.empty() && extension != ".svg" && extension != ".pdf")
+    fail("found --measures with an output other than .svg or .pdf, expected one of these");
   if (view.ink && view.window().width > 0) fail("found --ink with --crop or --tile, expected a whole sheet");
   if (view.ink && view.xray) fail("found --ink and --xray, expected one of them");
 }

@@ -26,8 +26,6 @@ struct Work {
 };
 
 inline constexpr int BOOKMARK_COUNT = 9;
-/// Kinds of measures that are made by clicking points, the first ones of MeasureKind.
-inline constexpr int CLICKED_MEASURES = static_cast<int>(MeasureKind::area) + 1;
 inline constexpr double NOTICE_SECONDS = 10.0;  ///< after the work that they report
 
 /// What the panels remember, and what is open.

@@ -29,8 +29,8 @@ std::optional<Gesture> Mouse::take(const InputEvent& event, bool over_controls, 
       return held_ && held_->button == event.code ? release(event, now) : std::nullopt;
     case Kind::wheel:
       if (over_controls) return {};
-      return Gesture{action_for(InputKind::wheel, 0, event.modifiers).value_or(Action::zoom), event.position_px,
-                     event.position_px, event.notches};
+      return Gesture{action_for(InputKind::wheel, 0, event.modifiers).value_or(Action::zoom),
+                     event.position_px, event.position_px, event.notches};
     case Kind::key:
       break;
   }

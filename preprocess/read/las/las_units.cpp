@@ -65,7 +65,7 @@ Crs units_of(const LasVlrs& vlrs) {
 std::string las_crs(const LasVlrs& vlrs) {
   if (!vlrs.wkt.empty()) return vlrs.wkt;
   const KeyedCrs keyed = crs_of_keys(vlrs.geo_keys);
-  const unsigned number = keyed.projected != 0 ? keyed.projected : keyed.geographic;
+  const unsigned number = keyed.crs.is_degrees ? keyed.geographic : keyed.projected;
   return number == 0 ? "" : epsg_text(number, keyed.vertical, keyed.crs);
 }
 

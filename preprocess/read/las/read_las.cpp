@@ -14,11 +14,14 @@
 namespace splatray {
 namespace {
 
+std::vector<LasExtraBytes> all_extra_bytes(const LasHeader& header, const LasVlrs& vlrs) {
+  return las_extra_bytes(vlrs.extra_bytes, las_fields(header.point_format).bytes, header.record_bytes);
+}
+
 /// The extra bytes of the file that `names` ask for; a vector's name asks for all its components.
 std::vector<LasExtraBytes> wanted_extra_bytes(const LasHeader& header, const LasVlrs& vlrs,
                                               const std::vector<std::string>& names) {
-  std::vector<LasExtraBytes> all =
-      las_extra_bytes(vlrs.extra_bytes, las_fields(header.point_format).bytes, header.record_bytes);
+  std::vector<LasExtraBytes> all = all_extra_bytes(header, vlrs);
   std::vector<LasExtraBytes> wanted;
   for (LasExtraBytes& one : all) {
     const bool is_wanted = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
@@ -66,16 +69,20 @@ void count_points(ByteReader& in, LasHeader& header, const ReadListener& listene
 }
 
 /// What the header says.
-std::vector<FileFact> facts_of(const LasHeader& header) {
+std::vector<FileFact> facts_of(const LasHeader& header, const LasVlrs& vlrs) {
   std::vector<FileFact> facts = {{"version", "LAS 1." + std::to_string(header.version_minor)},
                                  {"point format", std::to_string(header.point_format) +
                                                       (header.is_compressed ? ", compressed by LASzip" : "")},
                                  {"scale", number_text(header.scale, ' ')},
                                  {"offset", number_text(header.offset, ' ')}};
-  if (!header.system.empty()) facts.push_back({"system", header.system});
+  if (!header.system.empty()) facts.push_back({"system id", header.system});
   if (!header.software.empty()) facts.push_back({"software", header.software});
   if (header.year != 0)
     facts.push_back({"made", "day " + std::to_string(header.day) + " of " + std::to_string(header.year)});
+  std::string names;
+  for (const LasExtraBytes& extra : all_extra_bytes(header, vlrs))
+    names += (names.empty() ? "" : ", ") + extra.name;
+  if (!names.empty()) facts.push_back({"extra bytes", names});
   return facts;
 }
 
@@ -92,7 +99,7 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   ScanFile file;
   file.in_degrees = las_in_degrees(vlrs);
   file.counts.stored = header.point_count;
-  file.facts = facts_of(header);
+  file.facts = facts_of(header, vlrs);
   file.said_box = {header.box_low, header.box_high};
   if (options.heads_only) {
     file.points.crs = las_crs(vlrs);

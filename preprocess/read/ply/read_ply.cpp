@@ -4,6 +4,7 @@
 
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/ply/ply_scan.h"
+#include "preprocess/read/ply/ply_splats.h"
 #include "preprocess/read/ply/ply_vertices.h"
 #include "preprocess/read/scan/gaussian_capture.h"
 
@@ -176,8 +177,10 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
     check_count(in, element, header.format);
     const int list = find_index_list(element);
     if (&element == &vertices) {
-      mesh.vertices =
-          read_ply_vertices(in, element, point_set ? &options.scans.attributes : nullptr, listener.notes);
+      std::vector<std::string> attributes = options.scans.attributes;
+      if (has_splats(header))
+        for (const PlyProperty& property : element.properties) attributes.push_back(property.name);
+      mesh.vertices = read_ply_vertices(in, element, point_set ? &attributes : nullptr, listener.notes);
     } else if (list >= 0 && is_triangles(element)) {
       append_faces(in, element, vertices.count, list, mesh, skipped);
     } else if (const auto grid = range_grid_form(header, element);
@@ -188,7 +191,7 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
       skipped.push_back(element.name);
     }
   }
-  if (point_set) place_sensors(header, mesh.vertices);
+  if (point_set) place_sensors(header, mesh.vertices), take_remarks(header, mesh.vertices);
   if (!skipped.empty()) {
     listener.note(path, "skipped elements " + quoted_list(skipped));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 namespace splatray {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 template <typename Value>
 bool all_fit(const std::vector<double>& values, double least, double most) {
   return std::all_of(values.begin(), values.end(), [&](double v) {
+    if (std::isnan(v)) return std::is_floating_point_v<Value>;
     return v >= least && v <= most && static_cast<double>(static_cast<Value>(v)) == v;
   });
 }
@@ -25,8 +27,9 @@ std::vector<Value> converted(const std::vector<double>& values) {
 
 Column narrow_column(std::string_view name, std::vector<double> values) {
   constexpr double MOST_FLOAT = 3.4028234663852886e38;
+  const bool may_be_unknown = name == COLUMN_CHANGE;
   for (double& value : values)
-    if (!std::isfinite(value)) value = 0.0;
+    if (!std::isfinite(value)) value = may_be_unknown ? std::nan("") : 0.0;
   Column column{std::string(name), {}};
   if (all_fit<std::uint8_t>(values, 0.0, 255.0)) {
     column.values = converted<std::uint8_t>(values);

@@ -8,7 +8,7 @@
 namespace splatray {
 
 /// A column of these values, in the first of uint8, uint16, float and double that holds all of them exactly; what is no
-/// number is 0.
+/// number is 0, in COLUMN_CHANGE NaN.
 [[nodiscard]] Column narrow_column(std::string_view name, std::vector<double> values);
 
 }  // namespace splatray

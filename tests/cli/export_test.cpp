@@ -1,0 +1,56 @@
+/// splatray-preprocess -o of points: what its users meet.
+#include <fstream>
+
+#include "tests/cli/child_process.h"
+
+namespace splatray {
+namespace {
+
+class CliExport : public CliTest {
+ protected:
+  [[nodiscard]] ChildResult to(const std::string& output, std::vector<std::string> more = {},
+                               const Limits& limits = {}) const {
+    more.insert(more.begin(), {PREPROCESS, file("grid.ply"), "-o", output});
+    return run_program(more, {}, {}, SIGINT, limits);
+  }
+  void SetUp() override { write("grid.ply", grid_ply(false)); }
+};
+
+TEST_F(CliExport, EachFormatIsReadAgain) {
+  for (const char* name : {"a.ply", "a.las", "a.csv", "a.vtp", "A.PLY"}) {
+    const ChildResult result = to(file(name));
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.out.find("144 points -> 144 splats"), std::string::npos);
+    EXPECT_EQ(run_program({PREPROCESS, file(name), "-o", file("again.soct")}).code, 0) << name;
+  }
+}
+
+TEST_F(CliExport, OfASceneThatIsThere) {
+  ASSERT_EQ(to(file("a.soct")).code, 0);
+  ASSERT_EQ(to(file("a.ply")).code, 0);
+  std::filesystem::create_directory(file("b"));
+  ASSERT_EQ(run_program({PREPROCESS, file("a.soct"), "-o", file("b/grid.ply")}).code, 0);
+  const auto bytes = [&](const char* name) {
+    std::ifstream in(file(name), std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  EXPECT_TRUE(bytes("a.ply") == bytes("b/grid.ply"));
+  ASSERT_EQ(run_program({PREPROCESS, file("b/grid.ply"), "-o", file("b.soct")}).code, 0);
+  EXPECT_TRUE(bytes("a.soct").substr(1760) == bytes("b.soct").substr(1760)) << "all but the header's bounds";
+}
+
+TEST_F(CliExport, NothingIsLeftHalfWritten) {
+  for (const char* name : {"a.ply", "a.las", "a.csv", "a.vtp"}) {
+    expect_refused([&] { return to(file(name), {}, {.most_bytes = 3000}); }, 1, name);
+    expect_refused([&] { return to(file(std::string("none/") + name)); }, 1, "none");
+  }
+}
+
+TEST_F(CliExport, WhatCannotBeIsRefused) {
+  expect_refused([&] { return to(file("a.laz")); }, 2, "expected .soct, or .ply, .las, .csv or .vtp");
+  expect_refused([&] { return to(file("a.soct"), {"--keep-dropped"}); }, 2, "found --keep-dropped");
+  EXPECT_EQ(to(file("kept.las"), {"--keep-dropped"}).code, 0);
+}
+
+}  // namespace
+}  // namespace splatray
