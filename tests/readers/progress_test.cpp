@@ -2,7 +2,9 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <tuple>
 
+#include "tests/readers/las_file.h"
 #include "tests/readers/read_error.h"
 #include "tests/temp_folder.h"
 
@@ -80,6 +82,36 @@ TEST(ReadProgress, AscendsAndEveryReaderStopsWhenAsked) {
       EXPECT_EQ(error.code(), ExitCode::interrupted) << error.what();
     }
     EXPECT_EQ(calls, shares.size() / 2) << file;
+  }
+}
+
+/// Every point of scans and of a mesh's vertices, once and in order, LAS block by block.
+TEST(ReadPoints, AreShownOnceAsTheyAreRead) {
+  const TempFolder folder;
+  LasFile las;
+  for (int i = 0; i < 100'000; ++i) {
+    las.records.emplace_back().position[0] = i;
+  }
+  for (const auto& [name, bytes, calls] :
+       {std::tuple{"a.las", las.bytes(), std::size_t{2}}, std::tuple{"b.ply", grid_ply(20), std::size_t{1}},
+        std::tuple{"c.obj", grid_obj(20), std::size_t{1}}}) {
+    std::vector<glm::dvec3> seen;
+    std::size_t times = 0;
+    ReadOptions options;
+    options.points = [&](const SeenPoints& points) {
+      EXPECT_EQ(points.first, seen.size());
+      EXPECT_EQ(points.measured, std::string(name) != "c.obj");
+      seen.insert(seen.end(), points.points.position.begin() + static_cast<std::ptrdiff_t>(points.first),
+                  points.points.position.end());
+      ++times;
+    };
+    const Input input = read_input({folder.write(name, bytes)}, options);
+    if (std::string(name) == "c.obj") {
+      EXPECT_EQ(seen.size(), 400U) << "its vertices";
+    } else {
+      EXPECT_TRUE(seen == input.objects[0].points.position) << name;
+    }
+    EXPECT_GE(times, calls) << name;
   }
 }
 

@@ -195,6 +195,11 @@ void PointSampler::thin_out() {
 
 bool PointSampler::is_small() const { return size() <= FEW; }
 
+bool PointSampler::has_colors() const {
+  return std::any_of(colored_.begin(), colored_.end(),
+                     [&](std::uint8_t kind) { return kind == 1 || (kind == 2 && largest_ > 0); });
+}
+
 std::vector<std::uint32_t> PointSampler::own_colors() const {
   std::vector<std::uint32_t> colors(size());
   for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -212,9 +217,7 @@ Scene PointSampler::small_scene() const {
   object.material = default_material();
   object.measured = measured_;
   const std::vector<std::uint32_t> colors = own_colors();
-  const bool colored = std::any_of(colored_.begin(), colored_.end(), [&](std::uint8_t kind) {
-    return kind == 1 || (kind == 2 && largest_ > 0);
-  });
+  const bool colored = has_colors();
   const bool normals = std::any_of(kept_.normal.begin(), kept_.normal.end(),
                                    [](const glm::vec3& n) { return n != glm::vec3(0.0F); });
   Points& points = object.points;
@@ -252,8 +255,8 @@ OpenedPoints PointSampler::make() const {
   cloud.origin_world = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
   cloud.spacing_world = spacing_of(scene) *
                         std::sqrt(double(scene.data_pool.size()) / double(std::max<std::size_t>(size(), 1)));
-  cloud.color = shown.empty() || shown == "rgb" || shown == "plain" ? own_colors()
-                                                                    : height_colors(kept_.position, scene.up);
+  const bool as_stored = has_colors() && (shown.empty() || shown == "rgb" || shown == "plain");
+  cloud.color = as_stored || !measured_ ? own_colors() : height_colors(kept_.position, scene.up);
   cloud.position.reserve(size());
   for (const glm::dvec3& position : kept_.position)
     cloud.position.emplace_back(position - cloud.origin_world);

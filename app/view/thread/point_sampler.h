@@ -32,12 +32,13 @@ class PointSampler {
   /// Whether a scene of these points is made about as fast as what make() makes.
   [[nodiscard]] bool is_small() const;
 
-  /// Those kept so far, seen as the scene will be: a scene of a few of them is built to find out how. Where that would be coloured by
-  /// an attribute it is by height. Throws Error as build_scene does.
+  /// Those kept so far, seen as the scene will be: a scene of a few of them is built to find out how. Colours are
+  /// the points' own, of scans without any, or shown by an attribute, their heights'. Throws Error as build_scene does.
   [[nodiscard]] OpenedPoints make() const;
 
  private:
   [[nodiscard]] Scene small_scene() const;
+  [[nodiscard]] bool has_colors() const;
   [[nodiscard]] std::vector<std::uint32_t> own_colors() const;
   void keep(const Points& points, std::size_t i);
   void thin_out();
