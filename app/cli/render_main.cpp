@@ -8,7 +8,8 @@
 #include "app/library/image_file.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/picture_notes.h"
-#include "app/library/picture/render_sequence.h"
+#include "app/library/picture/series/orbit.h"
+#include "app/library/picture/series/render_sequence.h"
 #include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
@@ -56,6 +57,7 @@ void expose(const Sequence& sequence, SceneOnDevice& shown, const Camera& still,
 /// The request with what suits the scan where nothing is asked for.
 Request suited(const Request& asked, const LoadedScene& loaded) {
   Request request = loaded.request;
+  request.settings.aov = request.settings.aov || request.output.orbit_columns > 0;
   const bool shows = lower_extension(request.output.path) != ".exr" && !request.view.xray;
   request.output.denoise = request.output.denoise || (shows && suits_denoising(loaded.scene, asked));
   require_picture_memory(request);
@@ -79,7 +81,10 @@ SequenceListener reporting_on(ProgressLine& progress, const Request& request) {
     std::fprintf(stderr, "splatray-render: %s\n", sentence.c_str());
   };
   return {[&](const SequenceFrame& frame, std::size_t, double share) {
-            progress.show(request.output.many() ? "frame " + std::to_string(frame.number) : "tracing", share);
+            progress.show(request.output.many() || request.output.orbit_columns > 0
+                              ? "frame " + std::to_string(frame.number)
+                              : "tracing",
+                          share);
             return true;
           },
           [&request, say](const std::string& note) {
@@ -130,8 +135,10 @@ int render(int argc, char** argv) {
   expose(sequence, shown, still, request);
   report_choices(asked, request, loaded);
   times.upload_ms = watch.lap_ms();
-  const SequenceRecord record =
-      render_sequence(request, sequence, shown, still, reporting_on(progress, request));
+  const SequenceListener listener = reporting_on(progress, request);
+  const SequenceRecord record = request.output.orbit_columns > 0
+                                    ? render_orbit(request, shown, still, listener)
+                                    : render_sequence(request, sequence, shown, still, listener);
   progress.clear();
 
   if (!request.output.stats_json.empty())

@@ -1,6 +1,6 @@
 /// What a render did, as JSON for people and scripts.
 #pragma once
-#include "app/library/picture/render_sequence.h"
+#include "app/library/picture/series/render_sequence.h"
 
 namespace splatray {
 

@@ -190,6 +190,12 @@ std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata&
   return encode(std::move(contents.header), metadata, contents.bytes.data(), "png", "a PNG");
 }
 
+std::vector<unsigned char> encode_jpeg(DisplayImage image) {
+  image.alpha.clear();
+  PngContents contents = png_contents(image);
+  return encode(std::move(contents.header), {}, contents.bytes.data(), "jpeg", "a JPEG");
+}
+
 ExrPicture exr_picture(const Image& image, AovSet aovs, const Metadata& metadata) {
   ExrPicture picture{image.width,          image.height, {0, 0, image.width, image.height},
                      {"R", "G", "B", "A"}, {},           metadata};

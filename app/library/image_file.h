@@ -29,6 +29,8 @@ void write_png(const DisplayImage& image, const Metadata& metadata, const std::f
 
 /// The bytes that write_png writes.
 [[nodiscard]] std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata& metadata);
+/// A JPEG's, without alpha.
+[[nodiscard]] std::vector<unsigned char> encode_jpeg(DisplayImage image);
 
 /// The channels of a picture, or of a part of it, as an EXR holds them.
 struct ExrPicture {

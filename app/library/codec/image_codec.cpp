@@ -186,17 +186,25 @@ void encode_exr(const PictureHeader& header, const float* values, std::vector<un
   file.writePixels(header.height);
 }
 
+/// Behind the bytes of a file, as stb's writers ask for.
+void append(void* to, void* data, int size) {
+  const auto* from = static_cast<const unsigned char*>(data);
+  auto& list = *static_cast<std::vector<unsigned char>*>(to);
+  list.insert(list.end(), from, from + size);
+}
+
 bool encode_png(const PictureHeader& header, const void* values, std::vector<unsigned char>& bytes) {
-  const auto append = [](void* to, void* data, int size) {
-    const auto* from = static_cast<const unsigned char*>(data);
-    auto& list = *static_cast<std::vector<unsigned char>*>(to);
-    list.insert(list.end(), from, from + size);
-  };
   const auto channels = static_cast<int>(header.channels.size());
   const bool made = stbi_write_png_to_func(append, &bytes, header.width, header.height, channels, values,
                                            header.width * channels) != 0;
   if (made) add_png_text(bytes, header.attributes);
   return made;
+}
+
+bool encode_jpeg(const PictureHeader& header, const void* values, std::vector<unsigned char>& bytes) {
+  constexpr int QUALITY = 88;
+  const auto channels = static_cast<int>(header.channels.size());
+  return stbi_write_jpg_to_func(append, &bytes, header.width, header.height, channels, values, QUALITY) != 0;
 }
 
 bool encode(const char* format, const PictureHeader& header, const void* values,
@@ -206,8 +214,9 @@ bool encode(const char* format, const PictureHeader& header, const void* values,
       encode_exr(header, static_cast<const float*>(values), bytes);
       return true;
     }
-    if (encode_png(header, values, bytes)) return true;
-    error = "a PNG could not be made";
+    const bool jpeg = std::strcmp(format, "jpeg") == 0;
+    if (jpeg ? encode_jpeg(header, values, bytes) : encode_png(header, values, bytes)) return true;
+    error = jpeg ? "a JPEG could not be made" : "a PNG could not be made";
   } catch (const std::exception& thrown) {
     error = thrown.what();
   }

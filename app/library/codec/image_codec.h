@@ -33,7 +33,7 @@ struct ImageCodec {
   /// grows with what the file holds and not with what its header says.
   bool (*read_pixels)(const std::string& path, int first_row, int channels, const PixelSink& sink,
                       std::string& error);
-  /// The bytes of a picture's file, "png" of bytes or "openexr" of floats; nullptr in a library that only reads.
+  /// The bytes of a picture's file, "png" or "jpeg" of bytes or "openexr" of floats; nullptr in a library that only reads.
   bool (*encode)(const char* format, const PictureHeader& header, const void* values,
                  std::vector<unsigned char>& bytes, std::string& error);
 };

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/library/codec/json_vector.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/json_depth.h"
@@ -16,15 +17,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json coordinates_of(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
-
 const char* unit_name(MeasureUnit unit) {
   return unit == MeasureUnit::degrees ? "degree" : (unit == MeasureUnit::area ? "unit^2" : "unit");
 }
 
 Json geometry_of(const Measure& measure) {
   Json places = Json::array();
-  for (const SurfacePoint& point : measure.points) places.push_back(coordinates_of(point.place));
+  for (const SurfacePoint& point : measure.points) places.push_back(json_vector(point.place));
   if (measure.points.size() == 1) return {{"type", "Point"}, {"coordinates", places[0]}};
   if (measure.kind != MeasureKind::area) return {{"type", "LineString"}, {"coordinates", places}};
   places.push_back(places[0]);
@@ -38,12 +37,12 @@ Json properties_of(const Measure& measure, const glm::dvec3& up) {
     properties[value.name + "_within_95"] = value.within;
   }
   Json errors = Json::array();
-  for (const SurfacePoint& point : measure.points) errors.push_back(coordinates_of(point.error));
+  for (const SurfacePoint& point : measure.points) errors.push_back(json_vector(point.error));
   properties["errors"] = errors;
   if (!measure.fit) return properties;
   properties["radius_error"] = measure.fit->radius_error;
-  properties["center"] = coordinates_of(measure.fit->center);
-  properties["axis"] = coordinates_of(measure.fit->axis);
+  properties["center"] = json_vector(measure.fit->center);
+  properties["axis"] = json_vector(measure.fit->axis);
   properties["fitted_points"] = measure.fit->points;
   return properties;
 }
@@ -134,7 +133,7 @@ std::string geojson_text(std::span<const Measure> measures, const MeasureFrame& 
     const std::string name = crs.epsg > 0 ? "urn:ogc:def:crs:EPSG::" + std::to_string(crs.epsg) : crs.name;
     collection["crs"] = {{"type", "name"}, {"properties", {{"name", name}}}};
   }
-  collection["up"] = coordinates_of(frame.up);
+  collection["up"] = json_vector(frame.up);
   collection["features"] = features;
   return collection.dump(1) + "\n";
 }

@@ -88,12 +88,16 @@ Metadata picture_metadata(const Request& request, const Scene& scene, const View
           {"commit", COMMIT}};
 }
 
+DisplayImage shown_image(const Request& request, const Image& image) {
+  return display_image(image, display_of(request));
+}
+
 void write_output(const Request& request, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path) {
   if (request.view.made_sheet) write_sheet_places(request, image, path);
-  if (is_png(path)) return write_png(display_image(image, display_of(request)), metadata, path);
+  if (is_png(path)) return write_png(shown_image(request, image), metadata, path);
   if (lower_extension(path) != ".exr")
-    return write_sheet(request, display_image(image, display_of(request)), metadata, path);
+    return write_sheet(request, shown_image(request, image), metadata, path);
   ExrPicture picture = exr_picture(image, request.output.aovs, metadata);
   if (const PixelWindow window = request.view.window(); window.width > 0) {
     picture.width = request.view.width;
@@ -106,7 +110,7 @@ void write_output(const Request& request, const Image& image, const Metadata& me
 void require_match(const Request& request, const Image& image, const DisplayImage& reference) {
   const Tolerance tolerance{request.output.reference_threshold, request.output.reference_share,
                             request.output.reference_limit};
-  DisplayImage picture = display_image(image, display_of(request));
+  DisplayImage picture = shown_image(request, image);
   if (is_png(request.output.path)) quantise(picture);
   const Comparison comparison = compare(picture, reference, tolerance);
   const std::string numbers = describe(comparison, tolerance);

@@ -31,6 +31,9 @@ void require_outputs_writable(const Request& request);
 [[nodiscard]] Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
                                         const Device& device);
 
+/// The picture as files of 8 bits show it.
+[[nodiscard]] DisplayImage shown_image(const Request& request, const Image& image);
+
 /// Writes the picture in the format of its name. Throws Error (failed).
 void write_output(const Request& request, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path);

@@ -65,6 +65,9 @@ SuitedPicture suited_picture(const Scene& scene, const Request& asked) {
   const auto note = [&suited](const std::string& option) { suited.choices += " " + option; };
   if (!request.view.eye && !request.view.sheet && request.view.viewpoint == Viewpoint::automatic) {
     request.view.viewpoint = choose_viewpoint(scene);
+    // An orbit is from outside.
+    if (request.output.orbit_columns > 0 && request.view.viewpoint == Viewpoint::inside)
+      request.view.viewpoint = Viewpoint::dollhouse;
     request.settings.cutaway = request.view.look_in || request.view.viewpoint == Viewpoint::dollhouse;
     note(std::string("--view ") + viewpoint_name(request.view.viewpoint));
   }

@@ -60,6 +60,30 @@ Field frames_row() {
       [](const Request& request) { return frame_list_text(request.output.frames); });
 }
 
+Field orbit_row() {
+  return value_row(
+      "orbit", OUTPUT, "N[xHEIGHTS]",
+      "a page (-o FILE.html) of N pictures all around, from this many heights, in which one turns, zooms and "
+      "measures "
+      "without anything else, such as 36x3; default 0 = none",
+      [](Request& request, const std::string& text) {
+        constexpr std::uint32_t MOST = 360, MOST_ROWS = 16;
+        auto numbers = split_whole_numbers(text, 'x', 2);
+        if (numbers.empty()) numbers = split_whole_numbers(text, 'x', 1);
+        if (numbers.size() == 1) numbers.push_back(1);
+        if (numbers.empty() || numbers[0] > MOST || numbers[1] == 0 || numbers[1] > MOST_ROWS)
+          throw Expected{"up to 360 pictures and 16 heights such as 36 or 36x3"};
+        request.output.orbit_columns = numbers[0];
+        request.output.orbit_rows = numbers[1];
+      },
+      [](const Request& request) {
+        const Request::Output& output = request.output;
+        if (output.orbit_columns == 0) return std::string();
+        const std::string columns = std::to_string(output.orbit_columns);
+        return output.orbit_rows == 1 ? columns : columns + "x" + std::to_string(output.orbit_rows);
+      });
+}
+
 /// Of a program's run, not of a picture.
 std::vector<Field> file_fields() {
   constexpr FieldGroup FILES = FieldGroup::files;
@@ -108,6 +132,7 @@ std::vector<Field> output_fields() {
       number_row(
           "turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
           "this many pictures of a full turn about the scene's up axis through the target; default 0 = none"),
+      orbit_row(),
       frames_row(),
       switch_row("skip-existing", OUTPUT, MEMBER(output.skip_existing),
                  "leave out pictures whose file is whole and was made by the same command")};

@@ -102,6 +102,19 @@ void check_sheet(const Request& request) {
   if (view.ink && view.xray) fail("found --ink and --xray, expected one of them");
 }
 
+void check_orbit(const Request& request) {
+  const Request::Output& output = request.output;
+  if (output.orbit_columns == 0) return;
+  if (!output.path.empty() && lower_extension(output.path) != ".html")
+    fail("found --orbit with output '" + output.path.string() + "', expected a name ending in .html");
+  if (request.view.sheet || output.many() || request.view.window().width > 0 || !output.resume.empty() ||
+      !output.reference.empty() || request.view.lens_shift != glm::dvec2(0.0) ||
+      request.view.pixel_aspect != 1.0)
+    fail(
+        "found --orbit with --sheet, a sequence, a part of a picture, --resume, --reference, --lens-shift or "
+        "--pixel-aspect, expected none of these");
+}
+
 void check_noise(const Request& request) {
   const Request::Output& output = request.output;
   const bool one_sample = !request.settings.has_goal() && request.settings.samples < 2;
@@ -177,9 +190,11 @@ void require_inputs(const Request::Source& source) {
 void require_consistent(const Request& request) {
   const Request::Output& output = request.output;
   const std::string extension = lower_extension(output.path);
+  const bool orbit = output.orbit_columns > 0;
   const bool on_sheet =
       request.view.sheet && (extension == ".tif" || extension == ".svg" || extension == ".pdf");
-  if (!output.path.empty() && extension != ".png" && extension != ".exr" && !on_sheet)
+  if (!output.path.empty() && extension != ".png" && extension != ".exr" && !on_sheet &&
+      !(orbit && extension == ".html"))
     fail("found output '" + output.path.string() + "', expected a name ending in .png or .exr" +
          (request.view.sheet ? std::string(", .tif, .svg or .pdf") : std::string()));
   const bool aov = !request.view.sheet && request.settings.aov;
@@ -187,6 +202,7 @@ void require_consistent(const Request& request) {
     fail("found --aov with a " + extension + " output, expected .exr");
   check_camera(request.view);
   check_sheet(request);
+  check_orbit(request);
   check_noise(request);
   check_sequence(request);
   check_resume(request);

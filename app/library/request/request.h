@@ -127,13 +127,15 @@ struct Request {
     std::filesystem::path height_raster;  ///< of a sheet, .tif; empty = none
     std::filesystem::path camera_path;    ///< camera_file.h; empty = none
     std::uint32_t turntable = 0;          ///< frames of a full turn, 0 .. turntable - 1; 0 = none
-    std::vector<FrameRange> frames;       ///< empty = all
-    bool skip_existing = false;           ///< leave out pictures that exist
-    std::filesystem::path stats_json;     ///< empty = none
-    std::filesystem::path reference;      ///< empty = no comparison
-    double reference_threshold = 0.004;   ///< allowed error of a pixel, display-encoded 0..1
-    double reference_share = 0.0002;      ///< allowed share of pixels beyond it
-    double reference_limit = 0.012;       ///< no pixel may be beyond this
+    /// Pictures of a page: of a full turn, and heights; 0 = none.
+    std::uint32_t orbit_columns = 0, orbit_rows = 1;
+    std::vector<FrameRange> frames;      ///< empty = all
+    bool skip_existing = false;          ///< leave out pictures that exist
+    std::filesystem::path stats_json;    ///< empty = none
+    std::filesystem::path reference;     ///< empty = no comparison
+    double reference_threshold = 0.004;  ///< allowed error of a pixel, display-encoded 0..1
+    double reference_share = 0.0002;     ///< allowed share of pixels beyond it
+    double reference_limit = 0.012;      ///< no pixel may be beyond this
     bool list_devices = false;
     bool quiet = false;
     ProgressStyle progress = ProgressStyle::line;

@@ -4,6 +4,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/library/codec/json_vector.h"
+#include "app/library/codec/markup_text.h"
 #include "app/library/codec/sheet_codec.h"
 #include "app/library/measure/measure_file.h"
 #include "app/library/sheet/geotiff.h"
@@ -73,8 +75,6 @@ void write_heights(const Request& request, const Image& image) {
   write_tiff(raster, tags, request.output.height_raster);
 }
 
-nlohmann::ordered_json json_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 /// Where the file's pixels lie in the world.
 std::string description_of(const Sheet& sheet, const PixelWindow& window) {
   const glm::dvec2 corner = sheet.at(window.x, window.y) + sheet.origin;
@@ -85,10 +85,10 @@ std::string description_of(const Sheet& sheet, const PixelWindow& window) {
       {"pixel_world", sheet.pixel_world},
       {"unit_metres", sheet.unit_metres},
       {"crs", sheet.crs},
-      {"right", json_of(sheet.right)},
-      {"top", json_of(sheet.top)},
-      {"toward", json_of(sheet.toward)},
-      {"corner", json_of(corner.x * sheet.right + corner.y * sheet.top + sheet.near * sheet.toward)},
+      {"right", json_vector(sheet.right)},
+      {"top", json_vector(sheet.top)},
+      {"toward", json_vector(sheet.toward)},
+      {"corner", json_vector(corner.x * sheet.right + corner.y * sheet.top + sheet.near * sheet.toward)},
       {"corner_on_paper", {sheet.at(window.x, window.y).x, sheet.at(window.x, window.y).y}},
       {"depth_world", sheet.near - sheet.far}};
   return json.dump(1) + "\n";
@@ -98,13 +98,6 @@ std::string world_file(const GeoPlace& place) {
   const glm::dvec2 center = place.corner + glm::dvec2(0.5, -0.5) * place.pixel;
   return number_text(place.pixel) + "\n0\n0\n" + number_text(-place.pixel) + "\n" + number_text(center.x) +
          "\n" + number_text(center.y) + "\n";
-}
-
-std::string xml_text(const std::string& text) {
-  std::string escaped;
-  for (const char c : text)
-    escaped += c == '<' ? "&lt;" : (c == '>' ? "&gt;" : (c == '&' ? "&amp;" : std::string(1, c)));
-  return escaped;
 }
 
 }  // namespace
@@ -144,7 +137,7 @@ void write_sheet_places(const Request& request, const Image& image, const std::f
   write_text_file(world_file(place), beside(".pgw"));
   if (place.crs.empty()) return;
   write_text_file(place.crs + "\n", beside(".prj"));
-  write_text_file("<PAMDataset>\n  <SRS>" + xml_text(place.crs) + "</SRS>\n</PAMDataset>\n",
+  write_text_file("<PAMDataset>\n  <SRS>" + markup_text(place.crs) + "</SRS>\n</PAMDataset>\n",
                   beside(".png.aux.xml"));
 }
 

@@ -1,7 +1,7 @@
 #include "app/view/thread/save.h"
 
 #include "app/library/picture/picture_file.h"
-#include "app/library/picture/render_sequence.h"
+#include "app/library/picture/series/render_sequence.h"
 #include "app/view/model/document_request.h"
 
 namespace splatray {

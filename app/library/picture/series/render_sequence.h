@@ -6,7 +6,7 @@
 
 #include "app/library/picture/make_picture.h"
 #include "app/library/picture/scene_source.h"
-#include "app/library/picture/sequence.h"
+#include "app/library/picture/series/sequence.h"
 
 namespace splatray {
 

@@ -1,4 +1,4 @@
-#include "app/library/picture/sequence.h"
+#include "app/library/picture/series/sequence.h"
 
 #include <algorithm>
 

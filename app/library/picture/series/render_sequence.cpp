@@ -1,4 +1,4 @@
-#include "app/library/picture/render_sequence.h"
+#include "app/library/picture/series/render_sequence.h"
 
 #include <algorithm>
 #include <array>
