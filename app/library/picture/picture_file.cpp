@@ -58,6 +58,9 @@ void require_outputs_writable(const Request& request) {
   require_writable(request.output.path);
   if (!request.output.height_raster.empty()) require_writable(request.output.height_raster);
   if (!request.output.measures.empty()) static_cast<void>(read_measures(request.output.measures));
+  const std::string extension = lower_extension(request.output.path);
+  const bool drawn = request.view.sheet && extension != ".png" && extension != ".exr";
+  if (drawn || !request.output.height_raster.empty()) require_sheet_writer();
   if (!request.output.stats_json.empty()) require_writable(request.output.stats_json);
 }
 

@@ -20,8 +20,9 @@ namespace splatray {
 namespace {
 
 const SheetCodec& codec() {
-  static void* const function = module_function("splatray_sheet", "splatray_sheet_codec", ExitCode::failed,
-                                                "cannot load what writes sheets", ": the package splatray");
+  static void* const function =
+      module_function("splatray_sheet", "splatray_sheet_codec", ExitCode::failed,
+                      "cannot load what writes sheets", ": the package splatray-sheet");
   return *reinterpret_cast<decltype(&splatray_sheet_codec)>(function)();
 }
 
@@ -101,6 +102,8 @@ std::string world_file(const GeoPlace& place) {
 }
 
 }  // namespace
+
+void require_sheet_writer() { static_cast<void>(codec()); }
 
 void write_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
                  const std::filesystem::path& path) {

@@ -8,6 +8,9 @@
 
 namespace splatray {
 
+/// Throws Error (failed), which says what to install, where what writes sheets other than PNG and EXR, and height rasters, is not there.
+void require_sheet_writer();
+
 /// Writes a sheet in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, grid, bar
 /// and title around it as lines and letters. Throws Error (failed).
 void write_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
