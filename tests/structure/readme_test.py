@@ -29,6 +29,9 @@ SMALLER_IF = {"splatray-render": {"--mesh-points": "--mesh-points=2000", "--erro
               "splatray-preprocess": {"--mesh-points": "--mesh-points=2000"}}
 # In place of both, behind those that name one of these: a sheet has a size of its own.
 INSTEAD_IF = {"splatray-render": {"--sheet": "--samples=2"}}
+# Sheets of few pixels: of keys given twice the last one holds.
+COARSE = ('n=$#; while [ $n -gt 0 ]; do a=$1; shift; n=$((n - 1)); case "$a" in plan:*|section:*|elevation:*) a="$a,dpi=20";; esac; '
+          'set -- "$@" "$a"; done\n')
 
 
 def blocks(text, language):
@@ -78,7 +81,7 @@ def make_programs(folder, programs):
         more = "".join(f'case "$*" in *{option}[=\\ ]*) more="$more {smaller}";; esac\n' for option, smaller in SMALLER_IF[program.name].items())
         more += "".join(f'case "$*" in *{option}[=\\ ]*) more="{instead}";; esac\n' for option, instead in INSTEAD_IF.get(program.name, {}).items())
         (target / program.name).write_text(f'#!/bin/sh\ncase "$*" in *--list-devices*|*--help*) exec {program} "$@";; esac\n'
-                                           f'more="{SMALLER[program.name]}"\n{more}exec {program} "$@" $more\n')
+                                           f'{COARSE}more="{SMALLER[program.name]}"\n{more}exec {program} "$@" $more\n')
         (target / program.name).chmod(0o755)
 
 
