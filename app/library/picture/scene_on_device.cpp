@@ -4,9 +4,9 @@
 
 namespace splatray {
 
-void SceneOnDevice::open(const Scene& scene) {
+void SceneOnDevice::open(const Scene& scene, Scene* copy) {
   scene_ = nullptr;
-  tracer_.upload(scene);
+  copy != nullptr ? tracer_.upload_and_free(*copy) : tracer_.upload(scene);
   take_look(scene);
 }
 

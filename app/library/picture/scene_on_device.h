@@ -14,11 +14,12 @@ class SceneOnDevice {
   explicit SceneOnDevice(const Device& device, const TracerOptions& options = {})
       : device_(device), tracer_(device, options) {}
 
-  /// Uploads a scene, which must outlive its stay here, and shows it in its own look. Throws Error.
-  void open(const Scene& scene);
+  /// Uploads a scene, which must outlive its stay here, and shows it in its own look; instead of its pools those of a copy with
+  /// other colours and radii, if there is one, and frees them. Throws Error.
+  void open(const Scene& scene, Scene* copy = nullptr);
   /// As open, but frees the scene's pools, each as soon as it is on the device; all else of the scene stays.
   void open_and_free(Scene& scene);
-  /// Uploads other pools of the scene opened, and frees them: those of a copy with other colours and radii.
+  /// Uploads other pools of the scene opened, and frees them: those of a copy, as in open.
   void replace_pools(Scene& copy);
   [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
 

@@ -12,12 +12,19 @@ ObjectLooks two_sided(ObjectLooks looks) {
 
 }  // namespace
 
-void LiveScene::open(SharedScene scene) {
+void LiveScene::open(SharedScene scene, const AttributeOptions& attributes) {
   scene_.reset();
-  shown_.open(*scene);
-  scene_ = std::move(scene);
   attributes_ = {};
   legend_ = {};
+  if (attributes == AttributeOptions{}) {
+    shown_.open(*scene);
+  } else {
+    Scene copy = *scene;
+    legend_ = show_attributes(copy, attributes);
+    shown_.open(*scene, &copy);
+    attributes_ = attributes;
+  }
+  scene_ = std::move(scene);
 }
 
 void LiveScene::match(const Document& document, ViewMode mode) {

@@ -17,8 +17,8 @@ class LiveScene {
  public:
   explicit LiveScene(const Device& device) : shown_(device, {.pipeline_folder = user_cache_folder()}) {}
 
-  /// Uploads another scene. Throws Error.
-  void open(SharedScene scene);
+  /// Uploads another scene, with the colours and hidden points asked for. Throws Error.
+  void open(SharedScene scene, const AttributeOptions& attributes = {});
   /// Makes materials, lights, environment and up direction the document's, which is of the scene opened. Hidden objects
   /// stay hidden in `mode` facing, all others are two-sided there. Throws Error (input_unreadable) for an environment
   /// that cannot be read, once: the one before stays.

@@ -83,8 +83,10 @@ SharedFrame Progressive::trace_coarse() {
     trace_aovs(frame, coarse, {});
   frame.ms = milliseconds_since(start);
   frame.stats = live_.tracer().stats();
-  resolution_.learn(double(frame.view.width) * frame.view.height, frame.ms);
-  return coloured(std::move(frame));
+  const double pixels = double(frame.view.width) * frame.view.height;
+  SharedFrame shown = coloured(std::move(frame));
+  resolution_.learn(pixels, milliseconds_since(start));  // with its colouring, which the display waits for too
+  return shown;
 }
 
 SharedFrame Progressive::trace_fine(const std::function<bool()>& stop) {

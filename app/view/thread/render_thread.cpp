@@ -14,7 +14,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MANY_SPLATS = 500'000;
+constexpr std::size_t MANY_SPLATS = 4'000'000;
 
 }  // namespace
 
@@ -129,7 +129,7 @@ void RenderThread::open_now(const Pending& pending) {
     show_points(true, pending.window_px);
   }
   points_.reset();
-  live_.open(pending.scene);
+  live_.open(pending.scene, pending.document ? pending.document->attributes : AttributeOptions{});
 }
 
 /// Draws the points where they, or how they are seen, are new.
