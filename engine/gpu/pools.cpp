@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/base/all_cores.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 #include "engine/scene/pool_table.h"
@@ -88,14 +89,17 @@ std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const Devi
 template <typename Value>
 void upload_listed(Queue& queue, PagedBuffer& buffer, const std::vector<Value>& pool,
                    std::span<const std::uint32_t> references) {
-  constexpr std::ptrdiff_t PART = std::ptrdiff_t{1} << 18;
+  constexpr std::size_t PART = std::size_t{1} << 18U, SLICE = std::size_t{1} << 14U;
   if (pool.empty()) return;
-  for (auto part = references.begin(); part != references.end();) {
-    const auto end = part + std::min(PART, references.end() - part);
-    const std::vector<Value> list = listed(pool, std::vector(part, end));
-    buffer.upload(queue, std::as_bytes(std::span(list)),
-                  static_cast<std::size_t>(part - references.begin()) * sizeof(Value));
-    part = end;
+  std::vector<Value> list(std::min(PART, references.size()));
+  for (std::size_t begin = 0; begin < references.size(); begin += PART) {
+    const std::span<const std::uint32_t> part =
+        references.subspan(begin, std::min(PART, references.size() - begin));
+    on_all_cores((part.size() + SLICE - 1) / SLICE, [&](std::size_t slice) {
+      const std::size_t end = std::min((slice + 1) * SLICE, part.size());
+      for (std::size_t i = slice * SLICE; i < end; ++i) list[i] = pool[part[i]];
+    });
+    buffer.upload(queue, std::as_bytes(std::span(list).first(part.size())), begin * sizeof(Value));
   }
 }
 

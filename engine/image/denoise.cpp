@@ -1,22 +1,19 @@
 #include "engine/image/denoise.h"
 
-#include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
-#include <cmath>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "engine/base/vector_clones.h"
 #include "engine/image/sparks.h"
+#include "engine/image/surface_likeness.h"
 
 namespace splatray {
 namespace {
 
 constexpr int PASSES = 5;              ///< the last one's taps lie 16 pixels apart
 constexpr float BASE_LEAST = 0.05F;    ///< light of darker surfaces is that of such ones
-constexpr float DEPTH_SLACK = 1.0F;    ///< of the depth's change from pixel to pixel
 constexpr float NOISE_WIDTH = 1.5F;    ///< standard errors of a difference by which light may differ
 constexpr float OWN_WIDTH = 6.0F;      ///< the same in the half that is filtered, whose own outliers stay out
 constexpr float RIM_LIKENESS = 0.01F;  ///< less, and a neighbour is of another surface
@@ -25,227 +22,250 @@ constexpr float SMALL_KERNEL[] = {0.5F, 0.25F};       ///< of the guide
 
 float luminance(const vec3& color) { return glm::dot(color, vec3(0.2126F, 0.7152F, 0.0722F)); }
 
-/// Light of each pixel over its base colour, in two pictures of independent samples, and the variance of one of them.
+using Values = std::vector<float>;  ///< one a pixel
+
+/// One of two pictures of independent samples.
+struct Half {
+  std::array<Values, 3> rgb;
+};
+
+/// Light of each pixel over its base colour, and the variance of one of the halves.
 struct Light {
-  Halves halves;
-  std::vector<float> variance;
+  std::array<Half, 2> halves;
+  Values variance;
 };
 
 /// By what pixels are compared: the brightness of both halves, a little smoothed, and its variance.
 struct Guide {
-  std::array<std::vector<float>, 2> bright;
-  std::vector<float> variance;
+  std::array<Values, 2> bright;
+  Values variance;
 };
+
+float luminance(const Half& half, std::size_t i) {
+  return luminance(vec3(half.rgb[0][i], half.rgb[1][i], half.rgb[2][i]));
+}
+
+/// A guide from a pixel on.
+struct GuideRow {
+  const float *bright[2], *variance;
+
+  GuideRow(const Guide& guide, std::size_t pixel)
+      : bright{&guide.bright[0][pixel], &guide.bright[1][pixel]}, variance(&guide.variance[pixel]) {}
+};
+
+/// Weights of the neighbours' two halves: how alike the surfaces are, and the light beyond what noise explains (Rousselle et al.
+/// 2012, "Adaptive Rendering with Non-Local Means Filtering", sec. 4). Those of a half are the other's: they do not favour its own
+/// noise.
+SPLATRAY_VECTOR_CLONES void find_weights(const GuideRow& here, const GuideRow& there, const float* like,
+                                         float kernel, std::size_t count, float* __restrict weight_0,
+                                         float* __restrict weight_1) {
+  const float *here_0 = here.bright[0], *here_1 = here.bright[1], *here_variance = here.variance;
+  const float *there_0 = there.bright[0], *there_1 = there.bright[1], *there_variance = there.variance;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float own = here_variance[k], other = there_variance[k];
+    const float explained = own + (own < other ? own : other), noise = own + other;
+    const float apart_0 = here_0[k] - there_0[k], apart_1 = here_1[k] - there_1[k];
+    const float beyond_0 = apart_0 * apart_0 - explained, beyond_1 = apart_1 * apart_1 - explained;
+    const float excess_0 = beyond_0 > 0.0F ? beyond_0 : 0.0F, excess_1 = beyond_1 > 0.0F ? beyond_1 : 0.0F;
+    const float by_other = 1.0F / (NOISE_WIDTH * NOISE_WIDTH * noise + 1e-12F);
+    const float by_own = 1.0F / (OWN_WIDTH * OWN_WIDTH * noise + 1e-12F);
+    weight_0[k] = kernel * like[k] * decay(-(excess_1 * by_other + excess_0 * by_own));
+    weight_1[k] = kernel * like[k] * decay(-(excess_0 * by_other + excess_1 * by_own));
+  }
+}
+
+SPLATRAY_VECTOR_CLONES void add_weighted(const float* weight, const float* value, std::size_t count,
+                                         float* __restrict sum) {
+  for (std::size_t k = 0; k < count; ++k) sum[k] += weight[k] * value[k];
+}
+
+SPLATRAY_VECTOR_CLONES void add_variance(const float* weight, const float* variance, std::size_t count,
+                                         float* __restrict sum) {
+  for (std::size_t k = 0; k < count; ++k) sum[k] += weight[k] * weight[k] * variance[k];
+}
 
 class Filter {
  public:
   Filter(const Image& image, std::span<const vec4> base)
-      : image_(image),
-        base_(base),
-        width_(static_cast<int>(image.width)),
-        height_(static_cast<int>(image.height)),
-        slopes_(image.rgba.size()) {
-    for (int y = 0; y < height_; ++y)
-      for (int x = 0; x < width_; ++x) slopes_[at(x, y)] = slope(x, y);
-  }
+      : image_(image), base_(base), rows_(image.width, image.height), surfaces_(image) {}
 
-  Image run() const {
+  /// Image::rgba without noise.
+  std::vector<vec4> run() const {
     Light light = taken_apart();
-    limit_sparks(light.halves, image_.width);
-    const Image unfiltered = joined(light);
-    light = with_variance(std::move(light));
+    const std::vector<vec4> unfiltered = joined(light);
+    find_variance(light);
     for (int pass = 0; pass < PASSES; ++pass) light = filtered(light, guide_of(light), 1 << pass);
     return with_limited_rims(joined(light), unfiltered);
   }
 
  private:
-  [[nodiscard]] std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-  }
-  [[nodiscard]] bool is_surface(std::size_t i) const { return image_.aov[i].object != NO_OBJECT; }
   [[nodiscard]] vec3 base_of(std::size_t i) const { return glm::max(vec3(base_[i]), vec3(BASE_LEAST)); }
-
-  /// Calls work(row) for all rows, on all cores; what it writes is of its row alone.
-  template <class Work>
-  void for_rows(const Work& work) const {
-    std::atomic<int> next{0};
-    const auto take = [&] {
-      for (int y = next++; y < height_; y = next++) work(y);
-    };
-    std::vector<std::jthread> others;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(take);
-    take();
-  }
-
-  /// The least change of depth towards a neighbour, per pixel: at edges that of the pixel's own surface.
-  [[nodiscard]] vec2 slope(int x, int y) const {
-    const auto least = [&](int dx, int dy) {
-      const float here = image_.aov[at(x, y)].z;
-      float change = INFINITY;
-      for (const int side : {-1, 1}) {
-        const int u = x + side * dx, v = y + side * dy;
-        if (u < 0 || v < 0 || u >= width_ || v >= height_) continue;
-        const float step = std::abs(image_.aov[at(u, v)].z - here);
-        if (step < change) change = step;
-      }
-      return std::isfinite(change) ? change : 0.0F;
-    };
-    return {least(1, 0), least(0, 1)};
-  }
 
   [[nodiscard]] Light taken_apart() const {
     const std::size_t pixels = image_.rgba.size();
-    Light light{{std::vector<vec3>(pixels), std::vector<vec3>(pixels)}, {}};
+    Halves halves = {std::vector<vec3>(pixels), std::vector<vec3>(pixels)};
     const float share = image_.part_share;
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const vec3 all = vec3(image_.rgba[i]) / base_of(i), part = vec3(image_.part[i]) / base_of(i);
-      light.halves[0][i] = part;
-      light.halves[1][i] = (all - share * part) / (1.0F - share);
-    }
+    rows_.for_pieces([&](std::size_t first, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i) {
+        const vec3 all = vec3(image_.rgba[i]) / base_of(i), part = vec3(image_.part[i]) / base_of(i);
+        halves[0][i] = part;
+        halves[1][i] = (all - share * part) / (1.0F - share);
+      }
+    });
+    limit_sparks(halves, image_.width);
+    Light light;
+    for (std::size_t half = 0; half < 2; ++half)
+      for (int channel = 0; channel < 3; ++channel) {
+        Values& values = light.halves[half].rgb[static_cast<std::size_t>(channel)];
+        values.resize(pixels);
+        for (std::size_t i = 0; i < pixels; ++i) values[i] = halves[half][i][channel];
+      }
     return light;
   }
 
-  /// The image with this light.
-  [[nodiscard]] Image joined(const Light& light) const {
-    Image result = image_;
-    for (std::size_t i = 0; i < result.rgba.size(); ++i) {
-      const vec3 both = glm::mix(light.halves[1][i], light.halves[0][i], image_.part_share);
-      if (is_surface(i)) result.rgba[i] = vec4(both * base_of(i), result.rgba[i].w);
-    }
+  /// The image's pixels with this light.
+  [[nodiscard]] std::vector<vec4> joined(const Light& light) const {
+    std::vector<vec4> result = image_.rgba;
+    rows_.for_pieces([&](std::size_t first, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i) {
+        if (!surfaces_.is_surface(i)) continue;
+        vec3 both;
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          both[static_cast<int>(channel)] =
+              glm::mix(light.halves[1].rgb[channel][i], light.halves[0].rgb[channel][i], image_.part_share);
+        result[i] = vec4(both * base_of(i), result[i].w);
+      }
+    });
     return result;
   }
 
-  /// How much of one pixel's surface another one is.
-  [[nodiscard]] float likeness(std::size_t a, std::size_t b, int dx, int dy) const {
-    if (image_.aov[a].object != image_.aov[b].object) return 0.0F;
-    float facing = std::max(glm::dot(image_.aov[a].normal, image_.aov[b].normal), 0.0F);
-    for (int doubled = 0; doubled < 5; ++doubled) facing *= facing;  // to the power of 32
-    const float expected = slopes_[a].x * float(std::abs(dx)) + slopes_[a].y * float(std::abs(dy));
-    const float apart = std::abs(image_.aov[a].z - image_.aov[b].z);
-    return facing * std::exp(-apart / (DEPTH_SLACK * expected + 1e-4F * image_.aov[a].z));
+  /// Calls work(first, count) for the pieces that show a surface.
+  template <class Work>
+  void for_surfaces(const Work& work) const {
+    rows_.for_pieces([&](std::size_t first, std::size_t count) {
+      if (surfaces_.any_surface(first, count)) work(first, count);
+    });
   }
 
-  /// Calls take(pixel, its distance in x and y) for the pixels of a square around one that lie in the picture.
+  /// Calls take(taps, likeness) for each place of a square around a piece's pixels.
   template <class Take>
-  void around(int x, int y, int reach, int step, const Take& take) const {
-    for (int j = -reach; j <= reach; ++j)
-      for (int i = -reach; i <= reach; ++i) {
-        const int u = x + i * step, v = y + j * step;
-        if (u >= 0 && v >= 0 && u < width_ && v < height_) take(at(u, v), i, j);
-      }
+  void around(std::size_t first, std::size_t count, int reach, int step, const Take& take) const {
+    Piece like;
+    rows_.around(first, count, reach, step, [&](const Taps& taps) {
+      surfaces_.find(taps, like);
+      take(taps, like.data() + taps.first);
+    });
   }
 
-  [[nodiscard]] bool is_rim(int x, int y) const {
-    bool found = false;
-    around(x, y, 1, 1, [&](std::size_t tap, int dx, int dy) {
-      found = found || likeness(at(x, y), tap, dx, dy) < RIM_LIKENESS;
+  /// Which pixels have a neighbour of another surface.
+  [[nodiscard]] std::vector<char> rims() const {
+    std::vector<char> found(image_.rgba.size());
+    for_surfaces([&](std::size_t first, std::size_t count) {
+      around(first, count, 1, 1, [&](const Taps& taps, const float* like) {
+        for (std::size_t k = 0; k < taps.count; ++k) found[taps.center + k] |= like[k] < RIM_LIKENESS ? 1 : 0;
+      });
     });
     return found;
   }
 
   /// A pixel of two surfaces has a base colour of both, but its neighbours' light is that of one: the product may be brighter
   /// than both. It is made no brighter than the pixels around that are of one surface, or its own samples.
-  [[nodiscard]] Image with_limited_rims(const Image& image, const Image& unfiltered) const {
-    Image result = image;
-    std::vector<char> rims(image.rgba.size());
-    for_rows([&](int y) {
-      for (int x = 0; x < width_; ++x) rims[at(x, y)] = is_rim(x, y) ? 1 : 0;
-    });
-    for_rows([&](int y) {
-      for (int x = 0; x < width_; ++x) {
-        const std::size_t center = at(x, y);
-        if (rims[center] == 0 || !is_surface(center)) continue;
-        vec3 most(unfiltered.rgba[center]);
+  [[nodiscard]] std::vector<vec4> with_limited_rims(const std::vector<vec4>& filtered,
+                                                    const std::vector<vec4>& unfiltered) const {
+    const std::vector<char> rim = rims();
+    std::vector<vec4> result = filtered;
+    for_surfaces([&](std::size_t first, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i) {
+        if (rim[i] == 0 || !surfaces_.is_surface(i)) continue;
+        vec3 most(unfiltered[i]);
         bool alone = true;  // as all are where points lie loosely
-        around(x, y, 2, 1, [&](std::size_t tap, int, int) {
-          if (rims[tap] != 0) return;
+        rows_.around(i, 1, 2, 1, [&](const Taps& taps) {
+          if (rim[taps.tap] != 0) return;
           alone = false;
-          most = glm::max(most, vec3(image.rgba[tap]));
+          most = glm::max(most, vec3(filtered[taps.tap]));
         });
-        if (alone) continue;
-        result.rgba[center] = vec4(glm::min(vec3(image.rgba[center]), most), image.rgba[center].w);
+        if (!alone) result[i] = vec4(glm::min(vec3(filtered[i]), most), filtered[i].w);
       }
     });
     return result;
   }
 
   /// Two halves say little about one pixel's noise; the mean over 7 x 7 of the same surface estimates it.
-  [[nodiscard]] Light with_variance(Light light) const {
-    light.variance.assign(image_.rgba.size(), 0.0F);
-    for_rows([&](int y) {
-      for (int x = 0; x < width_; ++x) {
-        const std::size_t center = at(x, y);
-        if (!is_surface(center)) continue;
-        float sum = 0.0F, weights = 0.0F;
-        around(x, y, 3, 1, [&](std::size_t tap, int dx, int dy) {
-          const float weight = tap == center ? 1.0F : likeness(center, tap, dx, dy);
-          const float apart = luminance(light.halves[0][tap]) - luminance(light.halves[1][tap]);
-          sum += weight * 0.5F * apart * apart;
-          weights += weight;
-        });
-        light.variance[center] = sum / weights;
+  void find_variance(Light& light) const {
+    const std::size_t pixels = image_.rgba.size();
+    Values own(pixels);
+    rows_.for_pieces([&](std::size_t first, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i) {
+        const float apart = luminance(light.halves[0], i) - luminance(light.halves[1], i);
+        own[i] = 0.5F * apart * apart;
       }
     });
-    return light;
+    light.variance.assign(pixels, 0.0F);
+    for_surfaces([&](std::size_t first, std::size_t count) {
+      Piece sum{}, weights{};
+      around(first, count, 3, 1, [&](const Taps& taps, const float* like) {
+        add_weighted(like, &own[taps.tap], taps.count, &sum[taps.first]);
+        for (std::size_t k = 0; k < taps.count; ++k) weights[taps.first + k] += like[k];
+      });
+      for (std::size_t k = 0; k < count; ++k)
+        if (surfaces_.is_surface(first + k)) light.variance[first + k] = sum[k] / weights[k];
+    });
   }
 
   [[nodiscard]] Guide guide_of(const Light& light) const {
     const std::size_t pixels = light.variance.size();
-    Guide guide{{std::vector<float>(pixels), std::vector<float>(pixels)}, std::vector<float>(pixels)};
-    for_rows([&](int y) {
-      for (int x = 0; x < width_; ++x) {
-        const std::size_t center = at(x, y);
-        if (!is_surface(center)) continue;
-        vec2 bright(0.0F);
-        float variance = 0.0F, weights = 0.0F;
-        around(x, y, 1, 1, [&](std::size_t tap, int dx, int dy) {
-          const float weight = SMALL_KERNEL[std::abs(dx)] * SMALL_KERNEL[std::abs(dy)] *
-                               (tap == center ? 1.0F : likeness(center, tap, dx, dy));
-          bright += weight * vec2(luminance(light.halves[0][tap]), luminance(light.halves[1][tap]));
-          variance += weight * weight * light.variance[tap];
-          weights += weight;
-        });
-        guide.bright[0][center] = bright.x / weights;
-        guide.bright[1][center] = bright.y / weights;
-        guide.variance[center] = variance / (weights * weights);
+    std::array<Values, 2> bright{Values(pixels), Values(pixels)};
+    rows_.for_pieces([&](std::size_t first, std::size_t count) {
+      for (std::size_t half = 0; half < 2; ++half)
+        for (std::size_t i = first; i < first + count; ++i)
+          bright[half][i] = luminance(light.halves[half], i);
+    });
+    Guide guide{{Values(pixels), Values(pixels)}, Values(pixels)};
+    for_surfaces([&](std::size_t first, std::size_t count) {
+      Piece sums[2] = {}, variance{}, weights{}, weight;
+      around(first, count, 1, 1, [&](const Taps& taps, const float* like) {
+        const float kernel = SMALL_KERNEL[std::abs(taps.dx)] * SMALL_KERNEL[std::abs(taps.dy)];
+        for (std::size_t k = 0; k < taps.count; ++k) {
+          weight[k] = kernel * like[k];
+          weights[taps.first + k] += weight[k];
+        }
+        for (std::size_t half = 0; half < 2; ++half)
+          add_weighted(weight.data(), &bright[half][taps.tap], taps.count, &sums[half][taps.first]);
+        add_variance(weight.data(), &light.variance[taps.tap], taps.count, &variance[taps.first]);
+      });
+      for (std::size_t k = 0; k < count; ++k) {
+        if (!surfaces_.is_surface(first + k)) continue;
+        guide.bright[0][first + k] = sums[0][k] / weights[k];
+        guide.bright[1][first + k] = sums[1][k] / weights[k];
+        guide.variance[first + k] = variance[k] / (weights[k] * weights[k]);
       }
     });
     return guide;
   }
 
-  /// How alike the light of two pixels is in one half, beyond what noise explains (Rousselle et al. 2012, "Adaptive Rendering
-  /// with Non-Local Means Filtering", sec. 4).
-  static float light_likeness(const Guide& guide, std::size_t half, std::size_t a, std::size_t b,
-                              float width) {
-    const float apart = guide.bright[half][a] - guide.bright[half][b];
-    const float noise = guide.variance[a] + guide.variance[b];
-    const float excess = apart * apart - guide.variance[a] - std::min(guide.variance[a], guide.variance[b]);
-    return std::exp(-std::max(excess, 0.0F) / (width * width * noise + 1e-12F));
-  }
-
   [[nodiscard]] Light filtered(const Light& light, const Guide& guide, int step) const {
     Light result = light;
-    for_rows([&](int y) {
-      for (int x = 0; x < width_; ++x) {
-        const std::size_t center = at(x, y);
-        if (!is_surface(center)) continue;
-        vec3 sums[2] = {vec3(0.0F), vec3(0.0F)};
-        float variance = 0.0F, weights[2] = {0.0F, 0.0F};
-        around(x, y, 2, step, [&](std::size_t tap, int dx, int dy) {
-          const float kernel = KERNEL[std::abs(dx)] * KERNEL[std::abs(dy)];
-          const float like = tap == center ? 1.0F : likeness(center, tap, dx * step, dy * step);
-          if (like < 1e-4F) return;
-          // The weights of a half are the other's: they do not favour its own noise.
-          for (std::size_t half = 0; half < 2; ++half) {
-            const float weight = kernel * like * light_likeness(guide, 1 - half, center, tap, NOISE_WIDTH) *
-                                 light_likeness(guide, half, center, tap, OWN_WIDTH);
-            sums[half] += weight * light.halves[half][tap];
-            weights[half] += weight;
-            variance += half == 0 ? weight * weight * light.variance[tap] : 0.0F;
-          }
-        });
-        for (std::size_t half = 0; half < 2; ++half) result.halves[half][center] = sums[half] / weights[half];
-        result.variance[center] = variance / (weights[0] * weights[0]);
+    for_surfaces([&](std::size_t first, std::size_t count) {
+      std::array<Piece, 3> sums[2] = {};
+      Piece variance{}, weights[2] = {}, weight[2];
+      around(first, count, 2, step, [&](const Taps& taps, const float* like) {
+        const float kernel = KERNEL[std::abs(taps.dx / step)] * KERNEL[std::abs(taps.dy / step)];
+        find_weights({guide, taps.center}, {guide, taps.tap}, like, kernel, taps.count, weight[0].data(),
+                     weight[1].data());
+        for (std::size_t half = 0; half < 2; ++half) {
+          for (std::size_t k = 0; k < taps.count; ++k) weights[half][taps.first + k] += weight[half][k];
+          for (std::size_t channel = 0; channel < 3; ++channel)
+            add_weighted(weight[half].data(), &light.halves[half].rgb[channel][taps.tap], taps.count,
+                         &sums[half][channel][taps.first]);
+        }
+        add_variance(weight[0].data(), &light.variance[taps.tap], taps.count, &variance[taps.first]);
+      });
+      for (std::size_t k = 0; k < count; ++k) {
+        if (!surfaces_.is_surface(first + k)) continue;
+        for (std::size_t half = 0; half < 2; ++half)
+          for (std::size_t channel = 0; channel < 3; ++channel)
+            result.halves[half].rgb[channel][first + k] = sums[half][channel][k] / weights[half][k];
+        result.variance[first + k] = variance[k] / (weights[0][k] * weights[0][k]);
       }
     });
     return result;
@@ -253,16 +273,17 @@ class Filter {
 
   const Image& image_;
   const std::span<const vec4> base_;
-  const int width_, height_;
-  std::vector<vec2> slopes_;  ///< of depth, along x and y
+  const PixelRows rows_;
+  const SurfaceLikeness surfaces_;
 };
 
 }  // namespace
 
-Image denoised(const Image& image, std::span<const vec4> base) {
+Image denoised(Image image, std::span<const vec4> base) {
   assert(image.aov.size() == image.rgba.size() && image.part.size() == image.rgba.size() &&
          base.size() == image.rgba.size());
-  return Filter(image, base).run();
+  image.rgba = Filter(image, base).run();
+  return image;
 }
 
 }  // namespace splatray

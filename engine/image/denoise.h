@@ -11,6 +11,6 @@ namespace splatray {
 /// pictures show (Image::part): what is averaged of one is what the other finds alike beyond its noise (Rousselle et al. 2012,
 /// "Adaptive Rendering with Non-Local Means Filtering", sec. 4). What is bright by chance in one of the two alone loses light.
 /// Light is filtered, `base` (base colours of the same pixels, rgb linear) is not. Asserts that the image has aov and part.
-[[nodiscard]] Image denoised(const Image& image, std::span<const vec4> base);
+[[nodiscard]] Image denoised(Image image, std::span<const vec4> base);
 
 }  // namespace splatray

@@ -1,4 +1,4 @@
-/// Eight floats at a time, as the compiler's vectors: AVX2 takes them whole (vector_clones.h), every other processor in parts.
+/// Eight floats at a time, as the compiler's vectors: AVX2 takes them whole (vector_clones.h), every other CPU in parts.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -20,7 +20,7 @@ using LaneInts = std::int32_t __attribute__((vector_size(4 * LANES)));
   std::memcpy(to, &lanes, sizeof lanes);
 }
 
-/// Their sum, by pairs; the order is the same on every processor.
+/// Their sum, by pairs; the order is the same on every CPU.
 [[gnu::always_inline]] inline float sum_lanes(const Lanes& v) {
   return ((v[0] + v[4]) + (v[1] + v[5])) + ((v[2] + v[6]) + (v[3] + v[7]));
 }

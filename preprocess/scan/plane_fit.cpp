@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "preprocess/base/vector_clones.h"
+#include "engine/base/vector_clones.h"
 
 namespace splatray {
 namespace {

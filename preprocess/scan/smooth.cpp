@@ -7,7 +7,7 @@
 
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
-#include "preprocess/base/vector_clones.h"
+#include "engine/base/vector_clones.h"
 #include "preprocess/scan/reproject.h"
 #include "preprocess/surface/neighbours.h"
 

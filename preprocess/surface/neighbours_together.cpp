@@ -1,7 +1,7 @@
 /// Searches for many queries at a time.
 #include <array>
 
-#include "preprocess/base/vector_clones.h"
+#include "engine/base/vector_clones.h"
 #include "preprocess/surface/ball.h"
 
 namespace splatray {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/splat.h"
-#include "preprocess/base/vector_clones.h"
+#include "engine/base/vector_clones.h"
 #include "preprocess/surface/sheet.h"
 
 namespace splatray {

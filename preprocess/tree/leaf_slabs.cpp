@@ -12,7 +12,7 @@
 #include "engine/scene/leaf/slab.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/tree.h"
-#include "preprocess/base/vector_clones.h"
+#include "engine/base/vector_clones.h"
 
 namespace splatray {
 namespace {

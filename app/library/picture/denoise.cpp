@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/image/denoise.h"
@@ -114,7 +115,7 @@ std::string remove_noise(Tracer& tracer, const Look& look, const View& view, con
   const std::vector<vec4> base = base_colors(tracer, look, view, settings);
   static const std::optional<OpenImageDenoise> library = OpenImageDenoise::find();
   if (library) return "Open Image Denoise " + library->run(image, base);
-  image = denoised(image, base);
+  image = denoised(std::move(image), base);
   return "splatray's own filter";
 }
 

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <vector>
 
+#include "engine/base/all_cores.h"
+
 namespace splatray {
 namespace {
 
@@ -126,7 +128,12 @@ void CommandQueue::upload(VulkanBuffer& buffer, std::span<const std::byte> bytes
   assert(begin + bytes.size() <= buffer.size());
   if (bytes.empty()) return;
   if (buffer.mapped() != nullptr) {
-    std::memcpy(buffer.mapped() + begin, bytes.data(), bytes.size());
+    // Where the memory is new, most of the time goes into its pages, which all cores make at once.
+    constexpr std::size_t SLICE = std::size_t{1} << 20U;
+    on_all_cores((bytes.size() + SLICE - 1) / SLICE, [&](std::size_t slice) {
+      const std::size_t at = slice * SLICE;
+      std::memcpy(buffer.mapped() + begin + at, bytes.data() + at, std::min(SLICE, bytes.size() - at));
+    });
     return;
   }
   const VulkanBuffer& passed = staging(bytes.size());

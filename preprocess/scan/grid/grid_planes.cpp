@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "preprocess/base/lanes.h"
-#include "preprocess/base/vector_clones.h"
+#include "engine/base/vector_clones.h"
 
 namespace splatray {
 namespace {
