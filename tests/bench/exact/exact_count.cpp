@@ -55,8 +55,8 @@ ExactCount count_different(const BruteForce& brute, const std::vector<RayQuery>&
   return count;
 }
 
-ExactScene::ExactScene(const Device& device, Scene scene)
-    : scene_(std::move(scene)), tracer_(device), brute_(scene_) {
+ExactScene::ExactScene(const Device& device, Scene scene, bool in_regions)
+    : scene_(std::move(scene)), in_regions_(in_regions), tracer_(device), brute_(scene_) {
   tracer_.upload(scene_);
 }
 
@@ -69,8 +69,8 @@ void ExactScene::look(const std::vector<Material>& materials) {
 ExactScene::Traced ExactScene::compare(std::vector<RayQuery> rays, ExactCount& count) {
   Traced traced{std::move(rays), {}};
   if (traced.rays.empty()) return traced;
-  traced.hits = all_nearest(brute_, traced.rays, {});
-  count.add(count_different(brute_, traced.rays, traced.hits, tracer_.intersect(traced.rays, {})));
+  traced.hits = all_nearest(brute_, traced.rays, settings_);
+  count.add(count_different(brute_, traced.rays, traced.hits, tracer_.intersect(traced.rays, settings_)));
   return traced;
 }
 
@@ -87,6 +87,7 @@ void ExactScene::count_paths(const Traced& first, Next next, std::size_t rays, c
 
 void ExactScene::count(std::size_t rays, std::uint64_t seed, const Report& report) {
   Dice dice(seed);
+  if (in_regions_) settings_.region = random_region(scene_, dice);
   look(materials_with(scene_, seed % 2 == 0 ? Sides::one : Sides::both));
   ExactCount primary, shadow, mirrored, refracted, random;
   const Traced first = compare(random_primary_rays(scene_, rays, dice.seed()), primary);

@@ -34,7 +34,8 @@ struct ExactCount {
 /// A scene on the device and its brute force, with the same materials.
 class ExactScene {
  public:
-  ExactScene(const Device& device, Scene scene);
+  /// With `in_regions` rays meet what is in a region, another for each seed.
+  ExactScene(const Device& device, Scene scene, bool in_regions = false);
 
   /// Moves a splat in brute force alone, so that comparisons must differ.
   void move_splat(std::size_t index, const glm::dvec3& by_root) { brute_.move_splat(index, by_root); }
@@ -58,6 +59,8 @@ class ExactScene {
                    ExactCount& count);
 
   Scene scene_;
+  bool in_regions_;
+  Settings settings_;
   ShownTracer tracer_;
   BruteForceTree brute_;
 };

@@ -1,5 +1,5 @@
-/// splatray-bench-exact -o EXACTNESS.json [--rays N] [--minutes M] [--points N] [--piece N] [--scene NAME] [--device D]: counts
-/// the answers that differ from brute force in float64, and adds them to the counts of the same commit, device and scenes that
+/// splatray-bench-exact -o EXACTNESS.json [--rays N] [--minutes M] [--points N] [--piece N] [--scene NAME] [--regions] [--device D]:
+/// counts the answers that differ from brute force in float64, and adds them to the counts of the same commit, device and scenes that
 /// the file holds, piece by piece, so that a run may be ended and taken up at any time. JSON: a list of {scene, splats, kind,
 /// commit, date, device: {name, driver}, pieces} and the numbers of ExactCount.
 #include <chrono>
@@ -24,6 +24,7 @@ struct Options {
   std::filesystem::path output;
   std::string device, only;
   double minutes = 1e6;
+  bool regions = false;
   std::uint64_t rays = 10'000'000, points = 1'000'000, piece = 20'000;
 };
 
@@ -115,7 +116,9 @@ std::vector<Loaded> load_all(const Device& device, const Options& options) {
     std::optional<Scene> scene = exact_scene(name, options.points, data_folder().value_or(""));
     std::printf("%s: %s\n", name.c_str(), scene ? "made" : "left out, SPLATRAY_DATA_DIR does not hold it");
     std::fflush(stdout);
-    if (scene) list.push_back({name, number, std::make_unique<ExactScene>(device, std::move(*scene))});
+    if (!scene) continue;
+    list.push_back({name + (options.regions ? " in regions" : ""), number,
+                    std::make_unique<ExactScene>(device, std::move(*scene), options.regions)});
   }
   return list;
 }
@@ -153,6 +156,7 @@ int run(int argc, char** argv) {
   add_number(list, "--points", options.points, 1, 1e9, "of each scene");
   add_number(list, "--piece", options.piece, 1, 1e9, "rays of a kind between two looks at the clock");
   add_text(list, "--scene", options.only, "only this scene");
+  list.add_switch("--regions", options.regions, "rays meet what is in a region, another for each piece");
   add_text(list, "--device", options.device,
            "number or part of a name, as splatray-render --list-devices shows them");
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);

@@ -119,6 +119,27 @@ std::vector<RayQuery> following_rays(const Scene& scene, const std::vector<RayQu
   return following;
 }
 
+Region random_region(const Scene& scene, Dice& dice) {
+  const dvec3 middle = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+  const dvec3 size = scene.bounds_max_world - scene.bounds_min_world;
+  const auto box = [&] {
+    const dvec3 center = middle + 0.2 * size * dice.in_cube();
+    const dvec3 half = size * dvec3(dice.between(0.1, 0.4), dice.between(0.1, 0.4), dice.between(0.1, 0.4));
+    const auto planes = half_spaces({center - half, center + half, dice.between(0.0, 90.0)}, scene.up);
+    return std::vector<HalfSpace>(planes.begin(), planes.end());
+  };
+  Region region;
+  if (dice.chance(0.3)) {
+    region.kept = box();
+    return region;
+  }
+  for (std::uint64_t planes = 1 + dice.below(3); planes > 0; --planes)
+    region.kept.push_back(
+        {middle + 0.2 * size * dice.in_cube(), dice.chance(0.3) ? dice.axis() : dice.direction()});
+  if (dice.chance(0.5)) region.dropped = box();
+  return region;
+}
+
 std::vector<RayQuery> rays_from_anywhere(std::size_t count, Dice& dice) {
   std::vector<RayQuery> rays;
   while (rays.size() < count) rays.push_back(query_of(EDGE * (0.5 + dice.in_cube()), dice.direction()));

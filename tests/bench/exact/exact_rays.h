@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/image/region.h"
 #include "tests/property/dice.h"
 #include "tests/trace/brute_force.h"
 
@@ -20,6 +21,9 @@ enum class Next { shadow, mirrored, refracted };
 
 /// From anywhere within a root's edge of the root's middle, in any direction.
 [[nodiscard]] std::vector<RayQuery> rays_from_anywhere(std::size_t count, Dice& dice);
+
+/// A part of the scene: what is before one to three planes, in a turned box, or before a plane and out of a box.
+[[nodiscard]] Region random_region(const Scene& scene, Dice& dice);
 
 /// Kinds that look for trouble.
 inline constexpr std::array<std::string_view, 8> ADVERSARIAL{

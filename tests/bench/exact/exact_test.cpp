@@ -41,6 +41,17 @@ TEST(Exact, EveryKindNoticesMovedSplats) {
   for (const auto& [kind, count] : kinds) EXPECT_GT(count.different_hits(), 0U) << kind;
 }
 
+TEST(Exact, NoHitDiffersInRegions) {
+  ExactScene scene(shared_device(), exact_scene("room", 3000, "").value(), true);
+  std::uint64_t hits = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4})
+    for (const auto& [kind, count] : counts_of(scene, 1000, seed)) {
+      EXPECT_EQ(count.different_hits(), 0U) << kind << ", seed " << seed;
+      hits += count.hits;
+    }
+  EXPECT_GT(hits, 4000U) << "too few hits to mean anything";
+}
+
 TEST(Exact, OtherSeedsAreOtherRays) {
   ExactScene scene(shared_device(), exact_scene("torus", 500, "").value());
   EXPECT_NE(counts_of(scene, 1000, 6)["random"].hits, counts_of(scene, 1000, 8)["random"].hits);
