@@ -4,30 +4,17 @@ with world file and as GeoTIFF, whole and in tiles, in metres and feet: within 0
 import math
 import pathlib
 import random
-import shutil
 import struct
 import subprocess
 import sys
+
+from rasterio_python import rasterio_python
 
 render, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 SPHERES, RADIUS, SIDE, POINTS = 1000, 0.055, 8.0, 300
 ORIGIN = (431250.0, 5412360.0, 217.0)
 SHEET = "scale=50,dpi=150"
 PIXEL = 25.4 / 150 * 50 / 1000
-
-
-def reader():
-    """Python of a virtual environment that has rasterio."""
-    python = folder / "python"
-    if not (python / "bin/python").exists():
-        try:
-            subprocess.run([sys.executable, "-m", "venv", python], check=True, capture_output=True)
-            subprocess.run([python / "bin/pip", "install", "-q", "rasterio==1.4.3", "numpy==2.2.6"], check=True, capture_output=True)
-        except subprocess.CalledProcessError as error:
-            shutil.rmtree(python, ignore_errors=True)
-            print("skipped: PyPI's rasterio cannot be installed, or python3 -m venv fails:", error.stderr[-300:])
-            sys.exit(77)
-    return python / "bin/python"
 
 
 def centers():
@@ -114,7 +101,7 @@ def require(pixel, metre, _):
 
 def main():
     folder.mkdir(parents=True, exist_ok=True)
-    python = reader()
+    python = rasterio_python(folder.parent)
     places = centers()
     # The highest pixel's centre is at most half a diagonal from a sphere's top.
     fall = RADIUS - math.sqrt(RADIUS ** 2 - PIXEL ** 2 / 2)
