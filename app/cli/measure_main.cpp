@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/cli/load_reporting.h"
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
 #include "app/library/measure/measure_file.h"
 #include "app/library/measure/measure_text.h"
 #include "app/library/measure/surface_point.h"
+#include "app/library/picture/aimed_ray.h"
 #include "app/library/picture/scene_on_device.h"
 #include "app/library/picture/scene_source.h"
 #include "engine/base/error.h"
@@ -112,17 +114,15 @@ class Measured {
     if (!given.direction) return *nearest_point(scene_, region_, given.place);  // the region holds something
     Settings settings;
     settings.region = region_;
-    RayQuery ray{};
-    ray.origin = vec3(scene_.root.to_root(given.place));
-    ray.dir = vec3(glm::normalize(*given.direction));
-    ray.from_object = NO_OBJECT;
-    const RayHit hit = shown_.tracer().intersect(shown_.look(), {&ray, 1}, settings).front();
-    if (hit.object == NO_OBJECT)
+    const glm::dvec3 along = glm::normalize(*given.direction);
+    const std::optional<AimedRay> ray = aim_ray(scene_.root, given.place, along);
+    std::vector<RayHit> hits;
+    if (ray) hits = shown_.tracer().intersect(shown_.look(), {&ray->query, 1}, settings);
+    if (hits.empty() || hits[0].object == NO_OBJECT)
       throw Error(ExitCode::failed, "the ray from " + number_text(given.place) + " towards " +
                                         number_text(*given.direction) + " meets nothing");
-    const glm::dvec3 place =
-        scene_.root.to_world(glm::dvec3(ray.origin) + double(hit.t) * glm::dvec3(ray.dir));
-    return point_on_ray(scene_, {place, glm::dvec3(hit.normal)}, *given.direction);
+    const double t_world = (ray->start + double{hits[0].t}) * scene_.root.unit_world;
+    return point_on_ray(scene_, {given.place + t_world * along, glm::dvec3(hits[0].normal)}, along);
   }
 
   const Scene& scene_;
@@ -136,16 +136,7 @@ int run(int argc, char** argv) {
   if (!asked) return static_cast<int>(ExitCode::done);
   catch_interrupts();
   ProgressLine line(/*quiet=*/false);
-  LoadedScene loaded =
-      load_scene(asked->request, {[&](const char* stage, double share) {
-                                    line.show(stage, share);
-                                    return !interrupted();
-                                  },
-                                  [&](const std::string& note) {
-                                    line.clear();
-                                    std::fprintf(stderr, "splatray-measure: note: %s\n", note.c_str());
-                                  }});
-  line.clear();
+  LoadedScene loaded = load_reporting(asked->request, "splatray-measure", line);
   if (kind_of_scan(loaded.scene) == SceneKind::camera)
     std::fprintf(
         stderr,

@@ -81,8 +81,6 @@ void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
 }
 
-bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
-
 /// Writes the scene, or its points and what was left out.
 void write(const Scene& scene, const LeftOut& left_out, const std::filesystem::path& path,
            const Progress& progress) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <future>
 
+#include "app/cli/load_reporting.h"
 #include "app/cli/render_options.h"
 #include "app/cli/stats_json.h"
 #include "app/library/image_file.h"
@@ -29,21 +30,6 @@ int print_devices() {
                 devices[i].refused.empty() ? "" : "; unusable: ", devices[i].refused.c_str());
   std::printf("%s: %s\n", HOST_DEVICE, open_device(HOST_DEVICE)->info().name.c_str());
   return static_cast<int>(ExitCode::done);
-}
-
-LoadedScene load(const Request& request, ProgressLine& progress) {
-  LoadedScene loaded =
-      load_scene(request, {[&](const char* stage, double share) {
-                             progress.show(stage, share);
-                             return !interrupted();
-                           },
-                           [&](const std::string& note) {
-                             progress.clear();
-                             if (!request.output.quiet)
-                               std::fprintf(stderr, "splatray-render: note: %s\n", note.c_str());
-                           }});
-  progress.clear();
-  return loaded;
 }
 
 /// Decides the exposure where that is left to the picture. Of EXR files too, which keep it for what makes PNGs of them.
@@ -120,7 +106,7 @@ int render(int argc, char** argv) {
   // After the driver is there, as one library is loaded at a time.
   const std::future<void> codec = std::async(std::launch::async, load_image_codec);
   ProgressLine progress(asked.output.quiet, asked.output.progress);
-  LoadedScene loaded = load(asked, progress);
+  LoadedScene loaded = load_reporting(asked, "splatray-render", progress);
   Request request = suited(asked, loaded);
   for (const std::string& sentence : ignored_options(asked, choose_look(loaded.scene, request)))
     note(sentence);

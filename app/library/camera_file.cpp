@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/library/codec/json_file.h"
+#include "app/library/codec/json_vector.h"
 #include "engine/base/error.h"
-#include "engine/base/json_depth.h"
 #include "engine/base/number_text.h"
 #include "engine/file/atomic_file.h"
 #include "engine/image/view.h"
@@ -94,26 +94,15 @@ CameraKey read_key(const Json& json, const CameraPath& before, const Source& sou
 }
 
 Json read_json(const Source& source) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(source.path, error))
-    source.refuse(std::filesystem::exists(source.path, error) ? "a folder or device" : "no such file",
-                  "a JSON file");
-  std::ifstream file(source.path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (json_is_too_deep(text))
-    source.refuse("JSON that nests more than " + std::to_string(MOST_JSON_DEPTH) + " deep", "a JSON file");
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& damage) {
-    source.refuse("no JSON after byte " + std::to_string(damage.byte), "a JSON file");
-  } catch (const Json::out_of_range&) {
-    source.refuse("a number beyond float64", "finite numbers");
-  }
+  return read_json_file(source.path, [&source](const std::string& found, const std::string& expected) {
+    source.refuse(found, expected);
+  });
 }
 
 Json to_json(const Camera& camera) {
-  const auto array = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
-  Json json = {{"eye", array(camera.eye)}, {"target", array(camera.target)}, {"up", array(camera.up)}};
+  Json json = {{"eye", json_vector(camera.eye)},
+               {"target", json_vector(camera.target)},
+               {"up", json_vector(camera.up)}};
   if (camera.ortho_height > 0.0)
     json["ortho_height"] = camera.ortho_height;
   else

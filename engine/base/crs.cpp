@@ -1,7 +1,9 @@
 #include "engine/base/crs.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 
 #include "engine/base/number_text.h"
 
@@ -111,14 +113,28 @@ bool is_same_crs(std::string_view a, std::string_view b) {
   return !first.name.empty() && first.name == second.name;
 }
 
+namespace {
+
+/// Their numbers.
+struct NumberedUnit {
+  std::uint16_t code;
+  double metres;
+};
+constexpr std::array NUMBERED_UNITS = {NumberedUnit{9001, 1.0}, NumberedUnit{9002, 0.3048},
+                                       NumberedUnit{9003, 1200.0 / 3937.0}};
+
+}  // namespace
+
 double epsg_unit_metres(unsigned code) {
-  constexpr unsigned METRE = 9001;
-  constexpr unsigned INTERNATIONAL_FOOT = 9002;
-  constexpr unsigned US_SURVEY_FOOT = 9003;
-  constexpr double FOOT = 0.3048;
-  if (code == METRE) return 1.0;
-  if (code == US_SURVEY_FOOT) return 1200.0 / 3937.0;
-  return code == INTERNATIONAL_FOOT ? FOOT : 0.0;
+  for (const NumberedUnit& unit : NUMBERED_UNITS)
+    if (unit.code == code) return unit.metres;
+  return 0.0;
+}
+
+std::uint16_t epsg_unit(double metres) {
+  for (const NumberedUnit& unit : NUMBERED_UNITS)
+    if (std::abs(unit.metres - metres) < 1e-9) return unit.code;
+  return 0;
 }
 
 }  // namespace splatray

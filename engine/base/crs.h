@@ -1,5 +1,6 @@
 /// Coordinate reference systems as files name them: well-known text (OGC 01-009, ISO 19162), or EPSG's numbers.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -28,5 +29,7 @@ struct Crs {
 
 /// Metres of a unit of length by EPSG's number; 0 = another.
 [[nodiscard]] double epsg_unit_metres(unsigned code);
+/// EPSG's number of the unit of that many metres; 0 = another.
+[[nodiscard]] std::uint16_t epsg_unit(double metres);
 
 }  // namespace splatray

@@ -185,16 +185,13 @@ Found count_hits(const Ray& ray, Tally& tally, Cluster& cluster) {
 }
 
 Hit trace_watching(Ray ray, float kappa, uvec4 watched, Tally& tally) {
-  const bool wide = BLEND == BLEND_NEAREST || BLEND == BLEND_COUNT || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
+  const bool wide =
+      BLEND == BLEND_NEAREST || BLEND == BLEND_COUNT || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
   if (!wide) return trace_octree(ray, kappa, watched, tally);
   const Ray given = ray;
   bool enters = true;
   float t_start = 0.0f;
   const float shift = clip_to_root(ray, enters, t_start);
-  if (REGION) {
-    clip_to_region(ray);
-    enters = enters && ray.t_min < ray.t_max;
-  }
   if (WATCHES) enters = enters && ray.t_max >= 0.0f;
   Found found{no_first(), 0.0f, true};
   Cluster cluster = empty_cluster();

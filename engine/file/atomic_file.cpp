@@ -138,10 +138,14 @@ void AtomicFile::commit() {
 
 void require_writable(const fs::path& target) { const AtomicFile probe(target); }
 
-void write_text_file(const std::string& text, const fs::path& target, Links links) {
+void write_file(const void* bytes, std::uint64_t size, const fs::path& target, Links links) {
   AtomicFile output(target, links);
-  output.write(text.data(), text.size());
+  output.write(bytes, size);
   output.commit();
+}
+
+void write_text_file(const std::string& text, const fs::path& target, Links links) {
+  write_file(text.data(), text.size(), target, links);
 }
 
 }  // namespace splatray

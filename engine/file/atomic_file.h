@@ -42,6 +42,9 @@ class AtomicFile {
 void require_writable(const std::filesystem::path& target);
 
 /// Writes a whole file, or throws Error (failed) and leaves none.
+void write_file(const void* bytes, std::uint64_t size, const std::filesystem::path& target,
+                Links links = Links::follow);
+/// The same of a text.
 void write_text_file(const std::string& text, const std::filesystem::path& target,
                      Links links = Links::follow);
 

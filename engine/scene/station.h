@@ -1,9 +1,11 @@
 /// Where a scan was made from.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace splatray {
 
@@ -17,5 +19,12 @@ struct Station {
   double noise_world = 0.0;
   double step_world = 0.0;  ///< what its coordinates are multiples of, along the coarsest axis; 0 = unknown
 };
+
+/// The largest noise of several; 0 = unknown.
+[[nodiscard]] inline double most_noise_world(const std::vector<Station>& stations) {
+  double most = 0.0;
+  for (const Station& station : stations) most = std::max(most, station.noise_world);
+  return most;
+}
 
 }  // namespace splatray

@@ -1,4 +1,4 @@
-/// Selection by rank, as std::nth_element but without a branch per value that processors cannot predict.
+/// Selection by rank, as std::nth_element but without a branch per value that CPUs cannot predict.
 #pragma once
 #include <algorithm>
 #include <array>

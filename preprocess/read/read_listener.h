@@ -16,7 +16,7 @@ struct ReadListener {
   const Progress& progress;  ///< may be empty
   double begin = 0.0;        ///< the file's part of all reading, as shares of it
   double end = 1.0;
-  const PointsListener* points = nullptr;  ///< null: nobody hears of the file's points
+  const PointsListener* points = nullptr;  ///< null: no one hears of the file's points
   std::size_t* seen = nullptr;             ///< how many of them were heard of
 
   void note(const std::filesystem::path& path, const std::string& sentence) const {

@@ -110,25 +110,19 @@ glm::ivec3 stored_place(const PointTable& table, std::size_t i) {
                                     number_text(root.unit_world) + "; a .ply holds it");
 }
 
-std::string vlr(const std::string& user, std::uint16_t id, const std::string& content) {
+/// A record beside the points; `Size` is the type of its length, 16 bits before them, 64 behind.
+template <typename Size>
+std::string record(const std::string& user, std::uint16_t id, const std::string& content) {
   std::string bytes;
   append(std::uint16_t{0}, bytes);
   append_text(user, 16, bytes);
   append(id, bytes);
-  append(static_cast<std::uint16_t>(content.size()), bytes);
+  append(static_cast<Size>(content.size()), bytes);
   append_text("", 32, bytes);
   return bytes + content;
 }
-
-std::string evlr(const std::string& user, std::uint16_t id, const std::string& content) {
-  std::string bytes;
-  append(std::uint16_t{0}, bytes);
-  append_text(user, 16, bytes);
-  append(id, bytes);
-  append(std::uint64_t{content.size()}, bytes);
-  append_text("", 32, bytes);
-  return bytes + content;
-}
+constexpr auto vlr = record<std::uint16_t>;
+constexpr auto evlr = record<std::uint64_t>;
 
 std::string extra_bytes_vlr(const std::vector<const PointProperty*>& extra) {
   constexpr std::uint8_t TYPES[] = {1, 3, 5, 9, 10};
@@ -149,18 +143,13 @@ std::string extra_bytes_vlr(const std::vector<const PointProperty*>& extra) {
 
 /// GeoTIFF's keys for a system that is known by EPSG's numbers.
 std::string geo_keys_vlr(const Crs& crs) {
-  const auto unit = [](double metres) -> std::uint16_t {
-    for (const std::uint16_t code : {9001, 9002, 9003})
-      if (metres > 0.0 && epsg_unit_metres(code) == metres) return code;
-    return 0;
-  };
   const std::array<std::uint16_t, 2> keys[] = {
       {1024, static_cast<std::uint16_t>(crs.is_degrees ? 2 : 1)},
       {2048, static_cast<std::uint16_t>(crs.is_degrees ? crs.epsg : 0)},
       {3072, static_cast<std::uint16_t>(crs.is_degrees ? 0 : crs.epsg)},
-      {3076, unit(crs.horizontal_metres)},
+      {3076, epsg_unit(crs.horizontal_metres)},
       {4096, static_cast<std::uint16_t>(crs.vertical_epsg)},
-      {4099, unit(crs.vertical_metres)}};
+      {4099, epsg_unit(crs.vertical_metres)}};
   std::string content;
   std::uint16_t count = 0;
   for (const auto& [key, value] : keys) {

@@ -4,7 +4,6 @@
 #ifndef SPLATRAY_ACCEPT_GLSL
 #define SPLATRAY_ACCEPT_GLSL
 #include "trace/factors.glsl"
-#include "trace/region.glsl"
 #include "trace/walk.glsl"
 
 /// The splat that decides the cluster, while the ray looks for it.

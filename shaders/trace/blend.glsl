@@ -210,11 +210,6 @@ Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);
-  if (REGION) {
-    clip_to_region(ray);
-    enters = enters && ray.t_min < ray.t_max;
-    t_start = region_start(ray, t_start);
-  }
   if (WATCHES) enters = enters && ray.t_max >= 0.0f;
   Walk walk = walk_start(ray, t_start, enters);
   First first = no_first();

@@ -8,6 +8,7 @@
 #ifndef SPLATRAY_WALK_GLSL
 #define SPLATRAY_WALK_GLSL
 #include "trace/hit.glsl"
+#include "trace/region.glsl"
 #include "scene/slab.glsl"
 
 const float ROOT_SIZE = 2097152.0f;      ///< 2^LATTICE_BITS
@@ -59,7 +60,8 @@ uvec3 cell_at(Ray ray, float t, uvec3 low, uvec3 high) {
 /// misses the root, `t_start` is where its walk begins. An origin inside the root stays, exact as it is: in the plane
 /// of a disc it lies on, any rounding would move the hit. So does a secondary ray's, by which the sheet left is known,
 /// also when the surface between discs lies a little outside the root: walk_start takes the nearest cell. One that starts more
-/// than a root's side outside has left no sheet.
+/// than a root's side outside has left no sheet. The ray also ends where the region does, if there is one; `enters` is false
+/// where it misses that.
 float clip_to_root(INOUT(Ray) ray, OUT(bool) enters, OUT(float) t_start) {
   float t_enter = ray.t_min;
   float t_exit = ray.t_max;
@@ -89,6 +91,11 @@ float clip_to_root(INOUT(Ray) ray, OUT(bool) enters, OUT(float) t_start) {
   }
   ray.t_min = ray.t_min - shift;
   ray.t_max = ray.t_max - shift;
+  if (REGION) {
+    clip_to_region(ray);
+    enters = enters && ray.t_min < ray.t_max;
+    t_start = region_start(ray, t_start);
+  }
   return shift;
 }
 

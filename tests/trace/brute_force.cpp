@@ -28,6 +28,14 @@ double fall_of(double share) {
   return 3.0 * x * x - 2.0 * x * x * x;
 }
 
+/// Whether a place, root space, is in the region of these planes, the first `kept` of which it has to be inside of.
+bool is_in_region(const dvec3& place, const std::vector<vec4>& planes, std::size_t kept) {
+  const auto inside = [&](const vec4& plane) { return glm::dot(dvec3(plane), place) > double(plane.w); };
+  const auto kept_end = planes.begin() + static_cast<std::ptrdiff_t>(kept);
+  const bool dropped = kept_end != planes.end() && std::all_of(kept_end, planes.end(), inside);
+  return std::all_of(planes.begin(), kept_end, inside) && !dropped;
+}
+
 }  // namespace
 
 BruteForce::BruteForce(const Scene& scene) : root_(scene.root), materials_(scene.materials) {
@@ -86,15 +94,6 @@ bool BruteForce::counts(const Meeting& meeting, const RayQuery& query, const Set
   const bool from_behind =
       leaves_upwards == crosses_upwards && glm::length(from_center) < 4.0 * radius && like > 0.5;
   return !(in_slab || from_behind);
-}
-
-bool BruteForce::in_region(const dvec3& place, const Region& region) const {
-  if (region.empty()) return true;
-  const auto planes = region_planes(root_, region);
-  const auto inside = [&](const vec4& plane) { return glm::dot(dvec3(plane), place) > double(plane.w); };
-  const auto kept_end = planes.begin() + static_cast<std::ptrdiff_t>(region.kept.size());
-  const bool dropped = kept_end != planes.end() && std::all_of(kept_end, planes.end(), inside);
-  return std::all_of(planes.begin(), kept_end, inside) && !dropped;
 }
 
 bool BruteForce::is_ellipse(std::size_t index) const {
@@ -166,6 +165,7 @@ std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, con
   const dvec3 dir(query.dir);
   thread_local std::vector<std::uint32_t> near;
   find_near(query, near);
+  const std::vector<vec4> planes = region_planes(root_, settings.region);
   std::vector<Meeting> found;
   for (const std::uint32_t index : near) {
     const Splat& splat = splats_[index];
@@ -175,7 +175,7 @@ std::vector<BruteForce::Meeting> BruteForce::meetings(const RayQuery& query, con
     const double rho_squared = this->rho_squared(index, from_center);
     if (!(rho_squared <= splat.radius_squared) || !(t > double(query.t_min)) || !std::isfinite(t)) continue;
     if (!kept(index, from_center)) continue;
-    if (!in_region(origin + t * dir, settings.region)) continue;
+    if (!planes.empty() && !is_in_region(origin + t * dir, planes, settings.region.kept.size())) continue;
     const Meeting meeting{t, rho_squared / splat.radius_squared, cosine, index};
     if (counts(meeting, query, settings)) found.push_back(meeting);
   }

@@ -66,8 +66,6 @@ class BruteForce {
   };
   /// Whether an offset from a disc's centre is before its clip lines, by the rule in shaders/layout.h.
   [[nodiscard]] bool kept(std::size_t index, const glm::dvec3& from_center) const;
-  /// Whether a place, root space, is in the region.
-  [[nodiscard]] bool in_region(const glm::dvec3& place, const Region& region) const;
   [[nodiscard]] bool is_ellipse(std::size_t index) const;
   /// The squared distance from a splat's centre as an ellipse takes it, by the same rule.
   [[nodiscard]] double rho_squared(std::size_t index, const glm::dvec3& from_center) const;

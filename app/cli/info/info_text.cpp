@@ -6,6 +6,7 @@
 #include "app/cli/info/file_info.h"
 #include "app/library/attributes.h"
 #include "engine/base/crs.h"
+#include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
 #include "engine/base/one_line.h"
 #include "preprocess/base/counted_list.h"
@@ -44,10 +45,8 @@ class Lines {
 };
 
 std::string unit_text(double metres) {
-  if (metres == 1.0) return "metres";
-  if (metres == 0.3048) return "feet";
-  if (metres == 1200.0 / 3937.0) return "US survey feet";
-  return "units of " + short_text(metres) + " m";
+  const LengthUnit* unit = find_length_unit(metres);
+  return unit != nullptr ? unit->name : "units of " + short_text(metres) + " m";
 }
 
 std::string crs_text(const std::string& text) {

@@ -140,7 +140,7 @@ FileInfo read_info(const std::filesystem::path& path, bool heads_only, const Pro
   options.progress = progress;
   const ReadListener listener{info.notes, options.progress};
   const Format* format = find_format(path);
-  if (lower_extension(path) == ".soct") {
+  if (is_scene_file(path)) {
     add_scene(info, read_scene(path, progress));
   } else if (format != nullptr && format->read_scan != nullptr) {
     add_scan_file(info, format->read_scan(path, options, listener), heads_only);

@@ -20,11 +20,11 @@ inline constexpr std::uint32_t DEPTH_STEPS = 65535;
 struct OrbitPage {
   std::string title;
   std::uint32_t width = 0, height = 0;  ///< of the pictures, pixels
-  std::uint32_t depth_step = 1;         ///< a depth for each square of so many pixels, of its middle
-  double near = 0.0, far = 1.0;         ///< world units
-  double unit_metres = 0.0;             ///< of a world unit; 0 = unknown
-  std::uint32_t columns = 0;            ///< pictures of a full turn, from the same height one after the other
-  std::vector<OrbitPicture> pictures;   ///< from the lowest height to the highest
+  std::uint32_t depth_step = 1;  ///< edge of the squares of pixels that have a depth each, of their middle
+  double near = 0.0, far = 1.0;  ///< world units
+  double unit_metres = 0.0;      ///< of a world unit; 0 = unknown
+  std::uint32_t columns = 0;     ///< pictures of a full turn, from the same height one after the other
+  std::vector<OrbitPicture> pictures;  ///< from the lowest height to the highest
 };
 
 /// The page's text, UTF-8.

@@ -1,13 +1,12 @@
 #include "app/library/measure/measure_file.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/library/codec/json_file.h"
 #include "app/library/codec/json_vector.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
-#include "engine/base/json_depth.h"
 #include "engine/base/number_text.h"
 #include "engine/file/atomic_file.h"
 #include "preprocess/base/file_extension.h"
@@ -194,22 +193,18 @@ void write_measures(std::span<const Measure> measures, const MeasureFrame& frame
 }
 
 std::vector<Measure> read_measures(const std::filesystem::path& path) {
-  const auto refuse = [&path](const std::string& found) {
-    throw Error(ExitCode::input_unreadable, "cannot read measures '" + path.string() + "': " + found +
-                                                ", expected a .geojson of splatray-measure");
+  const auto refuse = [&path](const std::string& found, const std::string& expected) {
+    throw Error(ExitCode::input_unreadable,
+                "cannot read measures '" + path.string() + "': found " + found + ", expected " + expected);
   };
-  std::ifstream in(path, std::ios::binary);
-  if (!in) refuse("no such file");
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (json_is_too_deep(text)) refuse("JSON that is nested too deep");
+  const Json collection = read_json_file(path, refuse);
   std::vector<Measure> measures;
   try {
-    const Json collection = Json::parse(text);
     const Json& features = collection.at("features");
     if (!features.is_array()) throw std::runtime_error("features that are no list");
     for (const Json& feature : features) measures.push_back(measure_of(feature));
   } catch (const std::exception& error) {
-    refuse(error.what());
+    refuse(error.what(), "a .geojson of splatray-measure");
   }
   return measures;
 }

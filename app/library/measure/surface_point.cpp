@@ -74,11 +74,9 @@ double quadric_residual(const std::vector<Near>& near, const SurfaceSpot& spot) 
 
 double surface_error(const Scene& scene, const SurfaceSpot& spot) {
   const std::vector<Near> near = near_splats(scene, spot);
-  double noise = 0.0, step = scene.root.unit_world;
-  for (const Station& station : scene.stations) {
-    noise = std::max(noise, station.noise_world);
-    step = std::max(step, station.step_world);
-  }
+  const double noise = most_noise_world(scene.stations);
+  double step = scene.root.unit_world;
+  for (const Station& station : scene.stations) step = std::max(step, station.step_world);
   const double residual = near.empty() ? 0.0 : quadric_residual(near, spot);
   return std::sqrt(residual * residual + noise * noise / AVERAGED + step * step / 12.0);
 }

@@ -57,13 +57,6 @@ class Probe {
   Look look_;
 };
 
-/// The largest noise of a scene's scans, world units; 0 = unknown.
-double noise_of(const Scene& scene) {
-  double noise = 0.0;
-  for (const Station& station : scene.stations) noise = std::max(noise, station.noise_world);
-  return noise;
-}
-
 ChangeFound judge(const std::vector<float>& changes, double noise, double earlier_noise) {
   constexpr double SURE = 1.96;  // standard deviations
   ChangeFound found;
@@ -98,7 +91,8 @@ ChangeFound add_change(Scene& scene, const Scene& earlier, const Device& device,
       changes.push_back(std::isfinite(change) ? static_cast<float>(change) : NAN);
     }
   }
-  const ChangeFound found = judge(changes, noise_of(scene), noise_of(earlier));
+  const ChangeFound found =
+      judge(changes, most_noise_world(scene.stations), most_noise_world(earlier.stations));
   std::erase_if(scene.columns, [](const Column& column) { return column.name == COLUMN_CHANGE; });
   if (scene.columns.size() >= COLUMNS_MOST)
     throw Error(ExitCode::usage, "found " + std::to_string(scene.columns.size()) +

@@ -56,10 +56,6 @@ void render_samples(const Request& request, SceneOnDevice& shown, const Look& lo
   if (started) add_started(*started, settings.estimate_error, made.image, made.stats);
 }
 
-}  // namespace
-
-namespace {
-
 /// The picture of a request's own look.
 MadePicture traced_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
                            const Tracer::Progress& progress, Stopped stopped) {
@@ -97,8 +93,7 @@ MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Cam
                          const Tracer::Progress& progress, Stopped stopped) {
   if (!request.view.made_sheet) return traced_picture(request, shown, camera, progress, stopped);
   const Sheet& sheet = *request.view.made_sheet;
-  const PixelWindow window =
-      View{camera, request.view.width, request.view.height, request.view.window()}.made();
+  const PixelWindow window = request.view.made();
   MadePicture made;
   if (request.view.xray) {
     const Scene& scene = shown.scene();

@@ -26,16 +26,12 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-PixelWindow made_window(const Request& request) {
-  return View{{}, request.view.width, request.view.height, request.view.window()}.made();
-}
-
 }  // namespace
 
 bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
 
 std::uint64_t made_image_bytes(const Request& request) {
-  const PixelWindow made = made_window(request);
+  const PixelWindow made = request.view.made();
   const bool denoise = request.output.denoise;
   Settings settings = request.settings;
   settings.aov = settings.aov || denoise;
@@ -45,7 +41,7 @@ std::uint64_t made_image_bytes(const Request& request) {
 }
 
 void require_picture_memory(const Request& request) {
-  const PixelWindow made = made_window(request);
+  const PixelWindow made = request.view.made();
   const Request::Output& output = request.output;
   const std::size_t channels = 4 + count_channels(output.aovs);
   const std::uint64_t writing = is_png(output.path) ? PNG_WRITING_BYTES : exr_writing_bytes(channels);

@@ -67,7 +67,7 @@ std::optional<StartedPicture> read_started(const Request& request, const Scene& 
   if (kept.settings.samples >= request.settings.samples)
     refuse(file, std::to_string(kept.settings.samples) + " samples a pixel",
            "fewer than the " + std::to_string(request.settings.samples) + " of --samples");
-  const PixelWindow made = View{{}, request.view.width, request.view.height, request.view.window()}.made();
+  const PixelWindow made = request.view.made();
   if (header.width != request.view.width || header.height != request.view.height || header.window != made)
     refuse(file, "other pixels than those of its command", "a file as splatray-render writes it");
   return StartedPicture{image_of(read_exr(file)).rgba, kept.settings.samples};

@@ -125,8 +125,6 @@ std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLigh
   return lights;
 }
 
-bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
-
 /// Has occlusion reach as far as suits what a region holds. Throws Error (usage) where that is nothing.
 void suit_region(const Scene& scene, Request& request) {
   const Region region = region_of(request.view.region, scene.up);

@@ -12,8 +12,6 @@ namespace {
 
 [[noreturn]] void fail(const std::string& sentence) { throw Error(ExitCode::usage, sentence); }
 
-bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
-
 void check_sample_range(const Request& request) {
   constexpr std::uint32_t MOST = 65536;
   const std::uint32_t samples = request.settings.samples, offset = request.settings.sample_offset;
@@ -175,6 +173,8 @@ void forget_sheet(Request::View& view) {
   view.width = unset.width;
   view.height = unset.height;
 }
+
+bool is_scene_file(const std::filesystem::path& path) { return lower_extension(path) == ".soct"; }
 
 void require_scene_alone(const std::vector<std::filesystem::path>& inputs) {
   if (inputs.size() > 1 && std::any_of(inputs.begin(), inputs.end(), is_scene_file))

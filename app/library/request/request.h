@@ -98,6 +98,8 @@ struct Request {
 
     /// What of the picture is made: the crop's or the tile's window.
     [[nodiscard]] PixelWindow window() const;
+    /// That, or all pixels.
+    [[nodiscard]] PixelWindow made() const { return splatray::View{{}, width, height, window()}.made(); }
     bool operator==(const View&) const = default;
   };
 
@@ -162,6 +164,9 @@ void set_camera(Request::View& view, const Camera& camera);
 
 /// Without what came of the scene: as it was asked for, but for the size of the sheet's picture.
 void forget_sheet(Request::View& view);
+
+/// Whether it is a whole scene by its name, a .soct.
+[[nodiscard]] bool is_scene_file(const std::filesystem::path& path);
 
 /// Throws Error (usage), one sentence, where no input is named, or a .soct beside others.
 void require_inputs(const Request::Source& source);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/library/request/value_text.h"
+#include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
 
 namespace splatray {
@@ -25,12 +26,6 @@ constexpr std::array KINDS = {
     KindRow{"ortho", SheetKind::ortho, 3, "ortho:DX,DY,DZ, a direction to look in other than 0,0,0"},
 };
 
-struct UnitRow {
-  const char* name;
-  double metres;
-};
-constexpr std::array UNITS = {UnitRow{"m", 1.0}, UnitRow{"cm", 0.01}, UnitRow{"mm", 0.001},
-                              UnitRow{"ft", 0.3048}, UnitRow{"us-ft", 1200.0 / 3937.0}};
 constexpr std::array SIDES = {"north", "east", "south", "west"};
 
 const KindRow& row_of(SheetKind kind) {
@@ -51,11 +46,11 @@ double any_number(const std::string& key, const std::string& text) {
 }
 
 double unit_of(const std::string& text) {
-  for (const UnitRow& unit : UNITS)
-    if (text == unit.name) return unit.metres;
+  for (const LengthUnit& unit : LENGTH_UNITS)
+    if (text == unit.symbol) return unit.metres;
   const auto numbers = split_numbers(text, ',', 1);
   if (numbers.empty() || !(numbers[0] > 0.0))
-    throw Expected{"a unit of m, cm, mm, ft, us-ft or so many metres"};
+    throw Expected{"a unit of m, cm, mm, ft, us-ft or a number of metres"};
   return numbers[0];
 }
 

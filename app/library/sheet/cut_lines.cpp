@@ -41,10 +41,7 @@ std::vector<CutLine> cut_lines(const Scene& scene, const Region& region, const S
     // A little inside, where the plane itself is a border of the region.
     if (!region.holds(middle - 1e-6 * radius * n)) continue;
     const glm::dvec3 half = std::sqrt(radius * radius - away * away) / sine * along;
-    const auto on_paper = [&sheet](const glm::dvec3& place) {
-      return glm::dvec2(glm::dot(place, sheet.right), glm::dot(place, sheet.top));
-    };
-    lines.push_back({on_paper(middle - half), on_paper(middle + half)});
+    lines.push_back({sheet.on_paper(middle - half), sheet.on_paper(middle + half)});
   }
   return lines;
 }
@@ -53,12 +50,9 @@ void draw_cut(const Sheet& sheet, const PixelWindow& window, Image& image) {
   if (sheet.cut_lines.empty()) return;
   const double half_width = std::max(0.5 * sheet.asked.weight_mm / sheet.pixel_mm(), 0.5);  // pixels
   std::vector<float> covered(image.rgba.size(), 0.0F);
-  const auto pixel_of = [&](const glm::dvec2& place) {
-    const glm::dvec2 pixel = (place - sheet.corner) / sheet.pixel_world;
-    return glm::dvec2(pixel.x - window.x, -pixel.y - window.y);
-  };
+  const glm::dvec2 first(window.x, window.y);
   for (const CutLine& line : sheet.cut_lines) {
-    const CutLine drawn{pixel_of(line[0]), pixel_of(line[1])};
+    const CutLine drawn{sheet.pixel_of(line[0]) - first, sheet.pixel_of(line[1]) - first};
     const glm::dvec2 size(image.width, image.height), reach(half_width + 1.0);
     const glm::dvec2 low =
         glm::clamp(glm::floor(glm::min(drawn[0], drawn[1]) - reach), glm::dvec2(0.0), size);

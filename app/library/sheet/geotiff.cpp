@@ -29,13 +29,6 @@ class KeyDirectory {
   GeoTags& tags_;
 };
 
-/// EPSG's number of a unit of length; 0 = another.
-std::uint16_t unit_code(double metres) {
-  for (const std::uint16_t code : {9001, 9002, 9003})
-    if (std::abs(epsg_unit_metres(code) - metres) < 1e-9) return code;
-  return 0;
-}
-
 }  // namespace
 
 GeoTags geo_tags(const GeoPlace& place) {
@@ -51,7 +44,7 @@ GeoTags geo_tags(const GeoPlace& place) {
   if (!crs.name.empty()) keys.add(CITATION, crs.name);
   const auto code = static_cast<std::uint16_t>(known ? crs.epsg : USER_DEFINED);
   if (!place.crs.empty()) keys.add(degrees ? GEOGRAPHIC : PROJECTED, code);
-  const std::uint16_t unit = unit_code(crs.horizontal_metres);
+  const std::uint16_t unit = epsg_unit(crs.horizontal_metres);
   if (!place.crs.empty() && !degrees && unit > 0) keys.add(LINEAR_UNITS, unit);
   return tags;
 }

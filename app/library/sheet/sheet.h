@@ -39,6 +39,14 @@ struct Sheet {
   [[nodiscard]] std::vector<HalfSpace> planes() const;
   /// Millimetres of paper that a pixel takes.
   [[nodiscard]] double pixel_mm() const { return 25.4 / asked.dpi; }
+  /// A place of the world along right and top.
+  [[nodiscard]] glm::dvec2 on_paper(const glm::dvec3& place) const {
+    return {glm::dot(place, right), glm::dot(place, top)};
+  }
+  /// The pixel position, from the top left corner of the sheet, of a place along right and top.
+  [[nodiscard]] glm::dvec2 pixel_of(const glm::dvec2& place) const {
+    return (place - corner) / pixel_world * glm::dvec2(1.0, -1.0);
+  }
   /// Where pixel position (x, y), from the top left corner of the sheet, lies in the paper's coordinates.
   [[nodiscard]] glm::dvec2 at(double x, double y) const {
     return corner - origin + glm::dvec2(x, -y) * pixel_world;
@@ -49,8 +57,8 @@ struct Sheet {
 /// nothing on it, more pixels than a picture may have, or lengths in degrees.
 [[nodiscard]] Sheet make_sheet(const Scene& scene, const Request& request);
 
-/// Gives a request with --sheet the camera, size and region of its sheet, and what suits one: light of what is kept, nothing in the
-/// background, for --xray no tone. Throws as make_sheet does, and where --crop or --tile are beyond its pixels.
+/// Gives a request with --sheet the camera, size and region of its sheet, and what suits one: light of what is kept, nothing in
+/// the background, for --xray no tone. Throws as make_sheet does, and where --crop or --tile are beyond its pixels.
 void place_sheet(const Scene& scene, Request& request);
 
 }  // namespace splatray

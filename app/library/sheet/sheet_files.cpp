@@ -26,18 +26,8 @@ const SheetCodec& codec() {
   return *reinterpret_cast<decltype(&splatray_sheet_codec)>(function)();
 }
 
-PixelWindow made_window(const Request& request) {
-  return View{{}, request.view.width, request.view.height, request.view.window()}.made();
-}
-
 GeoPlace place_of(const Sheet& sheet, const PixelWindow& window) {
   return {sheet.at(window.x, window.y), sheet.pixel_world, sheet.north_up ? sheet.crs : std::string()};
-}
-
-void write_bytes(const std::vector<unsigned char>& bytes, const std::filesystem::path& path) {
-  AtomicFile file(path);
-  file.write(bytes.data(), bytes.size());
-  file.commit();
 }
 
 void write_tiff(const GeoRaster& raster, const GeoTags& tags, const std::filesystem::path& path) {
@@ -45,7 +35,7 @@ void write_tiff(const GeoRaster& raster, const GeoTags& tags, const std::filesys
   std::string reason;
   if (!codec().encode_tiff(raster, tags, bytes, reason))
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
-  write_bytes(bytes, path);
+  write_file(bytes.data(), bytes.size(), path);
 }
 
 void write_page(const Drawing& drawing, const std::string& format, const std::filesystem::path& path) {
@@ -53,7 +43,7 @@ void write_page(const Drawing& drawing, const std::string& format, const std::fi
   std::string reason;
   if (!codec().encode_drawing(drawing, format, bytes, reason))
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
-  write_bytes(bytes, path);
+  write_file(bytes.data(), bytes.size(), path);
 }
 
 /// Heights of a sheet from above, else distances behind the cut or the eye's plane.
@@ -70,7 +60,7 @@ void write_heights(const Request& request, const Image& image) {
     raster.floats.push_back(std::isfinite(pixel.z) ? static_cast<float>(value)
                                                    : std::numeric_limits<float>::quiet_NaN());
   }
-  GeoTags tags = geo_tags(place_of(sheet, made_window(request)));
+  GeoTags tags = geo_tags(place_of(sheet, request.view.made()));
   tags.no_data = "nan";
   tags.description = from_above ? "heights, world units" : "distances behind the sheet's plane, world units";
   write_tiff(raster, tags, request.output.height_raster);
@@ -108,7 +98,7 @@ void require_sheet_writer() { static_cast<void>(codec()); }
 void write_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
                  const std::filesystem::path& path) {
   const Sheet& sheet = *request.view.made_sheet;
-  const PixelWindow window = made_window(request);
+  const PixelWindow window = request.view.made();
   const std::string extension = lower_extension(path);
   if (extension == ".tif") {
     GeoTags tags = geo_tags(place_of(sheet, window));
@@ -127,7 +117,7 @@ void write_sheet(const Request& request, const DisplayImage& picture, const Meta
 
 void write_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path) {
   const Sheet& sheet = *request.view.made_sheet;
-  const PixelWindow window = made_window(request);
+  const PixelWindow window = request.view.made();
   const GeoPlace place = place_of(sheet, window);
   const auto beside = [&path](const char* extension) {
     return std::filesystem::path(path).replace_extension(extension);

@@ -8,17 +8,18 @@
 
 namespace splatray {
 
-/// Throws Error (failed), which says what to install, where what writes sheets other than PNG and EXR, and height rasters, is not there.
+/// Throws Error (failed), which says what to install, where what writes height rasters, and sheets other than PNG and EXR, is
+/// not there.
 void require_sheet_writer();
 
-/// Writes a sheet in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, grid, bar
-/// and title around it as lines and letters. Throws Error (failed).
+/// Writes a sheet in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, and
+/// grid, bar and title around it as lines and letters. Throws Error (failed).
 void write_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
                  const std::filesystem::path& path);
 
-/// Writes what says where the pixels of a file lie, below its name: NAME.sheet.json; beside a PNG or TIFF a world file (ESRI; centre
-/// of the top left pixel), beside a PNG with a known system NAME.png.aux.xml (GDAL) and NAME.prj; and --height-raster. Throws Error
-/// (failed).
+/// Writes what says where the pixels of a file lie, below its name: NAME.sheet.json; beside a PNG or TIFF a world file (ESRI;
+/// centre of the top left pixel), beside a PNG with a known system NAME.png.aux.xml (GDAL) and NAME.prj; and --height-raster.
+/// Throws Error (failed).
 void write_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path);
 
 }  // namespace splatray

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "engine/base/crs.h"
+#include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
 
 namespace splatray {
@@ -41,10 +42,8 @@ std::string fixed(double value, int digits) {
 
 /// A length in the file's units, such as "1.2 m".
 std::string length_text(const Sheet& sheet, double world) {
-  const auto is = [&](double metres) { return std::abs(sheet.unit_metres - metres) < 1e-6 * metres; };
-  const char* unit =
-      is(1.0) ? " m" : (is(0.3048) ? " ft" : (is(0.01) ? " cm" : (is(0.001) ? " mm" : " units")));
-  return number_text(std::round(world * 1e6) / 1e6) + unit;
+  const LengthUnit* unit = find_length_unit(sheet.unit_metres);
+  return number_text(std::round(world * 1e6) / 1e6) + " " + (unit != nullptr ? unit->symbol : "units");
 }
 
 class Page {
@@ -201,10 +200,8 @@ void draw_measures(const Sheet& sheet, const PixelWindow& window, std::span<cons
                    const glm::dvec3& up, Drawing& page) {
   constexpr double MARK = 0.8, LINE = 0.25, BESIDE = 1.2;
   const auto on_page = [&](const glm::dvec3& place) {
-    const glm::dvec2 pixel =
-        (glm::dvec2(glm::dot(place, sheet.right), glm::dot(place, sheet.top)) - sheet.corner) /
-        sheet.pixel_world;
-    return page.raster.corner + glm::dvec2(pixel.x - window.x, -pixel.y - window.y) * sheet.pixel_mm();
+    const glm::dvec2 pixel = sheet.pixel_of(sheet.on_paper(place)) - glm::dvec2(window.x, window.y);
+    return page.raster.corner + pixel * sheet.pixel_mm();
   };
   const glm::dvec2 low = page.raster.corner, high = low + page.raster.size;
   const auto is_on = [&](const glm::dvec2& at) {

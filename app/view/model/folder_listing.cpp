@@ -16,9 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t MOST_ENTRIES = 5000;
 
-bool can_be_opened(const fs::path& file) {
-  return lower_extension(file) == ".soct" || find_format(file) != nullptr;
-}
+bool can_be_opened(const fs::path& file) { return is_scene_file(file) || find_format(file) != nullptr; }
 
 }  // namespace
 

@@ -21,7 +21,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEW = std::size_t{1} << 14U;  ///< points of the scene that tells how all are seen
+constexpr std::size_t FEW = std::size_t{1} << 14U;  ///< points of the scene that decides how all are seen
 /// Points of a scene that a picture is made of in no time.
 constexpr std::size_t FEW_HUNDRED_THOUSAND = 400'000;
 constexpr double OUTSIDE = 0.02;             ///< of the heights at each end, beyond the colours' range

@@ -14,13 +14,14 @@ struct OpenedPoints {
   Document document;
 };
 
-/// An even sample of a scene's splats, coloured as the document asks for, about: what is seen while the scene is brought to the device.
+/// An even sample of a scene's splats, coloured about as the document asks for: what is seen while the scene is brought to the
+/// device.
 [[nodiscard]] PointCloud points_of(const Scene& scene, const Document& document);
 
 /// For one thread at a time.
 class PointSampler {
  public:
-  /// Most points kept; so many that a screen is filled and a frame of them takes some hundredths of a second.
+  /// Most points kept: enough to fill a screen, and a frame of them takes some hundredths of a second.
   static constexpr std::size_t MOST = 1'500'000;
 
   /// `asked` as load_scene gets it.
@@ -45,7 +46,7 @@ class PointSampler {
 
   Request asked_;
   Points kept_;  ///< position, stations and station; normal where given
-  /// Beside them, as stored: 8 bits where `colored_` is 1, of a scale that all files together tell where 2, none where 0.
+  /// Beside them, as stored: 8 bits where `colored_` is 1, of a scale that all files together decide where 2, none where 0.
   std::vector<glm::u16vec3> stored_;
   std::vector<std::uint8_t> colored_;
   std::uint16_t largest_ = 0;  ///< channel of those whose scale is open

@@ -88,7 +88,7 @@ fs::path SceneCache::place_of(const Request& request) const {
   if (folder_.empty() || source.inputs.empty()) return {};
   std::string text = std::string(COMMIT) + '\0' + options_of(request) + '\0';
   for (const fs::path& input : source.inputs) {
-    if (lower_extension(input) == ".soct" || names_others(input)) return {};
+    if (is_scene_file(input) || names_others(input)) return {};
     describe(input, text);
   }
   if (!source.scans.trajectory.empty()) describe(source.scans.trajectory, text);

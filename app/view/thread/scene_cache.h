@@ -21,8 +21,8 @@ class SceneCache {
   explicit SceneCache(std::filesystem::path folder, std::uint64_t most_bytes = MOST_BYTES)
       : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
-  /// Where the scene of a request is kept: by path, size and time of its files, and by whatever else it depends on. Empty where it
-  /// is not, as files that name others (glTF, VTK's pieces) do not tell when those change, and a .soct needs no keeping.
+  /// Where the scene of a request is kept: by path, size and time of its files, and by whatever else it depends on. Empty where
+  /// it is not, as files that name others (glTF, VTK's pieces) do not show when those change, and a .soct needs no keeping.
   [[nodiscard]] std::filesystem::path place_of(const Request& request) const;
   /// The scene that keep() was given for an equal request while its files are as they were. A damaged one goes. Throws Error
   /// (interrupted) when `progress` says so.
