@@ -77,7 +77,9 @@ SuitedPicture suited_picture(const Scene& scene, const Request& asked) {
     note("--color-by " + request.look.attributes.color_by);
   }
   if (!request.look.style && choose_look(scene, request) == LOOK_SCAN) {
-    request.look.style = request.look.attributes.color_by == "rgb" || inside ? LOOK_SCAN : LOOK_LIT;
+    // A section lies in the shade of what is above it: the sky's light shows it, too.
+    const bool all_lit = request.look.attributes.color_by == "rgb" || inside || request.view.sheet;
+    request.look.style = all_lit ? LOOK_SCAN : LOOK_LIT;
     note(*request.look.style == LOOK_LIT ? "--look lit" : "--look scan");
   }
   if (!suited.choices.empty()) suited.choices = std::string(scan_kind_name(kind)) + ":" + suited.choices;
