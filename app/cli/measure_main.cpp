@@ -6,14 +6,10 @@
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
 #include "app/library/measure/measure_file.h"
-#include "app/library/measure/measure_text.h"
-#include "app/library/measure/surface_point.h"
-#include "app/library/picture/aimed_ray.h"
-#include "app/library/picture/scene_on_device.h"
+#include "app/library/picture/measuring.h"
 #include "app/library/picture/scene_source.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
-#include "engine/base/number_text.h"
 #include "engine/base/progress.h"
 #include "engine/file/atomic_file.h"
 #include "engine/image/scan_kind.h"
@@ -85,52 +81,6 @@ std::optional<Asked> parse(int argc, char** argv) {
   return asked;
 }
 
-/// A scene whose pools stay here, and the rays that meet it.
-class Measured {
- public:
-  Measured(const Asked& asked, LoadedScene& loaded)
-      : scene_(loaded.scene),
-        region_(region_of(asked.request.view.region, loaded.scene.up)),
-        device_(open_device(HOST_DEVICE)),
-        shown_(*device_) {
-    shown_.open(scene_);
-  }
-
-  [[nodiscard]] Measure measure(const GivenMeasure& given) {
-    Measure measure{given.kind, {}};
-    for (const GivenPlace& place : given.places) measure.points.push_back(find(place));
-    if (given.reach > 0.0)
-      measure.fit = radius_near(scene_, region_, measure.points[0].place, given.reach, given.kind);
-    if (given.reach > 0.0 && !measure.fit)
-      throw Error(ExitCode::failed, std::string("cannot fit a ") + measure_name(given.kind) + " within " +
-                                        number_text(given.reach) + " of " +
-                                        number_text(measure.points[0].place) +
-                                        ": what is there lies in a plane, or is too little");
-    return measure;
-  }
-
- private:
-  SurfacePoint find(const GivenPlace& given) {
-    if (!given.direction) return *nearest_point(scene_, region_, given.place);  // the region holds something
-    Settings settings;
-    settings.region = region_;
-    const glm::dvec3 along = glm::normalize(*given.direction);
-    const std::optional<AimedRay> ray = aim_ray(scene_.root, given.place, along);
-    std::vector<RayHit> hits;
-    if (ray) hits = shown_.tracer().intersect(shown_.look(), {&ray->query, 1}, settings);
-    if (hits.empty() || hits[0].object == NO_OBJECT)
-      throw Error(ExitCode::failed, "the ray from " + number_text(given.place) + " towards " +
-                                        number_text(*given.direction) + " meets nothing");
-    const double t_world = (ray->start + double{hits[0].t}) * scene_.root.unit_world;
-    return point_on_ray(scene_, {given.place + t_world * along, glm::dvec3(hits[0].normal)}, along);
-  }
-
-  const Scene& scene_;
-  Region region_;
-  std::unique_ptr<Device> device_;
-  SceneOnDevice shown_;
-};
-
 int run(int argc, char** argv) {
   const std::optional<Asked> asked = parse(argc, argv);
   if (!asked) return static_cast<int>(ExitCode::done);
@@ -142,9 +92,13 @@ int run(int argc, char** argv) {
         stderr,
         "splatray-measure: note: the scan is a depth camera's, whose depths may be farther off than the "
         "intervals say\n");
-  Measured measured(*asked, loaded);
+  const std::unique_ptr<Device> device = open_device(HOST_DEVICE);
+  SceneOnDevice shown(*device);
+  shown.open(loaded.scene);
+  const Region region = region_of(asked->request.view.region, loaded.scene.up);
   std::vector<Measure> measures;
-  for (const GivenMeasure& given : asked->measures) measures.push_back(measured.measure(given));
+  for (const GivenMeasure& given : asked->measures)
+    measures.push_back(take_measure(loaded.scene, region, given, &shown));
   const MeasureFrame frame{loaded.scene.up, loaded.scene.crs};
   if (!asked->output.empty()) write_measures(measures, frame, asked->output);
   std::fputs(table_of(measures, frame.up).c_str(), stdout);

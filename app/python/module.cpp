@@ -2,6 +2,7 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -45,6 +46,23 @@ nb::tuple trace(const api::Scene& scene, const Rows<double>& origins, const Rows
                         owning_array<std::int32_t>(std::move(hits.object), {count}),
                         owning_array<std::int64_t>(std::move(hits.splat), {count}),
                         owning_array<std::int64_t>(std::move(hits.point), {count}));
+}
+
+using PythonPlace = std::pair<api::Double3, std::optional<api::Double3>>;
+using PythonValue = std::tuple<std::string, double, double, std::string>;
+
+/// Points (n, 3), and name, value, within, unit of each value.
+nb::tuple measure(const api::Scene& scene, const std::string& kind, const std::vector<PythonPlace>& places,
+                  double reach, const api::Request& request, const nb::object& progress) {
+  api::Measuring measuring{kind, {}, reach};
+  for (const auto& [at, direction] : places) measuring.places.push_back({at, direction});
+  const api::Progress relay = progress_of(progress);
+  api::Measure measure = unlocked([&] { return api::measure(scene, measuring, request, relay); });
+  std::vector<PythonValue> values;
+  for (const api::MeasureValue& value : measure.values)
+    values.emplace_back(value.name, value.value, value.within, value.unit);
+  const std::size_t count = measure.points.size();
+  return nb::make_tuple(owning_array<double>(std::move(measure.points), {count, 3}), values);
 }
 
 nb::tuple splats(const api::Scene& scene) {
@@ -135,7 +153,9 @@ void add_scene(nb::module_& module) {
       .def("frame", frame, nb::arg("azimuth").none(), nb::arg("elevation").none(), nb::arg("fov").none(),
            nb::arg("aspect"))
       .def("render", render, nb::arg("request"), nb::arg("progress").none())
-      .def("trace", trace, nb::arg("origins"), nb::arg("directions"), nb::arg("progress").none());
+      .def("trace", trace, nb::arg("origins"), nb::arg("directions"), nb::arg("progress").none())
+      .def("measure", measure, nb::arg("kind"), nb::arg("places"), nb::arg("reach"), nb::arg("request"),
+           nb::arg("progress").none());
   module.def("open", open, nb::arg("files"), nb::arg("request"), nb::arg("progress").none());
   module.def("make_picture", make_picture, nb::arg("request"), nb::arg("progress").none());
 }

@@ -49,6 +49,7 @@ class Guide(unittest.TestCase):
         self.assertAlmostEqual(np.nanmax(names["heights"]), 311.0, delta=0.7)
         self.assertGreater(np.isfinite(names["heights"]).mean(), 0.9)
         self.assertTrue(0.5 < names["seen"].mean() < 1.0)
+        self.assertTrue(0.0 < names["drop"].within < 0.5 < names["width"].value)
         self.assertGreater(len(names["again"]), 1000)
         self.assertGreater(np.isfinite(names["depth"]).mean(), 0.2)
         self.assertTrue(pathlib.Path("seen.png").read_bytes().startswith(b"\x89PNG"))

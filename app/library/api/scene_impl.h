@@ -1,6 +1,8 @@
 /// What a Scene of the interface holds.
 #pragma once
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -74,6 +76,14 @@ struct SceneAccess {
 
 [[nodiscard]] inline glm::dvec3 vector(const Double3& v) { return {v[0], v[1], v[2]}; }
 [[nodiscard]] inline glm::vec3 vector(const Float3& v) { return {v[0], v[1], v[2]}; }
+[[nodiscard]] inline bool finite(const Double3& v) {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+/// The unit vector along v, whatever its length; zero where that is.
+[[nodiscard]] inline glm::dvec3 unit(const Double3& v) {
+  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  return largest > 0.0 ? glm::normalize(vector(v) / largest) : glm::dvec3(0.0);
+}
 [[nodiscard]] inline Double3 array(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 [[nodiscard]] inline Float3 array(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 

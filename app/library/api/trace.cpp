@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "app/library/api/guard.h"
@@ -12,13 +11,6 @@ namespace splatray::api {
 namespace {
 
 constexpr std::size_t RAYS_AT_ONCE = std::size_t{1} << 17;
-bool finite(const Double3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-
-/// The unit vector along v, whatever its length; zero where that is.
-glm::dvec3 unit(glm::dvec3 v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  return largest > 0.0 ? glm::normalize(v / largest) : glm::dvec3(0.0);
-}
 
 void check_rays(std::span<const Double3> origins, std::span<const Double3> directions) {
   if (origins.size() != directions.size())
@@ -28,7 +20,7 @@ void check_rays(std::span<const Double3> origins, std::span<const Double3> direc
   for (std::size_t i = 0; i < origins.size(); ++i) {
     if (!finite(origins[i]) || !finite(directions[i]))
       refuse("an origin or direction that is not finite in ray " + std::to_string(i), "three numbers each");
-    if (unit(vector(directions[i])) == glm::dvec3(0.0))
+    if (unit(directions[i]) == glm::dvec3(0.0))
       refuse("a direction of length 0 in ray " + std::to_string(i), "any other");
   }
 }
@@ -79,8 +71,7 @@ Hits trace(const Scene& scene, std::span<const Double3> origins, std::span<const
       std::vector<RayQuery> queries;
       std::vector<double> starts;
       for (std::size_t i = begin; i < std::min(begin + RAYS_AT_ONCE, origins.size()); ++i) {
-        const std::optional<AimedRay> aimed =
-            aim_ray(inner.root, vector(origins[i]), unit(vector(directions[i])));
+        const std::optional<AimedRay> aimed = aim_ray(inner.root, vector(origins[i]), unit(directions[i]));
         if (!aimed) continue;
         rays.push_back(i);
         queries.push_back(aimed->query);

@@ -68,12 +68,20 @@ const char* measure_name(MeasureKind kind) {
   return NAMES.at(static_cast<std::size_t>(kind));
 }
 
+std::optional<MeasureKind> measure_kind(const std::string& name) {
+  for (int kind = 0; kind < MEASURE_KINDS; ++kind)
+    if (name == measure_name(static_cast<MeasureKind>(kind))) return static_cast<MeasureKind>(kind);
+  return {};
+}
+
 std::size_t points_needed(MeasureKind kind) {
   static constexpr std::array<std::size_t, MEASURE_KINDS> NEEDED = {1, 2, 2, 3, 3, 1, 1};
   return NEEDED.at(static_cast<std::size_t>(kind));
 }
 
 bool is_open_ended(MeasureKind kind) { return kind == MeasureKind::distance || kind == MeasureKind::area; }
+
+bool is_fitted(MeasureKind kind) { return kind == MeasureKind::sphere || kind == MeasureKind::cylinder; }
 
 void add_point(std::vector<Measure>& measures, MeasureKind kind, const SurfacePoint& point) {
   const bool goes_on = !measures.empty() && measures.back().kind == kind &&

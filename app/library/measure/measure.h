@@ -31,9 +31,12 @@ enum class MeasureKind {
 };
 inline constexpr int MEASURE_KINDS = 7;
 [[nodiscard]] const char* measure_name(MeasureKind kind);
+[[nodiscard]] std::optional<MeasureKind> measure_kind(const std::string& name);
 /// Points that complete a measure; more may follow where `is_open_ended`.
 [[nodiscard]] std::size_t points_needed(MeasureKind kind);
 [[nodiscard]] bool is_open_ended(MeasureKind kind);
+/// Whether it is of what lies around its point: spheres and cylinders.
+[[nodiscard]] bool is_fitted(MeasureKind kind);
 
 /// A measure, maybe of too few points yet.
 struct Measure {

@@ -99,11 +99,9 @@ Measure measure_of(const Json& feature) {
   const Json& properties = feature.at("properties");
   const Json& geometry = feature.at("geometry");
   const std::string name = properties.at("kind");
-  Measure measure;
-  int kind = 0;
-  while (kind < MEASURE_KINDS && name != measure_name(static_cast<MeasureKind>(kind))) ++kind;
-  if (kind == MEASURE_KINDS) throw std::runtime_error("found kind '" + name + "'");
-  measure.kind = static_cast<MeasureKind>(kind);
+  const std::optional<MeasureKind> kind = measure_kind(name);
+  if (!kind) throw std::runtime_error("found kind '" + name + "'");
+  Measure measure{*kind, {}};
   Json places = geometry.at("coordinates");
   if (geometry.at("type") == "Point") places = Json::array({places});
   if (geometry.at("type") == "Polygon") {

@@ -26,19 +26,20 @@ std::vector<std::string> parts_of(const std::string& text) {
   return parts;
 }
 
-std::string expected_places(MeasureKind kind) {
-  const std::size_t needed = points_needed(kind);
-  return std::to_string(needed) +
-         (is_open_ended(kind) ? " or more places" : (needed == 1 ? " place" : " places")) +
-         " X,Y,Z or X,Y,Z>DX,DY,DZ with ; between them";
-}
-
 }  // namespace
+
+void require_places(const GivenMeasure& given) {
+  const std::size_t needed = points_needed(given.kind), found = given.places.size();
+  if (found < needed || (found > needed && !is_open_ended(given.kind)))
+    throw Expected{std::to_string(needed) +
+                   (is_open_ended(given.kind) ? " or more places" : (needed == 1 ? " place" : " places"))};
+  if (is_fitted(given.kind) && !(given.reach > 0.0)) throw Expected{"a reach above 0"};
+}
 
 GivenMeasure read_measure(MeasureKind kind, const std::string& text) {
   GivenMeasure given{kind, {}};
   std::vector<std::string> parts = parts_of(text);
-  if (kind == MeasureKind::sphere || kind == MeasureKind::cylinder) {
+  if (is_fitted(kind)) {
     const auto reach = split_numbers(parts.back(), ',', 1);
     if (parts.size() != 2 || reach.empty() || !(reach[0] > 0.0))
       throw Expected{"a place and a reach above 0, such as 1,2,3;0.5"};
@@ -46,8 +47,11 @@ GivenMeasure read_measure(MeasureKind kind, const std::string& text) {
     parts.pop_back();
   }
   for (const std::string& part : parts) given.places.push_back(read_place(part));
-  const std::size_t needed = points_needed(kind), found = given.places.size();
-  if (found < needed || (found > needed && !is_open_ended(kind))) throw Expected{expected_places(kind)};
+  try {
+    require_places(given);
+  } catch (const Expected& expected) {
+    throw Expected{expected.what + " X,Y,Z or X,Y,Z>DX,DY,DZ with ; between them"};
+  }
   return given;
 }
 

@@ -25,6 +25,9 @@ struct GivenMeasure {
   bool operator==(const GivenMeasure&) const = default;
 };
 
+/// Throws Expected unless there are as many places as the kind needs, and the reach of a sphere or cylinder is above 0.
+void require_places(const GivenMeasure& given);
+
 /// "X,Y,Z" or "X,Y,Z>DX,DY,DZ", with ; between them; behind the place of a sphere or cylinder the reach. Throws Expected.
 [[nodiscard]] GivenMeasure read_measure(MeasureKind kind, const std::string& text);
 

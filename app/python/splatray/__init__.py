@@ -5,6 +5,7 @@
     image = scene.render(sr.frame(scene, azimuth=30, fov=35), (1280, 720), samples=64)
     image.save("scan.png"); a = image.pixels                 # float32 (720, 1280, 4), no copy
     hits = scene.trace(origins, directions)                  # exact: t, normal, object, splat
+    width = scene.measure("distance", [(0, 0, 1), ((0, 0, 1), (1, 0, 0))]).values["distance"]  # value, within
 
 World space is right-handed, in the units of the input, float64. Colours and radiances are linear sRGB, angles degrees. Long calls
 run without the interpreter's lock, can be ended by Ctrl-C, and take `progress`, which is called as progress(stage, share) and ends
@@ -23,8 +24,8 @@ from .image import Image
 from .look import Light, Material, material, point_light, sun
 from .objects import Mesh, Points
 from .request import Request
-from .scene import Hits, Scene, Splats, make_picture, make_scene, open, points
+from .scene import Hits, Measure, MeasureValue, Scene, Splats, make_picture, make_scene, open, points
 
 __version__ = _version()
-__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Material", "Mesh", "NoDeviceError", "Points", "Request", "Scene", "Splats", "devices",
+__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Material", "Measure", "MeasureValue", "Mesh", "NoDeviceError", "Points", "Request", "Scene", "Splats", "devices",
            "frame", "make_picture", "make_scene", "material", "open", "point_light", "points", "sun"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -46,6 +46,21 @@ class Splats(NamedTuple):
     normal: np.ndarray
     radius: np.ndarray
     object: np.ndarray
+
+
+class MeasureValue(NamedTuple):
+    """A value; half the width of the interval around it that holds the true one 95 times of 100; "length", "area" or "degrees"."""
+
+    value: float
+    within: float
+    unit: str
+
+
+class Measure(NamedTuple):
+    """points: float64 (n, 3), the places on the surface. values: by name, such as "distance", "area", "radius"."""
+
+    points: np.ndarray
+    values: Dict[str, MeasureValue]
 
 
 class Scene:
@@ -158,6 +173,34 @@ class Scene:
         if len(origins) != len(directions):
             raise ValueError(f"found {len(origins)} origins and {len(directions)} directions, expected as many of each")
         return Hits(*core.trace(origins, directions, _check.progress(progress)))
+
+    def measure(self, kind: Literal["point", "distance", "height", "angle", "area", "sphere", "cylinder"], places: Sequence[Any], *,
+                reach: float = 0.0, request: Optional[Request] = None, progress: Optional[_check.Progress] = None) -> Measure:
+        """Measures on the surface, as splatray-measure does: each value with its interval.
+
+        places: each (x, y, z), which goes to the nearest surface, or ((x, y, z), (dx, dy, dz)), a ray, whose first hit counts: one, two and
+        more, two, three, or three and more of them. reach: of spheres and cylinders, how far around the place, world units. request: its
+        region (keep_box, drop_box, cut).
+        """
+        core = self._open_core()
+        if isinstance(places, (str, bytes)) or not isinstance(places, Iterable):
+            raise TypeError(f"places: found {places!r}, expected a list of places")
+        asked = Request() if request is None else request
+        points, values = core.measure(kind, [_place(place) for place in places], float(reach), asked._core, _check.progress(progress))
+        return Measure(points, {name: MeasureValue(*rest) for name, *rest in values})
+
+
+def _place(place: Any) -> Tuple[Tuple[float, ...], Optional[Tuple[float, ...]]]:
+    """A place and, of a ray, its direction."""
+    try:
+        numbers = np.asarray(place, dtype=np.float64)
+    except (TypeError, ValueError):
+        numbers = np.zeros(0)
+    if numbers.shape == (3,):
+        return tuple(numbers.tolist()), None
+    if numbers.shape == (2, 3):
+        return tuple(numbers[0].tolist()), tuple(numbers[1].tolist())
+    raise ValueError(f"places: found {place!r}, expected (x, y, z) or ((x, y, z), (dx, dy, dz))")
 
 
 def _check_objects(core: _core.Scene, materials: Optional[Mapping[str, Material]]) -> None:
