@@ -69,6 +69,16 @@ TEST(Measures, AreWrittenWithTheDigitsThatCount) {
   EXPECT_EQ(value_text({"", 90.0, 0.0, MeasureUnit::degrees}), "90\u00B0");
 }
 
+TEST(Measures, SayTheMainThingBesideTheirMarks) {
+  const Measure point{MeasureKind::point, {{{1.25, -2.5, 3.0}, {0.0, 0.0, 0.001}}}};
+  EXPECT_EQ(short_text(point, UP), "1.25, -2.5, 3.0000");
+  Measure area{MeasureKind::area, {}};
+  for (const glm::dvec3& corner : {glm::dvec3(0, 0, 0), glm::dvec3(2, 0, 0), glm::dvec3(0, 2, 0)})
+    area.points.push_back({corner, {}});
+  EXPECT_EQ(short_text(area, UP), "A 2");
+  EXPECT_EQ(short_text({MeasureKind::distance, {}}, UP), "");
+}
+
 TEST(MeasureText, TakesPointsAndRays) {
   const GivenMeasure given = read_measure(MeasureKind::distance, "1,2,3>0,0,-1;4,5,6");
   ASSERT_EQ(given.places.size(), 2U);

@@ -18,6 +18,13 @@ std::string formatted(double value, const char* format) {
   return text.data();
 }
 
+/// For printf: as many digits as the interval has two of.
+std::string format_of(const MeasureValue& value) {
+  if (!(value.within > 0.0)) return "%.9g";
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(value.within))), 0, 12);
+  return "%." + std::to_string(digits) + "f";
+}
+
 using Places = std::vector<glm::dvec3>;
 
 Places places_of(const Measure& measure) {
@@ -152,16 +159,22 @@ std::vector<MeasureValue> values_of(const Measure& measure, const glm::dvec3& up
 
 std::string value_text(const MeasureValue& value) {
   const char* unit = value.unit == MeasureUnit::degrees ? "\u00B0" : "";
-  if (!(value.within > 0.0)) return formatted(value.value, "%.9g") + unit;
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(value.within))), 0, 12);
-  const std::string format = "%." + std::to_string(digits) + "f";
-  return formatted(value.value, format.c_str()) + unit + " \u00B1" + formatted(value.within, format.c_str()) +
-         unit;
+  const std::string format = format_of(value), number = formatted(value.value, format.c_str()) + unit;
+  if (!(value.within > 0.0)) return number;
+  return number + " \u00B1" + formatted(value.within, format.c_str()) + unit;
 }
 
 std::string short_text(const Measure& measure, const glm::dvec3& up) {
   const std::vector<MeasureValue> values = values_of(measure, up);
-  return values.empty() ? std::string() : value_text(values.front());
+  if (values.empty()) return {};
+  if (measure.kind == MeasureKind::point) {
+    std::string text;
+    for (const MeasureValue& value : values)
+      text += (text.empty() ? "" : ", ") + formatted(value.value, format_of(value).c_str());
+    return text;
+  }
+  const std::string sign = measure.kind == MeasureKind::area ? "A " : (is_fitted(measure.kind) ? "R " : "");
+  return sign + value_text(values.front());
 }
 
 std::string table_of(std::span<const Measure> measures, const glm::dvec3& up) {

@@ -73,7 +73,7 @@ struct MeasureValue {
 [[nodiscard]] std::vector<MeasureValue> values_of(const Measure& measure, const glm::dvec3& up);
 /// "12.346 +-0.002" and so on: as many digits as the interval has two of; six where it is 0.
 [[nodiscard]] std::string value_text(const MeasureValue& value);
-/// The value that stands beside the marks in the picture.
+/// What stands beside the marks in the picture: the value, with A before an area and R before a radius; a point's coordinates.
 [[nodiscard]] std::string short_text(const Measure& measure, const glm::dvec3& up);
 /// A line for each value and each point, tabs between.
 [[nodiscard]] std::string table_of(std::span<const Measure> measures, const glm::dvec3& up);
