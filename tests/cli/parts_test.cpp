@@ -114,7 +114,7 @@ TEST_F(CliSampleRanges, TilesOfThemAreJoinedAtOnce) {
 }
 
 TEST_F(CliSampleRanges, WhatIsNoWholePictureIsRefused) {
-  const std::vector<std::string> small{"--resolution=8x8"};
+  const std::vector<std::string> small{"--resolution=8x8", "--device=cpu"};
   const auto part = [&](std::pair<int, int> range, std::vector<std::string> options) {
     const std::string name = "p" + std::to_string(range.first) + "_" + std::to_string(range.second) +
                              (options.empty() ? "" : options.back());

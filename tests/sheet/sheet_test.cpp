@@ -156,13 +156,39 @@ TEST(Ink, IsWhereDepthStepsAndNotOnSlopes) {
   Sheet sheet;
   sheet.asked.dpi = 100.0;
   Image flat = slope(3.0F, 0.0F), stepped = slope(3.0F, 20.0F), lower = slope(3.0F, 2.0F);
-  draw_ink(sheet, flat);
-  draw_ink(sheet, stepped);
-  draw_ink(sheet, lower);
+  const PixelWindow all{0, 0, 16, 8};
+  for (Image* image : {&flat, &stepped, &lower}) draw_ink(sheet, {all, image->aov}, all, *image);
   for (std::size_t i = 0; i < 128; ++i) {
     EXPECT_EQ(flat.rgba[i].x, 1.0F) << i;
     EXPECT_EQ(lower.rgba[i].x, 1.0F) << i;
     EXPECT_EQ(stepped.rgba[i].x, i % 16 == 7 ? 0.0F : 1.0F) << i;
+  }
+}
+
+TEST(Ink, OfAPartIsThatOfTheWhole) {
+  Sheet sheet;
+  sheet.asked.dpi = 600.0;  // lines of several pixels
+  sheet.width = 16;
+  sheet.height = 8;
+  const PixelWindow all{0, 0, 16, 8};
+  Image whole = slope(3.0F, 20.0F);
+  const std::vector<AovPixel> aov = whole.aov;
+  draw_ink(sheet, {all, aov}, all, whole);
+  for (const PixelWindow part :
+       {PixelWindow{8, 0, 8, 8}, PixelWindow{0, 3, 16, 2}, PixelWindow{9, 2, 5, 6}}) {
+    const PixelWindow seen = ink_window(sheet, part);
+    std::vector<AovPixel> cropped;
+    for (std::uint32_t y = seen.y; y < seen.y + seen.height; ++y)
+      for (std::uint32_t x = seen.x; x < seen.x + seen.width; ++x) cropped.push_back(aov[y * 16 + x]);
+    Image image{part.width, part.height, std::vector<vec4>(part.width * part.height, vec4(1.0F)), {}};
+    draw_ink(sheet, {seen, cropped}, part, image);
+    bool any = false;
+    for (std::uint32_t i = 0; i < image.rgba.size(); ++i) {
+      const std::uint32_t x = part.x + i % part.width, y = part.y + i / part.width;
+      EXPECT_EQ(image.rgba[i], whole.rgba[y * 16 + x]) << x << ", " << y;
+      any |= image.rgba[i].x < 1.0F;
+    }
+    EXPECT_TRUE(any) << "no line to compare";
   }
 }
 

@@ -87,6 +87,17 @@ MadePicture traced_picture(const Request& request, SceneOnDevice& shown, const C
   return made;
 }
 
+/// Lines of a sheet's part, for which more of the sheet is seen than the part.
+void draw_lines(const Request& request, SceneOnDevice& shown, const Camera& camera, const PixelWindow& part,
+                Image& image) {
+  const Sheet& sheet = *request.view.made_sheet;
+  const PixelWindow window = ink_window(sheet, part);
+  if (window == part) return draw_ink(sheet, {window, image.aov}, part, image);
+  const std::vector<AovPixel> aov = shown.tracer().trace_aov(
+      shown.look(), {camera, sheet.width, sheet.height, window}, choose_settings(shown.scene(), request));
+  draw_ink(sheet, {window, aov}, part, image);
+}
+
 }  // namespace
 
 MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
@@ -103,7 +114,7 @@ MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Cam
     made = traced_picture(request, shown, camera, progress, stopped);
   }
   if (made.samples_missing > 0) return made;
-  if (request.view.ink) draw_ink(sheet, made.image);
+  if (request.view.ink) draw_lines(request, shown, camera, window, made.image);
   draw_cut(sheet, window, made.image);
   return made;
 }

@@ -96,7 +96,6 @@ void check_sheet(const Request& request) {
   const std::string extension = lower_extension(request.output.path);
   if (!request.output.measures.empty() && extension != ".svg" && extension != ".pdf")
     fail("found --measures with an output other than .svg or .pdf, expected one of these");
-  if (view.ink && view.window().width > 0) fail("found --ink with --crop or --tile, expected a whole sheet");
   if (view.ink && view.xray) fail("found --ink and --xray, expected one of them");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace splatray {
 namespace {
@@ -16,15 +17,15 @@ constexpr float STEEPEST = 0.1F;
 /// How much of a line is between a pixel and the next one at (dx, dy).
 class Edges {
  public:
-  Edges(const Sheet& sheet, const Image& image)
-      : image_(image),
+  Edges(const Sheet& sheet, std::span<const AovPixel> aov)
+      : aov_(aov),
         right_(sheet.right),
         top_(sheet.top),
         toward_(sheet.toward),
         pixel_(static_cast<float>(sheet.pixel_world)) {}
 
   [[nodiscard]] float between(std::size_t a, std::size_t b, float dx, float dy) const {
-    const AovPixel &first = image_.aov[a], &second = image_.aov[b];
+    const AovPixel &first = aov_[a], &second = aov_[b];
     const bool hit = first.object != NO_OBJECT, hit_too = second.object != NO_OBJECT;
     if (hit != hit_too) return 1.0F;
     if (!hit) return 0.0F;
@@ -43,20 +44,24 @@ class Edges {
     return across / std::copysign(std::max(std::abs(facing), STEEPEST), facing) * pixel_;
   }
 
-  const Image& image_;
+  std::span<const AovPixel> aov_;
   vec3 right_, top_, toward_;
   float pixel_;
 };
 
-}  // namespace
+/// How far around a pixel a line on it reaches.
+std::uint32_t reach_px(const Sheet& sheet) {
+  return static_cast<std::uint32_t>(std::max(std::lround((LINE_MM / sheet.pixel_mm() - 1.0) / 2.0), 0L));
+}
 
-void draw_ink(const Sheet& sheet, Image& image) {
-  const Edges edges(sheet, image);
-  const std::size_t width = image.width, height = image.height;
-  std::vector<float> ink(image.rgba.size(), 0.0F);
+/// Lines one pixel wide, 0 to 1 for each.
+std::vector<float> thin_lines(const Sheet& sheet, const SeenPixels& seen) {
+  const Edges edges(sheet, seen.aov);
+  const std::size_t width = seen.window.width, height = seen.window.height;
+  std::vector<float> ink(seen.aov.size(), 0.0F);
   const auto mark = [&](std::size_t a, std::size_t b, float amount) {
     // On the nearer side: what is seen before the other has the outline.
-    const bool near_a = !(image.aov[a].z > image.aov[b].z);
+    const bool near_a = !(seen.aov[a].z > seen.aov[b].z);
     float& most = ink[near_a ? a : b];
     most = std::max(most, amount);
   };
@@ -66,24 +71,36 @@ void draw_ink(const Sheet& sheet, Image& image) {
       if (x + 1 < width) mark(at, at + 1, edges.between(at, at + 1, 1.0F, 0.0F));
       if (y + 1 < height) mark(at, at + width, edges.between(at, at + width, 0.0F, -1.0F));
     }
-  const auto reach = static_cast<std::ptrdiff_t>(std::lround((LINE_MM / sheet.pixel_mm() - 1.0) / 2.0));
+  return ink;
+}
+
+}  // namespace
+
+PixelWindow ink_window(const Sheet& sheet, const PixelWindow& part) {
+  const std::uint32_t around = reach_px(sheet) + 1;
+  PixelWindow window;
+  window.x = part.x - std::min(part.x, around);
+  window.y = part.y - std::min(part.y, around);
+  window.width = std::min(part.x + part.width + around, sheet.width) - window.x;
+  window.height = std::min(part.y + part.height + around, sheet.height) - window.y;
+  return window;
+}
+
+void draw_ink(const Sheet& sheet, const SeenPixels& seen, const PixelWindow& part, Image& image) {
+  const std::vector<float> ink = thin_lines(sheet, seen);
+  const std::size_t width = seen.window.width, height = seen.window.height;
+  const std::size_t left = part.x - seen.window.x, top = part.y - seen.window.y, reach = reach_px(sheet);
   const auto widest = [&](std::size_t x, std::size_t y) {
-    float most = ink[y * width + x];
-    for (std::ptrdiff_t j = -reach; j <= reach; ++j)
-      for (std::ptrdiff_t i = -reach; i <= reach; ++i) {
-        const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(x) + i,
-                             row = static_cast<std::ptrdiff_t>(y) + j;
-        if (column < 0 || row < 0 || column >= static_cast<std::ptrdiff_t>(width) ||
-            row >= static_cast<std::ptrdiff_t>(height))
-          continue;
-        most = std::max(most, ink[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)]);
-      }
+    float most = 0.0F;
+    for (std::size_t row = y - std::min(y, reach); row <= std::min(y + reach, height - 1); ++row)
+      for (std::size_t column = x - std::min(x, reach); column <= std::min(x + reach, width - 1); ++column)
+        most = std::max(most, ink[row * width + column]);
     return most;
   };
-  for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x) {
-      const float amount = reach > 0 ? widest(x, y) : ink[y * width + x];
-      vec4& pixel = image.rgba[y * width + x];
+  for (std::size_t y = 0; y < image.height; ++y)
+    for (std::size_t x = 0; x < image.width; ++x) {
+      const float amount = widest(left + x, top + y);
+      vec4& pixel = image.rgba[y * image.width + x];
       pixel = vec4(0.0F, 0.0F, 0.0F, amount) + (1.0F - amount) * pixel;
     }
 }
