@@ -11,6 +11,7 @@
 #include "app/library/sheet/sheet_page.h"
 #include "data/shapes.h"
 #include "engine/base/error.h"
+#include "engine/scene/splat.h"
 #include "tests/trace/scenes.h"
 
 namespace splatray {
@@ -203,22 +204,51 @@ TEST(GeoTags, SayWhereARasterLies) {
             utm.keys.end());
 }
 
-TEST(SheetPage, HasItsPictureAtScaleAndWordsAroundIt) {
-  const Scene scene = ball();
-  const Sheet sheet = make_sheet(scene, with_sheet("plan:scale=20,dpi=100"));
-  DisplayImage picture{sheet.width, sheet.height, std::vector<vec3>(std::size_t{sheet.width} * sheet.height)};
-  const Drawing page = sheet_page(sheet, {0, 0, sheet.width, sheet.height}, picture, "Ball");
-  EXPECT_DOUBLE_EQ(page.raster.size.x, sheet.width * 25.4 / 100.0);
-  const auto has = [&](const std::string& text) {
-    return std::any_of(page.texts.begin(), page.texts.end(),
-                       [&](const DrawnText& t) { return t.text == text; });
-  };
-  EXPECT_TRUE(has("Ball") && has("1 : 20") && has("N") && has("500000") && has("5000000"));
+Drawing page_of(const Sheet& sheet) {
+  const DisplayImage picture{sheet.width, sheet.height,
+                             std::vector<vec3>(std::size_t{sheet.width} * sheet.height)};
+  return sheet_page(sheet, {0, 0, sheet.width, sheet.height}, picture, "Ball");
+}
+
+bool has(const Drawing& page, const std::string& text) {
+  return std::any_of(page.texts.begin(), page.texts.end(),
+                     [&](const DrawnText& drawn) { return drawn.text == text; });
+}
+
+void expect_inside(const Drawing& page) {
   for (const DrawnText& text : page.texts) {
     EXPECT_GE(text.at.x, 0.0);
     EXPECT_LE(text.at.x, page.size.x);
     EXPECT_LE(text.at.y, page.size.y) << text.text;
   }
+  for (const DrawnBox& box : page.boxes) EXPECT_LE(box.corner.y + box.size.y, page.size.y);
+}
+
+TEST(SheetPage, HasItsPictureAtScaleAndWordsAroundIt) {
+  const Sheet sheet = make_sheet(ball(), with_sheet("plan:scale=20,dpi=100"));
+  const Drawing page = page_of(sheet);
+  EXPECT_DOUBLE_EQ(page.raster.size.x, sheet.width * 25.4 / 100.0);
+  EXPECT_TRUE(has(page, "Ball") && has(page, "1 : 20") && has(page, "N") && has(page, "500000") &&
+              has(page, "5000000"));
+  expect_inside(page);
+}
+
+TEST(SheetPage, SaysWhatColoursMean) {
+  Sheet sheet = make_sheet(ball(), with_sheet("plan:scale=20,dpi=100"));
+  const Drawing bare = page_of(sheet);
+  sheet.legend = {"height", 99.0, 101.25, {pack_color(vec3(0.0F)), pack_color(vec3(1.0F, 0.0F, 0.0F))}, {}};
+  const Drawing ramp = page_of(sheet);
+  EXPECT_TRUE(has(ramp, "height, m") && has(ramp, "99") && has(ramp, "101.25"));
+  EXPECT_GT(ramp.size.y, bare.size.y);
+  EXPECT_NEAR(ramp.boxes.back().fill.x, 1.0F, 0.01F);
+  expect_inside(ramp);
+  sheet.legend = {"class", 0.0, 0.0, {}, {}};
+  for (const std::uint32_t value : {2U, 5U, 6U, 9U, 17U})
+    sheet.legend.categories.push_back({value, class_name(value), pack_color(vec3(0.0F, 1.0F, 0.0F)), 1});
+  const Drawing classes = page_of(sheet);
+  EXPECT_TRUE(has(classes, "class") && has(classes, "6  " + class_name(6)));
+  EXPECT_EQ(classes.boxes.size(), bare.boxes.size() + 5);
+  expect_inside(classes);
 }
 
 }  // namespace

@@ -13,9 +13,9 @@ struct DrawnLine {
   double width_mm = 0.18;
 };
 
-/// Filled with black.
 struct DrawnBox {
   glm::dvec2 corner, size;
+  glm::vec3 fill{0.0F};  ///< sRGB, 0 to 1
 };
 
 enum class TextAnchor { begin, middle, end };

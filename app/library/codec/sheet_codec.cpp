@@ -84,9 +84,11 @@ void draw(cairo_t* cairo, const Drawing& drawing) {
     cairo_stroke(cairo);
   }
   for (const DrawnBox& box : drawing.boxes) {
+    cairo_set_source_rgb(cairo, box.fill.x, box.fill.y, box.fill.z);
     cairo_rectangle(cairo, box.corner.x, box.corner.y, box.size.x, box.size.y);
     cairo_fill(cairo);
   }
+  cairo_set_source_rgb(cairo, 0.0, 0.0, 0.0);
   cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   for (const DrawnText& text : drawing.texts) draw_text(cairo, text);
 }

@@ -14,6 +14,7 @@
 #include "engine/file/scene_file.h"
 #include "engine/image/point_sample.h"
 #include "engine/image/upright.h"
+#include "engine/scene/look_style.h"
 #include "engine/scene/sky/daylight.h"
 #include "engine/scene/surface.h"
 #include "preprocess/base/file_extension.h"
@@ -151,9 +152,10 @@ void show_as_asked(const Request& request, LoadedScene& loaded) {
   SuitedPicture suited = suited_picture(loaded.scene, request);
   loaded.request = std::move(suited.request);
   loaded.choices = std::move(suited.choices);
-  place_sheet(loaded.scene, loaded.request);
-  suit_region(loaded.scene, loaded.request);
   loaded.legend = show_attributes(loaded.scene, loaded.request.look.attributes);
+  const bool colors = look_style(choose_look(loaded.scene, loaded.request)).colors;
+  place_sheet(loaded.scene, colors ? loaded.legend : ColorLegend{}, loaded.request);
+  suit_region(loaded.scene, loaded.request);
   loaded.environment_name = choose_environment_name(loaded.scene, request);
 }
 

@@ -160,10 +160,11 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
   return sheet;
 }
 
-void place_sheet(const Scene& scene, Request& request) {
+void place_sheet(const Scene& scene, const ColorLegend& legend, Request& request) {
   if (!request.view.sheet) return;
   Request::View& view = request.view;
-  const auto sheet = std::make_shared<const Sheet>(make_sheet(scene, request));
+  const auto sheet = std::make_shared<Sheet>(make_sheet(scene, request));
+  if (!view.xray) sheet->legend = legend;
   set_camera(view, sheet->camera());
   view.width = sheet->width;
   view.height = sheet->height;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/library/attributes.h"
 #include "app/library/request/request.h"
 #include "engine/scene/scene.h"
 
@@ -32,6 +33,7 @@ struct Sheet {
   glm::dvec3 up{0.0, 0.0, 1.0};         ///< of the scene
   std::string crs;                      ///< Scene::crs
   std::vector<CutLine> cut_lines;
+  ColorLegend legend;  ///< of the colours shown; without a title, nothing is to be said of them
 
   /// Orthographic, of the whole sheet.
   [[nodiscard]] Camera camera() const;
@@ -58,7 +60,7 @@ struct Sheet {
 [[nodiscard]] Sheet make_sheet(const Scene& scene, const Request& request);
 
 /// Gives a request with --sheet the camera, size and region of its sheet, and what suits one: light of what is kept, nothing in
-/// the background, for --xray no tone. Throws as make_sheet does, and where --crop or --tile are beyond its pixels.
-void place_sheet(const Scene& scene, Request& request);
+/// the background, for --xray no tone. `legend` of the colours that the scene has now, as the request's look shows them. Throws as make_sheet does, and where --crop or --tile are beyond its pixels.
+void place_sheet(const Scene& scene, const ColorLegend& legend, Request& request);
 
 }  // namespace splatray

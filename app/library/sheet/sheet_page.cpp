@@ -7,6 +7,8 @@
 #include "engine/base/crs.h"
 #include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
+#include "engine/base/srgb.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 namespace {
@@ -17,6 +19,9 @@ constexpr double TICK = 2.0, GRID_LEAST = 30.0, CROSS = 1.5;
 constexpr double BAR_MOST = 60.0, BAR_HEIGHT = 1.6;
 constexpr double TITLE_SIZE = 5.0, TEXT_SIZE = 2.8, LABEL_SIZE = 2.2;
 constexpr double FRAME_LINE = 0.25, FINE_LINE = 0.13;
+constexpr double RAMP_WIDTH = 60.0, RAMP_HEIGHT = 3.0;
+constexpr double SWATCH = 3.0, ENTRY_WIDTH = 46.0, ENTRY_HEIGHT = 5.0;
+constexpr int RAMP_BOXES = 60;
 
 /// The largest of 1, 2, 5 times a power of ten that is at most `most`, or the least that is at least that.
 double round_length(double most, bool up) {
@@ -44,6 +49,24 @@ std::string fixed(double value, int digits) {
 std::string length_text(const Sheet& sheet, double world) {
   const LengthUnit* unit = find_length_unit(sheet.unit_metres);
   return number_text(std::round(world * 1e6) / 1e6) + " " + (unit != nullptr ? unit->symbol : "units");
+}
+
+glm::vec3 display_color(std::uint32_t packed) {
+  const glm::vec3 linear = unpack_color(packed);
+  return {linear_to_srgb(linear.x), linear_to_srgb(linear.y), linear_to_srgb(linear.z)};
+}
+
+/// Entries of a legend side by side on a page so wide, millimetres.
+std::size_t entries_in_a_row(double width) {
+  return static_cast<std::size_t>(std::max(std::floor(width / ENTRY_WIDTH), 1.0));
+}
+
+/// What a legend takes below all else, millimetres.
+double legend_height(const ColorLegend& legend, double width) {
+  if (legend.title.empty()) return 0.0;
+  if (!legend.ramp.empty()) return 2.0 * ENTRY_HEIGHT + RAMP_HEIGHT;
+  const std::size_t row = entries_in_a_row(width);
+  return ENTRY_HEIGHT * (1.0 + std::ceil(double(legend.categories.size()) / double(row)));
 }
 
 class Page {
@@ -124,6 +147,20 @@ class Page {
       drawing_.texts.push_back({{right, y += 4.2}, TEXT_SIZE, TextAnchor::end, line});
   }
 
+  /// What the colours mean.
+  void add_legend() {
+    const ColorLegend& legend = sheet_.legend;
+    if (legend.title.empty()) return;
+    glm::dvec2 at(corner_.x, corner_.y + size_.y + FOOT);
+    const bool is_length = legend.title == "height" || legend.title == "distance" || legend.title == "change";
+    const LengthUnit* unit = find_length_unit(sheet_.unit_metres);
+    drawing_.texts.push_back(
+        {at, TEXT_SIZE, TextAnchor::begin,
+         legend.title + (is_length && unit != nullptr ? std::string(", ") + unit->symbol : "")});
+    at.y += 1.5;
+    legend.ramp.empty() ? add_categories(legend, at) : add_ramp(legend, at);
+  }
+
   /// An arrow to the paper's top, in its top right corner.
   void add_north() {
     const glm::dvec2 foot(corner_.x + size_.x - 7.0, corner_.y + 18.0), tip = foot - glm::dvec2(0.0, 12.0);
@@ -134,6 +171,36 @@ class Page {
   }
 
  private:
+  void add_ramp(const ColorLegend& legend, const glm::dvec2& at) {
+    for (int i = 0; i < RAMP_BOXES; ++i) {
+      const auto step = static_cast<std::size_t>(
+          std::lround((i + 0.5) / RAMP_BOXES * static_cast<double>(legend.ramp.size() - 1)));
+      drawing_.boxes.push_back({{at.x + i * RAMP_WIDTH / RAMP_BOXES, at.y},
+                                {RAMP_WIDTH / RAMP_BOXES + 0.02, RAMP_HEIGHT},
+                                display_color(legend.ramp[step])});
+    }
+    const double line = at.y + RAMP_HEIGHT + LABEL_SIZE + 0.8;
+    const auto six_digits = [](double value) {
+      std::array<char, 40> text{};
+      (void)std::snprintf(text.data(), text.size(), "%.6g", value);
+      return std::string(text.data());
+    };
+    drawing_.texts.push_back({{at.x, line}, LABEL_SIZE, TextAnchor::begin, six_digits(legend.low)});
+    drawing_.texts.push_back(
+        {{at.x + RAMP_WIDTH, line}, LABEL_SIZE, TextAnchor::end, six_digits(legend.high)});
+  }
+
+  void add_categories(const ColorLegend& legend, const glm::dvec2& at) {
+    const std::size_t row = entries_in_a_row(drawing_.size.x - 2.0 * MARGIN);
+    for (std::size_t i = 0; i < legend.categories.size(); ++i) {
+      const Category& category = legend.categories[i];
+      const glm::dvec2 place = at + glm::dvec2(ENTRY_WIDTH, ENTRY_HEIGHT) * glm::dvec2(i % row, i / row);
+      drawing_.boxes.push_back({place, {SWATCH, SWATCH}, display_color(category.color)});
+      drawing_.texts.push_back({place + glm::dvec2(SWATCH + 1.5, SWATCH - 0.4), LABEL_SIZE, TextAnchor::begin,
+                                std::to_string(category.value) + "  " + category.name});
+    }
+  }
+
   [[nodiscard]] std::string subject() const {
     static constexpr std::array NAMES = {"Plan", "Section", "Elevation",
                                          "View along a direction"};  // SheetKind
@@ -187,11 +254,13 @@ Drawing sheet_page(const Sheet& sheet, const PixelWindow& window, const DisplayI
   drawing.raster.rgba = rgba_bytes(picture);
   drawing.size = {std::max(drawing.raster.size.x + 2.0 * MARGIN, LEAST_WIDTH),
                   drawing.raster.size.y + MARGIN + FOOT + 2.0};
+  drawing.size.y += legend_height(sheet.legend, drawing.size.x - 2.0 * MARGIN);
   Page page(sheet, window, drawing);
   page.add_frame();
   page.add_grid();
   page.add_bar();
   page.add_words(title);
+  page.add_legend();
   if (sheet.north_up) page.add_north();
   return drawing;
 }
