@@ -104,8 +104,8 @@ std::vector<std::string> CliTest::names() const {
 
 ChildResult CliTest::render(std::vector<std::string> arguments,
                             const std::vector<std::string>& environment) const {
-  std::vector<std::string> command = {RENDER,        "--quiet", "--resolution=16x16",
-                                      "--samples=1", "-o",      file("out.png")};
+  std::vector<std::string> command = {RENDER,         "--quiet", "--resolution=16x16", "--samples=1",
+                                      "--device=cpu", "-o",      file("out.png")};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return run_program(command, environment);
 }

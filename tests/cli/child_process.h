@@ -47,7 +47,7 @@ class CliTest : public testing::Test {
   /// Names of the files in the folder, sorted.
   [[nodiscard]] std::vector<std::string> names() const;
 
-  /// Renders `arguments` to out.png, 16 x 16, one sample.
+  /// Renders `arguments` to out.png, 16 x 16, one sample, on the CPU's kernels, which start in half the time of Vulkan's.
   [[nodiscard]] ChildResult render(std::vector<std::string> arguments,
                                    const std::vector<std::string>& environment = {}) const;
   [[nodiscard]] ChildResult preprocess(std::vector<std::string> arguments) const;

@@ -19,7 +19,7 @@ class CliParts : public CliTest {
   /// Renders 40 x 30 pixels of three samples to a file.
   [[nodiscard]] ChildResult make(const std::string& name, std::vector<std::string> more) const {
     more.insert(more.begin(), {RENDER, grid, "-o", file(name), "--resolution=40x30", "--samples=3",
-                               "--look=lit", "--quiet"});
+                               "--device=cpu", "--look=lit", "--quiet"});
     return run_program(more);
   }
   [[nodiscard]] ChildResult merge(std::vector<std::string> words) const {
@@ -114,7 +114,7 @@ TEST_F(CliSampleRanges, TilesOfThemAreJoinedAtOnce) {
 }
 
 TEST_F(CliSampleRanges, WhatIsNoWholePictureIsRefused) {
-  const std::vector<std::string> small{"--resolution=8x8", "--device=cpu"};
+  const std::vector<std::string> small{"--resolution=8x8"};
   const auto part = [&](std::pair<int, int> range, std::vector<std::string> options) {
     const std::string name = "p" + std::to_string(range.first) + "_" + std::to_string(range.second) +
                              (options.empty() ? "" : options.back());

@@ -19,7 +19,7 @@ class CliResume : public CliTest {
   [[nodiscard]] std::vector<std::string> command(const std::string& name, int samples,
                                                  std::vector<std::string> more = {}) const {
     more.insert(more.begin(), {RENDER, grid, "-o", file(name), "--resolution=40x30", "--look=lit", "--quiet",
-                               "--samples=" + std::to_string(samples)});
+                               "--device=cpu", "--samples=" + std::to_string(samples)});
     return more;
   }
   [[nodiscard]] ChildResult make(const std::string& name, int samples,
