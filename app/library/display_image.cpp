@@ -64,10 +64,7 @@ vec3 toned(vec3 radiance, const Display& display) {
   }
 }
 
-vec3 display_value(vec3 radiance, const Display& display) {
-  const vec3 color = toned(radiance, display);
-  return {linear_to_srgb(color.x), linear_to_srgb(color.y), linear_to_srgb(color.z)};
-}
+vec3 display_value(vec3 radiance, const Display& display) { return linear_to_srgb(toned(radiance, display)); }
 
 DisplayImage display_image(const Image& image, const Display& display) {
   DisplayImage shown{image.width, image.height, {}};

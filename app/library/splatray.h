@@ -336,8 +336,8 @@ struct MeasurePlace {
   Double3 at{};
   std::optional<Double3> direction{};  ///< of a ray; any length > 0
 };
-/// A value, and half the width of the interval around it that holds the true one 95 times of 100: from the scan's noise and how smooth
-/// its surface is there, not from the scans' registration and scale.
+/// A value, and half the width of the interval around it that holds the true one 95 times of 100: from the scan's noise and
+/// how smooth its surface is there, not from the scans' registration and scale.
 struct MeasureValue {
   std::string name;  ///< such as "distance", "level", "area", "perimeter", "radius", "x"
   double value = 0.0;
@@ -350,14 +350,15 @@ struct Measure {
 };
 /// What is measured, and how.
 struct Measuring {
-  /// A point (its coordinates), the distance along two and more, the height of a second above a first, the angle at the second of three,
-  /// the area of the polygon of three and more, the radius of a sphere or cylinder around one.
+  /// A point (its coordinates), the distance along two and more, the height of a second above a first, the angle at the second
+  /// of three, the area of the polygon of three and more, the radius of a sphere or cylinder around one.
   std::string kind = "distance";
   std::vector<MeasurePlace> places{};
-  double reach = 0.0;  ///< of spheres and cylinders: they are fitted to what lies as near to the place, world units
+  /// Of spheres and cylinders: they are fitted to what lies as near to the place, world units.
+  double reach = 0.0;
 };
-/// Measures what the request's region ("keep-box", "drop-box", "cut") holds, as splatray-measure does. Throws Error (usage) for places
-/// that make no such measure, (failed) where there is nothing.
+/// Measures what the request's region ("keep-box", "drop-box", "cut") holds, as splatray-measure does. Throws Error (usage)
+/// for places that make no such measure, (failed) where there is nothing.
 [[nodiscard]] SPLATRAY_API Measure measure(const Scene& scene, const Measuring& measuring,
                                            const Request& request = {}, const Progress& progress = {});
 

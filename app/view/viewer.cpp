@@ -159,8 +159,7 @@ void Viewer::take_pick(const Pick& pick) {
 void Viewer::measure_at(const Inspected& picked, const SurfacePoint& point, MeasureKind kind) {
   constexpr double AROUND_PX = 40.0;
   const Camera& camera = document_.camera;
-  if (!is_fitted(kind))
-    return add_point(document_.measures, kind, point);
+  if (!is_fitted(kind)) return add_point(document_.measures, kind, point);
   const double height_world =
       camera.ortho_height > 0.0
           ? camera.ortho_height

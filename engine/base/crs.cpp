@@ -1,10 +1,9 @@
 #include "engine/base/crs.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 
+#include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
 
 namespace splatray {
@@ -113,28 +112,15 @@ bool is_same_crs(std::string_view a, std::string_view b) {
   return !first.name.empty() && first.name == second.name;
 }
 
-namespace {
-
-/// Their numbers.
-struct NumberedUnit {
-  std::uint16_t code;
-  double metres;
-};
-constexpr std::array NUMBERED_UNITS = {NumberedUnit{9001, 1.0}, NumberedUnit{9002, 0.3048},
-                                       NumberedUnit{9003, 1200.0 / 3937.0}};
-
-}  // namespace
-
 double epsg_unit_metres(unsigned code) {
-  for (const NumberedUnit& unit : NUMBERED_UNITS)
-    if (unit.code == code) return unit.metres;
+  for (const LengthUnit& unit : LENGTH_UNITS)
+    if (unit.epsg != 0 && unit.epsg == code) return unit.metres;
   return 0.0;
 }
 
 std::uint16_t epsg_unit(double metres) {
-  for (const NumberedUnit& unit : NUMBERED_UNITS)
-    if (std::abs(unit.metres - metres) < 1e-9) return unit.code;
-  return 0;
+  const LengthUnit* unit = find_length_unit(metres);
+  return unit != nullptr ? unit->epsg : std::uint16_t{0};
 }
 
 }  // namespace splatray

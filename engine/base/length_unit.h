@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace splatray {
 
@@ -9,12 +10,13 @@ struct LengthUnit {
   const char* symbol;  ///< "m", as options take it and drawings have it
   const char* name;    ///< "metres"
   double metres;
+  std::uint16_t epsg;  ///< EPSG's number; 0 = files do not name it so
 };
 
 inline constexpr std::array LENGTH_UNITS = {
-    LengthUnit{"m", "metres", 1.0}, LengthUnit{"cm", "centimetres", 0.01},
-    LengthUnit{"mm", "millimetres", 0.001}, LengthUnit{"ft", "feet", 0.3048},
-    LengthUnit{"us-ft", "US survey feet", 1200.0 / 3937.0}};
+    LengthUnit{"m", "metres", 1.0, 9001}, LengthUnit{"cm", "centimetres", 0.01, 0},
+    LengthUnit{"mm", "millimetres", 0.001, 0}, LengthUnit{"ft", "feet", 0.3048, 9002},
+    LengthUnit{"us-ft", "US survey feet", 1200.0 / 3937.0, 9003}};
 
 /// The unit of that many metres, to less than what the two feet differ by; null for others.
 [[nodiscard]] inline const LengthUnit* find_length_unit(double metres) {

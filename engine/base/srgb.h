@@ -1,6 +1,7 @@
 /// sRGB's transfer function (IEC 61966-2-1), both ways; values 0..1.
 #pragma once
 #include <cmath>
+#include <glm/glm.hpp>
 
 namespace splatray {
 
@@ -12,6 +13,9 @@ namespace splatray {
 /// sRGB-encoded value of a linear intensity.
 [[nodiscard]] inline float linear_to_srgb(float linear) {
   return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
+}
+[[nodiscard]] inline glm::vec3 linear_to_srgb(const glm::vec3& linear) {
+  return {linear_to_srgb(linear.x), linear_to_srgb(linear.y), linear_to_srgb(linear.z)};
 }
 
 }  // namespace splatray

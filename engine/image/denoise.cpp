@@ -54,8 +54,8 @@ struct GuideRow {
 };
 
 /// Weights of the neighbours' two halves: how alike the surfaces are, and the light beyond what noise explains (Rousselle et al.
-/// 2012, "Adaptive Rendering with Non-Local Means Filtering", sec. 4). Those of a half are the other's: they do not favour its own
-/// noise.
+/// 2012, "Adaptive Rendering with Non-Local Means Filtering", sec. 4). Those of a half are the other's: they do not favour its
+/// own noise.
 SPLATRAY_VECTOR_CLONES void find_weights(const GuideRow& here, const GuideRow& there, const float* like,
                                          float kernel, std::size_t count, float* __restrict weight_0,
                                          float* __restrict weight_1) {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/base/vector_clones.h"
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
-#include "engine/base/vector_clones.h"
 #include "preprocess/scan/reproject.h"
 #include "preprocess/surface/neighbours.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/splat.h"
 #include "engine/base/vector_clones.h"
+#include "engine/scene/splat.h"
 #include "preprocess/surface/sheet.h"
 
 namespace splatray {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <optional>
 
-#include "preprocess/base/select.h"
 #include "engine/base/vector_clones.h"
+#include "preprocess/base/select.h"
 #include "preprocess/surface/near_places.h"
 #include "preprocess/surface/normal_field.h"
 #include "preprocess/surface/sheet.h"

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/vector_clones.h"
 #include "engine/scene/leaf/halved_cell.h"
 #include "engine/scene/leaf/slab.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/tree.h"
-#include "engine/base/vector_clones.h"
 
 namespace splatray {
 namespace {

@@ -69,7 +69,8 @@ struct MeasureValue {
   double within = 0.0;
   MeasureUnit unit = MeasureUnit::length;
 };
-/// What a measure says: of a distance also its level and upright part, of an area also its perimeter. Empty while points are missing.
+/// What a measure says: of a distance also its level and upright part, of an area also its perimeter. Empty while points
+/// are missing.
 [[nodiscard]] std::vector<MeasureValue> values_of(const Measure& measure, const glm::dvec3& up);
 /// "12.346 +-0.002" and so on: as many digits as the interval has two of; six where it is 0.
 [[nodiscard]] std::string value_text(const MeasureValue& value);

@@ -92,7 +92,7 @@ void draw_lines(const Request& request, SceneOnDevice& shown, const Camera& came
                 Image& image) {
   const Sheet& sheet = *request.view.made_sheet;
   const PixelWindow window = ink_window(sheet, part);
-  if (window == part) return draw_ink(sheet, {window, image.aov}, part, image);
+  if (window == part && !image.aov.empty()) return draw_ink(sheet, {window, image.aov}, part, image);
   const std::vector<AovPixel> aov = shown.tracer().trace_aov(
       shown.look(), {camera, sheet.width, sheet.height, window}, choose_settings(shown.scene(), request));
   draw_ink(sheet, {window, aov}, part, image);

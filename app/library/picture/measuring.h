@@ -6,9 +6,9 @@
 
 namespace splatray {
 
-/// The measure of what the region holds of a scene, which has its pools. `shown` is the scene on a device and traces the rays; not
-/// needed where all places are points. Throws Error (failed), one sentence, where a ray or a place meets nothing, or what is around
-/// it is no sphere or cylinder.
+/// The measure of what the region holds of a scene, which has its pools. `shown` is the scene on a device and traces the
+/// rays; not needed where all places are points. Throws Error (failed), one sentence, where a ray or a place meets nothing, or
+/// what is around it is no sphere or cylinder.
 [[nodiscard]] Measure take_measure(const Scene& scene, const Region& region, const GivenMeasure& given,
                                    SceneOnDevice* shown);
 

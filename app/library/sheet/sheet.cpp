@@ -172,7 +172,8 @@ void place_sheet(const Scene& scene, const ColorLegend& legend, Request& request
   view.region.light_kept = view.region.light_kept.value_or(true);
   view.made_sheet = sheet;
   if (!request.settings.background) request.settings.transparent = true;
-  request.settings.aov = request.settings.aov || view.ink || !request.output.height_raster.empty();
+  request.settings.aov =
+      request.settings.aov || (view.ink && view.window().width == 0) || !request.output.height_raster.empty();
   if (view.xray) {
     request.look.exposure_ev = 0.0;
     request.look.tone = Tone::none;

@@ -60,7 +60,8 @@ struct Sheet {
 [[nodiscard]] Sheet make_sheet(const Scene& scene, const Request& request);
 
 /// Gives a request with --sheet the camera, size and region of its sheet, and what suits one: light of what is kept, nothing in
-/// the background, for --xray no tone. `legend` of the colours that the scene has now, as the request's look shows them. Throws as make_sheet does, and where --crop or --tile are beyond its pixels.
+/// the background, for --xray no tone. `legend`: of the colours that the scene has now, as the request's look shows them. Throws
+/// as make_sheet does, and where --crop or --tile are beyond its pixels.
 void place_sheet(const Scene& scene, const ColorLegend& legend, Request& request);
 
 }  // namespace splatray

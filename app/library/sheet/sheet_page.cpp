@@ -51,11 +51,6 @@ std::string length_text(const Sheet& sheet, double world) {
   return number_text(std::round(world * 1e6) / 1e6) + " " + (unit != nullptr ? unit->symbol : "units");
 }
 
-glm::vec3 display_color(std::uint32_t packed) {
-  const glm::vec3 linear = unpack_color(packed);
-  return {linear_to_srgb(linear.x), linear_to_srgb(linear.y), linear_to_srgb(linear.z)};
-}
-
 /// Entries of a legend side by side on a page so wide, millimetres.
 std::size_t entries_in_a_row(double width) {
   return static_cast<std::size_t>(std::max(std::floor(width / ENTRY_WIDTH), 1.0));
@@ -177,7 +172,7 @@ class Page {
           std::lround((i + 0.5) / RAMP_BOXES * static_cast<double>(legend.ramp.size() - 1)));
       drawing_.boxes.push_back({{at.x + i * RAMP_WIDTH / RAMP_BOXES, at.y},
                                 {RAMP_WIDTH / RAMP_BOXES + 0.02, RAMP_HEIGHT},
-                                display_color(legend.ramp[step])});
+                                linear_to_srgb(unpack_color(legend.ramp[step]))});
     }
     const double line = at.y + RAMP_HEIGHT + LABEL_SIZE + 0.8;
     const auto six_digits = [](double value) {
@@ -195,7 +190,7 @@ class Page {
     for (std::size_t i = 0; i < legend.categories.size(); ++i) {
       const Category& category = legend.categories[i];
       const glm::dvec2 place = at + glm::dvec2(ENTRY_WIDTH, ENTRY_HEIGHT) * glm::dvec2(i % row, i / row);
-      drawing_.boxes.push_back({place, {SWATCH, SWATCH}, display_color(category.color)});
+      drawing_.boxes.push_back({place, {SWATCH, SWATCH}, linear_to_srgb(unpack_color(category.color))});
       drawing_.texts.push_back({place + glm::dvec2(SWATCH + 1.5, SWATCH - 0.4), LABEL_SIZE, TextAnchor::begin,
                                 std::to_string(category.value) + "  " + category.name});
     }

@@ -13,8 +13,8 @@ namespace splatray {
 /// Pixels as rasters have them: four bytes each, opaque where the picture has no alpha.
 [[nodiscard]] std::vector<std::uint8_t> rgba_bytes(const DisplayImage& picture);
 
-/// The picture of a window of the sheet at its scale, with coordinates at its border, a grid of crosses, a bar, the scale, north where
-/// the paper has it, `title`, and what a reader must know: cut, depth, coordinate system, size of a pixel, what colours mean.
+/// The picture of a window of the sheet at its scale, with coordinates at its border, a grid of crosses, a bar, the scale, north
+/// where the paper has it, `title`, and what a reader must know: cut, depth, coordinate system, size of a pixel, what colours mean.
 [[nodiscard]] Drawing sheet_page(const Sheet& sheet, const PixelWindow& window, const DisplayImage& picture,
                                  const std::string& title);
 

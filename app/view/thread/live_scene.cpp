@@ -19,10 +19,8 @@ void LiveScene::open(SharedScene scene, const AttributeOptions& attributes) {
   if (attributes == AttributeOptions{}) {
     shown_.open(*scene);
   } else {
-    Scene copy = *scene;
-    legend_ = show_attributes(copy, attributes);
+    Scene copy = shown_with(*scene, attributes);
     shown_.open(*scene, &copy);
-    attributes_ = attributes;
   }
   scene_ = std::move(scene);
 }
@@ -38,10 +36,15 @@ void LiveScene::match(const Document& document, ViewMode mode) {
 /// The scene is uploaded again with other colours and radii: those of a copy that lives as long as that takes.
 void LiveScene::match_attributes(const AttributeOptions& attributes) {
   if (attributes == attributes_) return;
-  Scene copy = *scene_;
+  Scene copy = shown_with(*scene_, attributes);
+  shown_.replace_pools(copy);
+}
+
+Scene LiveScene::shown_with(const Scene& scene, const AttributeOptions& attributes) {
+  Scene copy = scene;
   legend_ = show_attributes(copy, attributes);
   attributes_ = attributes;
-  shown_.replace_pools(copy);
+  return copy;
 }
 
 }  // namespace splatray

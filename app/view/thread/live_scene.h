@@ -33,6 +33,8 @@ class LiveScene {
 
  private:
   void match_attributes(const AttributeOptions& attributes);
+  /// A copy of the scene as the attributes are shown, which are then what is shown.
+  Scene shown_with(const Scene& scene, const AttributeOptions& attributes);
 
   SceneOnDevice shown_;
   SharedScene scene_;

@@ -85,7 +85,8 @@ SharedFrame Progressive::trace_coarse() {
   frame.stats = live_.tracer().stats();
   const double pixels = double(frame.view.width) * frame.view.height;
   SharedFrame shown = coloured(std::move(frame));
-  resolution_.learn(pixels, milliseconds_since(start));  // with its colouring, which the display waits for too
+  resolution_.learn(pixels,
+                    milliseconds_since(start));  // with its colouring, which the display waits for too
   return shown;
 }
 

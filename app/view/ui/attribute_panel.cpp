@@ -67,8 +67,8 @@ void category_list(const char* title, const std::vector<Category>& categories,
 }  // namespace
 
 void category_swatch(const Category& category) {
-  const glm::vec3 linear = unpack_color(category.color);
-  const ImVec4 color(linear_to_srgb(linear.x), linear_to_srgb(linear.y), linear_to_srgb(linear.z), 1.0F);
+  const glm::vec3 encoded = linear_to_srgb(unpack_color(category.color));
+  const ImVec4 color(encoded.x, encoded.y, encoded.z, 1.0F);
   const float em = ImGui::GetFontSize();
   ImGui::ColorButton("##color", color, ImGuiColorEditFlags_NoTooltip, {em, em});
   ImGui::SameLine();

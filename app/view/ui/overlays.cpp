@@ -76,8 +76,7 @@ void attribute_legend(const ColorLegend& legend) {
   if (!legend.ramp.empty()) {
     color_scale({legend.low, legend.high}, legend.title.c_str(), [&legend](float share) {
       const float last = static_cast<float>(legend.ramp.size() - 1);
-      const glm::vec3 linear = unpack_color(legend.ramp[static_cast<std::size_t>(share * last)]);
-      return glm::vec3(linear_to_srgb(linear.x), linear_to_srgb(linear.y), linear_to_srgb(linear.z));
+      return linear_to_srgb(unpack_color(legend.ramp[static_cast<std::size_t>(share * last)]));
     });
     return;
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "preprocess/base/lanes.h"
 #include "engine/base/vector_clones.h"
+#include "preprocess/base/lanes.h"
 
 namespace splatray {
 namespace {

@@ -1,6 +1,6 @@
-/// splatray-bench-exact -o EXACTNESS.json [--rays N] [--minutes M] [--points N] [--piece N] [--scene NAME] [--regions] [--device D]:
-/// counts the answers that differ from brute force in float64, and adds them to the counts of the same commit, device and scenes that
-/// the file holds, piece by piece, so that a run may be ended and taken up at any time. JSON: a list of {scene, splats, kind,
+/// splatray-bench-exact -o EXACTNESS.json [--rays N] [--minutes M] [--points N] [--piece N] [--scene NAME] [--regions]
+/// [--device D]: counts the answers that differ from brute force in float64, and adds them to the counts of the same commit, device
+/// and scenes that the file holds, piece by piece, so that a run may be ended and taken up at any time. JSON: a list of {scene, splats, kind,
 /// commit, date, device: {name, driver}, pieces} and the numbers of ExactCount.
 #include <chrono>
 #include <cstdio>
