@@ -14,6 +14,17 @@ namespace {
 constexpr float ALIKE = 0.9F;               // cosine of normals of one smooth surface
 constexpr std::size_t MOST_ASKED = 200000;  // points that give the median well enough
 
+constexpr std::size_t FEWEST = 1000;        // points that distinguish noise from shape
+constexpr std::size_t MOST_PAIRED = 50000;  // points whose pairs show it well enough
+constexpr std::size_t NEAREST = 8;          // the nearest of so many pairs
+constexpr std::size_t DENSEST = 4;          // and the densest of so many points
+constexpr float LOWEST = 1e-6F;             // height over the 8th place's distance that rounding leaves
+
+// Noisy clouds, raw and simulated, have 0.06 and more and a slope of at most 0.4; clean ones, vertices and samples of meshes
+// and surveys of mountains, have slopes of 0.58 and more, whatever their heights. Terrain with trees, thinned until no two
+// points are of one tree, has 0.28 and more.
+constexpr double NOISY = 0.05, ROUGH = 0.5, ROUGH_TERRAIN = 0.15;
+
 constexpr std::size_t MOST_SORTED = 65536;  // coordinates that show their step
 
 /// What a point and its nearest places disagree about, and what rounding hides of it, in cloud coordinates; 0 where nothing is
@@ -22,16 +33,51 @@ float disagreement(const Cloud& cloud, const Survey& survey, std::uint32_t i) {
   float sum = 0.0F, count = 0.0F;
   for (const std::uint32_t j : survey.around(i).first(Survey::RING)) {
     if (!cloud.on_surface(j)) continue;
-    const float along = glm::dot(cloud.normal[i], cloud.normal[j]);
-    if (std::abs(along) < ALIKE) continue;
-    const glm::vec3 both = cloud.normal[i] + std::copysign(1.0F, along) * cloud.normal[j];
-    const float height = 0.5F * glm::dot(both, cloud.coord[j] - cloud.coord[i]);
+    if (glm::dot(cloud.normal[i], cloud.normal[j]) < ALIKE) continue;
+    const float height = 0.5F * glm::dot(cloud.normal[i] + cloud.normal[j], cloud.coord[j] - cloud.coord[i]);
     sum += height * height;
     count += 1.0F;
   }
   if (!(count > 0.0F)) return 0.0F;
   const float rounded = glm::dot(survey.step, glm::abs(cloud.normal[i]));
   return std::sqrt(std::max(sum / count, rounded * rounded / 12.0F));
+}
+
+/// How far two places are apart, and the height of one over the other's plane; both over the distance to the RING-th place.
+struct Pair {
+  float apart, height;
+};
+
+void add_pairs(const Cloud& cloud, const Survey& survey, std::uint32_t i, std::vector<Pair>& pairs) {
+  if (!(survey.reach[i] > 0.0F)) return;
+  const float by = 1.0F / survey.reach[i];
+  for (const std::uint32_t j : survey.around(i)) {
+    if (j == i || !cloud.on_surface(j) || glm::dot(cloud.normal[i], cloud.normal[j]) < ALIKE) continue;
+    const glm::vec3 offset = cloud.coord[j] - cloud.coord[i];
+    const float height = 0.5F * std::abs(glm::dot(cloud.normal[i] + cloud.normal[j], offset));
+    pairs.push_back({by * glm::length(offset), by * height});
+  }
+}
+
+/// The medians of some pairs.
+Pair median_pair(std::span<const Pair> pairs) {
+  std::vector<float> apart, height;
+  for (const Pair& pair : pairs) apart.push_back(pair.apart), height.push_back(pair.height);
+  return {median_of(std::span(apart)), median_of(std::span(height))};
+}
+
+/// The slope of log height over log distance, by least squares over parts of the pairs, which are in order of their distance.
+double slope_of(std::span<const Pair> pairs) {
+  constexpr std::size_t PARTS = 6;
+  glm::dvec2 sum(0.0), products(0.0);
+  for (std::size_t part = 0; part < PARTS; ++part) {
+    const std::size_t first = part * pairs.size() / PARTS, last = (part + 1) * pairs.size() / PARTS;
+    const Pair pair = median_pair(pairs.subspan(first, last - first));
+    const glm::dvec2 at(std::log(pair.apart), std::log(std::max(pair.height, LOWEST)));
+    sum += at, products += at.x * at;
+  }
+  products -= sum.x * sum / double{PARTS};
+  return products.y / products.x;
 }
 
 /// The median over at most about `most` of the points.
@@ -90,6 +136,28 @@ std::vector<double> station_step_world(const Cloud& cloud) {
     steps.push_back(std::max({step.x, step.y, step.z}));
   }
   return steps;
+}
+
+PairHeights pair_heights(const Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points) {
+  if (points.size() < FEWEST) return {};
+  std::vector<float> reach(points.size());
+  std::transform(points.begin(), points.end(), reach.begin(),
+                 [&](std::uint32_t i) { return survey.reach[i]; });
+  select_nth(std::span(reach), reach.size() / DENSEST, std::identity());
+  const float densest = reach[reach.size() / DENSEST];
+  std::vector<Pair> pairs;
+  const std::size_t stride = points.size() / DENSEST / MOST_PAIRED + 1;
+  for (std::size_t n = 0; n < points.size(); n += stride)
+    if (survey.reach[points[n]] <= densest) add_pairs(cloud, survey, points[n], pairs);
+  if (pairs.size() < FEWEST) return {};
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.apart < b.apart; });
+  const Pair nearest = median_pair(std::span(pairs).first(pairs.size() / NEAREST));
+  const float usual = median_of(std::span(reach).first(reach.size() / DENSEST));
+  return {nearest.height, slope_of(pairs), double{nearest.height} * usual};
+}
+
+bool is_noise(const PairHeights& heights, bool terrain) {
+  return heights.near > NOISY && heights.slope < (terrain ? ROUGH_TERRAIN : ROUGH);
 }
 
 double measure_noise(const Cloud& cloud, const Survey& survey) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "preprocess/scan/layers.h"
 #include "preprocess/scan/plane_fit.h"
 #include "preprocess/surface/neighbours.h"
 
@@ -14,7 +15,7 @@ namespace {
 constexpr std::size_t AROUND = 24;  // neighbours
 constexpr std::size_t LEAST = 6;    // of them, that a plane is put through
 constexpr double LAYERED = 0.2;     // noise from which points are projected again
-constexpr float LIKE = 0.77F;       // cosine of normals of one sheet: 40 degrees
+constexpr float LIKE = 0.5F;        // cosine of normals of one sheet: 60 degrees, as a hit's cluster has it
 constexpr float NARROW = 2.0F;      // of the weights: exp(-NARROW d^2 / the farthest's)
 
 /// Sums of weighted places, and from them the plane through them.
@@ -50,23 +51,21 @@ glm::vec3 sided(const glm::dvec3& axis, const glm::vec3& normal) {
 /// Points that are looked at again, with their neighbours.
 class Again {
  public:
-  Again(Cloud& cloud, const std::vector<std::uint8_t>& moves, bool sided, double noise)
+  Again(Cloud& cloud, const Reprojection& how)
       : cloud_(cloud),
-        moves_(moves),
-        sided_(sided),
-        noise_(noise),
+        how_(how),
         listed_(projects() ? std::make_unique_for_overwrite<std::uint32_t[]>(AROUND * cloud.size())
                            : nullptr),
         normal_(cloud.normal) {}
 
   /// Whether points are projected again.
-  [[nodiscard]] bool projects() const { return noise_ > LAYERED; }
+  [[nodiscard]] bool projects() const { return how_.noise > LAYERED; }
 
   /// Finds the neighbours, and from them the first normals.
   void look(const Stage& stage) {
     const NeighbourSearch search(cloud_, Sites::oriented_surface);
     search.find_all(AROUND, stage, [&](std::uint32_t i, std::span<const Neighbour> nearest) {
-      if (moves_[i] == 0) return;
+      if (how_.moves[i] == 0) return;
       if (projects()) keep_list(i, nearest);
       Offsets offsets;
       for (const Neighbour& neighbour : nearest)
@@ -81,7 +80,7 @@ class Again {
     std::vector<float> here(cloud_.size());
     tbb::parallel_for(std::size_t{0}, cloud_.size(), [&](std::size_t i) {
       normal_[i] = cloud_.normal[i];
-      if (moves_[i] == 0) return;
+      if (how_.moves[i] == 0) return;
       const float by = -NARROW / farthest_squared(i);
       WeightedPlace plane;
       plane.add(glm::vec3(0.0F), 1.0F);
@@ -105,7 +104,7 @@ class Again {
   void take_axes() {
     tbb::parallel_for(std::size_t{0}, cloud_.size(), [&](std::size_t i) {
       normal_[i] = cloud_.normal[i];
-      if (moves_[i] == 0) return;
+      if (how_.moves[i] == 0) return;
       Offsets offsets;
       for (const std::uint32_t j : around(i))
         if (j != i && is_like(i, j)) offsets.add(cloud_.coord[j] - cloud_.coord[i]);
@@ -118,7 +117,8 @@ class Again {
   /// Whether two points are of one sheet: edges stay.
   [[nodiscard]] bool is_like(std::size_t i, std::size_t j) const {
     const float along = glm::dot(cloud_.normal[i], cloud_.normal[j]);
-    return (sided_ ? along : std::abs(along)) >= LIKE;
+    return (how_.sided ? along : std::abs(along)) >= LIKE &&
+           is_same_sheet(how_.sheet_end, i, glm::dot(cloud_.normal[i], cloud_.coord[j] - cloud_.coord[i]));
   }
 
   static glm::vec3 axis_of(const Offsets& offsets, const glm::vec3& normal) {
@@ -148,18 +148,15 @@ class Again {
   }
 
   Cloud& cloud_;
-  const std::vector<std::uint8_t>& moves_;
-  bool sided_;
-  double noise_;
+  Reprojection how_;
   std::unique_ptr<std::uint32_t[]> listed_;  ///< AROUND of each point that moves, or fewer and itself
   std::vector<glm::vec3> normal_;            ///< those that come next
 };
 
 }  // namespace
 
-void reproject_points(Cloud& cloud, const std::vector<std::uint8_t>& moves, std::vector<float>& lift,
-                      bool sided, double noise, const Stage& stage) {
-  Again again(cloud, moves, sided, noise);
+void reproject_points(Cloud& cloud, const Reprojection& how, std::vector<float>& lift, const Stage& stage) {
+  Again again(cloud, how);
   again.look(stage);
   if (again.projects()) {
     again.project(lift);

@@ -1,10 +1,13 @@
 #include "preprocess/scan/scan_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "preprocess/base/select.h"
 #include "preprocess/scan/grid/grid_surface.h"
 #include "preprocess/scan/kind.h"
+#include "preprocess/scan/layers.h"
 #include "preprocess/scan/line/lines.h"
 #include "preprocess/scan/noise.h"
 #include "preprocess/scan/sides.h"
@@ -16,11 +19,10 @@
 namespace splatray {
 namespace {
 
-constexpr double NOISY = 0.05;  // noise (measure_noise) from which points are moved
+constexpr double LEAST_NOISE = 0.04;  // of the distance to the 8th place: less is hidden by what discs blend
 constexpr double SHARP =
     0.05;  // share of points at creases that noise would have hidden: edges are what looks like it
-constexpr double WHOLE = 4.0;         // a radius, cloud coordinates, that reaches all points from each
-constexpr std::size_t FEWEST = 1000;  // points that distinguish noise from shape
+constexpr double WHOLE = 4.0;  // a radius, cloud coordinates, that reaches all points from each
 // Radius of discs on no surface over the distance to the 6th place.
 constexpr float LEAVES = 0.4F, CLUTTER = 0.3F;
 
@@ -105,22 +107,76 @@ void note_quality(Cloud& cloud, const std::vector<double>& steps, const std::vec
   }
 }
 
-/// Moves points onto the surface that they are of: as far as `params` ask for, else by their grids or by what is near.
-void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, double noise, bool sided,
-                     const Stage& stage, BuildStats& stats) {
-  const double radius = std::clamp(params.smooth_world / cloud.half_extent_world, 0.0, WHOLE);
-  survey.near = {};
-  Smoothed smoothed;
-  if (params.smooth_world < 0.0) {
-    std::vector<std::uint8_t> movable = survey.estimated;
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      movable[i] = movable[i] != 0 && cloud.on_surface(i) ? 1 : 0;
-    smoothed = smooth_by_grids(cloud, movable, noise, stage);
+/// Looks at all points once; given normals that are noisy, as those of a scanner's grid are, are estimated anew from all scans
+/// together, on their sides.
+Survey look_at(Cloud& cloud, const glm::dvec3& up, const BuildParams& params, const Stage& stage) {
+  Survey survey = survey_points(cloud, up, stage);
+  const auto given = numbers_where(cloud.size(), [&](std::size_t i) { return survey.estimated[i] == 0; });
+  if (params.smooth_world >= 0.0 || !is_noise(pair_heights(cloud, survey, given), false)) return survey;
+  std::vector<glm::vec3> sides(cloud.size());
+  for (const std::uint32_t i : given) std::swap(sides[i], cloud.normal[i]);
+  survey = {};
+  survey = survey_points(cloud, up, stage);
+  survey.sided.resize(cloud.size());
+  for (const std::uint32_t i : given) {
+    survey.sided[i] = 1;
+    if (glm::dot(sides[i], cloud.normal[i]) < 0.0F) cloud.normal[i] = -cloud.normal[i];
   }
-  if (smoothed.moved == 0) smoothed = smooth_points(cloud, survey, radius, sided, noise, stage);
+  return survey;
+}
+
+/// Those of surfaces whose normals were not given.
+std::vector<std::uint8_t> find_movable(const Cloud& cloud, const Survey& survey) {
+  std::vector<std::uint8_t> movable = survey.estimated;
+  for (std::size_t i = 0; i < cloud.size(); ++i) movable[i] = movable[i] != 0 && cloud.on_surface(i) ? 1 : 0;
+  return movable;
+}
+
+/// Leaves out those around which points are so far from each other that noise does not show: a move would level what they are of.
+void keep_near_points(const Survey& survey, double noise_length, std::vector<std::uint8_t>& movable) {
+  const auto far = static_cast<float>(noise_length / LEAST_NOISE);
+  tbb::parallel_for(std::size_t{0}, movable.size(), [&](std::size_t i) {
+    std::array<float, Survey::LISTED> reach;
+    const auto around = survey.around(i);
+    std::transform(around.begin(), around.end(), reach.begin(),
+                   [&](std::uint32_t j) { return survey.reach[j]; });
+    if (median_of(std::span<float>(reach)) > far) movable[i] = 0;
+  });
+}
+
+/// Moves points onto the surface that they are of: all as far as `params` ask for, else by their grids or by what is near.
+void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, SmoothParams how,
+                     const Stage& stage, BuildStats& stats) {
+  const bool asked = params.smooth_world > 0.0;
+  how.radius = std::clamp(params.smooth_world / cloud.half_extent_world, 0.0, WHOLE);
+  std::vector<std::uint8_t> movable = find_movable(cloud, survey);
+  Smoothed smoothed;
+  if (!asked) smoothed = smooth_by_grids(cloud, movable, how.noise, stage);
+  if (smoothed.moved == 0) {
+    if (asked)
+      for (std::size_t i = 0; i < cloud.size(); ++i) movable[i] = cloud.on_surface(i) ? 1 : 0;
+    else
+      keep_near_points(survey, how.noise_length, movable);
+    survey.near = {};
+    how.moves = std::move(movable);
+    smoothed = smooth_points(cloud, survey, how, stage);
+  }
   stats.smoothed += smoothed.moved;
   stats.dropped_unsupported += smoothed.dropped;
   stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);
+}
+
+/// Those of these points whose sides no given normal says.
+std::vector<std::uint32_t> unsided_of(const Survey& survey, std::vector<std::uint32_t> points) {
+  if (!survey.sided.empty()) std::erase_if(points, [&](std::uint32_t i) { return survey.sided[i] != 0; });
+  return points;
+}
+
+/// How many normals were not given.
+std::uint64_t count_unknown(const Survey& survey) {
+  const auto estimated = std::count(survey.estimated.begin(), survey.estimated.end(), 1);
+  const auto sided = std::count(survey.sided.begin(), survey.sided.end(), 1);
+  return static_cast<std::uint64_t>(estimated - sided);
 }
 
 }  // namespace
@@ -135,39 +191,45 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
     if (grids.normals > 0) ++stats.sides_by[static_cast<std::size_t>(SideRung::sensor)];
     return grids.normals;
   }
-  Survey survey = survey_points(cloud, up, stage);
+  Survey survey = look_at(cloud, up, params, stage);
   if (!params.keep_strays) drop_strays(cloud, grids, survey, stats);
   lay_line_surfaces(cloud, survey, params.clip && cloud.radius.empty(), stage);
   std::vector<SharpSide> sharp = find_sharp_sides(cloud, survey, params, stage);
   sort_kinds(cloud, survey, sharp, stats);
-  const auto all_estimated =
-      static_cast<std::uint64_t>(std::count(survey.estimated.begin(), survey.estimated.end(), 1));
   const auto estimated = numbers_where(
       cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0 && cloud.on_surface(i); });
-  const SidesFound sides = turn_to_sides(cloud, survey, estimated, up, stage);
+  const auto unsided = unsided_of(survey, estimated);
+  const SidesFound sides = turn_to_sides(cloud, survey, unsided, up, stage);
   if (!estimated.empty()) ++stats.sides_by[static_cast<std::size_t>(sides.rung)];
   stats.sides_unsure += sides.unsure;
   turn_with_points(cloud, sharp);
   take_normals(cloud, sharp);
-  const double noise = measure_noise(cloud, survey);
+  const PairHeights heights = pair_heights(cloud, survey, estimated);
+  const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
+  const bool noisy = is_noise(heights, sides.terrain) && !sharply;
+  SmoothParams how{.sided = unsided.empty() || sides.rung == SideRung::sensor,
+                   .noise_length = heights.near_length};
+  const bool thin =
+      sides.rung == SideRung::up && !sides.terrain;  // a wall: which side of it is which is not known yet
+  if (thin || (noisy && !how.sided))
+    how.sheet_end = part_layers(cloud, survey, unsided, sides.rung == SideRung::votes, stage);
+  how.noise = measure_noise(cloud, survey);
   if (!cloud.kind.empty()) {
     const bool terrain = sides.rung == SideRung::up || sides.rung == SideRung::track;
     make_scatter_discs(cloud, survey, up, !terrain && is_room(cloud, survey) ? CLUTTER : LEAVES);
   }
-  stats.noise = std::max(stats.noise, noise);
+  stats.noise = std::max(stats.noise, how.noise);
   note_quality(cloud, steps, station_noise_world(cloud, survey));
-  const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
-  const bool noisy = noise > NOISY && estimated.size() >= FEWEST && !sharply;
+  const std::uint64_t unknown = count_unknown(survey);
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
-    const bool sided = estimated.empty() || sides.rung == SideRung::sensor;
-    move_to_surface(cloud, survey, params, noise, sided, stage, stats);
+    move_to_surface(cloud, survey, params, std::move(how), stage, stats);
   } else {
     take_sides(cloud, sharp);
     count_sharp(sharp, stats);
     if (sharp.empty() && cloud.kind.empty() && survey.near->search().has_all())
       cloud.near = std::move(survey.near);
   }
-  return all_estimated + grids.normals;
+  return unknown + grids.normals;
 }
 
 }  // namespace splatray

@@ -15,6 +15,8 @@ namespace {
 const double GRAZING =
     std::sin(5.0 * std::numbers::pi / 180.0);  // sine of the angle between plane and line of sight
 
+const double LEVEL = std::cos(45.0 * std::numbers::pi / 180.0);  // of a sheet's axis that is more up than not
+
 /// Turns normals to where they are seen from. Those that are seen at a grazing angle do as most of their neighbours that
 /// are not. `sensor_of` gives a place in the cloud's coordinates, or nothing.
 template <typename SensorOf>
@@ -81,7 +83,7 @@ std::string_view name_of(SideRung rung) {
 
 SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& estimated,
                          const glm::dvec3& up, const Stage& stage) {
-  if (estimated.empty()) return {SideRung::given, 0};
+  if (estimated.empty()) return {SideRung::given};
   const auto in_cloud = [&](const glm::dvec3& world) {
     return (world - cloud.center_world) / cloud.half_extent_world;
   };
@@ -90,19 +92,19 @@ SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<s
       const auto& sensor = cloud.stations[cloud.station_of(i)].sensor_world;
       return sensor ? std::optional(in_cloud(*sensor)) : std::nullopt;
     });
-    return {SideRung::sensor, 0};
+    return {SideRung::sensor};
   }
   if (const FlightTrack track(cloud, up); !track.empty()) {
     const Column& time = *find_column(cloud.columns, COLUMN_TIME);
     turn_towards(cloud, survey, estimated,
                  [&](std::uint32_t i) { return std::optional(in_cloud(track.at(time.number(i)))); });
-    return {SideRung::track, 0};
+    return {.rung = SideRung::track, .terrain = true};
   }
   if (const auto axis = sheet_axis(cloud, up); axis && !has_layers(cloud, survey, *axis)) {
     turn_up(cloud, estimated, *axis);
-    return {SideRung::up, 0};
+    return {.rung = SideRung::up, .terrain = glm::dot(*axis, up) > LEVEL};
   }
-  return {SideRung::votes, turn_by_votes(cloud, survey, stage)};
+  return {.rung = SideRung::votes, .unsure = turn_by_votes(cloud, survey, stage)};
 }
 
 }  // namespace splatray

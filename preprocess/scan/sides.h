@@ -25,9 +25,11 @@ inline constexpr std::size_t SIDE_RUNGS = 5;
 struct SidesFound {
   SideRung rung = SideRung::given;
   std::uint64_t unsure = 0;  ///< points whose side had less than two thirds of the votes
+  bool terrain = false;      ///< a sheet that is seen from above
 };
 
-/// Turns the normals of the points of `estimated` numbers (ascending) by the first of the rungs that has data.
+/// Turns the normals of the points of `estimated` numbers (ascending) by the first of the rungs that has data; with none of them it
+/// is `given`.
 SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& estimated,
                          const glm::dvec3& up, const Stage& stage);
 

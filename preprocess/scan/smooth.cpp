@@ -8,16 +8,17 @@
 #include "engine/base/vector_clones.h"
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
+#include "preprocess/scan/layers.h"
 #include "preprocess/scan/reproject.h"
+#include "preprocess/scan/surroundings.h"
 #include "preprocess/surface/neighbours.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST = 96;         // neighbours
-constexpr float ENOUGH = 64.0F;          // of them, that are looked for
+constexpr std::size_t MOST = Surroundings::MOST;
+constexpr float ENOUGH = Surroundings::ENOUGH;
 constexpr std::size_t LEAST_AROUND = 6;  // of them, that have any weight
-constexpr float REACHES = 2.5F;          // of the distance to the 8th place: about 4 spacings
 constexpr int REWEIGHTINGS = 2;
 constexpr float WIDE = 4.0F;  // of the heights' standard deviation: what is farther off has little weight
 
@@ -138,17 +139,16 @@ struct Moved {
 /// Moves points by their neighbours.
 class Projection {
  public:
-  Projection(const Cloud& cloud, const Survey& survey, double radius, bool sided)
-      : cloud_(cloud), survey_(survey), radius_(static_cast<float>(radius)), sided_(sided) {
-    std::vector<float> ranked = survey.reach;
-    usual_ = median_of(std::span(ranked));
-  }
+  Projection(const Cloud& cloud, const Survey& survey, const SmoothParams& params)
+      : cloud_(cloud),
+        survey_(survey),
+        params_(params),
+        surroundings_(survey),
+        radius_(static_cast<float>(params.radius)) {}
 
   [[nodiscard]] NeighbourSearch::Query query(std::uint32_t i) const {
     if (radius_ > 0.0F) return {cloud_.coord[i], radius_ * radius_, radius_ * radius_};
-    const float limit = REACHES * std::max(survey_.reach[i], usual_);
-    const float squared = std::min(limit * limit, survey_.expected_squared(i, ENOUGH));
-    return {cloud_.coord[i], squared, squared};
+    return surroundings_.query(cloud_, i);
   }
 
   /// Every how many points are looked at around a point: a power of 4, so that a radius that was asked for holds no more than
@@ -160,11 +160,6 @@ class Projection {
       while (count > ENOUGH * static_cast<float>(stride) && stride * MOST < cloud_.size()) stride *= 4;
     }
     return stride;
-  }
-
-  /// Whether a point may be moved: it is of a surface and, where no radius is asked for, its normal was not given.
-  [[nodiscard]] bool moves(std::size_t i) const {
-    return cloud_.on_surface(i) && (radius_ > 0.0F || survey_.estimated[i] != 0);
   }
 
   /// Moves the points of these numbers by every `stride`-th point around them.
@@ -196,7 +191,7 @@ class Projection {
     float distance_squared[Around::ROOM];
     const float widest = nearest.size() == MOST ? farthest(nearest) : query(i).limit_squared;
     gather(i, nearest, around, distance_squared);
-    const std::size_t used = weigh(around, distance_squared, widest, cloud_.normal[i], sided_);
+    const std::size_t used = weigh(around, distance_squared, widest, cloud_.normal[i], params_.sided);
     moved.supported[i] = used > LEAST_AROUND;
     if (moved.supported[i] == 0) return;
     const Plane plane = fit_robust_plane(around);
@@ -222,41 +217,42 @@ class Projection {
     add(glm::vec3(0.0F), cloud_.normal[i], 0.0F);
     for (const Neighbour& neighbour : nearest) {
       const std::uint32_t other = neighbour.index();
-      add(cloud_.coord[other] - cloud_.coord[i], cloud_.normal[other], neighbour.distance_squared());
+      const glm::vec3 offset = cloud_.coord[other] - cloud_.coord[i];
+      if (is_same_sheet(params_.sheet_end, i, glm::dot(offset, cloud_.normal[i])))
+        add(offset, cloud_.normal[other], neighbour.distance_squared());
     }
     while (around.count % LANES != 0) add(glm::vec3(0.0F), glm::vec3(0.0F), 0.0F);
   }
 
   const Cloud& cloud_;
   const Survey& survey_;
+  const SmoothParams& params_;
+  Surroundings surroundings_;
   float radius_;
-  bool sided_;
-  float usual_ = 0.0F;
 };
 
 }  // namespace
 
-Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided, double noise,
-                       const Stage& stage) {
+Smoothed smooth_points(Cloud& cloud, const Survey& survey, const SmoothParams& params, const Stage& stage) {
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
-  const Projection projection(cloud, survey, radius, sided);
+  const Projection projection(cloud, survey, params);
   Moved moved{std::vector<float>(size), cloud.normal, std::vector<std::uint8_t>(size, 1)};
-  std::vector<std::uint8_t> moves(size);
-  tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) { moves[i] = projection.moves(i) ? 1 : 0; });
-  for (std::size_t stride = 1; stride == 1 || (radius > 0.0 && stride < 4 * size); stride *= 4) {
+  for (std::size_t stride = 1; stride == 1 || (params.radius > 0.0 && stride < 4 * size); stride *= 4) {
     const auto movers = numbers_where(
-        size, [&](std::size_t i) { return moves[i] != 0 && projection.stride_of(i) == stride; });
+        size, [&](std::size_t i) { return params.moves[i] != 0 && projection.stride_of(i) == stride; });
     projection.move(movers, stride, moved, stage);
   }
   const auto supported = numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
   if (supported.empty()) return {};  // nothing supports anything: the radius is too small for these points
   cloud.normal = std::move(moved.normal);
   keep_points(cloud, supported);
-  moves = gather(moves, supported);
+  const std::vector<std::uint8_t> moves = gather(params.moves, supported);
   std::vector<float> lift = gather(moved.lift, supported);
   move_points(cloud, lift);
-  reproject_points(cloud, moves, lift, sided, noise, stage);
+  std::vector<float> sheet_end = gather(params.sheet_end, supported);
+  for (std::size_t i = 0; i < sheet_end.size(); ++i) sheet_end[i] -= lift[i];
+  reproject_points(cloud, {moves, params.sided, params.noise, sheet_end}, lift, stage);
   put_in_order(cloud);
   std::vector<float> lifts;
   for (std::size_t i = 0; i < lift.size(); ++i)

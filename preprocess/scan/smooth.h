@@ -1,12 +1,23 @@
 /// Noisy points, moved onto the surface that they and their neighbours are of.
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "preprocess/base/parallel.h"
 #include "preprocess/scan/survey.h"
 #include "preprocess/surface/cloud.h"
 
 namespace splatray {
+
+/// What is moved, and by what.
+struct SmoothParams {
+  double radius = 0.0;                   ///< of what is looked at, cloud coordinates; 0 = by the spacing
+  bool sided = false;                    ///< whether normals' sides are known
+  double noise = 0.0;                    ///< measure_noise
+  double noise_length = 0.0;             ///< PairHeights::near_length
+  std::vector<std::uint8_t> moves = {};  ///< of each point: != 0 where it may be moved
+  std::vector<float> sheet_end = {};     ///< part_layers; empty = there is one sheet everywhere
+};
 
 /// What smoothing did.
 struct Smoothed {
@@ -21,10 +32,9 @@ struct Smoothed {
 /// within 2.5 times the distance to the 8th place, the point's own or the median of all, whichever is more, or, where that is
 /// less, within what about 64 are expected in; weights (1 - d^2/R^2)^2 times the cosine to the point's own normal, so that
 /// surfaces behind and edges stay; the plane of weighted mean and mean normal, twice weighted anew by the distance to it.
-/// Points with fewer than 6 such neighbours are dropped. What is left is looked at again (reproject_points, which `noise` is
-/// for). Points on no surface stay as they are, and with a radius of 0 those whose normals were not estimated. Normals must be
-/// known; `sided` when their sides are too. The cloud is in order afterwards.
-[[nodiscard]] Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided,
-                                     double noise, const Stage& stage);
+/// Places on another sheet (SmoothParams::sheet_end) are not looked at. Points with fewer than 6 such neighbours are dropped. What
+/// is left is looked at again (reproject_points). Normals must be known. The cloud is in order afterwards.
+[[nodiscard]] Smoothed smooth_points(Cloud& cloud, const Survey& survey, const SmoothParams& params,
+                                     const Stage& stage);
 
 }  // namespace splatray

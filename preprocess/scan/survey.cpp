@@ -252,6 +252,7 @@ void Survey::keep(const Cloud& cloud, const std::vector<std::uint32_t>& kept,
   reach = gather(reach, kept);
   wide = gather(wide, kept);
   estimated = gather(estimated, kept);
+  if (!sided.empty()) sided = gather(sided, kept);
   flatness = gather(flatness, kept);
   near->keep(cloud, kept, number);
 }

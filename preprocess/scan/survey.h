@@ -24,6 +24,7 @@ struct Survey {
   std::vector<float> reach;  ///< distance to the RING-th place
   std::vector<float> wide;   ///< distance to the WIDE-th place, or what it is on a surface of even density
   std::vector<std::uint8_t> estimated;  ///< whether the normal was unknown before
+  std::vector<std::uint8_t> sided;      ///< whether the normal's side is that of a given one; empty = of none
   /// Least deviation over the second, of the flattest neighbourhood that does not lie along a line, where the normal was
   /// unknown, else 0; infinite on a line. Empty where all normals were given.
   std::vector<float> flatness;

@@ -55,7 +55,13 @@ class DescriptionReader : public XmlReceiver {
     }
   }
 
-  E57Description take() { return {std::move(scans_), std::move(crs_), std::move(library_)}; }
+  E57Description take() {
+    const bool differ = std::any_of(scans_.begin(), scans_.end(), [&](const E57Scan& scan) {
+      return scan.translation != scans_.front().translation;
+    });
+    for (E57Scan& scan : scans_) scan.is_shifted_alone = differ;
+    return {std::move(scans_), std::move(crs_), std::move(library_)};
+  }
 
  private:
   static bool is_in_scan(const XmlPath& at) {

@@ -38,7 +38,8 @@ struct E57Scan {
   std::string name;  ///< UTF-8 without blanks around it; may be empty
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
   glm::dvec3 translation{0.0};
-  std::vector<E57Field> fields;  ///< in the order of their streams
+  bool is_shifted_alone = false;  ///< another scan of the file has another translation
+  std::vector<E57Field> fields;   ///< in the order of their streams
   std::uint64_t physical_offset = 0;
   std::uint64_t records = 0;
   std::array<E57Limits, 3> color_limits;

@@ -15,8 +15,10 @@ bool is_sensor_at_origin(const E57Scan& scan, bool is_measured_around, const Sca
   const bool is_shifted = scan.translation != glm::dvec3(0.0);
   const glm::dvec3 axis(scan.rotation.x, scan.rotation.y, scan.rotation.z);
   const bool is_turned = glm::length(axis) > TURNED;
-  if (!is_measured_around && !is_turned && !(is_shifted && distance == 0.0)) return false;
-  return distance <= MOST_DIAGONALS * glm::distance(box.low, box.high);
+  const double diagonal = glm::distance(box.low, box.high);
+  const bool shows_place = is_shifted && distance <= (scan.is_shifted_alone ? diagonal : 0.0);
+  if (!is_measured_around && !is_turned && !shows_place) return false;
+  return distance <= MOST_DIAGONALS * diagonal;
 }
 
 }  // namespace splatray

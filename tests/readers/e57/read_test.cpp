@@ -229,8 +229,9 @@ TEST(E57, FilesBeyondFourGibibytes) {
 
 /// Of a scan with this pose and a box of points from `low` to `high`.
 bool is_sensor(bool measured_around, const glm::dquat& rotation, const glm::dvec3& translation,
-               const glm::dvec3& low, const glm::dvec3& high) {
+               const glm::dvec3& low, const glm::dvec3& high, bool shifted_alone = false) {
   E57Scan scan;
+  scan.is_shifted_alone = shifted_alone;
   scan.rotation = rotation;
   scan.translation = translation;
   ScanBox box;
@@ -252,6 +253,10 @@ TEST(E57, TheScannersPlaceIsOnlyBelievedWhereItIsCredible) {
   EXPECT_FALSE(is_sensor(false, straight, glm::dvec3(0.0), low, high)) << "nothing shows a scanner's frame";
   EXPECT_FALSE(is_sensor(false, straight, moved, low + 2.0, high + 2.0))
       << "large coordinates that were shifted";
+  EXPECT_TRUE(is_sensor(false, straight, moved, low + 2.0, high + 2.0, true))
+      << "as no other scan of the file";
+  EXPECT_FALSE(is_sensor(false, straight, moved, low + 9.0, high + 9.0, true))
+      << "tiles of large coordinates";
   EXPECT_TRUE(is_sensor(true, turned, moved, low + 12.0, high + 12.0)) << "an object seen from afar";
   EXPECT_FALSE(is_sensor(true, turned, moved, low + map, high + map)) << "a grid in map coordinates";
   EXPECT_FALSE(is_sensor_at_origin({}, true, {})) << "no points";
