@@ -63,7 +63,7 @@ TEST(Encoding, TextsOfLas) {
 
 /// Also where a character lies across two chunks of the XML, of 65536 bytes, and whatever the XML calls its encoding.
 TEST(Encoding, TextsOfE57) {
-  for (const std::string name : {LATIN_1, UTF_8})
+  for (const std::string& name : {LATIN_1, UTF_8})
     for (const std::string encoding :
          {"", " encoding=\"UTF-8\"", " encoding=\"ISO-8859-1\"", " encoding=\"x\""})
       for (int shift = 0; shift < 3; ++shift) {
@@ -100,7 +100,7 @@ std::string gltf_named(const std::string& name, bool binary) {
 TEST(Encoding, NamesOfGltf) {
   const TempFolder folder;
   folder.write("a.bin", gltf_named("", true).substr(gltf_named("", true).size() - 36));
-  for (const std::string name : {LATIN_1, UTF_8, LATIN_1 + "x", LATIN_1 + LATIN_1}) {
+  for (const std::string& name : {LATIN_1, UTF_8, LATIN_1 + "x", LATIN_1 + LATIN_1}) {
     EXPECT_EQ(
         read_input({folder.write("a.gltf", gltf_named(name, false))}, keeping_meshes()).objects.at(0).name,
         to_utf8(name));
