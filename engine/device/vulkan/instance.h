@@ -13,8 +13,8 @@ namespace splatray {
 struct VulkanStart {
   VkInstance instance = VK_NULL_HANDLE;  ///< null where no driver starts
   std::vector<VkPhysicalDevice> devices;
-  std::string
-      said;  ///< without devices: the result and the loader's words; empty where no driver is installed
+  /// Without devices: the result and the loader's words; empty where no driver is installed.
+  std::string said;
 };
 
 using Pause = std::function<void(std::chrono::milliseconds)>;
