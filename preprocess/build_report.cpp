@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "engine/base/json_text.h"
 #include "preprocess/scan/sides.h"
 
 namespace splatray {
@@ -95,7 +96,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"slabs_ms", stats.slabs_ms},
                                        {"empty_ms", stats.empty_ms},
                                        {"total_ms", stats.total_ms}};
-  return json.dump(2);
+  return json_text(json, 2);
 }
 
 std::string build_summary(const BuildStats& stats, const std::filesystem::path& path) {

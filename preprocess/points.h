@@ -214,7 +214,8 @@ struct ReadOptions {
 
 /// Reads one or more files into one Input (several files: one object each, but all scans together one; glTF: its own objects), by
 /// their extensions (read/formats.h). A folder stands for the scans in it, by name, .ply among them; text and .bin that turn out
-/// to be something else are left out there, with a note. Throws Error (input_unreadable), one sentence
+/// to be something else are left out there, with a note. Scans and stations without points are left out beside others, with a
+/// note, too. Throws Error (input_unreadable), one sentence
 /// with path, found and expected, or (interrupted) when `options.progress` says so.
 [[nodiscard]] Input read_input(const std::vector<std::filesystem::path>& paths, const ReadOptions& options);
 

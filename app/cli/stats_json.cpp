@@ -5,6 +5,7 @@
 
 #include "app/library/attributes.h"
 #include "app/library/commit.h"
+#include "engine/base/json_text.h"
 #include "engine/file/atomic_file.h"
 #include "preprocess/build_report.h"
 
@@ -109,7 +110,7 @@ void write_stats(const Request& request, const LoadedScene& loaded, const PoolCo
   if (settings.counters) json["counters"] = counters_json(sum.stats.counters);
   if (request.output.denoise) json["times_ms"]["denoise"] = sum.denoise_ms;
   if (request.output.many()) json["frames"] = frames_json(record.made);
-  write_text_file(json.dump(2) + '\n', request.output.stats_json);
+  write_text_file(json_text(json, 2) + '\n', request.output.stats_json);
 }
 
 }  // namespace splatray

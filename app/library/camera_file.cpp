@@ -7,6 +7,7 @@
 #include "app/library/codec/json_file.h"
 #include "app/library/codec/json_vector.h"
 #include "engine/base/error.h"
+#include "engine/base/json_text.h"
 #include "engine/base/number_text.h"
 #include "engine/file/atomic_file.h"
 #include "engine/image/view.h"
@@ -131,7 +132,7 @@ CameraPath read_camera_path(const std::filesystem::path& path) {
 }
 
 void write_camera(const Camera& camera, const std::filesystem::path& path) {
-  write_text_file(to_json(camera).dump(2) + '\n', path);
+  write_text_file(json_text(to_json(camera), 2) + '\n', path);
 }
 
 void write_camera_path(const CameraPath& keys, const std::filesystem::path& path) {
@@ -140,7 +141,7 @@ void write_camera_path(const CameraPath& keys, const std::filesystem::path& path
     json["keys"].push_back(to_json(key.camera));
     json["keys"].back()["frame"] = key.frame;
   }
-  write_text_file(json.dump(2) + '\n', path);
+  write_text_file(json_text(json, 2) + '\n', path);
 }
 
 }  // namespace splatray

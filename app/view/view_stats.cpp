@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_text.h"
 #include "engine/file/atomic_file.h"
 
 namespace splatray {
@@ -61,7 +62,7 @@ void ViewStats::write(const std::filesystem::path& path, std::uint32_t validatio
   json["pools_uploaded"] = frame_ ? frame_->pools_uploaded : 0;
   json["errors"] = errors_;
   json["validation_messages"] = validation_messages;
-  write_text_file(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", path);
+  write_text_file(json_text(json, 2) + "\n", path);
 }
 
 }  // namespace splatray

@@ -16,6 +16,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "engine/base/utf8.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/scene_file_header.h"
 #include "engine/scene/pool_table.h"
@@ -316,11 +317,11 @@ void read_strings(Reader& reader, Scene& scene) {
         std::to_string(strings.size()) + " names",
         std::to_string(expected) + ", of objects, environment, stations and columns, and of the system");
   auto next = strings.begin();
-  for (std::uint32_t i = 0; i < header.objects; ++i) scene.object_names.push_back(std::move(*next++));
+  for (std::uint32_t i = 0; i < header.objects; ++i) scene.object_names.push_back(to_utf8(*next++));
   scene.environment_path = std::move(*next++);
-  for (Station& station : scene.stations) station.name = std::move(*next++);
-  for (Column& column : scene.columns) column.name = std::move(*next++);
-  if (is_measured(header)) scene.crs = std::move(*next++);
+  for (Station& station : scene.stations) station.name = to_utf8(*next++);
+  for (Column& column : scene.columns) column.name = to_utf8(*next++);
+  if (is_measured(header)) scene.crs = to_utf8(*next++);
 }
 
 void read_columns(Reader& reader, Scene& scene) {

@@ -1,7 +1,11 @@
 #include "preprocess/mesh/edge_sites.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
+#include <map>
 #include <span>
 #include <unordered_map>
 
@@ -18,24 +22,28 @@ constexpr double LEAST_HEIGHT = 0.02;  // of the spacing: triangles that are fla
 constexpr double REACH = 2.0;          // of the spacing: how far edges that clip a disc are looked for
 constexpr std::size_t PATCH_MOST = 64;
 
-/// The samples of each triangle, and those that are added.
+/// The samples of each triangle, and those that are added, in their order along the triangle's longest side: few of them lie in
+/// a slab across it, however many a long triangle has.
 class SamplesOnMesh {
  public:
   SamplesOnMesh(const Mesh& mesh, const MeshEdges& edges, const std::vector<std::uint32_t>& triangle,
                 const std::vector<glm::dvec3>& position)
-      : mesh_(mesh),
-        edges_(edges),
-        position_(position),
-        begin_(mesh.triangles.size() + 1, 0),
-        sample_(triangle.size()) {
+      : mesh_(mesh), edges_(edges), begin_(mesh.triangles.size() + 1, 0), samples_(triangle.size()) {
     for (const std::uint32_t t : triangle) ++begin_[t + 1];
     for (std::size_t t = 1; t < begin_.size(); ++t) begin_[t] += begin_[t - 1];
     std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
     for (std::size_t i = 0; i < triangle.size(); ++i)
-      sample_[next[triangle[i]]++] = static_cast<std::uint32_t>(i);
+      samples_[next[triangle[i]]++] = {along(triangle[i], position[i]), position[i]};
+    tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t t) {
+      std::sort(samples_.begin() + static_cast<std::ptrdiff_t>(begin_[t]),
+                samples_.begin() + static_cast<std::ptrdiff_t>(begin_[t + 1]),
+                [](const Sample& a, const Sample& b) { return a.along < b.along; });
+    });
   }
 
-  void add(std::uint32_t triangle, const glm::dvec3& place) { added_[triangle].push_back(place); }
+  void add(std::uint32_t triangle, const glm::dvec3& place) {
+    added_[triangle].emplace(along(triangle, place), place);
+  }
 
   /// Whether a sample of the patch of a place on a triangle is within `reach`.
   [[nodiscard]] bool any_near(std::uint32_t triangle, const glm::dvec3& place, double reach) {
@@ -57,22 +65,45 @@ class SamplesOnMesh {
   }
 
  private:
+  struct Sample {
+    double along;  ///< world units
+    glm::dvec3 place;
+  };
+
+  /// How far a place lies along the longest side of a triangle.
+  [[nodiscard]] double along(std::uint32_t triangle, const glm::dvec3& place) const {
+    const glm::uvec3& t = mesh_.triangles[triangle];
+    const auto& p = mesh_.vertices.position;
+    glm::dvec3 longest(0.0);
+    for (const glm::dvec3& side : {p[t.y] - p[t.x], p[t.z] - p[t.y], p[t.x] - p[t.z]})
+      if (glm::dot(side, side) > glm::dot(longest, longest)) longest = side;
+    return glm::dot(place - p[t.x], longest / std::max(glm::length(longest), DBL_MIN));
+  }
+
   [[nodiscard]] bool has_near(std::uint32_t triangle, const glm::dvec3& place, double reach) const {
+    constexpr double ROUNDED = 1.001;  // of a slab's thickness: lengths along sides are rounded
+    const double middle = along(triangle, place), low = middle - ROUNDED * reach,
+                 high = middle + ROUNDED * reach;
     const auto near = [&](const glm::dvec3& sample) {
       return glm::dot(sample - place, sample - place) < reach * reach;
     };
-    for (std::size_t i = begin_[triangle]; i < begin_[triangle + 1]; ++i)
-      if (near(position_[sample_[i]])) return true;
-    const auto added = added_.find(triangle);
-    return added != added_.end() && std::any_of(added->second.begin(), added->second.end(), near);
+    const auto end = samples_.begin() + static_cast<std::ptrdiff_t>(begin_[triangle + 1]);
+    auto sample = std::lower_bound(samples_.begin() + static_cast<std::ptrdiff_t>(begin_[triangle]), end, low,
+                                   [](const Sample& one, double value) { return one.along < value; });
+    for (; sample != end && sample->along <= high; ++sample)
+      if (near(sample->place)) return true;
+    const auto found = added_.find(triangle);
+    if (found == added_.end()) return false;
+    const auto behind = found->second.upper_bound(high);
+    return std::any_of(found->second.lower_bound(low), behind,
+                       [&](const auto& added) { return near(added.second); });
   }
 
   const Mesh& mesh_;
   const MeshEdges& edges_;
-  const std::vector<glm::dvec3>& position_;
-  std::vector<std::size_t> begin_;     ///< of each triangle's samples
-  std::vector<std::uint32_t> sample_;  ///< by triangle
-  std::unordered_map<std::uint32_t, std::vector<glm::dvec3>> added_;
+  std::vector<std::size_t> begin_;  ///< of each triangle's samples
+  std::vector<Sample> samples_;     ///< by triangle
+  std::unordered_map<std::uint32_t, std::multimap<double, glm::dvec3>> added_;
   std::vector<std::uint32_t> patch_;
 };
 

@@ -112,7 +112,10 @@ InputObject join_scans(std::vector<NamedScan> scans) {
   }
   Points& points = object.points;
   std::erase_if(points.columns, is_constant_zero);
-  if (stations > 1) points.columns.push_back({std::string(COLUMN_SCAN), points.station});
+  if (stations > 1) {
+    points.station.resize(points.size(), 0);  // where all points are of the first station it is still empty
+    points.columns.push_back({std::string(COLUMN_SCAN), points.station});
+  }
   if (!points.color.empty()) object.material.diffuse = COLORED_DIFFUSE;
   return object;
 }

@@ -4,8 +4,10 @@
 
 #include "engine/base/error.h"
 #include "engine/base/one_line.h"
+#include "engine/base/utf8.h"
 #include "preprocess/base/counted_list.h"
 #include "preprocess/base/file_extension.h"
+#include "preprocess/base/quoted_list.h"
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/points.h"
@@ -14,6 +16,7 @@
 #include "preprocess/read/join_scans.h"
 #include "preprocess/read/one_system.h"
 #include "preprocess/read/read_mesh.h"
+#include "preprocess/read/scan/empty_stations.h"
 #include "preprocess/read/text/read_track.h"
 
 namespace splatray {
@@ -29,7 +32,7 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
                     const ReadListener& listener) {
   Input input;
   InputObject object;
-  object.name = path.stem().string();
+  object.name = path_text(path.stem());
   object.material = default_material();
   object.meshes.push_back(read_mesh(path, options, listener));
   listener.show(object.meshes.front().vertices, object.meshes.front().triangles.empty());
@@ -42,13 +45,37 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
   return input;
 }
 
-/// Keeps a scan until all are read; what it says of the whole input.
-Input add_scan(const std::filesystem::path& path, ScanFile file, std::vector<NamedScan>& scans) {
+/// What became of the points where none is left; empty where there were none.
+std::string fate_of(const ScanCounts& counts) {
+  const std::pair<std::uint64_t, const char*> lost[] = {{counts.withheld, "withheld"},
+                                                        {counts.noise, "of the classes of noise"},
+                                                        {counts.no_return, "without a finite position"},
+                                                        {counts.missing, "missing or damaged"}};
+  return counted_list(lost);
+}
+
+/// What is found where no point is left of those counted.
+std::string no_points_found(const ScanCounts& counts) {
+  const std::string fate = fate_of(counts);
+  return fate.empty() ? "found no points"
+                      : "found no points to keep: of " + std::to_string(counts.stored) + " points, " + fate;
+}
+
+/// Keeps a scan until all are read, unless it has no points; what it says of the whole input. An empty one says nothing but
+/// what was left out of it.
+Input add_scan(const std::filesystem::path& path, ScanFile file, const ReadListener& listener,
+               std::vector<NamedScan>& scans) {
   Input input;
-  input.up = file.up;
   input.scan_counts = file.counts;
+  if (file.points.size() == 0) {
+    listener.note(path, no_points_found(file.counts) + "; it was left out");
+    return input;
+  }
+  const std::vector<std::string> empty = remove_empty_stations(file.points);
+  if (!empty.empty()) listener.note(path, "found no points in " + quoted_list(empty) + "; left out");
+  input.up = file.up;
   input.crs = file.points.crs;
-  scans.push_back({path.stem().string(), std::move(file), path});
+  scans.push_back({path_text(path.stem()), std::move(file), path});
   return input;
 }
 
@@ -153,30 +180,19 @@ Input read_file(const std::filesystem::path& path, const ReadOptions& options, c
   if (format != nullptr && format->read_scan != nullptr) {
     ScanFile file = format->read_scan(path, options, listener);
     listener.show(file.points, true, file.up);
-    return add_scan(path, std::move(file), scans);
+    return add_scan(path, std::move(file), listener, scans);
   }
-  if (format != nullptr && format->read_scene != nullptr) return format->read_scene(path, options, listener);
+  if (format != nullptr && format->read_scene != nullptr) {
+    Input scene = format->read_scene(path, options, listener);
+    if (scene.objects.empty()) listener.note(path, "found no points");
+    return scene;
+  }
   return read_geometry(path, options, listener);
 }
 
-/// What became of the points where none is left; empty where there were none.
-std::string fate_of(const ScanCounts& counts) {
-  const std::pair<std::uint64_t, const char*> lost[] = {{counts.withheld, "withheld"},
-                                                        {counts.noise, "of the classes of noise"},
-                                                        {counts.no_return, "without a finite position"},
-                                                        {counts.missing, "missing or damaged"}};
-  return counted_list(lost);
-}
-
 [[noreturn]] void refuse_no_points(const std::vector<NamedFile>& files, const ScanCounts& counts) {
-  const std::string fate = fate_of(counts);
-  std::string found = join(files) + ": found no points";
-  if (fate.empty()) {
-    found += " and no triangles";
-  } else {
-    found += " to keep: of " + std::to_string(counts.stored) + " points, " + fate +
-             "; expected at least one other";
-  }
+  std::string found = join(files) + ": " + no_points_found(counts);
+  found += fate_of(counts).empty() ? " and no triangles" : "; expected at least one other";
   if (counts.withheld + counts.noise > 0) found += " (--keep-withheld keeps those withheld or of noise)";
   throw Error(ExitCode::input_unreadable, found);
 }

@@ -2,6 +2,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <iterator>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -66,7 +67,24 @@ void check_input(const Input& input) {
   }
 }
 
-/// Reads the file, then builds and shows what it holds, by parameters that follow from its bytes.
+/// A whole file of another format with some points or none, by `choice`.
+std::filesystem::path other_file(std::uint64_t choice) {
+  constexpr std::pair<const char*, std::string_view> FILES[] = {
+      {"none.csv", "x,y,z\n"},
+      {"some.csv", "x,y,z,intensity,r,g,b\n0,0,0,1,9,9,9\n1,0,0,2,9,9,9\n0,1,0,3,9,9,9\n"},
+      {"none.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA binary\n"},
+      {"some.ptx",
+       "1\n2\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 0 0 0.5\n2 0 0 0.5\n"},
+      {"none.ply",
+       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+       "end_header\n"}};
+  static const MemoryFolder folder;
+  const auto& [name, text] = FILES[choice % std::size(FILES)];
+  return folder.write(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+/// Reads the file, then builds and shows what it holds, by parameters that follow from its bytes; then reads it before and behind
+/// another one.
 void read_and_check(const std::filesystem::path& path, FuzzBytes bytes, const ScanOptions& scans = {}) {
   ReadOptions options;
   options.scans = scans;
@@ -74,11 +92,15 @@ void read_and_check(const std::filesystem::path& path, FuzzBytes bytes, const Sc
   options.keep_meshes = true;
   options.scans.attributes = {"a", "b", "c", "v"};
   options.threads = 1;
+  const std::uint64_t choice = XXH3_64bits(bytes.data(), bytes.size());
   read_or_refuse([&] {
     Input input = read_input({path}, options);
     check_input(input);
-    build_and_show(std::move(input), XXH3_64bits(bytes.data(), bytes.size()));
+    build_and_show(std::move(input), choice);
   });
+  const std::filesystem::path other = other_file(choice);
+  for (const auto& files : {std::vector{path, other}, std::vector{other, path}})
+    read_or_refuse([&] { check_input(read_input(files, options)); });
 }
 
 void read_as(const char* name, FuzzBytes bytes) {

@@ -12,7 +12,8 @@ using FuzzBytes = std::span<const std::uint8_t>;
 /// read_scene on the bytes as they are, then on the same with the file's form and checksums put right, so that the
 /// checks behind those are reached. What is read must unpack to finite splats and let rays walk it.
 void fuzz_scene_file(FuzzBytes bytes);
-/// read_input on a file with this extension; the points and triangles must be as preprocess/points.h says. Then build_and_show.
+/// read_input on a file with this extension; the points and triangles must be as preprocess/points.h says. Then build_and_show,
+/// and read_input on it and a file of another format, some with points and some without, in both orders.
 void fuzz_ply(FuzzBytes bytes);
 void fuzz_obj(FuzzBytes bytes);
 void fuzz_stl(FuzzBytes bytes);

@@ -1,11 +1,17 @@
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <link.h>
 
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/device/vulkan/instance.h"
 #include "engine/device/vulkan/vulkan_device.h"
+#include "tests/temp_folder.h"
 
 namespace splatray {
 namespace {
@@ -116,6 +122,63 @@ TEST(DeviceChoice, NoDriverIsOneHelpfulSentence) {
   const Error error = error_of([] { VulkanDevice device; });
   EXPECT_EQ(error.code(), ExitCode::no_device);
   EXPECT_NE(std::string(error.what()).find("mesa-vulkan-drivers"), std::string::npos) << error.what();
+}
+
+/// A manifest of the library `file` beside it; its name is one that the tests' choice of drivers lets pass.
+std::filesystem::path manifest_of(const TempFolder& folder, const std::string& file) {
+  return folder.write("lvp_icd.json", R"({"file_format_version":"1.0.0","ICD":{"library_path":")" +
+                                          (folder.path() / file).string() + R"(","api_version":"1.3.0"}})");
+}
+
+TEST(DeviceChoice, ADriverThatDoesNotLoadIsReportedInTheLoadersWords) {
+  const TempFolder folder;
+  folder.write("libbroken.so", "no library");
+  const Variable files("VK_DRIVER_FILES", manifest_of(folder, "libbroken.so").c_str());
+  const Variable validation("SPLATRAY_VALIDATION", "0");
+  const std::string sentence = error_of([] { VulkanDevice device; }).what();
+  EXPECT_NE(sentence.find("no Vulkan device found (VK_ERROR_INCOMPATIBLE_DRIVER"), std::string::npos)
+      << sentence;
+  EXPECT_NE(sentence.find("libbroken.so"), std::string::npos) << sentence;
+}
+
+/// A driver that starts at the fourth try, as one whose libraries cannot be loaded while memory is short.
+TEST(DeviceChoice, ADriverThatFailsForAWhileIsTriedAgain) {
+  void* lavapipe = dlopen("libvulkan_lvp.so", RTLD_NOW);
+  ASSERT_NE(lavapipe, nullptr) << "this test needs lavapipe";
+  const link_map* library = nullptr;
+  ASSERT_EQ(dlinfo(lavapipe, RTLD_DI_LINKMAP, &library), 0);
+  const TempFolder folder;
+  const Variable files("VK_DRIVER_FILES", manifest_of(folder, "liblate.so").c_str());
+  int pauses = 0;
+  const VulkanStart started = start_vulkan(nullptr, {}, [&](std::chrono::milliseconds) {
+    if (++pauses == 3) std::filesystem::create_symlink(library->l_name, folder.path() / "liblate.so");
+  });
+  EXPECT_EQ(started.devices.size(), 1U);
+  EXPECT_EQ(started.said, "");
+  EXPECT_EQ(pauses, 3);
+  ASSERT_NE(started.instance, nullptr);
+  vkDestroyInstance(started.instance, nullptr);
+}
+
+TEST(DeviceChoice, TriesEnd) {
+  const TempFolder folder;
+  const Variable files("VK_DRIVER_FILES", manifest_of(folder, "libmissing.so").c_str());
+  std::chrono::milliseconds waited{0};
+  const VulkanStart started =
+      start_vulkan(nullptr, {}, [&](std::chrono::milliseconds time) { waited += time; });
+  EXPECT_TRUE(started.devices.empty());
+  EXPECT_EQ(started.instance, nullptr);
+  EXPECT_EQ(waited, std::chrono::milliseconds(375));
+}
+
+TEST(DeviceChoice, NoOneWaitsWhereNoDriverIsInstalled) {
+  const Variable choice("VK_LOADER_DRIVERS_SELECT", "*no_such_driver*");
+  std::chrono::milliseconds waited{0};
+  const VulkanStart started =
+      start_vulkan(nullptr, {}, [&](std::chrono::milliseconds time) { waited += time; });
+  EXPECT_TRUE(started.devices.empty());
+  EXPECT_EQ(started.said, "");
+  EXPECT_EQ(waited, std::chrono::milliseconds(0));
 }
 
 TEST(DeviceChoice, MissingValidationLayerNamesItsPackage) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <random>
 
 #include "preprocess/build.h"
@@ -51,6 +52,25 @@ TEST(FlatQuads, HaveNoHolesWhateverTheirLengthAndDensity) {
     const Scene scene = test::sampled_scene(quad(aspect), std::uint64_t(points));
     EXPECT_EQ(holes(scene, aspect, 1000000), 0U) << "1:" << aspect << ", " << points << " points";
   }
+}
+
+/// Processor time of sampling a quad, seconds.
+double sampling_seconds(const Mesh& mesh, std::uint64_t points) {
+  const auto begin = std::clock();
+  const Points sampled =
+      sample_surface(mesh, weld_positions(mesh.vertices.position), points, 1, {.clip = true});
+  EXPECT_GE(sampled.size(), points);
+  return double(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+/// A thousand times as long an edge has thirty times as many places to look at, and as little to look at from each.
+TEST(FlatQuads, ThatAreNeedlesTakeNoLonger) {
+  const double square = sampling_seconds(quad(1.0), 100000);
+  for (const double aspect : {2e4, 1e6})
+    EXPECT_LT(sampling_seconds(quad(aspect), 100000), 10.0 * square) << aspect;
+  Mesh subnormal = quad(6e4);
+  for (dvec3& place : subnormal.vertices.position) place *= 1e-41;
+  EXPECT_LT(sampling_seconds(subnormal, 100000), 10.0 * square);
 }
 
 TEST(FlatQuads, ThatAreLongHaveDiscsAsSmallAsASquares) {

@@ -1,4 +1,5 @@
 /// Files that are read together, and what is left where they hold nothing to read.
+#include "tests/readers/e57/read_bytes.h"
 #include "tests/readers/las_file.h"
 #include "tests/readers/read_error.h"
 #include "tests/readers/scan_reading.h"
@@ -111,6 +112,99 @@ TEST(NoPoints, WhatBecameOfThemIsReported) {
 
 const char* const UTM = "PROJCS[\"WGS 84 / UTM zone 32N\",UNIT[\"metre\",1]]";
 const char* const DEGREES = "GEOGCS[\"WGS 84\",UNIT[\"degree\",0.0174532925199433]]";
+
+/// Files of three points each by extension, and files of none.
+const std::vector<std::pair<std::string, std::string>> FULL_SCANS = {
+    {"full.csv", "x,y,z,intensity,r,g,b\n0,0,0,1,9,9,9\n1,0,0,2,9,9,9\n0,1,0,3,9,9,9\n"},
+    {"full.xyz", "0 0 0\n1 0 0\n0 1 0\n"},
+    {"full.pts", "3\n0 0 0 5\n1 0 0 6\n0 1 0 7\n"},
+    {"full.pcd",
+     "FIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nWIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA ascii\n"
+     "0 0 0 1\n1 0 0 2\n0 1 0 3\n"},
+    {"full.ptx",
+     "3\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 0 0 0.5\n2 0 0 0.5\n0 1 1 "
+     "0.5\n"},
+    {"full.e57", testing::e57_bytes(testing::line_scan(3))}};
+
+std::vector<std::pair<std::string, std::string>> empty_scans() {
+  LasFile noise = tile(0.0, 0.0), withheld = tile(0.0, 0.0), none = tile(0.0, 0.0);
+  for (LasRecord& record : noise.records) record.classification = 7;
+  for (LasRecord& record : withheld.records) record.is_withheld = true;
+  none.records.clear();
+  return {{"empty.csv", "x,y,z\n"},
+          {"empty.xyz", "0 0 nan\n"},
+          {"empty.pts", "0\n"},
+          {"empty.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA binary\n"},
+          {"empty.ptx", "1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n0 0 0 0.5\n"},
+          {"empty.e57", testing::e57_bytes(testing::line_scan(0))},
+          {"no_scans.e57", testing::e57_bytes(testing::E57TestFile{})},
+          {"noise.las", noise.bytes()},
+          {"withheld.las", withheld.bytes()},
+          {"header.las", none.bytes()},
+          {"empty.ply",
+           "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+           "z\nend_header\n"},
+          {"empty.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[]}]})"}};
+}
+
+TEST(NoPoints, AnEmptyFileIsLeftOutBesideOthers) {
+  const TempFolder folder;
+  for (const auto& [full_name, full_bytes] : FULL_SCANS)
+    for (const auto& [empty_name, empty_bytes] : empty_scans()) {
+      SCOPED_TRACE(full_name + " and " + empty_name);
+      const auto full = folder.write(full_name, full_bytes), empty = folder.write(empty_name, empty_bytes);
+      for (const auto& order :
+           {std::vector{full, empty}, {empty, full}, {full, empty, full}, {empty, full, empty}}) {
+        const Input input = read_input(order, {});
+        ASSERT_EQ(input.objects.size(), 1U);
+        const Points& points = input.objects[0].points;
+        EXPECT_EQ(points.size(), order.size() == 3 && order[0] == full ? 6U : 3U);
+        for (const Column& column : points.columns) EXPECT_EQ(column.size(), points.size()) << column.name;
+        EXPECT_TRUE(has_note(input, empty.stem().string()));
+      }
+    }
+}
+
+TEST(NoPoints, EmptyFilesAloneAreRefusedInOneSentence) {
+  const TempFolder folder;
+  for (const auto& [name, bytes] : empty_scans()) {
+    const auto empty = folder.write(name, bytes), other = folder.write("other.csv", "x,y,z\n");
+    EXPECT_NE(refusal({empty, other}).find("found no points"), std::string::npos) << name;
+    EXPECT_NE(refusal({other, empty}).find("found no points"), std::string::npos) << name;
+  }
+}
+
+TEST(NoPoints, AnEmptyTileSaysNothingOfTheOthers) {
+  const TempFolder folder;
+  LasFile none = in_system(tile(0.0, 0.0), DEGREES);
+  none.records.clear();
+  folder.write("tiles/a.las", in_system(tile(9.0, 47.0), UTM).bytes());
+  folder.write("tiles/b.las", none.bytes());
+  const Input input = read_input({folder.path() / "tiles"}, {});
+  EXPECT_EQ(input.objects.at(0).points.size(), 100U);
+  EXPECT_EQ(input.objects[0].name, "a");
+  EXPECT_EQ(input.crs, UTM);
+}
+
+/// A scan of an E57 or PTX in which nothing was measured has no station of the scene.
+TEST(NoPoints, EmptyScansInAFileAreLeftOut) {
+  const TempFolder folder;
+  const auto scan = [](const std::string& name, int count) {
+    testing::E57TestScan made = testing::line_scan(count);
+    made.xml = "<name type=\"String\">" + name + "</name>";
+    return made;
+  };
+  const auto file =
+      folder.write("a.e57", testing::e57_bytes(testing::E57TestFile{
+                                {scan("hall", 0), scan("stairs", 2), scan("roof", 0), scan("yard", 1)}}));
+  const Input input = read_input({file}, {});
+  const Points& points = input.objects.at(0).points;
+  EXPECT_TRUE(has_note(input, "found no points in 'hall', 'roof'"));
+  ASSERT_EQ(points.stations.size(), 2U);
+  EXPECT_EQ(points.stations[0].name, "stairs");
+  EXPECT_EQ(points.stations[1].name, "yard");
+  EXPECT_EQ(points.station, (std::vector<std::uint16_t>{0, 0, 1}));
+}
 
 TEST(OneSystem, DegreesAndLengthsAreRefused) {
   const TempFolder folder;

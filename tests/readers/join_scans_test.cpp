@@ -74,6 +74,27 @@ TEST(JoinScans, ColoursAreJudgedOverAllFiles) {
   EXPECT_EQ(joined_red({0, 0}), -1.0F) << "fields that are all zero are no colours";
 }
 
+/// Of one point in each of the scans where `counts` has one: the station of each point, by the name of its scan.
+std::string stations_of_points(const std::vector<std::size_t>& counts) {
+  std::vector<NamedScan> scans;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    scans.push_back({std::string(1, static_cast<char>('a' + i)), scan_at(double(i), counts[i])});
+  const InputObject object = join_scans(std::move(scans));
+  const Column* scan = find_column(object.points.columns, COLUMN_SCAN);
+  EXPECT_EQ(object.points.station.size(), object.points.size());
+  EXPECT_EQ(scan == nullptr ? 0 : scan->size(), object.points.size());
+  std::string names;
+  for (const std::uint16_t station : object.points.station) names += object.points.stations.at(station).name;
+  return names;
+}
+
+TEST(JoinScans, PointsKeepTheirStationsBesideEmptyScans) {
+  EXPECT_EQ(stations_of_points({2, 0}), "aa");
+  EXPECT_EQ(stations_of_points({0, 2}), "bb");
+  EXPECT_EQ(stations_of_points({1, 0, 2}), "acc");
+  EXPECT_EQ(stations_of_points({2, 0, 0}), "aa");
+}
+
 TEST(JoinScans, MoreStationsThanNumbersAreRefused) {
   std::vector<NamedScan> scans{{"a", scan_at(0.0, 1)}};
   scans[0].file.points.stations.resize(65536);

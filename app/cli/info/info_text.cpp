@@ -6,9 +6,11 @@
 #include "app/cli/info/file_info.h"
 #include "app/library/attributes.h"
 #include "engine/base/crs.h"
+#include "engine/base/json_text.h"
 #include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
 #include "engine/base/one_line.h"
+#include "engine/base/utf8.h"
 #include "preprocess/base/counted_list.h"
 
 namespace splatray {
@@ -134,7 +136,7 @@ Json crs_json(const std::string& text) {
 }
 
 Json file_json(const FileInfo& info) {
-  Json json = {{"file", info.path.string()}, {"points", info.points}, {"triangles", info.triangles}};
+  Json json = {{"file", path_text(info.path)}, {"points", info.points}, {"triangles", info.triangles}};
   json["from_head"] = info.from_head;
   const auto& [low, high] = info.box;
   if (low.x <= high.x)
@@ -191,7 +193,7 @@ std::string info_text(const FileInfo& info) {
 std::string info_json(const std::vector<FileInfo>& infos) {
   Json list = Json::array();
   for (const FileInfo& info : infos) list.push_back(file_json(info));
-  return list.dump(2, ' ', false, Json::error_handler_t::replace);
+  return json_text(list, 2);
 }
 
 }  // namespace splatray

@@ -5,6 +5,7 @@
 #include "app/library/request/request.h"
 #include "engine/base/number_text.h"
 #include "engine/base/one_line.h"
+#include "engine/base/utf8.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/file_extension.h"
@@ -148,7 +149,7 @@ FileInfo read_info(const std::filesystem::path& path, bool heads_only, const Pro
     add_input(info, format->read_scene(path, options, listener));
   } else {
     add_mesh(info, read_mesh(path, options, listener),
-             info.objects.emplace_back(PartInfo{path.stem().string()}));
+             info.objects.emplace_back(PartInfo{path_text(path.stem())}));
   }
   for (std::string& note : info.notes) note = one_line(note);
   return info;

@@ -5,6 +5,7 @@
 #include "app/library/codec/json_vector.h"
 #include "app/library/codec/markup_text.h"
 #include "app/library/codec/orbit_script.h"
+#include "engine/base/json_text.h"
 
 namespace splatray {
 namespace {
@@ -46,7 +47,8 @@ std::string orbit_html(const OrbitPage& page) {
   html += markup_text(page.title) + "</title>\n<style>" + ORBIT_STYLE + "</style>\n</head>\n<body>\n" +
           ORBIT_BODY;
   // No "</script>" within: JSON of numbers and base64 has none.
-  html += "<script>\nconst data = " + data.dump() + ";\n" + ORBIT_SCRIPT + "</script>\n</body>\n</html>\n";
+  html +=
+      "<script>\nconst data = " + json_text(data) + ";\n" + ORBIT_SCRIPT + "</script>\n</body>\n</html>\n";
   return html;
 }
 

@@ -7,6 +7,7 @@
 #include "app/library/codec/json_vector.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
+#include "engine/base/json_text.h"
 #include "engine/base/number_text.h"
 #include "engine/file/atomic_file.h"
 #include "preprocess/base/file_extension.h"
@@ -132,7 +133,7 @@ std::string geojson_text(std::span<const Measure> measures, const MeasureFrame& 
   }
   collection["up"] = json_vector(frame.up);
   collection["features"] = features;
-  return collection.dump(1) + "\n";
+  return json_text(collection, 1) + "\n";
 }
 
 std::string dxf_text(std::span<const Measure> measures, const MeasureFrame& frame) {

@@ -8,6 +8,7 @@
 #include "app/library/request/request.h"
 #include "app/library/request/value_text.h"
 #include "engine/base/number_text.h"
+#include "engine/base/utf8.h"
 
 namespace splatray {
 
@@ -167,13 +168,13 @@ template <class Member>
   return row;
 }
 
-/// Any text.
+/// Any text, as UTF-8.
 template <class Member>
 [[nodiscard]] Field text_row(std::string name, FieldGroup group, Member member, std::string help,
                              std::string value) {
   return value_row(
       std::move(name), group, std::move(value), std::move(help),
-      [=](Request& request, const std::string& text) { member(request) = text; },
+      [=](Request& request, const std::string& text) { member(request) = to_utf8(text); },
       [=](const Request& request) { return std::string(member(request)); });
 }
 

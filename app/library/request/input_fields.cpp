@@ -1,5 +1,6 @@
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
+#include "engine/base/utf8.h"
 #include "preprocess/read/formats.h"
 
 namespace splatray {
@@ -32,7 +33,9 @@ Field smooth_row() {
 Field attributes_row() {
   return value_row(
       "attributes", INPUT, "NAME,...", "further attributes of scans to keep: extra bytes, columns",
-      [](Request& request, const std::string& text) { request.source.scans.attributes = split_names(text); },
+      [](Request& request, const std::string& text) {
+        request.source.scans.attributes = split_names(to_utf8(text));
+      },
       [](const Request& request) {
         std::string text;
         for (const std::string& name : request.source.scans.attributes)

@@ -102,14 +102,15 @@ Field lights_row() {
 
 Field environment_row() {
   return with(
-      text_row(
-          "environment", LIGHT, MEMBER(look.environment),
+      value_row(
+          "environment", LIGHT, "FILE|NAME",
           "an HDR or EXR file (latitude-longitude), white, black, studio, sky:ELEVATION,AZIMUTH[,TURBIDITY] "
           "(daylight: where the sun stands, degrees above the horizon and clockwise from north, and how hazy "
           "it is, 2 to 10, default 3) or a radiance r,g,b; default: the scene's, else studio with a key "
           "light "
           "over the viewer's left shoulder",
-          "FILE|NAME"),
+          [](Request& request, const std::string& text) { request.look.environment = text; },
+          [](const Request& request) { return request.look.environment; }),
       {.old_names = {"env"}});
 }
 

@@ -3,6 +3,7 @@
 #include "app/library/materials.h"
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
+#include "engine/base/utf8.h"
 
 namespace splatray {
 namespace {
@@ -37,7 +38,7 @@ Field object_row() {
                 "change the material of one object, given by its index or name; keys: " + object_keys_help() +
                     "; the last are of what path tracing sees; repeatable, the last change holds",
                 [](Request& request, const std::string& text) {
-                  request.look.objects.push_back(read_object_change(text));
+                  request.look.objects.push_back(read_object_change(to_utf8(text)));
                 },
                 {});
   row.repeated = row.adds = true;

@@ -1,4 +1,5 @@
 #include "app/library/request/fields.h"
+#include "engine/base/utf8.h"
 
 namespace splatray {
 namespace {
@@ -41,7 +42,7 @@ std::vector<Field> sheet_fields() {
       only_rendered(value_row(
           "title", SHEET, "TEXT",
           "of a sheet as .svg or .pdf: what stands below it; default the input's name",
-          [](Request& request, const std::string& text) { request.output.title = text; },
+          [](Request& request, const std::string& text) { request.output.title = to_utf8(text); },
           [](const Request& request) { return request.output.title; })),
       only_rendered(value_row(
           "measures", SHEET, "FILE.geojson",

@@ -11,8 +11,10 @@
 #include "app/library/sheet/geotiff.h"
 #include "app/library/sheet/sheet_page.h"
 #include "engine/base/error.h"
+#include "engine/base/json_text.h"
 #include "engine/base/module.h"
 #include "engine/base/number_text.h"
+#include "engine/base/utf8.h"
 #include "engine/file/atomic_file.h"
 #include "preprocess/base/file_extension.h"
 
@@ -82,7 +84,7 @@ std::string description_of(const Sheet& sheet, const PixelWindow& window) {
       {"corner", json_vector(corner.x * sheet.right + corner.y * sheet.top + sheet.near * sheet.toward)},
       {"corner_on_paper", {sheet.at(window.x, window.y).x, sheet.at(window.x, window.y).y}},
       {"depth_world", sheet.near - sheet.far}};
-  return json.dump(1) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 std::string world_file(const GeoPlace& place) {
@@ -108,7 +110,8 @@ void write_sheet(const Request& request, const DisplayImage& picture, const Meta
     return write_tiff({picture.width, picture.height, rgba_bytes(picture), {}}, tags, path);
   }
   const std::string& title = request.output.title;
-  const std::string name = request.source.inputs.empty() ? "" : request.source.inputs.front().stem().string();
+  const std::string name =
+      request.source.inputs.empty() ? "" : path_text(request.source.inputs.front().stem());
   Drawing page = sheet_page(sheet, window, picture, title.empty() ? name : title);
   if (!request.output.measures.empty())
     draw_measures(sheet, window, read_measures(request.output.measures), sheet.up, page);

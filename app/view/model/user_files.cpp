@@ -15,6 +15,7 @@
 #include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/json_depth.h"
+#include "engine/base/json_text.h"
 #include "engine/file/atomic_file.h"
 
 namespace splatray {
@@ -162,7 +163,7 @@ void write_state(const UserState& state, const fs::path& path) {
   all["shows_handles"] = state.choices.shows_handles;
   all["bookmarks"] = json::object();
   for (const auto& [scene, bookmarks] : state.bookmarks) all["bookmarks"][scene] = to_json(bookmarks);
-  write_text_file(all.dump(2, ' ', false, json::error_handler_t::replace) + "\n", path, Links::refuse);
+  write_text_file(json_text(all, 2) + "\n", path, Links::refuse);
 }
 
 /// While it lives, no other process has a lock of this path. Locks end with their process.

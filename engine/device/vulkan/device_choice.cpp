@@ -66,12 +66,13 @@ std::optional<std::size_t> device_number(const std::string& wanted, std::size_t 
   return number;
 }
 
-Error no_device_error(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+Error no_device_error(const std::vector<DeviceInfo>& devices, const std::string& wanted,
+                      const std::string& said) {
   if (devices.empty())
     return {ExitCode::no_device,
-            "no Vulkan device found, at least one driver expected (Debian's package mesa-vulkan-drivers has "
-            "drivers for "
-            "most GPUs and one for the CPU; the device 'cpu' needs none)"};
+            "no Vulkan device found" + (said.empty() ? "" : " (" + said + ")") +
+                ", at least one driver expected (Debian's package mesa-vulkan-drivers has drivers for most "
+                "GPUs and one for the CPU; the device 'cpu' needs none)"};
   std::string sentence =
       wanted.empty() ? "no Vulkan device is usable" : "no usable Vulkan device matches '" + wanted + "'";
   for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -115,7 +116,8 @@ DeviceInfo describe_device(VkPhysicalDevice device) {
   return info;
 }
 
-std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted,
+                          const std::string& said) {
   const std::optional<std::size_t> number = device_number(wanted, devices.size());
   std::size_t best = devices.size();
   for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -123,7 +125,7 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
     if (!matches || !devices[i].refused.empty()) continue;
     if (best == devices.size() || rank(devices[i]) < rank(devices[best])) best = i;
   }
-  if (best == devices.size()) throw no_device_error(devices, wanted);
+  if (best == devices.size()) throw no_device_error(devices, wanted, said);
   return best;
 }
 

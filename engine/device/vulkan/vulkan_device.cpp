@@ -12,8 +12,6 @@
 namespace splatray {
 namespace {
 
-constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
-
 using MessageCount = std::atomic<std::uint32_t>;
 
 /// Counts a validation message in *user_data, a MessageCount, and prints it.
@@ -37,58 +35,9 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(MessageCount* count) {
   return info;
 }
 
-/// All that `list(count, items)`, a vkEnumerate... function, lists. What it lists may change between two calls.
-template <typename Item, typename List>
-std::vector<Item> enumerate(const List& list, const char* what) {
-  std::vector<Item> items;
-  VkResult result = VK_INCOMPLETE;
-  while (result == VK_INCOMPLETE) {
-    std::uint32_t count = 0;
-    check(list(&count, nullptr), what);
-    items.resize(count);
-    result = list(&count, items.data());
-    items.resize(count);
-  }
-  check(result, what);
-  return items;
-}
-
-bool validation_layer_present() {
-  const auto layers =
-      enumerate<VkLayerProperties>(vkEnumerateInstanceLayerProperties, "listing the Vulkan layers");
-  return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
-    return std::strcmp(layer.layerName, VALIDATION_LAYER) == 0;
-  });
-}
-
 bool validation_in_environment() {
   const char* value = std::getenv("SPLATRAY_VALIDATION");
   return value != nullptr && std::strcmp(value, "1") == 0;
-}
-
-/// VK_NULL_HANDLE where no driver is installed. `messenger` set: with the validation layer.
-VkInstance make_instance(const VkDebugUtilsMessengerCreateInfoEXT* messenger,
-                         std::vector<const char*> extensions = {}) {
-  VkApplicationInfo application{};
-  application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
-  application.pApplicationName = "splatray";
-  application.apiVersion = VK_API_VERSION_1_2;
-  VkInstanceCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
-  info.pApplicationInfo = &application;
-  if (messenger != nullptr) {
-    info.pNext = messenger;
-    info.enabledLayerCount = 1;
-    info.ppEnabledLayerNames = &VALIDATION_LAYER;
-    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-  }
-  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
-  info.ppEnabledExtensionNames = extensions.data();
-  VkInstance instance = VK_NULL_HANDLE;
-  const VkResult result = vkCreateInstance(&info, nullptr, &instance);
-  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return VK_NULL_HANDLE;
-  check(result, "starting Vulkan");
-  return instance;
 }
 
 bool texel_format_supported(VkPhysicalDevice device, VkFormat format) {
@@ -127,32 +76,22 @@ void check(VkResult result, const char* what) {
   throw Error(ExitCode::failed, std::string(what) + " failed: " + reason);
 }
 
-std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
-  const auto list = [instance](std::uint32_t* count, VkPhysicalDevice* devices) {
-    const VkResult result = vkEnumeratePhysicalDevices(instance, count, devices);
-    if (result != VK_ERROR_INITIALIZATION_FAILED) return result;
-    *count = 0;  // drivers without their hardware
-    return VK_SUCCESS;
-  };
-  return enumerate<VkPhysicalDevice>(list, "listing the Vulkan devices");
-}
-
 std::vector<DeviceInfo> vulkan_devices() {
   if (!vulkan_is_installed()) return {};
   refuse_vulkan_of_parent();
+  const VulkanStart started = start_vulkan();
   const auto destroy = [](VkInstance instance) { vkDestroyInstance(instance, nullptr); };
-  const std::unique_ptr<std::remove_pointer_t<VkInstance>, decltype(destroy)> instance(make_instance(nullptr),
+  const std::unique_ptr<std::remove_pointer_t<VkInstance>, decltype(destroy)> instance(started.instance,
                                                                                        destroy);
   std::vector<DeviceInfo> infos;
-  if (instance)
-    for (VkPhysicalDevice device : physical_devices(instance.get())) infos.push_back(describe_device(device));
+  for (VkPhysicalDevice device : started.devices) infos.push_back(describe_device(device));
   return infos;
 }
 
 VulkanDevice::VulkanDevice(const std::string& wanted, bool validation, const WindowNeeds& needs) {
   try {
-    create_instance(validation || validation_in_environment(), needs);
-    choose_device(wanted, needs);
+    const VulkanStart started = start(validation || validation_in_environment(), needs);
+    choose_device(started, wanted, needs);
     create_device(needs);
   } catch (...) {
     destroy();
@@ -162,14 +101,16 @@ VulkanDevice::VulkanDevice(const std::string& wanted, bool validation, const Win
 
 VulkanDevice::~VulkanDevice() { destroy(); }
 
-void VulkanDevice::create_instance(bool validation, const WindowNeeds& needs) {
+VulkanStart VulkanDevice::start(bool validation, const WindowNeeds& needs) {
   refuse_vulkan_of_parent();
   if (validation && !validation_layer_present())
     throw Error(ExitCode::failed, std::string("validation was asked for, but the layer ") + VALIDATION_LAYER +
                                       " is not installed (Debian's package vulkan-validationlayers)");
   const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(&validation_messages_);
-  instance = make_instance(validation ? &messenger : nullptr, needs.instance_extensions);
+  VulkanStart started = start_vulkan(validation ? &messenger : nullptr, needs.instance_extensions);
+  instance = started.instance;
   if (validation && instance != VK_NULL_HANDLE) create_messenger();
+  return started;
 }
 
 void VulkanDevice::create_messenger() {
@@ -179,17 +120,16 @@ void VulkanDevice::create_messenger() {
   check(create(instance, &info, nullptr, &messenger_), "listening to the validation layer");
 }
 
-void VulkanDevice::choose_device(const std::string& wanted, const WindowNeeds& needs) {
-  std::vector<VkPhysicalDevice> devices;
-  if (instance != VK_NULL_HANDLE) devices = physical_devices(instance);
+void VulkanDevice::choose_device(const VulkanStart& started, const std::string& wanted,
+                                 const WindowNeeds& needs) {
   std::vector<DeviceInfo> infos;
-  for (VkPhysicalDevice candidate : devices) {
+  for (VkPhysicalDevice candidate : started.devices) {
     infos.push_back(describe_device(candidate));
     if (infos.back().refused.empty() && needs.refusal)
       infos.back().refused = needs.refusal(instance, candidate);
   }
-  const std::size_t chosen = splatray::choose_device(infos, wanted);
-  physical_device = devices[chosen];
+  const std::size_t chosen = splatray::choose_device(infos, wanted, started.said);
+  physical_device = started.devices[chosen];
   info_ = infos[chosen];
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/device/device.h"
 #include "engine/device/vulkan/functions.h"
+#include "engine/device/vulkan/instance.h"
 
 namespace splatray {
 
@@ -50,9 +51,9 @@ class VulkanDevice final : public Device {
   bool ballot = false;   ///< compute shaders may use ballots of their subgroups
 
  private:
-  void create_instance(bool validation, const WindowNeeds& needs);
+  VulkanStart start(bool validation, const WindowNeeds& needs);
   void create_messenger();
-  void choose_device(const std::string& wanted, const WindowNeeds& needs);
+  void choose_device(const VulkanStart& started, const std::string& wanted, const WindowNeeds& needs);
   void create_device(const WindowNeeds& needs);
   void destroy();
 
@@ -66,17 +67,15 @@ class VulkanDevice final : public Device {
 [[nodiscard]] std::vector<DeviceInfo> vulkan_devices();
 
 /// The number of the device a user who asked for `wanted` gets (open_device says how); throws Error
-/// (no_device).
-[[nodiscard]] std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted);
+/// (no_device), with what was said where there are no devices (VulkanStart::said).
+[[nodiscard]] std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted,
+                                        const std::string& said = "");
 
 /// What is known of a physical device, and why it cannot be used.
 [[nodiscard]] DeviceInfo describe_device(VkPhysicalDevice device);
 
 /// The number of the first queue family that computes, or UINT32_MAX.
 [[nodiscard]] std::uint32_t compute_queue_family(VkPhysicalDevice device);
-
-/// All physical devices of an instance.
-[[nodiscard]] std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
 
 /// Throws Error (failed, or out_of_memory for the two memory results) naming `what` unless the result is
 /// VK_SUCCESS.

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string_view>
 
+#include "engine/base/utf8.h"
+
 namespace splatray {
 namespace {
 
@@ -38,8 +40,9 @@ class Stream {
       const unsigned char* bytes = file_.take(count);
       if (bytes == nullptr) fail("the XML section goes beyond the file");
       size -= count;
-      const XML_Status status = XML_Parse(parser_.get(), reinterpret_cast<const char*>(bytes),
-                                          static_cast<int>(count), size == 0 ? 1 : 0);
+      const std::string text = next_text({reinterpret_cast<const char*>(bytes), count}, size == 0);
+      const XML_Status status =
+          XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), size == 0 ? 1 : 0);
       if (thrown_) std::rethrow_exception(thrown_);
       if (status != XML_STATUS_OK && !finished_)
         fail("its XML section is not well-formed: " +
@@ -50,6 +53,22 @@ class Stream {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw_unreadable(file_.path(), what); }
+
+  /// A chunk of the section as UTF-8, whatever its declaration says: some programs write names in Latin-1 under "UTF-8", which
+  /// no parser takes. UTF-16, which begins with a mark, stays.
+  std::string next_text(std::string_view chunk, bool last) {
+    const auto begins = [&](std::string_view mark) { return chunk.starts_with(mark); };
+    if (encoding_ == Encoding::unknown) {
+      encoding_ = begins("\xFF\xFE") || begins("\xFE\xFF") ? Encoding::utf16 : Encoding::utf8;
+      if (encoding_ == Encoding::utf8) XML_SetEncoding(parser_.get(), "UTF-8");
+    }
+    if (encoding_ == Encoding::utf16) return std::string(chunk);
+    cut_ += chunk;
+    const std::size_t left = last ? 0 : cut_utf8_bytes(cut_);
+    std::string text = to_utf8(std::string_view(cut_).substr(0, cut_.size() - left));
+    cut_.erase(0, cut_.size() - left);
+    return text;
+  }
 
   /// Keeps what `call` throws for after expat has returned.
   template <class Call>
@@ -117,8 +136,12 @@ class Stream {
     stream.guarded([&] { stream.fail("found a document type in its XML, expected XML without"); });
   }
 
+  enum class Encoding { unknown, utf8, utf16 };
+
   PagedFile& file_;
   XmlReceiver& receiver_;
+  Encoding encoding_ = Encoding::unknown;
+  std::string cut_;  ///< the beginning of a character that goes on in the next chunk
   std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
   XmlPath path_;
   std::string text_;

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/json_depth.h"
+#include "engine/base/utf8.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/byte_reader.h"
@@ -141,14 +142,35 @@ std::string_view json_of(const std::vector<unsigned char>& bytes, bool binary) {
   return all.substr(CHUNK_BEGIN, little_endian_word(bytes.data() + CHUNK_BEGIN - 8));
 }
 
+void store_little_endian_word(unsigned char* bytes, std::size_t word) {
+  const auto stored = static_cast<std::uint32_t>(word);
+  std::memcpy(bytes, &stored, sizeof(stored));
+}
+
+/// Makes the JSON UTF-8, as all JSON is to be; a GLB's lengths follow.
+void make_json_utf8(std::vector<unsigned char>& bytes, bool binary) {
+  constexpr std::size_t ALIGNMENT = 4;  // of a GLB's chunks, which blanks fill
+  const std::string_view json = json_of(bytes, binary);
+  if (is_utf8(json)) return;
+  std::string utf8 = to_utf8(json);
+  const auto begin = bytes.begin() + (reinterpret_cast<const unsigned char*>(json.data()) - bytes.data());
+  if (binary) utf8.resize((utf8.size() + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT, ' ');
+  bytes.insert(bytes.erase(begin, begin + static_cast<std::ptrdiff_t>(json.size())), utf8.begin(),
+               utf8.end());
+  if (!binary) return;
+  store_little_endian_word(bytes.data() + 8, bytes.size());
+  store_little_endian_word(bytes.data() + 12, utf8.size());
+}
+
 void parse(GltfFile& file, bool binary, const ReadListener& listener) {
-  const std::vector<unsigned char> bytes = read_whole_file(file.path, listener);
+  std::vector<unsigned char> bytes = read_whole_file(file.path, listener);
   if (bytes.size() > 0xFFFFFFFFU) {
     file.fail("found " + std::to_string(bytes.size()) + " bytes, expected less than 4 GiB");
   }
   if (json_is_too_deep(json_of(bytes, binary))) {
     file.fail("its JSON nests more than " + std::to_string(MOST_JSON_DEPTH) + " deep");
   }
+  make_json_utf8(bytes, binary);
   SceneFolder folder{std::filesystem::absolute(file.path).parent_path().string(), listener, ""};
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(keep_image_bytes, nullptr);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "engine/base/utf8.h"
 #include "preprocess/base/little_endian.h"
 
 namespace splatray {
@@ -24,7 +25,7 @@ LasExtraBytes component(const unsigned char* descriptor, std::string_view name, 
                         unsigned width) {
   const unsigned options = descriptor[3];
   LasExtraBytes one;
-  one.name = std::string(name) + (width > 1 ? "[" + std::to_string(i) + "]" : "");
+  one.name = to_utf8(name) + (width > 1 ? "[" + std::to_string(i) + "]" : "");
   one.type = type;
   if ((options & OPTION_SCALE) != 0) one.scale = finite_or(load<double>(descriptor + 112 + 8 * i), 1.0);
   if ((options & OPTION_OFFSET) != 0) one.offset = finite_or(load<double>(descriptor + 136 + 8 * i), 0.0);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 
+#include "engine/base/utf8.h"
 #include "preprocess/base/little_endian.h"
 
 namespace splatray {
@@ -28,7 +29,7 @@ glm::dvec3 load_vector(const unsigned char* bytes) {
 /// A field of 32 bytes, up to its first zero.
 std::string load_text(const unsigned char* bytes) {
   constexpr std::size_t TEXT_BYTES = 32;
-  return {bytes, std::find(bytes, bytes + TEXT_BYTES, 0)};
+  return to_utf8(std::string(bytes, std::find(bytes, bytes + TEXT_BYTES, 0)));
 }
 
 /// What only people read.

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "engine/base/utf8.h"
 #include "preprocess/base/little_endian.h"
 
 namespace splatray {
@@ -37,7 +38,8 @@ void keep(LasVlrs& vlrs, const Head& head, const unsigned char* content) {
   } else if (head.user == "LASF_Projection" && head.id == GEO_KEYS) {
     vlrs.geo_keys.assign(content, end);
   } else if (head.user == "LASF_Projection" && head.id == WKT) {
-    vlrs.wkt.assign(content, std::find(content, end, '\0'));
+    vlrs.wkt = to_utf8({reinterpret_cast<const char*>(content),
+                        static_cast<std::size_t>(std::find(content, end, '\0') - content)});
   } else if (head.user == "LASF_Spec" && head.id == EXTRA_BYTES &&
              vlrs.extra_bytes.size() + head.bytes <= MOST_CONTENT_BYTES) {
     vlrs.extra_bytes.insert(vlrs.extra_bytes.end(), content, end);

@@ -1,5 +1,7 @@
 #include "preprocess/read/pcd/pcd_header.h"
 
+#include "engine/base/utf8.h"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -55,7 +57,7 @@ class HeaderParser {
   PcdHeader parse() {
     for (std::string_view line; header_.line_count < MOST_LINES && in_.line(line, MOST_LINE_BYTES);) {
       ++header_.line_count;
-      std::istringstream stream{std::string(line)};
+      std::istringstream stream{to_utf8(line)};
       Words words{std::istream_iterator<std::string>(stream), {}};
       if (words.empty() || words[0].front() == '#') continue;
       const std::string key = words[0];

@@ -1,5 +1,7 @@
 #include "preprocess/read/ply/ply_header.h"
 
+#include "engine/base/utf8.h"
+
 #include <charconv>
 #include <optional>
 #include <sstream>
@@ -76,7 +78,7 @@ class HeaderParser {
       fail("the header has no 'end_header' line");
     }
     ++header_.line_count;
-    return std::string(text);
+    return to_utf8(text);
   }
 
   void parse_format(std::istringstream& words) {

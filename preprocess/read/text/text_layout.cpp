@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/utf8.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/scan/column_names.h"
@@ -26,7 +27,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find_first_of(ends, begin), line.size());
     const std::string_view cell = trimmed(line.substr(begin, end - begin));
-    if (separator != ' ' || !cell.empty()) cells.emplace_back(cell);
+    if (separator != ' ' || !cell.empty()) cells.push_back(to_utf8(cell));
     begin = end + 1;
   }
   return cells;

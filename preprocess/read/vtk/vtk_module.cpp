@@ -26,6 +26,7 @@
 #include <new>
 
 #include "engine/base/srgb.h"
+#include "engine/base/utf8.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/scan/narrow_column.h"
@@ -203,7 +204,7 @@ bool is_beside(vtkDataArray* array, vtkIdType count) {
 /// An array of the points' attributes as columns, one for each component and of vectors their length too.
 void add_columns(vtkDataArray* array, Points& points) {
   const int width = array->GetNumberOfComponents();
-  const std::string name = array->GetName();
+  const std::string name = to_utf8(array->GetName());
   std::vector<double> values(points.size()), squared(width == 3 || width == 2 ? points.size() : 0);
   for (int component = 0; component < width; ++component) {
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -227,7 +228,7 @@ void copy_attributes(vtkPointData* attributes, const std::vector<vtkDataArray*>&
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i) {
     vtkDataArray* array = attributes->GetArray(i);
     if (!is_beside(array, count) || array->GetName() == nullptr || array->GetName()[0] == 0) continue;
-    const std::string name = array->GetName();
+    const std::string name = to_utf8(array->GetName());
     const auto width = static_cast<std::size_t>(array->GetNumberOfComponents());
     if (std::find(used.begin(), used.end(), array) != used.end() || name == "vtkGhostType" || width == 0)
       continue;

@@ -11,6 +11,7 @@
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
+#include "engine/base/utf8.h"
 #include "engine/file/atomic_file.h"
 
 namespace splatray {
@@ -58,7 +59,7 @@ void set_range(const std::vector<std::vector<float>>& depths, OrbitPage& page) {
 
 std::string title_of(const Request& request) {
   if (!request.output.title.empty() || request.source.inputs.empty()) return request.output.title;
-  return request.source.inputs.front().stem().string();
+  return path_text(request.source.inputs.front().stem());
 }
 
 }  // namespace
