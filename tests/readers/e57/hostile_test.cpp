@@ -202,7 +202,7 @@ TEST(E57Hostile, HarmfulXml) {
   expect_refusal(e57_bytes(file), "nests more than 64 deep");
   file.images = "<a></b>";
   expect_refusal(e57_bytes(file), "not well-formed");
-  file.images = "\xFF";
+  file.images = "\x01";
   expect_refusal(e57_bytes(file), "not well-formed");
   file.images = "&b;";
   expect_refusal(e57_bytes(file), "not well-formed");
