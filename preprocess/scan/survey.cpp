@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/release.h"
 #include "preprocess/scan/noise.h"
 #include "preprocess/scan/plane_fit.h"
 #include "preprocess/surface/neighbours.h"
@@ -260,7 +261,7 @@ Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   const bool all_given = std::none_of(cloud.normal.begin(), cloud.normal.end(),
                                       [](const glm::vec3& normal) { return normal == glm::vec3(0.0F); });
   Survey survey;
-  if (!all_given) survey.step = coordinate_step(cloud), cloud.position = {};
+  if (!all_given) survey.step = coordinate_step(cloud), release(cloud.position);
   survey.reach.resize(cloud.size());
   survey.wide.resize(cloud.size());
   survey.estimated.resize(cloud.size());

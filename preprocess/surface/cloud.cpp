@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/base/release.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
@@ -26,7 +27,7 @@ std::vector<std::uint32_t> usable_points(const Points& points) {
 Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   const auto take = [&](auto& values) {
     auto taken = usable.size() == values.size() ? std::move(values) : gather(values, usable);
-    values = {};
+    release(values);
     return taken;
   };
   Cloud cloud;
@@ -173,13 +174,14 @@ Bounds bounds_of(const Cloud& cloud) {
 }
 
 Cloud make_cloud(Points&& points, bool oriented, bool measured, BuildStats& stats) {
-  const std::vector<std::uint32_t> usable = usable_points(points);
+  std::vector<std::uint32_t> usable = usable_points(points);
   stats.points_read += points.size();
   stats.dropped_non_finite += points.size() - usable.size();
   Cloud cloud = take_points(std::move(points), usable);
   cloud.oriented = oriented;
   cloud.measured = measured;
   if (usable.empty()) return cloud;
+  release(usable);
   normalise_coordinates(cloud, drop_far_points(cloud, stats));
   put_in_order(cloud);
   count_given(cloud, stats);
