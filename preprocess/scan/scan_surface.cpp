@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "preprocess/scan/grid/grid_surface.h"
 #include "preprocess/scan/kind.h"
@@ -117,7 +118,7 @@ void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, do
       movable[i] = movable[i] != 0 && cloud.on_surface(i) ? 1 : 0;
     smoothed = smooth_by_grids(cloud, movable, noise, stage);
   }
-  if (smoothed.moved == 0) smoothed = smooth_points(cloud, survey, radius, sided, noise, stage);
+  if (smoothed.moved == 0) smoothed = smooth_points(cloud, std::move(survey), radius, sided, noise, stage);
   stats.smoothed += smoothed.moved;
   stats.dropped_unsupported += smoothed.dropped;
   stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);

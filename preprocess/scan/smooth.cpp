@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/base/release.h"
 #include "engine/base/vector_clones.h"
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
@@ -236,7 +237,7 @@ class Projection {
 
 }  // namespace
 
-Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided, double noise,
+Smoothed smooth_points(Cloud& cloud, Survey survey, double radius, bool sided, double noise,
                        const Stage& stage) {
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
@@ -249,12 +250,15 @@ Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool s
         size, [&](std::size_t i) { return moves[i] != 0 && projection.stride_of(i) == stride; });
     projection.move(movers, stride, moved, stage);
   }
-  const auto supported = numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
+  std::vector<std::uint32_t> supported =
+      numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
   if (supported.empty()) return {};  // nothing supports anything: the radius is too small for these points
   cloud.normal = std::move(moved.normal);
   keep_points(cloud, supported);
   moves = gather(moves, supported);
   std::vector<float> lift = gather(moved.lift, supported);
+  release(moved.lift), release(moved.supported), release(supported);
+  survey = {};
   move_points(cloud, lift);
   reproject_points(cloud, moves, lift, sided, noise, stage);
   put_in_order(cloud);

@@ -23,8 +23,8 @@ struct Smoothed {
 /// surfaces behind and edges stay; the plane of weighted mean and mean normal, twice weighted anew by the distance to it.
 /// Points with fewer than 6 such neighbours are dropped. What is left is looked at again (reproject_points, which `noise` is
 /// for). Points on no surface stay as they are, and with a radius of 0 those whose normals were not estimated. Normals must be
-/// known; `sided` when their sides are too. The cloud is in order afterwards.
-[[nodiscard]] Smoothed smooth_points(Cloud& cloud, const Survey& survey, double radius, bool sided,
-                                     double noise, const Stage& stage);
+/// known; `sided` when their sides are too. The cloud is in order afterwards. `survey` is freed midway, when its points are gone.
+[[nodiscard]] Smoothed smooth_points(Cloud& cloud, Survey survey, double radius, bool sided, double noise,
+                                     const Stage& stage);
 
 }  // namespace splatray
