@@ -24,10 +24,12 @@ std::span<const Neighbour> NearPlaces::find(const Cloud& cloud, std::uint32_t po
 
 void NearPlaces::keep(const Cloud& cloud, const std::vector<std::uint32_t>& kept,
                       const std::vector<std::uint32_t>& number) {
-  if (search_.has_all())
+  if (search_.has_all()) {
     search_.keep(number);
-  else
+  } else {
+    search_ = NeighbourSearch(Cloud(), Sites::positions);  // frees that of before while the next is made
     search_ = NeighbourSearch(cloud, Sites::positions);
+  }
   lists_.keep(kept, [&](std::uint32_t n, List list) {
     for (std::uint32_t& other : list) other = number[other] == NO_CELL ? n : number[other];
     return list;
