@@ -13,6 +13,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "engine/base/release.h"
 #include "engine/base/stopwatch.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/scene_check.h"
@@ -191,7 +192,7 @@ void add_kind_column(Cloud& cloud) {
   std::vector<std::uint8_t> values(cloud.size());
   std::transform(cloud.kind.begin(), cloud.kind.end(), values.begin(),
                  [](ScanKind kind) { return static_cast<std::uint8_t>(kind); });
-  cloud.kind = {};
+  release(cloud.kind);
   cloud.columns.push_back({std::string(COLUMN_KIND), std::move(values)});
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/release.h"
 #include "engine/scene/splat.h"
 
 namespace splatray {
@@ -45,7 +46,7 @@ bool are_kept(const std::vector<Cloud>& clouds, const BuildParams& params) {
 
 std::optional<RootTransform> kept_lattice(std::vector<Cloud>& clouds, const BuildParams& params) {
   if (are_kept(clouds, params)) return clouds[0].lattice;
-  for (Cloud& cloud : clouds) cloud.lattice.reset(), cloud.field_words = {}, cloud.clip_words = {};
+  for (Cloud& cloud : clouds) cloud.lattice.reset(), release(cloud.field_words), release(cloud.clip_words);
   return {};
 }
 

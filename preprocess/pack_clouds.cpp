@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/base/release.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
@@ -104,8 +105,8 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
               splats.color.begin() + static_cast<std::ptrdiff_t>(cloud.color.empty() ? 0 : first));
     first += cloud.size();
   }
-  if (all_flat(splats.field)) splats.field.clear();
-  if (all_whole(splats.clip)) splats.clip.clear();
+  if (all_flat(splats.field)) release(splats.field);
+  if (all_whole(splats.clip)) release(splats.clip);
   return splats;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/release.h"
 #include "engine/scene/look_style.h"
 #include "engine/scene/splat.h"
 #include "engine/table/albedo_table.h"
@@ -118,7 +119,7 @@ void DeviceScene::upload_tree(const Emitters& emitters) {
   reserve_read(tree_buffer_, std::span(texels).size_bytes(), BufferKind::texels);
   queue_.upload(*tree_buffer_, std::as_bytes(std::span(texels)));
   tree_nodes_ = static_cast<std::uint32_t>(tree_.nodes.size());
-  tree_.nodes = {};
+  release(tree_.nodes);
 }
 
 void DeviceScene::show_environment(const Environment& environment) {
@@ -134,7 +135,7 @@ void DeviceScene::show_environment(const Environment& environment) {
   irradiance_ = irradiance_coefficients(environment);
   sky_ = sky_table(environment);
   upload_tables(sky_);
-  sky_.words = {};
+  release(sky_.words);
 }
 
 /// As Queue::reserve, of what is read as the pools are.

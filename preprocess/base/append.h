@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/release.h"
 #include "engine/scene/columns.h"
 
 namespace splatray {
@@ -21,7 +22,7 @@ void append(std::vector<Value>& to, std::size_t to_size, std::vector<Value>&& mo
     to.resize(to_size + size, absent);
   } else {
     to.insert(to.end(), more.begin(), more.end());
-    more = {};
+    release(more);
   }
 }
 

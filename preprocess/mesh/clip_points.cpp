@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/release.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/mesh/alpha_mask.h"
 #include "preprocess/mesh/clip_finder.h"
@@ -87,7 +88,7 @@ void clip_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const Mes
               points.clip[i]);
   });
   const auto has_lines = [](const PointClip& clip) { return clip.lines() > 0; };
-  if (std::none_of(points.clip.begin(), points.clip.end(), has_lines)) points.clip = {};
+  if (std::none_of(points.clip.begin(), points.clip.end(), has_lines)) release(points.clip);
 }
 
 }  // namespace splatray

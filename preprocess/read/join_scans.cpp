@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/release.h"
 #include "engine/base/srgb.h"
 #include "preprocess/base/append.h"
 
@@ -37,7 +38,7 @@ void judge_colors(std::vector<NamedScan>& scans) {
     Points& points = scan.file.points;
     if (!has_unjudged_colors(points)) continue;
     points.stored_color_most = largest > MOST_8_BITS ? MOST_16_BITS : MOST_8_BITS;
-    if (largest == 0) points.stored_color.clear();
+    if (largest == 0) release(points.stored_color);
   }
 }
 
@@ -55,7 +56,7 @@ void decode_colors(Points& points) {
     const glm::u16vec3& stored = points.stored_color[i];
     points.color[i] = {decoded(stored.x), decoded(stored.y), decoded(stored.z)};
   });
-  points.stored_color = {};
+  release(points.stored_color);
 }
 
 /// A file that knows nothing of where it was measured from is one station too.

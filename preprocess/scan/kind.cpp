@@ -31,7 +31,7 @@ ScanKind kind_of(const Survey& survey, std::uint32_t point) {
 }
 
 float ring_distance(const Cloud& cloud, const Survey& survey, std::uint32_t point) {
-  const float distance = glm::distance(cloud.coord[point], cloud.coord[survey.around(point)[RING - 1]]);
+  const float distance = glm::distance(cloud.coord[point], cloud.coord[survey.around(point, RING - 1)]);
   return distance > 0.0F ? distance : survey.reach[point];  // a stray that is gone stood there
 }
 

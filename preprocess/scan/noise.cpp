@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <span>
 
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
@@ -31,7 +32,8 @@ constexpr std::size_t MOST_SORTED = 65536;  // coordinates that show their step
 /// known.
 float disagreement(const Cloud& cloud, const Survey& survey, std::uint32_t i) {
   float sum = 0.0F, count = 0.0F;
-  for (const std::uint32_t j : survey.around(i).first(Survey::RING)) {
+  const auto listed = survey.around(i);
+  for (const std::uint32_t j : std::span(listed).first(Survey::RING)) {
     if (!cloud.on_surface(j)) continue;
     if (glm::dot(cloud.normal[i], cloud.normal[j]) < ALIKE) continue;
     const float height = 0.5F * glm::dot(cloud.normal[i] + cloud.normal[j], cloud.coord[j] - cloud.coord[i]);

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <span>
 
 #include "preprocess/scan/layers.h"
 #include "preprocess/scan/plane_fit.h"
 #include "preprocess/surface/neighbours.h"
+#include "preprocess/surface/number_lists.h"
 
 namespace splatray {
 namespace {
@@ -51,12 +51,7 @@ glm::vec3 sided(const glm::dvec3& axis, const glm::vec3& normal) {
 /// Points that are looked at again, with their neighbours.
 class Again {
  public:
-  Again(Cloud& cloud, const Reprojection& how)
-      : cloud_(cloud),
-        how_(how),
-        listed_(projects() ? std::make_unique_for_overwrite<std::uint32_t[]>(AROUND * cloud.size())
-                           : nullptr),
-        normal_(cloud.normal) {}
+  Again(Cloud& cloud, const Reprojection& how) : cloud_(cloud), how_(how), normal_(cloud.normal) {}
 
   /// Whether points are projected again.
   [[nodiscard]] bool projects() const { return how_.noise > LAYERED; }
@@ -64,6 +59,7 @@ class Again {
   /// Finds the neighbours, and from them the first normals.
   void look(const Stage& stage) {
     const NeighbourSearch search(cloud_, Sites::oriented_surface);
+    if (projects()) listed_ = NumberLists<AROUND>(cloud_.size());  // once the search's own work is freed
     search.find_all(AROUND, stage, [&](std::uint32_t i, std::span<const Neighbour> nearest) {
       if (how_.moves[i] == 0) return;
       if (projects()) keep_list(i, nearest);
@@ -85,7 +81,7 @@ class Again {
       WeightedPlace plane;
       plane.add(glm::vec3(0.0F), 1.0F);
       std::size_t count = 0;
-      for (const std::uint32_t j : around(i)) {
+      for (const std::uint32_t j : listed_[i]) {
         if (j == i || !is_like(i, j)) continue;
         const glm::vec3 offset = cloud_.coord[j] - cloud_.coord[i];
         plane.add(offset, std::exp(by * glm::dot(offset, offset)));
@@ -106,7 +102,7 @@ class Again {
       normal_[i] = cloud_.normal[i];
       if (how_.moves[i] == 0) return;
       Offsets offsets;
-      for (const std::uint32_t j : around(i))
+      for (const std::uint32_t j : listed_[i])
         if (j != i && is_like(i, j)) offsets.add(cloud_.coord[j] - cloud_.coord[i]);
       normal_[i] = axis_of(offsets, cloud_.normal[i]);
     });
@@ -130,7 +126,7 @@ class Again {
   /// Of the listed neighbours; positive where there are any.
   [[nodiscard]] float farthest_squared(std::size_t i) const {
     float squared = 0.0F;
-    for (const std::uint32_t j : around(i)) {
+    for (const std::uint32_t j : listed_[i]) {
       const glm::vec3 offset = cloud_.coord[j] - cloud_.coord[i];
       squared = std::max(squared, glm::dot(offset, offset));
     }
@@ -138,19 +134,17 @@ class Again {
   }
 
   void keep_list(std::uint32_t i, std::span<const Neighbour> nearest) {
-    std::uint32_t* const list = &listed_[AROUND * i];
-    std::fill(std::transform(nearest.begin(), nearest.end(), list, [](Neighbour n) { return n.index(); }),
-              list + AROUND, i);
-  }
-
-  [[nodiscard]] std::span<const std::uint32_t> around(std::size_t i) const {
-    return {&listed_[AROUND * i], AROUND};
+    NumberLists<AROUND>::List list;
+    std::fill(
+        std::transform(nearest.begin(), nearest.end(), list.begin(), [](Neighbour n) { return n.index(); }),
+        list.end(), i);
+    listed_.set(i, list);
   }
 
   Cloud& cloud_;
   Reprojection how_;
-  std::unique_ptr<std::uint32_t[]> listed_;  ///< AROUND of each point that moves, or fewer and itself
-  std::vector<glm::vec3> normal_;            ///< those that come next
+  NumberLists<AROUND> listed_;     ///< of each point that moves, or fewer and itself
+  std::vector<glm::vec3> normal_;  ///< those that come next
 };
 
 }  // namespace

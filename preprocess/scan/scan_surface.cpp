@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "preprocess/base/select.h"
 #include "preprocess/scan/grid/grid_surface.h"
@@ -159,7 +160,7 @@ void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, Sm
       keep_near_points(survey, how.noise_length, movable);
     survey.near = {};
     how.moves = std::move(movable);
-    smoothed = smooth_points(cloud, survey, how, stage);
+    smoothed = smooth_points(cloud, std::move(survey), how, stage);
   }
   stats.smoothed += smoothed.moved;
   stats.dropped_unsupported += smoothed.dropped;

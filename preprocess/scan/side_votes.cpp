@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/release.h"
 #include "preprocess/scan/components.h"
 #include "preprocess/scan/occupancy.h"
 #include "preprocess/scan/sides.h"
@@ -83,8 +84,9 @@ std::vector<std::uint8_t> find_rounds(const Cloud& cloud, const Survey& survey) 
   std::vector<std::uint8_t> rounds(cloud.size() * Survey::LISTED);
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t n) {
     const auto i = static_cast<std::uint32_t>(n);
+    const auto listed = survey.around(i);
     for (std::size_t k = 0; k < Survey::LISTED; ++k) {
-      const std::uint32_t j = survey.around(i)[k];
+      const std::uint32_t j = listed[k];
       const bool linked = j != i && are_near(cloud, survey, i, j);
       const auto limit =
           linked ? std::lower_bound(LIMITS.begin(), LIMITS.end(), difference(cloud, i, j)) : LIMITS.end();
@@ -101,11 +103,11 @@ Parts find_parts(const Cloud& cloud, const Survey& survey) {
     for (std::size_t link = 0; link < rounds.size(); ++link) {
       if (rounds[link] != round) continue;
       const auto i = static_cast<std::uint32_t>(link / Survey::LISTED);
-      const std::uint32_t j = survey.around(i)[link % Survey::LISTED];
+      const std::uint32_t j = survey.around(i, link % Survey::LISTED);
       sets.join(i, j, glm::dot(cloud.normal[i], cloud.normal[j]) < 0.0F);
     }
   }
-  rounds = {};
+  release(rounds);
   Parts parts;
   parts.part.resize(cloud.size());
   parts.turned.resize(cloud.size());

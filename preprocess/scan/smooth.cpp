@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/base/release.h"
 #include "engine/base/vector_clones.h"
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
@@ -233,7 +234,7 @@ class Projection {
 
 }  // namespace
 
-Smoothed smooth_points(Cloud& cloud, const Survey& survey, const SmoothParams& params, const Stage& stage) {
+Smoothed smooth_points(Cloud& cloud, Survey survey, const SmoothParams& params, const Stage& stage) {
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
   const Projection projection(cloud, survey, params);
@@ -243,15 +244,18 @@ Smoothed smooth_points(Cloud& cloud, const Survey& survey, const SmoothParams& p
         size, [&](std::size_t i) { return params.moves[i] != 0 && projection.stride_of(i) == stride; });
     projection.move(movers, stride, moved, stage);
   }
-  const auto supported = numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
+  std::vector<std::uint32_t> supported =
+      numbers_where(size, [&](std::size_t i) { return moved.supported[i] != 0; });
   if (supported.empty()) return {};  // nothing supports anything: the radius is too small for these points
   cloud.normal = std::move(moved.normal);
   keep_points(cloud, supported);
   const std::vector<std::uint8_t> moves = gather(params.moves, supported);
   std::vector<float> lift = gather(moved.lift, supported);
-  move_points(cloud, lift);
   std::vector<float> sheet_end = gather(params.sheet_end, supported);
   for (std::size_t i = 0; i < sheet_end.size(); ++i) sheet_end[i] -= lift[i];
+  release(moved.lift), release(moved.supported), release(supported);
+  survey = {};
+  move_points(cloud, lift);
   reproject_points(cloud, {moves, params.sided, params.noise, sheet_end}, lift, stage);
   put_in_order(cloud);
   std::vector<float> lifts;

@@ -33,8 +33,9 @@ struct Smoothed {
 /// less, within what about 64 are expected in; weights (1 - d^2/R^2)^2 times the cosine to the point's own normal, so that
 /// surfaces behind and edges stay; the plane of weighted mean and mean normal, twice weighted anew by the distance to it.
 /// Places on another sheet (SmoothParams::sheet_end) are not looked at. Points with fewer than 6 such neighbours are dropped. What
-/// is left is looked at again (reproject_points). Normals must be known. The cloud is in order afterwards.
-[[nodiscard]] Smoothed smooth_points(Cloud& cloud, const Survey& survey, const SmoothParams& params,
+/// is left is looked at again (reproject_points). Normals must be known. The cloud is in order afterwards. `survey` is freed midway,
+/// when its points are gone.
+[[nodiscard]] Smoothed smooth_points(Cloud& cloud, Survey survey, const SmoothParams& params,
                                      const Stage& stage);
 
 }  // namespace splatray

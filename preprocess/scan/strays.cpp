@@ -47,8 +47,9 @@ void mark_isolated(const Survey& survey, std::vector<Stray>& strays) {
 std::vector<std::uint16_t> find_links(const Cloud& cloud, const Survey& survey) {
   std::vector<std::uint16_t> links(cloud.size());
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    const auto listed = survey.around(i);
     for (std::size_t k = 0; k < Survey::LISTED; ++k) {
-      const std::uint32_t j = survey.around(i)[k];
+      const std::uint32_t j = listed[k];
       const glm::vec3 apart = cloud.coord[i] - cloud.coord[j];
       const float reach = LINK * std::min(survey.reach[i], survey.reach[j]);
       const bool linked = j != i && glm::dot(apart, apart) <= reach * reach;
@@ -66,7 +67,7 @@ Components find_parts(const Cloud& cloud, const Survey& survey) {
   const auto join_links = [&](std::size_t i, std::size_t begin, std::size_t end) {
     for (std::uint16_t left = links[i]; left != 0; left = static_cast<std::uint16_t>(left & (left - 1))) {
       const int k = std::countr_zero(left);
-      const std::uint32_t j = survey.around(i)[static_cast<std::size_t>(k)];
+      const std::uint32_t j = survey.around(i, static_cast<std::size_t>(k));
       if (j < begin || j >= end) continue;
       parts.join(static_cast<std::uint32_t>(i), j);
       links[i] = static_cast<std::uint16_t>(links[i] & ~(1U << k));

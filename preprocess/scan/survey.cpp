@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "engine/base/release.h"
 #include "preprocess/scan/noise.h"
 #include "preprocess/scan/plane_fit.h"
 #include "preprocess/surface/neighbours.h"
@@ -127,9 +129,10 @@ struct Bunch {
   float expected_squared;  ///< the least Survey::expected_squared of them
 };
 
-std::vector<Bunch> find_bunches(const Cloud& cloud, const Survey& survey,
-                                const std::vector<std::uint32_t>& rough, float count) {
-  std::vector<Bunch> bunches;
+/// In a deque, as an array that grows takes the room of three times as many.
+std::deque<Bunch> find_bunches(const Cloud& cloud, const Survey& survey,
+                               const std::vector<std::uint32_t>& rough, float count) {
+  std::deque<Bunch> bunches;
   for (std::uint32_t begin = 0; begin < rough.size();) {
     float expected_squared = survey.expected_squared(rough[begin], count);
     glm::vec3 low = cloud.coord[rough[begin]], high = low;
@@ -261,7 +264,7 @@ Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   const bool all_given = std::none_of(cloud.normal.begin(), cloud.normal.end(),
                                       [](const glm::vec3& normal) { return normal == glm::vec3(0.0F); });
   Survey survey;
-  if (!all_given) survey.step = coordinate_step(cloud), cloud.position = {};
+  if (!all_given) survey.step = coordinate_step(cloud), release(cloud.position);
   survey.reach.resize(cloud.size());
   survey.wide.resize(cloud.size());
   survey.estimated.resize(cloud.size());

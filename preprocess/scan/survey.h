@@ -30,7 +30,11 @@ struct Survey {
   std::vector<float> flatness;
   glm::vec3 step{0.0F};  ///< coordinate_step, where any normal was unknown
 
-  [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const { return near->around(point); }
+  [[nodiscard]] NearPlaces::List around(std::size_t point) const { return near->around(point); }
+  /// The k-th of them.
+  [[nodiscard]] std::uint32_t around(std::size_t point, std::size_t k) const {
+    return near->around(point, k);
+  }
 
   /// The squared distance within which `count` places are expected, as few as 8 and 32 are within theirs: it grows alike with
   /// each doubling, on surfaces and in the crowns of trees, but never more than on surfaces.

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/base/release.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/base/parallel.h"
@@ -26,7 +27,7 @@ std::vector<std::uint32_t> usable_points(const Points& points) {
 Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   const auto take = [&](auto& values) {
     auto taken = usable.size() == values.size() ? std::move(values) : gather(values, usable);
-    values = {};
+    release(values);
     return taken;
   };
   Cloud cloud;
@@ -127,25 +128,30 @@ void count_given(const Cloud& cloud, BuildStats& stats) {
   stats.radii_repaired += static_cast<std::size_t>(radii_repaired);
 }
 
+/// Calls change for every array of the points, which are others from then on.
+template <typename Change>
+void change_all(Cloud& cloud, const Change& change) {
+  cloud.near = {};
+  change(cloud.position);
+  change(cloud.coord);
+  change(cloud.normal);
+  change(cloud.shading);
+  change(cloud.color);
+  change(cloud.radius);
+  change(cloud.clip);
+  change(cloud.line);
+  change(cloud.field_words);
+  change(cloud.clip_words);
+  change(cloud.kind);
+  change(cloud.radius_most);
+  change(cloud.station);
+  change(cloud.grid_cell);
+  for (Column& column : cloud.columns) std::visit(change, column.values);
+}
+
 /// Gives all arrays the values of these points, in this order.
 void rearrange(Cloud& cloud, const std::vector<std::uint32_t>& order) {
-  const auto reorder = [&](auto& values) { values = gather(values, order); };
-  cloud.near = {};
-  reorder(cloud.position);
-  reorder(cloud.coord);
-  reorder(cloud.normal);
-  reorder(cloud.shading);
-  reorder(cloud.color);
-  reorder(cloud.radius);
-  reorder(cloud.clip);
-  reorder(cloud.line);
-  reorder(cloud.field_words);
-  reorder(cloud.clip_words);
-  reorder(cloud.kind);
-  reorder(cloud.radius_most);
-  reorder(cloud.station);
-  reorder(cloud.grid_cell);
-  for (Column& column : cloud.columns) std::visit(reorder, column.values);
+  change_all(cloud, [&](auto& values) { values = gather(values, order); });
 }
 
 /// Finds far points and drops them where they were measured; the box of those that stay.
@@ -155,7 +161,7 @@ Bounds drop_far_points(Cloud& cloud, BuildStats& stats) {
     return cloud.far.numbers.empty() ? cloud.far.others : bounds_of(cloud.position);
   std::vector<bool> is_far(cloud.position.size(), false);
   for (const std::uint32_t i : cloud.far.numbers) is_far[i] = true;
-  rearrange(cloud, numbers_where(is_far.size(), [&](std::size_t i) { return !is_far[i]; }));
+  keep_points(cloud, numbers_where(is_far.size(), [&](std::size_t i) { return !is_far[i]; }));
   stats.dropped_far += cloud.far.numbers.size();
   return cloud.far.others;
 }
@@ -173,20 +179,29 @@ Bounds bounds_of(const Cloud& cloud) {
 }
 
 Cloud make_cloud(Points&& points, bool oriented, bool measured, BuildStats& stats) {
-  const std::vector<std::uint32_t> usable = usable_points(points);
+  std::vector<std::uint32_t> usable = usable_points(points);
   stats.points_read += points.size();
   stats.dropped_non_finite += points.size() - usable.size();
   Cloud cloud = take_points(std::move(points), usable);
   cloud.oriented = oriented;
   cloud.measured = measured;
   if (usable.empty()) return cloud;
+  release(usable);
   normalise_coordinates(cloud, drop_far_points(cloud, stats));
   put_in_order(cloud);
   count_given(cloud, stats);
   return cloud;
 }
 
-void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) { rearrange(cloud, kept); }
+void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) {
+  change_all(
+      cloud,
+      [&](auto& values) {  // in place: most points are kept, and few arrays find room beside all others
+        if (values.empty()) return;
+        for (std::size_t n = 0; n < kept.size(); ++n) values[n] = values[kept[n]];
+        values.resize(kept.size());
+      });
+}
 
 void add_copies(Cloud& cloud, const std::vector<std::uint32_t>& of) {
   std::vector<std::uint32_t> order(cloud.size());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "preprocess/surface/neighbours.h"
+#include "preprocess/surface/number_lists.h"
 
 namespace splatray {
 
@@ -13,16 +14,17 @@ namespace splatray {
 class NearPlaces {
  public:
   static constexpr std::size_t LISTED = 12;  ///< nearest places kept of each point
+  using List = NumberLists<LISTED>::List;
 
   /// The cloud must be in canonical order; the lists are still to be filled.
-  explicit NearPlaces(const Cloud& cloud);
+  explicit NearPlaces(const Cloud& cloud) : search_(cloud, Sites::positions), lists_(cloud.size()) {}
 
   [[nodiscard]] const NeighbourSearch& search() const { return search_; }
 
   /// LISTED of each point, the nearest first; the point itself where there are fewer.
-  [[nodiscard]] std::span<const std::uint32_t> around(std::size_t point) const {
-    return std::span(listed_[point / CHUNK]).subspan(point % CHUNK * LISTED, LISTED);
-  }
+  [[nodiscard]] List around(std::size_t point) const { return lists_[point]; }
+  /// The k-th of them.
+  [[nodiscard]] std::uint32_t around(std::size_t point, std::size_t k) const { return lists_.at(point, k); }
   /// Takes a point's nearest places, the nearest first.
   void list(std::uint32_t point, std::span<const Neighbour> nearest);
 
@@ -36,11 +38,8 @@ class NearPlaces {
             const std::vector<std::uint32_t>& number);
 
  private:
-  static constexpr std::size_t CHUNK = 1U << 15;  // points whose lists are in one array
-
   NeighbourSearch search_;
-  /// In many small arrays, which find room where a large one does not.
-  std::vector<std::vector<std::uint32_t>> listed_;
+  NumberLists<LISTED> lists_;
 };
 
 }  // namespace splatray

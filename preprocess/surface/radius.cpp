@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/base/release.h"
 #include "engine/base/vector_clones.h"
 #include "preprocess/base/select.h"
 #include "preprocess/surface/near_places.h"
@@ -219,6 +220,7 @@ void bound_wide(Cloud& cloud, const NeighbourSearch& search, const Rings& rings,
 void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector<std::uint32_t>& computed) {
   std::vector<float> radii = gather(cloud.radius, computed);
   const float limit = STRAY * median_of(std::span(radii));
+  release(radii);
   const std::vector<float> before = cloud.radius;
   tbb::parallel_for(std::size_t{0}, computed.size(), [&](std::size_t n) {
     float& radius = cloud.radius[computed[n]];
@@ -259,6 +261,7 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
     visit_nearest(cloud, sheets, stage, fill);
     if (sheets && !knn) look_further(cloud, *sheets, rings, stage);
     if (sheets) bound_wide(cloud, *sheets, rings, stage);
+    release(rings);
     for (const std::uint32_t i : cloud.radius_most.empty() ? std::vector<std::uint32_t>{} : unknown)
       cloud.radius[i] = std::min(cloud.radius[i], cloud.radius_most[i]);
     if (!unknown.empty()) bound_strays(cloud, knn ? *places : *sheets, unknown);

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "engine/base/release.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/tree/listed_disc.h"
 
@@ -37,7 +38,7 @@ class Search {
     for (std::uint32_t child = 0; child < 8; ++child) {
       const CellName its{morton_key(child_cell({low, 2 * size}, child).low), cell.level + 1};
       if (is_long(its, lists[child])) add(its, lists[child], found);
-      lists[child] = {};
+      release(lists[child]);
     }
   }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "engine/base/release.h"
+
 namespace splatray {
 namespace {
 
@@ -301,7 +303,7 @@ void finish_scans(Points& points, const std::vector<std::size_t>& last_of_scan) 
   const bool has_grid = std::any_of(points.stations.begin(), points.stations.end(),
                                     [](const Station& station) { return station.rows > 0; });
   if (has_grid) points.grid_cell.resize(size, NO_CELL);
-  if (!has_grid) points.grid_cell = {};
+  if (!has_grid) release(points.grid_cell);
   for (Column& column : points.columns) std::visit([size](auto& list) { list.resize(size); }, column.values);
   if (points.stations.size() < 2) return;
   points.station.reserve(size);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/base/release.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/scan/narrow_column.h"
 
@@ -172,7 +173,7 @@ Points PcdPoints::take() {
   std::vector<glm::u16vec3>& colors = points_.stored_color;
   points_.stored_color_most = 255;
   if (std::all_of(colors.begin(), colors.end(), [](const glm::u16vec3& c) { return c == glm::u16vec3(0); }))
-    colors.clear();
+    release(colors);
   return std::move(points_);
 }
 

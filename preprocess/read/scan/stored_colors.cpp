@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/release.h"
+
 namespace splatray {
 
 std::string store_colors(std::array<std::vector<float>, 3> channels, Points& points) {
@@ -22,7 +24,7 @@ std::string store_colors(std::array<std::vector<float>, 3> channels, Points& poi
     std::vector<float>& channel = channels[static_cast<std::size_t>(axis)];
     for (std::size_t i = 0; i < channel.size(); ++i)
       points.stored_color[i][axis] = stored_channel(scale * static_cast<double>(channel[i]));
-    channel = {};
+    release(channel);
   }
   points.stored_color_most = as_stored ? 0 : 65535;
   return as_stored ? "" : "colours are taken as of 0 to " + std::to_string(static_cast<int>(full));

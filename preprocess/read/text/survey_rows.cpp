@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/release.h"
 #include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
@@ -41,7 +42,7 @@ Points SurveyRows::take() {
   for (const glm::u16vec3& color : points_.stored_color)
     if (color != WHITE) most = std::max({most, color.x, color.y, color.z});
   points_.stored_color_most = most > 255 ? 65535 : 255;
-  if (most == 0) points_.stored_color.clear();
+  if (most == 0) release(points_.stored_color);
   fill_up(points_.stored_color, points_.size(), WHITE);
   fill_up(points_.normal, points_.size(), glm::vec3(0.0F));
   fill_up(intensity_, points_.size(), 0.0F);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/base/release.h"
 #include "preprocess/base/select.h"
 #include "preprocess/scan/grid/depth_grid.h"
 #include "preprocess/scan/grid/grid_planes.h"
@@ -179,7 +180,7 @@ Smoothed smooth_by_grids(Cloud& cloud, const std::vector<std::uint8_t>& estimate
   const bool by_coordinates = cloud.position.empty();
   cloud.position = std::move(places);
   follow_positions(cloud);
-  if (by_coordinates) cloud.position = {};
+  if (by_coordinates) release(cloud.position);
   return smoothed;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/release.h"
 #include "preprocess/scan/components.h"
 #include "preprocess/scan/line/lines.h"
 
@@ -179,12 +180,13 @@ void join_lines(Cloud& cloud, const Survey& survey, bool ellipses, std::vector<L
     places[i].plane = planes[i].across != glm::vec3(0.0F);
     if (places[i].plane) cloud.normal[i] = normals[i];
   });
+  release(normals);
   cloud.normal = averaged_normals(cloud, survey, places);
   if (!ellipses) return;
+  const std::vector<float> widths = run_widths(cloud, places);
   cloud.line.resize(cloud.size());
   cloud.clip.resize(cloud.size());
   cloud.radius_most.resize(cloud.size(), std::numeric_limits<float>::infinity());
-  const std::vector<float> widths = run_widths(cloud, places);
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
     if (!places[i].plane) return;
     for (float& way : planes[i].ways) way = std::min(way, MOST_SLIM * widths[i]);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/release.h"
 #include "preprocess/scan/line/lines.h"
 
 namespace splatray {
@@ -14,8 +15,8 @@ void find_station(Cloud& cloud, const std::vector<LinePlace>& lines) {
   const std::optional<glm::dvec3> sensor = find_spinning_sensor(cloud, lines);
   if (!sensor) return;
   cloud.stations = {Station{"", cloud.center_world + cloud.half_extent_world * *sensor}};
-  cloud.station.clear();
-  cloud.grid_cell.clear();
+  release(cloud.station);
+  release(cloud.grid_cell);
 }
 
 }  // namespace
