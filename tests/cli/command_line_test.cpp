@@ -11,6 +11,7 @@
 #include "app/library/request/request_json.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
+#include "engine/base/utf8.h"
 #include "tests/property/dice.h"
 
 namespace splatray {
@@ -29,7 +30,7 @@ void maybe(Dice& dice, std::optional<Value>& target, std::type_identity_t<Value>
   if (dice.chance(0.5)) target = value;
 }
 
-/// Text with all that shells, file systems and our own lists treat specially.
+/// A path with all that shells, file systems and our own lists treat specially.
 std::string odd_text(Dice& dice) {
   const std::string letters = "aZ7 .,:;=/\\'\"$`!*?[]{}()<>|&~#%@^+-_\t\n\xC3\xA9";
   std::string text(1, 'x');
@@ -38,9 +39,12 @@ std::string odd_text(Dice& dice) {
   return text;
 }
 
+/// The same as text, which is UTF-8 behind every door.
+std::string odd_words(Dice& dice) { return to_utf8(odd_text(dice)); }
+
 ObjectChange random_object(Dice& dice) {
   ObjectChange object;
-  object.object = odd_text(dice);
+  object.object = odd_words(dice);
   const auto say = [&](const char* key, const std::string& value) {
     if (dice.chance(0.5)) object.set(key, value);
   };
@@ -76,7 +80,7 @@ Request::Source random_source(Dice& dice) {
   if (dice.chance(0.5)) scene.scans.sensor_world = vector(dice);
   if (dice.chance(0.5)) scene.scans.trajectory = odd_text(dice) + ".txt";
   scene.scans.z_scale = dice.chance(0.5) ? 0.3048 : 1.0;
-  if (dice.chance(0.5)) scene.scans.columns = odd_text(dice);
+  if (dice.chance(0.5)) scene.scans.columns = odd_words(dice);
   for (std::uint32_t i = dice.below(3); i > 0; --i)
     scene.scans.attributes.push_back("name " + std::to_string(i));
   BuildParams& params = scene.params;
@@ -127,7 +131,7 @@ Request random_picture(Dice& dice) {
     request.look.lights->push_back(random_light(dice));
   for (std::uint32_t i = dice.below(3); i > 0; --i) request.look.objects.push_back(random_object(dice));
   if (dice.chance(0.5)) request.look.environment = odd_text(dice);
-  if (dice.chance(0.5)) request.look.attributes.color_by = odd_text(dice);
+  if (dice.chance(0.5)) request.look.attributes.color_by = odd_words(dice);
   const double low = number(dice, 1e-9, 1e9);
   maybe(dice, request.look.attributes.color_range, {low, low + number(dice, 1.0, 1e9)});
   for (std::uint32_t i = dice.below(3); i > 0; --i)
@@ -138,7 +142,7 @@ Request random_picture(Dice& dice) {
     request.look.material = material_names()[dice.below(std::uint32_t(material_names().size()))];
   request.settings = random_settings(dice);
   maybe(dice, request.settings.asked_delta_world, number(dice, 1e-9, 1e9));
-  if (dice.chance(0.5)) request.settings.device = odd_text(dice);
+  if (dice.chance(0.5)) request.settings.device = odd_words(dice);
   return request;
 }
 
