@@ -9,8 +9,7 @@
 namespace splatray {
 namespace {
 
-/// A bevel of 30 degrees turns by 1.33 times what the sides of a round of 16 turn.
-constexpr double STANDS_OUT = 1.25;
+constexpr double STANDS_OUT = 2.5;
 
 /// Square to a triangle, twice its area long.
 glm::dvec3 normal_of(const Mesh& mesh, std::uint32_t triangle) {

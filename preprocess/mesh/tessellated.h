@@ -13,10 +13,10 @@ namespace splatray {
 /// an edge where the normals of each of its triangles foretell how high the other's third corner lies, and lean alike at both its
 /// ends. On a part of the mesh, the triangles that hang together, half of all curved edges must do: of balls, vases and teapots
 /// 57 to 100 % do, of scans, of scans with a quarter and a sixteenth of their triangles left, and of coarse drawings 1 to 26 %,
-/// as normals there are means of facets, or vertices lie beside the surface. Facets in one plane are never chords, whatever their
-/// normals are.
+/// as normals there are means of facets, or vertices lie beside the surface. An edge is bent only where all sides around its two
+/// triangles are chords: a flat between bevels looks like a dome by its own corners.
 ///
-/// Of each triangle's sides, one byte each: 1 where the edge is such a chord and normals turn by 6 degrees and more along it; the
+/// Of each triangle's sides, one byte each: 1 where the edge is such a chord and normals turn by 3 degrees and more along it; the
 /// same from both triangles. Edges of more than two triangles are none, nor are borders whose vertices are `shared` with other
 /// meshes (null = none are), whose normals are not known. Empty where the mesh has no normals. `corners`: corner_normals.
 [[nodiscard]] std::vector<std::uint8_t> chord_sides(const Mesh& mesh, const std::vector<glm::uint>& weld,
