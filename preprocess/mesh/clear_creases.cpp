@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "preprocess/base/parallel.h"
+#include "preprocess/mesh/mesh_parts.h"
 
 namespace splatray {
 namespace {
 
 constexpr double STANDS_OUT = 2.5;
-constexpr std::uint32_t NO_PART = 0xFFFFFFFF;
 
 /// Square to a triangle, twice its area long.
 glm::dvec3 normal_of(const Mesh& mesh, std::uint32_t triangle) {
@@ -30,41 +30,20 @@ double length_of(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side) {
   return glm::distance(mesh.vertices.position[t[from]], mesh.vertices.position[t[(from + 1) % 3]]);
 }
 
-/// A part of a mesh: the triangles that hang together.
-struct Part {
+/// What is measured of a part.
+struct PartSize {
   double area = 0.0, edges = 0.0;  ///< its borders' length, and creases'
 };
 
-struct Parts {
-  std::vector<std::uint32_t> of;  ///< the number of each triangle's part
-  std::vector<Part> parts;
-};
-
-Parts find_parts(const Mesh& mesh, TrianglesAcross across) {
-  Parts found{std::vector<std::uint32_t>(mesh.triangles.size(), NO_PART), {}};
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t first = 0; first < mesh.triangles.size(); ++first) {
-    if (found.of[first] != NO_PART) continue;
-    const auto number = static_cast<std::uint32_t>(found.parts.size());
-    Part& part = found.parts.emplace_back();
-    found.of[first] = number;
-    open.push_back(first);
-    while (!open.empty()) {
-      const std::uint32_t t = open.back();
-      open.pop_back();
-      part.area += 0.5 * glm::length(normal_of(mesh, t));
-      for (std::uint32_t side = 0; side < 3; ++side) {
-        const std::uint32_t other = across[std::size_t{3} * t + side];
-        if (other >= mesh.triangles.size()) {
-          part.edges += length_of(mesh, t, side);
-        } else if (found.of[other] == NO_PART) {
-          found.of[other] = number;
-          open.push_back(other);
-        }
-      }
-    }
+std::vector<PartSize> measure_parts(const Mesh& mesh, TrianglesAcross across, const MeshParts& parts) {
+  std::vector<PartSize> sizes(parts.count);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    PartSize& size = sizes[parts.of[t]];
+    size.area += 0.5 * glm::length(normal_of(mesh, t));
+    for (std::uint32_t side = 0; side < 3; ++side)
+      if (across[std::size_t{3} * t + side] >= mesh.triangles.size()) size.edges += length_of(mesh, t, side);
   }
-  return found;
+  return sizes;
 }
 
 }  // namespace
@@ -91,16 +70,19 @@ std::vector<std::uint8_t> standing_out(const Mesh& mesh, TrianglesAcross across,
 std::vector<std::uint8_t> bounding(const Mesh& mesh, TrianglesAcross across,
                                    std::span<const TurningEdge> edges) {
   if (edges.empty()) return {};
-  Parts found = find_parts(mesh, across);
-  const auto part_of = [&](const TurningEdge& edge) -> Part& {
-    return found.parts[found.of[edge.triangle[0]]];
+  const MeshParts parts = find_parts(mesh.triangles.size(), [&](std::uint32_t t, std::uint32_t side) {
+    return across[std::size_t{3} * t + side];
+  });
+  std::vector<PartSize> sizes = measure_parts(mesh, across, parts);
+  const auto size_of = [&](const TurningEdge& edge) -> PartSize& {
+    return sizes[parts.of[edge.triangle[0]]];
   };
   for (const TurningEdge& edge : edges)
-    part_of(edge).edges += length_of(mesh, edge.triangle[0], edge.side[0]);
+    size_of(edge).edges += length_of(mesh, edge.triangle[0], edge.side[0]);
   std::vector<std::uint8_t> bound(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Part& part = part_of(edges[i]);
-    bound[i] = part.edges * part.edges >= part.area ? 1 : 0;
+    const PartSize& size = size_of(edges[i]);
+    bound[i] = size.edges * size.edges >= size.area ? 1 : 0;
   }
   return bound;
 }

@@ -34,8 +34,7 @@ struct MeshCreases {
 /// sampling). Its place in the share's piece of a triangle is a Fibonacci lattice: height from the share, side from multiples of
 /// the golden ratio (Kronecker sequence, Niederreiter 1992), that fans out from the corner at which it is least slanted.
 /// Deterministic for a seed. Normals are corner_normals interpolated, at most 20 degrees from the triangle's. Points, and the
-/// edges that discs end at, lie on the smooth surface that these are normals of (SmoothSurface), not on the chord; attributes
-/// are interpolated, whole numbers the nearest corner's; radii are not passed on. The mesh must have a positive, finite area
+/// edges that discs end at, lie on the facets, or on the curve that these are chords of (SmoothSurface); attributes are interpolated, whole numbers the nearest corner's; radii are not passed on. The mesh must have a positive, finite area
 /// unless count is 0.
 [[nodiscard]] Points sample_surface(const Mesh& mesh, const std::vector<glm::uint>& weld, std::uint64_t count,
                                     std::uint64_t seed, const MeshCreases& creases = {});

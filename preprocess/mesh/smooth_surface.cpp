@@ -10,7 +10,7 @@ namespace {
 
 /// Cosines of 45 and 30 degrees: normals that turn by more along an edge are of a coarse drawing, not of a smooth surface.
 constexpr double SHARP_COSINE = 0.7071067811865476, SMOOTH_COSINE = 0.8660254037844387;
-constexpr double LEANS_COSINE = 0.9986;  // 3 degrees: discs that lean less leave no slits
+constexpr double LEANS_COSINE = 0.99985;  // 1 degree: discs that lean less leave no slits
 constexpr double COARSE = 8.0;  // least height of a facet, in samples' distances, that a disc is small beside
 constexpr double ONE_PLANE = 0.99;  // cosine, 8 degrees: planes that meet in no clear line
 
@@ -68,13 +68,11 @@ glm::dvec3 SmoothSurface::corner_normal(std::uint32_t triangle, glm::uint place)
 
 /// The same bits from both triangles of an edge.
 glm::dvec3 SmoothSurface::bow_of(std::uint32_t triangle, std::uint32_t side) const {
+  const std::size_t first = 3 * std::size_t{triangle};
+  if (chords_.empty() || chords_[first + side] == 0) return glm::dvec3(0.0);
   const std::uint32_t beside = edges_.beside(triangle, side);
-  if (beside == MeshEdges::NONE) return glm::dvec3(0.0);
   const glm::uvec3& t = mesh_.triangles[triangle];
   const auto from = static_cast<glm::length_t>(side), to = (from + 1) % 3;
-  if (beside == triangle && shared_ != nullptr && (*shared_)[t[from]] && (*shared_)[t[to]])
-    return glm::dvec3(0.0);
-  const std::size_t first = 3 * std::size_t{triangle};
   const glm::dvec3 normal_from(corners_[first + side]), normal_to(corners_[first + (side + 1) % 3]);
   const glm::dvec3 other_from = corner_normal(beside, weld_[t[from]]),
                    other_to = corner_normal(beside, weld_[t[to]]);

@@ -1,4 +1,4 @@
-/// The smooth surface that a mesh stands for where its corners' normals say so.
+/// The curved surface that a mesh stands for where its vertices and normals say so.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/mesh/tessellated.h"
 #include "preprocess/points.h"
 
 namespace splatray {
@@ -23,7 +24,7 @@ struct SmoothTriangle {
   /// The unit normal of the surface's tangent plane there, on the triangle's side; zero of triangles without area.
   [[nodiscard]] glm::dvec3 normal(const glm::dvec3& weights) const;
   /// The unit normal of a disc there, where light sees `seen`: that of the tangent plane, on the side of `seen`, where this
-  /// leans out of it by 3 to 45 degrees and the triangle is large beside the samples' distance, as discs that lean leave slits.
+  /// leans out of it by 1 to 45 degrees and the triangle is large beside the samples' distance, as discs that lean leave slits.
   /// Else `seen`: neighbouring discs are parts of one round surface. Slivers may be bent by more, and have no plane worth it.
   [[nodiscard]] glm::vec3 disc_normal(const glm::dvec3& weights, const glm::vec3& seen,
                                       double spacing_world) const;
@@ -31,17 +32,20 @@ struct SmoothTriangle {
   [[nodiscard]] double least_height() const;
 };
 
-/// Each edge has its own share in the surface, so that triangles join. Both triangles at an edge decide it: at a crease it runs
-/// in the tangent planes of both, so that a round rim is round on both sides; a border follows its one triangle. Edges of
-/// more than two triangles, those along which normals turn by more than 45 degrees, and borders shared with other meshes, whose
-/// normals are not known, stay straight.
+/// The facets, bent at those edges that are chords of a curve (chord_sides). Each edge has its own share in the surface, so that
+/// triangles join. Both triangles at an edge decide it: at a crease it runs in the tangent planes of both, so that a round rim is
+/// round on both sides; a border follows its one triangle. Edges along which normals turn by more than 45 degrees stay straight.
 class SmoothSurface {
  public:
   /// `corners`: corner_normals; `shared`: the vertices where other meshes have some too, null = none. All must outlive the
   /// surface.
   SmoothSurface(const Mesh& mesh, const std::vector<glm::uint>& weld, const std::vector<glm::vec3>& corners,
                 const MeshEdges& edges, const std::vector<bool>* shared = nullptr)
-      : mesh_(mesh), weld_(weld), corners_(corners), edges_(edges), shared_(shared) {}
+      : mesh_(mesh),
+        weld_(weld),
+        corners_(corners),
+        edges_(edges),
+        chords_(chord_sides(mesh, weld, corners, edges, shared)) {}
 
   [[nodiscard]] SmoothTriangle triangle(std::uint32_t index) const;
 
@@ -53,7 +57,7 @@ class SmoothSurface {
   const std::vector<glm::uint>& weld_;
   const std::vector<glm::vec3>& corners_;
   const MeshEdges& edges_;
-  const std::vector<bool>* shared_;
+  std::vector<std::uint8_t> chords_;  ///< chord_sides
 };
 
 }  // namespace splatray

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
@@ -146,6 +149,95 @@ TEST(SmoothSurface, BordersSharedWithAnotherMeshStayStraight) {
   };
   EXPECT_LT(highest_at_rim(true), 0.001) << "or the lid, which is flat, does not meet the rim";
   EXPECT_GT(highest_at_rim(false), 0.01);
+}
+
+/// A ball of 14 x 28 facets with normals of a round one, whose vertices lie off it by up to `off` along their normals.
+Mesh coarse_ball(double off) {
+  constexpr glm::uint ROWS = 14, COLUMNS = 28;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Mesh mesh;
+  for (glm::uint row = 0; row <= ROWS; ++row)
+    for (glm::uint column = 0; column < COLUMNS; ++column) {
+      const double down = M_PI * row / ROWS;
+      const dvec3 out = std::sin(down) * around(column / double(COLUMNS)) + dvec3(0.0, std::cos(down), 0.0);
+      const bool pole = row == 0 || row == ROWS;
+      mesh.vertices.position.push_back(pole ? dvec3(0.0, row == 0 ? 1.0 : -1.0, 0.0)
+                                            : (1.0 + off * unit(random)) * out);
+      mesh.vertices.normal.emplace_back(out);
+      const glm::uint next = (column + 1) % COLUMNS, begin = COLUMNS * row;
+      if (row == ROWS) continue;
+      if (row > 0) mesh.triangles.emplace_back(begin + column, begin + next, begin + COLUMNS + column);
+      if (row + 1 < ROWS)
+        mesh.triangles.emplace_back(begin + next, begin + COLUMNS + next, begin + COLUMNS + column);
+    }
+  return mesh;
+}
+
+/// A box of 2 x 2 x 2 with bevels of two facets, 0.1 wide, and with normals that are means across these.
+Mesh bevelled_box() {
+  Mesh mesh;
+  const std::array<double, 4> steps{-1.0, -0.9, 0.9, 1.0};
+  for (glm::length_t axis = 0; axis < 3; ++axis)
+    for (const double face : {-1.0, 1.0})
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+          const auto first = static_cast<glm::uint>(mesh.vertices.position.size());
+          for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+            dvec3 place;
+            place[axis] = face;
+            place[(axis + 1) % 3] = steps[i + static_cast<std::size_t>(di)];
+            place[(axis + 2) % 3] = steps[j + static_cast<std::size_t>(dj)];
+            const dvec3 within = glm::clamp(place, -0.9, 0.9);
+            mesh.vertices.position.push_back(within + 0.1 * glm::normalize(place - within));
+          }
+          mesh.triangles.emplace_back(first, first + 1, first + 2);
+          mesh.triangles.emplace_back(first, first + 2, first + 3);
+          if (face < 0.0)
+            for (std::size_t t = mesh.triangles.size() - 2; t < mesh.triangles.size(); ++t)
+              std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
+        }
+  mesh.vertices.normal = vertex_normals(mesh, weld_positions(mesh.vertices.position));
+  return mesh;
+}
+
+/// The farthest that the surface lies off a mesh's facets.
+double most_bent(const Mesh& mesh) {
+  const std::vector<glm::uint> weld = weld_positions(mesh.vertices.position);
+  const std::vector<glm::vec3> corners = corner_normals(mesh, weld);
+  const MeshEdges edges(mesh, weld, corners, DEFAULT_CREASE_COSINE);
+  const SmoothSurface surface(mesh, weld, corners, edges);
+  double most = 0.0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const dvec3& bow : surface.triangle(t).bow) most = std::max(most, 0.125 * glm::length(bow));
+  return most;
+}
+
+TEST(SmoothSurface, OnlyVerticesOnACurveBendFacets) {
+  EXPECT_NEAR(most_bent(coarse_ball(0.0)), 1.0 - std::cos(M_PI / 14.0 * std::sqrt(0.5)), 0.003);
+  EXPECT_EQ(most_bent(coarse_ball(0.05)), 0.0) << "as scans' vertices do, these lie beside the surface";
+  Mesh bare = coarse_ball(0.0);
+  bare.vertices.normal.clear();
+  EXPECT_EQ(most_bent(bare), 0.0) << "a file without normals means its facets";
+}
+
+TEST(SmoothSurface, FlatsBetweenBevelsStayFlat) {
+  const Mesh box = bevelled_box();
+  const std::vector<glm::uint> weld = weld_positions(box.vertices.position);
+  const std::vector<glm::vec3> corners = corner_normals(box, weld);
+  const MeshEdges edges(box, weld, corners, DEFAULT_CREASE_COSINE);
+  const SmoothSurface surface(box, weld, corners, edges);
+  int leaning = 0;
+  for (std::uint32_t t = 0; t < box.triangles.size(); ++t) {
+    const SmoothTriangle smooth = surface.triangle(t);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const dvec3 along = smooth.corners[(i + 1) % 3] - smooth.corners[i];
+      if (glm::length(along) < 1.0) continue;
+      leaning += std::abs(glm::dot(along, dvec3(corners[3 * t + i]))) > 0.1 ? 1 : 0;
+      EXPECT_EQ(smooth.bow[i], dvec3(0.0)) << "triangle " << t;
+    }
+  }
+  EXPECT_GT(leaning, 12) << "or nothing asks for arches";
 }
 
 TEST(SmoothSurface, PartsOfARefinedMeshJoin) {

@@ -23,7 +23,7 @@ struct Elements {
 };
 
 template <class T>
-double load(const unsigned char* bytes) {
+double load_number(const unsigned char* bytes) {
   T value;
   std::memcpy(&value, bytes, sizeof(T));
   return static_cast<double>(value);
@@ -36,17 +36,17 @@ double component(const Elements& elements, const unsigned char* bytes) {
   };
   switch (elements.component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return scaled(load<std::int8_t>(bytes), 127.0);
+      return scaled(load_number<std::int8_t>(bytes), 127.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return scaled(load<std::uint8_t>(bytes), 255.0);
+      return scaled(load_number<std::uint8_t>(bytes), 255.0);
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return scaled(load<std::int16_t>(bytes), 32767.0);
+      return scaled(load_number<std::int16_t>(bytes), 32767.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return scaled(load<std::uint16_t>(bytes), 65535.0);
+      return scaled(load_number<std::uint16_t>(bytes), 65535.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return load<std::uint32_t>(bytes);
+      return load_number<std::uint32_t>(bytes);
     default:
-      return load<float>(bytes);
+      return load_number<float>(bytes);
   }
 }
 
