@@ -87,7 +87,7 @@ Mesh room_mesh() {
 
 Mesh wall_mesh(double thickness) {
   Mesh mesh;
-  add_quad(mesh, {-2.5, -4.0, 0.0}, {2.5, -4.0, 0.0}, {2.5, 4.0, 0.0}, {-2.5, 4.0, 0.0});
+  add_quad(mesh, {-2.0, -1.5, 0.0}, {2.0, -1.5, 0.0}, {2.0, 1.5, 0.0}, {-2.0, 1.5, 0.0});
   add_box(mesh, {-1.5, -0.5 * thickness, 0.0}, {1.5, 0.5 * thickness, 2.0});
   return mesh;
 }

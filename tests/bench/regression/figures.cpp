@@ -113,6 +113,11 @@ double diagonal_of(const std::vector<dvec3>& places) {
   return glm::length(high - low);
 }
 
+/// What reaches the eye of what is covered, the mean of rgb.
+double light_of(const vec4& pixel) {
+  return static_cast<double>(pixel.a) * static_cast<double>(pixel.r + pixel.g + pixel.b) / 3.0;
+}
+
 bool on_surface(PointKind kind) { return kind == PointKind::surface || kind == PointKind::leaf; }
 
 }  // namespace
@@ -183,11 +188,22 @@ Figures light_figures(const std::filesystem::path& picture) {
   const Image image = image_of(read_exr(picture));
   double light = 0.0, cover = 0.0;
   for (const vec4& pixel : image.rgba) {
-    light += static_cast<double>(pixel.a) * static_cast<double>(pixel.r + pixel.g + pixel.b) / 3.0;
+    light += light_of(pixel);
     cover += static_cast<double>(pixel.a);
   }
   return {{"light", light / std::max(cover, 1e-9)},
           {"cover", cover / static_cast<double>(image.rgba.size())}};
+}
+
+std::vector<std::vector<double>> part_means(const std::filesystem::path& picture, std::uint32_t parts) {
+  const Image image = image_of(read_exr(picture));
+  const std::uint32_t width = image.width / parts, height = image.height / parts;
+  std::vector<std::vector<double>> means(parts, std::vector<double>(parts, 0.0));
+  for (std::uint32_t y = 0; y < parts * height; ++y)
+    for (std::uint32_t x = 0; x < parts * width; ++x)
+      means[y / height][x / width] +=
+          light_of(image.rgba[std::size_t{y} * image.width + x]) / (width * height);
+  return means;
 }
 
 }  // namespace splatray::testing

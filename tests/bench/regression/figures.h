@@ -38,4 +38,8 @@ struct PictureOfMesh {
 /// same view they are.
 [[nodiscard]] Figures light_figures(const std::filesystem::path& picture);
 
+/// The mean light of parts x parts equal parts of a picture, row by row from the top.
+[[nodiscard]] std::vector<std::vector<double>> part_means(const std::filesystem::path& picture,
+                                                          std::uint32_t parts);
+
 }  // namespace splatray::testing

@@ -1,6 +1,6 @@
 /// splatray-guard WHAT ARGUMENT...: inputs and figures for tests/bench/guard, which says what is measured. Figures are JSON on stdout.
 ///   model MESH FOLDER, raw MESH|body FOLDER, room FOLDER, walls FOLDER, thinned SCAN FOLDER, bare SCAN PLY: make inputs (inputs.h)
-///   picture MESH (CAMERA.json PICTURE.exr)..., points SCAN TRUTH DRAWN.ply, light PICTURE.exr: figures (figures.h)
+///   picture MESH (CAMERA.json PICTURE.exr)..., points SCAN TRUTH DRAWN.ply, light PICTURE.exr, parts PICTURE.exr N: figures (figures.h)
 ///   sheet LAST.png SHEET.png PICTURE.png...: contact_sheet.h
 #include <cstdio>
 #include <functional>
@@ -51,6 +51,11 @@ const std::map<std::string, Work>& works() {
       {"picture", {3, measure_pictures}},
       {"points", {3, [](const Arguments& given) { print(point_figures(given[0], given[1], given[2])); }}},
       {"light", {1, [](const Arguments& given) { print(light_figures(given[0])); }}},
+      {"parts",
+       {2,
+        [](const Arguments& given) {
+          print(part_means(given[0], static_cast<std::uint32_t>(std::stoul(given[1]))));
+        }}},
       {"sheet", {3, make_sheet}}};
   return WORKS;
 }

@@ -110,7 +110,7 @@ void write_wall(double thickness, const std::filesystem::path& folder) {
   const std::vector<dvec3> places{{0.4, -4.0, 1.3}, {-0.3, 4.0, 1.2}};
   for (const std::size_t stations : {1U, 2U}) {
     Tripod tripod{.sensors = {places.begin(), places.begin() + static_cast<std::ptrdiff_t>(stations)}};
-    tripod.step_deg = 0.1;
+    tripod.step_deg = 0.14;
     tripod.lowest_deg = -25.0;
     tripod.highest_deg = 15.0;
     const SimulatedScan scan = scan_from_tripods(tree, tripod, {.noise = 0.0025});

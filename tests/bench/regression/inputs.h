@@ -16,7 +16,7 @@ void write_raw_scan(const std::filesystem::path& mesh, const std::filesystem::pa
 /// A room from two places and hills from the air: FOLDER/room.ptx, room_bare.ply, with their truth beside them.
 void write_room(const std::filesystem::path& folder);
 
-/// A wall of 3 x 2 m on a floor from one or two stations, 4 m before and behind it, 7 mm apart with a noise of 2.5 mm, for each
+/// A wall of 3 x 2 m on a floor from one or two stations, 4 m before and behind it, 10 mm apart with a noise of 2.5 mm, for each
 /// thickness: FOLDER/wall_THICKNESS_STATIONS.ptx with truth, mesh wall_THICKNESS.ply; millimetres.
 void write_walls(const std::filesystem::path& folder);
 

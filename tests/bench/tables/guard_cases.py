@@ -21,14 +21,16 @@ ROOM = [((-0.3, 0.2, 1.6), (4.0, 1.0, 1.2), (0, 0, 1)), ((-0.3, 0.2, 1.6), (-4.0
 THICKNESSES = (10, 20, 50, 100, 200)  # mm
 WALL_PLACES = 40  # where its thickness is measured
 COST_RUNS = 3
+ROOMS = pathlib.Path(__file__).parents[2] / "light/mitsuba/rooms.json"
+LIGHT_POINTS = 60000
 
 
 class Programs:
     """The programs that are measured, and what measures them."""
 
-    def __init__(self, programs, tool, work, data, quick, only, last_sheet):
-        self.bin, self.tool, self.work, self.data, self.quick, self.only, self.last_sheet = programs, tool, work, data, quick, only, last_sheet
-        self.sheet = work / "scans.png"
+    def __init__(self, programs, tool, work, data, quick, only, results):
+        self.bin, self.tool, self.work, self.data, self.quick, self.only, self.results = programs, tool, work, data, quick, only, results
+        self.sheet, self.last_sheet = work / "scans.png", results / "guard_scans.png"
 
     def wanted(self, name):
         return self.only in name
@@ -51,7 +53,8 @@ class Programs:
         subprocess.run([self.tool, *map(str, words)], check=True)
 
     def measure(self, *words):
-        return json.loads(subprocess.run([self.tool, *map(str, words)], check=True, capture_output=True, text=True).stdout)
+        found = json.loads(subprocess.run([self.tool, *map(str, words)], check=True, capture_output=True, text=True).stdout)
+        return {name: math.nan if value is None else value for name, value in found.items()} if isinstance(found, dict) else found
 
     def build(self, source, *options):
         self.must("splatray-preprocess", source, "-o", self.work / "scene.soct", *options)
@@ -215,6 +218,24 @@ def forest(programs):
             yield f"1/{part} of the points", {f"{name} off, %": 100.0 * abs(found[name] / whole[name] - 1.0) for name in ("light", "cover")}
 
 
+def light(programs):
+    """Rooms in path tracing beside Mitsuba's stored means of their pictures' parts (noise.py --store, there)."""
+    kept = json.loads(ROOMS.read_text())
+    folder = programs.work / "light"
+    folder.mkdir(exist_ok=True)
+    for name, room in kept["scenes"].items():
+        if not programs.wanted(name):
+            continue
+        (folder / "room.gltf").write_text(json.dumps(room["gltf"]))
+        scene = programs.build(folder / "room.gltf", "--mesh-points", LIGHT_POINTS)
+        picture = folder / "room.exr"
+        programs.must("splatray-render", scene, "-o", picture, *room["options"], "--resolution", "100x100", "--samples", 64, "--device", "cpu")
+        means = programs.measure("parts", picture, len(room["means"]))
+        off = sorted(100.0 * abs(ours / theirs - 1.0) for rows in zip(means, room["means"]) for ours, theirs in zip(*rows) if theirs > 0.0)
+        total, wanted = (sum(map(sum, rows)) for rows in (means, room["means"]))
+        yield name, {"light off, %": 100.0 * abs(total / wanted - 1.0), "parts off p50, %": off[len(off) // 2], "parts off p90, %": off[len(off) * 9 // 10]}
+
+
 def cost(programs):
     """CPU seconds (the least of COST_RUNS), memory and bytes of building scans."""
     for name in ("vaulted_room", "north_carolina") if programs.data else ():
@@ -249,4 +270,4 @@ def sheet(programs):
         yield name, {"tile differs": off, "failed": 0.0}
 
 
-PARTS = {"models": models, "raw": raw_scans, "simulated": simulated, "walls": walls, "forest": forest, "cost": cost, "sheet": sheet}
+PARTS = {"models": models, "raw": raw_scans, "simulated": simulated, "walls": walls, "forest": forest, "light": light, "cost": cost, "sheet": sheet}

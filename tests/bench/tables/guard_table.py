@@ -12,7 +12,7 @@ SIGMAS = 3.0
 # Counts, as shares in ppm of what `of` holds the number of.
 COUNTS = {"wrong": "pixels", "holes": "pixels", "far": "pixels", "sides": "points", "lost": "points", "moved": "points"}
 # Other figures: the share and the least difference that say something.
-SHARES = {"normals": (0.03, 0.02), "depth": (0.03, 0.3), "strays": (0.03, 0.5), "bytes a point": (0.01, 1.0), "light": (0.02, 0.2),
+SHARES = {"normals": (0.03, 0.02), "depth": (0.03, 0.3), "strays": (0.03, 0.5), "bytes a point": (0.01, 1.0), "light": (0.02, 0.2), "parts": (0.05, 0.3),
           "cover": (0.02, 0.2), "thickness": (0.05, 0.05), "outside": (0.0, 5.0), "within": (0.05, 0.05), "tile": (0.0, 0.03),
           "failed": (0.0, 0.5), "peak MB": (0.05, 1.0)}
 # Of CPU seconds, which another load on the machine lengthens; of tables of other machines they are not compared.
@@ -51,7 +51,7 @@ def noise_of(figure, before, after, sizes):
 def compare(before, after):
     """All figures that both tables have."""
     changes = []
-    same_machine = before.get("machine") == after.get("machine")
+    same_machine = before.get("device") == after["device"]
     for part, cases in after["parts"].items():
         for case, figures in cases.items():
             old = before["parts"].get(part, {}).get(case, {})
@@ -80,11 +80,13 @@ def table_text(rows):
 def report(before, after, changes, everything=False):
     """The table for people, and what got worse by name."""
     shown = [change for change in changes if everything or change.worse or change.better]
-    lines = [f"before: {before.get('version', 'nothing')}; after: {after['version']}; {after['machine']}"]
+    lines = [f"before: {before['commit']}; after: {after['commit']}, {after['device']['name']}"]
     if shown:
         lines.append(table_text([["part", "case", "figure", "before", "after", "ratio", ""]] + [row(change) for change in shown]))
     worse = [change for change in changes if change.worse]
     better = sum(change.better for change in changes)
     lines.append(f"{len(changes)} figures compared: {len(worse)} worse, {better} better")
+    lines += [f"not measured: {part}, {case}" for part, cases in before["parts"].items() if part in after["parts"]
+              for case in cases if case not in after["parts"][part]]
     lines += [f"worse: {change.part}, {change.case}: {change.figure} {number(change.before)} -> {number(change.after)}" for change in worse]
     return "\n".join(lines)
