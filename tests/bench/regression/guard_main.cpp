@@ -1,5 +1,5 @@
 /// splatray-guard WHAT ARGUMENT...: inputs and figures for tests/bench/guard, which says what is measured. Figures are JSON on stdout.
-///   model MESH FOLDER, raw MESH|body FOLDER, room FOLDER, walls FOLDER, thinned SCAN FOLDER, bare SCAN PLY: make inputs (inputs.h)
+///   model MESH FOLDER, raw MESH|body FOLDER, room FOLDER, walls FOLDER, thinned SCAN FOLDER, bare SCAN PLY, colours SCAN FOLDER: make inputs (inputs.h)
 ///   picture MESH (CAMERA.json PICTURE.exr)..., points SCAN TRUTH DRAWN.ply, light PICTURE.exr, parts PICTURE.exr N: figures (figures.h)
 ///   sheet LAST.png SHEET.png PICTURE.png...: contact_sheet.h
 #include <cstdio>
@@ -48,6 +48,7 @@ const std::map<std::string, Work>& works() {
       {"walls", {1, [](const Arguments& given) { write_walls(given[0]); }}},
       {"thinned", {2, [](const Arguments& given) { write_thinned(given[0], given[1]); }}},
       {"bare", {2, [](const Arguments& given) { write_bare(given[0], given[1]); }}},
+      {"colours", {2, [](const Arguments& given) { write_truth_of_colors(given[0], given[1]); }}},
       {"picture", {3, measure_pictures}},
       {"points", {3, [](const Arguments& given) { print(point_figures(given[0], given[1], given[2])); }}},
       {"light", {1, [](const Arguments& given) { print(light_figures(given[0])); }}},

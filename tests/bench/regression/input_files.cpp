@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/base/error.h"
+#include "engine/base/srgb.h"
 #include "engine/file/atomic_file.h"
 
 namespace splatray::testing {
@@ -94,8 +95,10 @@ void append_las_point(std::string& bytes, const Points& points, const glm::dvec3
   append(bytes, std::uint8_t{0});
   append(bytes, std::uint8_t{0});
   append(bytes, std::uint16_t{0});
-  for (glm::length_t channel = 0; channel < 3; ++channel)
-    append(bytes, points.stored_color.empty() ? std::uint16_t{0} : points.stored_color[i][channel]);
+  for (glm::length_t channel = 0; channel < 3; ++channel) {
+    const float shown = points.color.empty() ? 0.0F : linear_to_srgb(points.color[i][channel]);
+    append(bytes, static_cast<std::uint16_t>(std::lround(65535.0F * shown)));
+  }
 }
 
 std::string npy_header(const std::string& type, const std::string& shape) {

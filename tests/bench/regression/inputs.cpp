@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/library/camera_file.h"
+#include "engine/base/srgb.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "tests/bench/regression/input_files.h"
 #include "tests/bench/regression/source_mesh.h"
@@ -167,7 +168,7 @@ void write_thinned(const std::filesystem::path& scan, const std::filesystem::pat
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (random() % part != 0) continue;
       points.position.push_back(all.position[i]);
-      if (!all.stored_color.empty()) points.stored_color.push_back(all.stored_color[i]);
+      if (!all.color.empty()) points.color.push_back(all.color[i]);
       for (Column& column : points.columns)
         if (const Column* from = find_column(all.columns, column.name))
           std::get<std::vector<double>>(column.values).push_back(from->number(i));
@@ -175,6 +176,19 @@ void write_thinned(const std::filesystem::path& scan, const std::filesystem::pat
     std::erase_if(points.columns, [](const Column& column) { return column.size() == 0; });
     write_las_points(points, folder / (std::to_string(part) + ".las"));
   }
+}
+
+void write_truth_of_colors(const std::filesystem::path& scan, const std::filesystem::path& folder) {
+  constexpr double LEAST = 0.9;  // of a normal's length, which 8 bits leave
+  const auto decoded = [](float linear) { return 2.0 * linear_to_srgb(linear) - 1.0; };
+  SimulatedScan truth;
+  for (const glm::vec3& color : read_input({scan}, {}).objects.front().points.color) {
+    const dvec3 normal(decoded(color.r), decoded(color.g), decoded(color.b));
+    const bool known = glm::length(normal) > LEAST;
+    truth.normal.push_back(known ? glm::normalize(normal) : dvec3(0.0, 0.0, 1.0));
+    truth.kind.push_back(known ? PointKind::surface : PointKind::leaf);
+  }
+  write_point_truth(truth, folder);
 }
 
 void write_bare(const std::filesystem::path& scan, const std::filesystem::path& path) {

@@ -23,6 +23,10 @@ void write_walls(const std::filesystem::path& folder);
 /// A scan thinned to 1, 1/2, 1/5 and 1/10 of its points at random: FOLDER/1.las to 10.las.
 void write_thinned(const std::filesystem::path& scan, const std::filesystem::path& folder);
 
+/// The truth of a scan whose colours are normals ((n + 1) / 2), as its scanner's software saw them: write_point_truth. Points whose
+/// colours are none count as leaves, whose normals are not judged.
+void write_truth_of_colors(const std::filesystem::path& scan, const std::filesystem::path& folder);
+
 /// A scan's points without their normals, as PLY.
 void write_bare(const std::filesystem::path& scan, const std::filesystem::path& path);
 

@@ -51,7 +51,7 @@ def noise_of(figure, before, after, sizes):
 def compare(before, after):
     """All figures that both tables have."""
     changes = []
-    same_machine = before.get("device") == after["device"]
+    same_machine = before.get("machine") == after["machine"]
     for part, cases in after["parts"].items():
         for case, figures in cases.items():
             old = before["parts"].get(part, {}).get(case, {})

@@ -6,7 +6,7 @@ from guard_table import compare, report
 
 
 def table(figures, machine="one"):
-    return {"commit": "1234567", "device": {"name": machine}, "parts": {"models": {"bunny": figures}}}
+    return {"commit": "1234567", "device": {"name": "a CPU"}, "machine": machine, "parts": {"models": {"bunny": figures}}}
 
 
 def words(before, after, machine="one"):
