@@ -17,7 +17,7 @@ namespace {
 using glm::dvec3;
 
 constexpr double FAR = 0.01;    // of the diagonal
-constexpr double MOVED = 5e-4;  // of the diagonal
+constexpr double MOVED = 2e-3;  // of the diagonal: several times a scanner's noise
 constexpr double PPM = 1e6;
 
 /// What a pixel shows: of a miss the depth is +inf.

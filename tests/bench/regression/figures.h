@@ -30,7 +30,7 @@ struct PictureOfMesh {
 /// Of the points that a scene draws (`drawn`, a file of them with normals), each as the measured point nearest to it:
 /// - sides: turned away from the scanner, ppm of those on surfaces; normals p50, normals p95: off the true axis, degrees
 /// - lost: points on surfaces that are not drawn, ppm; strays: of mixed pixels and strays those that are drawn, percent
-/// - moved: points further from all measured ones than 1/2000 of the diagonal, ppm.
+/// - moved: points further from all measured ones than 1/500 of the diagonal, ppm.
 [[nodiscard]] Figures point_figures(const std::filesystem::path& scan, const std::filesystem::path& truth,
                                     const std::filesystem::path& drawn);
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <numeric>
+#include <tuple>
 
 #include "engine/base/error.h"
 #include "engine/base/srgb.h"
@@ -138,6 +140,29 @@ void write_ply_points(const Points& points, const std::filesystem::path& path) {
     if (!points.normal.empty()) append(bytes, points.normal[i]);
   }
   write(bytes, path);
+}
+
+SimulatedScan in_grid_order(const SimulatedScan& scan) {
+  const Points& points = scan.points;
+  std::vector<std::size_t> order(scan.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t i) {
+    const std::uint32_t columns = points.stations[points.station[i]].columns, cell = points.grid_cell[i];
+    return std::tuple(points.station[i], cell % columns, cell / columns);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  SimulatedScan ordered;
+  ordered.points.stations = points.stations;
+  for (const std::size_t i : order) {
+    ordered.points.position.push_back(points.position[i]);
+    ordered.points.station.push_back(points.station[i]);
+    ordered.points.grid_cell.push_back(points.grid_cell[i]);
+    ordered.position.push_back(scan.position[i]);
+    ordered.normal.push_back(scan.normal[i]);
+    ordered.kind.push_back(scan.kind[i]);
+    ordered.triangle.push_back(scan.triangle[i]);
+  }
+  return ordered;
 }
 
 void write_ptx(const Points& points, const std::filesystem::path& path) {

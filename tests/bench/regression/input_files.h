@@ -12,6 +12,9 @@ namespace splatray::testing {
 /// Binary PLY of float positions, and of normals where there are some. Throws Error (failed), as do the others.
 void write_ply_points(const Points& points, const std::filesystem::path& path);
 
+/// The scan with its points in PTX's order: station after station, column after column. Of grids.
+[[nodiscard]] SimulatedScan in_grid_order(const SimulatedScan& scan);
+
 /// PTX: each station's grid, cut to the rows and columns that have a return.
 void write_ptx(const Points& points, const std::filesystem::path& path);
 

@@ -114,7 +114,7 @@ void write_wall(double thickness, const std::filesystem::path& folder) {
     tripod.step_deg = 0.14;
     tripod.lowest_deg = -25.0;
     tripod.highest_deg = 15.0;
-    const SimulatedScan scan = scan_from_tripods(tree, tripod, {.noise = 0.0025});
+    const SimulatedScan scan = in_grid_order(scan_from_tripods(tree, tripod, {.noise = 0.0025}));
     const std::string file = name + "_" + std::to_string(stations);
     write_ptx(scan.points, folder / (file + ".ptx"));
     write_point_truth(scan, folder / file);
@@ -144,7 +144,7 @@ void write_room(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const Mesh mesh = room_mesh();
   const Tripod tripod{.sensors = {{-0.3, 0.2, 1.6}, {3.6, 1.0, 1.5}}, .step_deg = 0.4};
-  const SimulatedScan scan = scan_from_tripods(TriangleTree(mesh), tripod, {});
+  const SimulatedScan scan = in_grid_order(scan_from_tripods(TriangleTree(mesh), tripod, {}));
   write_obj_mesh(mesh, folder / "room.obj");
   write_ptx(scan.points, folder / "room.ptx");
   write_ply_points(scan.points, folder / "room_bare.ply");

@@ -17,6 +17,9 @@ MESH_POINTS = 1000000
 # Into the interiors: eye, target, up.
 INSIDE = {"sibenik": [((8, 1.7, 0), (19, 1.7, 1), (0, 1, 0)), ((8, 1.7, 0), (2, 4, 0), (0, 1, 0)), ((19, 1.7, 1), (10, 5, -2), (0, 1, 0))],
           "ice_cave": [((0, -0.5, 8), (0, -0.5, 0), (0, -1, 0)), ((0, -0.5, 8), (5, -0.5, 8), (0, -1, 0)), ((0, -0.5, 8), (0, -1, 15), (0, -1, 0))]}
+# Where a ring scanner saw the cave: its rings are from 25 degrees below to 15 above.
+RINGS = [((0, -0.5, 8), (0, 0.4, -2), (0, -1, 0)), ((0, -0.5, 8), (10, 0.4, 8), (0, -1, 0)), ((0, -0.5, 8), (0, 0.4, 18), (0, -1, 0))]
+RINGS_FOV, INSIDE_FOV = 36, 75  # degrees
 ROOM = [((-0.3, 0.2, 1.6), (4.0, 1.0, 1.2), (0, 0, 1)), ((-0.3, 0.2, 1.6), (-4.0, -2.0, 1.0), (0, 0, 1))]
 THICKNESSES = (10, 20, 50, 100, 200)  # mm
 WALL_PLACES = 40  # where its thickness is measured
@@ -71,7 +74,7 @@ class Programs:
             given += [camera, self.render(scene, self.work / f"picture{number}.exr", camera, 512, "--look", "paper", "--aov", "depth,normal")]
         return self.measure("picture", mesh, *given)
 
-    def cameras(self, name, views, fov=75):
+    def cameras(self, name, views, fov=INSIDE_FOV):
         """Files of cameras by eye, target and up."""
         files = []
         for number, (eye, target, up) in enumerate(views):
@@ -139,23 +142,24 @@ def simulated(programs):
     folder = programs.work / "room"
     if not (folder / "room/normal.npy").exists():
         programs.make("room", folder)
-    cases = [("room, stations", folder / "room.ptx", folder / "room", folder / "room.obj", ROOM),
-             ("room, bare", folder / "room_bare.ply", folder / "room", folder / "room.obj", ROOM)]
+    cases = [("room, stations", folder / "room.ptx", folder / "room", folder / "room.obj", ROOM, INSIDE_FOV),
+             ("room, bare", folder / "room_bare.ply", folder / "room", folder / "room.obj", ROOM, INSIDE_FOV)]
     if programs.data:
-        for name, file, mesh in (("church", "sim_sibenik_tls.e57", "sibenik"), ("cave rings", "sim_rings.ply", "ice_cave")):
+        for name, file, mesh, views, fov in (("church", "sim_sibenik_tls.e57", "sibenik", INSIDE["sibenik"], INSIDE_FOV),
+                                             ("cave rings", "sim_rings.ply", "ice_cave", RINGS, RINGS_FOV)):
             scan, truth = programs.data / "scans" / file, programs.work / "truth" / mesh
             if not truth.exists():
                 zipfile.ZipFile(scan.with_name(scan.stem + ".truth.npz")).extractall(truth)
-            cases.append((name, scan, truth, programs.data / f"models/{mesh}.ply", INSIDE[mesh]))
+            cases.append((name, scan, truth, programs.data / f"models/{mesh}.ply", views, fov))
         room, truth = programs.data / "scans/vaulted_room.laz", programs.work / "truth/vaulted_room"
         if not truth.exists():
             programs.make("colours", room, truth)
         if programs.wanted("vaulted room"):
             yield "vaulted room", programs.points(room, truth)
-    for name, scan, truth, mesh, views in cases:
+    for name, scan, truth, mesh, views, fov in cases:
         if not programs.wanted(name):
             continue
-        cameras = programs.cameras(name.replace(", ", "_"), views)
+        cameras = programs.cameras(name.replace(", ", "_"), views, fov)
         yield name, {**programs.pictures(mesh, programs.build(scan), cameras), **programs.points(scan, truth)}
 
 
