@@ -182,7 +182,8 @@ void write_truth_of_colors(const std::filesystem::path& scan, const std::filesys
   constexpr double LEAST = 0.9;  // of a normal's length, which 8 bits leave
   const auto decoded = [](float linear) { return 2.0 * linear_to_srgb(linear) - 1.0; };
   SimulatedScan truth;
-  for (const glm::vec3& color : read_input({scan}, {}).objects.front().points.color) {
+  const Input input = read_input({scan}, {});
+  for (const glm::vec3& color : input.objects.front().points.color) {
     const dvec3 normal(decoded(color.r), decoded(color.g), decoded(color.b));
     const bool known = glm::length(normal) > LEAST;
     truth.normal.push_back(known ? glm::normalize(normal) : dvec3(0.0, 0.0, 1.0));
