@@ -19,9 +19,9 @@ double ellipse_share(const BuiltScan& built) {
 class RingSweep : public ::testing::TestWithParam<int> {};
 
 TEST_P(RingSweep, AreBuiltScanByEllipses) {
-  const ScanCase sweep = street_sweep(GetParam());
+  const Sweep sweep = street_sweep(GetParam());
   const RingErrors joined =
-      ring_errors(build_scan(sweep.scan.points).scene, *sweep.rings_of, *sweep.spinner, 10000);
+      ring_errors(build_scan(sweep.scan.points).scene, *sweep.mesh, sweep.spinner, 10000);
   EXPECT_LT(joined.stripes_percent, 1.0);
   EXPECT_LT(joined.overlap, 3.0);
 }
@@ -29,15 +29,15 @@ TEST_P(RingSweep, AreBuiltScanByEllipses) {
 INSTANTIATE_TEST_SUITE_P(Rings, RingSweep, ::testing::Values(16, 32, 64, 128));
 
 TEST(Rings, OfDiscsHaveStripesOrOverlap) {
-  const ScanCase sweep = street_sweep(32);
-  const RingErrors discs = ring_errors(build_scan(sweep.scan.points, {.clip = false}).scene, *sweep.rings_of,
-                                       *sweep.spinner, 10000);
+  const Sweep sweep = street_sweep(32);
+  const RingErrors discs =
+      ring_errors(build_scan(sweep.scan.points, {.clip = false}).scene, *sweep.mesh, sweep.spinner, 10000);
   EXPECT_TRUE(discs.stripes_percent > 2.0 || discs.overlap > 6.0)
       << discs.stripes_percent << ' ' << discs.overlap << ": the comparison above can fail";
 }
 
 TEST(Rings, ShowTheScannersPlace) {
-  const ScanCase sweep = without_stations(street_sweep(32));
+  const Sweep sweep = without_stations(street_sweep(32));
   const BuiltScan built = build_scan(sweep.scan.points);
   EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
 }

@@ -85,6 +85,13 @@ Mesh room_mesh() {
   return mesh;
 }
 
+Mesh wall_mesh(double thickness) {
+  Mesh mesh;
+  add_quad(mesh, {-2.0, -1.5, 0.0}, {2.0, -1.5, 0.0}, {2.0, 1.5, 0.0}, {-2.0, 1.5, 0.0});
+  add_box(mesh, {-1.5, -0.5 * thickness, 0.0}, {1.5, 0.5 * thickness, 2.0});
+  return mesh;
+}
+
 Mesh corner_mesh() {
   Mesh mesh = sphere_mesh(5);
   for (dvec3& position : mesh.vertices.position) position = CORNER_BALL + CORNER_BALL_RADIUS * position;

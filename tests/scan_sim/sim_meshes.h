@@ -9,6 +9,8 @@ namespace splatray::testing {
 /// A room of 12 x 9 m, 3.2 m high, z up, about the z axis on the floor z = 0, with eight round columns of 0.25 m, two tables
 /// and a shelf.
 [[nodiscard]] Mesh room_mesh();
+/// A wall of 3 x 2 m along x in the middle of a floor of 4 x 3 m, z up.
+[[nodiscard]] Mesh wall_mesh(double thickness);
 /// 120 x 120 m of hills of 8 m about the origin, z up, with six houses of flat roofs and 4 m of walls.
 [[nodiscard]] Mesh terrain_mesh();
 /// 160 x 160 m of a street along x, z up: ground that rises a little to the sides, kerbs, houses, parked cars, poles and signs.

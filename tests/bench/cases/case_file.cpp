@@ -65,7 +65,7 @@ PreparedCase read_case(const std::filesystem::path& folder) {
     return case_of(Json::parse(stream));
   } catch (const Json::exception& failure) {
     throw Error(ExitCode::input_unreadable,
-                path.string() + ": found no case of splatray-bench-prepare: " + failure.what());
+                path.string() + ": found no case of splatray-bench prepare: " + failure.what());
   }
 }
 

@@ -1,4 +1,4 @@
-/// What splatray-bench-prepare found out about a case and splatray-bench cannot: the file case.json in the case's folder,
+/// What splatray-bench prepare found out about a case and splatray-bench cannot: the file case.json in the case's folder,
 /// beside its scene files, truth.bin (truth.h) and environment.bin.
 #pragma once
 #include <filesystem>

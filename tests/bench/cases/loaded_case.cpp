@@ -32,7 +32,7 @@ LoadedCase::LoadedCase(const Device& device, const Case& one, const std::filesys
     if (about == prepared_.variants.end())
       throw Error(ExitCode::input_unreadable,
                   (folder / "case.json").string() + ": found no '" + file +
-                      "', expected a folder that splatray-bench-prepare of this version made");
+                      "', expected a folder that splatray-bench prepare of this version made");
     variants_[file] = std::make_unique<LoadedVariant>(device, folder, file, about->second);
   }
 }

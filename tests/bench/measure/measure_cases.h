@@ -13,7 +13,7 @@ namespace splatray::testing {
 /// The case of that name; all of them where the name is empty.
 [[nodiscard]] std::vector<Case> named(std::vector<Case> cases, const std::string& name);
 
-/// Measures a case from what splatray-bench-prepare left for it in a folder. Throws Error (out_of_memory) where it does not fit.
+/// Measures a case from what splatray-bench prepare left for it in a folder. Throws Error (out_of_memory) where it does not fit.
 using CaseMeasure = std::function<std::vector<Json>(const Case& one, const std::filesystem::path& prepared)>;
 
 /// Measures cases prepared under `folder` and writes all their records to `output`; says on stdout what became of each. Those

@@ -20,7 +20,7 @@ using Flags = std::map<std::string, bool*>;
 
 /// FOLDER -o FILE.json [--quick] [--device D] [ONLY_FLAG NAME]
 struct MeasuringOptions {
-  std::filesystem::path folder;  ///< what splatray-bench-prepare wrote
+  std::filesystem::path folder;  ///< what splatray-bench prepare wrote
   std::filesystem::path output;
   std::string device;  ///< empty = the best
   std::string only;    ///< empty = all

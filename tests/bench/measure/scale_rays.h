@@ -19,7 +19,7 @@ struct PeerMaker {
 /// with splatray. None: splatray runs alone, with both blendings.
 using PeerMakers = std::function<std::vector<PeerMaker>(const Scene& scene)>;
 
-/// Records (race.h) of a case of scale_spheres() from what splatray-bench-prepare --scale left in `folder`.
+/// Records (race.h) of a case of scale_spheres() from what splatray-bench prepare --scale left in `folder`.
 [[nodiscard]] std::vector<Json> measure_rays(const Device& device, const Case& one,
                                              const std::filesystem::path& folder, const PeerMakers& makers);
 

@@ -1,4 +1,4 @@
-"""exactness.py EXACTNESS.json: writes EXACTNESS.md beside it, what splatray-bench-exact counted: a table of kinds of rays, summed over
+"""exactness.py EXACTNESS.json: writes EXACTNESS.md beside it, what splatray-bench exact counted: a table of kinds of rays, summed over
 scenes, and one of scenes, for each commit and device."""
 
 import json

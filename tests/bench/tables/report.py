@@ -1,5 +1,5 @@
 """report.py RECORDS... -o FOLDER: the report of speed against error, FOLDER/README.md with its pictures, from the
-records that splatray-bench and splatray-bench-peers wrote (JSON files or folders of them; the first device's are the
+records that splatray-bench and splatray-bench peers wrote (JSON files or folders of them; the first device's are the
 ones compared in detail, another machine's are added). Needs matplotlib."""
 
 import argparse
@@ -69,7 +69,7 @@ def summary_lines(records, lines):
 
 
 def read_counts(path):
-    """What splatray-bench-exact counted; nothing without the file."""
+    """What splatray-bench exact counted; nothing without the file."""
     return json.loads(path.read_text()) if path and path.exists() else []
 
 
@@ -122,7 +122,7 @@ def main():
     parser.add_argument("records", nargs="+", help="JSON files, or folders of them")
     parser.add_argument("-o", "--output", required=True, type=pathlib.Path, help="folder of README.md and its pictures")
     parser.add_argument("--commands", default="tests/bench/report", help="shown in the report")
-    parser.add_argument("--exactness", type=pathlib.Path, help="counts of splatray-bench-exact")
+    parser.add_argument("--exactness", type=pathlib.Path, help="counts of splatray-bench exact")
     parser.add_argument("--hard", type=pathlib.Path, help="table of hard_test")
     options = parser.parse_args()
     records = Records(options.records)

@@ -1,4 +1,4 @@
-"""The records of splatray-bench and splatray-bench-peers (record.h), and ways to choose among them."""
+"""The records of splatray-bench and splatray-bench peers (record.h), and ways to choose among them."""
 
 import json
 import pathlib

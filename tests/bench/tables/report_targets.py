@@ -100,7 +100,7 @@ def path_targets(records):
 
 
 def exact_targets(counts):
-    """`counts`: what splatray-bench-exact counted, of which those of the last commit and device are reported. A kind with fewer rays
+    """`counts`: what splatray-bench exact counted, of which those of the last commit and device are reported. A kind with fewer rays
     than asked for is not reached."""
     kinds = {}
     for record in counts:

@@ -2,7 +2,10 @@
 
 Both renderers make two pictures of each scene; their noise is what these differ by, over what they show (relative RMSE of one picture). A
 renderer's time to a noise of 2 % follows from both, as noise falls with the square root of the samples: a little less for splatray, whose
-samples are low-discrepancy ones. Prints a table. Times are those of the renderers' own clocks, without start-up and reading."""
+samples are low-discrepancy ones. Prints a table. Times are those of the renderers' own clocks, without start-up and reading.
+
+With --store FILE Mitsuba's pictures alone are made, and kept for tests/bench/guard: of each scene its glTF, what splatray-render is given,
+and the means of BLOCKS x BLOCKS parts of the picture. Scenes with models or a picture of the sky are left out."""
 
 import argparse
 import base64
@@ -22,6 +25,7 @@ parser.add_argument("--only", nargs="*", default=[], help="names of scenes")
 parser.add_argument("--edge", type=int, default=200, help="pixels of a picture's edge")
 parser.add_argument("--samples", type=int, default=64)
 parser.add_argument("--splats", type=int, default=150000)
+parser.add_argument("--store", help="file to keep Mitsuba's means in (JSON)")
 parser.add_argument("--variant", default="scalar_rgb", help="of Mitsuba; llvm_ad_rgb is faster, and needs LLVM 16 to 19")
 OPTIONS = parser.parse_args()
 mi.set_variant(OPTIONS.variant)
@@ -29,6 +33,7 @@ mi.set_variant(OPTIONS.variant)
 from scenes import ball_of_light, environment, read_model, sensor, sunny_sky, triangle_mesh  # noqa: E402  (needs a variant)
 
 BOUNCES = 8
+BLOCKS = 10
 
 
 class Room:
@@ -110,13 +115,9 @@ def numbers(values):
     return ",".join(repr(float(x)) for x in values)
 
 
-def in_splatray(room, folder):
-    """The command that shows a room, but for samples, seed and output."""
-    write_gltf(room, f"{folder}/scene.gltf")
-    soct = f"{folder}/scene.soct"
-    points = f"--mesh-points={OPTIONS.splats}"
-    subprocess.run([f"{OPTIONS.programs}/splatray-preprocess", f"{folder}/scene.gltf", "-o", soct, points], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    command = [f"{OPTIONS.programs}/splatray-render", soct, "--look=lit", f"--bounces={BOUNCES}", "--tone=none", "--exposure=0", "--quiet"]
+def options_of(room, folder):
+    """What splatray-render shows a room with, but for samples, seed and output."""
+    command = ["--look=lit", f"--bounces={BOUNCES}", "--tone=none", "--exposure=0", "--quiet"]
     command += [f"--fov={room.fov_deg}", f"--eye={numbers(room.eye)}", f"--target={numbers(room.target)}"]
     command += [f"--resolution={OPTIONS.edge}x{OPTIONS.edge}", "--background=0,0,0"]
     for centre, radius, radiance in room.balls:
@@ -132,6 +133,15 @@ def in_splatray(room, folder):
         mi.Bitmap(room.sky.astype(np.float32)).write(f"{folder}/sky.exr")
         command[-1] = f"--environment={folder}/sky.exr"
     return command
+
+
+def in_splatray(room, folder):
+    """The command that shows a room, but for samples, seed and output."""
+    write_gltf(room, f"{folder}/scene.gltf")
+    soct = f"{folder}/scene.soct"
+    points = f"--mesh-points={OPTIONS.splats}"
+    subprocess.run([f"{OPTIONS.programs}/splatray-preprocess", f"{folder}/scene.gltf", "-o", soct, points], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return [f"{OPTIONS.programs}/splatray-render", soct, *options_of(room, folder)]
 
 
 def splatray_pictures(command, folder):
@@ -192,6 +202,17 @@ def noise_of(pictures):
     return np.sqrt(difference[counted].mean()) / mean[counted].mean(), mean[counted].mean()
 
 
+def stored(room, folder):
+    """What is kept of a room: its scene, how it is shown, and Mitsuba's means of the picture's parts."""
+    write_gltf(room, f"{folder}/scene.gltf")
+    picture = mi.render(in_mitsuba(room), spp=OPTIONS.samples, seed=1).numpy()[..., :3].mean(-1)
+    part = OPTIONS.edge // BLOCKS
+    means = picture.reshape(BLOCKS, part, BLOCKS, part).mean((1, 3))
+    options = options_of(room, folder)
+    with open(f"{folder}/scene.gltf", encoding="utf-8") as file:
+        return {"gltf": json.load(file), "options": options, "means": [[float(f"{mean:.4g}") for mean in row] for row in means]}
+
+
 def cornell(lamp):
     room = Room((0, 0, 3.9), (0, 0, 0), 40)
     room.quads([((-1, -1, 1), (2, 0, 0), (0, 0, -2)), ((-1, 1, -1), (2, 0, 0), (0, 0, 2)), ((-1, -1, -1), (2, 0, 0), (0, 2, 0))], (0.75, 0.75, 0.75))
@@ -239,8 +260,15 @@ def main():
         "64 panels": panels,
         "256 balls": balls,
     }
-    if OPTIONS.data:
+    if OPTIONS.data and not OPTIONS.store:
         scenes["dragon"] = lambda: dragon(f"{OPTIONS.data}/models/dragon.ply")
+    if OPTIONS.store:
+        os.makedirs(OPTIONS.folder, exist_ok=True)
+        kept = {name: stored(make(), OPTIONS.folder) for name, make in scenes.items() if not OPTIONS.only or name in OPTIONS.only}
+        about = {"mitsuba": mi.__version__, "samples": OPTIONS.samples}
+        with open(OPTIONS.store, "w", encoding="utf-8") as file:
+            json.dump(about | {"scenes": kept}, file)
+        return
     print("| scene | light, of Mitsuba's | noise | Mitsuba's | seconds | Mitsuba's | time to 2 %, of Mitsuba's |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
     for name, make in scenes.items():

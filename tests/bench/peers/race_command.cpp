@@ -1,4 +1,4 @@
-/// splatray-bench-models SCENE.soct... -o MODELS.json [--rounds N] [--device D]: splatray and Embree, each in all its settings,
+/// splatray-bench race SCENE.soct... -o MODELS.json [--rounds N] [--device D]: splatray and Embree, each in all its settings,
 /// one frame of primary rays of the same view each in turn, on scanned models. JSON: a list of {case, splats, coverage, method,
 /// settings, commit, date, device, ms: [of each round], wall_ms: [likewise], unlike_ppm}. splatray's ms are those of its
 /// dispatches, its wall_ms of the whole call with shading and read-back; Embree's are both the wall time of tracing. splatray
@@ -15,6 +15,7 @@
 #include "engine/file/atomic_file.h"
 #include "engine/file/scene_file.h"
 #include "tests/bench/cases/statistics.h"
+#include "tests/bench/commands.h"
 #include "tests/bench/measure/processor.h"
 #include "tests/bench/measure/record.h"
 #include "tests/bench/peers/peer_embree_clusters.h"
@@ -145,8 +146,10 @@ void race(const std::string& name, const Device& device, const Scene& scene, std
   }
 }
 
-int run(int argc, char** argv) {
-  OptionList list("Races splatray and Embree, each in all its settings, on scenes.", "splatray-bench-models");
+}  // namespace
+
+int bench_race(int argc, char** argv) {
+  OptionList list("Races splatray and Embree, each in all its settings, on scenes.", "splatray-bench race");
   std::vector<std::filesystem::path> scenes;
   std::filesystem::path output;
   std::string device;
@@ -168,9 +171,4 @@ int run(int argc, char** argv) {
   return static_cast<int>(ExitCode::done);
 }
 
-}  // namespace
 }  // namespace splatray::testing
-
-int main(int argc, char** argv) {
-  return splatray::run_main("splatray-bench-models", splatray::testing::run, argc, argv);
-}

@@ -1,10 +1,11 @@
-/// splatray-bench-scale FOLDER -o RECORDS.json --part PART [--quick] [--device D]: measures what splatray-bench-prepare --scale
+/// splatray-bench scale FOLDER -o RECORDS.json --part PART [--quick] [--device D]: measures what splatray-bench prepare --scale
 /// made; one JSON array of records. Links the engine only, so that it runs on a bare GPU machine.
 #include <cstdio>
 
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
 #include "tests/bench/cases/scale_cases.h"
+#include "tests/bench/commands.h"
 #include "tests/bench/measure/measure_cases.h"
 #include "tests/bench/measure/measuring_options.h"
 #include "tests/bench/measure/scale_coverage.h"
@@ -15,12 +16,12 @@ namespace splatray::testing {
 namespace {
 
 constexpr const char* USAGE =
-    "splatray-bench-scale FOLDER -o RECORDS.json --part PART [--quick] [--device NUMBER|NAME]\n"
-    "Measures the cases that splatray-bench-prepare --scale made in FOLDER.\n"
+    "splatray-bench scale FOLDER -o RECORDS.json --part PART [--quick] [--device NUMBER|NAME]\n"
+    "Measures the cases that splatray-bench prepare --scale made in FOLDER.\n"
     "  --part     rays: primary, shadow, mirrored and random rays at spheres of 10 k to 30 M splats\n"
     "             features: what each costs that is absent, there but out of view, and in view\n"
     "             coverage: frames of which 30 % or 99 % of the pixels hit\n"
-    "  --quick    only the cases of splatray-bench-prepare --scale --quick\n"
+    "  --quick    only the cases of splatray-bench prepare --scale --quick\n"
     "  --device   number or part of a name, as splatray-render --list-devices shows them; default the best\n";
 
 std::vector<Case> cases_of(const std::string& part, bool quick) {
@@ -40,7 +41,9 @@ std::vector<Json> measure_part(const std::string& part, const Device& device, co
   return measure_coverage(device, one, folder);
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int bench_scale(int argc, char** argv) {
   const std::optional<MeasuringOptions> options = parse_measuring({argv + 1, argv + argc}, "--part");
   if (!options) {
     std::fputs(USAGE, stdout);
@@ -57,9 +60,4 @@ int run(int argc, char** argv) {
   return static_cast<int>(ExitCode::done);
 }
 
-}  // namespace
 }  // namespace splatray::testing
-
-int main(int argc, char** argv) {
-  return splatray::run_main("splatray-bench-scale", splatray::testing::run, argc, argv);
-}

@@ -1,9 +1,10 @@
-/// splatray-bench FOLDER -o RUNS.json [--quick] [--device D]: measures what splatray-bench-prepare made; one JSON array of
+/// splatray-bench run FOLDER -o RUNS.json [--quick] [--device D]: measures what splatray-bench prepare made; one JSON array of
 /// records (record.h). Links the engine only, so that it runs on a bare GPU machine.
 #include <cstdio>
 
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
+#include "tests/bench/commands.h"
 #include "tests/bench/measure/measure.h"
 #include "tests/bench/measure/measure_cases.h"
 #include "tests/bench/measure/measuring_options.h"
@@ -12,13 +13,15 @@ namespace splatray::testing {
 namespace {
 
 constexpr const char* USAGE =
-    "splatray-bench FOLDER -o RUNS.json [--quick] [--device NUMBER|NAME] [--case NAME]\n"
-    "Measures the cases that splatray-bench-prepare made in FOLDER and writes one record for each run.\n"
-    "  --quick    only the cases of splatray-bench-prepare --quick\n"
+    "splatray-bench run FOLDER -o RUNS.json [--quick] [--device NUMBER|NAME] [--case NAME]\n"
+    "Measures the cases that splatray-bench prepare made in FOLDER and writes one record for each run.\n"
+    "  --quick    only the cases of splatray-bench prepare --quick\n"
     "  --device   number or part of a name, as splatray-render --list-devices shows them; default the best\n"
     "  --case     only this case\n";
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int bench_run(int argc, char** argv) {
   const std::optional<MeasuringOptions> options = parse_measuring({argv + 1, argv + argc}, "--case");
   if (!options) {
     std::fputs(USAGE, stdout);
@@ -34,9 +37,4 @@ int run(int argc, char** argv) {
   return static_cast<int>(ExitCode::done);
 }
 
-}  // namespace
 }  // namespace splatray::testing
-
-int main(int argc, char** argv) {
-  return splatray::run_main("splatray-bench", splatray::testing::run, argc, argv);
-}

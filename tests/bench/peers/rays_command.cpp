@@ -1,11 +1,12 @@
-/// splatray-bench-scale-peers FOLDER -o RAYS.json [--quick] [--device D] [--case NAME]: splatray and Embree on the spheres
-/// that splatray-bench-prepare --scale made, one frame each in turn; one JSON array of records (race.h).
+/// splatray-bench rays FOLDER -o RAYS.json [--quick] [--device D] [--case NAME]: splatray and Embree on the spheres
+/// that splatray-bench prepare --scale made, one frame each in turn; one JSON array of records (race.h).
 #include <chrono>
 
 #include "app/cli/option_types.h"
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
 #include "tests/bench/cases/scale_cases.h"
+#include "tests/bench/commands.h"
 #include "tests/bench/measure/measure_cases.h"
 #include "tests/bench/measure/memory.h"
 #include "tests/bench/measure/scale_rays.h"
@@ -53,18 +54,20 @@ std::vector<Json> measure(const Device& device, const Case& one, const std::file
   return measure_rays(device, one, prepared, peers_of);
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int bench_rays(int argc, char** argv) {
   OptionList list(
-      "Races splatray and Embree on the spheres that splatray-bench-prepare --scale made in FOLDER.",
-      "splatray-bench-scale-peers");
+      "Races splatray and Embree on the spheres that splatray-bench prepare --scale made in FOLDER.",
+      "splatray-bench rays");
   std::filesystem::path folder, output;
   std::string device, only;
   bool quick = false;
-  add_path(list, "FOLDER", folder, "what splatray-bench-prepare wrote");
+  add_path(list, "FOLDER", folder, "what splatray-bench prepare wrote");
   list.require("FOLDER");
   add_path(list, "-o,--output", output, "JSON file to write: one record for each run");
   list.require("--output");
-  list.add_switch("--quick", quick, "only what splatray-bench-prepare --scale --quick made");
+  list.add_switch("--quick", quick, "only what splatray-bench prepare --scale --quick made");
   add_text(list, "--device", device,
            "number or part of a name, as splatray-render --list-devices shows them");
   add_text(list, "--case", only, "only this case");
@@ -78,9 +81,4 @@ int run(int argc, char** argv) {
   return static_cast<int>(ExitCode::done);
 }
 
-}  // namespace
 }  // namespace splatray::testing
-
-int main(int argc, char** argv) {
-  return splatray::run_main("splatray-bench-scale-peers", splatray::testing::run, argc, argv);
-}

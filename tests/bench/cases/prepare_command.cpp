@@ -1,4 +1,4 @@
-/// splatray-bench-prepare -o FOLDER [--scale] [--keep] [--quick]: scene files, cameras and truths for splatray-bench.
+/// splatray-bench prepare -o FOLDER [--scale] [--keep] [--quick]: scene files, cameras and truths for splatray-bench.
 #include <algorithm>
 #include <cstdio>
 
@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "tests/bench/cases/prepare.h"
 #include "tests/bench/cases/scale_cases.h"
+#include "tests/bench/commands.h"
 #include "tests/bench/measure/memory.h"
 #include "tests/trace/scenes.h"
 
@@ -36,17 +37,19 @@ std::string prepare(const Case& one, const Folders& folders, bool keep) {
   return "made";
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int bench_prepare(int argc, char** argv) {
   OptionList list(
       "Makes scene files, cameras and truths for splatray-bench. Real models come from SPLATRAY_DATA_DIR.",
-      "splatray-bench-prepare");
+      "splatray-bench prepare");
   Folders folders{SPLATRAY_REPOSITORY, data_folder().value_or(""), {}};
   bool quick = false, scale = false, keep = false;
   std::string only;
   add_path(list, "-o,--output", folders.output, "folder to write to, made when missing");
   list.require("--output");
   list.add_switch("--quick", quick, "only the cases that take less than a minute to make and measure");
-  list.add_switch("--scale", scale, "the cases of splatray-bench-scale");
+  list.add_switch("--scale", scale, "the cases of splatray-bench scale");
   list.add_switch("--keep", keep, "leave what was made before as it is");
   add_text(list, "--case", only, "only this case");
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
@@ -58,9 +61,4 @@ int run(int argc, char** argv) {
   return static_cast<int>(ExitCode::done);
 }
 
-}  // namespace
 }  // namespace splatray::testing
-
-int main(int argc, char** argv) {
-  return splatray::run_main("splatray-bench-prepare", splatray::testing::run, argc, argv);
-}

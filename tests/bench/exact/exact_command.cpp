@@ -1,4 +1,4 @@
-/// splatray-bench-exact -o EXACTNESS.json [--rays N] [--minutes M] [--points N] [--piece N] [--scene NAME] [--regions]
+/// splatray-bench exact -o EXACTNESS.json [--rays N] [--minutes M] [--points N] [--piece N] [--scene NAME] [--regions]
 /// [--device D]: counts the answers that differ from brute force in float64, and adds them to the counts of the same commit, device
 /// and scenes that the file holds, piece by piece, so that a run may be ended and taken up at any time. JSON: a list of {scene, splats, kind,
 /// commit, date, device: {name, driver}, pieces} and the numbers of ExactCount.
@@ -12,6 +12,7 @@
 #include "app/library/commit.h"
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
+#include "tests/bench/commands.h"
 #include "tests/bench/exact/exact_count.h"
 #include "tests/bench/exact/exact_scenes.h"
 #include "tests/bench/measure/record.h"
@@ -143,10 +144,12 @@ void count_piece(const Loaded& loaded, std::size_t rays, Counts& counts) {
   std::fflush(stdout);
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int bench_exact(int argc, char** argv) {
   OptionList list(
       "Counts answers that differ from brute force in float64. Real models come from SPLATRAY_DATA_DIR.",
-      "splatray-bench-exact");
+      "splatray-bench exact");
   Options options;
   add_path(list, "-o,--output", options.output, "JSON file of counts, added to when it is there");
   list.require("--output");
@@ -173,9 +176,4 @@ int run(int argc, char** argv) {
   return static_cast<int>(ExitCode::done);
 }
 
-}  // namespace
 }  // namespace splatray::testing
-
-int main(int argc, char** argv) {
-  return splatray::run_main("splatray-bench-exact", splatray::testing::run, argc, argv);
-}
