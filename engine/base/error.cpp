@@ -1,12 +1,10 @@
 #include "engine/base/error.h"
 
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
-#include <system_error>
 
 #include "engine/base/one_line.h"
 
@@ -23,9 +21,8 @@ int run_main(const char* program, int (*body)(int, char**), int argc, char** arg
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     const int code = body(argc, argv);
-    errno = 0;
     if (code == 0 && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0))
-      return fail(ExitCode::failed, "cannot write to stdout: " + std::generic_category().message(errno));
+      return fail(ExitCode::failed, "not all that was printed could be written to stdout");
     return code;
   } catch (const Error& error) {
     return fail(error.code(), error.what());

@@ -46,11 +46,11 @@ LasFile survey() {
 
 TEST_F(CliInfo, AnOutputThatTakesNothingIsAFailure) {
   const std::string scan = write("a.las", survey().bytes());
-  for (const std::string words : {scan + " --json", scan, std::string("--help"), std::string("--version")}) {
+  for (const std::string& words : {scan + " --json", scan, std::string("--help"), std::string("--version")}) {
     const ChildResult result =
         run_program({"/bin/sh", "-c", std::string(INFO) + " " + words + " > /dev/full"});
     EXPECT_EQ(result.code, 1) << words;
-    EXPECT_NE(result.err.find("cannot write to stdout: No space left"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("could be written to stdout"), std::string::npos) << result.err;
   }
 }
 

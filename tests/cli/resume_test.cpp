@@ -130,13 +130,13 @@ std::string device_of(const std::string& path) {
 
 TEST_F(CliResume, SamplesOfAnotherDeviceAreRefusedUnlessAllowed) {
   ASSERT_EQ(make("some.exr", 4).code, 0);
-  const std::string own = device_of(file("some.exr"));
+  const std::string here = device_of(file("some.exr"));
   name_device(file("some.exr"), "other, driver 7");
   expect_refused([&] { return make("all.exr", 9, {resume("some.exr")}); }, 3,
-                 "found a picture that 'other, driver 7' made, expected one of '" + own +
+                 "found a picture that 'other, driver 7' made, expected one of '" + here +
                      "', as now, or --mixed-devices");
   ASSERT_EQ(make("all.exr", 9, {resume("some.exr"), "--mixed-devices"}).code, 0);
-  EXPECT_EQ(device_of(file("all.exr")), "other, driver 7; " + own);
+  EXPECT_EQ(device_of(file("all.exr")), "other, driver 7; " + here);
 }
 
 }  // namespace
