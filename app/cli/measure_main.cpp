@@ -8,10 +8,12 @@
 #include "app/library/measure/measure_file.h"
 #include "app/library/picture/measuring.h"
 #include "app/library/picture/scene_source.h"
+#include "app/library/picture/series/run_files.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/file_roles.h"
 #include "engine/image/scan_kind.h"
 
 namespace {
@@ -76,6 +78,8 @@ std::optional<Asked> parse(int argc, char** argv) {
     throw Error(ExitCode::usage, "found nothing to measure, expected for example --distance '0,0,0;1,0,0'");
   if (!asked.output.empty()) {
     require_measures_name(asked.output);
+    note_inputs(asked.request);
+    claim_output(asked.output);
     require_writable(asked.output);
   }
   return asked;

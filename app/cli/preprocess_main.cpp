@@ -8,12 +8,14 @@
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
 #include "app/library/picture/change.h"
+#include "app/library/picture/series/run_files.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/memory.h"
 #include "engine/base/progress.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/file_roles.h"
 #include "engine/file/scene_file.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/build.h"
@@ -152,6 +154,10 @@ int run(int argc, char** argv) {
   print_notes(options.notes);
   const Request::Output& output = options.request.output;
   const bool is_new = is_point_output(output.path) || !options.change_from.empty();
+  note_inputs(options.request);
+  note_input(options.change_from);
+  claim_output(output.path);
+  if (!output.stats_json.empty()) claim_output(output.stats_json);
   require_writable(output.path);
   if (!output.stats_json.empty()) require_writable(output.stats_json);
   catch_interrupts();

@@ -11,6 +11,7 @@
 #include "app/library/picture/picture_notes.h"
 #include "app/library/picture/series/orbit.h"
 #include "app/library/picture/series/render_sequence.h"
+#include "app/library/picture/series/run_files.h"
 #include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
@@ -93,6 +94,8 @@ int render(int argc, char** argv) {
 
   const Sequence sequence = plan_sequence(asked);
   if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
+  note_inputs(asked);
+  claim_outputs(asked, sequence);
   require_outputs_writable(asked);
   require_picture_memory(asked);
   static_cast<void>(read_reference(asked));  // refused before any work

@@ -5,9 +5,11 @@
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
 #include "app/library/picture/reproduce.h"
+#include "app/library/picture/series/run_files.h"
 #include "app/library/request/request_json.h"
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/file_roles.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray {
@@ -41,6 +43,7 @@ Request base_request(const RequestFiles& files, const std::vector<FieldText>& va
   if (!files.request.empty()) return read_request(files.request);
   Request request;
   if (files.picture.empty()) return request;
+  note_input(files.picture);
   request = read_picture_request(files.picture);
   request.output.path = files.picture;
   request.output.path.replace_extension(".again" + files.picture.extension().string());
@@ -65,8 +68,11 @@ std::optional<GivenRequest> parse_render_options(int argc, char** argv) {
   if (!request.output.list_devices) {
     require_inputs(request.source);
     require_consistent(request);
-    if (!files.save_request.empty())
+    if (!files.save_request.empty()) {
+      note_inputs(request);
+      claim_output(files.save_request);
       return write_text_file(request_json(request), files.save_request), std::nullopt;
+    }
     if (request.output.path.empty())
       throw Error(ExitCode::usage, "found no output, expected -o with a .png or .exr file");
   }

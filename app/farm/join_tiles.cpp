@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/library/picture/picture_file.h"
 #include "app/library/request/command_line.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
@@ -73,6 +74,16 @@ void name_whole_picture(Part& part, std::uint32_t samples) {
   if (std::string* stored = find_value(part.header.metadata, "samples")) *stored = std::to_string(samples);
 }
 
+/// Has all parts name all devices that made them.
+void name_all_devices(std::vector<Part>& parts) {
+  std::string all;
+  for (Part& part : parts)
+    if (const std::string* device = find_value(part.header.metadata, "device"))
+      all = all.empty() ? *device : joined_devices(all, *device);
+  for (Part& part : parts)
+    if (std::string* device = find_value(part.header.metadata, "device")) *device = all;
+}
+
 void require_same_picture(const Part& part, const Part& first_part) {
   const ExrPicture &header = part.header, &first = first_part.header;
   const std::string like = " as in '" + first_part.file.string() + "'";
@@ -80,10 +91,12 @@ void require_same_picture(const Part& part, const Part& first_part) {
     refuse(part.file, "a part of " + size_text(header) + " pixels", size_text(first) + like);
   if (header.channels != first.channels) refuse(part.file, "other channels", "those" + like);
   if (header.metadata.size() != first.metadata.size()) refuse(part.file, "other metadata", "those" + like);
-  for (std::size_t i = 0; i < header.metadata.size(); ++i)
-    if (header.metadata[i] != first.metadata[i])
-      refuse(part.file, header.metadata[i].first + " '" + header.metadata[i].second + "'",
-             "'" + first.metadata[i].second + "'" + like);
+  for (std::size_t i = 0; i < header.metadata.size(); ++i) {
+    const auto& [name, value] = header.metadata[i];
+    if (header.metadata[i] == first.metadata[i]) continue;
+    const char* allowed = name == "device" ? ", or --mixed-devices, as samples may differ" : "";
+    refuse(part.file, name + " '" + value + "'", "'" + first.metadata[i].second + "'" + like + allowed);
+  }
 }
 
 using Place = std::array<std::uint32_t, 4>;
@@ -222,13 +235,14 @@ void put(const ExrPicture& part, const std::filesystem::path& file, ExrPicture& 
 }
 
 /// The parts, their metadata those of the whole picture; all of one picture.
-std::vector<Parts> read_headers(const std::vector<std::filesystem::path>& files) {
+std::vector<Parts> read_headers(const std::vector<std::filesystem::path>& files, bool mixed_devices) {
   Parts parts;
   std::uint32_t samples = 0;
   for (const std::filesystem::path& file : files) {
     parts.push_back(read_part_header(file));
     samples = std::max(samples, parts.back().end());
   }
+  if (mixed_devices) name_all_devices(parts);
   for (Part& part : parts) {
     name_whole_picture(part, samples);
     require_same_picture(part, parts.front());
@@ -241,8 +255,8 @@ std::vector<Parts> read_headers(const std::vector<std::filesystem::path>& files)
 
 }  // namespace
 
-ExrPicture join_tiles(const std::vector<std::filesystem::path>& files) {
-  const std::vector<Parts> groups = read_headers(files);
+ExrPicture join_tiles(const std::vector<std::filesystem::path>& files, bool mixed_devices) {
+  const std::vector<Parts> groups = read_headers(files, mixed_devices);
   const ExrPicture& header = groups.front().front().header;
   ExrPicture whole{header.width, header.height,  {0, 0, header.width, header.height}, header.channels,
                    {},           header.metadata};

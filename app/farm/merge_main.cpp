@@ -1,4 +1,6 @@
 /// splatray-merge: parts of a picture in, the picture out.
+#include <algorithm>
+
 #include "app/cli/option_list.h"
 #include "app/cli/option_types.h"
 #include "app/farm/join_tiles.h"
@@ -7,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/file_roles.h"
 #include "preprocess/base/file_extension.h"
 
 namespace {
@@ -16,6 +19,7 @@ using namespace splatray;
 struct Options {
   std::vector<std::filesystem::path> parts;
   std::filesystem::path output;
+  bool mixed_devices = false;
 };
 
 bool parse(int argc, char** argv, Options& options) {
@@ -29,6 +33,8 @@ bool parse(int argc, char** argv, Options& options) {
       list, "-o,--output", options.output,
       "the picture: .exr, the very file that one splatray-render writes, or .png with its exposure and tone");
   list.require("--output");
+  list.add_switch("--mixed-devices", options.mixed_devices,
+                  "join parts of several devices or drivers, whose samples may differ");
   list.add_answer(
       "--version", [] { return SPLATRAY_VERSION; }, "print the version");
   if (!list.parse(argc, argv)) return false;
@@ -42,9 +48,11 @@ bool parse(int argc, char** argv, Options& options) {
 int merge(int argc, char** argv) {
   Options options;
   if (!parse(argc, argv, options)) return static_cast<int>(ExitCode::done);
+  std::for_each(options.parts.begin(), options.parts.end(), note_input);
+  claim_output(options.output);
   require_writable(options.output);
   catch_interrupts();
-  const ExrPicture picture = join_tiles(options.parts);
+  const ExrPicture picture = join_tiles(options.parts, options.mixed_devices);
   if (lower_extension(options.output) == ".exr") {
     write_exr(picture, options.output);
   } else {

@@ -14,6 +14,7 @@ struct DisplayImage {
   std::uint32_t height = 0;
   std::vector<vec3> rgb;
   std::vector<float> alpha{};  ///< coverage, with colours that are not multiplied by it; empty: opaque
+  double dots_per_inch = 0.0;  ///< on paper; 0: for no paper
 };
 
 /// How what is brighter than a display can be is brought below 1.

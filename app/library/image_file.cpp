@@ -13,6 +13,7 @@
 #include "engine/base/module.h"
 #include "engine/base/srgb.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/file_roles.h"
 
 namespace splatray {
 namespace {
@@ -93,6 +94,7 @@ PictureHeader read_flat_header(const std::filesystem::path& path) {
 }
 
 Picture read_picture(const std::filesystem::path& path) {
+  note_input(path);
   const PictureHeader header = read_flat_header(path);
   Picture picture{static_cast<std::uint32_t>(header.width),
                   static_cast<std::uint32_t>(header.height),
@@ -142,15 +144,6 @@ std::vector<unsigned char> encode(PictureHeader header, const Metadata& metadata
   return bytes;
 }
 
-/// Encodes in memory, so that AtomicFile hears of every failed write.
-void write_picture(PictureHeader header, const Metadata& metadata, const void* values, const char* format,
-                   const std::filesystem::path& path) {
-  AtomicFile file(path);
-  const auto bytes = encode(std::move(header), metadata, values, format, "'" + path.string() + "'");
-  file.write(bytes.data(), bytes.size());
-  file.commit();
-}
-
 /// What a PNG's file holds beside its metadata.
 struct PngContents {
   PictureHeader header;
@@ -162,7 +155,8 @@ PngContents png_contents(const DisplayImage& image) {
                         .height = static_cast<int>(image.height),
                         .channels = {"R", "G", "B"},
                         .integers = true,
-                        .attributes = {{"oiio:ColorSpace", "sRGB"}}},
+                        .attributes = {{"oiio:ColorSpace", "sRGB"}},
+                        .dots_per_inch = image.dots_per_inch},
                        {}};
   const auto put = [&contents](float value) {
     contents.bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * value)));
@@ -181,8 +175,8 @@ PngContents png_contents(const DisplayImage& image) {
 void load_image_codec() { static_cast<void>(codec()); }
 
 void write_png(const DisplayImage& image, const Metadata& metadata, const std::filesystem::path& path) {
-  PngContents contents = png_contents(image);
-  write_picture(std::move(contents.header), metadata, contents.bytes.data(), "png", path);
+  const std::vector<unsigned char> bytes = encode_png(image, metadata);
+  write_file(bytes.data(), bytes.size(), path);
 }
 
 std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata& metadata) {
@@ -213,7 +207,7 @@ ExrPicture exr_picture(const Image& image, AovSet aovs, const Metadata& metadata
   return picture;
 }
 
-void write_exr(const ExrPicture& picture, const std::filesystem::path& path) {
+std::vector<unsigned char> encode_exr(const ExrPicture& picture) {
   // An empty DateTime: else it is the time of writing, and the same picture would make another file.
   PictureHeader header{
       .width = static_cast<int>(picture.window.width),
@@ -224,7 +218,12 @@ void write_exr(const ExrPicture& picture, const std::filesystem::path& path) {
       .full_height = static_cast<int>(picture.height),
       .channels = picture.channels,
       .attributes = {{"oiio:ColorSpace", "Linear"}, {"compression", "zip"}, {"DateTime", ""}}};
-  write_picture(std::move(header), picture.metadata, picture.values.data(), "openexr", path);
+  return encode(std::move(header), picture.metadata, picture.values.data(), "openexr", "an EXR");
+}
+
+void write_exr(const ExrPicture& picture, const std::filesystem::path& path) {
+  const std::vector<unsigned char> bytes = encode_exr(picture);
+  write_file(bytes.data(), bytes.size(), path);
 }
 
 void write_exr(const Image& image, AovSet aovs, const Metadata& metadata, const std::filesystem::path& path) {

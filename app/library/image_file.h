@@ -43,6 +43,8 @@ struct ExrPicture {
 
 /// Writes linear float EXR; a part as data window. Throws Error (failed) as write_png does.
 void write_exr(const ExrPicture& picture, const std::filesystem::path& path);
+/// The bytes that it writes.
+[[nodiscard]] std::vector<unsigned char> encode_exr(const ExrPicture& picture);
 /// Wraps an image that covers the whole picture; set `window` for a part.
 [[nodiscard]] ExrPicture exr_picture(const Image& image, AovSet aovs, const Metadata& metadata);
 /// The same of an image that is the whole picture.

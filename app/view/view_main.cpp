@@ -1,8 +1,10 @@
 /// splatray-view: a scene in a window.
+#include "app/library/picture/series/run_files.h"
 #include "app/view/view_options.h"
 #include "app/view/viewer.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
+#include "engine/file/file_roles.h"
 
 namespace {
 
@@ -12,6 +14,8 @@ int view(int argc, char** argv) {
   const auto start = ViewStats::Clock::now();
   const std::optional<Request> request = parse_view_options(argc, argv);
   if (!request) return static_cast<int>(ExitCode::done);
+  note_inputs(*request);
+  if (!request->output.stats_json.empty()) claim_output(request->output.stats_json);
   catch_interrupts();
   Viewer viewer(*request, start);
   viewer.run();

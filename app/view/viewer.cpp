@@ -31,12 +31,10 @@ bool flies_fast(const Window& window) {
   });
 }
 
-/// With the size of the window that was closed last, unless another is asked for.
-Request sized(Request request, const UserState& user) {
-  if (request.view.width > 0) return request;
-  request.view.width = static_cast<std::uint32_t>(user.window_width);
-  request.view.height = static_cast<std::uint32_t>(user.window_height);
-  return request;
+/// The size that is asked for, or of the window that was closed last.
+glm::uvec2 window_size(const Request& request, const UserState& user) {
+  if (request.view.width > 0) return {request.view.width, request.view.height};
+  return user.window_size.value_or(DEFAULT_WINDOW);
 }
 
 constexpr int LEFT_BUTTON = 0;   ///< GLFW_MOUSE_BUTTON_LEFT
@@ -46,9 +44,11 @@ constexpr double WALK_NOTCH = 1.25, FAST_WALK = 5.0;
 }  // namespace
 
 Viewer::Viewer(const Request& request, Clock::time_point start)
-    : request_(sized(request, user_.state())),
+    : request_(request),
       stats_(start),
-      window_("splatray", request_.view.width, request_.view.height),
+      // What was remembered is what the window had.
+      window_("splatray", window_size(request, user_.state()),
+              /*scaled=*/request.view.width > 0 || !user_.state().window_size),
       presenter_(window_),
       loader_([this] { window_.wake(); }, user_scene_cache()),
       renderer_(request_.settings.device, [this] { window_.wake(); }) {

@@ -206,10 +206,7 @@ void Viewer::remember_window() {
   const glm::uvec2 size = window_.size();
   if (size.x == 0 || size.y == 0 || size == window_kept_) return;
   window_kept_ = size;
-  remember([size](UserState& state) {
-    state.window_width = static_cast<int>(size.x);
-    state.window_height = static_cast<int>(size.y);
-  });
+  remember([size](UserState& state) { state.window_size = size; });
 }
 
 }  // namespace splatray

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "engine/base/one_line.h"
 
@@ -19,7 +20,10 @@ int run_main(const char* program, int (*body)(int, char**), int argc, char** arg
   };
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return body(argc, argv);
+    const int code = body(argc, argv);
+    if (code == 0 && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0))
+      return fail(ExitCode::failed, "not all that was printed could be written to stdout");
+    return code;
   } catch (const Error& error) {
     return fail(error.code(), error.what());
   } catch (const std::bad_alloc&) {

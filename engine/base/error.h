@@ -28,7 +28,7 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// Runs a program's body; prints an Error, bad_alloc or other exception as one sentence on stderr
+/// Runs a program's body; prints an Error, bad_alloc or other exception, and that stdout did not take all, as one sentence on stderr
 /// ("splatray-render: error: ...") and returns the exit code to return from main. Ignores SIGXFSZ, so that a write beyond
 /// the limit of a file's size fails as one on a full disk does.
 int run_main(const char* program, int (*body)(int, char**), int argc, char** argv);

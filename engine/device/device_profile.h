@@ -32,6 +32,7 @@ struct DeviceProfile {
   Kernels kernels = Kernels::gpu;  ///< never automatic
   bool culls = false;              ///< pixels that no leaf projects to are left to a program of their own
   bool stages = false;  ///< secondary rays of scenes with dielectrics are traced in wavefront stages
+  bool slow = false;    ///< a processor's: a sample of a large tile takes seconds
   std::uint32_t samples_most = UINT32_MAX;  ///< of a pixel in a dispatch, of one ray each and its shadow rays
   std::uint32_t paths_most = UINT32_MAX;    ///< of a pixel in a dispatch, of several rays each
   std::uint32_t rays_most = UINT32_MAX;     ///< of a thread in a dispatch

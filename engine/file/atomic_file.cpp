@@ -5,7 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
+#include <cstring>
 #include <mutex>
 #include <random>
 #include <set>
@@ -14,6 +18,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/interrupt.h"
 
 namespace splatray {
 namespace {
@@ -77,6 +82,40 @@ int open_locked(const fs::path& file) {
   return descriptor;
 }
 
+/// A temporary file that a signal's handler can remove, which may take no lock and no memory.
+struct Removable {
+  std::atomic<bool> taken{false}, there{false};
+  char path[PATH_MAX];
+};
+
+/// More than one program writes at a time. One that finds no place here is left to the next writer's cleaning.
+std::array<Removable, 16> removables;
+
+void remove_unfinished() {
+  for (const Removable& file : removables)
+    if (file.there) unlink(file.path);
+}
+
+void remember(const fs::path& file) {
+  at_abrupt_end(remove_unfinished);
+  if (file.native().size() >= PATH_MAX) return;
+  for (Removable& place : removables) {
+    if (place.taken.exchange(true)) continue;
+    std::strcpy(place.path, file.c_str());
+    place.there = true;
+    return;
+  }
+}
+
+void forget(const fs::path& file) {
+  for (Removable& place : removables)
+    if (place.there && file == place.path) {
+      place.there = false;
+      place.taken = false;
+      return;
+    }
+}
+
 bool is_removed(int descriptor) {
   struct stat status {};
   return fstat(descriptor, &status) == 0 && status.st_nlink == 0;
@@ -101,12 +140,15 @@ AtomicFile::AtomicFile(const fs::path& target, Links links) {
     descriptor_ = open_locked(temporary_);
     if (descriptor_ < 0) refuse(target, error_text());
   } while (is_removed(descriptor_));
+  remember(temporary_);
 }
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) close(descriptor_);
+  if (temporary_.empty()) return;
   std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  fs::remove(temporary_, ignored);
+  forget(temporary_);
 }
 
 void AtomicFile::write(const void* bytes, std::uint64_t size) {
@@ -133,7 +175,18 @@ void AtomicFile::commit() {
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) refuse(target_, error.message());
+  forget(temporary_);
   temporary_.clear();
+}
+
+void FileSet::add(const fs::path& target, const void* bytes, std::uint64_t size) {
+  files_.emplace_back(target).write(bytes, size);
+}
+
+void FileSet::add(const fs::path& target, const std::string& text) { add(target, text.data(), text.size()); }
+
+void FileSet::commit() {
+  for (AtomicFile& file : files_) file.commit();
 }
 
 void require_writable(const fs::path& target) { const AtomicFile probe(target); }

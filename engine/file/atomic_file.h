@@ -1,7 +1,9 @@
 /// Output files that are whole or absent: written under a temporary name beside the target, renamed when done. What a killed
-/// program left of that goes when the next one writes into the folder: a temporary file is locked (flock) while its writer lives.
+/// program left of that goes when the next one writes into the folder: a temporary file is locked (flock) while its writer lives. A
+/// program that a signal ends (engine/base/interrupt.h) leaves none.
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <string>
 
@@ -35,6 +37,20 @@ class AtomicFile {
   std::filesystem::path temporary_;  ///< empty once committed
   int descriptor_ = -1;
   std::uint64_t written_ = 0;  ///< bytes
+};
+
+/// Files that belong together: all are written before the first of them gets its name.
+class FileSet {
+ public:
+  /// Writes a whole file under its temporary name. Throws Error (failed).
+  void add(const std::filesystem::path& target, const void* bytes, std::uint64_t size);
+  /// The same of a text.
+  void add(const std::filesystem::path& target, const std::string& text);
+  /// Gives all their names. Throws Error (failed).
+  void commit();
+
+ private:
+  std::deque<AtomicFile> files_;
 };
 
 /// Throws as AtomicFile's constructor does; for finding out before long work that its result has no place to

@@ -18,6 +18,7 @@
 #include "engine/base/memory.h"
 #include "engine/base/utf8.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/file_roles.h"
 #include "engine/file/scene_file_header.h"
 #include "engine/scene/pool_table.h"
 #include "engine/scene/scene_check.h"
@@ -160,6 +161,7 @@ class Reader {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) refuse("no such file", "a scene file");
     if (!std::filesystem::is_regular_file(path, error)) refuse("a folder or device", "a scene file");
+    note_input(path);
     file_.open(path, std::ios::binary);
     if (!file_) refuse("a file that cannot be opened", "a readable one");
     size_ = std::filesystem::file_size(path);

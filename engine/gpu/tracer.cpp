@@ -45,7 +45,7 @@ void Tracer::upload_and_free(Scene& scene) {
 }
 
 Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Settings& settings,
-                                    std::uint32_t means, std::uint64_t more_bytes) {
+                                    std::uint32_t means, std::uint32_t tile_means, std::uint64_t more_bytes) {
   start();
   runner.scene.show(look);
   const PixelWindow made = view.made();
@@ -56,7 +56,7 @@ Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Se
   Picture picture{runner.picture_dispatch(view, settings),
                   runner.aov_dispatch(view, settings),
                   runner.scene.footprint(view, settings),
-                  cut_into_tiles(made.width, made.height, TILE_PIXELS / means),
+                  cut_into_tiles(made.width, made.height, tile_means / means),
                   {made.width, made.height, {}, {}, {}}};
   picture.image.rgba.resize(pixels);
   const std::size_t most_pixels = picture.tiles.front().pixels();
@@ -101,7 +101,10 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
   runner.require_scene("render()");
   const Clock::time_point start = Clock::now();
   const bool keeps = stopped == Stopped::kept;
-  Picture picture = impl.start_picture(look, view, settings, 1, keeps ? range_bytes(settings.samples) : 0);
+  // Who stops a picture waits for a tile's samples.
+  const std::uint32_t tile_pixels = keeps && runner.profile.slow ? PROMPT_PIXELS : TILE_PIXELS;
+  Picture picture =
+      impl.start_picture(look, view, settings, 1, tile_pixels, keeps ? range_bytes(settings.samples) : 0);
   Image& image = picture.image;
   std::vector<vec4> first_half(settings.estimate_error ? image.rgba.size() : 0);
   const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;

@@ -37,10 +37,11 @@ struct Tracer::Impl {
 
   /// Begins a call whose work is counted and timed.
   void start();
-  /// Begins an image, `means` of each of whose pixels are traced at once; binds buffers with room for a tile of it. Throws Error
-  /// (out_of_memory) where there is less than the image and `more_bytes` a pixel take.
+  /// Begins an image, `means` of each of whose pixels are traced at once, of which a tile has `tile_means` at most; binds buffers
+  /// with room for a tile of it. Throws Error (out_of_memory) where there is less than the image and `more_bytes` a pixel take.
   [[nodiscard]] Picture start_picture(const Look& look, const View& view, const Settings& settings,
-                                      std::uint32_t means, std::uint64_t more_bytes = 0);
+                                      std::uint32_t means, std::uint32_t tile_means = TILE_PIXELS,
+                                      std::uint64_t more_bytes = 0);
   /// Ends it.
   void finish(std::chrono::steady_clock::time_point start);
   /// Puts a full block of the image that grows to those before it.

@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/one_line.h"
+#include "engine/file/file_roles.h"
 
 namespace splatray {
 
@@ -29,6 +30,7 @@ ByteReader::ByteReader(const std::filesystem::path& path, const ReadListener* li
   if (error || size_ == 0) {
     throw_unreadable(path, error ? error.message() : "the file is empty");
   }
+  note_input(path);
   file_.reset(std::fopen(path.c_str(), "rb"));
   if (!file_) {
     throw_unreadable(path, "cannot be opened for reading");

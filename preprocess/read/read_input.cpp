@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/base/one_line.h"
 #include "engine/base/utf8.h"
+#include "engine/file/file_roles.h"
 #include "preprocess/base/counted_list.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/quoted_list.h"
@@ -237,6 +238,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
     throw Error(ExitCode::usage, "no input file was named");
   }
   const std::vector<NamedFile> files = with_folders_opened(named);
+  for (const NamedFile& file : files) note_input(file.path);  // before the first is read
   const ThreadLimit limit(options.threads);
   Input input;
   std::vector<NamedScan> scans;

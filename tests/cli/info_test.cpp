@@ -44,6 +44,16 @@ LasFile survey() {
   return file;
 }
 
+TEST_F(CliInfo, AnOutputThatTakesNothingIsAFailure) {
+  const std::string scan = write("a.las", survey().bytes());
+  for (const std::string& words : {scan + " --json", scan, std::string("--help"), std::string("--version")}) {
+    const ChildResult result =
+        run_program({"/bin/sh", "-c", std::string(INFO) + " " + words + " > /dev/full"});
+    EXPECT_EQ(result.code, 1) << words;
+    EXPECT_NE(result.err.find("could be written to stdout"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(CliInfo, OfASurvey) {
   const Json json = described(write("a.las", survey().bytes()));
   EXPECT_EQ(json["points"], 3);

@@ -158,6 +158,9 @@ TEST_F(CliOutputs, FullDiskLeavesTheOlderFile) {
   };
   refuse("a.png", with(picture, {"-o", file("a.png")}));
   refuse("a.exr", with(picture, {"-o", file("a.exr")}));
+  // With what lies beside it, or nothing of that.
+  refuse("b.png", {RENDER, "--quiet", grid, "--samples=1", "-o", file("b.png"),
+                   "--sheet=elevation:south,scale=10,dpi=100"});
   refuse("a.soct", {PREPROCESS, grid, "-o", file("a.soct")});
 }
 

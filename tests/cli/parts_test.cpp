@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "app/library/image_file.h"
 #include "tests/cli/child_process.h"
@@ -195,6 +196,26 @@ TEST_F(CliParts, PartsThatDoNotMakeAPictureAreRefused) {
         return merge({a, b, "-o", file("out.jpg")});
       },
       2, "expected -o with a .png or .exr file");
+}
+
+TEST_F(CliParts, PartsOfSeveralDevicesAreRefusedUnlessAllowed) {
+  ASSERT_EQ(make("a.exr", {"--tile=1/2"}).code + make("b.exr", {"--tile=2/2"}).code, 0);
+  ExrPicture other = read_exr(file("b.exr"));
+  std::string here;
+  for (auto& [name, value] : other.metadata)
+    if (name == "device") here = std::exchange(value, "other, driver 7");
+  write_exr(other, file("b.exr"));
+  const std::vector<std::string> words{file("a.exr"), file("b.exr"), "-o", file("out.exr")};
+  expect_refused([&] { return merge(words); }, 3,
+                 "b.exr': found device 'other, driver 7', expected '" + here + "' as in '" + file("a.exr") +
+                     "', or --mixed-devices");
+  std::vector<std::string> allowed = words;
+  allowed.emplace_back("--mixed-devices");
+  ASSERT_EQ(merge(allowed).code, 0);
+  const Metadata metadata = read_metadata(file("out.exr"));
+  EXPECT_NE(std::find(metadata.begin(), metadata.end(),
+                      std::pair<std::string, std::string>("device", here + "; other, driver 7")),
+            metadata.end());
 }
 
 TEST_F(CliParts, OptionsThatNeedTheWholePictureAreRefused) {

@@ -114,5 +114,30 @@ TEST_F(CliResume, OtherPicturesAreRefused) {
   refuse(9, {resume("seen.exr"), eye, target}, 3, "found a scene whose diagonal is");
 }
 
+/// A picture as another device or driver would have left it.
+void name_device(const std::string& path, const std::string& device) {
+  ExrPicture picture = read_exr(path);
+  for (auto& [name, value] : picture.metadata)
+    if (name == "device") value = device;
+  write_exr(picture, path);
+}
+
+std::string device_of(const std::string& path) {
+  for (const auto& [name, value] : read_metadata(path))
+    if (name == "device") return value;
+  return "";
+}
+
+TEST_F(CliResume, SamplesOfAnotherDeviceAreRefusedUnlessAllowed) {
+  ASSERT_EQ(make("some.exr", 4).code, 0);
+  const std::string here = device_of(file("some.exr"));
+  name_device(file("some.exr"), "other, driver 7");
+  expect_refused([&] { return make("all.exr", 9, {resume("some.exr")}); }, 3,
+                 "found a picture that 'other, driver 7' made, expected one of '" + here +
+                     "', as now, or --mixed-devices");
+  ASSERT_EQ(make("all.exr", 9, {resume("some.exr"), "--mixed-devices"}).code, 0);
+  EXPECT_EQ(device_of(file("all.exr")), "other, driver 7; " + here);
+}
+
 }  // namespace
 }  // namespace splatray

@@ -38,7 +38,8 @@ void fuzz_camera(FuzzBytes bytes) {
 void fuzz_user_state(FuzzBytes bytes) {
   static const MemoryFolder folder;
   const UserState state = read_user_state(folder.write("view.json", bytes));
-  require(state.window_width > 0 && state.window_height > 0, "a window has a size");
+  require(!state.window_size || (state.window_size->x > 0 && state.window_size->y > 0),
+          "a window has a size");
   require(state.recent_files.size() <= RECENT_COUNT, "few recent files");
 }
 

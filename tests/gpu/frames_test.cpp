@@ -1,4 +1,8 @@
 // What changes between frames, and what that must not cost: neither a pipeline nor an upload of the pools.
+#include <algorithm>
+#include <memory>
+
+#include "engine/gpu/tiles.h"
 #include "engine/image/sample_mean.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
@@ -185,6 +189,25 @@ TEST_F(FramesTest, AnImageStoppedAndKeptIsTheOneOfTheSamplesThatItHas) {
   settings.samples = samples + 1;
   EXPECT_FALSE(tracer.render(view, settings).rgba == kept.rgba);
   EXPECT_THROW((void)tracer.render(view, settings, until(0.0), Stopped::kept), Error);
+}
+
+/// Each step is one that somebody may wait for.
+TEST(KeptImages, HaveSmallStepsOnAProcessor) {
+  const std::unique_ptr<Device> host = open_device(HOST_DEVICE);
+  ShownTracer tracer(*host);
+  tracer.upload(disc_scene());
+  const View view = disc_view(1200, 1000);
+  Settings settings = plain_settings();
+  settings.samples = 1;
+  double before = 0.0, longest = 0.0;
+  const auto progress = [&](double share) {
+    longest = std::max(longest, share - before);
+    before = share;
+    return true;
+  };
+  (void)tracer.render(view, settings, progress, Stopped::kept);
+  EXPECT_DOUBLE_EQ(before, 1.0);
+  EXPECT_LE(longest * view.width * view.height, PROMPT_PIXELS);
 }
 
 TEST_F(FramesTest, AnImageThatIsKeptIsTheSame) {

@@ -140,6 +140,22 @@ TEST_F(AtomicFileTest, ALockedFileIsCommittedWhileOthersClean) {
   kill_child(child);
 }
 
+TEST_F(AtomicFileTest, FilesThatBelongTogetherAreThereTogetherOrNotAtAll) {
+  {
+    FileSet set;
+    set.add(folder / "a", "text");
+    EXPECT_THROW(set.add(folder / "missing" / "b", "text"), Error);
+  }
+  EXPECT_EQ(files(), 0);
+  FileSet set;
+  set.add(folder / "a", "text");
+  set.add(folder / "b", "another");
+  EXPECT_FALSE(fs::exists(folder / "a"));
+  set.commit();
+  EXPECT_EQ(text_of("a") + text_of("b"), "textanother");
+  EXPECT_EQ(files(), 2);
+}
+
 TEST_F(AtomicFileTest, WritesThroughLinks) {
   std::ofstream(folder / "a") << "old";
   fs::create_symlink("a", folder / "link");

@@ -2,12 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <set>
+#include <string>
 
+#include "app/library/picture/picture_file.h"
 #include "app/library/request/fields.h"
 #include "app/library/sheet/cut_lines.h"
 #include "app/library/sheet/geotiff.h"
 #include "app/library/sheet/ink.h"
 #include "app/library/sheet/sheet.h"
+#include "app/library/sheet/sheet_files.h"
 #include "app/library/sheet/sheet_page.h"
 #include "data/shapes.h"
 #include "engine/base/error.h"
@@ -249,6 +254,54 @@ TEST(SheetPage, SaysWhatColoursMean) {
   EXPECT_TRUE(has(classes, "class") && has(classes, "6  " + class_name(6)));
   EXPECT_EQ(classes.boxes.size(), bare.boxes.size() + 5);
   expect_inside(classes);
+}
+
+TEST(SheetFiles, EachOfOneStemHasADescriptionOfItsOwn) {
+  std::set<std::filesystem::path> names;
+  for (const char* name : {"f/a.png", "f/a.exr", "f/a.pdf", "f/a.svg", "f/a.tif"}) {
+    const SheetPlaces places = sheet_places(name);
+    EXPECT_EQ(places.description, std::string(name) + ".sheet.json");
+    for (const auto& file : {places.description, places.world_file, places.crs, places.crs_of_gdal})
+      EXPECT_TRUE(file.empty() || names.insert(file).second) << file;
+  }
+  EXPECT_TRUE(names.contains("f/a.pgw") && names.contains("f/a.tfw") && names.contains("f/a.png.aux.xml"));
+}
+
+TEST(SheetFiles, APngSaysHowLargeItsPixelsAre) {
+  const Image image{2, 1, std::vector<vec4>(2, vec4(1.0F)), {}};
+  const std::string physical("\0\0\0\x09pHYs\0\0\x27\x10\0\0\x27\x10\x01", 17);  // 10000 a metre
+  const auto bytes_of = [&](const Request& request) {
+    const std::vector<unsigned char> bytes = encode_png(shown_image(request, image), {});
+    return std::string(bytes.begin(), bytes.end());
+  };
+  const std::string sheet = bytes_of(with_sheet("plan:dpi=254"));
+  EXPECT_NE(sheet.find(physical), std::string::npos);
+  EXPECT_LT(sheet.find(physical), sheet.find("IDAT"));
+  EXPECT_EQ(bytes_of({}).find("pHYs"), std::string::npos);
+}
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+  return found;
+}
+
+TEST(SheetFiles, DrawingsTakeMorePixelsThanCairosImages) {
+  constexpr std::uint32_t WIDTH = 40000, HEIGHT = 3;
+  Request request = with_sheet("plan");
+  Sheet sheet;
+  sheet.width = request.view.width = WIDTH;
+  sheet.height = request.view.height = HEIGHT;
+  request.view.made_sheet = std::make_shared<const Sheet>(sheet);
+  const DisplayImage picture{WIDTH, HEIGHT, std::vector<vec3>(std::size_t{WIDTH} * HEIGHT, vec3(0.5F)), {}};
+  const auto page = [&](const char* name) {
+    const auto bytes = encode_sheet(request, picture, {}, name);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  EXPECT_EQ(count(page("a.svg"), "<image"), 3U);
+  const std::string pdf = page("a.pdf");
+  EXPECT_EQ(count(pdf, "/Width 16385"), 2U);
+  EXPECT_EQ(count(pdf, "/Width " + std::to_string(WIDTH - 2 * 16384)), 1U);
 }
 
 }  // namespace

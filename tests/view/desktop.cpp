@@ -189,6 +189,22 @@ std::vector<std::uint32_t> Desktop::pixels(unsigned long window) const {
   return pixels;
 }
 
+std::array<int, 2> Desktop::size(unsigned long window) const {
+  const Connection connection = connect(display_);
+  XWindowAttributes shape{};
+  require(XGetWindowAttributes(connection.get(), window, &shape) != 0, "the window is gone");
+  return {shape.width, shape.height};
+}
+
+void Desktop::set_resources(const std::string& text) const {
+  const Connection connection = connect(display_);
+  XSetCloseDownMode(connection.get(),
+                    RetainPermanent);  // else a server that nobody is connected to starts anew
+  XChangeProperty(connection.get(), DefaultRootWindow(connection.get()), XA_RESOURCE_MANAGER, XA_STRING, 8,
+                  PropModeReplace, reinterpret_cast<const unsigned char*>(text.data()),
+                  static_cast<int>(text.size()));
+}
+
 void Desktop::close(unsigned long window) const {
   const Connection connection = connect(display_);
   send(connection, window, "WM_PROTOCOLS",

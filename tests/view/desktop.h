@@ -2,6 +2,7 @@
 #pragma once
 #include <sys/types.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ class Desktop {
   void drop(unsigned long window, const std::string& file) const;
   /// The pixels that a window shows now, row by row.
   [[nodiscard]] std::vector<std::uint32_t> pixels(unsigned long window) const;
+  /// Width and height of a window.
+  [[nodiscard]] std::array<int, 2> size(unsigned long window) const;
+  /// Sets what programs that start from now on are told of the display, such as "Xft.dpi: 192", as xrdb does.
+  void set_resources(const std::string& text) const;
   /// Asks a window to close, as the button in its title bar does.
   void close(unsigned long window) const;
 

@@ -36,8 +36,7 @@ void keep(const UserState& state, const std::filesystem::path& path) {
 
 UserState some_state() {
   UserState state;
-  state.window_width = 1601;
-  state.window_height = 902;
+  state.window_size = glm::uvec2(1601, 902);
   state.recent_files = {{"/data/b.ply"}, {"/data/a.ply", "/data/c d.ply"}};
   state.bookmarks["/data/a.ply"][2] =
       Camera{{560000.123456789, 5.9e6, -1e-9}, {1, 2, 3}, {0, 0, 1}, 33.5, 0.25};
@@ -65,8 +64,7 @@ TEST(UserFilesTest, WhatIsWrittenIsReadBack) {
   keep(state, path);
   keep(state, path);  // replaces
   const UserState read = read_user_state(path);
-  EXPECT_EQ(read.window_width, 1601);
-  EXPECT_EQ(read.window_height, 902);
+  EXPECT_EQ(read.window_size, state.window_size);
   EXPECT_EQ(read.recent_files, state.recent_files);
   EXPECT_EQ(read.bookmarks, state.bookmarks);
 }
@@ -80,7 +78,7 @@ TEST(UserFilesTest, DamageAtAnyByteGivesDefaultsAtWorst) {
   for (std::size_t length = 0; length < whole.size(); length += 7) {
     folder.write("view.json", whole.substr(0, length));
     const UserState read = read_user_state(path);
-    EXPECT_EQ(read.window_width, UserState{}.window_width);
+    EXPECT_FALSE(read.window_size);
     EXPECT_TRUE(read.recent_files.empty() && read.bookmarks.empty());
   }
 }
@@ -88,20 +86,19 @@ TEST(UserFilesTest, DamageAtAnyByteGivesDefaultsAtWorst) {
 TEST(UserFilesTest, WrongMembersHaveTheirDefaultsAndSoundOnesStay) {
   const TempFolder folder;
   const std::filesystem::path path = folder.path() / "view.json";
-  EXPECT_EQ(read_user_state(path).window_width, 1280);  // missing
+  EXPECT_FALSE(read_user_state(path).window_size);  // missing
   folder.write("view.json", R"({"window_width": 640, "bookmarks": )" + std::string(200000, '[') +
                                 std::string(200000, ']') + "}");
-  EXPECT_EQ(read_user_state(path).window_width, 1280);
+  EXPECT_FALSE(read_user_state(path).window_size);
   for (const char* text : {"[]", "7", "null", "{}", "\"\"", "{\"window_width\": \"wide\"}"}) {
     folder.write("view.json", text);
-    EXPECT_EQ(read_user_state(path).window_width, 1280) << text;
+    EXPECT_FALSE(read_user_state(path).window_size) << text;
   }
   folder.write("view.json", R"({"window_width": 1e300, "window_height": -5, "recent_files": 3,
                   "bookmarks": {"/a": [null], "/b": [null,null,null,null,null,null,null,null,
                   {"eye":[1,2,3],"target":[0,0,0],"up":[0,1,0],"fov_y_deg":30,"ortho_height":0}]}})");
   const UserState read = read_user_state(path);
-  EXPECT_EQ(read.window_width, 16384);
-  EXPECT_EQ(read.window_height, 320);
+  EXPECT_EQ(read.window_size, glm::uvec2(16384, 320));
   EXPECT_TRUE(read.recent_files.empty());
   EXPECT_FALSE(read.bookmarks.contains("/a"));
   EXPECT_EQ(read.bookmarks.at("/b")[8]->eye, glm::dvec3(1, 2, 3));

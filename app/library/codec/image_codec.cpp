@@ -197,7 +197,7 @@ bool encode_png(const PictureHeader& header, const void* values, std::vector<uns
   const auto channels = static_cast<int>(header.channels.size());
   const bool made = stbi_write_png_to_func(append, &bytes, header.width, header.height, channels, values,
                                            header.width * channels) != 0;
-  if (made) add_png_text(bytes, header.attributes);
+  if (made) add_png_chunks(bytes, header.attributes, header.dots_per_inch);
   return made;
 }
 

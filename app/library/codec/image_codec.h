@@ -18,6 +18,7 @@ struct PictureHeader {
   std::vector<std::string> channels;    ///< their names
   bool integers = false;                ///< 8 or 16 bits a channel, else floats
   std::vector<std::pair<std::string, std::string>> attributes;
+  double dots_per_inch = 0.0;  ///< of a PNG to be written; 0 = it does not say
   /// No file of this one's size and format has more, however well it is compressed; for reading only.
   std::uint64_t most_pixels = ~0ULL;
 };

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/base/json_depth.h"
+#include "engine/file/file_roles.h"
 
 namespace splatray {
 
@@ -17,6 +18,7 @@ template <class Refuse>
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     refuse(std::filesystem::exists(path, error) ? "a folder or device" : "no such file", "a JSON file");
+  note_input(path);
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (json_is_too_deep(text))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -70,8 +71,15 @@ PngText read_png_text(const std::string& path) {
   return text;
 }
 
-void add_png_text(std::vector<unsigned char>& bytes, const PngText& text) {
+void add_png_chunks(std::vector<unsigned char>& bytes, const PngText& text, double dots_per_inch) {
+  constexpr double INCHES_PER_METRE = 1.0 / 0.0254;
+  constexpr char PER_METRE = 1;
   std::string chunks = chunk("sRGB", std::string(1, '\0'));
+  if (dots_per_inch > 0.0) {
+    const std::string dots =
+        big_endian(static_cast<std::uint32_t>(std::lround(dots_per_inch * INCHES_PER_METRE)));
+    chunks += chunk("pHYs", dots + dots + PER_METRE);
+  }
   for (const auto& [name, value] : text)
     if (name.starts_with("splatray.")) chunks += chunk("tEXt", name + '\0' + value);
   bytes.insert(bytes.begin() + HEADER_END, chunks.begin(), chunks.end());

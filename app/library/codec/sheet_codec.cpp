@@ -25,17 +25,25 @@ cairo_status_t append(void* closure, const unsigned char* data, unsigned length)
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// The raster as cairo has it: 32 bits a pixel, colours multiplied by alpha.
-cairo_surface_t* surface_of(const DrawnRaster& raster) {
-  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(raster.width),
-                                                        static_cast<int>(raster.height));
+/// Some of a raster's pixels.
+struct Piece {
+  std::uint32_t x, y, width, height;
+};
+
+/// Pixels along an edge of a piece; cairo's images have at most 32767.
+constexpr std::uint32_t PIECE_EDGE = 16384;
+
+/// A piece as cairo has it: 32 bits a pixel, colours multiplied by alpha.
+cairo_surface_t* surface_of(const DrawnRaster& raster, const Piece& piece) {
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(piece.width),
+                                                        static_cast<int>(piece.height));
   if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) return surface;
   cairo_surface_flush(surface);
   unsigned char* to = cairo_image_surface_get_data(surface);
   const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
-  for (std::size_t y = 0; y < raster.height; ++y)
-    for (std::size_t x = 0; x < raster.width; ++x) {
-      const std::uint8_t* from = &raster.rgba[4 * (y * raster.width + x)];
+  for (std::size_t y = 0; y < piece.height; ++y)
+    for (std::size_t x = 0; x < piece.width; ++x) {
+      const std::uint8_t* from = &raster.rgba[4 * ((piece.y + y) * raster.width + piece.x + x)];
       const std::uint32_t alpha = from[3];
       const auto times = [alpha](std::uint32_t value) { return (value * alpha + 127) / 255; };
       const std::uint32_t pixel =
@@ -46,16 +54,25 @@ cairo_surface_t* surface_of(const DrawnRaster& raster) {
   return surface;
 }
 
+void draw_piece(cairo_t* cairo, const DrawnRaster& raster, const Piece& piece) {
+  cairo_surface_t* surface = surface_of(raster, piece);
+  cairo_set_source_surface(cairo, surface, piece.x, piece.y);
+  cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+  cairo_paint(cairo);
+  cairo_surface_destroy(surface);
+}
+
+/// In pieces, each a pixel larger than its share, as viewers show a hairline where two only touch.
 void draw_raster(cairo_t* cairo, const DrawnRaster& raster) {
-  cairo_surface_t* surface = surface_of(raster);
   cairo_save(cairo);
   cairo_translate(cairo, raster.corner.x, raster.corner.y);
   cairo_scale(cairo, raster.size.x / raster.width, raster.size.y / raster.height);
-  cairo_set_source_surface(cairo, surface, 0.0, 0.0);
-  cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
-  cairo_paint(cairo);
+  for (std::uint32_t y = 0; y < raster.height; y += PIECE_EDGE)
+    for (std::uint32_t x = 0; x < raster.width; x += PIECE_EDGE)
+      draw_piece(
+          cairo, raster,
+          {x, y, std::min(PIECE_EDGE + 1, raster.width - x), std::min(PIECE_EDGE + 1, raster.height - y)});
   cairo_restore(cairo);
-  cairo_surface_destroy(surface);
 }
 
 void draw_text(cairo_t* cairo, const DrawnText& text) {

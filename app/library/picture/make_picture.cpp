@@ -6,6 +6,7 @@
 #include "app/library/display_image.h"
 #include "app/library/picture/denoise.h"
 #include "app/library/picture/eye_light.h"
+#include "app/library/picture/picture_file.h"
 #include "app/library/picture/picture_notes.h"
 #include "app/library/picture/resume.h"
 #include "app/library/picture/scene_source.h"
@@ -43,7 +44,7 @@ LitLook picture_look(const Request& request, SceneOnDevice& shown, const Camera&
 void render_samples(const Request& request, SceneOnDevice& shown, const Look& look, const View& view,
                     const Settings& settings, const Tracer::Progress& progress, Stopped stopped,
                     MadePicture& made) {
-  const auto started = read_started(request, shown.scene(), view.camera);
+  const auto started = read_started(request, shown.scene(), view.camera, shown.device());
   Settings rest = settings;
   if (started) {
     rest.samples -= started->samples;
@@ -53,7 +54,9 @@ void render_samples(const Request& request, SceneOnDevice& shown, const Look& lo
   made.image = shown.tracer().render(look, view, rest, progress, stopped);
   made.stats = shown.tracer().stats();
   made.samples_missing = rest.samples - static_cast<std::uint32_t>(made.stats.samples);
-  if (started) add_started(*started, settings.estimate_error, made.image, made.stats);
+  if (!started) return;
+  add_started(*started, settings.estimate_error, made.image, made.stats);
+  made.devices = joined_devices(started->devices, made.devices);
 }
 
 /// The picture of a request's own look.
@@ -67,6 +70,7 @@ MadePicture traced_picture(const Request& request, SceneOnDevice& shown, const C
   settings.aov = settings.aov || denoise;
   settings.estimate_error = settings.estimate_error || denoise || request.output.despeckle;
   MadePicture made;
+  made.devices = device_text(shown.device());
   made.lights = look.lights.size();
   made.notes = std::move(lit.notes);
   if (request.settings.has_goal()) {
@@ -107,6 +111,7 @@ MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Cam
   const PixelWindow window = request.view.made();
   MadePicture made;
   if (request.view.xray) {
+    made.devices = device_text(shown.device());
     const Scene& scene = shown.scene();
     made.image = xray_image(shown.tracer(), scene.root, shown.look(), sheet, window,
                             choose_settings(scene, request), progress);

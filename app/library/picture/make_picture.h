@@ -18,6 +18,7 @@ struct MadePicture {
   double denoise_ms = 0.0;         ///< 0 where none did
   /// Samples a pixel that were asked for and not made, as it was stopped and kept; then no denoiser had it.
   std::uint32_t samples_missing = 0;
+  std::string devices;  ///< that made its samples, as picture_metadata names them
 };
 
 /// The picture in the lights that the request asks for, or where it asks for none and none enters in that of the camera

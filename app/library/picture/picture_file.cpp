@@ -26,6 +26,20 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
+std::vector<unsigned char> encode_picture(const Request& request, const Image& image,
+                                          const Metadata& metadata, const std::filesystem::path& path) {
+  if (is_png(path)) return encode_png(shown_image(request, image), metadata);
+  if (lower_extension(path) != ".exr")
+    return encode_sheet(request, shown_image(request, image), metadata, path);
+  ExrPicture picture = exr_picture(image, request.output.aovs, metadata);
+  if (const PixelWindow window = request.view.window(); window.width > 0) {
+    picture.width = request.view.width;
+    picture.height = request.view.height;
+    picture.window = window;
+  }
+  return encode_exr(picture);
+}
+
 }  // namespace
 
 bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
@@ -71,8 +85,16 @@ std::optional<DisplayImage> read_reference(const Request& request) {
   return reference;
 }
 
+std::string device_text(const Device& device) { return device.info().name + ", " + device.info().driver; }
+
+std::string joined_devices(const std::string& devices, const std::string& more) {
+  const std::string between = "; ";
+  const bool named = (between + devices + between).find(between + more + between) != std::string::npos;
+  return named ? devices : devices + between + more;
+}
+
 Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
-                          const Device& device) {
+                          const std::string& devices) {
   const Camera& camera = view.camera;
   const bool ortho = camera.ortho_height > 0.0;
   return {{"command_line", command_line(still_request(request, camera))},
@@ -81,29 +103,29 @@ Metadata picture_metadata(const Request& request, const Scene& scene, const View
           {"up", number_text(camera.up)},
           {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
           {"diagonal_world", number_text(scene.diagonal_world())},
-          {"device", device.info().name + ", " + device.info().driver},
+          {"device", devices},
           {"samples", std::to_string(request.settings.samples)},
           {"seed", std::to_string(request.settings.seed)},
           {"commit", COMMIT}};
 }
 
 DisplayImage shown_image(const Request& request, const Image& image) {
-  return display_image(image, display_of(request));
+  DisplayImage shown = display_image(image, display_of(request));
+  if (request.view.sheet) shown.dots_per_inch = request.view.sheet->dpi;
+  return shown;
 }
 
 void write_output(const Request& request, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path) {
-  if (request.view.made_sheet) write_sheet_places(request, image, path);
-  if (is_png(path)) return write_png(shown_image(request, image), metadata, path);
-  if (lower_extension(path) != ".exr")
-    return write_sheet(request, shown_image(request, image), metadata, path);
-  ExrPicture picture = exr_picture(image, request.output.aovs, metadata);
-  if (const PixelWindow window = request.view.window(); window.width > 0) {
-    picture.width = request.view.width;
-    picture.height = request.view.height;
-    picture.window = window;
-  }
-  write_exr(picture, path);
+  FileSet files;
+  const std::vector<unsigned char> bytes = encode_picture(request, image, metadata, path);
+  files.add(path, bytes.data(), bytes.size());
+  if (request.view.made_sheet) add_sheet_places(request, image, path, files);
+  files.commit();
+}
+
+std::filesystem::path difference_file(std::filesystem::path picture) {
+  return picture.replace_extension(".diff.png");
 }
 
 void require_match(const Request& request, const Image& image, const DisplayImage& reference) {
@@ -118,8 +140,7 @@ void require_match(const Request& request, const Image& image, const DisplayImag
       std::fprintf(stderr, "splatray-render: matches the reference: %s\n", numbers.c_str());
     return;
   }
-  std::filesystem::path difference = request.output.path;
-  difference.replace_extension(".diff.png");
+  const std::filesystem::path difference = difference_file(request.output.path);
   write_png(comparison.difference, {}, difference);
   throw Error(ExitCode::failed, "'" + request.output.path.string() + "' differs from '" +
                                     request.output.reference.string() + "': " + numbers + "; see '" +

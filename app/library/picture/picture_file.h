@@ -26,20 +26,28 @@ void require_outputs_writable(const Request& request);
 /// --resolution's.
 [[nodiscard]] std::optional<DisplayImage> read_reference(const Request& request);
 
-/// The command line that makes this picture (still_request), camera, scene's diagonal, device, samples, seed and commit,
-/// for the picture's file.
+/// A device and its driver, as pictures name what made them.
+[[nodiscard]] std::string device_text(const Device& device);
+/// What made a picture of samples of several, each named once.
+[[nodiscard]] std::string joined_devices(const std::string& devices, const std::string& more);
+
+/// The command line that makes this picture (still_request), camera, scene's diagonal, `devices` that made its samples,
+/// their number, seed and commit, for the picture's file.
 [[nodiscard]] Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
-                                        const Device& device);
+                                        const std::string& devices);
 
 /// The picture as files of 8 bits show it.
 [[nodiscard]] DisplayImage shown_image(const Request& request, const Image& image);
 
-/// Writes the picture in the format of its name. Throws Error (failed).
+/// Writes the picture in the format of its name, of a sheet with what says where it lies (add_sheet_places): all of these files or
+/// none. Throws Error (failed).
 void write_output(const Request& request, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path);
 
-/// Compares the picture, as its file shows it, with the reference. When they differ, writes
-/// `<output>.diff.png` beside it and throws Error (failed); else prints the numbers on stderr unless quiet.
+/// Where a picture and its reference are compared: NAME.diff.png.
+[[nodiscard]] std::filesystem::path difference_file(std::filesystem::path picture);
+
+/// Compares the picture, as its file shows it, with the reference. When they differ, writes its difference_file and throws Error (failed); else prints the numbers on stderr unless quiet.
 void require_match(const Request& request, const Image& image, const DisplayImage& reference);
 
 }  // namespace splatray

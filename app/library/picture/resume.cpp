@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/library/image_file.h"
+#include "app/library/picture/picture_file.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/fields.h"
 #include "engine/base/error.h"
@@ -46,31 +47,40 @@ void require_same_light(const std::filesystem::path& file, const Request& kept, 
   }
 }
 
+std::string kept_value(const Metadata& metadata, const char* name) {
+  const auto kept =
+      std::find_if(metadata.begin(), metadata.end(), [&](const auto& entry) { return entry.first == name; });
+  return kept == metadata.end() ? "unknown" : kept->second;
+}
+
 /// Another scene of the same name.
 void require_same_scene(const std::filesystem::path& file, const Metadata& metadata, const Scene& scene) {
   const std::string expected = number_text(scene.diagonal_world());
-  const auto kept = std::find_if(metadata.begin(), metadata.end(),
-                                 [](const auto& entry) { return entry.first == "diagonal_world"; });
-  const std::string found = kept == metadata.end() ? "unknown" : kept->second;
+  const std::string found = kept_value(metadata, "diagonal_world");
   if (found != expected) refuse(file, "a scene whose diagonal is " + found, "this one's " + expected);
 }
 
 }  // namespace
 
-std::optional<StartedPicture> read_started(const Request& request, const Scene& scene, const Camera& camera) {
+std::optional<StartedPicture> read_started(const Request& request, const Scene& scene, const Camera& camera,
+                                           const Device& device) {
   const std::filesystem::path& file = request.output.resume;
   if (file.empty()) return {};
   const ExrPicture header = read_exr_header(file);
   const Request kept = plain_request(read_picture_request(file));
   require_same_light(file, kept, plain_request(still_request(request, camera)));
   require_same_scene(file, header.metadata, scene);
+  const std::string devices = kept_value(header.metadata, "device");
+  if (devices != device_text(device) && !request.output.mixed_devices)
+    refuse(file, "a picture that '" + devices + "' made",
+           "one of '" + device_text(device) + "', as now, or --mixed-devices, as samples may differ");
   if (kept.settings.samples >= request.settings.samples)
     refuse(file, std::to_string(kept.settings.samples) + " samples a pixel",
            "fewer than the " + std::to_string(request.settings.samples) + " of --samples");
   const PixelWindow made = request.view.made();
   if (header.width != request.view.width || header.height != request.view.height || header.window != made)
     refuse(file, "other pixels than those of its command", "a file as splatray-render writes it");
-  return StartedPicture{image_of(read_exr(file)).rgba, kept.settings.samples};
+  return StartedPicture{image_of(read_exr(file)).rgba, kept.settings.samples, devices};
 }
 
 void add_started(const StartedPicture& started, bool estimate_error, Image& image, RenderStats& stats) {

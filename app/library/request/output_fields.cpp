@@ -9,6 +9,7 @@ namespace splatray {
 namespace {
 
 constexpr FieldGroup OUTPUT = FieldGroup::output;
+constexpr const char* VIEWER_GOES_ON = "the viewer's pictures go on by themselves";
 
 std::string aov_names() {
   std::string names;
@@ -128,7 +129,10 @@ std::vector<Field> output_fields() {
       with(path_row("resume", OUTPUT, MEMBER(output.resume),
                     "add samples to this EXR of the same command and fewer --samples, as one that was "
                     "interrupted leaves it, until there are --samples"),
-           {.doors = DOOR_RENDER | DOOR_LIBRARY, .why_not = "the viewer's pictures go on by themselves"}),
+           {.doors = DOOR_RENDER | DOOR_LIBRARY, .why_not = VIEWER_GOES_ON}),
+      with(switch_row("mixed-devices", OUTPUT, MEMBER(output.mixed_devices),
+                      "--resume also a picture of another device or driver, whose samples may differ"),
+           {.doors = DOOR_RENDER | DOOR_LIBRARY, .why_not = VIEWER_GOES_ON}),
       number_row(
           "turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
           "this many pictures of a full turn about the scene's up axis through the target; default 0 = none"),
@@ -136,7 +140,7 @@ std::vector<Field> output_fields() {
       frames_row(),
       switch_row("skip-existing", OUTPUT, MEMBER(output.skip_existing),
                  "leave out pictures whose file is whole and was made by the same command")};
-  for (std::size_t i = 3; i < rows.size(); ++i) {
+  for (std::size_t i = 4; i < rows.size(); ++i) {
     rows[i].doors = DOOR_RENDER | DOOR_VIEW;
     rows[i].why_not = NOT_SEQUENCES;
   }

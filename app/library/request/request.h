@@ -120,6 +120,7 @@ struct Request {
   struct Output {
     std::filesystem::path path;    ///< empty = nowhere
     std::filesystem::path resume;  ///< an EXR of fewer samples that they are added to; empty = none
+    bool mixed_devices = false;    ///< also of one that another device or driver made
     bool denoise = false;
     bool despeckle = false;   ///< sparks.h
     bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for

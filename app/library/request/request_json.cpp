@@ -9,6 +9,7 @@
 #include "engine/base/json_depth.h"
 #include "engine/base/number_text.h"
 #include "engine/base/one_line.h"
+#include "engine/file/file_roles.h"
 
 namespace splatray {
 namespace {
@@ -141,6 +142,7 @@ Request read_request(const std::filesystem::path& path) {
   std::error_code error;
   if (const auto bytes = std::filesystem::file_size(path, error); error || bytes > MOST_BYTES)
     Reader(source).refuse(error ? error.message() : "more than 16 MiB", "a file of JSON");
+  note_input(path);
   std::ifstream file(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), {});
   if (!file) Reader(source).refuse("a file that cannot be read", "a file of JSON");

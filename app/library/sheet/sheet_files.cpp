@@ -15,7 +15,6 @@
 #include "engine/base/module.h"
 #include "engine/base/number_text.h"
 #include "engine/base/utf8.h"
-#include "engine/file/atomic_file.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray {
@@ -32,24 +31,26 @@ GeoPlace place_of(const Sheet& sheet, const PixelWindow& window) {
   return {sheet.at(window.x, window.y), sheet.pixel_world, sheet.north_up ? sheet.crs : std::string()};
 }
 
-void write_tiff(const GeoRaster& raster, const GeoTags& tags, const std::filesystem::path& path) {
-  std::vector<unsigned char> bytes;
+using Bytes = std::vector<unsigned char>;
+
+Bytes encode_tiff(const GeoRaster& raster, const GeoTags& tags, const std::filesystem::path& path) {
+  Bytes bytes;
   std::string reason;
   if (!codec().encode_tiff(raster, tags, bytes, reason))
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
-  write_file(bytes.data(), bytes.size(), path);
+  return bytes;
 }
 
-void write_page(const Drawing& drawing, const std::string& format, const std::filesystem::path& path) {
-  std::vector<unsigned char> bytes;
+Bytes encode_page(const Drawing& drawing, const std::string& format, const std::filesystem::path& path) {
+  Bytes bytes;
   std::string reason;
   if (!codec().encode_drawing(drawing, format, bytes, reason))
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
-  write_file(bytes.data(), bytes.size(), path);
+  return bytes;
 }
 
 /// Heights of a sheet from above, else distances behind the cut or the eye's plane.
-void write_heights(const Request& request, const Image& image) {
+Bytes encode_heights(const Request& request, const Image& image) {
   const Sheet& sheet = *request.view.made_sheet;
   const Camera camera = sheet.camera();
   const double eye = glm::dot(camera.eye, sheet.toward);
@@ -65,7 +66,7 @@ void write_heights(const Request& request, const Image& image) {
   GeoTags tags = geo_tags(place_of(sheet, request.view.made()));
   tags.no_data = "nan";
   tags.description = from_above ? "heights, world units" : "distances behind the sheet's plane, world units";
-  write_tiff(raster, tags, request.output.height_raster);
+  return encode_tiff(raster, tags, request.output.height_raster);
 }
 
 /// Where the file's pixels lie in the world.
@@ -97,8 +98,8 @@ std::string world_file(const GeoPlace& place) {
 
 void require_sheet_writer() { static_cast<void>(codec()); }
 
-void write_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
-                 const std::filesystem::path& path) {
+Bytes encode_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
+                   const std::filesystem::path& path) {
   const Sheet& sheet = *request.view.made_sheet;
   const PixelWindow window = request.view.made();
   const std::string extension = lower_extension(path);
@@ -107,7 +108,7 @@ void write_sheet(const Request& request, const DisplayImage& picture, const Meta
     tags.dots_per_inch = sheet.asked.dpi;
     for (const auto& [name, value] : metadata)
       if (name == "command_line") tags.description = value;
-    return write_tiff({picture.width, picture.height, rgba_bytes(picture), {}}, tags, path);
+    return encode_tiff({picture.width, picture.height, rgba_bytes(picture), {}}, tags, path);
   }
   const std::string& title = request.output.title;
   const std::string name =
@@ -115,26 +116,39 @@ void write_sheet(const Request& request, const DisplayImage& picture, const Meta
   Drawing page = sheet_page(sheet, window, picture, title.empty() ? name : title);
   if (!request.output.measures.empty())
     draw_measures(sheet, window, read_measures(request.output.measures), sheet.up, page);
-  write_page(page, extension.substr(1), path);
+  return encode_page(page, extension.substr(1), path);
 }
 
-void write_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path) {
-  const Sheet& sheet = *request.view.made_sheet;
-  const PixelWindow window = request.view.made();
-  const GeoPlace place = place_of(sheet, window);
+SheetPlaces sheet_places(const std::filesystem::path& path) {
   const auto beside = [&path](const char* extension) {
     return std::filesystem::path(path).replace_extension(extension);
   };
-  write_text_file(description_of(sheet, window), beside(".sheet.json"));
-  if (!request.output.height_raster.empty()) write_heights(request, image);
+  SheetPlaces places;
+  places.description = path.string() + ".sheet.json";
   const std::string extension = lower_extension(path);
-  if (extension == ".tif") write_text_file(world_file(place), beside(".tfw"));
-  if (extension != ".png") return;
-  write_text_file(world_file(place), beside(".pgw"));
-  if (place.crs.empty()) return;
-  write_text_file(place.crs + "\n", beside(".prj"));
-  write_text_file("<PAMDataset>\n  <SRS>" + markup_text(place.crs) + "</SRS>\n</PAMDataset>\n",
-                  beside(".png.aux.xml"));
+  if (extension == ".tif") places.world_file = beside(".tfw");
+  if (extension != ".png") return places;
+  places.world_file = beside(".pgw");
+  places.crs = beside(".prj");
+  places.crs_of_gdal = path.string() + ".aux.xml";
+  return places;
+}
+
+void add_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path,
+                      FileSet& files) {
+  const Sheet& sheet = *request.view.made_sheet;
+  const PixelWindow window = request.view.made();
+  const GeoPlace place = place_of(sheet, window);
+  const SheetPlaces names = sheet_places(path);
+  files.add(names.description, description_of(sheet, window));
+  if (!request.output.height_raster.empty()) {
+    const Bytes heights = encode_heights(request, image);
+    files.add(request.output.height_raster, heights.data(), heights.size());
+  }
+  if (!names.world_file.empty()) files.add(names.world_file, world_file(place));
+  if (names.crs.empty() || place.crs.empty()) return;
+  files.add(names.crs, place.crs + "\n");
+  files.add(names.crs_of_gdal, "<PAMDataset>\n  <SRS>" + markup_text(place.crs) + "</SRS>\n</PAMDataset>\n");
 }
 
 }  // namespace splatray

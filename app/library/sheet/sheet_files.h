@@ -4,6 +4,7 @@
 
 #include "app/library/image_file.h"
 #include "app/library/request/request.h"
+#include "engine/file/atomic_file.h"
 #include "engine/image/image.h"
 
 namespace splatray {
@@ -12,14 +13,24 @@ namespace splatray {
 /// not there.
 void require_sheet_writer();
 
-/// Writes a sheet in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, and
+/// A sheet's file in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, and
 /// grid, bar and title around it as lines and letters. Throws Error (failed).
-void write_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
-                 const std::filesystem::path& path);
+[[nodiscard]] std::vector<unsigned char> encode_sheet(const Request& request, const DisplayImage& picture,
+                                                      const Metadata& metadata,
+                                                      const std::filesystem::path& path);
 
-/// Writes what says where the pixels of a file lie, below its name: NAME.sheet.json; beside a PNG or TIFF a world file (ESRI;
-/// centre of the top left pixel), beside a PNG with a known system NAME.png.aux.xml (GDAL) and NAME.prj; and --height-raster.
-/// Throws Error (failed).
-void write_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path);
+/// Files beside a sheet's that say where its pixels lie; empty ones are not written.
+struct SheetPlaces {
+  std::filesystem::path description;  ///< NAME.EXTENSION.sheet.json
+  std::filesystem::path
+      world_file;  ///< beside a PNG or TIFF: NAME.pgw, NAME.tfw (ESRI; centre of the top left pixel)
+  std::filesystem::path crs;          ///< beside a PNG with a known system: NAME.prj
+  std::filesystem::path crs_of_gdal;  ///< and NAME.png.aux.xml (GDAL)
+};
+[[nodiscard]] SheetPlaces sheet_places(const std::filesystem::path& path);
+
+/// Adds those of a sheet's file, and --height-raster. Throws Error (failed).
+void add_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path,
+                      FileSet& files);
 
 }  // namespace splatray

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int LEAST_WINDOW = 320, LARGEST_WINDOW = 16384;
+constexpr double LEAST_WINDOW = 320.0, LARGEST_WINDOW = 16384.0;
 
 json to_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -100,14 +100,10 @@ void if_sound(const Read& read) {
 /// Reads what a text makes sense of.
 UserState state_of(const json& all) {
   UserState state;
-  const auto window_edge = [&](const char* name, int& edge) {
-    if_sound([&] {
-      edge = static_cast<int>(
-          std::clamp(all.at(name).get<double>(), double(LEAST_WINDOW), double(LARGEST_WINDOW)));
-    });
-  };
-  window_edge("window_width", state.window_width);
-  window_edge("window_height", state.window_height);
+  if_sound([&] {
+    const glm::dvec2 size(all.at("window_width").get<double>(), all.at("window_height").get<double>());
+    state.window_size = glm::clamp(size, LEAST_WINDOW, LARGEST_WINDOW);
+  });
   if_sound([&] {
     for (const json& recent : all.at("recent_files"))
       if (SceneFiles files = files_of(recent); !files.empty() && state.recent_files.size() < RECENT_COUNT)
@@ -154,7 +150,11 @@ UserState own_state(const fs::path& path) {
 }
 
 void write_state(const UserState& state, const fs::path& path) {
-  json all = {{"window_width", state.window_width}, {"window_height", state.window_height}};
+  json all = json::object();
+  if (state.window_size) {
+    all["window_width"] = state.window_size->x;
+    all["window_height"] = state.window_size->y;
+  }
   all["recent_files"] = json::array();
   for (const SceneFiles& files : state.recent_files) all["recent_files"].push_back(to_json(files));
   all["eye_dome"] = state.choices.eye_dome;

@@ -27,13 +27,15 @@ struct Choices {
 
 /// What is remembered.
 struct UserState {
-  int window_width = 1280, window_height = 720;  ///< screen coordinates, 320..16384
-  std::vector<SceneFiles> recent_files;          ///< newest first, at most RECENT_COUNT, absolute
-  std::map<std::string, Bookmarks> bookmarks;    ///< by scene_name
+  std::optional<glm::uvec2> window_size;       ///< screen coordinates, 320..16384; unset before the first run
+  std::vector<SceneFiles> recent_files;        ///< newest first, at most RECENT_COUNT, absolute
+  std::map<std::string, Bookmarks> bookmarks;  ///< by scene_name
   Choices choices;
 };
 
 inline constexpr std::size_t RECENT_COUNT = 10;
+/// Of a window where none is remembered.
+inline constexpr glm::uvec2 DEFAULT_WINDOW{1280, 720};
 
 /// Where it is kept; empty when neither XDG_STATE_HOME (absolute) nor HOME is set.
 [[nodiscard]] std::filesystem::path user_state_path();

@@ -48,15 +48,16 @@ Window& window_of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWind
 
 }  // namespace
 
-Window::Window(const std::string& title, std::uint32_t width, std::uint32_t height) {
+Window::Window(const std::string& title, glm::uvec2 size, bool scaled) {
   if (glfwInit() != GLFW_TRUE) throw no_window("no display found (" + glfw_reason() + ")");
   try {
     if (glfwVulkanSupported() != GLFW_TRUE) throw no_window("no Vulkan driver for windows found");
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, scaled ? GLFW_TRUE : GLFW_FALSE);
     window_ =
-        glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
+        glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(), nullptr, nullptr);
     if (window_ == nullptr) throw no_window("no window could be opened (" + glfw_reason() + ")");
+    fit_monitor();
     listen();
   } catch (...) {
     glfwTerminate();
@@ -67,6 +68,18 @@ Window::Window(const std::string& title, std::uint32_t width, std::uint32_t heig
 Window::~Window() {
   glfwDestroyWindow(window_);
   glfwTerminate();
+}
+
+/// Of a window that is larger than what the first monitor has beside bars and docks, controls would be out of sight.
+void Window::fit_monitor() {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (monitor == nullptr) return;
+  glm::ivec2 corner(0), room(0);
+  glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
+  const glm::ivec2 now(size()), fitting = glm::min(now, room);
+  if (fitting.x <= 0 || fitting.y <= 0 || fitting == now) return;
+  glfwSetWindowSize(window_, fitting.x, fitting.y);
+  glfwSetWindowPos(window_, corner.x, corner.y);
 }
 
 void Window::listen() {

@@ -25,9 +25,9 @@ struct InputEvent {
 /// One at a time. All members but wake() belong to the thread that made it, the program's first.
 class Window {
  public:
-  /// Size in screen coordinates. Throws Error (no_device) where there is no display or no Vulkan
-  /// driver.
-  Window(const std::string& title, std::uint32_t width, std::uint32_t height);
+  /// `size` in screen coordinates, at most what the monitor has; `scaled`: times content_scale() where a screen coordinate is a
+  /// pixel. Throws Error (no_device) where there is no display or no Vulkan driver.
+  Window(const std::string& title, glm::uvec2 size, bool scaled);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -38,7 +38,7 @@ class Window {
   void wake();
   [[nodiscard]] bool should_close() const;
 
-  /// Screen coordinates.
+  /// Screen coordinates, as the constructor takes them without scaling.
   [[nodiscard]] glm::uvec2 size() const;
   /// Pixels; 0 x 0 while minimised.
   [[nodiscard]] glm::uvec2 framebuffer_size() const;
@@ -62,6 +62,7 @@ class Window {
   [[nodiscard]] GLFWwindow* get() const { return window_; }
 
  private:
+  void fit_monitor();
   void listen();
   void on_input(InputEvent event);
   [[nodiscard]] glm::dvec2 cursor_px() const;

@@ -23,7 +23,9 @@ const DeviceLimits& HostDevice::limits() const {
   return LIMITS;
 }
 
-DeviceProfile HostDevice::profile(Kernels) const { return {.kernels = Kernels::host, .culls = true}; }
+DeviceProfile HostDevice::profile(Kernels) const {
+  return {.kernels = Kernels::host, .culls = true, .slow = true};
+}
 
 std::unique_ptr<Queue> HostDevice::make_queue(const QueueOptions& options) const {
   return std::make_unique<HostQueue>(options.threads, options.vector_bits);

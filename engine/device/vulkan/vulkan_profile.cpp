@@ -20,6 +20,7 @@ DeviceProfile VulkanDevice::profile(Kernels requested) const {
     profile.paths_most = 1;
     profile.rays_most = 128;
     profile.culls = profile.stages = cpu;
+    profile.slow = true;
   } else {
     // A dispatch of more would take long enough for drivers that stop long work.
     profile.lights_most = 256;

@@ -22,9 +22,9 @@ struct Run {
   const SequenceListener& listener;
 };
 
-Metadata metadata_of(const Run& run, const Request& request, const Camera& camera) {
+Metadata metadata_of(const Run& run, const Request& request, const Camera& camera, const MadePicture& made) {
   const View view{camera, request.view.width, request.view.height, request.view.window()};
-  return picture_metadata(request, run.shown.scene(), view, run.shown.device());
+  return picture_metadata(request, run.shown.scene(), view, made.devices);
 }
 
 /// How far a picture of --error or --time came.
@@ -40,17 +40,13 @@ std::string goal_text(const RenderStats& stats) {
 /// Throws Error (interrupted), which says so.
 [[noreturn]] void write_unfinished(const Run& run, const Camera& camera, const SequenceFrame& frame,
                                    const MadePicture& made) {
-  take_time_to_end();
   Request request = run.request;
   const std::uint32_t asked = request.settings.samples;
   request.settings.samples -= made.samples_missing;
   request.output.denoise = request.output.despeckle = false;
-  const Metadata metadata = metadata_of(run, request, camera);
-  std::filesystem::path sums = frame.output;
-  if (is_png(frame.output)) {
-    sums.replace_extension(".unfinished.exr");
-    write_output(request, made.image, metadata, sums);
-  }
+  const Metadata metadata = metadata_of(run, request, camera, made);
+  const std::filesystem::path sums = is_png(frame.output) ? unfinished_file(frame.output) : frame.output;
+  if (is_png(frame.output)) write_output(request, made.image, metadata, sums);
   write_output(request, made.image, metadata, frame.output);
   throw Error(ExitCode::interrupted, "interrupted by a signal after " +
                                          std::to_string(request.settings.samples) + " of " +
@@ -66,11 +62,12 @@ void write_picture(const Run& run, const Camera& camera, const SequenceFrame& fr
   };
   // A frame of a sequence is whole or absent, as those who take it up look for files.
   const Stopped stopped = run.request.output.many() ? Stopped::dropped : Stopped::kept;
+  if (stopped == Stopped::kept) take_time_to_end();
   MadePicture made = make_picture(run.request, run.shown, camera, progress, stopped);
   for (const std::string& note : made.notes) run.listener.note("note: " + note);
   if (run.request.settings.has_goal()) run.listener.note(goal_text(made.stats));
   if (made.samples_missing > 0) write_unfinished(run, camera, frame, made);
-  Metadata metadata = metadata_of(run, run.request, camera);
+  Metadata metadata = metadata_of(run, run.request, camera, made);
   if (!made.denoiser.empty()) {
     metadata.emplace_back("denoised", made.denoiser);
     run.listener.note("denoised by " + made.denoiser);
@@ -99,6 +96,10 @@ bool is_made(const Request& request, const Camera& camera, const std::filesystem
 }
 
 }  // namespace
+
+std::filesystem::path unfinished_file(std::filesystem::path picture) {
+  return picture.replace_extension(".unfinished.exr");
+}
 
 SequenceRecord render_sequence(const Request& request, const Sequence& sequence, SceneOnDevice& shown,
                                const Camera& still, const SequenceListener& listener) {

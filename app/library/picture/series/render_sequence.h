@@ -40,6 +40,9 @@ struct SequenceListener {
   std::function<void(const FailedPicture&)> failed;  ///< of several, as soon as one is
 };
 
+/// Beside a PNG that a signal stopped, the EXR of its samples: NAME.unfinished.exr.
+[[nodiscard]] std::filesystem::path unfinished_file(std::filesystem::path picture);
+
 /// Makes the pictures of a scene. `still`: the camera without a sequence. Each is the still of its camera, default lights
 /// included. One of several that cannot be made is recorded, and the others go on; of a single one throws the Error. Throws Error
 /// (interrupted) when the listener stops it, and after a signal.

@@ -1,0 +1,14 @@
+/// The files of a run of a program, none of which is input and output (engine/file/file_roles.h).
+#pragma once
+#include "app/library/picture/series/sequence.h"
+
+namespace splatray {
+
+/// Notes the files that a request names. Throws Error (usage) as note_input does.
+void note_inputs(const Request& request);
+
+/// Claims all that a run of splatray-render may write: pictures, what lies beside them, and files of their own. Throws Error
+/// (usage) as claim_output does.
+void claim_outputs(const Request& request, const Sequence& sequence);
+
+}  // namespace splatray
