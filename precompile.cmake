@@ -17,7 +17,8 @@ add_precompiled(precompiled_tests)
 target_link_libraries(precompiled_tests PRIVATE GTest::gtest)
 target_precompile_headers(precompiled_tests PRIVATE <gtest/gtest.h>)
 # As programs are compiled.
-set_target_properties(precompiled_tests PROPERTIES POSITION_INDEPENDENT_CODE OFF COMPILE_OPTIONS -fPIE)
+set_target_properties(precompiled_tests PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+target_compile_options(precompiled_tests PRIVATE -fPIE)
 
 # Those of a target's files that have options of their own include their headers themselves.
 function(skip_options_of_files target)
@@ -59,4 +60,4 @@ get_property(options DIRECTORY PROPERTY COMPILE_OPTIONS)
 use_precompiled(${PROJECT_SOURCE_DIR} "${options}")
 # With options of its own, but many files.
 skip_options_of_files(splatray_preprocess)
-target_precompile_headers(splatray_preprocess PRIVATE ${headers})
+target_precompile_headers(splatray_preprocess PRIVATE ${headers} <tbb/parallel_for.h> <tbb/parallel_reduce.h> <tbb/parallel_sort.h>)

@@ -48,7 +48,7 @@ def plan(build, options):
     pattern = options[options.index("-R") + 1] if "-R" in options[:-1] else None
     programs = named_cases(build, pattern) if pattern else {}
     if not programs:
-        sys.exit(f"tests/run {' '.join(options)}: found no test and no case, expected one of `ctest --preset lavapipe -N`")
+        sys.exit(f"tests/run {' '.join(options)}: found no test and no case, expected one of `ctest --preset dev -N`")
     names = f"^({'|'.join(programs)})$"
     return sorted({pathlib.Path(file).relative_to(build) for files in chosen(build, ["-R", names]).values() for file in files}), names, ":".join(sum(programs.values(), []))
 
