@@ -9,7 +9,7 @@
 namespace splatray {
 namespace {
 
-constexpr double PI = std::numbers::pi;
+using std::numbers::pi;
 
 /// A number of [0, 1) of a place of the integer lattice (Jarzynski and Olano 2020, pcg).
 double hash(glm::ivec3 place, std::uint32_t salt = 0) {
@@ -108,7 +108,7 @@ constexpr Band BANDS[] = {
 };
 
 bool is_glazed(glm::dvec3 p) {
-  const double turn = 0.5 + std::atan2(p.z, p.x) / (2.0 * PI);
+  const double turn = 0.5 + std::atan2(p.z, p.x) / (2.0 * pi);
   return std::any_of(std::begin(BANDS), std::end(BANDS), [&](const Band& band) {
     const double around = turn * band.repeats;
     return p.y >= band.low && p.y < band.high &&
@@ -142,7 +142,7 @@ OrientedPoints scanned(OrientedPoints cloud, bool (*glazed)(glm::dvec3)) {
 SurfacePatch handle(double side) {
   constexpr double TUBE = 0.019;
   const Curve loop = [=](double parameter) {
-    const double angle = 2.0 * PI * parameter;
+    const double angle = 2.0 * pi * parameter;
     return glm::dvec3(side * (0.15 + 0.095 * std::cos(angle)), 0.83 + 0.1 * std::sin(angle), 0.0);
   };
   return {"amphora", tube_area(loop, TUBE), [=](const Sampling& sampling) {

@@ -10,7 +10,7 @@
 namespace splatray {
 namespace {
 
-constexpr double PI = std::numbers::pi;
+using std::numbers::pi;
 
 /// Turns the y axis, the axis of round shapes, to z.
 const glm::dmat3 UPRIGHT(glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(0.0, -1.0, 0.0));
@@ -51,10 +51,10 @@ Model backdrop() {
   const glm::dvec3 along_x(WIDTH, 0.0, 0.0);
   Model model{rectangle_surface("backdrop", {LEFT, 0.0, FRONT}, along_x, {0.0, 0.0, BEND_Z - FRONT}),
               rectangle_surface("backdrop", {LEFT, BEND, BEND_Z - BEND}, along_x, {0.0, HEIGHT, 0.0}),
-              {"backdrop", 0.5 * PI * BEND * WIDTH, [=](const Sampling& sampling) {
+              {"backdrop", 0.5 * pi * BEND * WIDTH, [=](const Sampling& sampling) {
                  const glm::dmat3 y_to_x(glm::dvec3(0.0, -1.0, 0.0), glm::dvec3(1.0, 0.0, 0.0),
                                          glm::dvec3(0.0, 0.0, 1.0));
-                 const OrientedPoints bend = flipped(cylinder(sampling, BEND, WIDTH, 0.0, 0.5 * PI));
+                 const OrientedPoints bend = flipped(cylinder(sampling, BEND, WIDTH, 0.0, 0.5 * pi));
                  return moved(bend, {LEFT, BEND, BEND_Z}, y_to_x);
                }}};
   for (SurfacePatch& patch : model)
@@ -66,9 +66,9 @@ Model backdrop() {
 SurfacePatch ring() {
   constexpr double RADIUS = 0.7;
   constexpr double TUBE = 0.03;
-  return {"ring", torus_area(RADIUS, TUBE, -PI, PI),
+  return {"ring", torus_area(RADIUS, TUBE, -pi, pi),
           [=](const Sampling& sampling) {
-            return moved(torus(sampling, RADIUS, TUBE, -PI, PI), {0.22, 0.76, -1.1}, UPRIGHT);
+            return moved(torus(sampling, RADIUS, TUBE, -pi, pi), {0.22, 0.76, -1.1}, UPRIGHT);
           },
           10.0};
 }
@@ -100,7 +100,7 @@ SurfacePatch knot() {
 }
 
 SurfacePatch ball(const std::string& object, double x, double z, double radius) {
-  return {object, 4.0 * PI * radius * radius,
+  return {object, 4.0 * pi * radius * radius,
           [=](const Sampling& sampling) {
             return moved(sphere(sampling, radius), {x, radius, z});
           },

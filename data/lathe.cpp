@@ -9,14 +9,14 @@
 namespace splatray {
 namespace {
 
-constexpr double PI = std::numbers::pi;
+using std::numbers::pi;
 
 /// Areas of the cones between neighbouring parameters, summed.
 std::vector<double> areas(const Profile& profile) {
   return running_sum([&](double from, double to) {
     const glm::dvec2 a = profile(from);
     const glm::dvec2 b = profile(to);
-    return PI * (a.x + b.x) * glm::distance(a, b);
+    return pi * (a.x + b.x) * glm::distance(a, b);
   });
 }
 
@@ -48,7 +48,7 @@ OrientedPoints lathe(const Sampling& sampling, const Profile& profile) {
     const glm::dvec2 place = profile(parameter);
     const glm::dvec2 along =
         glm::normalize(profile(std::min(1.0, parameter + STEP)) - profile(std::max(0.0, parameter - STEP)));
-    const double angle = 2.0 * PI * uv.y;
+    const double angle = 2.0 * pi * uv.y;
     const glm::dvec3 outwards(std::cos(angle), 0.0, -std::sin(angle));
     cloud.position.push_back(place.x * outwards + glm::dvec3(0.0, place.y, 0.0));
     cloud.normal.push_back(along.y * outwards - glm::dvec3(0.0, along.x, 0.0));

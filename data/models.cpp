@@ -6,15 +6,15 @@
 namespace splatray {
 namespace {
 
-constexpr double PI = std::numbers::pi;
+using std::numbers::pi;
 
 Model sphere_model(const ModelOptions&) {
-  return {{"sphere", 4.0 * PI, [](const Sampling& sampling) { return sphere(sampling, 1.0); }}};
+  return {{"sphere", 4.0 * pi, [](const Sampling& sampling) { return sphere(sampling, 1.0); }}};
 }
 
 Model torus_model(const ModelOptions&) {
-  return {{"torus", torus_area(0.7, 0.3, -PI, PI),
-           [](const Sampling& sampling) { return torus(sampling, 0.7, 0.3, -PI, PI); }}};
+  return {{"torus", torus_area(0.7, 0.3, -pi, pi),
+           [](const Sampling& sampling) { return torus(sampling, 0.7, 0.3, -pi, pi); }}};
 }
 
 Model knot_model(const ModelOptions&) {
@@ -28,7 +28,7 @@ Model plane_model(const ModelOptions&) {
 
 /// Two unit squares that meet in the z axis, open towards +x, facing each other.
 Model wedge_model(const ModelOptions& options) {
-  const double half = 0.5 * options.angle_deg * PI / 180.0;
+  const double half = 0.5 * options.angle_deg * pi / 180.0;
   const glm::dvec3 along_z(0.0, 0.0, 1.0);
   const glm::dvec3 upper(std::cos(half), std::sin(half), 0.0);
   const glm::dvec3 lower(std::cos(half), -std::sin(half), 0.0);

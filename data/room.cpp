@@ -6,7 +6,7 @@
 namespace splatray {
 namespace {
 
-constexpr double PI = std::numbers::pi;
+using std::numbers::pi;
 const glm::dvec3 SIZE(4.0, 3.0, 5.0);  ///< m; the room's centre is the origin, so the floor is at y = -1.5
 
 /// Red to the left, green to the right, a grey chequered floor, the rest nearly white.
@@ -20,7 +20,7 @@ glm::dvec3 room_paint(glm::dvec3 p) {
 }
 
 SurfacePatch ball(const std::string& object, double x, double z, double radius) {
-  return {object, 4.0 * PI * radius * radius,
+  return {object, 4.0 * pi * radius * radius,
           [=](const Sampling& sampling) {
             return moved(sphere(sampling, radius), {x, radius - 0.5 * SIZE.y, z});
           },

@@ -6,7 +6,7 @@
 namespace splatray {
 namespace {
 
-constexpr double PI = std::numbers::pi;
+using std::numbers::pi;
 
 /// Direction at `angle` from +x towards -z.
 glm::dvec3 horizontal(double angle) { return {std::cos(angle), 0.0, -std::sin(angle)}; }
@@ -22,7 +22,7 @@ OrientedPoints sphere(const Sampling& sampling, double radius) {
   OrientedPoints cloud;
   for (const glm::dvec2& uv : unit_square(sampling)) {
     const double y = 1.0 - 2.0 * uv.x;
-    const glm::dvec3 normal = std::sqrt(1.0 - y * y) * horizontal(2.0 * PI * uv.y) + glm::dvec3(0.0, y, 0.0);
+    const glm::dvec3 normal = std::sqrt(1.0 - y * y) * horizontal(2.0 * pi * uv.y) + glm::dvec3(0.0, y, 0.0);
     cloud.position.push_back(radius * normal);
     cloud.normal.push_back(normal);
   }
@@ -42,7 +42,7 @@ OrientedPoints torus(const Sampling& sampling, double ring_radius, double tube_r
       const double middle = 0.5 * (low + high);
       (torus_area_to(ring_radius, tube_radius, middle) < area ? low : high) = middle;
     }
-    const glm::dvec3 outwards = horizontal(2.0 * PI * uv.y);
+    const glm::dvec3 outwards = horizontal(2.0 * pi * uv.y);
     const glm::dvec3 normal = std::cos(low) * outwards + glm::dvec3(0.0, std::sin(low), 0.0);
     cloud.position.push_back(ring_radius * outwards + tube_radius * normal);
     cloud.normal.push_back(normal);
@@ -51,14 +51,14 @@ OrientedPoints torus(const Sampling& sampling, double ring_radius, double tube_r
 }
 
 double torus_area(double ring_radius, double tube_radius, double from, double to) {
-  return 2.0 * PI * tube_radius *
+  return 2.0 * pi * tube_radius *
          (torus_area_to(ring_radius, tube_radius, to) - torus_area_to(ring_radius, tube_radius, from));
 }
 
 OrientedPoints disc(const Sampling& sampling, double radius) {
   OrientedPoints cloud;
   for (const glm::dvec2& uv : unit_square(sampling)) {
-    cloud.position.push_back(radius * std::sqrt(uv.x) * horizontal(2.0 * PI * uv.y));
+    cloud.position.push_back(radius * std::sqrt(uv.x) * horizontal(2.0 * pi * uv.y));
     cloud.normal.emplace_back(0.0, 1.0, 0.0);
   }
   return cloud;

@@ -7,7 +7,7 @@
 namespace splatray {
 namespace {
 
-constexpr double PI = std::numbers::pi;
+using std::numbers::pi;
 std::vector<double> arc_lengths(const Curve& curve) {
   return running_sum([&](double from, double to) { return glm::distance(curve(from), curve(to)); });
 }
@@ -16,10 +16,10 @@ std::vector<double> arc_lengths(const Curve& curve) {
 /// centre of curvature; the area element is 1 - bend cos(angle), bend = tube radius * curvature < 1.
 double ring_angle(double fraction, double bend) {
   double low = 0.0;
-  double high = 2.0 * PI;
+  double high = 2.0 * pi;
   for (int step = 0; step < 48; ++step) {
     const double middle = 0.5 * (low + high);
-    (middle - bend * std::sin(middle) < 2.0 * PI * fraction ? low : high) = middle;
+    (middle - bend * std::sin(middle) < 2.0 * pi * fraction ? low : high) = middle;
   }
   return low;
 }
@@ -49,11 +49,11 @@ OrientedPoints tube(const Sampling& sampling, const Curve& curve, double tube_ra
 }
 
 double tube_area(const Curve& curve, double tube_radius) {
-  return 2.0 * PI * tube_radius * arc_lengths(curve).back();
+  return 2.0 * pi * tube_radius * arc_lengths(curve).back();
 }
 
 glm::dvec3 trefoil(double parameter) {
-  const double angle = 2.0 * PI * parameter;
+  const double angle = 2.0 * pi * parameter;
   const double ring = 2.0 + std::cos(3.0 * angle);
   return glm::dvec3(ring * std::cos(2.0 * angle), ring * std::sin(2.0 * angle), std::sin(3.0 * angle)) / 3.0;
 }

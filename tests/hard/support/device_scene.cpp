@@ -18,6 +18,7 @@ bool is_sound(const RayHit& hit) {
 }
 
 constexpr std::size_t DEFAULT_RAYS = 1'000'000;
+constexpr std::size_t RAYS_OF_A_LANDING = 200'000;
 constexpr int MOST_AT_ONE_T = 64;          ///< discs that are met at the same t
 constexpr double TIES_PER_MILLION = 20.0;  ///< measured: 1, of rays through lattice points 160
 constexpr std::uint64_t TIES_OF_FEW = 20;  ///< where there are few rays, made to meet splats at equal t
@@ -52,7 +53,8 @@ const Device& shared_device() {
 
 std::size_t hard_rays() {
   const char* wanted = std::getenv("SPLATRAY_HARD_RAYS");
-  return wanted == nullptr ? DEFAULT_RAYS : static_cast<std::size_t>(std::stod(wanted));
+  if (wanted != nullptr) return static_cast<std::size_t>(std::stod(wanted));
+  return std::getenv("SPLATRAY_TEST_ALL") == nullptr ? RAYS_OF_A_LANDING : DEFAULT_RAYS;
 }
 
 std::uint64_t known_of(std::uint64_t by_default, std::uint64_t of_ten_million) {

@@ -1,0 +1,63 @@
+# The headers that most files include, compiled once for libraries and once for programs of GoogleTest: half of a compiler's work on most
+# files. For builds that are tested; the others show whether each file includes what it needs.
+set(headers <algorithm> <array> <bit> <cassert> <cmath> <cstdint> <cstdio> <cstdlib> <cstring> <filesystem> <fstream> <functional>
+            <iostream> <limits> <map> <memory> <numbers> <numeric> <optional> <random> <span> <sstream> <string> <string_view> <utility>
+            <vector> <glm/glm.hpp>)
+find_package(glm REQUIRED)
+find_package(GTest REQUIRED)
+file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cpp "")
+
+function(add_precompiled name)
+  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+  target_link_libraries(${name} PRIVATE glm::glm)
+  target_precompile_headers(${name} PRIVATE ${headers})
+endfunction()
+add_precompiled(precompiled)
+add_precompiled(precompiled_tests)
+target_link_libraries(precompiled_tests PRIVATE GTest::gtest)
+target_precompile_headers(precompiled_tests PRIVATE <gtest/gtest.h>)
+# As programs are compiled.
+set_target_properties(precompiled_tests PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+target_compile_options(precompiled_tests PRIVATE -fPIE)
+
+# Those of a target's files that have options of their own include their headers themselves.
+function(skip_options_of_files target)
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(folder ${target} SOURCE_DIR)
+  foreach(source ${sources})
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder})
+    get_source_file_property(options ${source} TARGET_DIRECTORY ${target} COMPILE_OPTIONS)
+    if(options)
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
+  endforeach()
+endfunction()
+
+# All targets of a folder and those below that are compiled as the folder's, not with options of their own.
+function(use_precompiled folder options)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target ${targets})
+    get_target_property(type ${target} TYPE)
+    get_target_property(own ${target} COMPILE_OPTIONS)
+    get_target_property(links ${target} LINK_LIBRARIES)
+    if(target MATCHES "^precompiled|^splatray_shaders$" OR NOT own STREQUAL options)  # shaders: arrays, which include little
+      continue()
+    elseif(type MATCHES "(STATIC|SHARED|MODULE)_LIBRARY")
+      skip_options_of_files(${target})
+      target_precompile_headers(${target} REUSE_FROM precompiled)
+    elseif(type STREQUAL EXECUTABLE AND links MATCHES "GTest::gtest")
+      skip_options_of_files(${target})
+      target_precompile_headers(${target} REUSE_FROM precompiled_tests)
+    endif()
+  endforeach()
+  get_property(subfolders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(subfolder ${subfolders})
+    use_precompiled(${subfolder} "${options}")
+  endforeach()
+endfunction()
+
+get_property(options DIRECTORY PROPERTY COMPILE_OPTIONS)
+use_precompiled(${PROJECT_SOURCE_DIR} "${options}")
+# With options of its own, but many files.
+skip_options_of_files(splatray_preprocess)
+target_precompile_headers(splatray_preprocess PRIVATE ${headers} <tbb/parallel_for.h> <tbb/parallel_reduce.h> <tbb/parallel_sort.h>)
