@@ -48,7 +48,7 @@ constexpr double ISOLATED_SHARE = 0.01;  // of the scene's diagonal: radius wher
 constexpr std::uint32_t MOST_EQUAL = 8;  // splats with the same words that are kept: more only add weight
 
 /// Bytes a point that stages take at once beside what is there when they begin, as measured: midway they cannot be refused.
-constexpr std::uint64_t SEARCH_BYTES = 39, SCAN_BYTES = 92, RADII_BYTES = 51, ORDER_BYTES = 36;
+constexpr std::uint64_t SEARCH_BYTES = 39, SCAN_BYTES = 60, RADII_BYTES = 51, ORDER_BYTES = 36;
 
 void check_counts(const Input& input) {
   if (input.objects.size() > OBJECT_MASK + 1) {
@@ -292,8 +292,8 @@ void count_result(const Scene& scene, BuildStats& stats) {
   }
 }
 
-/// Throws Error (out_of_memory) unless there is the least that a build takes beside the points themselves: of each point 79 to
-/// 101 bytes were measured, the least with normals.
+/// Throws Error (out_of_memory) unless there is the least that a build takes beside the points themselves: of each point 74 to
+/// 86 bytes were measured.
 void require_build_memory(const Input& input) {
   constexpr std::uint64_t POINT_BYTES = 64;
   std::uint64_t points = 0;
