@@ -74,14 +74,27 @@ void name_whole_picture(Part& part, std::uint32_t samples) {
   if (std::string* stored = find_value(part.header.metadata, "samples")) *stored = std::to_string(samples);
 }
 
-/// Has all parts name all devices that made them.
+/// Empty where it is not kept.
+std::string device_of(Part& part) {
+  const std::string* device = find_value(part.header.metadata, "device");
+  return device == nullptr ? std::string() : *device;
+}
+
+/// Has all parts name all devices that made them, and none ask for one.
 void name_all_devices(std::vector<Part>& parts) {
-  std::string all;
-  for (Part& part : parts)
-    if (const std::string* device = find_value(part.header.metadata, "device"))
-      all = all.empty() ? *device : joined_devices(all, *device);
-  for (Part& part : parts)
+  std::string all = device_of(parts.front());
+  for (Part& part : parts) all = joined_devices(all, device_of(part));
+  for (Part& part : parts) {
     if (std::string* device = find_value(part.header.metadata, "device")) *device = all;
+    part.request.settings.device.clear();
+  }
+}
+
+void require_same_device(Part& part, Part& first) {
+  if (device_of(part) != device_of(first))
+    refuse(part.file, "a part that '" + device_of(part) + "' made",
+           "one of '" + device_of(first) + "' as '" + first.file.string() +
+               "' is, or --mixed-devices, as samples may differ");
 }
 
 void require_same_picture(const Part& part, const Part& first_part) {
@@ -91,12 +104,10 @@ void require_same_picture(const Part& part, const Part& first_part) {
     refuse(part.file, "a part of " + size_text(header) + " pixels", size_text(first) + like);
   if (header.channels != first.channels) refuse(part.file, "other channels", "those" + like);
   if (header.metadata.size() != first.metadata.size()) refuse(part.file, "other metadata", "those" + like);
-  for (std::size_t i = 0; i < header.metadata.size(); ++i) {
-    const auto& [name, value] = header.metadata[i];
-    if (header.metadata[i] == first.metadata[i]) continue;
-    const char* allowed = name == "device" ? ", or --mixed-devices, as samples may differ" : "";
-    refuse(part.file, name + " '" + value + "'", "'" + first.metadata[i].second + "'" + like + allowed);
-  }
+  for (std::size_t i = 0; i < header.metadata.size(); ++i)
+    if (header.metadata[i] != first.metadata[i])
+      refuse(part.file, header.metadata[i].first + " '" + header.metadata[i].second + "'",
+             "'" + first.metadata[i].second + "'" + like);
 }
 
 using Place = std::array<std::uint32_t, 4>;
@@ -244,6 +255,7 @@ std::vector<Parts> read_headers(const std::vector<std::filesystem::path>& files,
   }
   if (mixed_devices) name_all_devices(parts);
   for (Part& part : parts) {
+    require_same_device(part, parts.front());
     name_whole_picture(part, samples);
     require_same_picture(part, parts.front());
   }

@@ -160,7 +160,7 @@ TEST_F(CliOutputs, FullDiskLeavesTheOlderFile) {
   refuse("a.exr", with(picture, {"-o", file("a.exr")}));
   // With what lies beside it, or nothing of that.
   refuse("b.png", {RENDER, "--quiet", grid, "--samples=1", "-o", file("b.png"),
-                   "--sheet=elevation:south,scale=10,dpi=100"});
+                   "--sheet=elevation:south,scale=4,dpi=200"});
   refuse("a.soct", {PREPROCESS, grid, "-o", file("a.soct")});
 }
 
