@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/mesh/edges/mesh_edges.h"
 #include "preprocess/points.h"
 
 namespace splatray {

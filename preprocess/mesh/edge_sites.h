@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/mesh/edges/mesh_edges.h"
 #include "preprocess/points.h"
 
 namespace splatray {

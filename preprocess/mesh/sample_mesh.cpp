@@ -21,7 +21,7 @@
 #include "preprocess/mesh/alpha_mask.h"
 #include "preprocess/mesh/clip_points.h"
 #include "preprocess/mesh/edge_sites.h"
-#include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/mesh/edges/mesh_edges.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/refined_mesh.h"
 #include "preprocess/mesh/smooth_surface.h"

@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/mesh/edges/mesh_edges.h"
 #include "preprocess/mesh/tessellated.h"
 #include "preprocess/points.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "preprocess/base/parallel.h"
-#include "preprocess/mesh/mesh_parts.h"
+#include "preprocess/mesh/edges/mesh_parts.h"
 
 namespace splatray {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
-#include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/mesh/edges/mesh_edges.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/sample_mesh.h"
 #include "preprocess/mesh/texture/texture.h"

@@ -1,10 +1,10 @@
-#include "preprocess/mesh/clear_creases.h"
+#include "preprocess/mesh/edges/clear_creases.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "preprocess/base/parallel.h"
-#include "preprocess/mesh/mesh_parts.h"
+#include "preprocess/mesh/edges/mesh_parts.h"
 
 namespace splatray {
 namespace {

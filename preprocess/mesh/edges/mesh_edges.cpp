@@ -1,4 +1,4 @@
-#include "preprocess/mesh/mesh_edges.h"
+#include "preprocess/mesh/edges/mesh_edges.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "preprocess/base/parallel.h"
-#include "preprocess/mesh/clear_creases.h"
+#include "preprocess/mesh/edges/clear_creases.h"
 
 namespace splatray {
 namespace {

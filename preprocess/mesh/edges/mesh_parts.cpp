@@ -1,4 +1,4 @@
-#include "preprocess/mesh/mesh_parts.h"
+#include "preprocess/mesh/edges/mesh_parts.h"
 
 namespace splatray {
 
