@@ -105,12 +105,17 @@ void note_quality(Cloud& cloud, const std::vector<double>& steps, const std::vec
   }
 }
 
-/// Points that were moved were off by that much: where noise alone does not explain it, as of two layers that became one, the noise
-/// that is noted does.
-void note_moved(Cloud& cloud, double moved_median_world) {
-  constexpr double MEDIAN = 0.6745;  // of the size of a normal distribution's values, in standard deviations
+/// Raises the noise of stations where it does not explain how far points were moved: they lay in layers that became one, or moved
+/// much farther (of simulated tripods' noise 1.2 times as far as measured).
+void note_moved(Cloud& cloud, const Smoothed& smoothed) {
+  constexpr double UNEXPLAINED = 2.0;
+  // Two layers that became one lie off by m each, in opposite ways, so their distance by 2 m. Its 95 % hold that where the noise is
+  // 1.25 m: 1.96 sqrt(2) 1.25 m / sqrt(3), as surface_point.cpp has it.
+  constexpr double OF_MOVED = 1.25;
+  const double moved = smoothed.moved_median_world;
   for (Station& station : cloud.stations)
-    station.noise_world = std::max(station.noise_world, moved_median_world / MEDIAN);
+    if (smoothed.layered || moved > UNEXPLAINED * station.noise_world)
+      station.noise_world = std::max(station.noise_world, OF_MOVED * moved);
 }
 
 /// Moves points onto the surface that they are of: as far as `params` ask for, else by their grids or by what is near.
@@ -129,7 +134,7 @@ void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, do
   stats.smoothed += smoothed.moved;
   stats.dropped_unsupported += smoothed.dropped;
   stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);
-  note_moved(cloud, smoothed.moved_median_world);
+  note_moved(cloud, smoothed);
 }
 
 }  // namespace
@@ -141,7 +146,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   const bool all_in_grids = grids.points > 0 && grids.points == cloud.size();
   if (all_in_grids && !(params.smooth_world > 0.0)) {
     note_quality(cloud, steps, {});
-    note_moved(cloud, grids.moved_median_world);
+    note_moved(cloud, {.moved = grids.moved, .moved_median_world = grids.moved_median_world});
     if (grids.normals > 0) ++stats.sides_by[static_cast<std::size_t>(SideRung::sensor)];
     return grids.normals;
   }
@@ -166,7 +171,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   }
   stats.noise = std::max(stats.noise, noise);
   note_quality(cloud, steps, station_noise_world(cloud, survey));
-  note_moved(cloud, grids.moved_median_world);
+  note_moved(cloud, {.moved = grids.moved, .moved_median_world = grids.moved_median_world});
   const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
   const bool noisy = noise > NOISY && estimated.size() >= FEWEST && !sharply;
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
