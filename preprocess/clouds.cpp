@@ -1,24 +1,17 @@
 #include "preprocess/clouds.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/number_text.h"
 #include "preprocess/base/counted_list.h"
 
 namespace splatray {
 namespace {
 
 constexpr double LEAST_STEPS = 1000.0;  // of the lattice across an object whose shape it keeps
-
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
 
 std::string counted_points(std::uint64_t count) {
   return std::to_string(count) + (count == 1 ? " point" : " points");

@@ -27,9 +27,9 @@ struct Asked {
 };
 
 constexpr const char* PLACES =
-    "; each place X,Y,Z in the file's coordinates, snapped to the nearest surface, or a ray X,Y,Z>DX,DY,DZ, "
-    "of which the "
-    "first hit counts; several with ; between them; repeatable";
+    "; each place X,Y,Z in the file's coordinates, on a surface or a few spacings of its points beside it, "
+    "or a "
+    "ray X,Y,Z>DX,DY,DZ, of which the first hit counts; several with ; between them; repeatable";
 
 void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
   list.set_group("Measures");

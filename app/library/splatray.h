@@ -331,7 +331,8 @@ struct Hits {
 [[nodiscard]] SPLATRAY_API Hits trace(const Scene& scene, std::span<const Double3> origins,
                                       std::span<const Double3> directions, const Progress& progress = {});
 
-/// Where to measure: a place, which goes to the nearest surface, or a ray from there, whose first hit counts.
+/// Where to measure: a place, which goes to the nearest surface and is refused where that is farther than four spacings of its points, or
+/// a ray from there, whose first hit counts.
 struct MeasurePlace {
   Double3 at{};
   std::optional<Double3> direction{};  ///< of a ray; any length > 0

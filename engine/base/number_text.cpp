@@ -56,6 +56,12 @@ std::vector<double> split_numbers(std::string_view text, char separator, std::si
   return numbers.size() == count ? numbers : std::vector<double>{};
 }
 
+std::string short_number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
 std::string bytes_text(std::uint64_t bytes) {
   const double mib = static_cast<double>(bytes) / (1024.0 * 1024.0);
   char text[40];

@@ -12,6 +12,8 @@ namespace splatray {
 [[nodiscard]] std::string number_text(double value);
 /// The same for a float: the nearest double, rounded to float, is exactly `value`.
 [[nodiscard]] std::string number_text(float value);
+/// Three digits for people: "0.0214", "2e+03".
+[[nodiscard]] std::string short_number(double value);
 /// The components with `separator` between them.
 [[nodiscard]] std::string number_text(const glm::dvec3& v, char separator = ',');
 [[nodiscard]] std::string number_text(const glm::vec3& v, char separator = ',');

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@ constexpr float BASE_LEAST = 0.05F;    ///< light of darker surfaces is that of 
 constexpr float NOISE_WIDTH = 1.5F;    ///< standard errors of a difference by which light may differ
 constexpr float OWN_WIDTH = 6.0F;      ///< the same in the half that is filtered, whose own outliers stay out
 constexpr float RIM_LIKENESS = 0.01F;  ///< less, and a neighbour is of another surface
+constexpr float RADIANCE_MOST = 1e15F;  ///< light of more, over a base colour, has a square beyond float32
 constexpr float KERNEL[] = {0.375F, 0.25F, 0.0625F};  ///< B3 spline
 constexpr float SMALL_KERNEL[] = {0.5F, 0.25F};       ///< of the guide
 
@@ -277,11 +279,54 @@ class Filter {
   const SurfaceLikeness surfaces_;
 };
 
+bool is_finite(const vec4& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+void limit(std::span<vec4> pixels, float least, float most) {
+  for (vec4& pixel : pixels)
+    if (is_finite(pixel)) pixel = vec4(glm::clamp(vec3(pixel), least, most), pixel.w);
+}
+
+/// Gives pixels that are not finite the mean of the finite ones around.
+void fill_holes(std::span<vec4> pixels, const PixelRows& rows) {
+  std::vector<std::pair<std::size_t, vec4>> filled;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (is_finite(pixels[i])) continue;
+    vec4 sum(0.0F);
+    float count = 0.0F;
+    rows.around(i, 1, 1, 1, [&](const Taps& taps) {
+      if (!is_finite(pixels[taps.tap])) return;
+      sum += pixels[taps.tap];
+      count += 1.0F;
+    });
+    filled.emplace_back(i, sum / std::max(count, 1.0F));
+  }
+  for (const auto& [pixel, value] : filled) pixels[pixel] = value;
+}
+
 }  // namespace
 
-Image denoised(Image image, std::span<const vec4> base) {
+void make_finite(Image& image, std::span<vec4> base) {
+  const PixelRows rows(image.width, image.height);
+  limit(image.rgba, -RADIANCE_MOST, RADIANCE_MOST);
+  limit(image.part, -RADIANCE_MOST, RADIANCE_MOST);
+  limit(base, 0.0F, 1.0F);
+  fill_holes(image.rgba, rows);
+  fill_holes(image.part, rows);
+  fill_holes(base, rows);
+  for (AovPixel& pixel : image.aov) {
+    if (pixel.object == NO_OBJECT || is_finite(vec4(pixel.normal, pixel.z))) continue;
+    pixel.object = NO_OBJECT;
+    pixel.normal = vec3(0.0F);
+    pixel.z = INFINITY;
+  }
+}
+
+Image denoised(Image image, std::vector<vec4> base) {
   assert(image.aov.size() == image.rgba.size() && image.part.size() == image.rgba.size() &&
          base.size() == image.rgba.size());
+  make_finite(image, base);
   image.rgba = Filter(image, base).run();
   return image;
 }

@@ -1,6 +1,7 @@
 #include "engine/image/surface_likeness.h"
 
 #include <cmath>
+#include <limits>
 
 #include "engine/base/vector_clones.h"
 
@@ -22,13 +23,17 @@ SPLATRAY_VECTOR_CLONES void find_likeness(const Surfaces& here, const Surfaces& 
     const float cosine = here.normal_x[k] * there.normal_x[k] + here.normal_y[k] * there.normal_y[k] +
                          here.normal_z[k] * there.normal_z[k];
     float facing = cosine > 0.0F ? cosine : 0.0F;
+    facing = facing < 1.0F ? facing : 1.0F;
     facing *= facing;
     facing *= facing;
     facing *= facing;
     facing *= facing;
     facing *= facing;  // to the power of 32
     const float step = here.depth[k] - there.depth[k];
-    const float expected = DEPTH_SLACK * (slope_x[k] * dx + slope_y[k] * dy) + 1e-4F * here.depth[k];
+    // Depths of parallel rays may lie on both sides of 0.
+    const float depth = here.depth[k] < 0.0F ? -here.depth[k] : here.depth[k];
+    const float expected =
+        DEPTH_SLACK * (slope_x[k] * dx + slope_y[k] * dy) + 1e-4F * depth + std::numeric_limits<float>::min();
     const float of_one = here.object[k] == there.object[k] ? 1.0F : 0.0F;
     like[k] = of_one * facing * decay(-(step < 0.0F ? -step : step) / expected);
   }

@@ -9,9 +9,10 @@
 
 namespace splatray {
 
-/// e^x for x <= 0, to 2e-5 of it, in loops that are vectorised; e^-87 below -87.
+/// e^x for x <= 0, to 2e-5 of it, in loops that are vectorised; e^-87 below -87 and of NaN, 1 above 0.
 [[nodiscard]] inline float decay(float x) {
-  const float powers = (x > -87.0F ? x : -87.0F) * 1.442695041F;  // of two
+  const float least = x > -87.0F ? x : -87.0F;
+  const float powers = (least < 0.0F ? least : 0.0F) * 1.442695041F;  // of two
   const int whole = static_cast<int>(powers);
   const float f = powers - static_cast<float>(whole);  // -1 to 0: the first terms of 2^f
   const float part =

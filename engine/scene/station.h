@@ -15,7 +15,8 @@ struct Station {
   std::optional<glm::dvec3> sensor_world;  ///< where the scanner was, as far as the file says it credibly
   std::uint32_t rows = 0;                  ///< of its grid; 0 = not structured
   std::uint32_t columns = 0;
-  /// How far its points lie off their surface, standard deviation, as they were measured: before any smoothing; 0 = unknown.
+  /// How far its points lie off their surface, standard deviation, as they were measured: before any smoothing, and at least what
+  /// explains how far smoothing moved them; 0 = unknown.
   double noise_world = 0.0;
   double step_world = 0.0;  ///< what its coordinates are multiples of, along the coarsest axis; 0 = unknown
 };

@@ -108,6 +108,19 @@ void note_quality(Cloud& cloud, const std::vector<double>& steps, const std::vec
   }
 }
 
+/// Raises the noise of stations where it does not explain how far points were moved: they lay in layers that became one, or moved
+/// much farther (of simulated tripods' noise 1.2 times as far as measured).
+void note_moved(Cloud& cloud, const Smoothed& smoothed) {
+  constexpr double UNEXPLAINED = 2.0;
+  // Two layers that became one lie off by m each, in opposite ways, so their distance by 2 m. Its 95 % hold that where the noise is
+  // 1.25 m: 1.96 sqrt(2) 1.25 m / sqrt(3), as surface_point.cpp has it.
+  constexpr double OF_MOVED = 1.25;
+  const double moved = smoothed.moved_median_world;
+  for (Station& station : cloud.stations)
+    if (smoothed.layered || moved > UNEXPLAINED * station.noise_world)
+      station.noise_world = std::max(station.noise_world, OF_MOVED * moved);
+}
+
 /// Looks at all points once; given normals that are noisy, as those of a scanner's grid are, are estimated anew from all scans
 /// together, on their sides.
 Survey look_at(Cloud& cloud, const glm::dvec3& up, const BuildParams& params, const Stage& stage) {
@@ -165,6 +178,7 @@ void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, Sm
   stats.smoothed += smoothed.moved;
   stats.dropped_unsupported += smoothed.dropped;
   stats.moved_median_world = std::max(stats.moved_median_world, smoothed.moved_median_world);
+  note_moved(cloud, smoothed);
 }
 
 /// Those of these points whose sides no given normal says.
@@ -189,6 +203,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   const bool all_in_grids = grids.points > 0 && grids.points == cloud.size();
   if (all_in_grids && !(params.smooth_world > 0.0)) {
     note_quality(cloud, steps, {});
+    note_moved(cloud, {.moved = grids.moved, .moved_median_world = grids.moved_median_world});
     if (grids.normals > 0) ++stats.sides_by[static_cast<std::size_t>(SideRung::sensor)];
     return grids.normals;
   }
@@ -221,6 +236,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   }
   stats.noise = std::max(stats.noise, how.noise);
   note_quality(cloud, steps, station_noise_world(cloud, survey));
+  note_moved(cloud, {.moved = grids.moved, .moved_median_world = grids.moved_median_world});
   const std::uint64_t unknown = count_unknown(survey);
   if (params.smooth_world > 0.0 || (params.smooth_world < 0.0 && noisy)) {
     move_to_surface(cloud, survey, params, std::move(how), stage, stats);

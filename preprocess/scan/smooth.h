@@ -24,6 +24,7 @@ struct Smoothed {
   std::uint64_t moved = 0;
   std::uint64_t dropped = 0;        ///< had fewer than 6 neighbours on their surface
   double moved_median_world = 0.0;  ///< how far the points moved
+  bool layered = false;             ///< most of them moved about as far: they lay in two layers
 };
 
 /// Projects points and their normals once onto the plane of their surroundings, by moving least squares (Levin 2003; Alexa et

@@ -10,7 +10,8 @@ void write_aov(uvec2 pixel, uint index) {
   Ray ray = center_ray(pixel, eye_distance);
   Hit hit = trace_nearest(ray, frame.kappa, tally);
   aov[index].normal = hit.found ? hit.normal : vec3(0.0f);
-  aov[index].z = hit.found ? (hit.t + eye_distance) * frame.root_unit_world : INFINITY_F;
+  // A blended hit may lie a little before the first disc's, and so before the eye.
+  aov[index].z = hit.found ? max(hit.t + eye_distance, 0.0f) * frame.root_unit_world : INFINITY_F;
   aov[index].object = hit.object;
   aov[index].splat = (hash_words(hit.first) & ~1u) | (hit.front ? 1u : 0u);
   aov[index].tests = tally.tests;

@@ -34,7 +34,7 @@ class Adaptive : public ::testing::Test {
       scene_of({{sphere({.count = 2000, .even = true, .seed = 3}, 1.0), test_material(MATERIAL_TWO_SIDED)}});
   const Camera camera_;
   VulkanDevice device_;
-  ShownTracer tracer_{device_};
+  ShownTracer tracer_{device_, tested_kernels()};
   Settings settings_;
   std::vector<vec4> truth_;
 };

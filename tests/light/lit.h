@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -66,6 +67,12 @@ inline OrientedPoints ball_at(const dvec3& center, double radius, std::size_t sp
   return points;
 }
 
+/// The kernels that suit the device; with SPLATRAY_LIGHT_KERNELS=gpu those that GPUs run, on any device.
+inline TracerOptions tested_kernels() {
+  const char* wanted = std::getenv("SPLATRAY_LIGHT_KERNELS");
+  return {.kernels = wanted != nullptr && std::string(wanted) == "gpu" ? Kernels::gpu : Kernels::automatic};
+}
+
 /// A scene on a device, and pictures of it.
 class Lit : public ::testing::Test {
  protected:
@@ -83,7 +90,7 @@ class Lit : public ::testing::Test {
   void TearDown() override { EXPECT_EQ(device_.validation_messages(), 0U); }
 
   VulkanDevice device_;
-  ShownTracer tracer_{device_};
+  ShownTracer tracer_{device_, tested_kernels()};
 };
 
 /// A plane of splats, 4 x 4 in y = 0, seen from straight above at its middle.

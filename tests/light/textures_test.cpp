@@ -237,7 +237,9 @@ TEST_F(Textures, AreTheSplatsOwnWhereverTheyLie) {
   std::vector<std::vector<vec4>> pictures;
   for (const DataPool data : {DataPool::copies, DataPool::references})
     for (const std::uint64_t page : {std::uint64_t{UINT64_MAX}, std::uint64_t{4096}}) {
-      ShownTracer tracer(device_, {.pools = {.data = data, .page_elements = page}});
+      TracerOptions options = tested_kernels();
+      options.pools = {.data = data, .page_elements = page};
+      ShownTracer tracer(device_, options);
       tracer.upload(scene);
       EXPECT_GT(tracer.pool_bytes().at(BIND_TEXTURE_POOL), 0U);
       const Camera camera{dvec3(0.0, 3.0, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 40.0, 0.001};

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/library/measure/measure_file.h"
 #include "app/library/measure/measure_text.h"
 #include "app/library/measure/surface_point.h"
+#include "app/library/picture/measuring.h"
 #include "app/library/request/value_text.h"
 #include "data/shapes.h"
 #include "engine/base/error.h"
+#include "tests/scan_sim/built_scan.h"
 #include "tests/temp_folder.h"
 #include "tests/trace/scenes.h"
 
@@ -99,6 +102,7 @@ std::vector<Measure> all_kinds() {
       measure_of(MeasureKind::angle, {{0, 0, 0}, {1, 0, 4}, {2, 2, 2}}),
       measure_of(MeasureKind::area, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0.0, 0.0, 0.001}),
       measure_of(MeasureKind::cylinder, {{1, 2, 3}})};
+  measures.front().points.front().sideways = {0.01, 0.0, 0.02};
   measures.back().fit = RadiusFit{0.25, 0.001, 0.002, FAR_AWAY, {0.0, 0.6, 0.8}, 77};
   return measures;
 }
@@ -135,21 +139,89 @@ TEST(MeasureFile, OfDxfHasPairsOfCodeAndValueInAscii) {
   EXPECT_NE(text.find("%%p"), std::string::npos);
 }
 
-TEST(SurfacePoint, IsTheNearestOfTheDiscsInTheRegion) {
-  const Scene scene = testing::scene_of(
+const Scene& ball() {
+  static const Scene scene = testing::scene_of(
       {{sphere({.count = 20000, .even = true, .seed = 7}, 1.0), testing::test_material(0)}});
-  const auto point = nearest_point(scene, {}, {0.0, 0.0, 3.0});
+  return scene;
+}
+
+Region below(double z) {
+  Region region;
+  region.kept = {{glm::dvec3(0.0, 0.0, z), glm::dvec3(0.0, 0.0, -1.0)}};
+  return region;
+}
+
+TEST(SurfacePoint, IsTheNearestOfTheDiscsInTheRegion) {
+  const auto point = nearest_point(ball(), {}, {0.0, 0.0, 3.0});
   ASSERT_TRUE(point);
-  EXPECT_LT(glm::distance(point->place, glm::dvec3(0.0, 0.0, 1.0)), 0.02);
-  EXPECT_LT(glm::length(point->error), 1e-3);
-  Region below;
-  below.kept = {{glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -1.0)}};
-  const auto lower = nearest_point(scene, below, {0.0, 0.5, 3.0});
+  EXPECT_LT(glm::distance(point->point.place, glm::dvec3(0.0, 0.0, 1.0)), 0.02);
+  EXPECT_LT(glm::length(point->point.error), 1e-3);
+  EXPECT_NEAR(point->distance_world, 2.0, 1e-3);
+  EXPECT_NEAR(point->spacing_world, std::sqrt(4.0 * std::numbers::pi / 20000.0), 0.004);
+  const auto lower = nearest_point(ball(), below(0.0), {0.0, 0.5, 3.0});
   ASSERT_TRUE(lower);
-  EXPECT_LT(lower->place.z, 0.02);
-  const auto fit = radius_near(scene, {}, {0.0, 0.0, 1.0}, 0.5, MeasureKind::sphere);
+  EXPECT_LT(lower->point.place.z, 0.02);
+  const auto fit = radius_near(ball(), {}, {0.0, 0.0, 1.0}, 0.5, MeasureKind::sphere);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->radius, 1.0, 1e-3);
+}
+
+TEST(SurfacePoint, IsRefusedFarFromThePlace) {
+  const double spacing = nearest_point(ball(), {}, {0.0, 0.0, 1.0})->spacing_world;
+  const auto measured = [](const GivenMeasure& given) { return take_measure(ball(), {}, given, nullptr); };
+  const GivenPlace on{{0.0, 0.0, 1.0}, {}}, near{{0.0, 0.0, 1.0 + 3.0 * spacing}, {}};
+  const GivenPlace off{{0.0, 0.0, 1.0 + 5.0 * spacing}, {}}, far{{2000.0, 0.0, 0.0}, {}};
+  for (int i = 0; i < MEASURE_KINDS; ++i) {
+    const auto kind = static_cast<MeasureKind>(i);
+    for (const GivenPlace& last : {on, near, off, far}) {
+      GivenMeasure given{kind, std::vector(points_needed(kind), on), is_fitted(kind) ? 0.5 : 0.0};
+      given.places.back() = last;
+      const bool reached = last == on || last == near || (last == off && is_fitted(kind));
+      if (reached)
+        EXPECT_NO_THROW((void)measured(given)) << measure_name(kind);
+      else
+        EXPECT_THROW((void)measured(given), Error) << measure_name(kind);
+    }
+  }
+  try {
+    (void)measured({MeasureKind::point, {far}});
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the place 2000,0,0 lies 2e+03 from the nearest surface"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+/// The discs end below a place that is on the ball: the point beside it says how far beside.
+TEST(SurfacePoint, HoldsItsWaySidewaysInTheInterval) {
+  const double spacing = nearest_point(ball(), {}, {1.0, 0.0, 0.0})->spacing_world, angle = 3.0 * spacing;
+  const glm::dvec3 place(std::cos(angle), 0.0, std::sin(angle));
+  const auto nearest = nearest_point(ball(), below(0.0), place);
+  ASSERT_TRUE(nearest);
+  const Measure measure{MeasureKind::point, {nearest->point}};
+  const MeasureValue z = values_of(measure, UP)[2];
+  EXPECT_GT(std::abs(z.value - place.z), spacing);
+  EXPECT_LT(std::abs(z.value - place.z), z.within);
+  EXPECT_LT(z.within, 8.0 * spacing);
+}
+
+/// Two sheets that smoothing makes one, because it was told to: their distance is lost, and the interval holds it.
+TEST(SurfacePoint, HoldsWhatSmoothingMovedItInTheInterval) {
+  constexpr double APART = 0.05;
+  Points points;
+  for (int i = 0; i < 8000; ++i) {
+    const double turn = 0.618033988749895 * i;
+    points.position.emplace_back(2.0 * i / 8000.0, 2.0 * (turn - std::floor(turn)), i % 2 == 0 ? 0.0 : APART);
+  }
+  const testing::BuiltScan built = testing::build_scan(points, {.smooth_world = 0.3});
+  ASSERT_GT(built.stats.moved_median_world, 0.4 * APART) << "nothing moved, nothing shown";
+  Measure measure{MeasureKind::height, {}};
+  for (const double z : {0.0, APART})
+    measure.points.push_back(nearest_point(built.scene, {}, {1.0, 1.0, z})->point);
+  const MeasureValue height = values_of(measure, UP).front();
+  EXPECT_LT(std::abs(height.value), 0.1 * APART);
+  EXPECT_LT(std::abs(height.value - APART), height.within);
+  EXPECT_LT(height.within, 1.5 * APART);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ Places places_of(const Measure& measure) {
   return places;
 }
 
-/// A value of the points' places and its interval: each point's error moves it by so much, this way or the other.
+/// A value of the points' places and its interval: each of a point's errors moves it by so much, this way or the other.
 MeasureValue propagated(const char* name, MeasureUnit unit, const Measure& measure,
                         const std::function<double(const Places&)>& value_of) {
   Places places = places_of(measure);
@@ -41,13 +41,15 @@ MeasureValue propagated(const char* name, MeasureUnit unit, const Measure& measu
   double variance = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const glm::dvec3 place = places[i];
-    double most = 0.0;
-    for (const double way : {1.0, -1.0}) {
-      places[i] = place + way * measure.points[i].error;
-      most = std::max(most, std::abs(value_of(places) - value));
+    for (const glm::dvec3& error : {measure.points[i].error, measure.points[i].sideways}) {
+      double most = 0.0;
+      for (const double way : {1.0, -1.0}) {
+        places[i] = place + way * error;
+        most = std::max(most, std::abs(value_of(places) - value));
+      }
+      variance += most * most;
     }
     places[i] = place;
-    variance += most * most;
   }
   return {name, value, OF_95_PERCENT * std::sqrt(variance), unit};
 }

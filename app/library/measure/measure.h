@@ -16,6 +16,8 @@ struct SurfacePoint {
   glm::dvec3 place{0.0};  ///< world
   /// Which way it moves where the surface is elsewhere, as long as the standard deviation of that; 0 = exact.
   glm::dvec3 error{0.0};
+  /// Which way it was moved along the surface from the place that was given, and how far: an error as the other is; 0 = not.
+  glm::dvec3 sideways{0.0};
 
   bool operator==(const SurfacePoint&) const = default;
 };

@@ -36,9 +36,13 @@ Json properties_of(const Measure& measure, const glm::dvec3& up) {
     properties[value.name] = value.value;
     properties[value.name + "_within_95"] = value.within;
   }
-  Json errors = Json::array();
-  for (const SurfacePoint& point : measure.points) errors.push_back(json_vector(point.error));
+  Json errors = Json::array(), sideways = Json::array();
+  for (const SurfacePoint& point : measure.points) {
+    errors.push_back(json_vector(point.error));
+    sideways.push_back(json_vector(point.sideways));
+  }
   properties["errors"] = errors;
+  properties["errors_sideways"] = sideways;
   if (!measure.fit) return properties;
   properties["radius_error"] = measure.fit->radius_error;
   properties["center"] = json_vector(measure.fit->center);
@@ -109,8 +113,11 @@ Measure measure_of(const Json& feature) {
     places = Json(places.at(0));
     if (!places.empty()) places.erase(places.size() - 1);
   }
+  const bool has_sideways = properties.contains("errors_sideways");  // files of older versions have none
   for (std::size_t i = 0; i < places.size(); ++i)
-    measure.points.push_back({vector_of(places[i]), vector_of(properties.at("errors").at(i))});
+    measure.points.push_back(
+        {vector_of(places[i]), vector_of(properties.at("errors").at(i)),
+         has_sideways ? vector_of(properties.at("errors_sideways").at(i)) : glm::dvec3(0.0)});
   if (!properties.contains("center")) return measure;
   measure.fit = RadiusFit{properties.at("radius"),          properties.at("radius_error"),
                           properties.at("residual"),        vector_of(properties.at("center")),

@@ -8,7 +8,7 @@
 
 namespace splatray {
 
-/// A place as it is given: a point, snapped to the nearest surface, or a ray, whose first hit counts.
+/// A place as it is given: a point, moved to the nearest surface if that is near, or a ray, whose first hit counts.
 struct GivenPlace {
   glm::dvec3 place{0.0};                ///< world
   std::optional<glm::dvec3> direction;  ///< of a ray from there

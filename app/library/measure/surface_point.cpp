@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "app/library/measure/least_squares.h"
@@ -19,7 +20,7 @@ constexpr double STEEPEST = 0.1;     ///< least cosine of a ray with the surface
 
 struct Near {
   double distance_squared;
-  glm::dvec3 place;
+  glm::dvec3 place, normal;
 
   bool operator<(const Near& other) const { return distance_squared < other.distance_squared; }
 };
@@ -30,9 +31,10 @@ std::vector<Near> near_splats(const Scene& scene, const SurfaceSpot& spot) {
   for (const uvec4& words : scene.data_pool) {
     const glm::dvec3 place = scene.root.to_world(unpack_center(words));
     const glm::dvec3 to = place - spot.place;
-    const Near near{glm::dot(to, to), place};
+    Near near{glm::dot(to, to), place, glm::dvec3(0.0)};
     if (heap.size() == NEAR && !(near < heap.front())) continue;
-    if (std::abs(glm::dot(unpack_splat(words).normal, spot.normal)) < SAME_SIDE) continue;
+    near.normal = unpack_splat(words).normal;
+    if (std::abs(glm::dot(near.normal, spot.normal)) < SAME_SIDE) continue;
     heap.push_back(near);
     std::push_heap(heap.begin(), heap.end());
     if (heap.size() <= NEAR) continue;
@@ -70,10 +72,7 @@ double quadric_residual(const std::vector<Near>& near, const SurfaceSpot& spot) 
   return std::sqrt(squares / std::max(static_cast<double>(near.size()) - 6.0, 1.0));
 }
 
-}  // namespace
-
-double surface_error(const Scene& scene, const SurfaceSpot& spot) {
-  const std::vector<Near> near = near_splats(scene, spot);
+double surface_error(const Scene& scene, const SurfaceSpot& spot, const std::vector<Near>& near) {
   const double noise = most_noise_world(scene.stations);
   double step = scene.root.unit_world;
   for (const Station& station : scene.stations) step = std::max(step, station.step_world);
@@ -81,13 +80,30 @@ double surface_error(const Scene& scene, const SurfaceSpot& spot) {
   return std::sqrt(residual * residual + noise * noise / AVERAGED + step * step / 12.0);
 }
 
+/// The mean normal of splats, towards the spot's side: one disc's own is as rough as its points.
+glm::dvec3 mean_normal(const std::vector<Near>& near, const SurfaceSpot& spot) {
+  glm::dvec3 sum(0.0);
+  for (const Near& splat : near)
+    sum += glm::dot(splat.normal, spot.normal) < 0.0 ? -splat.normal : splat.normal;
+  return near.empty() ? spot.normal : glm::normalize(sum);
+}
+
+/// The side of the square that each splat of a disc around the spot has for itself.
+double spacing_of(const std::vector<Near>& near) {
+  double farthest = 0.0;
+  for (const Near& splat : near) farthest = std::max(farthest, splat.distance_squared);
+  return std::sqrt(std::numbers::pi * farthest / static_cast<double>(std::max<std::size_t>(near.size(), 1)));
+}
+
+}  // namespace
+
 SurfacePoint point_on_ray(const Scene& scene, const SurfaceSpot& spot, const glm::dvec3& direction) {
   const glm::dvec3 along = glm::normalize(direction);
   const double facing = std::max(std::abs(glm::dot(along, spot.normal)), STEEPEST);
-  return {spot.place, surface_error(scene, spot) / facing * along};
+  return {spot.place, surface_error(scene, spot, near_splats(scene, spot)) / facing * along};
 }
 
-std::optional<SurfacePoint> nearest_point(const Scene& scene, const Region& region, const glm::dvec3& place) {
+std::optional<SnappedPoint> nearest_point(const Scene& scene, const Region& region, const glm::dvec3& place) {
   double least = std::numeric_limits<double>::infinity();
   SurfaceSpot spot;
   for (const uvec4& words : scene.data_pool) {
@@ -103,7 +119,11 @@ std::optional<SurfacePoint> nearest_point(const Scene& scene, const Region& regi
     spot = {center + on_disc, splat.normal};
   }
   if (!std::isfinite(least)) return {};
-  return SurfacePoint{spot.place, surface_error(scene, spot) * spot.normal};
+  const std::vector<Near> near = near_splats(scene, spot);
+  const glm::dvec3 moved = spot.place - place, normal = mean_normal(near, spot);
+  const SurfacePoint point{spot.place, surface_error(scene, spot, near) * spot.normal,
+                           moved - glm::dot(moved, normal) * normal};
+  return SnappedPoint{point, glm::length(moved), spacing_of(near)};
 }
 
 std::optional<RadiusFit> radius_near(const Scene& scene, const Region& region, const glm::dvec3& place,
@@ -115,7 +135,10 @@ std::optional<RadiusFit> radius_near(const Scene& scene, const Region& region, c
     points.push_back(center);
     normals.push_back(unpack_splat(words).normal);
   }
-  return kind == MeasureKind::sphere ? fit_sphere(points, normals) : fit_cylinder(points, normals);
+  auto fit = kind == MeasureKind::sphere ? fit_sphere(points, normals) : fit_cylinder(points, normals);
+  const double noise = most_noise_world(scene.stations);
+  if (fit && fit->residual > 0.0) fit->radius_error *= std::max(1.0, noise / fit->residual);
+  return fit;
 }
 
 }  // namespace splatray

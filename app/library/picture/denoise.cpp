@@ -112,10 +112,13 @@ class OpenImageDenoise {
 
 std::string remove_noise(Tracer& tracer, const Look& look, const View& view, const Settings& settings,
                          Image& image) {
-  const std::vector<vec4> base = base_colors(tracer, look, view, settings);
+  std::vector<vec4> base = base_colors(tracer, look, view, settings);
   static const std::optional<OpenImageDenoise> library = OpenImageDenoise::find();
-  if (library) return "Open Image Denoise " + library->run(image, base);
-  image = denoised(std::move(image), base);
+  if (library) {
+    make_finite(image, base);
+    return "Open Image Denoise " + library->run(image, base);
+  }
+  image = denoised(std::move(image), std::move(base));
   return "splatray's own filter";
 }
 

@@ -10,6 +10,10 @@
 namespace splatray {
 namespace {
 
+/// From how far a place is moved to a surface, in spacings of its points: as far as someone may be off who means a point of it. The
+/// nearest point of what is farther away is a guess.
+constexpr double SNAP_SPACINGS = 4.0;
+
 SurfacePoint first_hit(SceneOnDevice& shown, const Scene& scene, const Region& region,
                        const GivenPlace& given) {
   Settings settings;
@@ -25,6 +29,20 @@ SurfacePoint first_hit(SceneOnDevice& shown, const Scene& scene, const Region& r
   return point_on_ray(scene, {given.place + t_world * along, glm::dvec3(hits[0].normal)}, along);
 }
 
+/// The surface's point nearest to a place, if it is that near. A place of a sphere or cylinder may be its middle.
+SurfacePoint snapped(const Scene& scene, const Region& region, const GivenMeasure& given,
+                     const glm::dvec3& place) {
+  const std::optional<SnappedPoint> nearest = nearest_point(scene, region, place);
+  if (!nearest) throw Error(ExitCode::failed, "found nothing in the region, expected something to measure");
+  const double most = std::max(SNAP_SPACINGS * nearest->spacing_world, given.reach);
+  if (nearest->distance_world <= most) return nearest->point;
+  throw Error(ExitCode::failed,
+              "the place " + number_text(place) + " lies " + short_number(nearest->distance_world) +
+                  " from the nearest surface, at " + number_text(nearest->point.place) +
+                  "; expected at most " + short_number(most) +
+                  ", four spacings of the points there, or a ray, of which the first hit counts");
+}
+
 }  // namespace
 
 Measure take_measure(const Scene& scene, const Region& region, const GivenMeasure& given,
@@ -32,10 +50,8 @@ Measure take_measure(const Scene& scene, const Region& region, const GivenMeasur
   Measure measure{given.kind, {}};
   for (const GivenPlace& place : given.places) {
     assert(!place.direction || shown != nullptr);
-    const std::optional<SurfacePoint> point =
-        place.direction ? first_hit(*shown, scene, region, place) : nearest_point(scene, region, place.place);
-    if (!point) throw Error(ExitCode::failed, "found nothing in the region, expected something to measure");
-    measure.points.push_back(*point);
+    measure.points.push_back(place.direction ? first_hit(*shown, scene, region, place)
+                                             : snapped(scene, region, given, place.place));
   }
   if (!is_fitted(given.kind)) return measure;
   measure.fit = radius_near(scene, region, measure.points[0].place, given.reach, given.kind);
