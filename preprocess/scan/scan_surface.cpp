@@ -187,6 +187,23 @@ std::vector<std::uint32_t> unsided_of(const Survey& survey, std::vector<std::uin
   return points;
 }
 
+/// Turns these points' normals, and the planes at creases and borders, to their sides.
+SidesFound find_sides(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points,
+                      const glm::dvec3& up, const Stage& stage, std::vector<SharpSide>& sharp) {
+  const SidesFound sides = turn_to_sides(cloud, survey, points, up, stage);
+  turn_with_points(cloud, sharp);
+  take_normals(cloud, sharp);
+  return sides;
+}
+
+/// part_layers where noise would join them, and of walls alone, of which nothing says yet which side is which.
+std::vector<float> find_layers(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points,
+                               const SidesFound& sides, bool noisy, const Stage& stage) {
+  const bool wall = sides.rung == SideRung::up && !sides.terrain;
+  return wall || noisy ? part_layers(cloud, survey, points, sides.rung == SideRung::votes, stage)
+                       : std::vector<float>{};
+}
+
 /// How many normals were not given.
 std::uint64_t count_unknown(const Survey& survey) {
   const auto estimated = std::count(survey.estimated.begin(), survey.estimated.end(), 1);
@@ -215,20 +232,15 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   const auto estimated = numbers_where(
       cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0 && cloud.on_surface(i); });
   const auto unsided = unsided_of(survey, estimated);
-  const SidesFound sides = turn_to_sides(cloud, survey, unsided, up, stage);
+  const SidesFound sides = find_sides(cloud, survey, unsided, up, stage, sharp);
   if (!estimated.empty()) ++stats.sides_by[static_cast<std::size_t>(sides.rung)];
   stats.sides_unsure += sides.unsure;
-  turn_with_points(cloud, sharp);
-  take_normals(cloud, sharp);
   const PairHeights heights = pair_heights(cloud, survey, estimated);
   const bool sharply = static_cast<double>(sharp.size()) > SHARP * static_cast<double>(cloud.size());
   const bool noisy = is_noise(heights, sides.terrain) && !sharply;
   SmoothParams how{.sided = unsided.empty() || sides.rung == SideRung::sensor,
                    .noise_length = heights.near_length};
-  const bool thin =
-      sides.rung == SideRung::up && !sides.terrain;  // a wall: which side of it is which is not known yet
-  if (thin || (noisy && !how.sided))
-    how.sheet_end = part_layers(cloud, survey, unsided, sides.rung == SideRung::votes, stage);
+  if (!how.sided) how.sheet_end = find_layers(cloud, survey, unsided, sides, noisy, stage);
   how.noise = measure_noise(cloud, survey);
   if (!cloud.kind.empty()) {
     const bool terrain = sides.rung == SideRung::up || sides.rung == SideRung::track;
