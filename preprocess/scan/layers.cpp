@@ -86,16 +86,26 @@ bool are_opposite(const std::vector<Seen>& seen, std::size_t split) {
   return low * high < 0.0F;
 }
 
-/// Whether what lies above the split covers what lies below it, and not what is beside that.
+/// Whether what lies above the split covers what lies below it, and is not what is beside that: its middle is there, too, and of
+/// the nearer half of all places, seen from above, it has its part. The rims of a bent sheet have not.
 bool covers(const std::vector<Seen>& seen, std::size_t split) {
   glm::vec3 low(0.0F), high(0.0F);
   float far = 0.0F;
+  std::vector<float> along(seen.size());
   for (std::size_t k = 0; k < seen.size(); ++k) {
     (k < split ? low : high) += seen[k].along;
-    far += glm::length(seen[k].along);
+    along[k] = glm::length(seen[k].along);
+    far += along[k];
   }
-  const glm::vec3 apart = high / static_cast<float>(seen.size() - split) - low / static_cast<float>(split);
-  return glm::length(apart) < BESIDE * far / static_cast<float>(seen.size());
+  const auto count = static_cast<float>(seen.size());
+  const glm::vec3 apart = high / (count - static_cast<float>(split)) - low / static_cast<float>(split);
+  if (!(glm::length(apart) < BESIDE * far / count)) return false;
+  std::vector<float> ranked = along;
+  const float near = median_of(std::span(ranked));
+  std::size_t below = 0, above = 0;
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    if (along[k] <= near) ++(k < split ? below : above);
+  return 4 * std::min(below, above) >= below + above;
 }
 
 /// Where the sheet of a point ends, seen from it.

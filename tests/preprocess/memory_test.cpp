@@ -38,7 +38,12 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
   const auto unit = static_cast<std::size_t>(alignment);
   return taken(std::aligned_alloc(unit, (bytes + unit - 1) / unit * unit));
 }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  void* const block = std::malloc(bytes);
+  return block == nullptr ? nullptr : taken(block);
+}
 void operator delete(void* block) noexcept { give_back(block); }
+void operator delete(void* block, const std::nothrow_t&) noexcept { give_back(block); }
 void operator delete(void* block, std::size_t) noexcept { give_back(block); }
 void operator delete(void* block, std::align_val_t) noexcept { give_back(block); }
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept { give_back(block); }
