@@ -2,7 +2,7 @@
 
 The programs give the same bits each time, so figures have no noise of measuring but for CPU seconds. What they have is the noise of
 which points there happen to be: any change of a rule draws that anew. It is known of each kind of figure: counts of pixels and points
-scatter as counts do (Poisson), and quantiles as those of meshes that were sampled with other seeds did (SEEDS)."""
+scatter as counts do (Poisson), and of the others SHARES says what is taken for it."""
 
 import dataclasses
 import math
@@ -15,6 +15,8 @@ COUNTS = {"wrong": "pixels", "holes": "pixels", "far": "pixels", "sides": "point
 SHARES = {"normals": (0.03, 0.02), "depth": (0.03, 0.3), "strays": (0.03, 0.5), "bytes a point": (0.01, 1.0), "light": (0.02, 0.2), "parts": (0.05, 0.3),
           "cover": (0.02, 0.2), "thickness": (0.05, 0.05), "outside": (0.0, 5.0), "within": (0.05, 0.05), "tile": (0.0, 0.03),
           "failed": (0.0, 0.5), "peak MB": (0.05, 1.0)}
+# What is a difference from the last table already.
+DIFFERENCES = ("tile differs",)
 # Of CPU seconds, which another load on the machine lengthens; of tables of other machines they are not compared.
 CPU_SHARE = 0.15
 
@@ -49,16 +51,17 @@ def noise_of(figure, before, after, sizes):
 
 
 def compare(before, after):
-    """All figures that both tables have."""
+    """All figures that both tables have, and differences."""
     changes = []
     same_machine = before.get("machine") == after["machine"]
     for part, cases in after["parts"].items():
         for case, figures in cases.items():
             old = before["parts"].get(part, {}).get(case, {})
             for figure, value in figures.items():
-                if figure in COUNTS.values() or figure not in old or figure == "CPU s" and not same_machine:
+                was = 0.0 if figure in DIFFERENCES else old.get(figure)
+                if figure in COUNTS.values() or was is None or figure == "CPU s" and not same_machine:
                     continue
-                changes.append(Change(part, case, figure, old[figure], value, noise_of(figure, old[figure], value, figures)))
+                changes.append(Change(part, case, figure, was, value, noise_of(figure, was, value, figures)))
     return changes
 
 

@@ -50,6 +50,10 @@ class Guard(unittest.TestCase):
     def test_a_scan_that_is_no_longer_read_is_named(self):
         self.assertEqual(words({"failed": 0.0}, {"failed": 1.0}), {"failed": "worse"})
 
+    def test_a_tile_that_looks_different_is_named_whatever_the_last_table_said(self):
+        self.assertEqual(words({"tile differs": 1.0}, {"tile differs": 0.2}), {"tile differs": "worse"})
+        self.assertEqual(words({}, {"tile differs": 0.01}), {"tile differs": ""})
+
     def test_cases_that_one_table_lacks_are_said(self):
         before, after = table({"wrong": 1.0}), table({"wrong": 1.0})
         before["parts"]["models"]["dragon"] = {"wrong": 1.0}
