@@ -9,6 +9,7 @@
 #include "engine/base/vector_clones.h"
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
+#include "preprocess/base/stage_memory.h"
 #include "preprocess/scan/layers.h"
 #include "preprocess/scan/reproject.h"
 #include "preprocess/scan/surroundings.h"
@@ -267,6 +268,7 @@ Smoothed smooth_points(Cloud& cloud, Survey survey, const SmoothParams& params, 
   for (std::size_t i = 0; i < sheet_end.size(); ++i) sheet_end[i] -= lift[i];
   release(moved.lift), release(moved.supported), release(supported);
   survey = {};
+  give_back_freed_memory();
   move_points(cloud, lift);
   reproject_points(cloud, {moves, params.sided, params.noise, sheet_end}, lift, stage);
   put_in_order(cloud);
