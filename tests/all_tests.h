@@ -1,6 +1,5 @@
 /// Which tests run: those that a landing must see, or all.
 #pragma once
-
 #include <cstdlib>
 
 namespace splatray::testing {
