@@ -12,9 +12,8 @@ namespace splatray {
 /// point and its near places with like normals, whose heights over each other's planes are |(n_i + n_j).(p_j - p_i)| / 2, the
 /// nearest eighth lies 0.3 to 0.6 of the distance to the 8th place apart.
 struct PairHeights {
-  double near = 0.0;  ///< median height of the nearest pairs over the distance to the 8th place; 0 = unknown
-  double slope =
-      0.0;  ///< of log height over log distance, all pairs: 0 for noise alone, 1 and more for shape
+  double near = 0.0;   ///< median height of the nearest pairs over the distance to the 8th place; 0 = unknown
+  double slope = 0.0;  ///< of log height over log distance: 0 for noise alone, 1 and more for shape
   double near_length = 0.0;  ///< `near` as a length, cloud coordinates
 };
 

@@ -1,6 +1,7 @@
 #include "tests/view/desktop.h"
 
 #include <gtest/gtest.h>
+#include <fstream>
 // After GoogleTest, whose names Xlib's macros would replace.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
@@ -238,6 +239,11 @@ int Program::wait(double seconds) {
   }
   child_ = 0;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace splatray

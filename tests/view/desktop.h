@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -57,5 +58,8 @@ class Program {
  private:
   pid_t child_ = 0;
 };
+
+/// A file's bytes; empty where there is none.
+[[nodiscard]] std::string content(const std::filesystem::path& path);
 
 }  // namespace splatray

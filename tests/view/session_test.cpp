@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -25,11 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class ViewSession : public CliTest {
  protected:
@@ -272,19 +266,20 @@ TEST_F(ViewSession, TwoWindowsLoseNothingOfEachOther) {
 
 TEST_F(ViewSession, OnADenseDisplayTheWindowComesBackAsItWasAndFits) {
   desktop.set_resources("Xft.dpi: 192\n");
-  using Size = std::array<int, 2>;
   const auto size_of_run = [this](std::vector<std::string> words) {
     words.insert(words.begin(), {VIEW, "--samples=2", first});
     Program program(words, viewer_environment(), folder.string(), file("log"));
     const unsigned long window = desktop.wait_for_window("first.ply");
-    const Size size = window != 0 ? desktop.size(window) : Size{};
+    const auto size = window != 0 ? desktop.size(window) : std::array<int, 2>{};
     desktop.close(window);
     EXPECT_EQ(program.wait(), 0);
     return size;
   };
-  EXPECT_EQ(size_of_run({}), (Size{1600, 1000})) << "twice 1280 x 720, but for what the display has not";
-  EXPECT_EQ(size_of_run({"--resolution=600x400"}), (Size{1200, 800})) << "its controls are twice as large";
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(size_of_run({}), (Size{1200, 800})) << "as the one closed last";
+  EXPECT_EQ(size_of_run({}), (std::array{1600, 1000}))
+      << "twice 1280 x 720, but for what the display has not";
+  EXPECT_EQ(size_of_run({"--resolution=600x400"}), (std::array{1200, 800}))
+      << "its controls are twice as large";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(size_of_run({}), (std::array{1200, 800})) << "as the one closed last";
 }
 
 TEST_F(ViewSession, StateThatCannotBeKeptIsNotedAndNothingIsLost) {

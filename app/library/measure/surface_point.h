@@ -23,8 +23,7 @@ struct SurfaceSpot {
 
 /// The point of a surface to which a place is moved.
 struct SnappedPoint {
-  SurfacePoint
-      point;  ///< off along the normal as point_on_ray has it, and by as much as it was moved sideways
+  SurfacePoint point;  ///< off along the normal as point_on_ray has it, and by what it was moved sideways
   double distance_world = 0.0;  ///< from the place
   double spacing_world = 0.0;   ///< of the splats around the point, as if they lay in squares
 };

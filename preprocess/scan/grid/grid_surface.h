@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "preprocess/base/parallel.h"
-#include "preprocess/scan/smooth.h"
+#include "preprocess/scan/smooth/smooth.h"
 #include "preprocess/surface/cloud.h"
 
 namespace splatray {

@@ -1,4 +1,4 @@
-#include "preprocess/scan/smooth.h"
+#include "preprocess/scan/smooth/smooth.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
 #include "preprocess/base/stage_memory.h"
-#include "preprocess/scan/layers.h"
-#include "preprocess/scan/reproject.h"
-#include "preprocess/scan/surroundings.h"
+#include "preprocess/scan/smooth/layers.h"
+#include "preprocess/scan/smooth/reproject.h"
+#include "preprocess/scan/smooth/surroundings.h"
 #include "preprocess/surface/neighbours.h"
 
 namespace splatray {

@@ -1,11 +1,11 @@
-#include "preprocess/scan/reproject.h"
+#include "preprocess/scan/smooth/reproject.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "preprocess/scan/layers.h"
 #include "preprocess/scan/plane_fit.h"
+#include "preprocess/scan/smooth/layers.h"
 #include "preprocess/surface/neighbours.h"
 #include "preprocess/surface/number_lists.h"
 

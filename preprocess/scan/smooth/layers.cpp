@@ -1,11 +1,11 @@
-#include "preprocess/scan/layers.h"
+#include "preprocess/scan/smooth/layers.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 
-#include "preprocess/scan/surroundings.h"
+#include "preprocess/scan/smooth/surroundings.h"
 
 namespace splatray {
 namespace {
