@@ -1,7 +1,6 @@
 #include "tests/view/desktop.h"
 
 #include <gtest/gtest.h>
-#include <fstream>
 // After GoogleTest, whose names Xlib's macros would replace.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
@@ -14,6 +13,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <thread>

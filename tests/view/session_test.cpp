@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -275,11 +274,10 @@ TEST_F(ViewSession, OnADenseDisplayTheWindowComesBackAsItWasAndFits) {
     EXPECT_EQ(program.wait(), 0);
     return size;
   };
-  EXPECT_EQ(size_of_run({}), (std::array{1600, 1000}))
-      << "twice 1280 x 720, but for what the display has not";
-  EXPECT_EQ(size_of_run({"--resolution=600x400"}), (std::array{1200, 800}))
-      << "its controls are twice as large";
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(size_of_run({}), (std::array{1200, 800})) << "as the one closed last";
+  using Size = std::array<int, 2>;
+  EXPECT_EQ(size_of_run({}), (Size{1600, 1000})) << "twice 1280 x 720, but for what the display has not";
+  EXPECT_EQ(size_of_run({"--resolution=600x400"}), (Size{1200, 800})) << "its controls are twice as large";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(size_of_run({}), (Size{1200, 800})) << "as the one closed last";
 }
 
 TEST_F(ViewSession, StateThatCannotBeKeptIsNotedAndNothingIsLost) {
