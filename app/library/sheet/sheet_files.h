@@ -22,8 +22,8 @@ void require_sheet_writer();
 /// Files beside a sheet's that say where its pixels lie; empty ones are not written.
 struct SheetPlaces {
   std::filesystem::path description;  ///< NAME.EXTENSION.sheet.json
-  std::filesystem::path
-      world_file;  ///< beside a PNG or TIFF: NAME.pgw, NAME.tfw (ESRI; centre of the top left pixel)
+  /// Beside a PNG or TIFF: NAME.pgw, NAME.tfw (ESRI; centre of the top left pixel).
+  std::filesystem::path world_file;
   std::filesystem::path crs;          ///< beside a PNG with a known system: NAME.prj
   std::filesystem::path crs_of_gdal;  ///< and NAME.png.aux.xml (GDAL)
 };
