@@ -142,23 +142,30 @@ std::vector<double> station_step_world(const Cloud& cloud) {
 
 PairHeights pair_heights(const Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points) {
   if (points.size() < FEWEST) return {};
-  std::vector<float> reach(points.size());
-  std::transform(points.begin(), points.end(), reach.begin(),
-                 [&](std::uint32_t i) { return survey.reach[i]; });
+  std::vector<float> reach;
+  for (std::size_t n = 0; n < points.size(); n += points.size() / MOST_SORTED + 1)
+    reach.push_back(survey.reach[points[n]]);
   select_nth(std::span(reach), reach.size() / DENSEST, std::identity());
   const float densest = reach[reach.size() / DENSEST];
   std::vector<Pair> pairs;
+  std::vector<float> rounded;
   const std::size_t stride = points.size() / DENSEST / MOST_PAIRED + 1;
-  for (std::size_t n = 0; n < points.size(); n += stride)
-    if (survey.reach[points[n]] <= densest) add_pairs(cloud, survey, points[n], pairs);
+  for (std::size_t n = 0; n < points.size(); n += stride) {
+    const std::uint32_t i = points[n];
+    if (survey.reach[i] > densest || !(survey.reach[i] > 0.0F)) continue;
+    add_pairs(cloud, survey, i, pairs);
+    rounded.push_back(glm::dot(survey.step, glm::abs(cloud.normal[i])) / survey.reach[i]);
+  }
   if (pairs.size() < FEWEST) return {};
   std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.apart < b.apart; });
   const Pair nearest = median_pair(std::span(pairs).first(pairs.size() / NEAREST));
   const float usual = median_of(std::span(reach).first(reach.size() / DENSEST));
-  return {nearest.height, slope_of(pairs), double{nearest.height} * usual};
+  const double floor = median_of(std::span(rounded)) / std::sqrt(12.0);
+  return {nearest.height, slope_of(pairs), usual * std::max(double{nearest.height}, floor), floor};
 }
 
 bool is_noise(const PairHeights& heights, bool terrain) {
+  if (heights.rounded > NOISY) return true;
   return heights.near > NOISY && heights.slope < (terrain ? ROUGH_TERRAIN : ROUGH);
 }
 

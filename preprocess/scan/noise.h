@@ -14,7 +14,8 @@ namespace splatray {
 struct PairHeights {
   double near = 0.0;   ///< median height of the nearest pairs over the distance to the 8th place; 0 = unknown
   double slope = 0.0;  ///< of log height over log distance: 0 for noise alone, 1 and more for shape
-  double near_length = 0.0;  ///< `near` as a length, cloud coordinates
+  double near_length = 0.0;  ///< `near`, or `rounded` where that is more, as a length, cloud coordinates
+  double rounded = 0.0;  ///< what rounding to the survey's step leaves, over the distance to the 8th place
 };
 
 /// That of these points of surfaces: of the quarter of them that lies densest, where the noise, which is as large elsewhere,

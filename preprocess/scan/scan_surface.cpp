@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "preprocess/base/select.h"
@@ -181,10 +182,13 @@ void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, Sm
   note_moved(cloud, smoothed);
 }
 
-/// Those of these points whose sides no given normal says.
-std::vector<std::uint32_t> unsided_of(const Survey& survey, std::vector<std::uint32_t> points) {
-  if (!survey.sided.empty()) std::erase_if(points, [&](std::uint32_t i) { return survey.sided[i] != 0; });
-  return points;
+/// Those of these points whose sides no given normal says: `points` themselves where that is all, else put into `some`.
+const std::vector<std::uint32_t>& keep_unsided(const Survey& survey, const std::vector<std::uint32_t>& points,
+                                               std::vector<std::uint32_t>& some) {
+  if (survey.sided.empty()) return points;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(some),
+               [&](std::uint32_t i) { return survey.sided[i] == 0; });
+  return some;
 }
 
 /// Turns these points' normals, and the planes at creases and borders, to their sides.
@@ -231,7 +235,8 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   sort_kinds(cloud, survey, sharp, stats);
   const auto estimated = numbers_where(
       cloud.size(), [&](std::size_t i) { return survey.estimated[i] != 0 && cloud.on_surface(i); });
-  const auto unsided = unsided_of(survey, estimated);
+  std::vector<std::uint32_t> some;
+  const std::vector<std::uint32_t>& unsided = keep_unsided(survey, estimated, some);
   const SidesFound sides = find_sides(cloud, survey, unsided, up, stage, sharp);
   if (!estimated.empty()) ++stats.sides_by[static_cast<std::size_t>(sides.rung)];
   stats.sides_unsure += sides.unsure;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "engine/base/error.h"
 #include "engine/gpu/tiles.h"
 #include "engine/image/sample_mean.h"
 #include "tests/gpu/shown_tracer.h"

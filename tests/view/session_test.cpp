@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -261,23 +260,6 @@ TEST_F(ViewSession, TwoWindowsLoseNothingOfEachOther) {
   EXPECT_TRUE(is_bookmarked(first, 0) && is_bookmarked(second, 2));
   EXPECT_EQ(state()["recent_files"].size(), 2U);
   EXPECT_EQ(state()["window_width"], 700) << "as the window that was closed last";
-}
-
-TEST_F(ViewSession, OnADenseDisplayTheWindowComesBackAsItWasAndFits) {
-  desktop.set_resources("Xft.dpi: 192\n");
-  const auto size_of_run = [this](std::vector<std::string> words) {
-    words.insert(words.begin(), {VIEW, "--samples=2", first});
-    Program program(words, viewer_environment(), folder.string(), file("log"));
-    const unsigned long window = desktop.wait_for_window("first.ply");
-    const auto size = window != 0 ? desktop.size(window) : std::array<int, 2>{};
-    desktop.close(window);
-    EXPECT_EQ(program.wait(), 0);
-    return size;
-  };
-  using Size = std::array<int, 2>;
-  EXPECT_EQ(size_of_run({}), (Size{1600, 1000})) << "twice 1280 x 720, but for what the display has not";
-  EXPECT_EQ(size_of_run({"--resolution=600x400"}), (Size{1200, 800})) << "its controls are twice as large";
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(size_of_run({}), (Size{1200, 800})) << "as the one closed last";
 }
 
 TEST_F(ViewSession, StateThatCannotBeKeptIsNotedAndNothingIsLost) {
