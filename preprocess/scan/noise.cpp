@@ -15,11 +15,11 @@ namespace {
 constexpr float ALIKE = 0.9F;               // cosine of normals of one smooth surface
 constexpr std::size_t MOST_ASKED = 200000;  // points that give the median well enough
 
-constexpr std::size_t FEWEST = 1000;        // points that distinguish noise from shape
-constexpr std::size_t MOST_PAIRED = 50000;  // points whose pairs show it well enough
-constexpr std::size_t NEAREST = 8;          // the nearest of so many pairs
-constexpr std::size_t DENSEST = 4;          // and the densest of so many points
-constexpr float LOWEST = 1e-6F;             // height over the 8th place's distance that rounding leaves
+constexpr std::size_t FEWEST = 1000;       // points that distinguish noise from shape
+constexpr std::size_t MOST_PAIRED = 8192;  // points whose pairs show it well enough
+constexpr std::size_t NEAREST = 8;         // the nearest of so many pairs
+constexpr std::size_t DENSEST = 4;         // and the densest of so many points
+constexpr float LOWEST = 1e-6F;            // height over the 8th place's distance that rounding leaves
 
 // Noisy clouds, raw and simulated, have 0.06 and more and a slope of at most 0.4; clean ones, vertices and samples of meshes
 // and surveys of mountains, have slopes of 0.58 and more, whatever their heights. Terrain with trees, thinned until no two

@@ -21,7 +21,7 @@
 namespace splatray {
 namespace {
 
-constexpr double LEAST_NOISE = 0.04;  // of the distance to the 8th place: less is hidden by what discs blend
+constexpr double LEAST_NOISE = 0.02;  // of the distance to the 8th place: less is hidden by what discs blend
 constexpr double SHARP =
     0.05;  // share of points at creases that noise would have hidden: edges are what looks like it
 constexpr double WHOLE = 4.0;  // a radius, cloud coordinates, that reaches all points from each

@@ -59,6 +59,7 @@ struct Sheet {
 struct Split {
   std::size_t first = 0;  ///< its first place; 0 = there is one sheet
   double parted = 0.0;    ///< the means' distance over the deviation
+  double apart = 0.0;     ///< the means' distance
 };
 
 /// That with the least deviation within both.
@@ -74,7 +75,8 @@ Split find_split(const std::vector<Seen>& seen) {
     if (k < LEAST || !(within < best)) continue;
     best = within;
     const double deviation = std::sqrt(std::max(0.5 * (low.variance() + high.variance()), 1e-20));
-    split = {k, (high.mean() - low.mean()) / deviation};
+    const double apart = high.mean() - low.mean();
+    split = {k, apart / deviation, apart};
   }
   return split.parted > PARTED ? split : Split{};
 }
@@ -108,10 +110,10 @@ bool covers(const std::vector<Seen>& seen, std::size_t split) {
   return 4 * std::min(below, above) >= below + above;
 }
 
-/// Where the sheet of a point ends, seen from it.
-float end_of_sheet(const std::vector<Seen>& seen, bool sides_known) {
-  const auto [first, parted] = find_split(seen);
-  if (first == 0 || !covers(seen, first)) return NO_SHEET;
+/// Where the sheet of a point ends, seen from it; `step`: of the coordinates, across it, which makes layers of one sheet.
+float end_of_sheet(const std::vector<Seen>& seen, bool sides_known, float step) {
+  const auto [first, parted, apart] = find_split(seen);
+  if (first == 0 || apart < 2.0 * step || !covers(seen, first)) return NO_SHEET;
   if (sides_known && parted < FAR_PARTED && !are_opposite(seen, first)) return NO_SHEET;
   return 0.5F * (seen[first - 1].height + seen[first].height);
 }
@@ -125,7 +127,8 @@ std::size_t find_ends(const Cloud& cloud, const Survey& survey, const std::vecto
       points.size(), [&](std::uint32_t n) { return surroundings.query(cloud, points[n]); },
       Surroundings::MOST, stage,
       [&](std::uint32_t n, std::span<const Neighbour> nearest) {
-        end[points[n]] = end_of_sheet(look_around(cloud, points[n], nearest), sides_known);
+        end[points[n]] = end_of_sheet(look_around(cloud, points[n], nearest), sides_known,
+                                      glm::dot(survey.step, glm::abs(cloud.normal[points[n]])));
         if (end[points[n]] < NO_SHEET && end[points[n]] > -NO_SHEET) ++ends;
       });
   return ends;
