@@ -1,7 +1,5 @@
 /// Memory that stages of the build ask for before they take it: midway it cannot be refused.
 #pragma once
-#include <malloc.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -21,9 +19,5 @@ inline void require_room(std::uint64_t bytes, const std::string& what) {
 inline void require_stage_memory(const char* stage, std::size_t count, std::uint64_t bytes_each) {
   require_room(count * bytes_each, "the stage '" + std::string(stage) + "' of the build");
 }
-
-/// Gives freed memory back to the system where malloc keeps it: before a stage whose arrays do not fit into the gaps of those
-/// before. Each page that is taken again costs time.
-inline void give_back_freed_memory() { malloc_trim(0); }
 
 }  // namespace splatray

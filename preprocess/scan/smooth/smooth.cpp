@@ -9,7 +9,6 @@
 #include "engine/base/vector_clones.h"
 #include "preprocess/base/lanes.h"
 #include "preprocess/base/select.h"
-#include "preprocess/base/stage_memory.h"
 #include "preprocess/scan/smooth/layers.h"
 #include "preprocess/scan/smooth/reproject.h"
 #include "preprocess/scan/smooth/surroundings.h"
@@ -268,7 +267,6 @@ Smoothed smooth_points(Cloud& cloud, Survey survey, const SmoothParams& params, 
   for (std::size_t i = 0; i < sheet_end.size(); ++i) sheet_end[i] -= lift[i];
   release(moved.lift), release(moved.supported), release(supported);
   survey = {};
-  give_back_freed_memory();
   move_points(cloud, lift);
   reproject_points(cloud, {moves, params.sided, params.noise, sheet_end}, lift, stage);
   put_in_order(cloud);
