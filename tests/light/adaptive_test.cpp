@@ -5,6 +5,7 @@
 
 #include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/surface.h"
+#include "tests/all_tests.h"
 #include "tests/light/lit.h"
 
 namespace splatray::testing {
@@ -76,6 +77,7 @@ TEST_F(Adaptive, EndsWhereNothingIsToBeSeen) {
 /// once, and pictures be too dark on the mean, here by 3.5 %: balls that glow, each a tenth of a pixel wide. The halves' counts
 /// still hang together by the rounds before; the 1.0 +- 0.5 % found are within the bound, but may be that.
 TEST_F(Adaptive, HardlyDarkensWhatIsRare) {
+  SPLATRAY_NIGHTLY();
   OrientedPoints balls;
   for (int ball = 0; ball < 24; ++ball) {
     const dvec3 center(std::fmod(ball * 0.618, 1.0) * 1.6 - 0.8, std::fmod(ball * 0.382, 1.0) * 1.2 - 0.6,

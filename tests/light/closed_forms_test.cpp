@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/surface.h"
+#include "tests/all_tests.h"
 #include "tests/light/lit.h"
 
 namespace splatray::testing {
@@ -122,6 +123,7 @@ TEST_F(Plane, SpotsShineInTheirCone) {
 
 /// All bounces at once: the light that a wall gets from the rest of a ball does not depend on where it is.
 TEST_F(Lit, IntegratingSphere) {
+  SPLATRAY_NIGHTLY();
   constexpr double INTENSITY = 2.0;
   // A direction just above the blended normal's plane can lead below a neighbour's disc and out of the ball: of each bounce's light.
   constexpr double LOST = 1e-4;

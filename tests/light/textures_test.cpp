@@ -4,6 +4,7 @@
 #include "engine/scene/splat.h"
 #include "engine/scene/surface.h"
 #include "engine/scene/texture_factors.h"
+#include "tests/all_tests.h"
 #include "tests/light/lit.h"
 
 namespace splatray::testing {
@@ -57,6 +58,7 @@ class Textures : public Plane {
 };
 
 TEST_F(Textures, MultiplyTheirSurfacesValues) {
+  SPLATRAY_NIGHTLY();
   for (const TextureFactor& factor : texture_factors()) {
     if (factor.column == COLUMN_OPACITY) continue;
     SCOPED_TRACE(factor.column);
@@ -229,6 +231,7 @@ TEST_F(Textures, NormalMapsTurnTheNormalAndNotThePlane) {
 
 /// All data pools, with and without pages, give the same picture.
 TEST_F(Textures, AreTheSplatsOwnWhereverTheyLie) {
+  SPLATRAY_NIGHTLY();
   Scene scene = scene_with(MATERIAL_TWO_SIDED, rich_surface(), "texture-roughness");
   std::vector<std::uint8_t> bytes;
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i)

@@ -4,6 +4,7 @@
 #include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "preprocess/scan/sides.h"
+#include "tests/all_tests.h"
 #include "tests/scan_sim/built_scan.h"
 #include "tests/scan_sim/ring_errors.h"
 #include "tests/scan_sim/scan_cases.h"
@@ -19,6 +20,7 @@ double ellipse_share(const BuiltScan& built) {
 class RingSweep : public ::testing::TestWithParam<int> {};
 
 TEST_P(RingSweep, AreBuiltScanByEllipses) {
+  if (GetParam() > 32) SPLATRAY_NIGHTLY();
   const Sweep sweep = street_sweep(GetParam());
   const RingErrors joined =
       ring_errors(build_scan(sweep.scan.points).scene, *sweep.mesh, sweep.spinner, 10000);

@@ -25,6 +25,8 @@ MOST_LINES, MOST_COLUMNS = 80, 130  # of README.md
 INPUT_UNREADABLE = 3
 # Options behind a command's own, of which the last one holds; and behind those that name one of these.
 SMALLER = {"splatray-render": "--resolution=16x16 --samples=2", "splatray-preprocess": ""}
+# Vulkan takes seconds to start with sanitizers, the CPU device a fifth of that: Vulkan for each command with tests/run --all.
+DEVICE = "" if "SPLATRAY_TEST_ALL" in os.environ else " --device=cpu"
 SMALLER_IF = {"splatray-render": {"--mesh-points": "--mesh-points=2000", "--error": "--time=0.2", "--time": "--time=0.2", "--turntable": "--frames=0-1"},
               "splatray-preprocess": {"--mesh-points": "--mesh-points=2000"}}
 # In place of both, behind those that name one of these: a sheet has a size of its own.
@@ -80,6 +82,8 @@ def make_programs(folder, programs):
             continue
         more = "".join(f'case "$*" in *{option}[=\\ ]*) more="$more {smaller}";; esac\n' for option, smaller in SMALLER_IF[program.name].items())
         more += "".join(f'case "$*" in *{option}[=\\ ]*) more="{instead}";; esac\n' for option, instead in INSTEAD_IF.get(program.name, {}).items())
+        if program.name == "splatray-render":
+            more += f'case "$*" in *--device[=\\ ]*) ;; *) more="$more{DEVICE}";; esac\n'
         (target / program.name).write_text(f'#!/bin/sh\ncase "$*" in *--list-devices*|*--help*) exec {program} "$@";; esac\n'
                                            f'{COARSE}more="{SMALLER[program.name]}"\n{more}exec {program} "$@" $more\n')
         (target / program.name).chmod(0o755)

@@ -14,6 +14,7 @@
 #include "engine/device/host/host_device.h"
 #include "engine/device/vulkan/vulkan_device.h"
 #include "engine/scene/splat.h"
+#include "tests/all_tests.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/temp_folder.h"
 #include "tests/trace/reference_path.h"
@@ -121,6 +122,7 @@ Comparison compare_pictures(const Image& gpu, const Image& reference, const Tole
 
 struct SceneCase {
   const char* name;
+  bool nightly;
   bool needs_data;
   Tolerance tolerance;
   double unsettled;  ///< share of pixels that may be
@@ -133,6 +135,7 @@ class ScenePicture : public ::testing::TestWithParam<SceneCase> {};
 
 TEST_P(ScenePicture, MatchesBruteForce) {
   const SceneCase& scene_case = GetParam();
+  if (scene_case.nightly) SPLATRAY_NIGHTLY();
   if (scene_case.needs_data && !data_folder())
     GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: " << scene_case.name << " is not compared";
   const std::string name = scene_case.name;
@@ -152,25 +155,35 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, ScenePicture,
     ::testing::Values(
         SceneCase{"table1_dragon",
+                  false,
                   true,
                   {0.004, 0.0005, 0.05},
                   0.001,
                   "matte: nothing but float32 shading differs"},
-        SceneCase{
-            "table1_david", true, {0.004, 0.0005, 0.05}, 0.001, "matte: nothing but float32 shading differs"},
+        SceneCase{"table1_david",
+                  false,
+                  true,
+                  {0.004, 0.0005, 0.05},
+                  0.001,
+                  "matte: nothing but float32 shading differs"},
         SceneCase{"reflective_buddha",
+                  false,
                   true,
                   {0.02, 0.001, 0.27},
                   0.001,
                   "texture units filter with 8-bit weights, and mirrored rays may graze past a disc"},
         SceneCase{"refractive_dragon",
                   true,
+                  true,
                   {0.02, 0.004, 0.25},
                   0.01,
                   "as the Buddha; glass magnifies last bits, so that a choice tips at Fresnel's share"},
-        SceneCase{"teapot", true, {0.02, 0.0005, 0.1}, 0.001, "as the dragon, in a part of the picture"},
-        SceneCase{"room", false, {0.004, 0.0005, 0.05}, 0.001, "smooth mirror and glass, so few paths tip"},
-        SceneCase{"demo", false, {0.004, 0.0005, 0.05}, 0.001, "smooth mirror and glass, so few paths tip"}),
+        SceneCase{
+            "teapot", true, true, {0.02, 0.0005, 0.1}, 0.001, "as the dragon, in a part of the picture"},
+        SceneCase{
+            "room", false, false, {0.004, 0.0005, 0.05}, 0.001, "smooth mirror and glass, so few paths tip"},
+        SceneCase{
+            "demo", false, false, {0.004, 0.0005, 0.05}, 0.001, "smooth mirror and glass, so few paths tip"}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
 /// A ball of glass on a floor that is half a mirror.
