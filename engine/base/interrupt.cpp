@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <ctime>
@@ -27,9 +28,12 @@ std::int64_t now_ms() {
   return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000 + 1;
 }
 
+void write_error(std::string_view text) { (void)!write(STDERR_FILENO, text.data(), text.size()); }
+
 [[noreturn]] void end_at_once(std::string_view sentence) {
   if (void (*clean)() = clean_up) clean();
-  (void)!write(STDERR_FILENO, sentence.data(), sentence.size());
+  write_error(program_invocation_short_name);
+  write_error(sentence);
   _exit(static_cast<int>(ExitCode::interrupted));
 }
 
@@ -39,11 +43,11 @@ void on_signal(int) {
   if (first_signal_ms.compare_exchange_strong(first, now)) {
     if (!patient) alarm(PATIENCE_S);
   } else if (now - first > ONE_SIGNAL_MS) {
-    end_at_once("error: interrupted by a second signal\n");
+    end_at_once(": error: interrupted by a second signal\n");
   }
 }
 
-void on_alarm(int) { end_at_once("error: interrupted by a signal, the work was not waited for\n"); }
+void on_alarm(int) { end_at_once(": error: interrupted by a signal, the work was not waited for\n"); }
 
 }  // namespace
 

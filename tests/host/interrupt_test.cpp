@@ -76,6 +76,7 @@ TEST(Interrupt, WorkWithMuchToLoseHasItsTime) {
 
 TEST(Interrupt, ASecondSignalOfAnyKindEndsAtOnce) {
   const auto start = std::chrono::steady_clock::now();
+  ::testing::internal::CaptureStderr();
   EXPECT_EQ(code_of_child([] {
               take_time_to_end();
               wait_ms(300.0);
@@ -84,6 +85,7 @@ TEST(Interrupt, ASecondSignalOfAnyKindEndsAtOnce) {
             }),
             130);
   EXPECT_LT(milliseconds_since(start), 1500.0);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "test_host: error: interrupted by a second signal\n");
 }
 
 TEST(Interrupt, OneThatComesTwiceAtOnceIsOne) {
