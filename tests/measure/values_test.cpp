@@ -64,6 +64,9 @@ TEST(Measures, TakeOfErrorsWhatLiesAlongThem) {
   };
   EXPECT_NEAR(within({0.003, 0.0, 0.0}), 1.96 * 0.003 * std::sqrt(2.0), 1e-8);
   EXPECT_NEAR(within({0.0, 0.003, 0.0}), 0.0, 1e-5);
+  const Measure point = measure_of(MeasureKind::point, {{0, 0, 0}}, {1e-9, 0.0, 0.003});
+  EXPECT_EQ(values_of(point, UP)[0].within, 0.0) << "digits of a rounded normal";
+  EXPECT_NEAR(values_of(point, UP)[2].within, 1.96 * 0.003, 1e-9);
 }
 
 TEST(Measures, AreWrittenWithTheDigitsThatCount) {

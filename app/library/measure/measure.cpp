@@ -10,6 +10,7 @@
 namespace splatray {
 namespace {
 
+constexpr double ROUNDED = 1e-4;        ///< of an error: three steps of a splat's normal (OCT_SCALE), radians
 constexpr double OF_95_PERCENT = 1.96;  ///< standard deviations of a normal distribution
 
 std::string formatted(double value, const char* format) {
@@ -38,11 +39,12 @@ MeasureValue propagated(const char* name, MeasureUnit unit, const Measure& measu
                         const std::function<double(const Places&)>& value_of) {
   Places places = places_of(measure);
   const double value = value_of(places);
-  double variance = 0.0;
+  double variance = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const glm::dvec3 place = places[i];
     for (const glm::dvec3& error : {measure.points[i].error, measure.points[i].sideways}) {
       double most = 0.0;
+      largest = std::max(largest, glm::length(error));
       for (const double way : {1.0, -1.0}) {
         places[i] = place + way * error;
         most = std::max(most, std::abs(value_of(places) - value));
@@ -51,7 +53,10 @@ MeasureValue propagated(const char* name, MeasureUnit unit, const Measure& measu
     }
     places[i] = place;
   }
-  return {name, value, OF_95_PERCENT * std::sqrt(variance), unit};
+  // Across all errors a length is as exact as it was given; what is left of them there are rounded normals.
+  const double deviation = std::sqrt(variance);
+  if (unit == MeasureUnit::length && deviation < ROUNDED * largest) return {name, value, 0.0, unit};
+  return {name, value, OF_95_PERCENT * deviation, unit};
 }
 
 double level_part(const Places& points, const glm::dvec3& up) {
