@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/all_tests.h"
 #include "tests/light/bsdf_twin.h"
 #include "tests/light/chi_squared.h"
 
@@ -182,6 +183,7 @@ std::vector<Case> chi_squared_cases() {
 }
 
 TEST(Bsdf, DirectionsComeAsOftenAsTheirDensitySays) {
+  SPLATRAY_NIGHTLY();
   const std::vector<Case> cases = chi_squared_cases();
   const double significance = sidak(0.01, cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -35,6 +35,7 @@ TEST_F(Lit, WhiteBallUnderWhiteSkyIsWhite) {
 }
 
 TEST_F(Lit, WhiteBallUnderAWhitePictureIsWhiteOnTheMean) {
+  SPLATRAY_NIGHTLY();
   const Scene scene = ball(1.0F, 5000);
   show(scene, {64, 32, std::vector<glm::vec3>(64 * 32, vec3(1.0F)), vec3(0.0F)}, {});
   const Mean mean = mean_of(picture(default_camera(scene, 1.0), lit(32), 48));

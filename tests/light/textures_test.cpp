@@ -141,6 +141,7 @@ class SeeThrough : public Lit {
 };
 
 TEST_F(SeeThrough, PathsPassEachSheetAsOftenAsItsOpacitySays) {
+  SPLATRAY_NIGHTLY();
   for (const bool joined : {false, true}) {
     Scene scene = sheets(heights(joined), joined);
     scene.surfaces[0].emission = vec3(1.0F);

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "preprocess/surface/number_lists.h"
+#include "tests/all_tests.h"
 #include "tests/preprocess/shapes.h"
 
 namespace {
@@ -85,6 +86,7 @@ double peak_of(const Make& make) {
 // bounds are what was measured (107.4, 121.5, 116.4) and not quite one more float32 of each point.
 
 TEST(Memory, OfAScanWithoutNormals) {
+  SPLATRAY_NIGHTLY();
   EXPECT_LT(peak_of([] { return without_normals(scanned_sphere(0.0)); }), 111.0);
 }
 
@@ -93,6 +95,7 @@ TEST(Memory, OfAScanWithItsNormals) {
 }
 
 TEST(Memory, OfANoisyScan) {
+  SPLATRAY_NIGHTLY();
   EXPECT_LT(peak_of([] { return without_normals(scanned_sphere(0.4)); }), 120.0);
 }
 

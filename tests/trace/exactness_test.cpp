@@ -80,7 +80,7 @@ std::vector<RayHit> gpu_intersect(const Scene& scene, const std::vector<RayQuery
 void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
   const Settings settings;
   const BruteForce brute(scenes.front());
-  const Truth truth(scenes.front(), brute, all_or(count, count / 4), settings);
+  const Truth truth(scenes.front(), brute, all_or(count, count / 8), settings);
   const auto gpu_kernels = gpu_intersect(scenes.front(), truth.rays, settings, {.kernels = Kernels::gpu});
   expect_exact(agreement_of(brute, truth.hits, gpu_kernels), "kernels of GPUs");
   const auto host = intersect_on(HostDevice(), scenes.front(), truth.rays, settings);
