@@ -32,8 +32,8 @@ struct SplatBlock {
 /// Where they lie in a cell.
 struct BlockReach {
   double low[SPLATS_AT_ONCE], high[SPLATS_AT_ONCE];  ///< along the slab's axis, from the cell's centre
-  double beyond_lower[SPLATS_AT_ONCE],
-      beyond_upper[SPLATS_AT_ONCE];  ///< above 0 where they do not come near the half
+  /// Above 0 where they do not come near the half.
+  double beyond_lower[SPLATS_AT_ONCE], beyond_upper[SPLATS_AT_ONCE];
 };
 
 SPLATRAY_VECTOR_CLONES void unpack_blocks(std::span<const std::uint32_t> list,
