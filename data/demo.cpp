@@ -99,7 +99,7 @@ SurfacePatch knot() {
           20.0};
 }
 
-SurfacePatch ball(const std::string& object, double x, double z, double radius) {
+SurfacePatch ball_on_ground(const std::string& object, double x, double z, double radius) {
   return {object, 4.0 * pi * radius * radius,
           [=](const Sampling& sampling) {
             return moved(sphere(sampling, radius), {x, radius, z});
@@ -113,8 +113,8 @@ Model demo_model() {
   Model model = backdrop();
   const Model scanned = placed(amphora(), {-0.5, 0.0, -0.25}, 0.5, 40.0);
   model.insert(model.end(), scanned.begin(), scanned.end());
-  for (const SurfacePatch& patch :
-       {ring(), vase(), knot(), ball("gold", -0.13, 0.42, 0.13), ball("steel", 0.5, 0.4, 0.14)})
+  for (const SurfacePatch& patch : {ring(), vase(), knot(), ball_on_ground("gold", -0.13, 0.42, 0.13),
+                                    ball_on_ground("steel", 0.5, 0.4, 0.14)})
     model.push_back(patch);
   return model;
 }

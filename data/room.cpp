@@ -19,7 +19,7 @@ glm::dvec3 room_paint(glm::dvec3 p) {
   return parity == 0 ? glm::dvec3(0.38) : glm::dvec3(0.10);
 }
 
-SurfacePatch ball(const std::string& object, double x, double z, double radius) {
+SurfacePatch ball_in_room(const std::string& object, double x, double z, double radius) {
   return {object, 4.0 * pi * radius * radius,
           [=](const Sampling& sampling) {
             return moved(sphere(sampling, radius), {x, radius - 0.5 * SIZE.y, z});
@@ -34,9 +34,9 @@ Model room_model() {
   for (SurfacePatch& face : model) {
     face.make = [make = face.make](const Sampling& sampling) { return painted(make(sampling), room_paint); };
   }
-  model.push_back(ball("matte", -1.1, -1.3, 0.60));
-  model.push_back(ball("mirror", 0.40, -1.5, 0.75));
-  model.push_back(ball("glass", 0.62, 0.15, 0.48));
+  model.push_back(ball_in_room("matte", -1.1, -1.3, 0.60));
+  model.push_back(ball_in_room("mirror", 0.40, -1.5, 0.75));
+  model.push_back(ball_in_room("glass", 0.62, 0.15, 0.48));
   return model;
 }
 

@@ -17,11 +17,6 @@ std::string counted_points(std::uint64_t count) {
   return std::to_string(count) + (count == 1 ? " point" : " points");
 }
 
-double longest_side(const Bounds& box) {
-  const glm::dvec3 sides = box.high - box.low;
-  return std::max({sides.x, sides.y, sides.z});
-}
-
 /// What is said of an object's far points.
 std::string far_note(const std::string& name, const Cloud& cloud) {
   const FarPoints& far = cloud.far;

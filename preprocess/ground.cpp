@@ -9,9 +9,9 @@
 namespace splatray {
 namespace {
 
-constexpr double HALF_WIDTH = 5.0, BELOW = 2e-4;  ///< of the scene's diagonal
-constexpr int HALF_COUNT = 8;                     ///< discs along half an edge
-constexpr double RADIUS = 0.75;                   ///< of their distance: more than half a square's diagonal
+constexpr double HALF_WIDTH = 5.0, DISTANCE_BELOW = 2e-4;  ///< of the scene's diagonal
+constexpr int HALF_COUNT = 8;                              ///< discs along half an edge
+constexpr double RADIUS = 0.75;  ///< of their distance: more than half a square's diagonal
 constexpr float GREY = 0.5F;
 
 /// Of all points along a unit direction.
@@ -36,7 +36,7 @@ void add_ground(std::vector<Cloud>& clouds, Scene& scene) {
   const glm::dmat3 axes = upright_axes(scene.up);
   const double diagonal = scene.diagonal_world() > 0.0 ? scene.diagonal_world() : 1.0;
   const glm::dvec3 middle = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
-  const double height = lowest_along(clouds, axes[1]) - BELOW * diagonal;
+  const double height = lowest_along(clouds, axes[1]) - DISTANCE_BELOW * diagonal;
   const glm::dvec3 center = middle + (height - glm::dot(middle, axes[1])) * axes[1];
   const double step = HALF_WIDTH * diagonal / HALF_COUNT;
   Points points;

@@ -1,5 +1,6 @@
 /// Boxes around points.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 
@@ -19,5 +20,11 @@ struct Bounds {
     high = glm::max(high, other.high);
   }
 };
+
+/// The length of the box's longest side.
+[[nodiscard]] inline double longest_side(const Bounds& box) {
+  const glm::dvec3 sides = box.high - box.low;
+  return std::max({sides.x, sides.y, sides.z});
+}
 
 }  // namespace splatray

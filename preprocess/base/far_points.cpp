@@ -13,17 +13,12 @@
 namespace splatray {
 namespace {
 
-constexpr double APART = 20.0;           // of far points, in units of the others' longest side
+constexpr double FAR_APART = 20.0;       // of far points, in units of the others' longest side
 constexpr std::size_t HANDFUL = 16;      // far places that any number of points may have ...
 constexpr std::size_t ONE_OF = 1000;     // ... or one of this many points,
 constexpr std::size_t LEAST_SHARE = 20;  // but not more than one of these
 
 using Positions = std::vector<glm::dvec3>;
-
-double longest_side(const Bounds& box) {
-  const glm::dvec3 sides = box.high - box.low;
-  return std::max({sides.x, sides.y, sides.z});
-}
 
 /// In the largest of the axes; 0 inside.
 double distance_to(const Bounds& box, const glm::dvec3& place) {
@@ -37,7 +32,7 @@ bool are_clustered(const Positions& positions, const Bounds& box, std::size_t mo
   const glm::dvec3 sides = box.high - box.low;
   const int axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
   const std::size_t slabs = 4 * most + 64;
-  const std::size_t most_filled = most + static_cast<std::size_t>(static_cast<double>(slabs) / APART) + 2;
+  const std::size_t most_filled = most + static_cast<std::size_t>(static_cast<double>(slabs) / FAR_APART) + 2;
   std::vector<bool> filled(slabs, false);
   std::size_t count = 0;
   for (const glm::dvec3& place : positions) {
@@ -68,9 +63,9 @@ Bounds middle_box(const Positions& positions) {
   return box;
 }
 
-/// The points outside `middle`, beyond APART of its sides: the farthest first.
+/// The points outside `middle`, beyond FAR_APART of its sides: the farthest first.
 std::vector<std::uint32_t> points_away(const Positions& positions, const Bounds& middle) {
-  const double reach = APART * longest_side(middle);
+  const double reach = FAR_APART * longest_side(middle);
   auto numbers = numbers_where(positions.size(),
                                [&](std::size_t i) { return distance_to(middle, positions[i]) > reach; });
   const auto key = [&](std::uint32_t i) {
@@ -132,7 +127,7 @@ FarPoints find_far_points(const Positions& positions) {
   const double side = longest_side(most_of_it);
   if (!(side > 0.0)) return far;  // one place alone has no scale
   std::erase_if(away,
-                [&](std::uint32_t i) { return !(distance_to(most_of_it, positions[i]) > APART * side); });
+                [&](std::uint32_t i) { return !(distance_to(most_of_it, positions[i]) > FAR_APART * side); });
   if (away.empty()) return far;
   far.others = box_without(positions, away);
   far.nearest_world = INFINITY;

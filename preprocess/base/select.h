@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace splatray {
 
@@ -57,11 +58,20 @@ void select_nth(std::span<Value> values, std::size_t nth, const Key& key) {
                    [&](const Value& a, const Value& b) { return key(a) < key(b); });
 }
 
+/// The fewest points whose medians show what is usual in a scan.
+inline constexpr std::size_t FEWEST_TELLING = 1000;
+
 /// The value of the middle rank, of an even number of values the larger; changes their order. There must be one.
 template <typename Value>
 [[nodiscard]] Value median_of(std::span<Value> values) {
   select_nth(values, values.size() / 2, std::identity());
   return values[values.size() / 2];
+}
+
+/// median_of, zero where there is no value.
+template <typename Value>
+[[nodiscard]] Value median_or_zero(std::vector<Value>& values) {
+  return values.empty() ? Value{0} : median_of(std::span(values));
 }
 
 }  // namespace splatray

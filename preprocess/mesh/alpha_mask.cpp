@@ -11,8 +11,8 @@
 namespace splatray {
 namespace {
 
-constexpr int RINGS = 8, SPOKES = 24;  // where the mask is looked at around a point
-constexpr double WHOLE = 0.9;          // of the reach: lines further out cut next to nothing
+constexpr int RINGS = 8, SPOKES = 24;     // where the mask is looked at around a point
+constexpr double MASK_CUTS_WITHIN = 0.9;  // of the reach: lines further out cut next to nothing
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void AlphaMask::clip(std::uint32_t triangle, const glm::dvec3& place, const glm:
   double distance = 0.0;
   for (std::size_t i = 0; i < kept_count; ++i) distance = std::max(distance, glm::dot(kept[i], dir));
   distance += 0.5 * reach / RINGS;
-  if (distance > WHOLE * reach) return;
+  if (distance > MASK_CUTS_WITHIN * reach) return;
   clip.dir[line] = glm::vec3(dir.x * frame.u + dir.y * frame.v);
   clip.distance[line] = static_cast<float>(distance);
   clip.reach = line == 0 ? static_cast<float>(reach) : std::min(clip.reach, static_cast<float>(reach));

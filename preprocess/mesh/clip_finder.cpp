@@ -11,10 +11,10 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t PATCH_MOST = 128;  // triangles: a disc over more stays whole
-constexpr double COS_ALIKE = 0.999;      // 2.5 degrees: edges that are tried once
-constexpr double COS_SECOND = 0.966;     // 15 degrees: a second line differs by more
-constexpr double WHOLE = 0.98;           // of the reach: lines further out cut nothing
+constexpr std::size_t MOST_CLIP_PATCH = 128;  // triangles: a disc over more stays whole
+constexpr double COS_ALIKE = 0.999;           // 2.5 degrees: edges that are tried once
+constexpr double COS_SECOND = 0.966;          // 15 degrees: a second line differs by more
+constexpr double EDGES_CUT_WITHIN = 0.98;     // of the reach: lines further out cut nothing
 
 /// The shares of the way from a to b between which a point is within `reach` of the origin.
 std::optional<std::pair<double, double>> within(const glm::dvec2& a, const glm::dvec2& b, double reach) {
@@ -48,7 +48,7 @@ bool ClipFinder::find_patch(const glm::dvec3& place, std::span<const std::uint32
   for (const std::uint32_t seed : seeds) seen_[seed] = patches_;
   bool edge = false;
   for (std::size_t next = 0; next < patch_.size(); ++next) {
-    if (patch_.size() > PATCH_MOST) return false;
+    if (patch_.size() > MOST_CLIP_PATCH) return false;
     const glm::uvec3& corners = mesh_.triangles[patch_[next]];
     for (std::uint32_t side = 0; side < 3; ++side) {
       const std::uint32_t across = edges_.across(patch_[next], side);
@@ -126,7 +126,7 @@ PointClip ClipFinder::find(const glm::dvec3& place, const glm::dvec3& normal,
     const auto before = dirs_.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::any_of(dirs_.begin(), before, alike)) continue;
     const double distance = support(dirs_[i], reach);
-    if (distance < WHOLE * reach) lines.emplace_back(distance, dirs_[i]);
+    if (distance < EDGES_CUT_WITHIN * reach) lines.emplace_back(distance, dirs_[i]);
   }
   std::stable_sort(lines.begin(), lines.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -15,12 +15,13 @@
 namespace splatray {
 namespace {
 
-constexpr double NEAR = 0.75;          // of the spacing: a sample this close will do
-constexpr double STEP = 0.7;           // of the spacing: from place to place along an edge
-constexpr double INSIDE = 0.35;        // of the spacing: from the edge
-constexpr double LEAST_HEIGHT = 0.02;  // of the spacing: triangles that are flatter are nothing to be seen
-constexpr double REACH = 2.0;          // of the spacing: how far edges that clip a disc are looked for
-constexpr std::size_t PATCH_MOST = 64;
+constexpr double NEAR_ENOUGH = 0.75;  // of the spacing: a sample this close will do
+constexpr double STEP = 0.7;          // of the spacing: from place to place along an edge
+constexpr double INSIDE = 0.35;       // of the spacing: from the edge
+constexpr double LEAST_TRIANGLE_HEIGHT =
+    0.02;                           // of the spacing: triangles that are flatter are nothing to be seen
+constexpr double CLIP_REACH = 2.0;  // of the spacing: how far edges that clip a disc are looked for
+constexpr std::size_t MOST_SITE_PATCH = 64;
 
 /// The samples of each triangle, and those that are added, in their order along the triangle's longest side: few of them lie in
 /// a slab across it, however many a long triangle has.
@@ -48,7 +49,7 @@ class SamplesOnMesh {
   /// Whether a sample of the patch of a place on a triangle is within `reach`.
   [[nodiscard]] bool any_near(std::uint32_t triangle, const glm::dvec3& place, double reach) {
     patch_.assign(1, triangle);
-    for (std::size_t i = 0; i < patch_.size() && i < PATCH_MOST; ++i) {
+    for (std::size_t i = 0; i < patch_.size() && i < MOST_SITE_PATCH; ++i) {
       if (has_near(patch_[i], place, reach)) return true;
       for (std::uint32_t side = 0; side < 3; ++side) {
         const std::uint32_t across = edges_.across(patch_[i], side);
@@ -126,7 +127,7 @@ std::vector<MeshPlace> edge_sites(const Mesh& mesh, const MeshEdges& edges,
       const glm::dvec3 edge = corner(to) - corner(from), to_apex = corner(apex) - corner(from);
       const double length = glm::length(edge);
       const double height = glm::length(glm::cross(edge, to_apex)) / length;
-      if (!(height > LEAST_HEIGHT * spacing_world)) continue;
+      if (!(height > LEAST_TRIANGLE_HEIGHT * spacing_world)) continue;
       const glm::dvec3 normal = glm::cross(edge, to_apex) / (length * height);
       const double foot =
           glm::dot(edge, to_apex) / (length * length);  // of the height, in shares of the edge
@@ -144,8 +145,8 @@ std::vector<MeshPlace> edge_sites(const Mesh& mesh, const MeshEdges& edges,
         weights[from] = 1.0 - inside - weights[to];
         const glm::dvec3 place =
             weights[from] * corner(from) + weights[to] * corner(to) + weights[apex] * corner(apex);
-        if (samples.any_near(t, place, NEAR * spacing_world) ||
-            finder.find(place, normal, std::span(&t, 1), REACH * spacing_world).lines() == 0)
+        if (samples.any_near(t, place, NEAR_ENOUGH * spacing_world) ||
+            finder.find(place, normal, std::span(&t, 1), CLIP_REACH * spacing_world).lines() == 0)
           continue;
         samples.add(t, place);
         sites.push_back({t, weights});

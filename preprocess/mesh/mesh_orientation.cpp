@@ -12,7 +12,7 @@ struct EdgeRows {
 };
 
 template <class Body>
-void for_each_edge(const Mesh& mesh, const std::vector<glm::uint>& weld, const Body& body) {
+void for_each_side(const Mesh& mesh, const std::vector<glm::uint>& weld, const Body& body) {
   for (const glm::uvec3& triangle : mesh.triangles) {
     for (int corner = 0; corner < 3; ++corner) {
       const glm::uint from = weld[triangle[corner]];
@@ -27,12 +27,12 @@ void for_each_edge(const Mesh& mesh, const std::vector<glm::uint>& weld, const B
 EdgeRows gather_edges(const Mesh& mesh, const std::vector<glm::uint>& weld) {
   EdgeRows rows;
   rows.begin.assign(mesh.vertices.size() + 2, 0);
-  for_each_edge(mesh, weld, [&](glm::uint low, glm::uint, bool) { ++rows.begin[std::size_t{low} + 2]; });
+  for_each_side(mesh, weld, [&](glm::uint low, glm::uint, bool) { ++rows.begin[std::size_t{low} + 2]; });
   for (std::size_t i = 2; i < rows.begin.size(); ++i) {
     rows.begin[i] += rows.begin[i - 1];
   }
   rows.edges.resize(rows.begin.back());
-  for_each_edge(mesh, weld, [&](glm::uint low, glm::uint high, bool upwards) {
+  for_each_side(mesh, weld, [&](glm::uint low, glm::uint high, bool upwards) {
     rows.edges[rows.begin[std::size_t{low} + 1]++] = std::uint64_t{high} * 2 + (upwards ? 1 : 0);
   });
   return rows;

@@ -18,7 +18,7 @@ namespace splatray {
 namespace {
 
 /// A mesh, where its points go, and how many are sampled on it.
-struct Part {
+struct MeshPart {
   InputObject* object = nullptr;
   Mesh* mesh = nullptr;
   double area = 0.0;
@@ -58,14 +58,14 @@ bool orient_mesh(Mesh& mesh, const std::vector<glm::uint>& weld, const InputObje
 }
 
 /// Splits `total` over these parts by area, so that the sum is exact.
-void share_samples(const std::vector<Part*>& parts, std::uint64_t total) {
+void share_samples(const std::vector<MeshPart*>& parts, std::uint64_t total) {
   double area = 0.0;
-  for (const Part* part : parts) {
+  for (const MeshPart* part : parts) {
     area += part->area;
   }
   double passed = 0.0;
   std::uint64_t given = 0;
-  for (Part* part : parts) {
+  for (MeshPart* part : parts) {
     passed += part->area;
     const auto until =
         static_cast<std::uint64_t>(std::llround(static_cast<double>(total) * std::min(passed / area, 1.0)));
@@ -75,9 +75,9 @@ void share_samples(const std::vector<Part*>& parts, std::uint64_t total) {
 }
 
 template <class Condition>
-std::vector<Part*> sampled_parts(std::vector<Part>& parts, const Condition& condition) {
-  std::vector<Part*> chosen;
-  for (Part& part : parts) {
+std::vector<MeshPart*> sampled_parts(std::vector<MeshPart>& parts, const Condition& condition) {
+  std::vector<MeshPart*> chosen;
+  for (MeshPart& part : parts) {
     if (part.sampled && condition(part)) {
       chosen.push_back(&part);
     }
@@ -86,7 +86,7 @@ std::vector<Part*> sampled_parts(std::vector<Part>& parts, const Condition& cond
 }
 
 /// Appends; what only one side has is filled: white, no normal, no radius, attributes of 0.
-void append_points(Points& to, Points&& more) {
+void append_objects_points(Points& to, Points&& more) {
   if (to.size() == 0) {
     to = std::move(more);
     return;
@@ -110,12 +110,12 @@ void append_points(Points& to, Points&& more) {
   append(to.clip, more.clip, PointClip{});
 }
 
-std::vector<Part> list_parts(Input& input, const ReadOptions& options) {
-  std::vector<Part> parts;
+std::vector<MeshPart> list_parts(Input& input, const ReadOptions& options) {
+  std::vector<MeshPart> parts;
   for (InputObject& object : input.objects) {
     for (Mesh& mesh : object.meshes) {
       drop_unusable_triangles(mesh, object.name, input.notes);
-      Part part{&object, &mesh};
+      MeshPart part{&object, &mesh};
       part.area = surface_area(mesh);
       part.sampled =
           part.area > 0.0 && std::isfinite(part.area) &&
@@ -133,7 +133,7 @@ void move_out_points(InputObject& object) {
     if (object.points.size() == 0) {
       object.points = std::move(mesh.vertices);
     } else {
-      append_points(object.points, std::move(mesh.vertices));
+      append_objects_points(object.points, std::move(mesh.vertices));
     }
   }
   std::erase_if(object.meshes, [](const Mesh& mesh) { return mesh.triangles.empty(); });
@@ -141,13 +141,13 @@ void move_out_points(InputObject& object) {
 
 /// Coarse meshes share AUTOMATIC_SAMPLES; none gets fewer points than it has vertices, nor too few for it to
 /// be seen.
-void sample_coarse_parts(const std::vector<Part*>& coarse, std::vector<std::string>& notes) {
+void sample_coarse_parts(const std::vector<MeshPart*>& coarse, std::vector<std::string>& notes) {
   constexpr std::uint64_t FEWEST = 500;
   if (coarse.empty()) {
     return;
   }
   share_samples(coarse, AUTOMATIC_SAMPLES);
-  for (Part* part : coarse) {
+  for (MeshPart* part : coarse) {
     part->samples = std::max({part->samples, FEWEST, std::uint64_t{part->mesh->vertices.size()}});
   }
   notes.push_back(std::to_string(coarse.size()) +
@@ -157,23 +157,23 @@ void sample_coarse_parts(const std::vector<Part*>& coarse, std::vector<std::stri
 }
 
 /// How many points each part gets: options.samples over all, else what the scene asks for object by object.
-void choose_samples(std::vector<Part>& parts, Input& input, const ReadOptions& options) {
+void choose_samples(std::vector<MeshPart>& parts, Input& input, const ReadOptions& options) {
   if (options.samples > 0) {
-    share_samples(sampled_parts(parts, [](const Part&) { return true; }), options.samples);
+    share_samples(sampled_parts(parts, [](const MeshPart&) { return true; }), options.samples);
     return;
   }
-  sample_coarse_parts(sampled_parts(parts, [](const Part& part) { return part.object->samples == 0; }),
+  sample_coarse_parts(sampled_parts(parts, [](const MeshPart& part) { return part.object->samples == 0; }),
                       input.notes);
   for (const InputObject& object : input.objects) {
     if (object.samples > 0) {
-      share_samples(sampled_parts(parts, [&](const Part& part) { return part.object == &object; }),
+      share_samples(sampled_parts(parts, [&](const MeshPart& part) { return part.object == &object; }),
                     object.samples);
     }
   }
 }
 
 /// Of each part: its vertices where other parts have some too.
-std::vector<std::vector<bool>> shared_vertices(const std::vector<Part>& parts) {
+std::vector<std::vector<bool>> shared_vertices(const std::vector<MeshPart>& parts) {
   using Place = std::tuple<double, double, double, std::size_t, std::size_t>;
   std::vector<Place> places;
   std::vector<std::vector<bool>> shared(parts.size());
@@ -198,7 +198,7 @@ std::vector<std::vector<bool>> shared_vertices(const std::vector<Part>& parts) {
   return shared;
 }
 
-void points_from_part(const Part& part, const std::vector<bool>& shared, const ReadOptions& options,
+void points_from_part(const MeshPart& part, const std::vector<bool>& shared, const ReadOptions& options,
                       std::uint64_t seed, const Stage& stage, double share, std::vector<std::string>& notes) {
   stage.report(share);
   InputObject& object = *part.object;
@@ -209,8 +209,9 @@ void points_from_part(const Part& part, const std::vector<bool>& shared, const R
   stage.report(share);
   const MeshCreases creases{std::cos(glm::radians(options.crease_degrees)), options.clip,
                             shared.empty() ? nullptr : &shared};
-  append_points(object.points, part.sampled ? sample_surface(*part.mesh, weld, part.samples, seed, creases)
-                                            : vertex_points(*part.mesh, weld, creases));
+  append_objects_points(object.points, part.sampled
+                                           ? sample_surface(*part.mesh, weld, part.samples, seed, creases)
+                                           : vertex_points(*part.mesh, weld, creases));
 }
 
 }  // namespace
@@ -222,7 +223,7 @@ void points_from_meshes(Input& input, const ReadOptions& options) {
   }
   const Stage stage{"sampling", options.progress};
   stage.report(0.0);
-  std::vector<Part> parts = list_parts(input, options);
+  std::vector<MeshPart> parts = list_parts(input, options);
   choose_samples(parts, input, options);
   const std::vector<std::vector<bool>> shared = shared_vertices(parts);
   for (std::size_t i = 0; i < parts.size(); ++i) {

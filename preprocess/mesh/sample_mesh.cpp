@@ -32,7 +32,7 @@
 namespace splatray {
 namespace {
 
-constexpr float COS_SAME = 0.9994F;   // 2 degrees: normals of corners that are one point
+constexpr float COS_SAME_POINT = 0.9994F;  // 2 degrees: normals of corners that are one point
 constexpr double EDGE_REACH = 2.0;    // of a sample, in samples' distances: more than twice its disc's radius
 constexpr double OFF_SURFACE = 0.02;  // of the samples' distance: facets that discs end at
 constexpr double VERTEX_EDGE_REACH = 1.2;  // of a vertex, in units of its longest edge
@@ -241,8 +241,8 @@ class SampleWriter {
 };
 
 /// Samples in a triangle whose lattice makes rows; fewer lie anywhere.
-constexpr double ROWS = 4.0;
-constexpr double SLANTED = 0.3;  ///< sine of an angle below which a lattice's rows part
+constexpr double SAMPLES_IN_ROWS = 4.0;
+constexpr double SLANTED_LATTICE = 0.3;  ///< sine of an angle below which a lattice's rows part
 
 /// Sine of the least angle between the side opposite a corner and the lines that the corner's lattice fans out along to it.
 double least_slant(const std::array<glm::dvec3, 3>& corners, int apex) {
@@ -264,7 +264,7 @@ int apex_of(const std::array<glm::dvec3, 3>& corners, double samples) {
   int apex = 0;
   for (const int corner : {1, 2})
     if (opposite(corner) > opposite(apex)) apex = corner;
-  if (samples < ROWS || least_slant(corners, apex) > SLANTED) return apex;
+  if (samples < SAMPLES_IN_ROWS || least_slant(corners, apex) > SLANTED_LATTICE) return apex;
   const int longest = apex;
   for (const int corner : {(longest + 1) % 3, (longest + 2) % 3})
     if (least_slant(corners, corner) > 1.001 * least_slant(corners, apex)) apex = corner;
@@ -311,7 +311,7 @@ void clip_vertices(const Mesh& mesh, const std::vector<glm::uint>& weld,
   const auto has_normal = [&](std::size_t i, std::uint32_t t) {
     for (glm::length_t corner = 0; corner < 3; ++corner) {
       const glm::uint vertex = mesh.triangles[t][corner];
-      if (weld[vertex] == weld[kept[i]] && glm::dot(normals[vertex], normals[kept[i]]) >= COS_SAME)
+      if (weld[vertex] == weld[kept[i]] && glm::dot(normals[vertex], normals[kept[i]]) >= COS_SAME_POINT)
         return true;
     }
     return false;
@@ -370,7 +370,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
   MapSamples maps(mesh);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     glm::uint other = first_kept[weld[i]];
-    while (other != NONE && glm::dot(normals[other], normals[i]) < COS_SAME) {
+    while (other != NONE && glm::dot(normals[other], normals[i]) < COS_SAME_POINT) {
       other = next_kept[other];
     }
     if (!used[i] || other != NONE || (mask.any() && mesh.texture->cut_out(mesh.texcoord[i]))) {

@@ -13,7 +13,7 @@ namespace {
 
 /// What is foretold may be half of what is, or twice as much. Where curvature grows from nothing along a chord, normals lean at
 /// its one end half as much as at the other.
-constexpr double ALIKE = 0.5;
+constexpr double MOST_DIFFERENCE = 0.5;
 constexpr double UNCERTAIN = 0.01;  // sine, of normals of 8 bits a component
 constexpr double CURVED_PARTS = 0.5;
 /// Cosine of 3 degrees: edges along which normals turn by less lie within 1/150 of their length on the curve.
@@ -21,33 +21,33 @@ constexpr double COARSE_COSINE = 0.9986;
 constexpr double NO_AREA = 1e-9;  // least height of a triangle that has a plane, in units of its side
 
 bool alike(double a, double b, double uncertain) {
-  return std::abs(a - b) <= ALIKE * std::max(std::abs(a), std::abs(b)) + uncertain;
+  return std::abs(a - b) <= MOST_DIFFERENCE * std::max(std::abs(a), std::abs(b)) + uncertain;
 }
 
 /// A triangle seen from one of its sides, with the normals that its corners have.
-struct Seen {
+struct SeenTriangle {
   std::array<glm::dvec3, 3> place, normal;  ///< of the side's ends and of the corner opposite to it
 };
 
 /// Sines by which the normals at a side's ends lean outwards.
-std::array<double, 2> leans(const Seen& seen) {
+std::array<double, 2> leans(const SeenTriangle& seen) {
   const glm::dvec3 along = glm::normalize(seen.place[1] - seen.place[0]);
   return {-glm::dot(along, seen.normal[0]), glm::dot(along, seen.normal[1])};
 }
 
-double most_lean(const Seen& seen) {
+double most_lean(const SeenTriangle& seen) {
   const auto [from, to] = leans(seen);
   return std::max(std::abs(from), std::abs(to));
 }
 
-bool leans_alike(const Seen& seen) {
+bool leans_alike(const SeenTriangle& seen) {
   const auto [from, to] = leans(seen);
   return alike(from, to, UNCERTAIN);
 }
 
 /// The plane of a triangle with a frame: its first side along u, its third corner before v.
 struct Facet {
-  explicit Facet(const Seen& seen) {
+  explicit Facet(const SeenTriangle& seen) {
     const auto& [a, b, c] = seen.place;
     length = glm::length(b - a);
     u = (b - a) / length;
@@ -66,7 +66,7 @@ struct Facet {
 
 /// Whether the normals foretell how high above the triangle's plane `beyond`, the third corner of the triangle across the side,
 /// lies: on the graph of the quadric through the corners that turns along the sides by what the normals do.
-bool foretells(const Seen& seen, const glm::dvec3& beyond) {
+bool foretells(const SeenTriangle& seen, const glm::dvec3& beyond) {
   const Facet facet(seen);
   if (!facet.has_area()) return true;
   const double length = facet.length, cx = facet.apex_x, cy = facet.apex_y;
@@ -86,7 +86,7 @@ bool foretells(const Seen& seen, const glm::dvec3& beyond) {
 }
 
 /// Whether `beyond` lies in the triangle's plane.
-bool holds(const Seen& seen, const glm::dvec3& beyond) {
+bool holds(const SeenTriangle& seen, const glm::dvec3& beyond) {
   const Facet facet(seen);
   const glm::dvec3 offset = beyond - seen.place[0];
   return facet.has_area() && std::abs(glm::dot(offset, facet.up)) <= UNCERTAIN * glm::length(offset);
@@ -99,8 +99,8 @@ class Chords {
          const MeshEdges& edges)
       : mesh_(mesh), weld_(weld), corners_(corners), edges_(edges) {}
 
-  [[nodiscard]] Seen seen_from(std::uint32_t triangle, std::uint32_t side) const {
-    Seen seen;
+  [[nodiscard]] SeenTriangle seen_from(std::uint32_t triangle, std::uint32_t side) const {
+    SeenTriangle seen;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t corner = (side + i) % 3;
       seen.place[i] = mesh_.vertices.position[mesh_.triangles[triangle][static_cast<glm::length_t>(corner)]];
@@ -110,7 +110,7 @@ class Chords {
   }
 
   /// The same edge, seen from the other triangle at it.
-  [[nodiscard]] Seen seen_from_beside(std::uint32_t triangle, std::uint32_t side) const {
+  [[nodiscard]] SeenTriangle seen_from_beside(std::uint32_t triangle, std::uint32_t side) const {
     const std::uint32_t beside = edges_.beside(triangle, side);
     for (std::uint32_t other = 0; other < 3; ++other)
       if (place(beside, other + 2) != place(triangle, side) &&
@@ -121,9 +121,9 @@ class Chords {
 
   [[nodiscard]] bool is_chord(std::uint32_t triangle, std::uint32_t side) const {
     const std::uint32_t beside = edges_.beside(triangle, side);
-    const Seen own = seen_from(triangle, side);
+    const SeenTriangle own = seen_from(triangle, side);
     if (beside == triangle) return leans_alike(own);
-    const Seen other = seen_from_beside(triangle, side);
+    const SeenTriangle other = seen_from_beside(triangle, side);
     if (!leans_alike(own) || !leans_alike(other)) return false;
     return edges_.across(triangle, side) == MeshEdges::NONE ||
            (foretells(own, other.place[2]) && foretells(other, own.place[2]));
@@ -131,13 +131,13 @@ class Chords {
 
   /// Whether the two triangles at a smooth edge lie in one plane.
   [[nodiscard]] bool is_flat(std::uint32_t triangle, std::uint32_t side) const {
-    const Seen own = seen_from(triangle, side), other = seen_from_beside(triangle, side);
+    const SeenTriangle own = seen_from(triangle, side), other = seen_from_beside(triangle, side);
     return holds(own, other.place[2]) && holds(other, own.place[2]);
   }
 
   /// Whether normals turn enough along the edge for its chord to be seen.
   [[nodiscard]] bool is_coarse(std::uint32_t triangle, std::uint32_t side) const {
-    const auto turns = [](const Seen& seen) {
+    const auto turns = [](const SeenTriangle& seen) {
       return glm::dot(seen.normal[0], seen.normal[1]) < COARSE_COSINE;
     };
     return turns(seen_from(triangle, side)) || turns(seen_from_beside(triangle, side));

@@ -24,7 +24,7 @@ Mesh without_options(const std::filesystem::path& path, const ReadOptions& /*opt
   return read(path, listener);
 }
 
-constexpr Format FORMATS[] = {
+constexpr Format READ_FORMATS[] = {
     {".ply",
      "ASCII and binary of both endians; float and double positions, normals, colours, radius; triangles",
      read_ply, nullptr, nullptr},
@@ -55,11 +55,11 @@ constexpr Format FORMATS[] = {
 
 }  // namespace
 
-std::span<const Format> formats() { return FORMATS; }
+std::span<const Format> formats() { return READ_FORMATS; }
 
 const Format* find_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  for (const Format& format : FORMATS) {
+  for (const Format& format : READ_FORMATS) {
     const std::string padded = " " + std::string(format.extensions) + " ";
     if (!extension.empty() && padded.find(" " + extension + " ") != std::string::npos) {
       return &format;
@@ -70,7 +70,7 @@ const Format* find_format(const std::filesystem::path& path) {
 
 std::string format_extensions(bool meshes_only) {
   std::string all;
-  for (const Format& format : FORMATS) {
+  for (const Format& format : READ_FORMATS) {
     if (!meshes_only || format.read_mesh != nullptr) {
       (all += all.empty() ? "" : " ") += format.extensions;
     }

@@ -69,7 +69,7 @@ void name_stations(NamedScan& scan) {
   }
 }
 
-void append_points(Points& to, Points&& more) {
+void append_scans_points(Points& to, Points&& more) {
   const std::size_t to_size = to.size();
   const std::size_t size = more.size();
   append_columns(to.columns, to_size, std::move(more.columns), size);
@@ -109,7 +109,7 @@ InputObject join_scans(std::vector<NamedScan> scans) {
                 "the input has " + std::to_string(stations) + " scans, expected at most 65535");
   for (NamedScan& scan : scans) {
     decode_colors(scan.file.points);
-    append_points(object.points, std::move(scan.file.points));
+    append_scans_points(object.points, std::move(scan.file.points));
   }
   Points& points = object.points;
   std::erase_if(points.columns, is_constant_zero);

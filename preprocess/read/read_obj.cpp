@@ -12,28 +12,16 @@
 
 #include "engine/base/srgb.h"
 #include "preprocess/read/byte_reader.h"
+#include "preprocess/read/text/next_word.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST_LINE_BYTES = std::size_t{1} << 26U;
+constexpr std::size_t MOST_OBJ_LINE_BYTES = std::size_t{1} << 26U;
 constexpr std::int64_t MOST_ELEMENTS = 0xFFFFFFFF;  ///< indices have 32 bits
 
 /// What corners have indices of, in the order of a corner's parts.
-enum Kind : std::size_t { VERTEX, TEXCOORD, NORMAL, KINDS };
-
-/// The next word of a line, empty at its end.
-std::string_view next_word(std::string_view& line) {
-  const std::size_t begin = line.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) {
-    line = {};
-    return {};
-  }
-  const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
+enum CornerPart : std::size_t { VERTEX, TEXCOORD, NORMAL, KINDS };
 
 bool read_number(std::string_view word, double& value) {
   if (!word.empty() && word.front() == '+') {
@@ -44,7 +32,7 @@ bool read_number(std::string_view word, double& value) {
 }
 
 /// A face's corner: indices of its vertex and normal from 1, 0 = no normal.
-struct Corner {
+struct FaceCorner {
   std::uint32_t vertex = 0;
   std::uint32_t normal = 0;
 };
@@ -54,7 +42,7 @@ struct ObjContent {
   std::vector<glm::dvec3> position;
   std::vector<glm::vec3> color;  ///< as stored, beside `position` or shorter: the others have none
   std::vector<glm::vec3> normal;
-  std::vector<std::array<Corner, 3>> triangles;
+  std::vector<std::array<FaceCorner, 3>> triangles;
 };
 
 class ObjReader {
@@ -65,7 +53,7 @@ class ObjReader {
     std::string_view line;
     std::string keyword;
     bool continued = false;
-    while (in_.line(line, MOST_LINE_BYTES)) {
+    while (in_.line(line, MOST_OBJ_LINE_BYTES)) {
       ++line_number_;
       const bool continues = !line.empty() && line.back() == '\\';
       line.remove_suffix(continues ? 1 : 0);
@@ -95,7 +83,7 @@ class ObjReader {
     fail("found index " + found + ", the file has " + std::to_string(counts_[kind]) + " " + NAMES[kind]);
   }
 
-  void count(Kind kind) {
+  void count(CornerPart kind) {
     if (++counts_[kind] > MOST_ELEMENTS) fail("found more than 4294967295 vertices or normals");
   }
 
@@ -108,7 +96,7 @@ class ObjReader {
       read_normal(line);
     } else if (keyword == "f" || keyword == "l" || keyword == "p") {
       for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-        const Corner corner = read_corner(word);
+        const FaceCorner corner = read_corner(word);
         if (keyword == "f") add_corner(corner);
       }
     }
@@ -143,7 +131,7 @@ class ObjReader {
   }
 
   /// "v", "v/t", "v//n" or "v/t/n"; negative indices count back from the last one read.
-  Corner read_corner(std::string_view text) {
+  FaceCorner read_corner(std::string_view text) {
     std::array<std::uint32_t, KINDS> indices{};
     for (std::size_t kind = 0; kind < KINDS; ++kind) {
       const std::size_t slash = text.find('/');
@@ -177,7 +165,7 @@ class ObjReader {
     return static_cast<std::uint32_t>(index > 0 ? index : counts_[kind] + 1 + index);
   }
 
-  void add_corner(const Corner& corner) {
+  void add_corner(const FaceCorner& corner) {
     if (face_.size() == 2) {
       content_.triangles.push_back({face_[0], face_[1], corner});
       face_[1] = corner;
@@ -188,7 +176,7 @@ class ObjReader {
 
   ByteReader in_;
   ObjContent content_;
-  std::vector<Corner> face_;  ///< first and last corner of the face that is read
+  std::vector<FaceCorner> face_;  ///< first and last corner of the face that is read
   std::uint64_t line_number_ = 0;
   std::array<std::int64_t, KINDS> counts_{};   ///< read so far
   std::array<std::int64_t, KINDS> highest_{};  ///< greatest index used of each; the file may have it later
@@ -212,7 +200,7 @@ class CornerJoiner {
     vertices_.normal.resize(vertices_.size(), glm::vec3(0.0F));
   }
 
-  std::uint32_t index(const Corner& corner) {
+  std::uint32_t index(const FaceCorner& corner) {
     std::uint32_t& first = first_[corner.vertex - 1];
     if (first == UNUSED) {
       first = corner.normal;
@@ -233,7 +221,7 @@ class CornerJoiner {
  private:
   static constexpr std::uint32_t UNUSED = 0xFFFFFFFF;
 
-  [[nodiscard]] glm::vec3 normal(const Corner& corner) const {
+  [[nodiscard]] glm::vec3 normal(const FaceCorner& corner) const {
     return corner.normal == 0 ? glm::vec3(0.0F) : normals_[corner.normal - 1];
   }
 

@@ -1,7 +1,6 @@
 #include "preprocess/read/read_stl.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -11,41 +10,43 @@
 #include <utility>
 #include <vector>
 
+#include "preprocess/base/lower_case.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/float_precision.h"
+#include "preprocess/read/text/next_word.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::uint64_t HEADER_BYTES = 84;
+constexpr std::uint64_t STL_HEADER_BYTES = 84;
 constexpr std::size_t TRIANGLE_BYTES = 50;  ///< normal, three corners, a word of attributes
 constexpr std::size_t NORMAL_BYTES = 12;
-constexpr std::size_t MOST_LINE_BYTES = 4096;
+constexpr std::size_t MOST_STL_LINE_BYTES = 4096;
 
 std::uint64_t declared_bytes(const unsigned char* header) {
   std::uint32_t count = 0;
   std::memcpy(&count, header + 80, sizeof count);
-  return HEADER_BYTES + TRIANGLE_BYTES * std::uint64_t{count};
+  return STL_HEADER_BYTES + TRIANGLE_BYTES * std::uint64_t{count};
 }
 
 /// ASCII files begin with "solid", as some binary ones do; those have the size that they declare.
 bool is_ascii(const std::filesystem::path& path) {
   ByteReader in(path);
   const std::uint64_t size = in.remaining();
-  const auto length = static_cast<std::size_t>(std::min(size, HEADER_BYTES));
+  const auto length = static_cast<std::size_t>(std::min(size, STL_HEADER_BYTES));
   const unsigned char* bytes = in.take(length);
   const std::string_view start(reinterpret_cast<const char*>(bytes), length);
-  return start.starts_with("solid") && (length < HEADER_BYTES || size != declared_bytes(bytes));
+  return start.starts_with("solid") && (length < STL_HEADER_BYTES || size != declared_bytes(bytes));
 }
 
 /// Three corners for each triangle.
 std::vector<glm::dvec3> read_binary(const std::filesystem::path& path, const ReadListener& listener) {
   ByteReader in(path, &listener);
   const std::uint64_t size = in.remaining();
-  const unsigned char* header = size < HEADER_BYTES ? nullptr : in.take(HEADER_BYTES);
-  const std::uint64_t declared = header == nullptr ? HEADER_BYTES : declared_bytes(header);
-  const std::uint64_t count = (declared - HEADER_BYTES) / TRIANGLE_BYTES;
+  const unsigned char* header = size < STL_HEADER_BYTES ? nullptr : in.take(STL_HEADER_BYTES);
+  const std::uint64_t declared = header == nullptr ? STL_HEADER_BYTES : declared_bytes(header);
+  const std::uint64_t count = (declared - STL_HEADER_BYTES) / TRIANGLE_BYTES;
   if (header == nullptr || size < declared) {
     throw_unreadable(path, "found " + std::to_string(size) + " bytes, expected " + std::to_string(declared) +
                                " for the " + std::to_string(count) + " triangles of a binary STL");
@@ -66,26 +67,15 @@ std::vector<glm::dvec3> read_binary(const std::filesystem::path& path, const Rea
   return corners;
 }
 
-std::string_view next_word(std::string_view& line) {
-  constexpr const char* BLANKS = " \t\r";
-  const std::size_t begin = std::min(line.find_first_not_of(BLANKS), line.size());
-  const std::size_t end = std::min(line.find_first_of(BLANKS, begin), line.size());
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
-
 /// Lines of an ASCII file; of those only `vertex` and the ends of facets matter.
 class AsciiStl {
  public:
   AsciiStl(const std::filesystem::path& path, const ReadListener& listener) : in_(path, &listener) {}
 
   std::vector<glm::dvec3> read() {
-    for (std::string_view line; in_.line(line, MOST_LINE_BYTES);) {
+    for (std::string_view line; in_.line(line, MOST_STL_LINE_BYTES);) {
       ++line_number_;
-      std::string word(next_word(line));
-      std::transform(word.begin(), word.end(), word.begin(),
-                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      const std::string word = lower_case(std::string(next_word(line)));
       if (word == "vertex") {
         corners_.push_back(read_corner(line));
       } else if (word == "endfacet") {

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double BIN = 0.5;               // seconds
 constexpr std::size_t LEAST_PULSES = 15;  // of a bin
-constexpr double LEAST_HEIGHT = 0.25;     // of the sensor, in units of the diagonal of what it saw in a bin
+constexpr double LEAST_FLIGHT_HEIGHT =
+    0.25;  // of the sensor, in units of the diagonal of what it saw in a bin
 constexpr double LEAST_SPREAD =
     1e-4;  // determinant of the mean of I - d d^T: below this the lines are parallel
 
@@ -84,7 +85,7 @@ FlightTrack::FlightTrack(const Cloud& cloud, const glm::dvec3& up) {
     const glm::dvec3 middle = 0.5 * (bounds.low + bounds.high);
     glm::dvec3 place;
     if (bin.size() >= LEAST_PULSES && meet(bin, middle, place) &&
-        glm::dot(place, up) > LEAST_HEIGHT * glm::length(bounds.high - bounds.low))
+        glm::dot(place, up) > LEAST_FLIGHT_HEIGHT * glm::length(bounds.high - bounds.low))
       places_.push_back({times / static_cast<double>(bin.size()), middle + place});
     begin = end;
   }

@@ -9,15 +9,14 @@
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
 #include "preprocess/base/unit_or_zero.h"
+#include "preprocess/surface/radius.h"
+#include "preprocess/surface/voronoi.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEWEST = 1000;    // points that distinguish surfaces from what is none
-constexpr std::size_t RING = 6;         // the place whose distance a disc's radius follows
-constexpr float USUAL = 2.0F;           // most of that distance, in units of the median around
 constexpr float BESIDE_SCATTER = 1.0F;  // most of a surface's radius next to what is none, in the same units
-constexpr int ROUNDS = 2;               // in which points do as most around them
+constexpr int VOTING_ROUNDS = 2;        // in which points do as most around them
 constexpr double UPWARDS = 0.7;         // of `up`, beside the unit gradient of the density
 
 ScanKind kind_of(const Survey& survey, std::uint32_t point) {
@@ -31,7 +30,7 @@ ScanKind kind_of(const Survey& survey, std::uint32_t point) {
 }
 
 float ring_distance(const Cloud& cloud, const Survey& survey, std::uint32_t point) {
-  const float distance = glm::distance(cloud.coord[point], cloud.coord[survey.around(point, RING - 1)]);
+  const float distance = glm::distance(cloud.coord[point], cloud.coord[survey.around(point, EVEN_RING - 1)]);
   return distance > 0.0F ? distance : survey.reach[point];  // a stray that is gone stood there
 }
 
@@ -53,13 +52,13 @@ std::vector<ScanKind> as_most_around(const std::vector<ScanKind>& kinds, const S
 }  // namespace
 
 std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey) {
-  if (cloud.size() < FEWEST) return {};
+  if (cloud.size() < FEWEST_TELLING) return {};
   std::vector<ScanKind> kinds(cloud.size());
   tbb::parallel_for(std::size_t{0}, kinds.size(), [&](std::size_t i) {
     const bool estimated = survey.estimated[i] != 0;
     kinds[i] = estimated ? kind_of(survey, static_cast<std::uint32_t>(i)) : ScanKind::surface;
   });
-  for (int round = 0; round < ROUNDS; ++round) kinds = as_most_around(kinds, survey);
+  for (int round = 0; round < VOTING_ROUNDS; ++round) kinds = as_most_around(kinds, survey);
   const bool all =
       std::all_of(kinds.begin(), kinds.end(), [](ScanKind kind) { return kind == ScanKind::surface; });
   return all ? std::vector<ScanKind>{} : kinds;
@@ -89,7 +88,7 @@ void make_scatter_discs(Cloud& cloud, const Survey& survey, const glm::dvec3& up
     const float usual = median_of(std::span<float>(rings));
     cloud.radius_most[i] = std::min(cloud.radius_most[i], BESIDE_SCATTER * usual);
     if (cloud.on_surface(i)) return;
-    cloud.radius[i] = share * std::min(ring[i], USUAL * usual);
+    cloud.radius[i] = share * std::min(ring[i], MOST_OVER_USUAL * usual);
     const glm::dvec3 normal = unit_or_zero(UPWARDS * up - unit_or_zero(inwards));
     cloud.normal[i] = glm::vec3(normal == glm::dvec3(0.0) ? up : normal);
   });

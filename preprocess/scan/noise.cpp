@@ -12,10 +12,9 @@
 namespace splatray {
 namespace {
 
-constexpr float ALIKE = 0.9F;               // cosine of normals of one smooth surface
-constexpr std::size_t MOST_ASKED = 200000;  // points that give the median well enough
+constexpr float AGREEING_COSINE = 0.9F;         // cosine of normals of one smooth surface
+constexpr std::size_t MOST_OF_MEDIAN = 200000;  // points that give the median well enough
 
-constexpr std::size_t FEWEST = 1000;       // points that distinguish noise from shape
 constexpr std::size_t MOST_PAIRED = 8192;  // points whose pairs show it well enough
 constexpr std::size_t NEAREST = 8;         // the nearest of so many pairs
 constexpr std::size_t DENSEST = 4;         // and the densest of so many points
@@ -24,7 +23,7 @@ constexpr float LOWEST = 1e-6F;            // height over the 8th place's distan
 // Noisy clouds, raw and simulated, have 0.06 and more and a slope of at most 0.4; clean ones, vertices and samples of meshes
 // and surveys of mountains, have slopes of 0.58 and more, whatever their heights. Terrain with trees, thinned until no two
 // points are of one tree, has 0.28 and more.
-constexpr double NOISY = 0.05, ROUGH = 0.5, ROUGH_TERRAIN = 0.15;
+constexpr double NOISY_HEIGHT = 0.05, ROUGH_SLOPE = 0.5, ROUGH_TERRAIN_SLOPE = 0.15;
 
 constexpr std::size_t MOST_SORTED = 65536;  // coordinates that show their step
 
@@ -35,7 +34,7 @@ float disagreement(const Cloud& cloud, const Survey& survey, std::uint32_t i) {
   const auto listed = survey.around(i);
   for (const std::uint32_t j : std::span(listed).first(Survey::RING)) {
     if (!cloud.on_surface(j)) continue;
-    if (glm::dot(cloud.normal[i], cloud.normal[j]) < ALIKE) continue;
+    if (glm::dot(cloud.normal[i], cloud.normal[j]) < AGREEING_COSINE) continue;
     const float height = 0.5F * glm::dot(cloud.normal[i] + cloud.normal[j], cloud.coord[j] - cloud.coord[i]);
     sum += height * height;
     count += 1.0F;
@@ -54,7 +53,8 @@ void add_pairs(const Cloud& cloud, const Survey& survey, std::uint32_t i, std::v
   if (!(survey.reach[i] > 0.0F)) return;
   const float by = 1.0F / survey.reach[i];
   for (const std::uint32_t j : survey.around(i)) {
-    if (j == i || !cloud.on_surface(j) || glm::dot(cloud.normal[i], cloud.normal[j]) < ALIKE) continue;
+    if (j == i || !cloud.on_surface(j) || glm::dot(cloud.normal[i], cloud.normal[j]) < AGREEING_COSINE)
+      continue;
     const glm::vec3 offset = cloud.coord[j] - cloud.coord[i];
     const float height = 0.5F * std::abs(glm::dot(cloud.normal[i] + cloud.normal[j], offset));
     pairs.push_back({by * glm::length(offset), by * height});
@@ -89,7 +89,7 @@ double median(const std::vector<std::uint32_t>& points, std::size_t most, const 
   std::vector<float> noise(points.size() / stride);
   tbb::parallel_for(std::size_t{0}, noise.size(),
                     [&](std::size_t n) { noise[n] = noise_of(points[n * stride]); });
-  return noise.empty() ? 0.0 : median_of(std::span(noise));
+  return median_or_zero(noise);
 }
 
 std::vector<std::uint32_t> estimated_points(const Cloud& cloud, const Survey& survey) {
@@ -141,7 +141,7 @@ std::vector<double> station_step_world(const Cloud& cloud) {
 }
 
 PairHeights pair_heights(const Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points) {
-  if (points.size() < FEWEST) return {};
+  if (points.size() < FEWEST_TELLING) return {};
   std::vector<float> reach;
   for (std::size_t n = 0; n < points.size(); n += points.size() / MOST_SORTED + 1)
     reach.push_back(survey.reach[points[n]]);
@@ -156,7 +156,7 @@ PairHeights pair_heights(const Cloud& cloud, const Survey& survey, const std::ve
     add_pairs(cloud, survey, i, pairs);
     rounded.push_back(glm::dot(survey.step, glm::abs(cloud.normal[i])) / survey.reach[i]);
   }
-  if (pairs.size() < FEWEST) return {};
+  if (pairs.size() < FEWEST_TELLING) return {};
   std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.apart < b.apart; });
   const Pair nearest = median_pair(std::span(pairs).first(pairs.size() / NEAREST));
   const float usual = median_of(std::span(reach).first(reach.size() / DENSEST));
@@ -165,12 +165,12 @@ PairHeights pair_heights(const Cloud& cloud, const Survey& survey, const std::ve
 }
 
 bool is_noise(const PairHeights& heights, bool terrain) {
-  if (heights.rounded > NOISY) return true;
-  return heights.near > NOISY && heights.slope < (terrain ? ROUGH_TERRAIN : ROUGH);
+  if (heights.rounded > NOISY_HEIGHT) return true;
+  return heights.near > NOISY_HEIGHT && heights.slope < (terrain ? ROUGH_TERRAIN_SLOPE : ROUGH_SLOPE);
 }
 
 double measure_noise(const Cloud& cloud, const Survey& survey) {
-  return median(estimated_points(cloud, survey), MOST_ASKED, [&](auto i) {
+  return median(estimated_points(cloud, survey), MOST_OF_MEDIAN, [&](auto i) {
     return survey.reach[i] > 0.0F ? disagreement(cloud, survey, i) / survey.reach[i] : 0.0F;
   });
 }
@@ -179,7 +179,7 @@ std::vector<double> station_noise_world(const Cloud& cloud, const Survey& survey
   std::vector<double> noise;
   for (const auto& points : by_station(cloud, estimated_points(cloud, survey)))
     noise.push_back(cloud.half_extent_world / std::numbers::sqrt2 *
-                    median(points, MOST_ASKED, [&](auto i) { return disagreement(cloud, survey, i); }));
+                    median(points, MOST_OF_MEDIAN, [&](auto i) { return disagreement(cloud, survey, i); }));
   return noise;
 }
 

@@ -10,7 +10,7 @@
 namespace splatray {
 namespace {
 
-constexpr double MOST_CELLS = 256.0;  // along the longest side
+constexpr double MOST_CELLS_ALONG = 256.0;  // along the longest side
 constexpr double REACHES = 2.5;
 
 }  // namespace
@@ -22,7 +22,7 @@ Occupancy::Occupancy(const Cloud& cloud, double edge) : low_(INFINITY) {
     high = glm::max(high, glm::dvec3(coord));
   }
   const glm::dvec3 extent = high - low_;
-  edge_ = std::max(edge, std::max({extent.x, extent.y, extent.z, 1e-6}) / MOST_CELLS);
+  edge_ = std::max(edge, std::max({extent.x, extent.y, extent.z, 1e-6}) / MOST_CELLS_ALONG);
   size_ = glm::ivec3(extent / edge_) + 1;
   const auto cells = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
                      static_cast<std::size_t>(size_.z);

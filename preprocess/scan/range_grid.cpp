@@ -6,8 +6,6 @@
 namespace splatray {
 namespace {
 
-constexpr std::uint64_t MOST_CELLS = 64;  // for each point: no allocation that the points do not justify
-
 /// Unit directions of the grid's rows and columns.
 constexpr std::array<std::array<int, 2>, 8> COMPASS{
     {{-1, -1}, {-1, 0}, {-1, 1}, {0, 1}, {1, 1}, {1, 0}, {1, -1}, {0, -1}}};
@@ -17,7 +15,8 @@ constexpr std::array<std::array<int, 2>, 8> COMPASS{
 RangeGrid::RangeGrid(const Cloud& cloud, const Station& station, const std::vector<std::uint32_t>& points)
     : cloud_(cloud) {
   const std::uint64_t cells = std::uint64_t{station.rows} * station.columns;
-  if (!station.sensor_world || cloud.grid_cell.empty() || cells == 0 || cells > MOST_CELLS * points.size())
+  if (!station.sensor_world || cloud.grid_cell.empty() || cells == 0 ||
+      cells > MOST_CELLS_PER_POINT * points.size())
     return;
   rows_ = station.rows;
   columns_ = station.columns;

@@ -9,6 +9,9 @@
 
 namespace splatray {
 
+/// The most cells of a grid for each of its points: no allocation that the points do not justify.
+inline constexpr std::uint64_t MOST_CELLS_PER_POINT = 64;
+
 /// The points of one station by their cells.
 class RangeGrid {
  public:

@@ -24,7 +24,7 @@ namespace {
 constexpr double LEAST_NOISE = 0.02;  // of the distance to the 8th place: less is hidden by what discs blend
 constexpr double SHARP =
     0.05;  // share of points at creases that noise would have hidden: edges are what looks like it
-constexpr double WHOLE = 4.0;  // a radius, cloud coordinates, that reaches all points from each
+constexpr double WHOLE_CLOUD = 4.0;  // a radius, cloud coordinates, that reaches all points from each
 // Radius of discs on no surface over the distance to the 6th place.
 constexpr float LEAVES = 0.4F, CLUTTER = 0.3F;
 
@@ -163,7 +163,7 @@ void keep_near_points(const Survey& survey, double noise_length, std::vector<std
 void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, SmoothParams how,
                      const Stage& stage, BuildStats& stats) {
   const bool asked = params.smooth_world > 0.0;
-  how.radius = std::clamp(params.smooth_world / cloud.half_extent_world, 0.0, WHOLE);
+  how.radius = std::clamp(params.smooth_world / cloud.half_extent_world, 0.0, WHOLE_CLOUD);
   std::vector<std::uint8_t> movable = find_movable(cloud, survey);
   Smoothed smoothed;
   if (!asked) smoothed = smooth_by_grids(cloud, movable, how.noise, stage);

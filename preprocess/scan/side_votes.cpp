@@ -13,11 +13,12 @@ namespace {
 
 /// Most that neighbours on one part may differ, in the rounds that join them: Kruskal's order, in steps.
 constexpr std::array<float, 5> LIMITS{0.01F, 0.03F, 0.07F, 0.12F, 0.2F};
-constexpr float LINK = 2.0F;  // of neighbours that are near, in units of both their distances to the 8th
+constexpr float NEAR_REACH =
+    2.0F;  // of neighbours that are near, in units of both their distances to the 8th
 constexpr std::size_t MOST_VOTERS = 1U << 17;
-constexpr double START = 2.2;        // of a ray above its point, in cells: beyond the surface's own
+constexpr double RAY_START = 2.2;    // of a ray above its point, in cells: beyond the surface's own
 constexpr double ROOM_SHARE = 0.15;  // of the points in planes that all others are on one side of: a room
-constexpr float FLAT = 0.99F;        // cosine of normals of one such plane
+constexpr float ONE_PLANE_COSINE = 0.99F;  // cosine of normals of one such plane
 constexpr std::uint64_t LEAST_VOTES = 8;
 
 /// How much two neighbours look like no one surface, 0..1: by the angle of their normals, and of the step between them to
@@ -34,7 +35,7 @@ float difference(const Cloud& cloud, std::uint32_t i, std::uint32_t j) {
 bool are_near(const Cloud& cloud, const Survey& survey, std::uint32_t i, std::uint32_t j) {
   if (!cloud.on_surface(i) || !cloud.on_surface(j)) return false;
   const glm::vec3 step = cloud.coord[j] - cloud.coord[i];
-  const float reach = LINK * std::min(survey.reach[i], survey.reach[j]);
+  const float reach = NEAR_REACH * std::min(survey.reach[i], survey.reach[j]);
   return glm::dot(step, step) <= reach * reach;
 }
 
@@ -96,7 +97,7 @@ std::vector<std::uint8_t> find_rounds(const Cloud& cloud, const Survey& survey) 
   return rounds;
 }
 
-Parts find_parts(const Cloud& cloud, const Survey& survey) {
+Parts find_turned_parts(const Cloud& cloud, const Survey& survey) {
   SignedSets sets(cloud.size());
   std::vector<std::uint8_t> rounds = find_rounds(cloud, survey);
   for (std::size_t round = 0; round < LIMITS.size(); ++round) {
@@ -157,7 +158,7 @@ std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, co
       const glm::dvec3 local = direction(static_cast<std::uint32_t>(n % 1024) * 4 + ray + 1);
       for (const double sign : {1.0, -1.0}) {
         const glm::dvec3 dir = local.x * u + local.y * v + sign * local.z * normal;
-        const glm::dvec3 origin = glm::dvec3(cloud.coord[i]) + sign * START * space.edge() * normal;
+        const glm::dvec3 origin = glm::dvec3(cloud.coord[i]) + sign * RAY_START * space.edge() * normal;
         room += sign * std::min(space.free_path(origin, dir).value_or(beyond), 4.0);
       }
     }
@@ -210,7 +211,7 @@ bool is_room(const Cloud& cloud, const Survey& survey) {
           glm::dot(glm::dvec3(cloud.normal[i]), glm::dvec3(cloud.coord[j] - cloud.coord[i]));
       above += height > near ? 1 : 0;
       below += height < -near ? 1 : 0;
-      const bool alike = std::abs(glm::dot(cloud.normal[i], cloud.normal[j])) > FLAT;
+      const bool alike = std::abs(glm::dot(cloud.normal[i], cloud.normal[j])) > ONE_PLANE_COSINE;
       within += alike && std::abs(height) <= near ? 1 : 0;
     }
     bounds[p] = std::min(above, below) < points / 50 && within > points / 25;
@@ -220,7 +221,7 @@ bool is_room(const Cloud& cloud, const Survey& survey) {
 }
 
 std::uint64_t turn_by_votes(Cloud& cloud, const Survey& survey, const Stage& stage) {
-  const Parts parts = find_parts(cloud, survey);
+  const Parts parts = find_turned_parts(cloud, survey);
   const std::vector<std::int8_t> cast = cast_votes(cloud, survey, stage);
   std::vector<Votes> votes(cloud.size());  // of parts, at their least members
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {

@@ -15,22 +15,19 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEWEST = 1000;  // points that show what is usual
-constexpr float APART = 3.0F;         // of a stray's neighbours, in units of theirs
+constexpr float ISOLATED_REACH = 3.0F;  // of a stray's neighbours, in units of theirs
 constexpr std::size_t LEAST_RANK =
-    2;                        // which of the neighbours' distances: other strays may be the first two
-constexpr float LINK = 1.3F;  // of points that hang together, in units of both their distances
+    2;                              // which of the neighbours' distances: other strays may be the first two
+constexpr float LINK_REACH = 1.3F;  // of points that hang together, in units of both their distances
 constexpr std::size_t SMALL_PART = 16;
 constexpr std::size_t PARTS_MOST = 10000;     // all points over those of a part that is no stray
 constexpr std::size_t THIN_PARTS_MOST = 100;  // all points over those of a part that may be dust
-constexpr float SPARSE = 4.0F;                // of dust's distances, in units of what is usual
+constexpr float DUST_REACH = 4.0F;            // of dust's distances, in units of what is usual
 constexpr double FAR_STEPS = 4.0;             // of the 8th neighbour, in steps of the scanner
 constexpr double LINE_NOISES = 1.7;           // of a point off a line, in units of what is usual
 constexpr double SECOND_OF_8 = 0.25;  // the median of the second least of 8 such distances, in the same units
-const double SLANTED =
+const double SLANTED_PLANE =
     std::sin(15.0 * std::numbers::pi / 180.0);  // sine of the angle that a plane is seen at
-
-float median(std::vector<float>& values) { return values.empty() ? 0.0F : median_of(std::span(values)); }
 
 /// Points that have no neighbour as near as their neighbours have.
 void mark_isolated(const Survey& survey, std::vector<Stray>& strays) {
@@ -38,7 +35,7 @@ void mark_isolated(const Survey& survey, std::vector<Stray>& strays) {
     // Whether that holds of the neighbour of LEAST_RANK: of more neighbours than that.
     std::size_t closer = 0;
     for (const std::uint32_t j : survey.around(i))
-      closer += survey.reach[i] > APART * survey.reach[j] ? 1 : 0;
+      closer += survey.reach[i] > ISOLATED_REACH * survey.reach[j] ? 1 : 0;
     if (closer > LEAST_RANK) strays[i] = Stray::isolated;
   });
 }
@@ -51,7 +48,7 @@ std::vector<std::uint16_t> find_links(const Cloud& cloud, const Survey& survey) 
     for (std::size_t k = 0; k < Survey::LISTED; ++k) {
       const std::uint32_t j = listed[k];
       const glm::vec3 apart = cloud.coord[i] - cloud.coord[j];
-      const float reach = LINK * std::min(survey.reach[i], survey.reach[j]);
+      const float reach = LINK_REACH * std::min(survey.reach[i], survey.reach[j]);
       const bool linked = j != i && glm::dot(apart, apart) <= reach * reach;
       links[i] = static_cast<std::uint16_t>(links[i] | (linked ? 1U << k : 0U));
     }
@@ -60,7 +57,7 @@ std::vector<std::uint16_t> find_links(const Cloud& cloud, const Survey& survey) 
 }
 
 /// What hangs together. Most links are within pieces of the cloud, which are joined in parallel.
-Components find_parts(const Cloud& cloud, const Survey& survey) {
+Components find_components(const Cloud& cloud, const Survey& survey) {
   constexpr std::size_t PIECE = std::size_t{1} << 15;
   std::vector<std::uint16_t> links = find_links(cloud, survey);
   Components parts(cloud.size());
@@ -86,26 +83,26 @@ Components find_parts(const Cloud& cloud, const Survey& survey) {
 
 float usual_reach(const Survey& survey) {
   std::vector<float> ranked = survey.reach;
-  return median(ranked);
+  return median_or_zero(ranked);
 }
 
-struct Part {
+struct ComponentSize {
   std::uint32_t points = 0, sparse = 0;  ///< in all; of them, far from their neighbours
 };
 
 /// Parts of few points that are far from all others, as far as these are from each other.
 void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stray>& strays) {
-  Components parts = find_parts(cloud, survey);
-  const float sparse = SPARSE * usual_reach(survey);
-  std::vector<Part> sizes(cloud.size());
+  Components parts = find_components(cloud, survey);
+  const float sparse = DUST_REACH * usual_reach(survey);
+  std::vector<ComponentSize> sizes(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    Part& part = sizes[parts.find(i)];
+    ComponentSize& part = sizes[parts.find(i)];
     ++part.points;
     part.sparse += survey.reach[i] > sparse ? 1 : 0;
   }
   const std::size_t least = std::max(SMALL_PART, cloud.size() / PARTS_MOST);
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    const Part& part = sizes[parts.find(i)];
+    const ComponentSize& part = sizes[parts.find(i)];
     const bool thin = part.points < cloud.size() / THIN_PARTS_MOST && 2 * part.sparse > part.points;
     if (part.points < least || thin) strays[i] = Stray::isolated;
   }
@@ -128,8 +125,9 @@ void mark_seen_from(const Cloud& cloud, const Survey& survey, const Station& sta
     second[n] = ranked[1];
   });
   std::vector<float> ranked_steps = steps;
-  const double step = median(ranked_steps) / std::numbers::sqrt2;  // of a square lattice's 8th neighbour
-  const double noise = median(second) / SECOND_OF_8;
+  const double step =
+      median_or_zero(ranked_steps) / std::numbers::sqrt2;  // of a square lattice's 8th neighbour
+  const double noise = median_or_zero(second) / SECOND_OF_8;
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t n) {
     const std::uint32_t i = points[n];
     if (steps[n] > FAR_STEPS * step) strays[i] = Stray::isolated;
@@ -139,7 +137,7 @@ void mark_seen_from(const Cloud& cloud, const Survey& survey, const Station& sta
       return distance < LINE_NOISES * noise || distance == 0.0F;
     });
     const glm::dvec3 dir = glm::normalize(glm::dvec3(cloud.coord[i]) - sensor);
-    const bool slanted = std::abs(glm::dot(dir, glm::dvec3(cloud.normal[i]))) < SLANTED;
+    const bool slanted = std::abs(glm::dot(dir, glm::dvec3(cloud.normal[i]))) < SLANTED_PLANE;
     if (on_lines < (slanted ? 2 : 1)) strays[i] = Stray::mixed;
   });
 }
@@ -148,7 +146,7 @@ void mark_seen_from(const Cloud& cloud, const Survey& survey, const Station& sta
 
 std::vector<Stray> find_strays(const Cloud& cloud, const Survey& survey, const GridSurface& grids) {
   std::vector<Stray> strays(cloud.size(), Stray::no);
-  if (cloud.size() < FEWEST) return strays;
+  if (cloud.size() < FEWEST_TELLING) return strays;
   mark_isolated(survey, strays);
   mark_small_parts(cloud, survey, strays);
   for (std::size_t s = 0; s < cloud.stations.size(); ++s) {

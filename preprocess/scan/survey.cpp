@@ -21,19 +21,20 @@ constexpr std::array<std::size_t, 3> SIZES{8, 16, 32};
 constexpr double LINE =
     0.02;  // second variance / first: below this the places of a neighbourhood lie on a line
 
-constexpr std::array<std::size_t, 2> STRIDES{8, 64};
+constexpr std::array<std::size_t, 2> WIDER_STRIDES{8, 64};
 constexpr float ROUGH = 0.03F;  // of a neighbourhood that noise or edges describe better than a plane does
 constexpr double ROUGHEST =
-    1.0 / 3.0;                     // of a line too: one ring with its noise makes a plane across the surface
-constexpr float EVEN = 2.0F;       // distance to the 32nd place over that to the 8th on a surface
-constexpr float ROOM = 1.3F;       // squared distance that is searched over what is expected
-constexpr float TOGETHER = 0.3F;   // extent of rough points that share a wider neighbourhood, over its radius
+    1.0 / 3.0;                // of a line too: one ring with its noise makes a plane across the surface
+constexpr float EVEN = 2.0F;  // distance to the 32nd place over that to the 8th on a surface
+constexpr float ROOM = 1.3F;  // squared distance that is searched over what is expected
+constexpr float ROUGH_TOGETHER =
+    0.3F;                          // extent of rough points that share a wider neighbourhood, over its radius
 constexpr double FLATTER = 0.5;    // roughness of a wider one that is better, over that
 constexpr double DRAWN_OUT = 0.3;  // second deviation / first: below this a neighbourhood shows no surface
 constexpr std::size_t KIND_STRIDE =
-    STRIDES[0];                   // of the wider neighbourhoods that show what points are part of
-constexpr std::size_t HALF = 16;  // of their places, that are looked at beside all
-constexpr float THICK = 1.0F;     // flatness of what is neither line nor surface
+    WIDER_STRIDES[0];                       // of the wider neighbourhoods that show what points are part of
+constexpr std::size_t HALF_OF_PLACES = 16;  // of their places, that are looked at beside all
+constexpr float THICK = 1.0F;               // flatness of what is neither line nor surface
 constexpr double THICKER =
     1.4;  // deviation across a wider one that is still the noise of a surface, over that of 32
 
@@ -48,7 +49,7 @@ float entropy(const glm::dvec3& variance) {
 }
 
 /// The plane of a neighbourhood.
-struct Plane {
+struct SurveyPlane {
   glm::dvec3 axis{0.0};  ///< zero where it has none
   double roughness = ROUGHEST;
   float flatness = 0.0F;   ///< Survey::flatness of all its sizes
@@ -82,10 +83,10 @@ Offsets offsets_of(const Cloud& cloud, const glm::vec3& place, std::span<const N
 
 /// The plane of the `whole` neighbourhood where that is flat, else of the part with the least entropy; the roughness is the
 /// whole's.
-Plane best_plane(const Offsets& offsets, const Covariance& whole, const glm::dvec3& its_variances) {
+SurveyPlane best_plane(const Offsets& offsets, const Covariance& whole, const glm::dvec3& its_variances) {
   Covariance best = whole;
   glm::dvec3 variances = its_variances;
-  Plane plane{{}, roughness_of(variances), flatness_of(variances), std::sqrt(variances.x)};
+  SurveyPlane plane{{}, roughness_of(variances), flatness_of(variances), std::sqrt(variances.x)};
   if (plane.flatness == std::numeric_limits<float>::infinity())
     plane.thickness = plane.flatness;  // one line of a scanner does not show what is across
   if (plane.roughness > ROUGH || plane.flatness > Survey::FLAT) {
@@ -142,7 +143,7 @@ std::deque<Bunch> find_bunches(const Cloud& cloud, const Survey& survey,
       const glm::vec3 new_low = glm::min(low, place), new_high = glm::max(high, place);
       const glm::vec3 across = new_high - new_low;
       const float least = std::min(expected_squared, survey.expected_squared(rough[end], count));
-      if (glm::dot(across, across) > TOGETHER * TOGETHER * least) break;
+      if (glm::dot(across, across) > ROUGH_TOGETHER * ROUGH_TOGETHER * least) break;
       low = new_low, high = new_high, expected_squared = least;
     }
     bunches.push_back({begin, end, 0.5F * (low + high), expected_squared});
@@ -156,7 +157,7 @@ struct Rough {
   std::vector<float> roughness, thickness;  ///< of each point's plane
 };
 
-/// The variances of wider neighbourhoods that show what points are part of: of HALF the places, and of all.
+/// The variances of wider neighbourhoods that show what points are part of: of HALF_OF_PLACES the places, and of all.
 using WideVariances = std::array<glm::dvec3, 2>;
 
 /// Survey::flatness with those of wider neighbourhoods that are hardly thicker than `thickness`; of a line only where the first
@@ -189,8 +190,8 @@ void look_wider(Cloud& cloud, std::size_t stride, Survey& survey, Rough& of, con
     const Offsets offsets = offsets_of(thin, bunches[n].middle, nearest);
     const Covariance whole = covariance_of(offsets, offsets.count);
     WideVariances variances{glm::dvec3(0.0), variances_of(whole)};
-    const Plane plane = best_plane(offsets, whole, variances[1]);
-    if (kinds) variances[0] = variances_of(covariance_of(offsets, std::min(HALF, offsets.count)));
+    const SurveyPlane plane = best_plane(offsets, whole, variances[1]);
+    if (kinds) variances[0] = variances_of(covariance_of(offsets, std::min(HALF_OF_PLACES, offsets.count)));
     for (std::uint32_t r = bunches[n].begin; r < bunches[n].end; ++r) {
       const std::uint32_t i = rough[r];
       if (kinds) survey.flatness[i] = wide_flatness(survey.flatness[i], variances, of.thickness[i]);
@@ -219,7 +220,7 @@ void look_around(Cloud& cloud, const glm::dvec3& up, bool all_given, Survey& sur
     if (survey.estimated[i] == 0) return;
     const Offsets offsets = offsets_of(cloud, cloud.coord[i], nearest);
     const Covariance whole = covariance_of(offsets, offsets.count);
-    const Plane plane = best_plane(offsets, whole, variances_of(whole));
+    const SurveyPlane plane = best_plane(offsets, whole, variances_of(whole));
     rough.roughness[i] = static_cast<float>(plane.roughness);
     rough.thickness[i] = static_cast<float>(plane.thickness);
     survey.flatness[i] = plane.flatness;
@@ -275,7 +276,7 @@ Survey survey_points(Cloud& cloud, const glm::dvec3& up, const Stage& stage) {
   }
   look_around(cloud, up, all_given, survey, rough, stage);
   if (all_given) return survey;
-  for (const std::size_t stride : STRIDES) look_wider(cloud, stride, survey, rough, stage);
+  for (const std::size_t stride : WIDER_STRIDES) look_wider(cloud, stride, survey, rough, stage);
   return survey;
 }
 

@@ -12,15 +12,15 @@ namespace splatray {
 namespace {
 
 constexpr unsigned SELF_BIT = Around::MOST;
-constexpr std::size_t CLOSE = 12;   // neighbours that planes are tried through
-constexpr double THICKNESS = 0.05;  // of the spacing: farther points are on no plane
-constexpr double BEND = 0.05;       // and as much more times the square of how far they are, as surfaces bend
+constexpr std::size_t TRIED_NEIGHBOURS = 12;  // neighbours that planes are tried through
+constexpr double THICKNESS = 0.05;            // of the spacing: farther points are on no plane
+constexpr double BEND = 0.05;  // and as much more times the square of how far they are, as surfaces bend
 constexpr std::size_t OWN_LEAST = 3;      // points that a plane has alone
 constexpr double UNEXPLAINED_MOST = 0.1;  // of the neighbours, on no plane
 constexpr double LEAST_SINE = 0.3;        // of a triple's corner: thinner triples determine no plane
 constexpr double PARALLEL_COSINE = 0.97;  // 14 degrees
 
-struct Plane {
+struct EdgePlane {
   glm::dvec3 normal;  ///< unit
   double distance;    ///< normal . x of its points
 
@@ -33,24 +33,24 @@ struct Plane {
 };
 
 /// A point's planes, the first through it, and the lines at which each of them ends.
-struct Edges {
-  std::array<Plane, 3> planes;
+struct PointPlanes {
+  std::array<EdgePlane, 3> planes;
   std::size_t count = 0;
 };
 
-std::optional<Plane> plane_through(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+std::optional<EdgePlane> plane_through(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 across = glm::cross(b - a, c - a);
   const double area = glm::length(across);
   if (!(area > LEAST_SINE * glm::length(b - a) * glm::length(c - a))) return {};
   const glm::dvec3 normal = across / area;
-  return Plane{normal, glm::dot(normal, a)};
+  return EdgePlane{normal, glm::dot(normal, a)};
 }
 
 /// Which of the neighbours are on a plane, a bit each; the point itself is bit SELF_BIT.
 using Members = std::uint32_t;
 constexpr Members SELF = 1U << SELF_BIT;
 
-Members members_of(const Around& around, const Plane& plane) {
+Members members_of(const Around& around, const EdgePlane& plane) {
   Members members = plane.holds(glm::dvec3(0.0)) ? SELF : 0;
   for (std::size_t j = 0; j < around.count; ++j)
     if (plane.holds(around.offset[j])) members |= 1U << j;
@@ -63,20 +63,20 @@ glm::dvec3 place_of(const Around& around, unsigned bit) {
 
 /// The plane that fits the `wanted` points best, through three of them of which the first is `from` and the others
 /// are close, and that crosses those found `before`: what is parallel to them meets them nowhere near.
-std::optional<Plane> best_plane(const Around& around, unsigned from, Members wanted,
-                                std::span<const Plane> before) {
-  std::optional<Plane> best;
+std::optional<EdgePlane> best_plane(const Around& around, unsigned from, Members wanted,
+                                    std::span<const EdgePlane> before) {
+  std::optional<EdgePlane> best;
   double most = 0.0;
   const glm::dvec3 first = place_of(around, from);
   std::size_t tried_b = 0;
-  for (unsigned b = 0; b <= SELF_BIT && tried_b < CLOSE; ++b) {
+  for (unsigned b = 0; b <= SELF_BIT && tried_b < TRIED_NEIGHBOURS; ++b) {
     if (b == from || (wanted >> b & 1U) == 0) continue;
     std::size_t tried_c = ++tried_b;
-    for (unsigned c = b + 1; c <= SELF_BIT && tried_c < CLOSE; ++c) {
+    for (unsigned c = b + 1; c <= SELF_BIT && tried_c < TRIED_NEIGHBOURS; ++c) {
       if (c == from || (wanted >> c & 1U) == 0) continue;
       ++tried_c;
       const auto plane = plane_through(first, place_of(around, b), place_of(around, c));
-      const auto parallel = [&](const Plane& other) {
+      const auto parallel = [&](const EdgePlane& other) {
         return std::abs(glm::dot(other.normal, plane->normal)) > PARALLEL_COSINE;
       };
       if (!plane || std::any_of(before.begin(), before.end(), parallel)) continue;
@@ -90,8 +90,8 @@ std::optional<Plane> best_plane(const Around& around, unsigned from, Members wan
 }
 
 /// The two or three planes that the neighbourhood consists of; nothing where it does not.
-std::optional<Edges> find_planes(const Around& around) {
-  Edges edges;
+std::optional<PointPlanes> find_planes(const Around& around) {
+  PointPlanes edges;
   Members left = SELF | ((1U << around.count) - 1U);
   unsigned from = SELF_BIT;
   while (edges.count < 3) {
@@ -111,7 +111,7 @@ std::optional<Edges> find_planes(const Around& around) {
 }
 
 /// Where `own` ends at `other`: all of its own points are on one side, of which there are enough.
-std::optional<Line> line_between(const Around& around, const Plane& own, const Plane& other) {
+std::optional<Line> line_between(const Around& around, const EdgePlane& own, const EdgePlane& other) {
   const glm::dvec3 along = glm::cross(own.normal, other.normal);
   const double sine = glm::length(along);
   if (!(sine > 0.05)) return {};
@@ -149,7 +149,7 @@ std::vector<Side> find_sides(const Around& around, double crease) {
   const auto edges = find_planes(around);
   if (!edges) return sides;
   for (std::size_t i = 0; i < edges->count; ++i) {
-    const Plane& own = edges->planes[i];
+    const EdgePlane& own = edges->planes[i];
     if (!own.holds(glm::dvec3(0.0))) continue;
     Side side{own.normal, {}, 0};
     for (std::size_t k = 0; k < edges->count; ++k) {

@@ -14,14 +14,14 @@ namespace splatray {
 inline constexpr std::size_t MOST_AROUND = 32;
 
 /// A value of each neighbour, the nearest first.
-using Around = std::array<double, MOST_AROUND>;
+using NumbersAround = std::array<double, MOST_AROUND>;
 
 /// A vector of each neighbour, component by component, so that loops over neighbours vectorise.
 struct VectorsAround {
-  Around x, y, z;
+  NumbersAround x, y, z;
 
   /// Scalar products with one vector.
-  void dot(const glm::dvec3& v, std::size_t count, Around& products) const {
+  void dot(const glm::dvec3& v, std::size_t count, NumbersAround& products) const {
     for (std::size_t j = 0; j < count; ++j) products[j] = x[j] * v.x + y[j] * v.y + z[j] * v.z;
   }
 };
@@ -59,7 +59,7 @@ struct Neighbourhood {
   std::size_t count = 0;  ///< entries of what follows
   VectorsAround offset;
   VectorsAround normals;
-  Around distance_squared;
+  NumbersAround distance_squared;
 };
 
 }  // namespace splatray

@@ -13,7 +13,7 @@ constexpr float REACH_GROWTH = 1.1F;  // of the squared distance searched, over 
 constexpr float WIDER = 1.3F;         // the next guess over what an even density asks for
 constexpr float NARROWER = 0.4F;      // the next guess where there were too many
 constexpr int MOST_GUESSES = 3;
-constexpr float TOGETHER =
+constexpr float QUERIES_TOGETHER =
     0.7F;  // longest side of the box of queries that share a walk, in units of their reach
 
 /// The next squared distance to search within where `count` sites were looked for and as many `found`.
@@ -102,7 +102,7 @@ SPLATRAY_VECTOR_CLONES std::size_t NeighbourSearch::find_some(std::span<const Qu
     const float reach_squared = guess(query), least = std::min(narrowest, reach_squared);
     const glm::vec3 sides = new_high - new_low;
     const float side = std::max({sides.x, sides.y, sides.z});
-    if (!(side * side <= TOGETHER * TOGETHER * least)) break;
+    if (!(side * side <= QUERIES_TOGETHER * QUERIES_TOGETHER * least)) break;
     low = new_low, high = new_high, narrowest = least, widest = std::max(widest, reach_squared);
   }
   const Ball ball(*this, low, high, widest);

@@ -10,7 +10,7 @@
 namespace splatray {
 namespace {
 
-constexpr double RIDGE = 1e-3;  // keeps the fit defined where neighbours lie in a line
+constexpr double NORMAL_RIDGE = 1e-3;  // keeps the fit defined where neighbours lie in a line
 
 /// Sums of the fit of a symmetric matrix [[x, y], [y, z]] that maps tangential offsets to leans: of the normal equations
 /// for (u, v, 0) and (0, u, v), whose matrix is [[uu, uv, 0], [uv, uu + vv, uv], [0, uv, vv]].
@@ -32,7 +32,7 @@ class SlopeFit {
     const double trace = uu_ + both_ + vv_;
     if (!(trace > 0.0) || !(variance_ > 0.0)) return glm::dvec3(0.0);
     const glm::dmat3 normal(uu_, uv_, 0.0, uv_, both_, uv_, 0.0, uv_, vv_);
-    const glm::dvec3 slope = glm::inverse(normal + glm::dmat3(RIDGE * trace)) * right_;
+    const glm::dvec3 slope = glm::inverse(normal + glm::dmat3(NORMAL_RIDGE * trace)) * right_;
     const double explained = 2.0 * glm::dot(slope, right_) - glm::dot(slope, normal * slope);
     return slope * std::clamp(explained / variance_, 0.0, 1.0);
   }
@@ -68,10 +68,10 @@ struct Leans {
     }
   }
 
-  Around along;           ///< the normal's component along the point's
-  Around lean_u, lean_v;  ///< of the normal or its opposite, whichever is on the point's side
-  Around offset_u, offset_v;
-  Around weight;
+  NumbersAround along;           ///< the normal's component along the point's
+  NumbersAround lean_u, lean_v;  ///< of the normal or its opposite, whichever is on the point's side
+  NumbersAround offset_u, offset_v;
+  NumbersAround weight;
 };
 
 }  // namespace

@@ -10,8 +10,9 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t NEIGHBOURS = 16;
-constexpr double STRAIGHT = 1e-10;  // second variance / first variance: below this the points lie on a line
-constexpr double FLAT = 1.0 / 3.0;  // least deviation / second least: below this the object is a sheet
+constexpr double ON_A_LINE = 1e-10;  // second variance / first variance: below this the points lie on a line
+constexpr double SHEET_FLATNESS =
+    1.0 / 3.0;  // least deviation / second least: below this the object is a sheet
 
 /// Eigenvectors (columns) of a symmetric matrix, eigenvalues on the diagonal of `matrix` afterwards; cyclic
 /// Jacobi (Golub, Van Loan, "Matrix Computations", sec. 8.5).
@@ -87,7 +88,9 @@ class Sides {
     if (glm::dot(spread_.axis[0], up) < 0.0) spread_.axis[0] = -spread_.axis[0];
   }
 
-  [[nodiscard]] bool is_sheet() const { return spread_.variance[0] < FLAT * FLAT * spread_.variance[1]; }
+  [[nodiscard]] bool is_sheet() const {
+    return spread_.variance[0] < SHEET_FLATNESS * SHEET_FLATNESS * spread_.variance[1];
+  }
   [[nodiscard]] const glm::dvec3& axis() const { return spread_.axis[0]; }
 
   [[nodiscard]] glm::dvec3 turned(const glm::dvec3& normal, const glm::dvec3& point) const {
@@ -103,7 +106,7 @@ class Sides {
 glm::dvec3 plane_normal(std::span<const glm::dvec3> points, const glm::dvec3& up) {
   const Spread spread = spread_of(points);
   if (!(spread.variance[2] > 0.0)) return up;
-  if (spread.variance[1] <= STRAIGHT * spread.variance[2]) return perpendicular_nearest(spread.axis[2], up);
+  if (spread.variance[1] <= ON_A_LINE * spread.variance[2]) return perpendicular_nearest(spread.axis[2], up);
   return spread.axis[0];
 }
 

@@ -18,28 +18,27 @@
 namespace splatray {
 namespace {
 
-constexpr double KNN_FACTOR = 0.65;  // x distance to the RING-th neighbour: closed for even samples
-constexpr std::size_t RING = 6;      // neighbours around a point of an even sampling
-constexpr std::size_t FEW = NearPlaces::LISTED;     // neighbours that settle most Voronoi cells
-constexpr std::size_t CLOSE = 8;                    // neighbours whose discs meet a point's own
-constexpr std::size_t MANY = 32;                    // neighbours asked for when FEW do not
-constexpr float MANY_OVER_FEW = 1.3F * MANY / FEW;  // of their squared distances on a surface, with some room
-constexpr double COVERAGE_MARGIN = 1.02;            // discs of a curved surface lie in different planes
+constexpr double KNN_FACTOR = 0.65;  // x distance to the EVEN_RING-th neighbour: closed for even samples
+constexpr std::size_t FEW_NEIGHBOURS = NearPlaces::LISTED;  // neighbours that settle most Voronoi cells
+constexpr std::size_t MEETING_NEIGHBOURS = 8;               // neighbours whose discs meet a point's own
+constexpr std::size_t MANY_NEIGHBOURS = 32;                 // neighbours asked for when FEW_NEIGHBOURS do not
+constexpr float MANY_OVER_FEW =
+    1.3F * MANY_NEIGHBOURS / FEW_NEIGHBOURS;  // of their squared distances on a surface, with some room
+constexpr double COVERAGE_MARGIN = 1.02;      // discs of a curved surface lie in different planes
 // More where discs lie at different heights, in standard deviations of the heights.
 constexpr double ROUGHNESS_REACH = 1.0;
 constexpr double LEAST_SLANT = 0.5;      // sine of the angle between planes that meet in a crease
-constexpr double PARALLEL = 0.9;         // cosine of normals of layers of one noisy sheet
+constexpr double LAYERS_COSINE = 0.9;    // cosine of normals of layers of one noisy sheet
 constexpr double NOISE_REACH = 4.0;      // of a noisy sheet's disc, in standard deviations of its heights
 constexpr double NOISE_LIMIT = 2.0;      // the same at most, in units of the disc that covers
 constexpr float STRAY = 4.0F;            // largest radius in units of the surroundings' median
 constexpr std::size_t SURROUNDING = 16;  // neighbours that show what distance is usual around a point
-// Of their squared distances over that of the RING-th on a surface, with some room.
-constexpr float SURROUNDING_OVER_RING = 1.3F * SURROUNDING / RING;
-constexpr float USUAL = 2.0F;   // most of it that a disc of an open cell follows, in units of their median
+// Of their squared distances over that of the EVEN_RING-th on a surface, with some room.
+constexpr float SURROUNDING_OVER_RING = 1.3F * SURROUNDING / EVEN_RING;
 constexpr float CLOSED = 2.2F;  // radius of a closed cell, at most, in units of it: no even sample has more
 
 double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32_t point) {
-  std::array<Neighbour, RING> nearest;
+  std::array<Neighbour, EVEN_RING> nearest;
   const std::size_t count = search.find(cloud.coord[point], nearest);
   return count == 0 ? 0.0 : KNN_FACTOR * std::sqrt(nearest[count - 1].distance_squared());
 }
@@ -47,9 +46,9 @@ double knn_radius(const Cloud& cloud, const NeighbourSearch& search, std::uint32
 /// What surrounds a point on its tangent plane. Neighbours of the point's own sheet are turned into the plane with their
 /// distance kept, so that curvature does not shrink the cell. Those on the far side of a sharp edge give the line where
 /// their plane meets this one.
-class Surroundings {
+class DiscSurroundings {
  public:
-  explicit Surroundings(const Neighbourhood& around) : around_(around) {
+  explicit DiscSurroundings(const Neighbourhood& around) : around_(around) {
     const glm::dvec3& normal = around.normal;
     const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(normal, side));
@@ -87,7 +86,7 @@ class Surroundings {
   [[nodiscard]] double noise(std::size_t most) const {
     double count = 1.0, sum = 0.0, sum_squared = 0.0;
     for (std::size_t j = 0; j < std::min(most, around_.count); ++j) {
-      if (alignment_[j] < PARALLEL) continue;
+      if (alignment_[j] < LAYERS_COSINE) continue;
       const double height = glm::dot(around_.normal, offset(j));
       count += 1.0, sum += height, sum_squared += height * height;
     }
@@ -110,9 +109,9 @@ class Surroundings {
   }
 
   const Neighbourhood& around_;
-  Around alignment_, across_u_, across_v_, distance_, lateral_, stretch_;
-  std::array<TangentNeighbour, MANY> neighbours_;
-  std::array<TangentCrease, MANY + 2> creases_;
+  NumbersAround alignment_, across_u_, across_v_, distance_, lateral_, stretch_;
+  std::array<TangentNeighbour, MANY_NEIGHBOURS> neighbours_;
+  std::array<TangentCrease, MANY_NEIGHBOURS + 2> creases_;
   std::size_t neighbour_count_ = 0;
   std::size_t crease_count_ = 0;
 };
@@ -127,46 +126,48 @@ struct Covering {
 SPLATRAY_VECTOR_CLONES std::optional<Covering> covering_radius(const Neighbourhood& around,
                                                                std::size_t wanted) {
   if (around.found == 0) return Covering{};
-  const Surroundings surroundings(around);
+  const DiscSurroundings surroundings(around);
   const VoronoiReach reach =
       voronoi_reach(surroundings.neighbours(), surroundings.creases(), around.ends_known);
   const double seen = std::sqrt(around.seen_squared);
-  const bool settled = around.found < wanted || wanted == MANY ||
-                       (surroundings.neighbours().size() >= RING && reach.decisive_distance <= seen);
+  const bool settled = around.found < wanted || wanted == MANY_NEIGHBOURS ||
+                       (surroundings.neighbours().size() >= EVEN_RING && reach.decisive_distance <= seen);
   if (!settled || !(reach.radius > 0.0)) return {};
-  const double covering = COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * surroundings.noise(CLOSE);
-  return Covering{
-      std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW)), NOISE_LIMIT * reach.radius),
-      reach.open};
+  const double covering =
+      COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * surroundings.noise(MEETING_NEIGHBOURS);
+  return Covering{std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW_NEIGHBOURS)),
+                           NOISE_LIMIT * reach.radius),
+                  reach.open};
 }
 
-/// Of points whose radii follow their cells: the distance to the RING-th neighbour, negative where the cell is open. Empty for
+/// Of points whose radii follow their cells: the distance to the EVEN_RING-th neighbour, negative where the cell is open. Empty for
 /// points that were not measured: those are as even as they were made.
 using Rings = std::vector<float>;
 
 float ring_of(const Neighbourhood& around, bool open) {
   if (around.count == 0) return 0.0F;
-  const auto ring = static_cast<float>(std::sqrt(around.distance_squared[std::min(RING, around.count) - 1]));
+  const auto ring =
+      static_cast<float>(std::sqrt(around.distance_squared[std::min(EVEN_RING, around.count) - 1]));
   return open ? -ring : ring;
 }
 
-/// Calls visit(point, its FEW nearest sites) for every point; without sites none are near.
+/// Calls visit(point, its FEW_NEIGHBOURS nearest sites) for every point; without sites none are near.
 template <typename Visit>
 void visit_nearest(const Cloud& cloud, const NeighbourSearch* sites, const Stage& stage, const Visit& visit) {
   if (sites && !cloud.near) {
-    sites->find_all(FEW, stage, visit);
+    sites->find_all(FEW_NEIGHBOURS, stage, visit);
     return;
   }
   parallel_each(stage, cloud.size(), [&](std::size_t i) {
     const auto point = static_cast<std::uint32_t>(i);
-    std::array<Neighbour, FEW> nearest;
+    std::array<Neighbour, FEW_NEIGHBOURS> nearest;
     visit(point, cloud.near ? cloud.near->find(cloud, point, nearest) : std::span<const Neighbour>());
   });
 }
 
-/// Radii that the FEW nearest places settle; of others the squared distance of the last of these, negative.
+/// Radii that the FEW_NEIGHBOURS nearest places settle; of others the squared distance of the last of these, negative.
 float radius_of_few(const Neighbourhood& around, std::uint32_t point, Rings& rings) {
-  const auto covering = covering_radius(around, FEW);
+  const auto covering = covering_radius(around, FEW_NEIGHBOURS);
   if (!rings.empty()) rings[point] = ring_of(around, covering && covering->open);
   return covering ? static_cast<float>(covering->radius) : -around.seen_squared;
 }
@@ -178,14 +179,15 @@ void look_further(Cloud& cloud, const NeighbourSearch& search, Rings& rings, con
     return {cloud.coord[open[n]], MANY_OVER_FEW * -cloud.radius[open[n]],
             std::numeric_limits<float>::infinity()};
   };
-  search.find_each(open.size(), query, MANY, stage, [&](std::uint32_t n, std::span<Neighbour> nearest) {
-    const std::uint32_t i = open[n];
-    if (!std::is_sorted(nearest.begin(), nearest.end())) std::sort(nearest.begin(), nearest.end());
-    const Neighbourhood around(cloud, i, nearest);
-    const auto covering = covering_radius(around, MANY);
-    cloud.radius[i] = static_cast<float>(covering ? covering->radius : knn_radius(cloud, search, i));
-    if (!rings.empty()) rings[i] = ring_of(around, !covering || covering->open);
-  });
+  search.find_each(
+      open.size(), query, MANY_NEIGHBOURS, stage, [&](std::uint32_t n, std::span<Neighbour> nearest) {
+        const std::uint32_t i = open[n];
+        if (!std::is_sorted(nearest.begin(), nearest.end())) std::sort(nearest.begin(), nearest.end());
+        const Neighbourhood around(cloud, i, nearest);
+        const auto covering = covering_radius(around, MANY_NEIGHBOURS);
+        cloud.radius[i] = static_cast<float>(covering ? covering->radius : knn_radius(cloud, search, i));
+        if (!rings.empty()) rings[i] = ring_of(around, !covering || covering->open);
+      });
 }
 
 /// Keeps discs to the distances that are usual around them, those of open cells, whose reach nothing bounds, the most: none
@@ -210,8 +212,9 @@ void bound_wide(Cloud& cloud, const NeighbourSearch& search, const Rings& rings,
         if (!(usual > 0.0F)) return;
         if (!(rings[i] < 0.0F)) {
           cloud.radius[i] = std::min(cloud.radius[i], CLOSED * std::max(ring, usual));
-        } else if (ring > USUAL * usual) {
-          cloud.radius[i] = std::min(cloud.radius[i], static_cast<float>(KNN_FACTOR) * USUAL * usual);
+        } else if (ring > MOST_OVER_USUAL * usual) {
+          cloud.radius[i] =
+              std::min(cloud.radius[i], static_cast<float>(KNN_FACTOR) * MOST_OVER_USUAL * usual);
         }
       });
 }
@@ -225,8 +228,8 @@ void bound_strays(Cloud& cloud, const NeighbourSearch& search, const std::vector
   tbb::parallel_for(std::size_t{0}, computed.size(), [&](std::size_t n) {
     float& radius = cloud.radius[computed[n]];
     if (!(radius > limit)) return;
-    std::array<Neighbour, FEW> nearest;
-    std::array<float, FEW> around;
+    std::array<Neighbour, FEW_NEIGHBOURS> nearest;
+    std::array<float, FEW_NEIGHBOURS> around;
     const std::size_t found = search.find(cloud.coord[computed[n]], nearest);
     for (std::size_t j = 0; j < found; ++j) around[j] = before[nearest[j].index()];
     radius = std::min(radius, STRAY * median_of(std::span(around).first(found)));

@@ -5,6 +5,9 @@
 
 namespace splatray {
 
+/// The most of the distance to the 6th place that a disc of an open cell follows, in units of the median around.
+inline constexpr float MOST_OVER_USUAL = 2.0F;
+
 /// Fills every unknown (zero) radius of the cloud and multiplies all of them, given ones too, by `scale`. Rule `knn`: 0.65 x
 /// the distance to the 6th nearest place. Rule `coverage`: the disc reaches the farthest point of the point's own Voronoi cell
 /// (voronoi_reach), and as much more as its surroundings are rough. Rule `given`: as coverage. No computed radius exceeds 4

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<std::size_t, 3> COUNTS = {24, 16, 12};  // of which the first that shows planes is taken
 constexpr std::size_t SPACING_RANK = 5;                      // the sixth neighbour is one spacing away
-constexpr std::size_t CLOSE = 12;                            // neighbours that may agree
+constexpr std::size_t AGREEING_NEIGHBOURS = 12;              // neighbours that may agree
 constexpr double GIVEN_COSINE = 0.95;   // 18 degrees: a given normal agrees with its plane
 constexpr double SAME_COSINE = 0.9945;  // 6 degrees: it is more exact than the plane, else interpolated, too
 constexpr double SMOOTH_SHARE =
@@ -166,7 +166,8 @@ class SharpSearch {
     std::vector<std::uint8_t> agreed(all.size());
     tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
       std::array<Neighbour, Around::MOST> nearest;
-      const std::size_t count = search_.find(cloud_.coord[all[i].point], std::span(nearest).first(CLOSE));
+      const std::size_t count =
+          search_.find(cloud_.coord[all[i].point], std::span(nearest).first(AGREEING_NEIGHBOURS));
       std::size_t alike = 0;
       for (std::size_t j = 0; j < count; ++j) {
         const Found key{.point = nearest[j].index()};

@@ -11,9 +11,8 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t OCTAGON = 8;
-constexpr std::size_t MAX_CUTS = 128;  // neighbours and creases
-constexpr std::size_t RING = 6;
-constexpr double OCTAGON_APOTHEM = 4.0;  // in units of the distance to the RING-th neighbour
+constexpr std::size_t MAX_CUTS = 128;    // neighbours and creases
+constexpr double OCTAGON_APOTHEM = 4.0;  // in units of the distance to the EVEN_RING-th neighbour
 constexpr double OPEN_REACH = 0.65;      // where the cell is open, in units of its neighbours' mean distance
 constexpr double GAP_COSINE = -0.866;  // of 150 degrees: a wider gap between bounding neighbours is a border
 constexpr double BORDER_REACH =
@@ -25,7 +24,7 @@ constexpr int CREASE_EDGE = -2;
 
 /// A corner of the cell and the edge from it to the next corner: the neighbour that cut it, or OCTAGON_EDGE
 /// or CREASE_EDGE.
-struct Corner {
+struct CellCorner {
   glm::dvec2 place;
   int edge;
   glm::dvec2 normal;  ///< of that edge, unit, outwards
@@ -47,11 +46,12 @@ class Cell {
   Cell(const Cell&) = delete;
   Cell& operator=(const Cell&) = delete;
 
-  [[nodiscard]] std::span<const Corner> corners() const { return corners_.first(size_); }
+  [[nodiscard]] std::span<const CellCorner> corners() const { return corners_.first(size_); }
 
   [[nodiscard]] double reach() const {
     double squared = 0.0;
-    for (const Corner& corner : corners()) squared = std::max(squared, glm::dot(corner.place, corner.place));
+    for (const CellCorner& corner : corners())
+      squared = std::max(squared, glm::dot(corner.place, corner.place));
     return std::sqrt(squared);
   }
 
@@ -68,12 +68,13 @@ class Cell {
     std::size_t count = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       const double a = beyond[i], b = beyond[i + 1];
-      const Corner& here = corners_[i];
+      const CellCorner& here = corners_[i];
       if (a <= 0.0) spare_[count++] = here;
       if ((a <= 0.0) == (b <= 0.0)) continue;
-      const Corner& next = corners_[i + 1 < size_ ? i + 1 : 0];
+      const CellCorner& next = corners_[i + 1 < size_ ? i + 1 : 0];
       const glm::dvec2 crossing = here.place + (next.place - here.place) * (a / (a - b));
-      spare_[count++] = a <= 0.0 ? Corner{crossing, edge, dir} : Corner{crossing, here.edge, here.normal};
+      spare_[count++] =
+          a <= 0.0 ? CellCorner{crossing, edge, dir} : CellCorner{crossing, here.edge, here.normal};
     }
     if (count == 0)
       return false;  // rounding, as the origin is in every cell: lines that hardly miss it leave slivers
@@ -84,24 +85,24 @@ class Cell {
 
  private:
   static constexpr std::size_t MOST_CORNERS = OCTAGON + MAX_CUTS + 1;
-  std::array<Corner, MOST_CORNERS> stores_[2];
-  std::span<Corner, MOST_CORNERS> corners_, spare_;
+  std::array<CellCorner, MOST_CORNERS> stores_[2];
+  std::span<CellCorner, MOST_CORNERS> corners_, spare_;
   std::size_t size_;
 };
 
 /// The cell's edges, in order around the origin.
-struct Edges {
+struct CellEdges {
   double distance_sum = 0.0;  ///< of the neighbours that bound the cell
   std::size_t neighbours = 0;
   bool open = false;  ///< the octagon bounds it
   bool gap = false;   ///< the bounding neighbours and creases leave a wide gap
 };
 
-Edges examine(const Cell& cell, std::span<const TangentNeighbour> neighbours, bool ends_known) {
-  Edges edges;
-  const std::span<const Corner> corners = cell.corners();
+CellEdges examine(const Cell& cell, std::span<const TangentNeighbour> neighbours, bool ends_known) {
+  CellEdges edges;
+  const std::span<const CellCorner> corners = cell.corners();
   glm::dvec2 previous = corners.back().normal;
-  for (const Corner& corner : corners) {
+  for (const CellCorner& corner : corners) {
     edges.open = edges.open || corner.edge == OCTAGON_EDGE;
     edges.gap = edges.gap || (!ends_known && glm::dot(previous, corner.normal) < GAP_COSINE);
     previous = corner.normal;
@@ -117,7 +118,7 @@ Edges examine(const Cell& cell, std::span<const TangentNeighbour> neighbours, bo
 double closed_reach(const Cell& cell) {
   double squared = 0.0;
   int previous_edge = cell.corners().back().edge;
-  for (const Corner& corner : cell.corners()) {
+  for (const CellCorner& corner : cell.corners()) {
     if (corner.edge != OCTAGON_EDGE && previous_edge != OCTAGON_EDGE)
       squared = std::max(squared, glm::dot(corner.place, corner.place));
     previous_edge = corner.edge;
@@ -134,7 +135,7 @@ VoronoiReach voronoi_reach(std::span<const TangentNeighbour> neighbours,
   const auto ring_distance = [&](std::size_t ring) {
     return neighbours[std::min(ring, neighbours.size()) - 1].distance;
   };
-  Cell cell(OCTAGON_APOTHEM * ring_distance(RING));
+  Cell cell(OCTAGON_APOTHEM * ring_distance(EVEN_RING));
   for (const TangentCrease& crease : creases) cell.clip(crease.dir, crease.distance, CREASE_EDGE);
   double decisive = 2.0 * cell.reach();
   for (std::size_t j = 0; j < neighbours.size() && neighbours[j].distance < decisive; ++j) {
@@ -142,7 +143,7 @@ VoronoiReach voronoi_reach(std::span<const TangentNeighbour> neighbours,
     if (cell.clip(neighbour.place / neighbour.distance, 0.5 * neighbour.distance, static_cast<int>(j)))
       decisive = 2.0 * cell.reach();
   }
-  const Edges edges = examine(cell, neighbours, ends_known);
+  const CellEdges edges = examine(cell, neighbours, ends_known);
   double radius = closed_reach(cell);
   if (edges.open && edges.neighbours > 0)
     radius = std::max(radius, OPEN_REACH * edges.distance_sum / static_cast<double>(edges.neighbours));

@@ -1,9 +1,13 @@
 /// The Voronoi cell of one point among its neighbours in the plane.
 #pragma once
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
 
 namespace splatray {
+
+/// The neighbours around a point of an even sampling.
+inline constexpr std::size_t EVEN_RING = 6;
 
 /// A neighbour's place in the plane of the point it surrounds.
 struct TangentNeighbour {

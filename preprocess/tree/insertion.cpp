@@ -13,7 +13,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t CHUNK = 4096;               // splats whose leaves are listed together
+constexpr std::size_t SPLATS_PER_TASK = 4096;     // splats whose leaves are listed together
 constexpr std::uint32_t LAST_LEAF = 0x80000000U;  // of a splat; above all leaf indices
 
 /// Lists every leaf of the tree that a disc comes near. Discs come in Z-order: most walks begin near where the one before
@@ -86,13 +86,13 @@ class LeafWalk {
   std::size_t path_size_ = 1;
 };
 
-/// The leaves of CHUNK consecutive splats, splat by splat; the last one of each is marked LAST_LEAF.
+/// The leaves of SPLATS_PER_TASK consecutive splats, splat by splat; the last one of each is marked LAST_LEAF.
 std::vector<std::uint32_t> leaves_of_chunk(const Octree& tree, const SplatList& splats, std::size_t chunk) {
-  const std::size_t end = std::min((chunk + 1) * CHUNK, splats.size());
+  const std::size_t end = std::min((chunk + 1) * SPLATS_PER_TASK, splats.size());
   std::vector<std::uint32_t> leaves;
-  leaves.reserve(4 * CHUNK);
+  leaves.reserve(4 * SPLATS_PER_TASK);
   LeafWalk walk(tree, leaves);
-  for (std::size_t i = chunk * CHUNK; i < end; ++i) {
+  for (std::size_t i = chunk * SPLATS_PER_TASK; i < end; ++i) {
     walk.walk(ListedDisc(splats, i));
     leaves.back() |= LAST_LEAF;
   }
@@ -138,7 +138,7 @@ LeafLists insert_centres(const Octree& tree, const SplatList& splats) {
 
 LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Stage& stage) {
   const std::size_t leaves = tree.leaves.size();
-  std::vector<std::vector<std::uint32_t>> met((splats.size() + CHUNK - 1) / CHUNK);
+  std::vector<std::vector<std::uint32_t>> met((splats.size() + SPLATS_PER_TASK - 1) / SPLATS_PER_TASK);
   LeafLists lists;
   lists.begin.assign(leaves + 1, 0);
   ReferenceCount total;
@@ -155,7 +155,7 @@ LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Sta
   lists.splat.resize(lists.begin.back());
   std::vector<std::uint32_t> place(lists.begin.begin(), lists.begin.end() - 1);
   tbb::parallel_for(std::size_t{0}, met.size(), [&](std::size_t chunk) {
-    auto splat = static_cast<std::uint32_t>(chunk * CHUNK);
+    auto splat = static_cast<std::uint32_t>(chunk * SPLATS_PER_TASK);
     for (const std::uint32_t leaf : std::exchange(met[chunk], {})) {
       lists.splat[std::atomic_ref(place[leaf & ~LAST_LEAF]).fetch_add(1, std::memory_order_relaxed)] = splat;
       if ((leaf & LAST_LEAF) != 0) ++splat;

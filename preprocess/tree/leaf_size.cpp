@@ -16,7 +16,7 @@ namespace {
 
 /// Splats looked at, in pieces of neighbours in Z-order. A smaller list is looked at whole.
 constexpr std::size_t SAMPLE = 1U << 15;
-constexpr std::size_t PIECE = 256;
+constexpr std::size_t LEAVES_PER_PIECE = 256;
 
 struct Piece {
   std::size_t begin, end;
@@ -24,12 +24,12 @@ struct Piece {
 
 /// Evenly over the list.
 std::vector<Piece> sampled_pieces(std::size_t splats) {
-  const std::size_t pieces = (splats + PIECE - 1) / PIECE;
-  const std::size_t taken = std::min(pieces, SAMPLE / PIECE);
+  const std::size_t pieces = (splats + LEAVES_PER_PIECE - 1) / LEAVES_PER_PIECE;
+  const std::size_t taken = std::min(pieces, SAMPLE / LEAVES_PER_PIECE);
   std::vector<Piece> sample;
   for (std::size_t i = 0; i < taken; ++i) {
-    const std::size_t begin = i * pieces / taken * PIECE;
-    sample.push_back({begin, std::min(begin + PIECE, splats)});
+    const std::size_t begin = i * pieces / taken * LEAVES_PER_PIECE;
+    sample.push_back({begin, std::min(begin + LEAVES_PER_PIECE, splats)});
   }
   return sample;
 }

@@ -18,31 +18,32 @@ namespace splatray {
 namespace {
 
 /// Which halves of its cell a disc reaches; lower where it reaches neither, as then no ray hits it in the cell.
-enum Side : std::uint8_t { LOWER, BOTH, UPPER };
+enum CellSide : std::uint8_t { LOWER, BOTH, UPPER };
 
-constexpr std::size_t LANES = 8;
+constexpr std::size_t SPLATS_AT_ONCE = 8;
 
-/// LANES splats, one array for each number, for loops that take several splats at once.
+/// SPLATS_AT_ONCE splats, one array for each number, for loops that take several splats at once.
 struct SplatBlock {
-  double x[LANES], y[LANES], z[LANES];
-  double normal_x[LANES], normal_y[LANES], normal_z[LANES];
-  double radius_squared[LANES];
+  double x[SPLATS_AT_ONCE], y[SPLATS_AT_ONCE], z[SPLATS_AT_ONCE];
+  double normal_x[SPLATS_AT_ONCE], normal_y[SPLATS_AT_ONCE], normal_z[SPLATS_AT_ONCE];
+  double radius_squared[SPLATS_AT_ONCE];
 };
 
 /// Where they lie in a cell.
 struct BlockReach {
-  double low[LANES], high[LANES];                   ///< along the slab's axis, from the cell's centre
-  double beyond_lower[LANES], beyond_upper[LANES];  ///< above 0 where they do not come near the half
+  double low[SPLATS_AT_ONCE], high[SPLATS_AT_ONCE];  ///< along the slab's axis, from the cell's centre
+  /// Above 0 where they do not come near the half.
+  double beyond_lower[SPLATS_AT_ONCE], beyond_upper[SPLATS_AT_ONCE];
 };
 
 SPLATRAY_VECTOR_CLONES void unpack_blocks(std::span<const std::uint32_t> list,
                                           std::span<const uvec4> data_pool, std::vector<SplatBlock>& blocks) {
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    uvec4 words[LANES];
-    for (std::size_t i = 0; i < LANES; ++i)
-      words[i] = data_pool[list[std::min(b * LANES + i, list.size() - 1)]];
+    uvec4 words[SPLATS_AT_ONCE];
+    for (std::size_t i = 0; i < SPLATS_AT_ONCE; ++i)
+      words[i] = data_pool[list[std::min(b * SPLATS_AT_ONCE + i, list.size() - 1)]];
     SplatBlock block;
-    for (std::size_t i = 0; i < LANES; ++i) {
+    for (std::size_t i = 0; i < SPLATS_AT_ONCE; ++i) {
       const Splat splat = unpack_splat(words[i]);
       block.x[i] = splat.center.x;
       block.y[i] = splat.center.y;
@@ -61,7 +62,7 @@ SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const SplatBlock& block = blocks[b];
     BlockReach reach;
-    for (std::size_t i = 0; i < LANES; ++i) {
+    for (std::size_t i = 0; i < SPLATS_AT_ONCE; ++i) {
       const Disc disc({block.x[i], block.y[i], block.z[i]},
                       {block.normal_x[i], block.normal_y[i], block.normal_z[i]}, block.radius_squared[i]);
       const Reach along = reach_in_cell(disc, cell, LIST_INFLATION);
@@ -78,8 +79,9 @@ SPLATRAY_VECTOR_CLONES void measure_blocks(const std::vector<SplatBlock>& blocks
 /// Sum of the normals, each turned to the side of the first; some axis where they cancel out.
 glm::dvec3 mean_direction(const std::vector<SplatBlock>& blocks, std::size_t count) {
   const auto normal = [&](std::size_t i) {
-    const SplatBlock& block = blocks[i / LANES];
-    return glm::dvec3(block.normal_x[i % LANES], block.normal_y[i % LANES], block.normal_z[i % LANES]);
+    const SplatBlock& block = blocks[i / SPLATS_AT_ONCE];
+    return glm::dvec3(block.normal_x[i % SPLATS_AT_ONCE], block.normal_y[i % SPLATS_AT_ONCE],
+                      block.normal_z[i % SPLATS_AT_ONCE]);
   };
   const glm::dvec3 first = normal(0);
   glm::dvec3 sum(0.0);
@@ -92,13 +94,13 @@ struct Workspace {
   std::vector<SplatBlock> blocks;
   std::vector<BlockReach> reaches;
   std::vector<std::uint32_t> list;
-  std::vector<Side> sides;
+  std::vector<CellSide> sides;
 };
 
 /// The slab of one leaf; its list is put in the order of the halves.
 std::uint32_t halve_leaf(std::span<std::uint32_t> list, std::span<const uvec4> data_pool,
                          const OctreeCell& cell, Workspace& space) {
-  space.blocks.resize((list.size() + LANES - 1) / LANES);
+  space.blocks.resize((list.size() + SPLATS_AT_ONCE - 1) / SPLATS_AT_ONCE);
   space.reaches.resize(space.blocks.size());
   unpack_blocks(list, data_pool, space.blocks);
   const auto listed = static_cast<std::uint32_t>(list.size());
@@ -109,9 +111,9 @@ std::uint32_t halve_leaf(std::span<std::uint32_t> list, std::span<const uvec4> d
   space.list.assign(list.begin(), list.end());
   space.sides.resize(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const BlockReach& reach = space.reaches[i / LANES];
-    const std::size_t lane = i % LANES;
-    const Side side =
+    const BlockReach& reach = space.reaches[i / SPLATS_AT_ONCE];
+    const std::size_t lane = i % SPLATS_AT_ONCE;
+    const CellSide side =
         reach.beyond_upper[lane] > 0.0 ? LOWER : (reach.beyond_lower[lane] > 0.0 ? UPPER : BOTH);
     low = std::min(low, reach.low[lane]);
     high = std::max(high, reach.high[lane]);

@@ -11,9 +11,9 @@ constexpr double RADIUS_SLACK = 1.0 + 1.0 / 512.0;
 constexpr double NORMAL_SLACK = 1e-4;
 /// Packing moves centres by half a unit and makes no radius smaller than sqrt(2) units.
 constexpr double LATTICE_SLACK = 3.0;
-/// Along an axis on which all discs take up less of the root than THIN, their middle lies at a third of it: no plane between
+/// Along an axis on which all discs take up less of the root than THIN_ROOT, their middle lies at a third of it: no plane between
 /// cells is nearer there than a third of its cells, where in the middle a sheet would be listed on both sides of all of them.
-constexpr double THIN = 1.0 / 64.0;
+constexpr double THIN_ROOT = 1.0 / 64.0;
 constexpr double BETWEEN_PLANES = 1.0 / 3.0;
 
 }  // namespace
@@ -40,7 +40,7 @@ RootTransform fit_root(const DiscBounds& bounds) {
   root.unit_world = std::max(unit, std::max({largest.x, largest.y, largest.z}) * 0x1p-45);
   const double size_world = root_size * root.unit_world;
   for (int axis = 0; axis < 3; ++axis) {
-    const double place = extent[axis] < THIN * size_world ? BETWEEN_PLANES : 0.5;
+    const double place = extent[axis] < THIN_ROOT * size_world ? BETWEEN_PLANES : 0.5;
     root.origin_world[axis] = 0.5 * (bounds.low[axis] + bounds.high[axis]) - place * size_world;
   }
   return root;

@@ -15,13 +15,13 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t HEADER_BYTES = 375;
+constexpr std::size_t LAS_1_4_HEADER_BYTES = 375;
 constexpr std::size_t RETURNS = 15;  // counted by the header
 constexpr std::size_t MOST_VLR_BYTES = 65535;
 constexpr std::size_t NAME_BYTES = 32;
 
 template <typename Number>
-void append(Number number, std::string& bytes) {
+void append_number(Number number, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
@@ -114,10 +114,10 @@ glm::ivec3 stored_place(const PointTable& table, std::size_t i) {
 template <typename Size>
 std::string record(const std::string& user, std::uint16_t id, const std::string& content) {
   std::string bytes;
-  append(std::uint16_t{0}, bytes);
+  append_number(std::uint16_t{0}, bytes);
   append_text(user, 16, bytes);
-  append(id, bytes);
-  append(static_cast<Size>(content.size()), bytes);
+  append_number(id, bytes);
+  append_number(static_cast<Size>(content.size()), bytes);
   append_text("", 32, bytes);
   return bytes + content;
 }
@@ -130,7 +130,7 @@ std::string extra_bytes_vlr(const std::vector<const PointProperty*>& extra) {
   std::string content;
   for (const PointProperty* property : extra) {
     std::string one(2, '\0');
-    append(TYPES[static_cast<std::size_t>(property->type)], one);
+    append_number(TYPES[static_cast<std::size_t>(property->type)], one);
     one += '\0';
     const std::string& name = property->name;
     const bool is_normal = name == "nx" || name == "ny" || name == "nz";  // as other programs name them
@@ -155,12 +155,12 @@ std::string geo_keys_vlr(const Crs& crs) {
   for (const auto& [key, value] : keys) {
     if (value == 0) continue;
     for (const std::uint16_t number : {key, std::uint16_t{0}, std::uint16_t{1}, value})
-      append(number, content);
+      append_number(number, content);
     ++count;
   }
   std::string head;
   for (const std::uint16_t number : {std::uint16_t{1}, std::uint16_t{1}, std::uint16_t{0}, count})
-    append(number, head);
+    append_number(number, head);
   return vlr("LASF_Projection", 34735, head + content);
 }
 
@@ -185,48 +185,49 @@ struct LasSums {
 /// The header; `vlrs` and records of `record_bytes` follow it.
 std::string header_of(const PointTable& table, const Fields& fields, const LasSums& sums,
                       const std::vector<std::string>& vlrs, bool has_evlr, bool has_wkt) {
-  std::uint64_t points_at = HEADER_BYTES;
+  std::uint64_t points_at = LAS_1_4_HEADER_BYTES;
   for (const std::string& one : vlrs) points_at += one.size();
   std::string bytes = "LASF";
-  append(std::uint16_t{0}, bytes);
-  append(static_cast<std::uint16_t>((sums.late_times ? 1 : 0) | (has_wkt ? 16 : 0)), bytes);
+  append_number(std::uint16_t{0}, bytes);
+  append_number(static_cast<std::uint16_t>((sums.late_times ? 1 : 0) | (has_wkt ? 16 : 0)), bytes);
   append_text("", 16, bytes);
   bytes += {1, 4};
   append_text("EXTRACTION", NAME_BYTES, bytes);
   append_text("splatray", NAME_BYTES, bytes);
-  append(std::uint32_t{0}, bytes);  // no day, so that the same points are the same bytes
-  append(static_cast<std::uint16_t>(HEADER_BYTES), bytes);
-  append(static_cast<std::uint32_t>(points_at), bytes);
-  append(static_cast<std::uint32_t>(vlrs.size()), bytes);
-  append(static_cast<std::uint8_t>(fields.has_colors() ? 7 : 6), bytes);
-  append(static_cast<std::uint16_t>(fields.record_bytes()), bytes);
+  append_number(std::uint32_t{0}, bytes);  // no day, so that the same points are the same bytes
+  append_number(static_cast<std::uint16_t>(LAS_1_4_HEADER_BYTES), bytes);
+  append_number(static_cast<std::uint32_t>(points_at), bytes);
+  append_number(static_cast<std::uint32_t>(vlrs.size()), bytes);
+  append_number(static_cast<std::uint8_t>(fields.has_colors() ? 7 : 6), bytes);
+  append_number(static_cast<std::uint16_t>(fields.record_bytes()), bytes);
   append_text("", 24, bytes);  // counts of before 1.4
   const RootTransform& root = table.scene.root;
-  for (int axis = 0; axis < 3; ++axis) append(root.unit_world, bytes);
-  for (int axis = 0; axis < 3; ++axis) append(root.origin_world[axis], bytes);
-  for (int axis = 0; axis < 3; ++axis) append(sums.box.high[axis], bytes), append(sums.box.low[axis], bytes);
-  append(std::uint64_t{0}, bytes);
-  append(has_evlr ? points_at + table.size * fields.record_bytes() : std::uint64_t{0}, bytes);
-  append(std::uint32_t{has_evlr ? 1U : 0U}, bytes);
-  append(std::uint64_t{table.size}, bytes);
-  for (const std::uint64_t count : sums.by_return) append(count, bytes);
+  for (int axis = 0; axis < 3; ++axis) append_number(root.unit_world, bytes);
+  for (int axis = 0; axis < 3; ++axis) append_number(root.origin_world[axis], bytes);
+  for (int axis = 0; axis < 3; ++axis)
+    append_number(sums.box.high[axis], bytes), append_number(sums.box.low[axis], bytes);
+  append_number(std::uint64_t{0}, bytes);
+  append_number(has_evlr ? points_at + table.size * fields.record_bytes() : std::uint64_t{0}, bytes);
+  append_number(std::uint32_t{has_evlr ? 1U : 0U}, bytes);
+  append_number(std::uint64_t{table.size}, bytes);
+  for (const std::uint64_t count : sums.by_return) append_number(count, bytes);
   return bytes;
 }
 
 void append_record(const PointTable& table, const Fields& fields, std::size_t i, std::string& row) {
   const glm::ivec3 place = stored_place(table, i);
-  for (int axis = 0; axis < 3; ++axis) append(std::int32_t{place[axis]}, row);
-  append(static_cast<std::uint16_t>(fields.value(INTENSITY, i)), row);
+  for (int axis = 0; axis < 3; ++axis) append_number(std::int32_t{place[axis]}, row);
+  append_number(static_cast<std::uint16_t>(fields.value(INTENSITY, i)), row);
   const auto number = static_cast<unsigned>(fields.value(RETURN, i, 1.0));
   const auto count = static_cast<unsigned>(fields.value(RETURNS_OF_PULSE, i, 1.0));
-  append(static_cast<std::uint8_t>(number | count << 4U), row);
-  append(std::uint8_t{0}, row);
-  append(static_cast<std::uint8_t>(fields.value(CLASS, i)), row);
+  append_number(static_cast<std::uint8_t>(number | count << 4U), row);
+  append_number(std::uint8_t{0}, row);
+  append_number(static_cast<std::uint8_t>(fields.value(CLASS, i)), row);
   append_text("", 3, row);  // user data and scan angle
-  append(static_cast<std::uint16_t>(fields.value(SOURCE, i)), row);
-  append(fields.value(TIME, i), row);
+  append_number(static_cast<std::uint16_t>(fields.value(SOURCE, i)), row);
+  append_number(fields.value(TIME, i), row);
   if (fields.has_colors())
-    for (const OwnField channel : {RED, GREEN, BLUE}) append(fields.color(channel, i), row);
+    for (const OwnField channel : {RED, GREEN, BLUE}) append_number(fields.color(channel, i), row);
   for (const PointProperty* property : fields.extra) append_value(property->type, property->value(i), row);
 }
 

@@ -13,12 +13,12 @@ struct PointFormat {
   void (*write)(const PointTable& table, PointOutput& out);
 };
 
-constexpr PointFormat FORMATS[] = {
+constexpr PointFormat WRITTEN_FORMATS[] = {
     {".ply", write_ply}, {".las", write_las}, {".csv", write_csv}, {".vtp", write_vtp}};
 
 const PointFormat* point_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  for (const PointFormat& format : FORMATS)
+  for (const PointFormat& format : WRITTEN_FORMATS)
     if (extension == format.extension) return &format;
   return nullptr;
 }

@@ -13,7 +13,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::uint64_t SPLATS = 20000;
+constexpr std::uint64_t WEDGE_SPLATS = 20000;
 constexpr int MOST_BOUNCES = 16;
 
 struct WedgeCase {
@@ -69,7 +69,7 @@ struct WrongBounces {
 /// borders, and rays that meet a mirror at less than half a degree.
 WrongBounces wrong_bounces(const WedgeCase& wedge_case, std::size_t rays, const Settings& settings) {
   const ExactWedge wedge(wedge_case.angle_deg);
-  const Scene scene = scene_of({{wedge.sampled(SPLATS, wedge_case.even), mirror_material()}});
+  const Scene scene = scene_of({{wedge.sampled(WEDGE_SPLATS, wedge_case.even), mirror_material()}});
   const double radius = median_radius_root(scene) * scene.root.unit_world;
   DeviceScene device(scene);
   WrongBounces wrong;

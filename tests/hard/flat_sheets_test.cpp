@@ -13,9 +13,9 @@ namespace {
 
 using glm::dvec3;
 
-constexpr int SPLATS = 20000;
-constexpr double EDGE = 1U << LATTICE_BITS;
-constexpr std::size_t RAYS = 4000;
+constexpr int SHEET_SPLATS = 20000;
+constexpr double SHEET_ROOT_EDGE = 1U << LATTICE_BITS;
+constexpr std::size_t SHEET_RAYS = 4000;
 constexpr double ASIDE = 43000.0;   ///< about a third of the cells in which it matters, and of their halves
 constexpr double MOST_TESTS = 3.5;  ///< of a ray, over those of the same discs moved aside
 constexpr double MOST_REFERENCES = 2.5;  ///< of a splat, likewise
@@ -26,7 +26,7 @@ struct Cost {
 
 Cost cost_of(const Scene& scene, const std::string& what) {
   DeviceScene device(scene);
-  const std::vector<RayQuery> rays = random_primary_rays(scene, RAYS, 3);
+  const std::vector<RayQuery> rays = random_primary_rays(scene, SHEET_RAYS, 3);
   CaseRow row = compare_with_brute_force(device, BruteForce(scene), rays, what, Compared::hits);
   const Cost cost{double(device.counter(COUNT_TESTS)) / double(rays.size()),
                   double(scene.reference_pool.size()) / double(scene.data_pool.size())};
@@ -50,16 +50,18 @@ void expect_cheap(const std::vector<Disc>& discs, const std::string& what) {
 }
 
 /// Discs of a square that is `across` lattice units wide, in the plane where `axis` is `height`, tilted by so much.
-std::vector<Disc> square(int count, int axis, double height, double across = 0.9 * EDGE, double tilt = 0.0) {
+std::vector<Disc> square(int count, int axis, double height, double across = 0.9 * SHEET_ROOT_EDGE,
+                         double tilt = 0.0) {
   std::mt19937_64 random(static_cast<std::uint64_t>(height) + static_cast<std::uint64_t>(axis));
-  std::uniform_real_distribution<double> within(0.5 * (EDGE - across), 0.5 * (EDGE + across));
+  std::uniform_real_distribution<double> within(0.5 * (SHEET_ROOT_EDGE - across),
+                                                0.5 * (SHEET_ROOT_EDGE + across));
   const double radius = 1.5 * across / std::sqrt(double(count));
   std::vector<Disc> discs;
   for (int i = 0; i < count; ++i) {
     dvec3 center, normal(0.0);
     center[(axis + 1) % 3] = within(random);
     center[(axis + 2) % 3] = within(random);
-    center[axis] = height + tilt * (center[(axis + 1) % 3] - 0.5 * EDGE);
+    center[axis] = height + tilt * (center[(axis + 1) % 3] - 0.5 * SHEET_ROOT_EDGE);
     normal[axis] = 1.0;
     normal[(axis + 1) % 3] = -tilt;
     discs.push_back({glm::round(center), glm::normalize(normal), radius});
@@ -73,45 +75,50 @@ void append(std::vector<Disc>& discs, const std::vector<Disc>& more) {
 
 TEST(FlatSheet, InTheMiddlePlane) {
   for (int axis = 0; axis < 3; ++axis)
-    expect_cheap(square(SPLATS, axis, 0.5 * EDGE), "sheet across axis " + std::to_string(axis));
-  expect_cheap(square(SPLATS, 2, 0.5 * EDGE, 0.5 * EDGE), "smaller sheet");
+    expect_cheap(square(SHEET_SPLATS, axis, 0.5 * SHEET_ROOT_EDGE),
+                 "sheet across axis " + std::to_string(axis));
+  expect_cheap(square(SHEET_SPLATS, 2, 0.5 * SHEET_ROOT_EDGE, 0.5 * SHEET_ROOT_EDGE), "smaller sheet");
 }
 
 TEST(FlatSheet, InEveryPlaneBetweenCells) {
   std::vector<Disc> discs;
-  for (int plane = 1; plane < 16; ++plane) append(discs, square(SPLATS / 15, 2, plane * EDGE / 16.0));
+  for (int plane = 1; plane < 16; ++plane)
+    append(discs, square(SHEET_SPLATS / 15, 2, plane * SHEET_ROOT_EDGE / 16.0));
   expect_cheap(discs, "sheets in 15 planes between cells");
-  for (int plane = 1; plane < 16; ++plane) append(discs, square(SPLATS / 15, 0, plane * EDGE / 16.0));
+  for (int plane = 1; plane < 16; ++plane)
+    append(discs, square(SHEET_SPLATS / 15, 0, plane * SHEET_ROOT_EDGE / 16.0));
   expect_cheap(discs, "sheets in 30 planes between cells");
 }
 
 TEST(FlatSheet, TwoOfThem) {
-  std::vector<Disc> discs = square(SPLATS / 2, 1, 0.5 * EDGE);
-  append(discs, square(SPLATS / 2, 1, 0.75 * EDGE));
+  std::vector<Disc> discs = square(SHEET_SPLATS / 2, 1, 0.5 * SHEET_ROOT_EDGE);
+  append(discs, square(SHEET_SPLATS / 2, 1, 0.75 * SHEET_ROOT_EDGE));
   expect_cheap(discs, "two sheets");
 }
 
 TEST(FlatSheet, WithASpeckBesideIt) {
   for (const double above : {32.0, 4000.0, 200000.0}) {
-    std::vector<Disc> discs = square(SPLATS, 2, 0.5 * EDGE);
-    discs.push_back({dvec3(0.3 * EDGE, 0.3 * EDGE, 0.5 * EDGE + above), dvec3(0.0, 0.0, 1.0), 100.0});
+    std::vector<Disc> discs = square(SHEET_SPLATS, 2, 0.5 * SHEET_ROOT_EDGE);
+    discs.push_back({dvec3(0.3 * SHEET_ROOT_EDGE, 0.3 * SHEET_ROOT_EDGE, 0.5 * SHEET_ROOT_EDGE + above),
+                     dvec3(0.0, 0.0, 1.0), 100.0});
     expect_cheap(discs, "sheet and a speck " + short_number(above) + " above");
   }
 }
 
 TEST(FlatSheet, HardlyTilted) {
   for (const double tilt : {1e-7, 1e-6, 1e-5, 1e-4, 1e-2})
-    expect_cheap(square(SPLATS, 2, 0.5 * EDGE, 0.9 * EDGE, tilt), "sheet tilted by " + short_number(tilt));
+    expect_cheap(square(SHEET_SPLATS, 2, 0.5 * SHEET_ROOT_EDGE, 0.9 * SHEET_ROOT_EDGE, tilt),
+                 "sheet tilted by " + short_number(tilt));
 }
 
 TEST(FlatSheet, BesideThePlane) {
   for (const double off : {-5.0, -4.0, 4.0})
-    expect_cheap(square(SPLATS, 2, 0.5 * EDGE + off), "sheet " + short_number(off) + " off");
+    expect_cheap(square(SHEET_SPLATS, 2, 0.5 * SHEET_ROOT_EDGE + off), "sheet " + short_number(off) + " off");
 }
 
 /// Their normals are rough: discs of centres on one side reach through.
 TEST(FlatSheet, WithRoughNormals) {
-  std::vector<Disc> discs = square(SPLATS, 2, 0.5 * EDGE - 8.0);
+  std::vector<Disc> discs = square(SHEET_SPLATS, 2, 0.5 * SHEET_ROOT_EDGE - 8.0);
   std::mt19937_64 random(5);
   for (Disc& disc : discs) disc.normal = glm::normalize(disc.normal + 0.1 * random_unit(random));
   expect_cheap(discs, "sheet with rough normals");
@@ -120,7 +127,8 @@ TEST(FlatSheet, WithRoughNormals) {
 TEST(FlatSheet, SixOfACube) {
   std::vector<Disc> discs;
   for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {0.25, 0.75}) append(discs, square(SPLATS / 6, axis, side * EDGE, 0.5 * EDGE));
+    for (const double side : {0.25, 0.75})
+      append(discs, square(SHEET_SPLATS / 6, axis, side * SHEET_ROOT_EDGE, 0.5 * SHEET_ROOT_EDGE));
   expect_cheap(discs, "cube whose faces lie between cells");
 }
 
@@ -130,7 +138,7 @@ std::vector<dvec3> rounded_floor(double step, const dvec3& from = dvec3(0.0)) {
   std::uniform_real_distribution<double> within(0.0, 10.0);
   std::normal_distribution<double> noise(0.0, 0.4 * step);
   std::vector<dvec3> points;
-  for (int i = 0; i < SPLATS; ++i)
+  for (int i = 0; i < SHEET_SPLATS; ++i)
     points.push_back(from + step * glm::round(dvec3(within(random), within(random), noise(random)) / step));
   return points;
 }

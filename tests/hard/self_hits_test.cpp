@@ -14,12 +14,8 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::uint64_t SPLATS = 20000;
-constexpr double INNER = 0.9;  ///< rays at spheres pass their centre at most this far, in radii
-
-double uniform(std::mt19937_64& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
+constexpr std::uint64_t SELF_HIT_SPLATS = 20000;
+constexpr double MOST_OFF_CENTRE = 0.9;  ///< rays at spheres pass their centre at most this far, in radii
 
 /// A ray given in world space.
 RayQuery world_ray(const Scene& scene, const dvec3& origin, const dvec3& dir) {
@@ -29,7 +25,7 @@ RayQuery world_ray(const Scene& scene, const dvec3& origin, const dvec3& dir) {
 /// A ray at the sphere of radius 1 about the origin.
 RayQuery ray_at_sphere(const Scene& scene, std::mt19937_64& random) {
   const dvec3 dir = random_unit(random);
-  const dvec3 inner = random_unit(random) * (INNER * std::cbrt(uniform(random, 0.0, 1.0)));
+  const dvec3 inner = random_unit(random) * (MOST_OFF_CENTRE * std::cbrt(uniform(random, 0.0, 1.0)));
   return world_ray(scene, inner - 4.0 * dir, dir);
 }
 
@@ -82,8 +78,8 @@ CaseRow mirrored_away(const Scene& scene, MakeRay make, std::size_t rays, const 
 Scene mirror_plane(double tilt) {
   const dvec3 across(std::cos(tilt), std::sin(tilt), 0.0);
   const dvec3 along(0.0, 0.0, 1.0);
-  return scene_of(
-      {{rectangle({.count = SPLATS}, along - across, 2.0 * across, -2.0 * along), mirror_material()}});
+  return scene_of({{rectangle({.count = SELF_HIT_SPLATS}, along - across, 2.0 * across, -2.0 * along),
+                    mirror_material()}});
 }
 
 /// Rays from above, along the mirror's normals (0, 1, 0) turned by `TILT` or not.
@@ -109,7 +105,7 @@ TEST(SelfHit, MirrorPlaneInACellPlane) {
 
 TEST(SelfHit, MirrorSphereOutside) {
   for (const bool even : {true, false}) {
-    const OrientedPoints points = sphere({.count = SPLATS, .even = even}, 1.0);
+    const OrientedPoints points = sphere({.count = SELF_HIT_SPLATS, .even = even}, 1.0);
     conclude(mirrored_away(scene_of({{points, mirror_material()}}), ray_at_sphere, hard_rays() / 2,
                            std::string("mirrored rays that hit anything, exact sphere, ") +
                                (even ? "even" : "random") + " splats"));
@@ -118,7 +114,8 @@ TEST(SelfHit, MirrorSphereOutside) {
 
 /// Rays inside a mirror sphere, mirrored three times: they must meet the sphere where it is.
 CaseRow bounces_inside(bool even, const std::string& compared, const Settings& settings = {}) {
-  const Scene scene = scene_of({{flipped(sphere({.count = SPLATS, .even = even}, 1.0)), mirror_material()}});
+  const Scene scene =
+      scene_of({{flipped(sphere({.count = SELF_HIT_SPLATS, .even = even}, 1.0)), mirror_material()}});
   const double radius = median_radius_root(scene);
   DeviceScene device(scene);
   CaseRow counts;
@@ -186,7 +183,8 @@ CaseRow through_glass(const Scene& scene, MakeRay make, std::size_t rays,
 
 TEST(SelfHit, GlassSphere) {
   for (const bool even : {true, false}) {
-    const Scene scene = scene_of({{sphere({.count = SPLATS, .even = even}, 1.0), glass_material(1.5F)}});
+    const Scene scene =
+        scene_of({{sphere({.count = SELF_HIT_SPLATS, .even = even}, 1.0), glass_material(1.5F)}});
     conclude(
         through_glass(scene, ray_at_sphere, hard_rays() / 2, exit_of_sphere,
                       std::string("refracted rays off by half the exact chord or hitting on the way out, ") +
@@ -220,7 +218,7 @@ TEST(SelfHit, GlassSlab) {
 TEST(SelfHit, WithoutSideRuleTheyAreMany) {
   Settings settings;
   settings.side = SIDE_NONE;
-  const OrientedPoints points = sphere({.count = SPLATS}, 1.0);
+  const OrientedPoints points = sphere({.count = SELF_HIT_SPLATS}, 1.0);
   conclude_failing(mirrored_away(scene_of({{points, mirror_material()}}), ray_at_sphere, hard_rays() / 20,
                                  "mirror sphere outside, no side rule at all", settings));
 }

@@ -13,10 +13,6 @@ namespace {
 
 using glm::dvec3;
 
-double uniform(std::mt19937_64& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
 /// Hits that are not where and as they should be: `exact(world position, turned normal)` says.
 CaseRow count_wrong(const Scene& scene, const std::vector<RayQuery>& rays, const std::string& what,
                     const std::function<bool(const dvec3& at, const dvec3& normal)>& exact) {

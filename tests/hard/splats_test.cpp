@@ -22,10 +22,6 @@ constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 constexpr double MIDDLE = 1U << (LATTICE_BITS - 1);
 
 /// A number in [low, high).
-double uniform(std::mt19937_64& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
 TEST(Splat, GrazingDiscs) {
   std::mt19937_64 random(1);
   std::vector<Disc> discs;

@@ -211,7 +211,7 @@ TEST(Clip, WhatIsShadedSmoothlyIsNoCrease) {
 }
 
 /// A flat grid of n x n squares.
-Mesh sheet(glm::uint n) {
+Mesh sheet_mesh(glm::uint n) {
   Mesh mesh;
   for (glm::uint y = 0; y <= n; ++y)
     for (glm::uint x = 0; x <= n; ++x) mesh.vertices.position.emplace_back(x / double(n), y / double(n), 0.0);
@@ -226,7 +226,7 @@ Mesh sheet(glm::uint n) {
 }
 
 TEST(Clip, VerticesOnABorderEndThere) {
-  const Mesh mesh = sheet(40);
+  const Mesh mesh = sheet_mesh(40);
   const Scene scene = scene_of(mesh, 0, {.clip = true});
   EXPECT_LT(
       Discs(scene).overhang([](const dvec3& place) { return outside_box(place, dvec3(1.0, 1.0, 0.0)); }),
@@ -272,7 +272,7 @@ TEST(Clip, AMaskLeavesARoundLabel) {
 }
 
 TEST(Clip, AnAngleBelowTheCreasesIsNone) {
-  Mesh roof = sheet(8);
+  Mesh roof = sheet_mesh(8);
   for (dvec3& place : roof.vertices.position) place.z = -std::abs(place.x - 0.5);  // turns by 90 degrees
   const auto clipped = [&](double degrees) {
     const Scene scene = scene_of(roof, 2000, {std::cos(glm::radians(degrees)), true});

@@ -20,7 +20,7 @@ namespace {
 using glm::dvec3;
 
 /// Points of a curved sheet, 5 across, without normals.
-std::vector<dvec3> sheet(std::size_t count, const dvec3& middle = dvec3(0.0)) {
+std::vector<dvec3> sheet_points(std::size_t count, const dvec3& middle = dvec3(0.0)) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> side(-2.5, 2.5);
   std::vector<dvec3> points;
@@ -56,10 +56,11 @@ TEST(FarPoints, AHandfulFarAwayIsFoundWhereverItIs) {
   const std::vector<std::uint32_t> last{7000};
   for (const dvec3& wild :
        {dvec3(1e8, 0.0, 0.0), dvec3(0.0, -4e11, 0.0), dvec3(0.0, 0.0, 1e99), dvec3(200.0)})
-    EXPECT_EQ(far_of(sheet(7000) + std::vector{wild}), last) << wild.x << " " << wild.y << " " << wild.z;
-  EXPECT_EQ(far_of(sheet(7000, dvec3(5e5, 5.2e6, 100.0)) + std::vector{dvec3(0.0)}), last);
+    EXPECT_EQ(far_of(sheet_points(7000) + std::vector{wild}), last)
+        << wild.x << " " << wild.y << " " << wild.z;
+  EXPECT_EQ(far_of(sheet_points(7000, dvec3(5e5, 5.2e6, 100.0)) + std::vector{dvec3(0.0)}), last);
   const FarPoints far = find_far_points(
-      sheet(7000) + std::vector{dvec3(1e3, 0.0, 0.0), dvec3(0.0, 1e9, 0.0), dvec3(-1e6, 1e4, 0.0)});
+      sheet_points(7000) + std::vector{dvec3(1e3, 0.0, 0.0), dvec3(0.0, 1e9, 0.0), dvec3(-1e6, 1e4, 0.0)});
   EXPECT_EQ(far.numbers, (std::vector<std::uint32_t>{7000, 7001, 7002}));
   EXPECT_NEAR(far.nearest_world, 997.5, 0.1);
   EXPECT_NEAR(far.farthest_world, 1e9, 5.0);
@@ -67,24 +68,26 @@ TEST(FarPoints, AHandfulFarAwayIsFoundWhereverItIs) {
 }
 
 TEST(FarPoints, OneOfAHundredPointsIsAHandfulButOneOfTenIsNot) {
-  EXPECT_EQ(far_of(sheet(99) + std::vector{dvec3(1e5)}).size(), 1U);
-  EXPECT_EQ(far_of(sheet(9) + std::vector{dvec3(1e5)}).size(), 0U);
+  EXPECT_EQ(far_of(sheet_points(99) + std::vector{dvec3(1e5)}).size(), 1U);
+  EXPECT_EQ(far_of(sheet_points(9) + std::vector{dvec3(1e5)}).size(), 0U);
 }
 
 TEST(FarPoints, ManyAtOnePlaceAreWhatAScannerWritesForNothing) {
   const std::vector<dvec3> zeros(1500, dvec3(0.0));
-  EXPECT_EQ(far_of(sheet(7000, dvec3(5e5, 5.2e6, 100.0)) + zeros).size(), 1500U);
+  EXPECT_EQ(far_of(sheet_points(7000, dvec3(5e5, 5.2e6, 100.0)) + zeros).size(), 1500U);
 }
 
 TEST(FarPoints, WhatBelongsToTheSceneStays) {
   EXPECT_TRUE(far_of({}).empty());
-  EXPECT_TRUE(far_of(sheet(7000)).empty());
-  EXPECT_TRUE(far_of(sheet(7000) + std::vector{dvec3(50.0, 0.0, 0.0)}).empty()) << "10 times the extent";
-  EXPECT_TRUE(far_of(sheet(7000) + sheet(500, dvec3(200.0, 0.0, 0.0))).empty()) << "two stations";
-  EXPECT_TRUE(far_of(sheet(7000) + sheet(20, dvec3(4e4, 0.0, 0.0))).empty()) << "no handful";
+  EXPECT_TRUE(far_of(sheet_points(7000)).empty());
+  EXPECT_TRUE(far_of(sheet_points(7000) + std::vector{dvec3(50.0, 0.0, 0.0)}).empty())
+      << "10 times the extent";
+  EXPECT_TRUE(far_of(sheet_points(7000) + sheet_points(500, dvec3(200.0, 0.0, 0.0))).empty())
+      << "two stations";
+  EXPECT_TRUE(far_of(sheet_points(7000) + sheet_points(20, dvec3(4e4, 0.0, 0.0))).empty()) << "no handful";
   EXPECT_TRUE(far_of(std::vector<dvec3>(5000, dvec3(1.0)) + std::vector{dvec3(2.0)}).empty()) << "no scale";
   std::vector<dvec3> line;  // towers of a power line, 300 apart, and a sparse wire
-  for (int tower = 0; tower < 6; ++tower) line = line + sheet(300, dvec3(300.0 * tower, 0.0, 0.0));
+  for (int tower = 0; tower < 6; ++tower) line = line + sheet_points(300, dvec3(300.0 * tower, 0.0, 0.0));
   for (int i = 0; i < 40; ++i) line.emplace_back(37.5 * i, 0.0, 20.0);
   EXPECT_TRUE(far_of(line).empty());
 }
@@ -102,7 +105,8 @@ TEST(FarPoints, TheThinEndOfAScanStays) {
 }
 
 TEST(FarPoints, TheOrderOfPointsDoesNotMatter) {
-  std::vector<dvec3> points = sheet(3000) + std::vector{dvec3(1e7), dvec3(-120.0, 0.0, 0.0), dvec3(90.0)};
+  std::vector<dvec3> points =
+      sheet_points(3000) + std::vector{dvec3(1e7), dvec3(-120.0, 0.0, 0.0), dvec3(90.0)};
   const auto places = [&] {
     std::vector<double> found;
     for (const std::uint32_t i : far_of(points)) found.push_back(points[i].x);
@@ -119,8 +123,8 @@ TEST(FarPoints, AScanIsBuiltAsIfTheyWereNotThere) {
   const dvec3 utm(5e5, 5.2e6, 100.0);
   BuildStats with, without;
   const Scene spoilt = build_scene(
-      scan_of(std::vector{dvec3(0.0)} + sheet(4000, utm) + std::vector{dvec3(1e80)}), {}, 0, with);
-  const Scene clean = build_scene(scan_of(sheet(4000, utm)), {}, 0, without);
+      scan_of(std::vector{dvec3(0.0)} + sheet_points(4000, utm) + std::vector{dvec3(1e80)}), {}, 0, with);
+  const Scene clean = build_scene(scan_of(sheet_points(4000, utm)), {}, 0, without);
   EXPECT_EQ(spoilt.data_pool, clean.data_pool);
   EXPECT_EQ(spoilt.node_pool, clean.node_pool);
   EXPECT_EQ(spoilt.root.unit_world, clean.root.unit_world);

@@ -111,7 +111,7 @@ TEST(Sharp, NothingDependsOnTheOrderOfPoints) {
 }
 
 /// A lattice in the plane z = 0 that is folded upwards by 45 degrees at x = 0 where `folded`.
-InputObject sheet(bool folded) {
+InputObject sheet_object(bool folded) {
   InputObject object;
   for (int x = -12; x <= 12; ++x)
     for (int y = 0; y <= 24; ++y) {
@@ -129,7 +129,7 @@ double beside_sheet(const dvec3& place) {
 }
 
 TEST(Sharp, AFoldAndBordersAreFound) {
-  const Built found = built(sheet(true)), blunt = built(sheet(true), {.clip = false});
+  const Built found = built(sheet_object(true)), blunt = built(sheet_object(true), {.clip = false});
   EXPECT_GT(found.stats.creased, 20U);
   EXPECT_GT(found.stats.bordered, 60U);
   EXPECT_LT(found.stats.bordered, 110U) << "of 98 at the border";
@@ -138,7 +138,7 @@ TEST(Sharp, AFoldAndBordersAreFound) {
 }
 
 TEST(Sharp, NothingEndsWhereSamplingIsDenser) {
-  InputObject denser = sheet(false);
+  InputObject denser = sheet_object(false);
   for (int x = -24; x < 0; ++x)
     for (int y = 0; y < 48; ++y) denser.points.position.emplace_back(0.5 * x - 0.25, 0.5 * y + 0.25, 0.0);
   const Built found = built(std::move(denser));

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-const glm::dvec2 SIZE(800.0, 600.0);
+const glm::dvec2 WINDOW_SIZE(800.0, 600.0);
 
 /// Every document, perspective and orthographic.
 class EveryDocument : public testing::TestWithParam<std::tuple<int, bool>> {
@@ -32,7 +32,7 @@ class EveryDocument : public testing::TestWithParam<std::tuple<int, bool>> {
     return (document.camera.eye - document.camera.target) / distance();
   }
   [[nodiscard]] glm::dvec2 pixel_of(const glm::dvec3& point) const {
-    return projected(document.camera, point, SIZE);
+    return projected(document.camera, point, WINDOW_SIZE);
   }
   /// make_frame_params takes the camera in a scene of the document's size.
   void expect_sees() const {
@@ -54,7 +54,7 @@ void expect_near(const glm::dvec2& a, const glm::dvec2& b, double tolerance) {
 
 TEST_P(EveryDocument, PointUnderTheCursorProjectsBackToIt) {
   for (const glm::dvec2& at : {glm::dvec2(0.0), glm::dvec2(400.0, 300.0), glm::dvec2(799.0, 17.0)})
-    expect_near(pixel_of(point_under(document.camera, at, SIZE)), at, 1e-3);
+    expect_near(pixel_of(point_under(document.camera, at, WINDOW_SIZE)), at, 1e-3);
 }
 
 TEST_P(EveryDocument, OrbitKeepsPivotAndDistanceAndNeverFlips) {
@@ -63,7 +63,7 @@ TEST_P(EveryDocument, OrbitKeepsPivotAndDistanceAndNeverFlips) {
   const glm::dvec3 pivot = document.camera.target;
   const double before = distance();
   for (int i = 0; i < 1000; ++i) {
-    orbit(document, {drag(random), drag(random)}, SIZE);
+    orbit(document, {drag(random), drag(random)}, WINDOW_SIZE);
     const glm::dvec3 right = glm::cross(document.camera.up, back());
     EXPECT_EQ(document.camera.target, pivot);
     EXPECT_NEAR(distance(), before, 1e-4 * before);
@@ -75,53 +75,53 @@ TEST_P(EveryDocument, OrbitKeepsPivotAndDistanceAndNeverFlips) {
 
 TEST_P(EveryDocument, OrbitStopsAtThePoleAndComesBackOnTheSameMeridian) {
   const glm::dvec3 start = back();
-  orbit(document, {0.0, 1e5}, SIZE);
+  orbit(document, {0.0, 1e5}, WINDOW_SIZE);
   EXPECT_NEAR(back().y, 1.0, 1e-9);
   expect_sees();
-  orbit(document, {37.0, 0.0}, SIZE);
-  orbit(document, {-37.0, 0.0}, SIZE);
-  orbit(document, {0.0, -(0.5 * pi - std::asin(start.y)) * SIZE.y / pi}, SIZE);
+  orbit(document, {37.0, 0.0}, WINDOW_SIZE);
+  orbit(document, {-37.0, 0.0}, WINDOW_SIZE);
+  orbit(document, {0.0, -(0.5 * pi - std::asin(start.y)) * WINDOW_SIZE.y / pi}, WINDOW_SIZE);
   EXPECT_LT(glm::length(back() - start), 1e-4);
 }
 
 TEST_P(EveryDocument, OrbitTurnsTheSceneWithTheDrag) {
   const glm::dvec3 front = document.camera.target + 0.1 * distance() * back();
   const glm::dvec2 before = pixel_of(front);
-  orbit(document, {10.0, 5.0}, SIZE);
+  orbit(document, {10.0, 5.0}, WINDOW_SIZE);
   EXPECT_GT(pixel_of(front).x, before.x);
   EXPECT_GT(pixel_of(front).y, before.y);
 }
 
 TEST_P(EveryDocument, PanKeepsTheGrabbedPointUnderTheCursor) {
   const glm::dvec2 from(200.0, 450.0), to(333.0, 120.0);
-  const glm::dvec3 grabbed = point_under(document.camera, from, SIZE), back_before = back();
-  pan(document, from, to, SIZE);
+  const glm::dvec3 grabbed = point_under(document.camera, from, WINDOW_SIZE), back_before = back();
+  pan(document, from, to, WINDOW_SIZE);
   expect_near(pixel_of(grabbed), to, 1e-2);
   EXPECT_LT(glm::length(back() - back_before), 1e-6);
 }
 
 TEST_P(EveryDocument, ZoomKeepsThePointUnderTheCursorAndCanBeUndone) {
   const glm::dvec2 at(620.0, 140.0);
-  const glm::dvec3 fixed = point_under(document.camera, at, SIZE);
+  const glm::dvec3 fixed = point_under(document.camera, at, WINDOW_SIZE);
   const auto height = [&] {
-    return glm::length(point_under(document.camera, {0, 600}, SIZE) -
-                       point_under(document.camera, {0, 0}, SIZE));
+    return glm::length(point_under(document.camera, {0, 600}, WINDOW_SIZE) -
+                       point_under(document.camera, {0, 0}, WINDOW_SIZE));
   };
   const double before = height();
   for (const double notches : {3.0, -8.0, 5.0}) {
-    zoom(document, notches, at, SIZE);
+    zoom(document, notches, at, WINDOW_SIZE);
     expect_near(pixel_of(fixed), at, 1e-2);
   }
   EXPECT_NEAR(height(), before, 1e-6 * before);
-  zoom(document, 1.0, at, SIZE);
+  zoom(document, 1.0, at, WINDOW_SIZE);
   EXPECT_LT(height(), 0.9 * before);
 }
 
 TEST_P(EveryDocument, ZoomEndsBeforeNumbersDo) {
   for (const double notches : {50.0, -50.0}) {
-    for (int i = 0; i < 40; ++i) zoom(document, notches, {1.0, 2.0}, SIZE);
+    for (int i = 0; i < 40; ++i) zoom(document, notches, {1.0, 2.0}, WINDOW_SIZE);
     expect_sees();
-    orbit(document, {10.0, 10.0}, SIZE);
+    orbit(document, {10.0, 10.0}, WINDOW_SIZE);
     expect_sees();
   }
 }
@@ -134,7 +134,7 @@ TEST_P(EveryDocument, SetPivotCentresThePointAndKeepsItsSize) {
   const glm::dvec2 apart = pixel_of(beside) - pixel_of(point);
   set_pivot(document, point);
   EXPECT_EQ(document.camera.target, point);
-  expect_near(pixel_of(point), 0.5 * SIZE, 1e-3);
+  expect_near(pixel_of(point), 0.5 * WINDOW_SIZE, 1e-3);
   expect_near(pixel_of(beside) - pixel_of(point), apart, 1e-2);
   EXPECT_LT(glm::length(back() - back_before), 1e-6);
   const Camera before = document.camera;
@@ -143,10 +143,10 @@ TEST_P(EveryDocument, SetPivotCentresThePointAndKeepsItsSize) {
 }
 
 TEST_P(EveryDocument, FrameAllShowsTheWholeBoxAndNoMoreThanThat) {
-  orbit(document, {123.0, 77.0}, SIZE);
-  zoom(document, 9.0, {1.0, 2.0}, SIZE);
+  orbit(document, {123.0, 77.0}, WINDOW_SIZE);
+  zoom(document, 9.0, {1.0, 2.0}, WINDOW_SIZE);
   const glm::dvec3 before = back();
-  frame_all(document, SIZE.x / SIZE.y);
+  frame_all(document, WINDOW_SIZE.x / WINDOW_SIZE.y);
   EXPECT_LT(glm::length(back() - before), 1e-6);
   glm::dvec2 low(1e9), high(-1e9);
   for (int corner = 0; corner < 8; ++corner) {
@@ -155,15 +155,17 @@ TEST_P(EveryDocument, FrameAllShowsTheWholeBoxAndNoMoreThanThat) {
     low = glm::min(low, at);
     high = glm::max(high, at);
   }
-  EXPECT_TRUE(glm::all(glm::greaterThan(low, glm::dvec2(0.0))) && glm::all(glm::lessThan(high, SIZE)));
+  EXPECT_TRUE(glm::all(glm::greaterThan(low, glm::dvec2(0.0))) && glm::all(glm::lessThan(high, WINDOW_SIZE)));
   if (is_point)
-    expect_near(low, 0.5 * SIZE, 1.0);
+    expect_near(low, 0.5 * WINDOW_SIZE, 1.0);
   else
-    EXPECT_GT(std::max((high.x - low.x) / SIZE.x, (high.y - low.y) / SIZE.y), 0.9);
+    EXPECT_GT(std::max((high.x - low.x) / WINDOW_SIZE.x, (high.y - low.y) / WINDOW_SIZE.y), 0.9);
 }
 
 TEST_P(EveryDocument, OrthographicToggleKeepsTheSizeAtThePivotAndReturns) {
-  const auto width = [&] { return point_under(document.camera, SIZE, SIZE) - document.camera.target; };
+  const auto width = [&] {
+    return point_under(document.camera, WINDOW_SIZE, WINDOW_SIZE) - document.camera.target;
+  };
   const glm::dvec3 before = width();
   const Camera camera = document.camera;
   const bool was_ortho = ortho();
@@ -177,8 +179,8 @@ TEST_P(EveryDocument, OrthographicToggleKeepsTheSizeAtThePivotAndReturns) {
 
 TEST_P(EveryDocument, OrthographicCamerasStayOutsideTheScene) {
   if (!ortho()) toggle_orthographic(document);
-  zoom(document, 20.0, {100.0, 100.0}, SIZE);
-  orbit(document, {400.0, 100.0}, SIZE);
+  zoom(document, 20.0, {100.0, 100.0}, WINDOW_SIZE);
+  orbit(document, {400.0, 100.0}, WINDOW_SIZE);
   for (int corner = 0; corner < 8; ++corner) {
     const glm::bvec3 upper((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
     const glm::dvec3 point = glm::mix(document.bounds_min_world, document.bounds_max_world, upper);
@@ -198,16 +200,16 @@ TEST_P(EveryDocument, NothingMakesACameraThatSeesNothing) {
       SCOPED_TRACE(value);
       document.camera = start;
       const glm::dvec2 place(value, 3.0);
-      orbit(document, place, SIZE);
-      pan(document, place, {4.0, 5.0}, SIZE);
-      zoom(document, value, {4.0, 5.0}, SIZE);
-      zoom(document, 1.0, place, SIZE);
-      look(document, place, SIZE);
+      orbit(document, place, WINDOW_SIZE);
+      pan(document, place, {4.0, 5.0}, WINDOW_SIZE);
+      zoom(document, value, {4.0, 5.0}, WINDOW_SIZE);
+      zoom(document, 1.0, place, WINDOW_SIZE);
+      look(document, place, WINDOW_SIZE);
       fly(document, {value, 0.0, 1.0}, value, true);
       set_pivot(document, glm::dvec3(value));
       set_up_axis(document, {0.0, value, 0.0});
       SceneLight light;
-      drag_light(document, place, SIZE, light);
+      drag_light(document, place, WINDOW_SIZE, light);
       EXPECT_NEAR(glm::length(light.position), 1.0, 1e-6);
       set_axis_view(document, AxisView::top);  // a good camera again, whatever it was
       frame_all(document, 1.5);
@@ -221,10 +223,10 @@ TEST(NavigationTest, LookTurnsAboutTheEye) {
   Document document = box_document({1.0, 2.0, 3.0}, 2.0);
   const Camera before = document.camera;
   const glm::dvec3 point = before.target;
-  look(document, {30.0, 20.0}, SIZE);
+  look(document, {30.0, 20.0}, WINDOW_SIZE);
   EXPECT_LT(glm::length(document.camera.eye - before.eye), 1e-12);
-  EXPECT_LT(projected(document.camera, point, SIZE).x, 400.0);  // looked to the right ...
-  EXPECT_LT(projected(document.camera, point, SIZE).y, 300.0);  // ... and down
+  EXPECT_LT(projected(document.camera, point, WINDOW_SIZE).x, 400.0);  // looked to the right ...
+  EXPECT_LT(projected(document.camera, point, WINDOW_SIZE).y, 300.0);  // ... and down
 }
 
 TEST(NavigationTest, FlyMovesByTheSizeOfTheScene) {
@@ -240,7 +242,7 @@ TEST(NavigationTest, FlyMovesByTheSizeOfTheScene) {
   EXPECT_LT(glm::length(document.camera.eye - before.eye), 1e-12);
   fly(document, {1.0, 0.0, 0.0}, 0.1, false);
   EXPECT_NEAR(glm::dot(document.camera.eye - before.eye, forward), 0.0, 1e-12);
-  EXPECT_LT(projected(document.camera, before.target, SIZE).x, 400.0);
+  EXPECT_LT(projected(document.camera, before.target, WINDOW_SIZE).x, 400.0);
   fly(document, {0.0, 0.0, 1.0}, 3600.0, false);  // a stall
   EXPECT_LT(glm::length(document.camera.eye - before.eye), 0.5 * scene_radius_world(document));
 }
@@ -272,11 +274,11 @@ TEST(NavigationTest, DraggedLightsComeFromWhereTheCursorIs) {
   const glm::dvec3 center(1.0, 2.0, 3.0), back = glm::normalize(document.camera.eye - document.camera.target);
   SceneLight sun, lamp{LIGHT_POINT, center + glm::dvec3(0.0, 9.0, 0.0), glm::vec3(1.0F)};
   for (const bool ortho : {false, true}) {
-    drag_light(document, 0.5 * SIZE, SIZE, sun);
-    drag_light(document, 0.5 * SIZE, SIZE, lamp);
+    drag_light(document, 0.5 * WINDOW_SIZE, WINDOW_SIZE, sun);
+    drag_light(document, 0.5 * WINDOW_SIZE, WINDOW_SIZE, lamp);
     EXPECT_LT(glm::length(sun.position - back), 1e-6);
     EXPECT_LT(glm::length(lamp.position - (center + 9.0 * back)), 1e-6);
-    drag_light(document, {799.0, 300.0}, SIZE, sun);
+    drag_light(document, {799.0, 300.0}, WINDOW_SIZE, sun);
     EXPECT_NEAR(glm::length(sun.position), 1.0, 1e-12);
     EXPECT_GT(glm::dot(sun.position, glm::cross(document.camera.up, back)), 0.7);
     if (!ortho) toggle_orthographic(document);

@@ -15,7 +15,7 @@
 namespace splatray {
 namespace {
 
-constexpr glm::uvec2 SIZE{67, 43};
+constexpr glm::uvec2 SHOWN_SIZE{67, 43};
 constexpr std::chrono::seconds PATIENCE{60};
 
 /// Wakes a test as the window is woken.
@@ -66,26 +66,26 @@ class RenderThreadTest : public CliTest {
 };
 
 TEST_F(RenderThreadTest, FinishesThePicture) {
-  thread.open(scene, document, SIZE);
+  thread.open(scene, document, SHOWN_SIZE);
   await(
       [&](const RenderNews& news) { return news.frame && news.frame->samples == document.settings.samples; });
 }
 
 TEST_F(RenderThreadTest, AnswersWhatIsUnderTheCursor) {
-  thread.open(scene, document, SIZE);
-  thread.pick({glm::dvec2(SIZE) * 0.5, SIZE, PickFor::pivot});
+  thread.open(scene, document, SHOWN_SIZE);
+  thread.pick({glm::dvec2(SHOWN_SIZE) * 0.5, SHOWN_SIZE, PickFor::pivot});
   await([](const RenderNews& news) {
     if (!news.pick) return false;
     EXPECT_EQ(news.pick->purpose, PickFor::pivot);
     EXPECT_NEAR(glm::length(news.pick->inspected.value().hit_world), 0.0, 1e-6);
     return true;
   });
-  thread.pick({{0.5, 0.5}, SIZE});
+  thread.pick({{0.5, 0.5}, SHOWN_SIZE});
   await([](const RenderNews& news) { return news.pick && !news.pick->inspected; });
 }
 
 TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
-  thread.open(scene, document, SIZE);
+  thread.open(scene, document, SHOWN_SIZE);
   Request request;
   request.output.path = file("out.exr");
   request.view.width = 31;
@@ -103,7 +103,7 @@ TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
 }
 
 TEST_F(RenderThreadTest, RecordsATurntable) {
-  thread.open(scene, document, SIZE);
+  thread.open(scene, document, SHOWN_SIZE);
   Request request;
   request.output.path = file("turn.##.png");
   request.output.turntable = 3;
@@ -115,7 +115,7 @@ TEST_F(RenderThreadTest, RecordsATurntable) {
 }
 
 TEST_F(RenderThreadTest, RecordingAgainMakesWhatIsMissing) {
-  thread.open(scene, document, SIZE);
+  thread.open(scene, document, SHOWN_SIZE);
   Request request;
   request.output.path = file("turn.#.png");
   request.output.turntable = 3;
@@ -139,22 +139,22 @@ TEST_F(RenderThreadTest, RecordingAgainMakesWhatIsMissing) {
 }
 
 TEST_F(RenderThreadTest, FailuresAreSentencesAndItGoesOn) {
-  thread.open(scene, document, SIZE);
+  thread.open(scene, document, SHOWN_SIZE);
   Request request;
   request.output.path = file("missing/out.png");
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return news.error.find("missing") != std::string::npos; });
   await([](const RenderNews& news) { return !news.saving; });
   document.environment = file("missing.hdr");
-  thread.show(document, SIZE);
+  thread.show(document, SHOWN_SIZE);
   await([](const RenderNews& news) { return news.error.find("missing.hdr") != std::string::npos; });
   document.camera.eye.x = document.camera.target.x = 0.1;
-  thread.show(document, SIZE);
+  thread.show(document, SHOWN_SIZE);
   await([&](const RenderNews& news) { return news.frame && news.frame->view.camera == document.camera; });
 }
 
 TEST_F(RenderThreadTest, ALongSaveIsCancelled) {
-  thread.open(scene, document, SIZE);
+  thread.open(scene, document, SHOWN_SIZE);
   Request request;
   request.output.path = file("out.png");
   request.view.width = request.view.height = 2000;

@@ -27,7 +27,7 @@ constexpr Binding flight(Action action, int code, const char* does) {
   return {action, InputKind::fly_key, code, code, 0, does};
 }
 
-constexpr std::array BINDINGS = {
+constexpr std::array KEY_BINDINGS = {
     mouse(Action::orbit, InputKind::drag, LEFT, 0,
           "orbit about the point under the cursor, where there is none about the middle; drag a handle"),
     mouse(Action::pan, InputKind::drag, MIDDLE, 0, "pan: the point taken hold of stays under the cursor"),
@@ -141,12 +141,12 @@ std::string input_name(const Binding& binding) {
 
 }  // namespace
 
-std::span<const Binding> bindings() { return BINDINGS; }
+std::span<const Binding> bindings() { return KEY_BINDINGS; }
 
 std::optional<Command> command_for(InputKind input, int code, int modifiers) {
   if (input == InputKind::key && code >= GLFW_KEY_KP_0 && code <= GLFW_KEY_KP_9)
     code += GLFW_KEY_0 - GLFW_KEY_KP_0;
-  for (const Binding& binding : BINDINGS) {
+  for (const Binding& binding : KEY_BINDINGS) {
     if (binding.input != input || code < binding.code || code > binding.last_code) continue;
     if (binding.modifiers != (modifiers & MODIFIERS)) continue;
     return Command{binding.action, binding.code == binding.last_code ? 0 : code - GLFW_KEY_0};
@@ -171,7 +171,7 @@ std::string binding_name(const Binding& binding) {
 
 std::vector<KeyRow> key_rows() {
   std::vector<KeyRow> rows;
-  for (const Binding& binding : BINDINGS) {
+  for (const Binding& binding : KEY_BINDINGS) {
     if (*binding.does != '\0')
       rows.push_back({binding_name(binding), binding.does});
     else

@@ -9,7 +9,7 @@
 namespace splatray {
 namespace {
 
-constexpr float LIST_EM = 8.0F;  ///< height of the list of classes, or of scans
+constexpr float CLASS_LIST_EM = 8.0F;  ///< height of the list of classes, or of scans
 
 void source_combo(Document& document) {
   const std::vector<std::string>& sources = document.loaded->color_sources;
@@ -44,7 +44,7 @@ void category_list(const char* title, const std::vector<Category>& categories,
   if (categories.size() < 2) return;
   ImGui::TextDisabled("%s", title);
   const float rows = static_cast<float>(categories.size()) * ImGui::GetFrameHeightWithSpacing();
-  ImGui::BeginChild(title, {0.0F, std::min(rows, LIST_EM * ImGui::GetFontSize())});
+  ImGui::BeginChild(title, {0.0F, std::min(rows, CLASS_LIST_EM * ImGui::GetFontSize())});
   for (const Category& category : categories) {
     const auto found = std::find(hidden.begin(), hidden.end(), category.value);
     bool visible = found == hidden.end();

@@ -13,7 +13,7 @@
 namespace splatray {
 namespace {
 
-constexpr float LIST_EM = 8.0F;  ///< height of the list of objects
+constexpr float OBJECT_LIST_EM = 8.0F;  ///< height of the list of objects
 constexpr float MOST_SHININESS = 1e4F, LEAST_IOR = 0.2F, MOST_IOR = 4.0F, GLASS_IOR = 1.52F;
 
 bool has(const Material& material, std::uint32_t flag) { return (material.flags & flag) != 0; }
@@ -148,7 +148,7 @@ void object_panel(Document& document, PanelState& state) {
   const std::vector<std::size_t> objects = filtered_objects(document, state.object_filter);
   visibility_buttons(document, objects);
   const float rows = static_cast<float>(objects.size()) * ImGui::GetFrameHeightWithSpacing();
-  ImGui::BeginChild("objects", {0.0F, std::min(rows + em, LIST_EM * em)}, true);
+  ImGui::BeginChild("objects", {0.0F, std::min(rows + em, OBJECT_LIST_EM * em)}, true);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(objects.size()));
   while (clipper.Step())

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float LIST_EM = 13.0F;  ///< height of the list of files
+constexpr float FILE_LIST_EM = 13.0F;  ///< height of the list of files
 
 /// Lists a folder; nothing of another is chosen any more.
 void enter(PanelState& state, const fs::path& folder) {
@@ -59,7 +59,7 @@ void entry_row(const FolderEntry& entry, PanelState& state, Requests& requests,
 void folder_list(PanelState& state, Requests& requests) {
   std::optional<fs::path> entered;
   ImGui::TextWrapped("%s", state.open_listing->folder.c_str());
-  ImGui::BeginChild("files", {0.0F, LIST_EM * ImGui::GetFontSize()}, true);
+  ImGui::BeginChild("files", {0.0F, FILE_LIST_EM * ImGui::GetFontSize()}, true);
   const fs::path above = state.open_listing->folder.parent_path();
   if (above != state.open_listing->folder &&
       ImGui::Selectable("../", false, ImGuiSelectableFlags_DontClosePopups))

@@ -12,12 +12,12 @@
 namespace splatray {
 namespace {
 
-constexpr float COS_SAME = 0.985F;  // 10 degrees: normals of corners that are shaded as one surface
+constexpr float COS_SAME_SURFACE = 0.985F;  // 10 degrees: normals of corners that are shaded as one surface
 
-using Side = MeshEdges::Side;
+using EdgeSide = MeshEdges::Side;
 
-std::vector<Side> sorted_sides(const Mesh& mesh, const std::vector<glm::uint>& weld) {
-  std::vector<Side> sides(3 * mesh.triangles.size());
+std::vector<EdgeSide> sorted_sides(const Mesh& mesh, const std::vector<glm::uint>& weld) {
+  std::vector<EdgeSide> sides(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::uint32_t side = 0; side < 3; ++side) {
       const auto index = static_cast<glm::length_t>(side);
@@ -36,21 +36,21 @@ class CreaseTest {
              double cosine)
       : mesh_(mesh), weld_(weld), corners_(corners), cosine_(cosine) {}
 
-  [[nodiscard]] bool smooth(const Side& a, const Side& b) const {
+  [[nodiscard]] bool smooth(const EdgeSide& a, const EdgeSide& b) const {
     const auto [normal_a, normal_b] = normals(a, b);
     const double lengths = std::sqrt(glm::dot(normal_a, normal_a) * glm::dot(normal_b, normal_b));
     return !(glm::dot(normal_a, normal_b) < cosine_ * lengths) || shaded_as_one(a, b);
   }
 
   /// By how much the surface turns, radians.
-  [[nodiscard]] double turn(const Side& a, const Side& b) const {
+  [[nodiscard]] double turn(const EdgeSide& a, const EdgeSide& b) const {
     const auto [normal_a, normal_b] = normals(a, b);
     return std::atan2(glm::length(glm::cross(normal_a, normal_b)), glm::dot(normal_a, normal_b));
   }
 
  private:
   /// On one side of the surface.
-  [[nodiscard]] std::pair<glm::dvec3, glm::dvec3> normals(const Side& a, const Side& b) const {
+  [[nodiscard]] std::pair<glm::dvec3, glm::dvec3> normals(const EdgeSide& a, const EdgeSide& b) const {
     return {normal(a.triangle), normal(b.triangle) * (start(a) == start(b) ? -1.0 : 1.0)};
   }
   [[nodiscard]] glm::dvec3 normal(std::uint32_t triangle) const {
@@ -59,16 +59,16 @@ class CreaseTest {
     return glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
   }
   /// The place where a triangle's side begins.
-  [[nodiscard]] glm::uint start(const Side& side) const {
+  [[nodiscard]] glm::uint start(const EdgeSide& side) const {
     return weld_[mesh_.triangles[side.triangle][static_cast<glm::length_t>(side.side)]];
   }
   [[nodiscard]] const glm::vec3& corner(std::uint32_t triangle, std::uint32_t which) const {
     return corners_[std::size_t{3} * triangle + which % 3];
   }
-  [[nodiscard]] bool shaded_as_one(const Side& a, const Side& b) const {
+  [[nodiscard]] bool shaded_as_one(const EdgeSide& a, const EdgeSide& b) const {
     const bool same_way = start(a) == start(b);
     const auto same = [](const glm::vec3& m, const glm::vec3& n) {
-      return std::abs(glm::dot(m, n)) > COS_SAME;
+      return std::abs(glm::dot(m, n)) > COS_SAME_SURFACE;
     };
     return same(corner(a.triangle, a.side), corner(b.triangle, b.side + (same_way ? 0 : 1))) &&
            same(corner(a.triangle, a.side + 1), corner(b.triangle, b.side + (same_way ? 1 : 0)));
@@ -82,7 +82,7 @@ class CreaseTest {
 
 /// The two sides of a crease, and by how much the surface turns there, radians.
 struct Crease {
-  Side a, b;
+  EdgeSide a, b;
   double turn;
 };
 
@@ -98,7 +98,7 @@ std::vector<Crease> creases_where(const std::vector<Crease>& creases, const std:
 }
 
 /// Adds one to both places of an edge.
-void count_edge(const Side& side, std::vector<std::uint32_t>& edges_at) {
+void count_edge(const EdgeSide& side, std::vector<std::uint32_t>& edges_at) {
   ++edges_at[side.places >> 32];
   ++edges_at[static_cast<std::uint32_t>(side.places)];
 }
@@ -120,8 +120,8 @@ std::vector<Crease> without_ends(const std::vector<Crease>& creases, std::vector
 
 /// Calls use(sides of an edge) for each edge.
 template <typename Use>
-void for_each_edge(const Mesh& mesh, const std::vector<glm::uint>& weld, const Use& use) {
-  const std::vector<Side> sides = sorted_sides(mesh, weld);
+void for_each_joint(const Mesh& mesh, const std::vector<glm::uint>& weld, const Use& use) {
+  const std::vector<EdgeSide> sides = sorted_sides(mesh, weld);
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].places == sides[begin].places) ++end;
     use(std::span(sides).subspan(begin, end - begin));
@@ -130,12 +130,12 @@ void for_each_edge(const Mesh& mesh, const std::vector<glm::uint>& weld, const U
 
 }  // namespace
 
-std::uint32_t& MeshEdges::beside_side(const Side& side) {
+std::uint32_t& MeshEdges::beside_side(const EdgeSide& side) {
   return beside_[std::size_t{3} * side.triangle + side.side];
 }
 
 /// Joins the triangles at an edge of two.
-void MeshEdges::pair_up(std::span<const Side> edge) {
+void MeshEdges::pair_up(std::span<const EdgeSide> edge) {
   any_ = any_ || edge.size() != 2;
   if (edge.size() == 1) beside_side(edge[0]) = edge[0].triangle | END;
   if (edge.size() == 2) beside_side(edge[0]) = edge[1].triangle, beside_side(edge[1]) = edge[0].triangle;
@@ -147,7 +147,7 @@ MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
   const CreaseTest test(mesh, weld, corners, crease_cosine);
   std::vector<Crease> creases;
   std::vector<std::uint32_t> edges_at(weld.size(), 0);
-  for_each_edge(mesh, weld, [&](std::span<const Side> edge) {
+  for_each_joint(mesh, weld, [&](std::span<const EdgeSide> edge) {
     pair_up(edge);
     if (edge.size() == 2 && test.smooth(edge[0], edge[1])) return;
     if (edge.size() == 2)
@@ -161,17 +161,17 @@ MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
   for (int cut = 0; cut < TWIG; ++cut) creases = without_ends(creases, edges_at);
   creases = creases_where(creases, bounding(mesh, beside_, turning_edges(creases)));
   for (const Crease& crease : creases)
-    for (const Side& side : {crease.a, crease.b}) beside_side(side) |= END;
+    for (const EdgeSide& side : {crease.a, crease.b}) beside_side(side) |= END;
   any_ = any_ || !creases.empty();
 }
 
 MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
                      const std::function<bool(std::uint32_t, std::uint32_t)>& ends)
     : beside_(3 * mesh.triangles.size(), NONE) {
-  for_each_edge(mesh, weld, [&](std::span<const Side> edge) {
+  for_each_joint(mesh, weld, [&](std::span<const EdgeSide> edge) {
     pair_up(edge);
     if (edge.size() != 2 || !ends(edge[0].triangle, edge[0].side)) return;
-    for (const Side& side : edge) beside_side(side) |= END;
+    for (const EdgeSide& side : edge) beside_side(side) |= END;
     any_ = true;
   });
 }

@@ -8,11 +8,11 @@
 namespace splatray {
 namespace {
 
-constexpr std::uint32_t BLOCK = 4;  ///< texels of the finest blocks' edges
-constexpr double MARGIN = 4.0;      ///< texels beside detail that it needs points in, too: discs are round
-constexpr double EVEN_SHARE = 0.5;  ///< of the samples, that are spread evenly
+constexpr std::uint32_t BLOCK = 4;     ///< texels of the finest blocks' edges
+constexpr double DETAIL_MARGIN = 4.0;  ///< texels beside detail that it needs points in, too: discs are round
+constexpr double EVEN_SHARE = 0.5;     ///< of the samples, that are spread evenly
 constexpr double MOST_TO_A_TEXEL = 4.0;  ///< twice as close as texels are
-constexpr double UNEVEN = 1.5;           ///< a piece is divided where its parts' densities differ by more
+constexpr double UNEVEN_DENSITY = 1.5;   ///< a piece is divided where its parts' densities differ by more
 constexpr double VERTEX_CHANGE = 0.05;   ///< between vertices, that points at them can show
 constexpr int DEEPEST = 12;              ///< divisions of a triangle
 
@@ -128,7 +128,7 @@ class Divider {
         most = std::max(most, detail);
         mean += detail / 16.0;
       }
-    return std::pow(most, 2.0 / 3.0) > UNEVEN * std::pow(least, 2.0 / 3.0);
+    return std::pow(most, 2.0 / 3.0) > UNEVEN_DENSITY * std::pow(least, 2.0 / 3.0);
   }
 
   const MeshDetail& detail_;
@@ -170,7 +170,8 @@ glm::dvec2 TextureDetail::texel_of(glm::vec2 texcoord) const {
 double TextureDetail::in(const std::array<glm::vec2, 3>& texcoords) const {
   constexpr double BLOCKS_ACROSS = 4.0;
   const glm::dvec2 a = texel_of(texcoords[0]), b = texel_of(texcoords[1]), c = texel_of(texcoords[2]);
-  const glm::dvec2 low = glm::min(a, glm::min(b, c)) - MARGIN, high = glm::max(a, glm::max(b, c)) + MARGIN;
+  const glm::dvec2 low = glm::min(a, glm::min(b, c)) - DETAIL_MARGIN,
+                   high = glm::max(a, glm::max(b, c)) + DETAIL_MARGIN;
   const double span = std::max(high.x - low.x, high.y - low.y);
   std::size_t i = 0;
   while (i + 1 < levels_.size() && span > BLOCKS_ACROSS * levels_[i].block) ++i;

@@ -8,7 +8,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t HEADER_BYTES = 48;
+constexpr std::size_t E57_HEADER_BYTES = 48;
 constexpr char SIGNATURE[] = "ASTM-E57";
 constexpr std::uint64_t BLOCK_PAGES = 64;
 constexpr std::size_t MOST_TAKEN = 65536;
@@ -39,7 +39,7 @@ PagedFile::PagedFile(const std::filesystem::path& path, bool ignore_checksums)
 }
 
 void PagedFile::read_header() {
-  const unsigned char* bytes = in_.take(HEADER_BYTES);
+  const unsigned char* bytes = in_.take(E57_HEADER_BYTES);
   if (bytes == nullptr || std::memcmp(bytes, SIGNATURE, sizeof SIGNATURE - 1) != 0)
     throw_unreadable(path(), "found no signature ASTM-E57 at its begin, expected an E57 file");
   const auto major = word_at<std::uint32_t>(bytes, 8);

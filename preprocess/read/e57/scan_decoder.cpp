@@ -15,7 +15,7 @@ constexpr std::uint64_t REPORTED_PACKETS = 16;
 constexpr std::uint64_t MOST_ORIGINS = 10;
 constexpr std::uint64_t ORIGIN_SHARE = 1000;
 constexpr std::uint64_t CELLS_A_RECORD = 64;  ///< of a grid that is believed
-constexpr glm::u16vec3 WHITE{255, 255, 255};
+constexpr glm::u16vec3 WHITE_8_BIT{255, 255, 255};
 
 /// A value as an attribute's type; what it cannot hold is 0 or its nearest.
 template <typename Value>
@@ -98,7 +98,7 @@ ScanDecoder::ScanDecoder(const E57Scan& scan, const ScanLayout& layout, ScanFile
     if (sources_.back().is_constant) sources_.back().stream.decode(BATCH, sources_.back().values.data());
   }
   Points& points = file.points;
-  if (layout.colors) begin_list(points.stored_color, points, WHITE);
+  if (layout.colors) begin_list(points.stored_color, points, WHITE_8_BIT);
   if (layout.normals) begin_list(points.normal, points, glm::vec3(0.0F));
   if (layout.cell) begin_list(points.grid_cell, points, NO_CELL);
   for (const ColumnSource& column : layout.columns) columns_.push_back(column_number(points, column.empty));
@@ -185,7 +185,7 @@ void ScanDecoder::append_colors() {
   }
   glm::u16vec3* to = grow(file_.points.stored_color, kept_.size());
   for (const std::uint32_t i : kept_) {
-    glm::u16vec3 color = WHITE;
+    glm::u16vec3 color = WHITE_8_BIT;
     for (std::size_t c = 0; c < 3 && (invalid == nullptr || invalid[i] == 0.0); ++c)
       color[static_cast<int>(c)] =
           attribute_of<std::uint8_t>((channel[c][i] - layout_.color_low[c]) * scale[c] + 0.5);
@@ -296,7 +296,7 @@ void ScanDecoder::set_grid(Station& station, std::vector<std::string>& notes) {
 void finish_scans(Points& points, const std::vector<std::size_t>& last_of_scan) {
   const std::size_t size = points.size();
   if (!points.stored_color.empty()) {
-    points.stored_color.resize(size, WHITE);
+    points.stored_color.resize(size, WHITE_8_BIT);
     points.stored_color_most = 255;
   }
   if (!points.normal.empty()) points.normal.resize(size, glm::vec3(0.0F));

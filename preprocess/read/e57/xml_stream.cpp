@@ -12,7 +12,7 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST_DEPTH = 64;
+constexpr std::size_t MOST_E57_DEPTH = 64;
 constexpr std::size_t MOST_TEXT = 4096;
 constexpr std::uint64_t CHUNK_BYTES = 65536;
 constexpr std::string_view E57_NAMESPACE = "http://www.astm.org/COMMIT/E57/";
@@ -103,8 +103,8 @@ class Stream {
   static void on_begin(void* self, const char* name, const char** attributes) {
     auto& stream = *static_cast<Stream*>(self);
     stream.guarded([&] {
-      if (stream.path_.size() == MOST_DEPTH)
-        stream.fail("its XML nests more than " + std::to_string(MOST_DEPTH) + " deep");
+      if (stream.path_.size() == MOST_E57_DEPTH)
+        stream.fail("its XML nests more than " + std::to_string(MOST_E57_DEPTH) + " deep");
       stream.learn_prefixes(attributes);
       stream.path_.push_back(stream.standard_name(name));
       stream.text_.clear();

@@ -9,7 +9,15 @@ namespace splatray {
 namespace {
 
 /// Where the fixed attributes stand in Points::columns; extra bytes follow.
-enum Place : std::size_t { INTENSITY, CLASS, RETURN, RETURNS, SOURCE, TIME, FIXED };
+enum FixedColumn : std::size_t {
+  INTENSITY_COLUMN,
+  CLASS_COLUMN,
+  RETURN_COLUMN,
+  RETURNS_COLUMN,
+  SOURCE_COLUMN,
+  TIME_COLUMN,
+  FIXED_COLUMNS
+};
 
 /// The fields of a record that both kinds have, each in its own way.
 struct Marks {
@@ -77,7 +85,7 @@ void LasColumns::for_each_array(F f) {
   f(points_.position);
   if (fields_.color != 0) f(points_.stored_color);
   for (std::size_t i = 0; i < points_.columns.size(); ++i)
-    if (i != TIME || fields_.time != 0) std::visit(f, points_.columns[i].values);
+    if (i != TIME_COLUMN || fields_.time != 0) std::visit(f, points_.columns[i].values);
 }
 
 void LasColumns::reserve(std::size_t count) {
@@ -100,15 +108,15 @@ void LasColumns::move(std::size_t from, std::size_t count, std::size_t to) {
 }
 
 LasColumns::Filled LasColumns::fill(const unsigned char* records, std::size_t count, std::size_t at) {
-  const auto array = [this]<class T>(Place place, T) {
+  const auto array = [this]<class T>(FixedColumn place, T) {
     return std::get<std::vector<T>>(points_.columns[place].values).data();
   };
-  std::uint16_t* const intensity = array(INTENSITY, std::uint16_t{});
-  std::uint8_t* const classification = array(CLASS, std::uint8_t{});
-  std::uint8_t* const return_number = array(RETURN, std::uint8_t{});
-  std::uint8_t* const returns = array(RETURNS, std::uint8_t{});
-  std::uint16_t* const source = array(SOURCE, std::uint16_t{});
-  double* const time = array(TIME, double{});
+  std::uint16_t* const intensity = array(INTENSITY_COLUMN, std::uint16_t{});
+  std::uint8_t* const classification = array(CLASS_COLUMN, std::uint8_t{});
+  std::uint8_t* const return_number = array(RETURN_COLUMN, std::uint8_t{});
+  std::uint8_t* const returns = array(RETURNS_COLUMN, std::uint8_t{});
+  std::uint16_t* const source = array(SOURCE_COLUMN, std::uint16_t{});
+  double* const time = array(TIME_COLUMN, double{});
   const std::size_t begin = at;
   Filled filled;
   for (std::size_t i = 0; i < count; ++i) {
@@ -131,7 +139,7 @@ LasColumns::Filled LasColumns::fill(const unsigned char* records, std::size_t co
           [&](auto& list) {
             list[at] = static_cast<std::remove_reference_t<decltype(list[0])>>(extra_[e].value(record));
           },
-          points_.columns[FIXED + e].values);
+          points_.columns[FIXED_COLUMNS + e].values);
     ++at;
   }
   filled.kept = at - begin;

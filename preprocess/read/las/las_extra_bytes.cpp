@@ -9,9 +9,9 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t DESCRIPTOR_BYTES = 192;
-constexpr unsigned TYPES = 10;
-constexpr std::size_t TYPE_BYTES[TYPES + 1] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+constexpr std::size_t EXTRA_DESCRIPTOR_BYTES = 192;
+constexpr unsigned EXTRA_TYPES = 10;
+constexpr std::size_t TYPE_BYTES[EXTRA_TYPES + 1] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 constexpr unsigned MOST_FLOAT_INTEGER = 4;  ///< types up to i16
 constexpr unsigned FLOAT = 9;
 constexpr unsigned OPTION_SCALE = 8;
@@ -72,17 +72,17 @@ double LasExtraBytes::value(const unsigned char* record) const {
 std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descriptors, std::size_t begin,
                                            std::size_t end) {
   std::vector<LasExtraBytes> all;
-  for (std::size_t at = begin; descriptors.size() >= DESCRIPTOR_BYTES;
-       descriptors = descriptors.subspan(DESCRIPTOR_BYTES)) {
+  for (std::size_t at = begin; descriptors.size() >= EXTRA_DESCRIPTOR_BYTES;
+       descriptors = descriptors.subspan(EXTRA_DESCRIPTOR_BYTES)) {
     const unsigned char* descriptor = descriptors.data();
     const unsigned stored_type = descriptor[2];
     if (stored_type == 0) {  // bytes of no known meaning, as many as the options say
       at += descriptor[3];
       continue;
     }
-    if (stored_type > 3 * TYPES) break;  // of unknown length
-    const unsigned type = (stored_type - 1) % TYPES + 1;
-    const unsigned width = (stored_type - 1) / TYPES + 1;
+    if (stored_type > 3 * EXTRA_TYPES) break;  // of unknown length
+    const unsigned type = (stored_type - 1) % EXTRA_TYPES + 1;
+    const unsigned width = (stored_type - 1) / EXTRA_TYPES + 1;
     std::string_view name(reinterpret_cast<const char*>(descriptor + 4), 32);
     name = name.substr(0, name.find('\0'));
     for (unsigned i = 0; i < width; ++i) {

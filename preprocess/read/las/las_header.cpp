@@ -11,8 +11,8 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t HEADER_BYTES = 227;      ///< of LAS 1.0 to 1.2
-constexpr std::size_t HEADER_BYTES_1_4 = 375;  ///< with 64-bit counts and the extended records
+constexpr std::size_t LEAST_LAS_HEADER_BYTES = 227;  ///< of LAS 1.0 to 1.2
+constexpr std::size_t HEADER_BYTES_1_4 = 375;        ///< with 64-bit counts and the extended records
 /// LASzip sets the highest bit of the format, an early one the next.
 constexpr unsigned COMPRESSED_FORMAT_BITS = 192;
 constexpr unsigned MOST_POINT_FORMAT = 10;
@@ -78,10 +78,10 @@ LasFields las_fields(unsigned point_format) { return FIELDS[point_format]; }
 
 LasHeader read_las_header(ByteReader& in) {
   const std::uint64_t size = in.remaining();
-  const unsigned char* bytes = in.take(std::min<std::size_t>(size, HEADER_BYTES));
-  if (bytes == nullptr || size < HEADER_BYTES || std::memcmp(bytes, "LASF", 4) != 0)
-    throw_unreadable(in.path(), "found no LAS header, expected LASF and " + std::to_string(HEADER_BYTES) +
-                                    " bytes or more");
+  const unsigned char* bytes = in.take(std::min<std::size_t>(size, LEAST_LAS_HEADER_BYTES));
+  if (bytes == nullptr || size < LEAST_LAS_HEADER_BYTES || std::memcmp(bytes, "LASF", 4) != 0)
+    throw_unreadable(in.path(), "found no LAS header, expected LASF and " +
+                                    std::to_string(LEAST_LAS_HEADER_BYTES) + " bytes or more");
   LasHeader header;
   header.version_minor = bytes[25];
   if (bytes[24] != 1 || header.version_minor > 5)
@@ -104,10 +104,10 @@ LasHeader read_las_header(ByteReader& in) {
     load_1_4(bytes, header);
   }
   check(header, in.path());
-  if (header.points_offset > size || header.points_offset < HEADER_BYTES)
+  if (header.points_offset > size || header.points_offset < LEAST_LAS_HEADER_BYTES)
     throw_unreadable(in.path(), "found points said to begin at byte " + std::to_string(header.points_offset) +
-                                    ", expected " + std::to_string(HEADER_BYTES) + " to the file's " +
-                                    std::to_string(size) + " bytes");
+                                    ", expected " + std::to_string(LEAST_LAS_HEADER_BYTES) +
+                                    " to the file's " + std::to_string(size) + " bytes");
   return header;
 }
 

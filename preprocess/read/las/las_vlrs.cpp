@@ -11,7 +11,7 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t USER_BYTES = 16;
-constexpr std::size_t HEAD_BYTES = 54;           ///< of a record between header and points
+constexpr std::size_t VLR_HEAD_BYTES = 54;       ///< of a record between header and points
 constexpr std::size_t HEAD_BYTES_EXTENDED = 60;  ///< of one behind the points, with a 64-bit length
 constexpr std::uint64_t MOST_CONTENT_BYTES = ByteReader::BLOCK_BYTES;  ///< of records that are of use
 
@@ -48,7 +48,7 @@ void keep(LasVlrs& vlrs, const Head& head, const unsigned char* content) {
 
 /// Reads `count` records from where the file stands, none of them beyond `end`.
 void read_records(ByteReader& in, std::uint32_t count, bool is_extended, std::uint64_t end, LasVlrs& vlrs) {
-  const std::size_t head_bytes = is_extended ? HEAD_BYTES_EXTENDED : HEAD_BYTES;
+  const std::size_t head_bytes = is_extended ? HEAD_BYTES_EXTENDED : VLR_HEAD_BYTES;
   for (std::uint32_t i = 0; i < count && in.offset() + head_bytes <= end; ++i) {
     const unsigned char* bytes = in.take(head_bytes);
     if (bytes == nullptr) return;

@@ -1,9 +1,9 @@
 #include "preprocess/read/pcd/pcd_header.h"
 
 #include "engine/base/utf8.h"
+#include "preprocess/base/lower_case.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -13,17 +13,11 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST_LINE_BYTES = 65536;
+constexpr std::size_t MOST_PCD_LINE_BYTES = 65536;
 constexpr std::uint64_t MOST_LINES = 1000;
 constexpr std::size_t MOST_FIELDS = 1000;
 
 using Words = std::vector<std::string>;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 template <typename Number>
 std::optional<Number> number_of(const std::string& word) {
@@ -50,12 +44,12 @@ std::optional<PcdType> type_of(const std::string& kind, std::uint32_t size) {
   return std::nullopt;
 }
 
-class HeaderParser {
+class PcdHeaderParser {
  public:
-  explicit HeaderParser(ByteReader& in) : in_(in) {}
+  explicit PcdHeaderParser(ByteReader& in) : in_(in) {}
 
   PcdHeader parse() {
-    for (std::string_view line; header_.line_count < MOST_LINES && in_.line(line, MOST_LINE_BYTES);) {
+    for (std::string_view line; header_.line_count < MOST_LINES && in_.line(line, MOST_PCD_LINE_BYTES);) {
       ++header_.line_count;
       std::istringstream stream{to_utf8(line)};
       Words words{std::istream_iterator<std::string>(stream), {}};
@@ -176,12 +170,12 @@ class HeaderParser {
 }  // namespace
 
 const PcdField* PcdHeader::find(std::string_view name) const {
-  const std::string wanted = lower(std::string(name));
+  const std::string wanted = lower_case(std::string(name));
   for (const PcdField& field : fields)
-    if (field.count == 1 && lower(field.name) == wanted) return &field;
+    if (field.count == 1 && lower_case(field.name) == wanted) return &field;
   return nullptr;
 }
 
-PcdHeader read_pcd_header(ByteReader& in) { return HeaderParser(in).parse(); }
+PcdHeader read_pcd_header(ByteReader& in) { return PcdHeaderParser(in).parse(); }
 
 }  // namespace splatray

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "engine/base/release.h"
+#include "preprocess/base/little_endian.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/scan/narrow_column.h"
 
@@ -13,13 +13,6 @@ namespace splatray {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCD's values are little-endian");
-
-template <typename Value>
-Value load(const unsigned char* bytes) {
-  Value value;
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
 
 std::vector<const PcdField*> find_triple(const PcdHeader& header, const char* a, const char* b,
                                          const char* c) {

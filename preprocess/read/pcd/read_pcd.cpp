@@ -27,7 +27,7 @@ char separator_of(ByteReader& in) {
 /// How many points there are; the readers append them.
 std::uint64_t read_ascii(ByteReader& in, const PcdHeader& header, PcdPoints& points,
                          const ReadListener& listener) {
-  const LinePlace start{in.offset(), header.line_count};
+  const TextPlace start{in.offset(), header.line_count};
   RowReader rows(in.path(), listener, {separator_of(in), false, {}}, start);
   RowRun run;
   std::uint64_t read = 0;

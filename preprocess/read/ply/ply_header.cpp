@@ -30,9 +30,9 @@ std::optional<PlyType> type_of(const std::string& name) {
   return std::nullopt;
 }
 
-class HeaderParser {
+class PlyHeaderParser {
  public:
-  explicit HeaderParser(ByteReader& in) : in_(in) {}
+  explicit PlyHeaderParser(ByteReader& in) : in_(in) {}
 
   PlyHeader parse() {
     if (next_line() != "ply") {
@@ -177,6 +177,6 @@ int PlyElement::find(const std::string& property) const {
   return -1;
 }
 
-PlyHeader read_ply_header(ByteReader& in) { return HeaderParser(in).parse(); }
+PlyHeader read_ply_header(ByteReader& in) { return PlyHeaderParser(in).parse(); }
 
 }  // namespace splatray

@@ -18,7 +18,7 @@ using Triple = std::array<int, 3>;  ///< property indices, -1 = absent
 constexpr Triple ABSENT{-1, -1, -1};
 
 /// Which property feeds which attribute.
-struct Columns {
+struct PlyColumns {
   Triple position = ABSENT;
   Triple normal = ABSENT;
   Triple color = ABSENT;
@@ -54,8 +54,8 @@ bool is_attribute(const std::string& known) {
          std::none_of(std::begin(COLUMN_COLORS), std::end(COLUMN_COLORS), is_it);
 }
 
-Columns find_columns(const PlyBody& in, const PlyElement& element) {
-  Columns columns;
+PlyColumns find_columns(const PlyBody& in, const PlyElement& element) {
+  PlyColumns columns;
   columns.position = find_triple(element, "x", "y", "z");
   if (columns.position == ABSENT) {
     in.fail("element 'vertex' has no properties x, y, z");
@@ -75,7 +75,7 @@ Columns find_columns(const PlyBody& in, const PlyElement& element) {
   return columns;
 }
 
-void find_attributes(const PlyElement& element, const std::vector<std::string>& wanted, Columns& columns) {
+void find_attributes(const PlyElement& element, const std::vector<std::string>& wanted, PlyColumns& columns) {
   std::vector<std::string> names;
   for (const PlyProperty& property : element.properties) names.push_back(property.name);
   const std::vector<std::string> known = known_columns(names);
@@ -137,7 +137,7 @@ void copy_triple(const unsigned char* rows, std::size_t count, const RowLayout& 
 }
 
 void append_rows(const unsigned char* rows, std::size_t count, const RowLayout& layout,
-                 const Columns& columns, Points& points, std::vector<std::vector<double>>& values) {
+                 const PlyColumns& columns, Points& points, std::vector<std::vector<double>>& values) {
   copy_triple(rows, count, layout, columns.position, points.position);
   copy_triple(rows, count, layout, columns.normal, points.normal);
   copy_triple(rows, count, layout, columns.color, points.color);
@@ -153,7 +153,7 @@ void append_rows(const unsigned char* rows, std::size_t count, const RowLayout& 
   }
 }
 
-void reserve(Points& points, const PlyElement& element, const Columns& columns) {
+void reserve(Points& points, const PlyElement& element, const PlyColumns& columns) {
   points.position.reserve(element.count);
   points.normal.reserve(columns.normal == ABSENT ? 0 : element.count);
   points.color.reserve(columns.color == ABSENT ? 0 : element.count);
@@ -173,7 +173,7 @@ void gather_row(PlyBody& in, const PlyElement& element, double* row) {
   in.end_row();
 }
 
-void take_attributes(const Columns& columns, std::vector<std::vector<double>> values, Points& points) {
+void take_attributes(const PlyColumns& columns, std::vector<std::vector<double>> values, Points& points) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string& name = columns.attributes[i].second;
     if (name == COLUMN_SCAN) static_cast<void>(make_stations(values[i], points));
@@ -181,7 +181,7 @@ void take_attributes(const Columns& columns, std::vector<std::vector<double>> va
   }
 }
 
-Points read_rows(PlyBody& in, const PlyElement& element, const Columns& columns) {
+Points read_rows(PlyBody& in, const PlyElement& element, const PlyColumns& columns) {
   const bool has_lists = std::any_of(element.properties.begin(), element.properties.end(),
                                      [](const PlyProperty& property) { return property.is_list; });
   const bool in_place = !in.is_ascii() && !has_lists;
@@ -263,7 +263,7 @@ void linearise(std::vector<glm::vec3>& colors, float scale) {
 
 Points read_ply_vertices(PlyBody& in, const PlyElement& element, const std::vector<std::string>* attributes,
                          std::vector<std::string>& notes) {
-  Columns columns = find_columns(in, element);
+  PlyColumns columns = find_columns(in, element);
   if (attributes != nullptr) find_attributes(element, *attributes, columns);
   Points points = read_rows(in, element, columns);
   std::vector<std::string> skipped;

@@ -17,7 +17,7 @@ bool all_fit(const std::vector<double>& values, double least, double most) {
 }
 
 template <typename Value>
-std::vector<Value> converted(const std::vector<double>& values) {
+std::vector<Value> narrowed(const std::vector<double>& values) {
   std::vector<Value> list(values.size());
   std::transform(values.begin(), values.end(), list.begin(), [](double v) { return static_cast<Value>(v); });
   return list;
@@ -32,11 +32,11 @@ Column narrow_column(std::string_view name, std::vector<double> values) {
     if (!std::isfinite(value)) value = may_be_unknown ? std::nan("") : 0.0;
   Column column{std::string(name), {}};
   if (all_fit<std::uint8_t>(values, 0.0, 255.0)) {
-    column.values = converted<std::uint8_t>(values);
+    column.values = narrowed<std::uint8_t>(values);
   } else if (all_fit<std::uint16_t>(values, 0.0, 65535.0)) {
-    column.values = converted<std::uint16_t>(values);
+    column.values = narrowed<std::uint16_t>(values);
   } else if (all_fit<float>(values, -MOST_FLOAT, MOST_FLOAT)) {
-    column.values = converted<float>(values);
+    column.values = narrowed<float>(values);
   } else {
     column.values = std::move(values);
   }

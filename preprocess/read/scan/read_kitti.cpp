@@ -15,7 +15,7 @@ namespace {
 constexpr float MOST_METRES = 1000.0F;
 constexpr float MOST_REFLECTANCE = 255.0F;
 constexpr float MOST_RING = 255.0F;
-constexpr std::string_view RING = "ring";
+constexpr std::string_view RING_COLUMN = "ring";
 
 /// The floats of one point.
 using Floats = std::array<float, 5>;
@@ -73,8 +73,8 @@ ScanFile read_kitti(const std::filesystem::path& path, const ReadOptions& option
   }
   file.points.columns.push_back({std::string(COLUMN_INTENSITY), std::move(reflectance)});
   const std::vector<std::string>& wanted = options.scans.attributes;
-  if (width == 5 && std::find(wanted.begin(), wanted.end(), RING) != wanted.end())
-    file.points.columns.push_back(narrow_column(RING, std::move(ring)));
+  if (width == 5 && std::find(wanted.begin(), wanted.end(), RING_COLUMN) != wanted.end())
+    file.points.columns.push_back(narrow_column(RING_COLUMN, std::move(ring)));
   file.points.stations = {{"", glm::dvec3(0.0), 0, 0}};
   return file;
 }

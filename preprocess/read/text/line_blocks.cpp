@@ -5,7 +5,7 @@
 namespace splatray {
 
 LineBlocks::LineBlocks(const std::filesystem::path& path, const ReadListener& listener,
-                       const LinePlace& start)
+                       const TextPlace& start)
     : in_(path, &listener) {
   static_cast<void>(in_.skip(start.offset));
 }

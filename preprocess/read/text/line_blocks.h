@@ -9,7 +9,7 @@
 namespace splatray {
 
 /// A place between two lines of a file.
-struct LinePlace {
+struct TextPlace {
   std::uint64_t offset = 0;  ///< in bytes
   std::uint64_t lines = 0;   ///< before it
 };
@@ -19,7 +19,7 @@ class LineBlocks {
   static constexpr std::size_t BLOCK_BYTES = std::size_t{4} << 20U;
 
   /// Opens the file as ByteReader does and goes to `start`.
-  LineBlocks(const std::filesystem::path& path, const ReadListener& listener, const LinePlace& start);
+  LineBlocks(const std::filesystem::path& path, const ReadListener& listener, const TextPlace& start);
 
   /// The next lines, all with their ends but for the file's last; empty at the end. The bytes may be written to, and are
   /// valid until the next call. Throws Error (input_unreadable) for a line longer than BLOCK_BYTES.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 #include <vector>
 
+#include "preprocess/base/little_endian.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/float_precision.h"
 #include "preprocess/read/scan/missing_points.h"
@@ -14,7 +14,7 @@ namespace splatray {
 namespace {
 
 constexpr std::string_view MAGIC = "[Expe/PointSet/Binary";
-constexpr std::size_t MOST_LINE_BYTES = 256;
+constexpr std::size_t MOST_EXPE_LINE_BYTES = 256;
 constexpr int MOST_HEADER_LINES = 100;
 constexpr std::size_t MOST_PROPERTY_BYTES = 4096;
 
@@ -46,7 +46,7 @@ void add_property(const ByteReader& in, std::istringstream& words, Layout& layou
 Layout read_layout(ByteReader& in) {
   Layout layout;
   std::string_view line;
-  for (int lines = 0; lines < MOST_HEADER_LINES && in.line(line, MOST_LINE_BYTES); ++lines) {
+  for (int lines = 0; lines < MOST_HEADER_LINES && in.line(line, MOST_EXPE_LINE_BYTES); ++lines) {
     std::istringstream words{std::string(line)};
     std::string key;
     words >> key;
@@ -56,13 +56,6 @@ Layout read_layout(ByteReader& in) {
       throw_unreadable(in.path(), "found no count after 'nofpoints', expected a whole number");
   }
   throw_unreadable(in.path(), "found an Expe point set without 'property position 12' and 'data' lines");
-}
-
-template <typename Vector>
-Vector load(const unsigned char* bytes) {
-  Vector value;
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
 }
 
 void append_point(const unsigned char* bytes, const Layout& layout, ScanFile& file) {

@@ -135,7 +135,7 @@ class RowReader::PieceParser {
 };
 
 RowReader::RowReader(const std::filesystem::path& path, const ReadListener& listener, CellForm form,
-                     const LinePlace& start)
+                     const TextPlace& start)
     : blocks_(path, listener, start), form_(std::move(form)), line_(start.lines) {}
 
 void RowReader::fail(std::uint64_t line, const std::string& what) const {

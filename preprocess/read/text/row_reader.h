@@ -33,7 +33,7 @@ class RowReader {
  public:
   /// Begins at `start`; throws as ByteReader does.
   RowReader(const std::filesystem::path& path, const ReadListener& listener, CellForm form,
-            const LinePlace& start = {});
+            const TextPlace& start = {});
 
   /// The next lines; false at the end. Throws Error (input_unreadable) with the line of a cell that is no number, and
   /// (interrupted). A last line without its end that is no row like the one before is taken as cut off and left out.

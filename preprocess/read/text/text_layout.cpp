@@ -12,10 +12,10 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST_LINE_BYTES = ByteReader::BLOCK_BYTES;
+constexpr std::size_t MOST_ROW_BYTES = ByteReader::BLOCK_BYTES;
 constexpr std::uint64_t MOST_HEAD_LINES = 100000;  ///< of comments
 
-std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\"") {
+std::string_view without_blanks(std::string_view text, std::string_view blanks = " \t\r\"") {
   const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
   return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
@@ -26,7 +26,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
       separator == ' ' ? std::string_view(" \t\r") : std::string_view(&separator, 1);
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find_first_of(ends, begin), line.size());
-    const std::string_view cell = trimmed(line.substr(begin, end - begin));
+    const std::string_view cell = without_blanks(line.substr(begin, end - begin));
     if (separator != ' ' || !cell.empty()) cells.push_back(to_utf8(cell));
     begin = end + 1;
   }
@@ -60,7 +60,7 @@ class HeadReader {
 
   TextLayout read() {
     if (!options_.columns.empty()) name_by_list();
-    for (std::string_view line; layout_.data.lines < MOST_HEAD_LINES && in_.line(line, MOST_LINE_BYTES);) {
+    for (std::string_view line; layout_.data.lines < MOST_HEAD_LINES && in_.line(line, MOST_ROW_BYTES);) {
       if (layout_.data.lines == 0 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
       if (is_first_row(line)) break;
       ++layout_.data.lines;
@@ -73,7 +73,7 @@ class HeadReader {
  private:
   /// Whether the points begin here; takes in what the line says otherwise.
   bool is_first_row(std::string_view line) {
-    const std::string_view text = trimmed(line, " \t\r");
+    const std::string_view text = without_blanks(line, " \t\r");
     if (text.empty()) return false;
     if (text.front() == '#' || text.starts_with("//")) {
       name_by_comment(text);
@@ -132,7 +132,7 @@ class HeadReader {
   /// Names stand in comments too; those without x, y and z are words.
   void name_by_comment(std::string_view text) {
     if (named_) return;
-    const std::string_view words = trimmed(text, "#/ \t\r");
+    const std::string_view words = without_blanks(text, "#/ \t\r");
     name(split(words, separator_of(words, true)), false);
     named_ = has_axes();
     if (!named_) name({}, false);

@@ -12,7 +12,7 @@ namespace splatray {
 
 struct TextLayout {
   CellForm form;   ///< cells without a meaning are skipped
-  LinePlace data;  ///< where the first row begins
+  TextPlace data;  ///< where the first row begins
   /// By cell: known_columns' names, an attribute's own, "" = not used; empty = not named.
   std::vector<std::string> columns;
   std::vector<std::string> unused;     ///< names in the header that are not known

@@ -11,9 +11,9 @@ namespace {
 
 using Lists = std::vector<const std::vector<float>*>;
 
-enum class Kind { colors, normals, unknown };
+enum class ColumnsKind { colors, normals, unknown };
 
-Kind kind_of(const Lists& columns, std::size_t first) {
+ColumnsKind kind_of(const Lists& columns, std::size_t first) {
   const std::vector<float>& a = *columns[first];
   const std::vector<float>& b = *columns[first + 1];
   const std::vector<float>& c = *columns[first + 2];
@@ -33,9 +33,9 @@ Kind kind_of(const Lists& columns, std::size_t first) {
       most = std::fmax(most, value);
     }
   }
-  if (known > 0 && 10 * unit >= 9 * known) return Kind::normals;
+  if (known > 0 && 10 * unit >= 9 * known) return ColumnsKind::normals;
   const bool in_range = least >= 0.0F && (most <= 1.0F || (whole && most <= 65535.0F));
-  return known > 0 && in_range ? Kind::colors : Kind::unknown;
+  return known > 0 && in_range ? ColumnsKind::colors : ColumnsKind::unknown;
 }
 
 }  // namespace
@@ -54,16 +54,16 @@ std::vector<std::string> guess_columns(const Lists& columns, std::vector<std::st
   bool taken[2] = {false, false};
   std::string said = triples == 1 ? "intensity" : "";
   for (std::size_t first = triples; first + 2 < count; first += 3) {
-    const Kind kind = kind_of(columns, first);
+    const ColumnsKind kind = kind_of(columns, first);
     const auto which = static_cast<std::size_t>(kind);
     said += said.empty() ? "" : ", ";
-    if (kind == Kind::unknown || taken[which]) {
+    if (kind == ColumnsKind::unknown || taken[which]) {
       said += "three unknown ones, left out";
       continue;
     }
     taken[which] = true;
-    said += kind == Kind::colors ? "colours" : "normals";
-    const auto& names = kind == Kind::colors ? COLUMN_COLORS : COLUMN_NORMALS;
+    said += kind == ColumnsKind::colors ? "colours" : "normals";
+    const auto& names = kind == ColumnsKind::colors ? COLUMN_COLORS : COLUMN_NORMALS;
     for (std::size_t i = 0; i < 3; ++i) meanings[first + i] = names[i];
   }
   notes.push_back("its columns have no names and are taken as x, y, z, " + said +

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <functional>
@@ -12,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "preprocess/base/lower_case.h"
 #include "preprocess/read/byte_reader.h"
 
 namespace splatray {
@@ -28,12 +28,6 @@ const std::map<std::string_view, std::uint64_t> TYPE_BITS{
     {"vtktypeint64", 64}, {"vtktypeuint64", 64}, {"double", 64},
 };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 class LegacyScan {
  public:
   LegacyScan(const std::filesystem::path& path, const ReadListener& listener)
@@ -41,7 +35,7 @@ class LegacyScan {
 
   void scan() {
     read_header();
-    for (std::string key = lower(next_word()); !key.empty(); key = lower(next_word())) {
+    for (std::string key = lower_case(next_word()); !key.empty(); key = lower_case(next_word())) {
       const auto section = SECTIONS.find(key);
       if (section == SECTIONS.end())
         fail("found '" + key.substr(0, 40) + "', expected a section of a VTK file, such as POINTS");
@@ -104,7 +98,7 @@ class LegacyScan {
     lists_cells_ = number_of(first.substr(BEGIN.size(), dot - BEGIN.size()), "version") < 5;
     line_ended_ = false;
     static_cast<void>(rest_of_line());  // the title
-    const std::string coding = lower(next_word());
+    const std::string coding = lower_case(next_word());
     if (coding != "ascii" && coding != "binary")
       fail("found '" + coding.substr(0, 20) + "', expected ASCII or BINARY");
     binary_ = coding == "binary";
@@ -112,7 +106,7 @@ class LegacyScan {
 
   /// Passes an array of `tuples` times `width` values.
   void skip_values(std::uint64_t tuples, std::uint64_t width, const std::string& type) {
-    const auto known = TYPE_BITS.find(lower(type));
+    const auto known = TYPE_BITS.find(lower_case(type));
     if (known == TYPE_BITS.end())
       fail("found values of type '" + type.substr(0, 20) + "', expected numbers such as float");
     if (width > 0 && tuples > 8 * size_ / width) fail_beyond(tuples, width);
@@ -164,7 +158,7 @@ class LegacyScan {
     if (lists_cells_) return check_list(count, size);
     if (count == 0) return;
     for (const auto& [word, values] : {std::pair("offsets", count), {"connectivity", size}}) {
-      const std::string found = lower(next_word());
+      const std::string found = lower_case(next_word());
       if (found != word) fail("found '" + found.substr(0, 20) + "', expected " + word);
       skip_values(values, 1, next_word());
     }
@@ -216,7 +210,7 @@ class LegacyScan {
         digit == std::string::npos ? 1
                                    : number_of(more.substr(digit, more.find_first_of(" \t\r", digit) - digit),
                                                "number of components");
-    if (lower(next_word()) != "lookup_table") fail("found scalars without LOOKUP_TABLE, expected it");
+    if (lower_case(next_word()) != "lookup_table") fail("found scalars without LOOKUP_TABLE, expected it");
     static_cast<void>(next_word());
     skip_values(values_, width, type);
   }
@@ -248,11 +242,11 @@ class LegacyScan {
     const std::uint64_t arrays = next_number("number of arrays");
     for (std::uint64_t i = 0; i < arrays; ++i) {
       std::string name = next_word();
-      if (lower(name) == "metadata") {
+      if (lower_case(name) == "metadata") {
         skip_metadata();
         name = next_word();
       }
-      if (lower(name) == "null_array") continue;
+      if (lower_case(name) == "null_array") continue;
       const std::uint64_t width = next_number("number of components");
       const std::uint64_t tuples = next_number("number of tuples");
       skip_values(tuples, width, next_word());
@@ -269,7 +263,7 @@ class LegacyScan {
   }
 
   void read_kind() {
-    const std::string kind = lower(next_word());
+    const std::string kind = lower_case(next_word());
     constexpr std::array<std::string_view, 4> KINDS{"polydata", "unstructured_grid", "structured_grid",
                                                     "rectilinear_grid"};
     if (std::find(KINDS.begin(), KINDS.end(), kind) == KINDS.end())

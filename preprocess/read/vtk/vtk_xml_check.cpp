@@ -14,12 +14,12 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST_DEPTH = 64;
+constexpr std::size_t MOST_VTK_DEPTH = 64;
 constexpr std::size_t MOST_TAG_BYTES = 65536;
 constexpr std::uint64_t MOST_GROWTH = 1032;  ///< of zlib's; real points compress far less with any method
 constexpr std::uint64_t MOST_COUNTS_COMPRESSED = 16;  ///< points or cells for a byte of the file
 constexpr std::size_t MOST_WORDS = 3;                 ///< of an array's header that are looked at
-constexpr std::size_t HEADER_BYTES = 8 * MOST_WORDS;
+constexpr std::size_t ARRAY_HEADER_BYTES = 8 * MOST_WORDS;
 
 using Attributes = std::map<std::string, std::string>;
 
@@ -58,7 +58,7 @@ class XmlScan {
       if (c == '<') {
         check_inline_array();
         if (!read_markup()) break;
-      } else if (in_array_ && c > ' ' && array_text_.size() < 4 * HEADER_BYTES / 3) {
+      } else if (in_array_ && c > ' ' && array_text_.size() < 4 * ARRAY_HEADER_BYTES / 3) {
         array_text_ += static_cast<char>(c);
       }
     }
@@ -113,7 +113,8 @@ class XmlScan {
     const Attributes attributes = read_attributes(tag);
     const bool has_content = tag.empty() || tag.back() != '/';
     depth_ += has_content ? 1 : 0;
-    if (depth_ > MOST_DEPTH) fail("its elements nest more than " + std::to_string(MOST_DEPTH) + " deep");
+    if (depth_ > MOST_VTK_DEPTH)
+      fail("its elements nest more than " + std::to_string(MOST_VTK_DEPTH) + " deep");
     if (name == "VTKFile") read_file_attributes(attributes);
     if (name == "Piece" && attributes.count("Source") > 0) sources_.push_back(value_of(attributes, "Source"));
     check_counts(attributes);
@@ -220,7 +221,8 @@ class XmlScan {
         fail("found an array at offset " + std::to_string(offset) + ", expected it within the file");
       }
       seen.erase(0, offset >= passed ? seen.size() : seen.size() - static_cast<std::size_t>(passed - offset));
-      for (int c = 0; seen.size() < (base64 ? 4 * HEADER_BYTES / 3 : HEADER_BYTES) && (c = next()) >= 0;) {
+      for (int c = 0;
+           seen.size() < (base64 ? 4 * ARRAY_HEADER_BYTES / 3 : ARRAY_HEADER_BYTES) && (c = next()) >= 0;) {
         seen += static_cast<char>(c);
       }
       check_array(base64 ? from_base64(seen) : seen);

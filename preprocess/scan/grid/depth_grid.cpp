@@ -7,28 +7,25 @@
 #include <span>
 
 #include "preprocess/base/select.h"
+#include "preprocess/scan/range_grid.h"
 
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEWEST = 1000;      // points that show what is usual
-constexpr std::uint64_t MOST_CELLS = 64;  // for each point: no allocation that the points do not justify
-constexpr double SAME = 1e-6;             // relative difference of values that rounding made two of
+constexpr double SAME_VALUE = 1e-6;                 // relative difference of values that rounding made two of
 constexpr double UNIT = 2.0 * std::numbers::sqrt3;  // a step over the standard deviation of what it rounds
 constexpr double KEPT = 0.75;                       // share of second differences, the least, that show noise
 constexpr double MEAN_OF_KEPT = 0.515;  // of their sizes, in standard deviations of the normal distribution
-constexpr std::int64_t NEAR = 4;        // cells within which rays show how they change
-
-double median(std::vector<double>& values) { return values.empty() ? 0.0 : median_of(std::span(values)); }
+constexpr std::int64_t NEAR_CELLS = 4;  // cells within which rays show how they change
 
 /// The median step between distinct values, which ascend.
 double step_of(std::span<const float> values) {
   std::vector<double> steps;
   double last = values.front();
   for (const float value : values) {
-    if (value - last > SAME * value) steps.push_back(value - last), last = value;
+    if (value - last > SAME_VALUE * value) steps.push_back(value - last), last = value;
   }
-  return median(steps);
+  return median_or_zero(steps);
 }
 
 /// The standard deviation of inverse depths between two of them about straight lines along the rows.
@@ -93,7 +90,7 @@ glm::dvec3 DepthGrid::ray(const Cloud& cloud, std::size_t cell) const {
 
 glm::dvec3 DepthGrid::ray_slope(const Cloud& cloud, std::size_t cell, int direction) const {
   const auto nearest = [&](std::int64_t side) -> std::pair<std::size_t, std::int64_t> {
-    for (std::int64_t span = 1; span <= NEAR; ++span) {
+    for (std::int64_t span = 1; span <= NEAR_CELLS; ++span) {
       const std::int64_t steps = side * span;
       const std::size_t other = direction == 0 ? beside(cell, steps, 0) : beside(cell, 0, steps);
       if (other < size() && point[other] != NO_CELL) return {other, steps};
@@ -110,7 +107,7 @@ DepthGrid make_depth_grid(const Cloud& cloud, const Station& station,
                           const std::vector<std::uint32_t>& points, const glm::dvec3& axis) {
   DepthGrid grid;
   const std::uint64_t cells = std::uint64_t{station.rows} * station.columns;
-  if (cells > MOST_CELLS * points.size()) return grid;
+  if (cells > MOST_CELLS_PER_POINT * points.size()) return grid;
   grid.sensor_world = *station.sensor_world;
   grid.axis = axis;
   grid.rows = station.rows, grid.columns = station.columns;
@@ -131,7 +128,7 @@ DepthUnit find_unit(const DepthGrid& grid) {
   std::vector<float> values;
   for (const float inverse : grid.inverse)
     if (inverse > 0.0F) values.push_back(inverse);
-  if (values.size() < FEWEST) return {};
+  if (values.size() < FEWEST_TELLING) return {};
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;
   const std::span<const float> far = std::span(values).first(half), near = std::span(values).subspan(half);
@@ -153,7 +150,7 @@ double noise_of(const Cloud& cloud, const DepthGrid& grid, const DepthUnit& unit
     const double apart = std::numbers::sqrt2 * std::max(glm::length(right), glm::length(down)) * inverse;
     if (apart > 0.0) noise.push_back(unit.of(inverse) / UNIT / apart);
   }
-  return median(noise);
+  return median_or_zero(noise);
 }
 
 }  // namespace splatray

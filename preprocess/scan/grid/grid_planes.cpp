@@ -11,11 +11,11 @@
 namespace splatray {
 namespace {
 
-constexpr int HALF = 4;               // of a window, in strides
-constexpr int WINDOW = 2 * HALF + 1;  // cells along its edge
-constexpr double WIDTH = 0.6 * HALF;  // standard deviation of the weights, in strides
-constexpr double SUPPORTING = 2.5;    // units off a plane from which a cell does not support it
-constexpr double RIDGE = 0.01;        // cells^2: no slope where a window has no width
+constexpr int HALF_WINDOW = 4;               // of a window, in strides
+constexpr int WINDOW = 2 * HALF_WINDOW + 1;  // cells along its edge
+constexpr double WIDTH = 0.6 * HALF_WINDOW;  // standard deviation of the weights, in strides
+constexpr double SUPPORTING = 2.5;           // units off a plane from which a cell does not support it
+constexpr double WINDOW_RIDGE = 0.01;        // cells^2: no slope where a window has no width
 
 /// One look at all cells.
 struct Pass {
@@ -30,7 +30,7 @@ constexpr std::array<Pass, 4> PASSES{{{1, 2.0F, 0.2F, false, false},
                                       {2, 0.3F, 0.03F, true, false}}};
 
 /// The places of windows of one stride, component by component; without weight up to whole vectors.
-struct Places {
+struct WindowPlaces {
   static constexpr std::size_t COUNT = WINDOW * WINDOW, ROOM = (COUNT + LANES - 1) / LANES * LANES;
 
   std::int64_t reach;                          ///< cells
@@ -38,10 +38,10 @@ struct Places {
   std::int64_t numbers[ROOM]{};                ///< of cells, the same
   float right[ROOM]{}, down[ROOM]{}, apart[ROOM]{}, weight[ROOM]{};
 
-  Places(const DepthGrid& grid, std::int64_t stride) : reach(HALF * stride) {
+  WindowPlaces(const DepthGrid& grid, std::int64_t stride) : reach(HALF_WINDOW * stride) {
     for (std::size_t n = 0; n < COUNT; ++n) {
-      const std::int64_t i = static_cast<std::int64_t>(n % WINDOW) - HALF;
-      const std::int64_t j = static_cast<std::int64_t>(n / WINDOW) - HALF;
+      const std::int64_t i = static_cast<std::int64_t>(n % WINDOW) - HALF_WINDOW;
+      const std::int64_t j = static_cast<std::int64_t>(n / WINDOW) - HALF_WINDOW;
       const double strides = std::hypot(i, j);
       columns[n] = stride * i, rows[n] = stride * j;
       numbers[n] = rows[n] * grid.columns + columns[n];
@@ -54,12 +54,12 @@ struct Places {
 
 /// What is at the places; of empty cells without weight.
 struct Window {
-  float weight[Places::ROOM]{};
-  float step[Places::ROOM]{};                              ///< inverse depth less the middle's
-  float slope_x[Places::ROOM]{}, slope_y[Places::ROOM]{};  ///< theirs
+  float weight[WindowPlaces::ROOM]{};
+  float step[WindowPlaces::ROOM]{};                                    ///< inverse depth less the middle's
+  float slope_x[WindowPlaces::ROOM]{}, slope_y[WindowPlaces::ROOM]{};  ///< theirs
 };
 
-void look_around(const DepthGrid& grid, const Places& places, std::size_t cell, Window& window) {
+void look_around(const DepthGrid& grid, const WindowPlaces& places, std::size_t cell, Window& window) {
   const std::int64_t column = static_cast<std::int64_t>(cell) % grid.columns;
   const std::int64_t row = static_cast<std::int64_t>(cell) / grid.columns;
   const float here = grid.inverse[cell];
@@ -71,7 +71,7 @@ void look_around(const DepthGrid& grid, const Places& places, std::size_t cell, 
     window.step[n] = inverse - here;
     window.slope_x[n] = grid.slope[other].x, window.slope_y[n] = grid.slope[other].y;
   };
-  for (std::size_t n = 0; n < Places::COUNT; ++n) {
+  for (std::size_t n = 0; n < WindowPlaces::COUNT; ++n) {
     if (inside) {
       take(n, cell + static_cast<std::size_t>(places.numbers[n]));
     } else if (const std::size_t other = grid.beside(cell, places.columns[n], places.rows[n]);
@@ -100,15 +100,16 @@ struct PlaneSums {
 };
 
 /// A plane over a window.
-struct Plane {
+struct WindowPlane {
   glm::dvec2 slope{0.0}, middle{0.0};  ///< and the weighted mean of the places
   double value = 0.0;                  ///< at the window's middle
 };
 
-Plane plane_of(const PlaneSums& sums) {
+WindowPlane plane_of(const PlaneSums& sums) {
   const double by = 1.0 / double{sum_lanes(sums.w)};
   const double x = by * sum_lanes(sums.x), y = by * sum_lanes(sums.y), v = by * sum_lanes(sums.v);
-  const double xx = by * sum_lanes(sums.xx) - x * x + RIDGE, yy = by * sum_lanes(sums.yy) - y * y + RIDGE;
+  const double xx = by * sum_lanes(sums.xx) - x * x + WINDOW_RIDGE,
+               yy = by * sum_lanes(sums.yy) - y * y + WINDOW_RIDGE;
   const double xy = by * sum_lanes(sums.xy) - x * y;
   const double xv = by * sum_lanes(sums.xv) - x * v, yv = by * sum_lanes(sums.yv) - y * v;
   const glm::dvec2 slope = glm::dvec2(xv * yy - yv * xy, yv * xx - xv * xy) / (xx * yy - xy * xy);
@@ -117,12 +118,12 @@ Plane plane_of(const PlaneSums& sums) {
 
 /// What a window adds to its middle's slope and inverse depth. With half of its own slope and half of each other's, the value
 /// is that of a surface of second order, as curvature cancels.
-SPLATRAY_VECTOR_CLONES glm::dvec3 fit_plane(const Places& places, const Window& window,
+SPLATRAY_VECTOR_CLONES glm::dvec3 fit_plane(const WindowPlaces& places, const Window& window,
                                             const glm::vec2& slope, float unit, const Pass& pass) {
   PlaneSums sums;  // of what is off the slope so far
   Lanes by_theirs{}, right, down, apart, weight, step, their_x, their_y;
   const float units = unit * pass.units, wider = unit * pass.wider;
-  for (std::size_t n = 0; n < Places::ROOM; n += LANES) {
+  for (std::size_t n = 0; n < WindowPlaces::ROOM; n += LANES) {
     load_lanes(places.right + n, right), load_lanes(places.down + n, down);
     load_lanes(places.apart + n, apart), load_lanes(window.weight + n, weight);
     load_lanes(window.step + n, step);
@@ -136,7 +137,7 @@ SPLATRAY_VECTOR_CLONES glm::dvec3 fit_plane(const Places& places, const Window& 
     sums.add(has, right, down, step - ours);
     by_theirs += has * (theirs - ours);
   }
-  const Plane plane = plane_of(sums);
+  const WindowPlane plane = plane_of(sums);
   const double bent = glm::dot(plane.slope, plane.middle) - sum_lanes(by_theirs) / double{sum_lanes(sums.w)};
   return {plane.slope, pass.values ? plane.value + 0.5 * bent : 0.0};
 }
@@ -162,10 +163,10 @@ std::array<double, 2> side_slopes(const DepthGrid& grid, std::size_t cell, std::
 }
 
 /// Weight of the cells that lie on the plane of a slope, less of those that are off it; `by` is 1 / what is too far.
-SPLATRAY_VECTOR_CLONES float support_of(const Places& places, const Window& window, const glm::vec2& slope,
-                                        float by) {
+SPLATRAY_VECTOR_CLONES float support_of(const WindowPlaces& places, const Window& window,
+                                        const glm::vec2& slope, float by) {
   Lanes support{}, right, down, weight, step;
-  for (std::size_t n = 0; n < Places::ROOM; n += LANES) {
+  for (std::size_t n = 0; n < WindowPlaces::ROOM; n += LANES) {
     load_lanes(places.right + n, right), load_lanes(places.down + n, down);
     load_lanes(window.weight + n, weight), load_lanes(window.step + n, step);
     Lanes share = (step - slope.x * right - slope.y * down) * by;
@@ -176,8 +177,8 @@ SPLATRAY_VECTOR_CLONES float support_of(const Places& places, const Window& wind
 }
 
 /// The mean slope of both sides, or one side's where clearly more of the window lies on its plane; and how much does.
-std::pair<glm::vec2, float> first_slope(const DepthGrid& grid, const DepthUnit& unit, const Places& places,
-                                        std::size_t cell) {
+std::pair<glm::vec2, float> first_slope(const DepthGrid& grid, const DepthUnit& unit,
+                                        const WindowPlaces& places, std::size_t cell) {
   constexpr float CLEARLY = 1.3F;
   const std::array<double, 2> x = side_slopes(grid, cell, 1, 0), y = side_slopes(grid, cell, 0, 1);
   const auto by = static_cast<float>(1.0 / (SUPPORTING * unit.of(grid.inverse[cell])));
@@ -197,7 +198,7 @@ std::pair<glm::vec2, float> first_slope(const DepthGrid& grid, const DepthUnit& 
 void run_pass(DepthGrid& grid, const DepthUnit& unit, const Pass& pass, const Stage& stage) {
   std::vector<float> inverse(grid.size());
   std::vector<glm::vec2> slope(grid.size());
-  const Places places(grid, pass.stride);
+  const WindowPlaces places(grid, pass.stride);
   parallel_each(stage, grid.size(), [&](std::size_t cell) {
     if (!(grid.inverse[cell] > 0.0F)) return;
     Window window;
@@ -218,7 +219,7 @@ std::vector<float> find_first_slopes(DepthGrid& grid, const DepthUnit& unit, con
   grid.slope.resize(grid.size());
   std::vector<float> supports(grid.size());
   std::vector<glm::vec2> slopes(grid.size());
-  const Places places(grid, 1);
+  const WindowPlaces places(grid, 1);
   parallel_each(stage, grid.size(), [&](std::size_t cell) {
     if (!(grid.inverse[cell] > 0.0F)) return;
     const auto [slope, support] = first_slope(grid, unit, places, cell);

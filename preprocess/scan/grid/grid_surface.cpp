@@ -13,12 +13,12 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t FEWEST = 1000;   // points that show what is usual
-constexpr double NOISY = 0.05;         // noise_of a depth camera's grid from which its points are moved
+constexpr double NOISY_GRID = 0.05;    // noise_of a depth camera's grid from which its points are moved
 constexpr double LAYERS = 0.85;        // noise_of a grid over that in space, below which there are layers
 constexpr float LEAST_SUPPORT = 8.0F;  // weight of the cells that support a point: a quarter of a full window
-constexpr float SPARSE = 1.0F / 3.0F;  // of the median support, the same in grids with many empty cells
-constexpr double REACH = 0.85;         // of a disc, in cells: half a diagonal and some more
+constexpr float SPARSE_SUPPORT =
+    1.0F / 3.0F;                       // of the median support, the same in grids with many empty cells
+constexpr double DISC_REACH = 0.85;    // of a disc, in cells: half a diagonal and some more
 constexpr double LEAST_COSINE = 0.25;  // of the slant that discs grow with
 
 std::vector<std::uint32_t> points_of(const Cloud& cloud, std::size_t station) {
@@ -47,7 +47,7 @@ GridPoint grid_point(const Cloud& cloud, const DepthGrid& grid, std::size_t cell
       glm::inverse(rays) * glm::dvec3(grid.inverse[cell], grid.slope[cell].x, grid.slope[cell].y);
   result.normal = -glm::normalize(plane);
   const double cosine = -glm::dot(result.normal, glm::normalize(ray));
-  result.radius_world = REACH / std::max(cosine, LEAST_COSINE) * depth * std::max(wide, high);
+  result.radius_world = DISC_REACH / std::max(cosine, LEAST_COSINE) * depth * std::max(wide, high);
   return result;
 }
 
@@ -57,7 +57,7 @@ std::vector<std::uint32_t> take_unsupported(DepthGrid& grid, const std::vector<f
   for (const float support : supports)
     if (support > 0.0F) usual.push_back(support);
   if (usual.empty()) return {};
-  const float least = std::min(LEAST_SUPPORT, SPARSE * median_of(std::span(usual)));
+  const float least = std::min(LEAST_SUPPORT, SPARSE_SUPPORT * median_of(std::span(usual)));
   std::vector<std::uint32_t> points;
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
     if (grid.point[cell] == NO_CELL || supports[cell] >= least) continue;
@@ -111,9 +111,9 @@ void settle(Cloud& cloud, const DepthGrid& grid, std::vector<glm::dvec3>& places
 }
 
 /// Whether a station's grid can be looked at: with a known place and enough points.
-bool is_usable(const Cloud& cloud, const Station& station, const std::vector<std::uint32_t>& points) {
+bool has_usable_grid(const Cloud& cloud, const Station& station, const std::vector<std::uint32_t>& points) {
   return !cloud.grid_cell.empty() && station.sensor_world && station.rows > 1 && station.columns > 1 &&
-         points.size() >= FEWEST;
+         points.size() >= FEWEST_TELLING;
 }
 
 }  // namespace
@@ -122,13 +122,13 @@ GridSurface find_grid_surface(Cloud& cloud, bool move, const Stage& stage) {
   GridSurface surface;
   if (cloud.stations.size() != 1) return surface;
   const std::vector<std::uint32_t> points = points_of(cloud, 0);
-  if (!is_usable(cloud, cloud.stations[0], points)) return surface;
+  if (!has_usable_grid(cloud, cloud.stations[0], points)) return surface;
   const auto pinhole = fit_pinhole(cloud, cloud.stations[0], points);
   if (!pinhole) return surface;
   DepthGrid grid = make_depth_grid(cloud, cloud.stations[0], points, pinhole->axes[2]);
   const DepthUnit unit = find_unit(grid);
   const double noise = noise_of(cloud, grid, unit);
-  if (!(noise > NOISY)) return surface;
+  if (!(noise > NOISY_GRID)) return surface;
   surface.noise = noise;
   const std::vector<std::uint32_t> mixed = take_unsupported(grid, find_first_slopes(grid, unit, stage));
   fit_planes(grid, unit, stage);
@@ -153,7 +153,7 @@ Smoothed smooth_by_grids(Cloud& cloud, const std::vector<std::uint8_t>& estimate
   for (std::size_t s = 0; s < cloud.stations.size(); ++s) {
     const std::vector<std::uint32_t> points = points_of(cloud, s);
     if (std::none_of(points.begin(), points.end(), [&](auto i) { return estimated[i] != 0; })) continue;
-    if (!is_usable(cloud, cloud.stations[s], points)) return {};
+    if (!has_usable_grid(cloud, cloud.stations[s], points)) return {};
     const auto pinhole = fit_pinhole(cloud, cloud.stations[s], points);
     grids.push_back(
         make_depth_grid(cloud, cloud.stations[s], points, pinhole ? pinhole->axes[2] : glm::dvec3(0.0)));

@@ -14,22 +14,23 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST_ASKED = 8192;  // points that determine a camera well enough
-constexpr std::size_t FEWEST = 100;
+constexpr std::size_t MOST_SIGHTS = 8192;  // points that determine a camera well enough
+constexpr std::size_t FEWEST_SIGHTS = 100;
 constexpr double MOST_OFF = 0.5;        // of half of the points, in cells
 constexpr double MOST_BEHIND = 0.01;    // share of points
-constexpr double SQUARE = 0.05;         // cosine between the axes of rows and columns, at most
+constexpr double SQUARE_COSINE = 0.05;  // cosine between the axes of rows and columns, at most
 constexpr double MOST_STRETCHED = 2.0;  // of cells
 
 constexpr std::size_t UNKNOWNS = 8;
-using Row = std::array<double, UNKNOWNS + 1>;  ///< of linear equations, the right side last
+using EquationRow = std::array<double, UNKNOWNS + 1>;  ///< of linear equations, the right side last
 
 /// Solves the system by elimination with pivots; false where it is singular.
-bool solve(std::array<Row, UNKNOWNS>& rows) {
+bool solve(std::array<EquationRow, UNKNOWNS>& rows) {
   for (std::size_t k = 0; k < UNKNOWNS; ++k) {
     const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(k);
-    const auto pivot = std::max_element(
-        begin, rows.end(), [k](const Row& a, const Row& b) { return std::abs(a[k]) < std::abs(b[k]); });
+    const auto pivot = std::max_element(begin, rows.end(), [k](const EquationRow& a, const EquationRow& b) {
+      return std::abs(a[k]) < std::abs(b[k]);
+    });
     if (!(std::abs((*pivot)[k]) > 0.0)) return false;
     std::swap(*begin, *pivot);
     for (std::size_t i = 0; i < UNKNOWNS; ++i) {
@@ -52,7 +53,7 @@ std::vector<Sight> sights_of(const Cloud& cloud, const Station& station,
                              const std::vector<std::uint32_t>& points) {
   const double half = 0.5 * std::max(station.rows, station.columns);
   std::vector<Sight> sights;
-  const std::size_t stride = points.size() / MOST_ASKED + 1;
+  const std::size_t stride = points.size() / MOST_SIGHTS + 1;
   for (std::size_t n = 0; n < points.size(); n += stride) {
     const std::uint32_t cell = cloud.grid_cell[points[n]];
     const glm::dvec3 away = cloud.place_world(points[n]) - *station.sensor_world;
@@ -65,36 +66,36 @@ std::vector<Sight> sights_of(const Cloud& cloud, const Station& station,
 }
 
 /// The rows a, b and c of the matrix that takes directions to places in the grid: (a.dir, b.dir) / c.dir.
-struct Projection {
+struct PinholeMatrix {
   glm::dvec3 a, b, c;
 };
 
 /// c = ahead + s u + t v, as its length is free and what all points are in front of is no cross direction.
-std::optional<Projection> project(const std::vector<Sight>& sights) {
+std::optional<PinholeMatrix> project(const std::vector<Sight>& sights) {
   glm::dvec3 ahead(0.0);
   for (const Sight& sight : sights) ahead += sight.dir;
   if (!(glm::length(ahead) > 0.0)) return {};
   ahead = glm::normalize(ahead);
   const glm::dvec3 side = std::abs(ahead.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 u = glm::normalize(glm::cross(ahead, side)), v = glm::cross(ahead, u);
-  std::array<Row, UNKNOWNS> rows{};
+  std::array<EquationRow, UNKNOWNS> rows{};
   for (const Sight& sight : sights) {
     const glm::dvec3 d(glm::dot(sight.dir, u), glm::dot(sight.dir, v), glm::dot(sight.dir, ahead));
     const auto& [x, y] = std::pair(sight.cell.x, sight.cell.y);
-    const Row equations[2] = {{d.x, d.y, d.z, 0.0, 0.0, 0.0, -x * d.x, -x * d.y, x * d.z},
-                              {0.0, 0.0, 0.0, d.x, d.y, d.z, -y * d.x, -y * d.y, y * d.z}};
-    for (const Row& equation : equations)
+    const EquationRow equations[2] = {{d.x, d.y, d.z, 0.0, 0.0, 0.0, -x * d.x, -x * d.y, x * d.z},
+                                      {0.0, 0.0, 0.0, d.x, d.y, d.z, -y * d.x, -y * d.y, y * d.z}};
+    for (const EquationRow& equation : equations)
       for (std::size_t i = 0; i < UNKNOWNS; ++i)
         for (std::size_t j = 0; j <= UNKNOWNS; ++j) rows[i][j] += equation[i] * equation[j];
   }
   if (!solve(rows)) return {};
   const auto found = [&](std::size_t k) { return rows[k][UNKNOWNS]; };
-  return Projection{found(0) * u + found(1) * v + found(2) * ahead,
-                    found(3) * u + found(4) * v + found(5) * ahead, found(6) * u + found(7) * v + ahead};
+  return PinholeMatrix{found(0) * u + found(1) * v + found(2) * ahead,
+                       found(3) * u + found(4) * v + found(5) * ahead, found(6) * u + found(7) * v + ahead};
 }
 
 /// Whether the points are where the projection has them; `half` a cell's size.
-bool explains(const Projection& projection, const std::vector<Sight>& sights, double half) {
+bool explains(const PinholeMatrix& projection, const std::vector<Sight>& sights, double half) {
   std::vector<double> off;
   for (const Sight& sight : sights) {
     const double depth = glm::dot(projection.c, sight.dir);
@@ -108,7 +109,7 @@ bool explains(const Projection& projection, const std::vector<Sight>& sights, do
 }
 
 /// The camera of a projection, if it is one.
-std::optional<Pinhole> camera_of(const Projection& projection, const Station& station) {
+std::optional<Pinhole> camera_of(const PinholeMatrix& projection, const Station& station) {
   const double length = glm::length(projection.c);
   const glm::dvec3 ahead = projection.c / length;
   const glm::dvec2 middle(glm::dot(projection.a, ahead) / length, glm::dot(projection.b, ahead) / length);
@@ -121,7 +122,7 @@ std::optional<Pinhole> camera_of(const Projection& projection, const Station& st
   pinhole.middle = half * middle + glm::dvec2(0.5 * station.columns, 0.5 * station.rows);
   pinhole.axes = {glm::normalize(across), glm::normalize(down), ahead};
   const double stretched = pinhole.focal.x / pinhole.focal.y;
-  if (!(std::abs(glm::dot(pinhole.axes[0], pinhole.axes[1])) < SQUARE)) return {};
+  if (!(std::abs(glm::dot(pinhole.axes[0], pinhole.axes[1])) < SQUARE_COSINE)) return {};
   if (!(stretched < MOST_STRETCHED && 1.0 / stretched < MOST_STRETCHED)) return {};
   return pinhole;
 }
@@ -133,7 +134,7 @@ std::optional<Pinhole> fit_pinhole(const Cloud& cloud, const Station& station,
   if (!station.sensor_world || cloud.grid_cell.empty() || std::min(station.rows, station.columns) < 2)
     return {};
   const std::vector<Sight> sights = sights_of(cloud, station, points);
-  if (sights.size() < FEWEST) return {};
+  if (sights.size() < FEWEST_SIGHTS) return {};
   const auto projection = project(sights);
   const double half = 0.5 * std::max(station.rows, station.columns);
   if (!projection || !explains(*projection, sights, half)) return {};

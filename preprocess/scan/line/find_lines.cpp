@@ -12,18 +12,18 @@
 namespace splatray {
 namespace {
 
-constexpr double THIN = 0.12;         // second variance / first of places on a line
-constexpr std::size_t FEW = 6;        // places that may make a line where more reach the next line
-constexpr double THINNEST = 0.03;     // of so few, of which some lie so by chance
-constexpr std::size_t ASKED = 20000;  // points that show whether there are lines
-constexpr float FEWEST = 0.1F;        // share of a cloud's points on lines that is worth a look
-constexpr float UNEVEN = 2.5F;        // one step over the other, of steps that are alike
-constexpr float LIKE = 3.0F;          // the steps of lines beside each other
-constexpr float PARALLEL = 0.8F;      // cosine of their directions
-constexpr float OPPOSITE = -0.2F;     // cosine of the ways to lines on either side
-constexpr float LEAST_GAP = 1.5F;     // steps
-constexpr float MOST_GAP = 40.0F;     // steps: there is no surface between lines further apart
-constexpr std::array<std::size_t, 3> STRIDES{4, 16, 64};
+constexpr double THIN_LINE = 0.12;             // second variance / first of places on a line
+constexpr std::size_t FEW_PLACES = 6;          // places that may make a line where more reach the next line
+constexpr double THINNEST = 0.03;              // of so few, of which some lie so by chance
+constexpr std::size_t POINTS_ASKED = 20000;    // points that show whether there are lines
+constexpr float SHARE_ON_LINES = 0.1F;         // share of a cloud's points on lines that is worth a look
+constexpr float UNEVEN_STEPS = 2.5F;           // one step over the other, of steps that are alike
+constexpr float MOST_STEP_RATIO = 3.0F;        // the steps of lines beside each other
+constexpr float PARALLEL_LINES_COSINE = 0.8F;  // cosine of their directions
+constexpr float OPPOSITE = -0.2F;              // cosine of the ways to lines on either side
+constexpr float LEAST_GAP = 1.5F;              // steps
+constexpr float MOST_GAP = 40.0F;              // steps: there is no surface between lines further apart
+constexpr std::array<std::size_t, 3> LINE_STRIDES{4, 16, 64};
 constexpr std::size_t LOOKED_AT = 48;
 
 const glm::vec3 NO_WAY(0.0F);
@@ -69,15 +69,16 @@ void find_step(const ListedPlaces& around, LinePlace& place) {
     if (std::abs(way) < nearest[side]) nearest[side] = std::abs(way), number[side] = around.number[j];
   }
   const float less = std::min(nearest[0], nearest[1]), more = std::max(nearest[0], nearest[1]);
-  place.step = more <= UNEVEN * less ? more : less < FAR ? less : 0.0F;
+  place.step = more <= UNEVEN_STEPS * less ? more : less < FAR ? less : 0.0F;
   place.next = number[nearest[1] < nearest[0] ? 1 : 0];
 }
 
 LinePlace place_of(const Cloud& cloud, std::uint32_t i, std::span<const std::uint32_t> listed) {
   const ListedPlaces around(cloud, i, listed);
   LinePlace place;
-  for (const auto& [count, thin] : {std::pair(around.offsets.count, THIN), std::pair(FEW, THINNEST)}) {
-    if (count < FEW || count > around.offsets.count || place.along != NO_WAY) continue;
+  for (const auto& [count, thin] :
+       {std::pair(around.offsets.count, THIN_LINE), std::pair(FEW_PLACES, THINNEST)}) {
+    if (count < FEW_PLACES || count > around.offsets.count || place.along != NO_WAY) continue;
     const glm::dvec3 variances = variances_of(covariance_of(around.offsets, count));
     if (variances.y < thin * variances.z) place.along = axis_of(around, count);
   }
@@ -90,16 +91,17 @@ bool is_on_line(const Cloud& cloud, const Survey& survey, std::uint32_t i) {
   const LinePlace place = place_of(cloud, i, survey.around(i));
   if (!(place.step > 0.0F)) return false;
   const LinePlace next = place_of(cloud, place.next, survey.around(place.next));
-  return std::abs(glm::dot(place.along, next.along)) >= PARALLEL && place.step <= UNEVEN * next.step;
+  return std::abs(glm::dot(place.along, next.along)) >= PARALLEL_LINES_COSINE &&
+         place.step <= UNEVEN_STEPS * next.step;
 }
 
 /// Whether as many of the points lie on lines as is worth a look.
 bool has_lines(const Cloud& cloud, const Survey& survey) {
-  const std::size_t stride = cloud.size() / ASKED + 1, asked = cloud.size() / stride;
+  const std::size_t stride = cloud.size() / POINTS_ASKED + 1, asked = cloud.size() / stride;
   const auto found = numbers_where(asked, [&](std::size_t n) {
     return is_on_line(cloud, survey, static_cast<std::uint32_t>(n * stride));
   });
-  return static_cast<float>(found.size()) > FEWEST * static_cast<float>(asked);
+  return static_cast<float>(found.size()) > SHARE_ON_LINES * static_cast<float>(asked);
 }
 
 /// A line beside a point's, perhaps.
@@ -116,8 +118,8 @@ Way way_to(const Cloud& cloud, const std::vector<LinePlace>& places, std::uint32
   const glm::vec3 across = offset - place.along * along;
   const float gap = glm::length(across);
   const bool beside = gap >= std::abs(along) && gap >= LEAST_GAP * place.step && gap <= MOST_GAP * place.step;
-  const bool like = std::abs(glm::dot(place.along, other.along)) >= PARALLEL &&
-                    other.step <= LIKE * place.step && place.step <= LIKE * other.step;
+  const bool like = std::abs(glm::dot(place.along, other.along)) >= PARALLEL_LINES_COSINE &&
+                    other.step <= MOST_STEP_RATIO * place.step && place.step <= MOST_STEP_RATIO * other.step;
   return beside && like ? Way{across, j} : Way{};
 }
 
@@ -191,7 +193,7 @@ std::vector<LinePlace> find_lines(const Cloud& cloud, const Survey& survey, cons
   });
   const auto on_lines = numbers_where(cloud.size(), [&](std::size_t i) { return places[i].step > 0.0F; });
   look_among_listed(cloud, survey, places);
-  for (const std::size_t stride : STRIDES) look_among_fewer(cloud, on_lines, stride, places, stage);
+  for (const std::size_t stride : LINE_STRIDES) look_among_fewer(cloud, on_lines, stride, places, stage);
   return places;
 }
 

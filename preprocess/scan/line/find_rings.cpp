@@ -56,9 +56,9 @@ float turn_between(float from, float to) {
 }
 
 /// A sweep's points in columns as wide as a step, each ascending in elevation. Numbers are those of its points.
-class Columns {
+class SweepColumns {
  public:
-  Columns(const Directions& directions, float step)
+  SweepColumns(const Directions& directions, float step)
       : directions_(directions),
         count_(static_cast<std::size_t>(2.0 * std::numbers::pi / step) + 1),
         step_(step) {
@@ -151,11 +151,11 @@ float usual_step(float a, float b) {
 class RingPlaces {
  public:
   RingPlaces(const Cloud& cloud, const std::vector<std::uint32_t>& points, const glm::dvec3& sensor,
-             const Directions& directions, const std::vector<Columns::Beside>& beside)
+             const Directions& directions, const std::vector<SweepColumns::Beside>& beside)
       : cloud_(cloud), points_(points), sensor_(sensor), directions_(directions), beside_(beside) {}
 
   [[nodiscard]] LinePlace place(std::uint32_t n) const {
-    const Columns::Beside& beside = beside_[n];
+    const SweepColumns::Beside& beside = beside_[n];
     const float along = usual_step(length(n, beside.left), length(n, beside.right));
     const float across = usual_step(length(n, beside.below), length(n, beside.above));
     if (along == 0.0F || across == 0.0F) return {};
@@ -163,9 +163,9 @@ class RingPlaces {
     const bool on_ring = along <= across;
     const std::vector<float>& angle = on_ring ? directions_.azimuth : directions_.elevation;
     const std::uint32_t from =
-        hop(n, on_ring ? &Columns::Beside::left : &Columns::Beside::below, std::min(along, across));
-    const std::uint32_t to =
-        hop(n, on_ring ? &Columns::Beside::right : &Columns::Beside::above, std::min(along, across));
+        hop(n, on_ring ? &SweepColumns::Beside::left : &SweepColumns::Beside::below, std::min(along, across));
+    const std::uint32_t to = hop(n, on_ring ? &SweepColumns::Beside::right : &SweepColumns::Beside::above,
+                                 std::min(along, across));
     const float turned = turn_between(angle[from], angle[to]);
     if (turned == 0.0F) return {};
     const glm::vec3 by_turn = offset_to(from, to) / turned;
@@ -202,7 +202,8 @@ class RingPlaces {
     return length < range_of(n) ? length : 0.0F;
   }
   /// The point a few steps further, as long as these are alike.
-  [[nodiscard]] std::uint32_t hop(std::uint32_t n, std::uint32_t Columns::Beside::*next, float step) const {
+  [[nodiscard]] std::uint32_t hop(std::uint32_t n, std::uint32_t SweepColumns::Beside::*next,
+                                  float step) const {
     for (int hops = 0; hops < HOPS; ++hops) {
       const std::uint32_t m = beside_[n].*next;
       if (m == NO_CELL || length(n, m) > EVEN_STEPS * step) break;
@@ -215,7 +216,7 @@ class RingPlaces {
   const std::vector<std::uint32_t>& points_;
   const glm::vec3 sensor_;
   const Directions& directions_;
-  const std::vector<Columns::Beside>& beside_;
+  const std::vector<SweepColumns::Beside>& beside_;
 };
 
 }  // namespace
@@ -237,8 +238,8 @@ std::optional<Sweep> find_rings(const Cloud& cloud, const std::vector<std::uint3
   const glm::dvec3 axis = axis_of_lines(places);
   if (!(step > 0.0F) || axis == glm::dvec3(0.0)) return {};
   const Directions directions = directions_of(cloud, points, sensor, axis);
-  const Columns columns(directions, step);
-  std::vector<Columns::Beside> beside(points.size());
+  const SweepColumns columns(directions, step);
+  std::vector<SweepColumns::Beside> beside(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(),
                     [&](std::size_t n) { beside[n] = columns.beside(static_cast<std::uint32_t>(n)); });
   const RingPlaces rings(cloud, points, sensor, directions, beside);

@@ -9,7 +9,7 @@
 namespace splatray {
 namespace {
 
-constexpr float STRAIGHT = 0.966F;  // cosine of the turn between ways that one surface goes: 15 degrees
+constexpr float STRAIGHT_ON = 0.966F;  // cosine of the turn between ways that one surface goes: 15 degrees
 constexpr float STRAIGHTER =
     3.0F;  // of turns: one side alone decides where its surface turns by this factor less
 constexpr float SLIGHT = 0.05F;   // turn, radians: below, lines on both sides are of one surface
@@ -21,10 +21,10 @@ constexpr float COVERS_ALONG = 1.0F;  // half its width over the step along the 
 constexpr float COVERS_OPEN = 0.5F;   // of the usual way, where no surface is known beyond a line
 constexpr float ROUND_TURN = 1.4F;    // of the ways on both sides: from here on the shorter has a clip line
 constexpr float HOLE = 4.0F;          // of the other side's way
-constexpr float LEAST_LINE_ASPECT = 3.0F;  // of ways over steps, below which discs do
-constexpr float EVEN_RUN = 2.5F;           // of a step, to the next point of a run
-constexpr float MOST_SLIM = 4.0F;          // length of what joins lines over the width of the run: no spokes
-constexpr float ALIKE = 0.9F;              // cosine of normals of one surface
+constexpr float LEAST_LINE_ASPECT = 3.0F;   // of ways over steps, below which discs do
+constexpr float EVEN_RUN = 2.5F;            // of a step, to the next point of a run
+constexpr float MOST_SLIM = 4.0F;           // length of what joins lines over the width of the run: no spokes
+constexpr float ONE_SURFACE_COSINE = 0.9F;  // cosine of normals of one surface
 
 /// The turn between ways that a surface goes, by its cosine, radians.
 float turn_of(float cosine) { return std::acos(std::clamp(cosine, -1.0F, 1.0F)); }
@@ -65,7 +65,7 @@ LinePlane plane_of(const std::vector<LinePlace>& places, const LinePlace& place,
                    float surveyed) {
   const std::array<float, 2> gap{glm::length(place.beside[0]), glm::length(place.beside[1])};
   if (!(gap[0] > 0.0F)) return {};
-  const float half_turn = turn_of(-1.0F), straight = turn_of(STRAIGHT);
+  const float half_turn = turn_of(-1.0F), straight = turn_of(STRAIGHT_ON);
   const bool both = gap[1] > 0.0F;
   const float through =
       both ? turn_of(-glm::dot(place.beside[0], place.beside[1]) / (gap[0] * gap[1])) : half_turn;
@@ -115,7 +115,7 @@ std::vector<glm::vec3> averaged_normals(const Cloud& cloud, const Survey& survey
     glm::vec3 sum = cloud.normal[i];
     for (const std::uint32_t j : survey.around(i)) {
       const float cosine = glm::dot(cloud.normal[i], cloud.normal[j]);
-      if (j != i && places[j].plane && std::abs(cosine) > ALIKE)
+      if (j != i && places[j].plane && std::abs(cosine) > ONE_SURFACE_COSINE)
         sum += std::copysign(1.0F, cosine) * cloud.normal[j];
     }
     normals[i] = glm::normalize(sum);
@@ -129,7 +129,7 @@ void keep_agreed(const std::vector<LinePlace>& places, const std::vector<glm::ve
   const auto agreed = [&](std::size_t side) {
     const std::uint32_t other = plane.to[side];
     return plane.ways[side] > 0.0F && places[other].plane &&
-           std::abs(glm::dot(normals[other], normal)) > ALIKE;
+           std::abs(glm::dot(normals[other], normal)) > ONE_SURFACE_COSINE;
   };
   const bool first = agreed(0), second = agreed(1);
   if (!first && !second) plane = {};
@@ -145,7 +145,8 @@ std::vector<float> run_widths(const Cloud& cloud, const std::vector<LinePlace>& 
     const std::uint32_t next = places[i].next;
     if (!places[i].plane || !places[next].plane) continue;
     const bool close = glm::distance(cloud.coord[i], cloud.coord[next]) <= EVEN_RUN * places[i].step;
-    if (close && std::abs(glm::dot(cloud.normal[i], cloud.normal[next])) > ALIKE) runs.join(i, next);
+    if (close && std::abs(glm::dot(cloud.normal[i], cloud.normal[next])) > ONE_SURFACE_COSINE)
+      runs.join(i, next);
   }
   std::vector<float> sums(cloud.size(), 0.0F), widths(cloud.size(), 0.0F);
   for (std::uint32_t i = 0; i < cloud.size(); ++i)

@@ -12,11 +12,12 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t AROUND = 24;  // neighbours
-constexpr std::size_t LEAST = 6;    // of them, that a plane is put through
-constexpr double LAYERED = 0.2;     // noise from which points are projected again
-constexpr float LIKE = 0.5F;        // cosine of normals of one sheet: 60 degrees, as a hit's cluster has it
-constexpr float NARROW = 2.0F;      // of the weights: exp(-NARROW d^2 / the farthest's)
+constexpr std::size_t NEIGHBOURS_AROUND = 24;  // neighbours
+constexpr std::size_t LEAST_NEIGHBOURS = 6;    // of them, that a plane is put through
+constexpr double LAYERED = 0.2;                // noise from which points are projected again
+constexpr float ONE_SHEET_COSINE =
+    0.5F;                       // cosine of normals of one sheet: 60 degrees, as a hit's cluster has it
+constexpr float NARROW = 2.0F;  // of the weights: exp(-NARROW d^2 / the farthest's)
 
 /// Sums of weighted places, and from them the plane through them.
 struct WeightedPlace {
@@ -59,8 +60,9 @@ class Again {
   /// Finds the neighbours, and from them the first normals.
   void look(const Stage& stage) {
     const NeighbourSearch search(cloud_, Sites::oriented_surface);
-    if (projects()) listed_ = NumberLists<AROUND>(cloud_.size());  // once the search's own work is freed
-    search.find_all(AROUND, stage, [&](std::uint32_t i, std::span<const Neighbour> nearest) {
+    if (projects())
+      listed_ = NumberLists<NEIGHBOURS_AROUND>(cloud_.size());  // once the search's own work is freed
+    search.find_all(NEIGHBOURS_AROUND, stage, [&](std::uint32_t i, std::span<const Neighbour> nearest) {
       if (how_.moves[i] == 0) return;
       if (projects()) keep_list(i, nearest);
       Offsets offsets;
@@ -87,7 +89,7 @@ class Again {
         plane.add(offset, std::exp(by * glm::dot(offset, offset)));
         ++count;
       }
-      if (count < LEAST) return;
+      if (count < LEAST_NEIGHBOURS) return;
       normal_[i] = sided(plane.axis(), cloud_.normal[i]);
       here[i] = static_cast<float>(glm::dot(glm::dvec3(normal_[i]), plane.mean()));
       lift[i] += here[i];
@@ -113,12 +115,12 @@ class Again {
   /// Whether two points are of one sheet: edges stay.
   [[nodiscard]] bool is_like(std::size_t i, std::size_t j) const {
     const float along = glm::dot(cloud_.normal[i], cloud_.normal[j]);
-    return (how_.sided ? along : std::abs(along)) >= LIKE &&
+    return (how_.sided ? along : std::abs(along)) >= ONE_SHEET_COSINE &&
            is_same_sheet(how_.sheet_end, i, glm::dot(cloud_.normal[i], cloud_.coord[j] - cloud_.coord[i]));
   }
 
   static glm::vec3 axis_of(const Offsets& offsets, const glm::vec3& normal) {
-    if (offsets.count < LEAST) return normal;
+    if (offsets.count < LEAST_NEIGHBOURS) return normal;
     const Covariance spread = covariance_of(offsets, offsets.count);
     return sided(least_axis_of(spread, variances_of(spread)), normal);
   }
@@ -134,7 +136,7 @@ class Again {
   }
 
   void keep_list(std::uint32_t i, std::span<const Neighbour> nearest) {
-    NumberLists<AROUND>::List list;
+    NumberLists<NEIGHBOURS_AROUND>::List list;
     std::fill(
         std::transform(nearest.begin(), nearest.end(), list.begin(), [](Neighbour n) { return n.index(); }),
         list.end(), i);
@@ -143,8 +145,8 @@ class Again {
 
   Cloud& cloud_;
   Reprojection how_;
-  NumberLists<AROUND> listed_;     ///< of each point that moves, or fewer and itself
-  std::vector<glm::vec3> normal_;  ///< those that come next
+  NumberLists<NEIGHBOURS_AROUND> listed_;  ///< of each point that moves, or fewer and itself
+  std::vector<glm::vec3> normal_;          ///< those that come next
 };
 
 }  // namespace

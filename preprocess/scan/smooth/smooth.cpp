@@ -17,15 +17,15 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST = Surroundings::MOST;
+constexpr std::size_t MOST_PLACES = Surroundings::MOST;
 constexpr float ENOUGH = Surroundings::ENOUGH;
 constexpr std::size_t LEAST_AROUND = 6;  // of them, that have any weight
 constexpr int REWEIGHTINGS = 2;
 constexpr float WIDE = 4.0F;  // of the heights' standard deviation: what is farther off has little weight
 
 /// The point that is moved and its neighbours, component by component; without weight up to whole vectors.
-struct Around {
-  static constexpr std::size_t ROOM = (MOST + 1 + LANES - 1) / LANES * LANES;
+struct PlacesAround {
+  static constexpr std::size_t ROOM = (MOST_PLACES + 1 + LANES - 1) / LANES * LANES;
 
   std::size_t count = 0;                                 ///< a multiple of LANES
   float x[ROOM], y[ROOM], z[ROOM];                       ///< places relative to the point
@@ -34,14 +34,14 @@ struct Around {
 };
 
 /// A plane by weighted means.
-struct Plane {
+struct MeanPlane {
   glm::vec3 mean{0.0F}, normal{0.0F};
   float deviation = 0.0F;  ///< of the heights over it
 };
 
 /// Heights of LANES places over a plane.
-[[gnu::always_inline]] inline void heights_over(const Plane& plane, const Around& around, std::size_t j,
-                                                Lanes& heights) {
+[[gnu::always_inline]] inline void heights_over(const MeanPlane& plane, const PlacesAround& around,
+                                                std::size_t j, Lanes& heights) {
   Lanes x, y, z;
   load_lanes(around.x + j, x), load_lanes(around.y + j, y), load_lanes(around.z + j, z);
   heights = (x - plane.mean.x) * plane.normal.x + (y - plane.mean.y) * plane.normal.y +
@@ -64,7 +64,7 @@ struct VectorSum {
   }
 };
 
-[[gnu::always_inline]] inline Plane fit_plane(const Around& around, const float* weights) {
+[[gnu::always_inline]] inline MeanPlane fit_plane(const PlacesAround& around, const float* weights) {
   VectorSum mean, normal;
   Lanes sum{}, squares{}, weight, heights;
   for (std::size_t j = 0; j < around.count; j += LANES) {
@@ -74,7 +74,7 @@ struct VectorSum {
     sum += weight;
   }
   const float all = sum_lanes(sum);
-  Plane plane{mean.over(all), glm::normalize(normal.over(all)), 0.0F};
+  MeanPlane plane{mean.over(all), glm::normalize(normal.over(all)), 0.0F};
   for (std::size_t j = 0; j < around.count; j += LANES) {
     load_lanes(weights + j, weight);
     heights_over(plane, around, j, heights);
@@ -84,9 +84,9 @@ struct VectorSum {
   return plane;
 }
 
-SPLATRAY_VECTOR_CLONES Plane fit_robust_plane(const Around& around) {
-  Plane plane = fit_plane(around, around.weight);
-  float weights[Around::ROOM];
+SPLATRAY_VECTOR_CLONES MeanPlane fit_robust_plane(const PlacesAround& around) {
+  MeanPlane plane = fit_plane(around, around.weight);
+  float weights[PlacesAround::ROOM];
   for (int round = 0; round < REWEIGHTINGS && plane.deviation > 0.0F; ++round) {
     const float unit = 1.0F / (WIDE * plane.deviation);
     for (std::size_t j = 0; j < around.count; j += LANES) {
@@ -103,8 +103,8 @@ SPLATRAY_VECTOR_CLONES Plane fit_robust_plane(const Around& around) {
 
 /// Weights by distance and by the cosine to the point's own normal, to whose side normals are turned where sides are not
 /// known. Returns how many places have any weight. `distance_squared` is of the places.
-SPLATRAY_VECTOR_CLONES std::size_t weigh(Around& around, const float* distance_squared, float widest_squared,
-                                         const glm::vec3& own, bool sided) {
+SPLATRAY_VECTOR_CLONES std::size_t weigh(PlacesAround& around, const float* distance_squared,
+                                         float widest_squared, const glm::vec3& own, bool sided) {
   LaneInts used{};
   const float by = 1.0F / widest_squared;
   for (std::size_t j = 0; j < around.count; j += LANES) {
@@ -138,9 +138,9 @@ struct Moved {
 };
 
 /// Moves points by their neighbours.
-class Projection {
+class SmoothProjection {
  public:
-  Projection(const Cloud& cloud, const Survey& survey, const SmoothParams& params)
+  SmoothProjection(const Cloud& cloud, const Survey& survey, const SmoothParams& params)
       : cloud_(cloud),
         survey_(survey),
         params_(params),
@@ -158,7 +158,7 @@ class Projection {
     std::size_t stride = 1;
     if (radius_ > 0.0F) {
       const float count = survey_.expected_count(i, radius_ * radius_);
-      while (count > ENOUGH * static_cast<float>(stride) && stride * MOST < cloud_.size()) stride *= 4;
+      while (count > ENOUGH * static_cast<float>(stride) && stride * MOST_PLACES < cloud_.size()) stride *= 4;
     }
     return stride;
   }
@@ -177,7 +177,7 @@ class Projection {
     }
     const NeighbourSearch search(stride > 1 ? thin : cloud_, Sites::oriented_surface);
     search.find_each(
-        movers.size(), [&](std::uint32_t n) { return query(movers[n]); }, MOST, stage,
+        movers.size(), [&](std::uint32_t n) { return query(movers[n]); }, MOST_PLACES, stage,
         [&](std::uint32_t n, std::span<Neighbour> nearest) {
           if (stride > 1)
             for (Neighbour& neighbour : nearest)
@@ -188,14 +188,14 @@ class Projection {
 
  private:
   void move(std::uint32_t i, std::span<const Neighbour> nearest, Moved& moved) const {
-    Around around;
-    float distance_squared[Around::ROOM];
-    const float widest = nearest.size() == MOST ? farthest(nearest) : query(i).limit_squared;
+    PlacesAround around;
+    float distance_squared[PlacesAround::ROOM];
+    const float widest = nearest.size() == MOST_PLACES ? farthest(nearest) : query(i).limit_squared;
     gather(i, nearest, around, distance_squared);
     const std::size_t used = weigh(around, distance_squared, widest, cloud_.normal[i], params_.sided);
     moved.supported[i] = used > LEAST_AROUND;
     if (moved.supported[i] == 0) return;
-    const Plane plane = fit_robust_plane(around);
+    const MeanPlane plane = fit_robust_plane(around);
     moved.lift[i] = glm::dot(plane.normal, plane.mean);
     moved.normal[i] = plane.normal;
   }
@@ -207,7 +207,7 @@ class Projection {
   }
 
   /// The point itself and its neighbours.
-  void gather(std::uint32_t i, std::span<const Neighbour> nearest, Around& around,
+  void gather(std::uint32_t i, std::span<const Neighbour> nearest, PlacesAround& around,
               float* distance_squared) const {
     const auto add = [&](const glm::vec3& offset, const glm::vec3& normal, float squared) {
       const std::size_t j = around.count++;
@@ -249,7 +249,7 @@ bool lie_in_layers(std::vector<float>& sizes) {
 Smoothed smooth_points(Cloud& cloud, Survey survey, const SmoothParams& params, const Stage& stage) {
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
-  const Projection projection(cloud, survey, params);
+  const SmoothProjection projection(cloud, survey, params);
   Moved moved{std::vector<float>(size), cloud.normal, std::vector<std::uint8_t>(size, 1)};
   for (std::size_t stride = 1; stride == 1 || (params.radius > 0.0 && stride < 4 * size); stride *= 4) {
     const auto movers = numbers_where(

@@ -8,7 +8,7 @@ namespace splatray::testing {
 namespace {
 
 /// What Embree hands to the intersection function: its own context, and the ray's gathering.
-struct Traversal {
+struct ClusterTraversal {
   RTCIntersectContext context;
   vec3 dir;
   Gathering gathered;
@@ -146,7 +146,7 @@ void EmbreeClusters::intersect(const RTCIntersectFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
   const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
-  auto& traversal = *reinterpret_cast<Traversal*>(args->context);
+  auto& traversal = *reinterpret_cast<ClusterTraversal*>(args->context);
   auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;  // what an RTCRayHitN of one ray is
   self.visit_meetings(args->primID, ray, [&](std::size_t disc, float t) {
     traversal.gathered.add(disc, t, traversal.dir, self.discs_, self.settings_);
@@ -164,7 +164,7 @@ void EmbreeClusters::occlude(const RTCOccludedFunctionNArguments* args) {
 
 void EmbreeClusters::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    Traversal traversal{{}, rays[i].dir, {}};
+    ClusterTraversal traversal{{}, rays[i].dir, {}};
     rtcInitIntersectContext(&traversal.context);
     RTCRayHit query = embree_ray(rays[i]);
     rtcIntersect1(embree_.scene(), &traversal.context, &query);

@@ -8,7 +8,7 @@ namespace splatray::testing {
 namespace {
 
 /// What Embree hands to the filter: its own context, and the rays' gatherings.
-struct Traversal {
+struct DiscTraversal {
   RTCIntersectContext context;
   const Discs& discs;
   const Settings& settings;
@@ -30,7 +30,7 @@ void cull(const RTCFilterFunctionNArguments* args) {
 
 /// BLEND_WINDOW: notes the hit and accepts it with the window's end as the ray's.
 void gather(const RTCFilterFunctionNArguments* args) {
-  auto& traversal = *reinterpret_cast<Traversal*>(const_cast<RTCIntersectContext*>(args->context));
+  auto& traversal = *reinterpret_cast<DiscTraversal*>(const_cast<RTCIntersectContext*>(args->context));
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] == 0) continue;
     const vec3 dir = dir_of(args, lane);
@@ -64,7 +64,7 @@ EmbreeDiscs::EmbreeDiscs(const Discs& discs, const Settings& settings, unsigned 
 }
 
 void EmbreeDiscs::trace_alone(const RayQuery& ray, RayHit& hit) const {
-  Traversal traversal{{}, discs_, settings_, {}};
+  DiscTraversal traversal{{}, discs_, settings_, {}};
   rtcInitIntersectContext(&traversal.context);
   traversal.context.flags = flags();
   RTCRayHit query = embree_ray(ray);
@@ -77,7 +77,7 @@ void EmbreeDiscs::trace_alone(const RayQuery& ray, RayHit& hit) const {
 
 template <unsigned WIDTH>
 void EmbreeDiscs::trace_together(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
-  Traversal traversal{{}, discs_, settings_, {}};
+  DiscTraversal traversal{{}, discs_, settings_, {}};
   rtcInitIntersectContext(&traversal.context);
   traversal.context.flags = flags();
   EmbreeBundle<WIDTH> bundle(rays);

@@ -36,6 +36,10 @@ dvec3 random_unit(std::mt19937_64& random) {
   }
 }
 
+double uniform(std::mt19937_64& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
 Material mirror_material() {
   Material material = test_material(0);
   material.diffuse = vec3(0.0F);

@@ -12,6 +12,8 @@ namespace splatray::testing {
 
 /// A uniformly distributed unit vector.
 [[nodiscard]] glm::dvec3 random_unit(std::mt19937_64& random);
+/// A uniformly distributed number of [low, high).
+[[nodiscard]] double uniform(std::mt19937_64& random, double low, double high);
 
 /// A white mirror, one-sided, that takes no other light.
 [[nodiscard]] Material mirror_material();

@@ -9,8 +9,8 @@ namespace {
 constexpr unsigned MOST_MULTIPLE = 500;
 constexpr int LEAST_MULTIPLE = -10;
 constexpr unsigned UNCHANGED = MOST_MULTIPLE - LEAST_MULTIPLE + 1;  ///< codes after the multiples
-constexpr unsigned FAR = UNCHANGED + 1;                             ///< and behind it the other sequences
-constexpr unsigned CODES = FAR + 4;
+constexpr unsigned FAR_CASE = UNCHANGED + 1;                        ///< and behind it the other sequences
+constexpr unsigned CODES = FAR_CASE + 4;
 
 std::int32_t times(int multiple, std::int32_t difference) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(multiple) *
@@ -112,19 +112,19 @@ unsigned GpsTimes::read_code(ArithmeticDecoder& in) {
     return code < UNCHANGED ? code : code + skipped;
   }
   const unsigned code = in.symbol(after_zero_) + skipped;
-  return code == 0 ? UNCHANGED : code == 1 ? 1 : code - 2 + FAR;
+  return code == 0 ? UNCHANGED : code == 1 ? 1 : code - 2 + FAR_CASE;
 }
 
 std::uint64_t GpsTimes::read(ArithmeticDecoder& in) {
   constexpr int MOST_CHANGES = 4;  // of the sequence; coders need one
   for (int i = 0; i < MOST_CHANGES; ++i) {
     const unsigned code = read_code(in);
-    if (code <= FAR) {
+    if (code <= FAR_CASE) {
       if (code < UNCHANGED) read_near(in, code);
-      if (code == FAR) read_far(in);
+      if (code == FAR_CASE) read_far(in);
       return sequences_[current_].time;
     }
-    current_ = (current_ + code - FAR) % sequences_.size();
+    current_ = (current_ + code - FAR_CASE) % sequences_.size();
   }
   in.set_damaged();
   return sequences_[current_].time;

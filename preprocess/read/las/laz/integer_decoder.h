@@ -51,6 +51,11 @@ class DifferenceModels {
   unsigned width_ = 0;
 };
 
+/// The sum modulo 2^32.
+[[nodiscard]] inline std::int32_t add_wrapped(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+}
+
 /// Integers as differences from a prediction, with contexts for the difference's width. `BITS` is 8, 16 or 32; results of
 /// fewer than 32 bits are 0 to 2^BITS - 1.
 template <unsigned BITS, unsigned CONTEXTS>

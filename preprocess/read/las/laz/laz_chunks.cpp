@@ -11,7 +11,7 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t POINTER_BYTES = 8;
-constexpr std::size_t HEAD_BYTES = 8;  ///< of the table: a version and the count of chunks
+constexpr std::size_t TABLE_HEAD_BYTES = 8;  ///< of the table: a version and the count of chunks
 
 /// Where the table is said to lie. A program that cannot go back writes -1 and the place at the file's end.
 std::uint64_t table_offset(ByteReader& in, const LasHeader& header) {
@@ -29,11 +29,11 @@ std::uint64_t table_offset(ByteReader& in, const LasHeader& header) {
 std::optional<std::vector<LazChunk>> read_table(ByteReader& in, const LazLayout& layout, std::uint64_t begin,
                                                 std::uint64_t table) {
   constexpr std::uint64_t MOST_ENTRY_BYTES = 24;  ///< two numbers, coded as badly as can be
-  if (table < begin || in.offset() + in.remaining() < HEAD_BYTES ||
-      table > in.offset() + in.remaining() - HEAD_BYTES)
+  if (table < begin || in.offset() + in.remaining() < TABLE_HEAD_BYTES ||
+      table > in.offset() + in.remaining() - TABLE_HEAD_BYTES)
     return std::nullopt;
   in.seek(table);
-  const unsigned char* head = in.take(HEAD_BYTES);
+  const unsigned char* head = in.take(TABLE_HEAD_BYTES);
   if (head == nullptr || load<std::uint32_t>(head) != 0) return std::nullopt;
   const auto count = load<std::uint32_t>(head + 4);
   if (count > (table - begin) / layout.record_bytes) return std::nullopt;

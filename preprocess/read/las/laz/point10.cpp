@@ -24,10 +24,6 @@ struct Point10 {
 };
 static_assert(sizeof(Point10) == 20);
 
-std::int32_t add(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
-}
-
 std::int32_t median_of_3(std::int32_t a, std::int32_t b, std::int32_t c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
@@ -97,8 +93,8 @@ class Point10V1 final : public Point10Item {
     const std::int32_t y = y_difference_.read(in, median_of_3(y_last_[0], y_last_[1], y_last_[2]),
                                               std::min(width, MOST_CONTEXT));
     width = (width + y_difference_.width()) / 2;
-    point_.x = add(point_.x, x);
-    point_.y = add(point_.y, y);
+    point_.x = add_wrapped(point_.x, x);
+    point_.y = add_wrapped(point_.y, y);
     point_.z = z_.read(in, point_.z, std::min(width, MOST_CONTEXT));
     x_last_[next_] = x;
     y_last_[next_] = y;
@@ -127,7 +123,7 @@ class Point10V1 final : public Point10Item {
 };
 
 /// By number of returns and return number, each 0 to 7: LASzip's contexts of returns, complete for those that cannot be.
-constexpr unsigned char RETURN_CONTEXT[8][8] = {
+constexpr unsigned char RETURN_CONTEXT_10[8][8] = {
     {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},    {13, 1, 2, 4, 7, 11, 11, 10},
     {12, 3, 4, 5, 8, 12, 12, 11},    {11, 6, 7, 8, 9, 13, 13, 12},   {10, 10, 11, 12, 13, 14, 14, 13},
     {9, 10, 11, 12, 13, 14, 15, 14}, {8, 9, 10, 11, 12, 13, 14, 15},
@@ -149,7 +145,7 @@ class Point10V2 final : public Point10Item {
     if ((changed & 32U) != 0) returns_.read(in, point_.returns);
     const unsigned return_number = point_.returns & 7U;
     const unsigned returns = (point_.returns >> 3U) & 7U;
-    const unsigned context = RETURN_CONTEXT[returns][return_number];
+    const unsigned context = RETURN_CONTEXT_10[returns][return_number];
     if ((changed & 16U) != 0)
       last_intensity_[context] =
           static_cast<std::uint16_t>(intensity_.read(in, last_intensity_[context], std::min(context, 3U)));
@@ -179,8 +175,8 @@ class Point10V2 final : public Point10Item {
     y_median_[context].add(y);
     width = (width + y_difference_.width()) / 2;
     last_z_[level] = z_.read(in, last_z_[level], is_single + (std::min(width, 18U) & ~1U));
-    point_.x = add(point_.x, x);
-    point_.y = add(point_.y, y);
+    point_.x = add_wrapped(point_.x, x);
+    point_.y = add_wrapped(point_.y, y);
     point_.z = last_z_[level];
   }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr unsigned MOST_RETURNS = 16;
 
 /// By number of returns and return number: LASzip's contexts of returns, complete for those that cannot be.
-constexpr unsigned char RETURN_CONTEXT[MOST_RETURNS][MOST_RETURNS] = {
+constexpr unsigned char RETURN_CONTEXT_14[MOST_RETURNS][MOST_RETURNS] = {
     {0, 1, 2, 3, 4, 5, 3, 4, 4, 5, 5, 5, 5, 5, 5, 5}, {1, 0, 1, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3},
     {2, 1, 2, 4, 4, 4, 4, 4, 4, 4, 4, 3, 3, 3, 3, 3}, {3, 3, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4},
     {4, 3, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4}, {5, 3, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4},
@@ -23,10 +23,6 @@ constexpr unsigned char RETURN_CONTEXT[MOST_RETURNS][MOST_RETURNS] = {
     {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 4, 4}, {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 4},
     {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5}, {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5},
 };
-
-std::int32_t add(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
-}
 
 /// The fields of a record that are decoded.
 struct Point14 {
@@ -219,15 +215,15 @@ class Point14Item final : public LayeredItem {
   void read_position(Channel& channel, unsigned time_changes) {
     Point14& point = channel.last;
     const unsigned is_single = point.returns == 1 ? 1 : 0;
-    const std::size_t median = RETURN_CONTEXT[point.returns][point.return_number] * 2U + time_changes;
+    const std::size_t median = RETURN_CONTEXT_14[point.returns][point.return_number] * 2U + time_changes;
     const std::int32_t x = channel.x_difference.read(position_.in, channel.x_median[median].get(), is_single);
     channel.x_median[median].add(x);
     unsigned width = channel.x_difference.width();
     const std::int32_t y = channel.y_difference.read(position_.in, channel.y_median[median].get(),
                                                      is_single + (std::min(width, 20U) & ~1U));
     channel.y_median[median].add(y);
-    point.x = add(point.x, x);
-    point.y = add(point.y, y);
+    point.x = add_wrapped(point.x, x);
+    point.y = add_wrapped(point.y, y);
     if (!z_.changes) return;
     width = (width + channel.y_difference.width()) / 2;
     const unsigned level =
