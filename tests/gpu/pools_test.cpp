@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/scene/splat.h"
+#include "tests/all_tests.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
 
@@ -150,6 +151,7 @@ TEST_F(PoolUpload, AllKernelsGiveTheSamePicture) {
 }
 
 TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
+  SPLATRAY_NIGHTLY();
   Scene scene = disc_scene(3);
   scene.reference_pool = {2, 0, 1};
   scene.color_pool = {pack_color({1.0F, 0.0F, 0.0F}), pack_color({0.0F, 1.0F, 0.0F}),

@@ -8,6 +8,7 @@
 
 #include "engine/scene/tree.h"
 #include "preprocess/build.h"
+#include "tests/all_tests.h"
 #include "tests/preprocess/shapes.h"
 
 namespace splatray {
@@ -65,6 +66,7 @@ std::vector<Scene> scenes() {
 }
 
 TEST(EmptySpace, BoxesHoldNoFilledLeafAndCannotGrow) {
+  SPLATRAY_NIGHTLY();
   std::size_t leaves = 0, touched = 0, growing = 0, steps = 0;
   for (const Scene& scene : scenes()) {
     const std::vector<OctreeCell> filled = leaf_cells(scene);

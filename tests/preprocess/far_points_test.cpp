@@ -12,6 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/scene/splat.h"
 #include "preprocess/clouds.h"
+#include "tests/all_tests.h"
 #include "tests/preprocess/shapes.h"
 
 namespace splatray {
@@ -281,6 +282,7 @@ double height_after(double radius) {
 }
 
 TEST(Smoothing, ReachesAsFarAsItsRadiusSays) {
+  SPLATRAY_NIGHTLY();
   const double before = height_after(0.0);
   EXPECT_GT(height_after(0.03), 0.97 * before);
   EXPECT_LT(height_after(0.5), 0.5 * before) << "60 000 points: 64 of them are within 0.04";

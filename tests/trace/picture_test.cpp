@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
                   0.001,
                   "matte: nothing but float32 shading differs"},
         SceneCase{"reflective_buddha",
-                  false,
+                  true,
                   true,
                   {0.02, 0.001, 0.27},
                   0.001,
