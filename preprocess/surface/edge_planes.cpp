@@ -16,6 +16,8 @@ namespace splatray {
 namespace {
 
 constexpr unsigned SELF_BIT = Around::MOST;
+constexpr std::array<std::size_t, 3> COUNTS = {
+    24, 16, 12};                    // of neighbours, of which the first that shows sides is taken
 constexpr std::size_t CLOSE = 12;   // neighbours that planes are tried through
 constexpr double THICKNESS = 0.05;  // of the spacing: farther points are on no plane
 constexpr double BEND = 0.05;       // and as much more times the square of how far they are, as surfaces bend
@@ -140,7 +142,7 @@ std::optional<Plane> best_plane(const Around& around, unsigned from, Members wan
   return Plane{normal, glm::dot(normal, first)};
 }
 
-/// The two or three planes that the neighbourhood consists of; nothing where it does not.
+/// The one to three planes that the neighbourhood consists of; nothing where it does not.
 std::optional<Edges> find_planes(const Around& around) {
   Edges edges;
   Members left = SELF | ((1U << around.count) - 1U);
@@ -157,7 +159,7 @@ std::optional<Edges> find_planes(const Around& around) {
   }
   const bool explained =
       std::popcount(left) <= static_cast<int>(UNEXPLAINED_MOST * static_cast<double>(around.count));
-  if (edges.count < 2 || !explained) return {};
+  if (!explained) return {};
   return edges;
 }
 
@@ -193,26 +195,36 @@ double turn_of(const Line& a, const Line& b) {
   return std::numbers::pi - std::acos(std::clamp(glm::dot(a.out, b.out), -1.0, 1.0));
 }
 
-}  // namespace
-
-std::vector<Side> find_sides(const Around& around, double crease) {
+std::vector<Side> sides_of(const Around& around, const Edges& edges, double crease) {
   std::vector<Side> sides;
-  const auto edges = find_planes(around);
-  if (!edges) return sides;
-  for (std::size_t i = 0; i < edges->count; ++i) {
-    const Plane& own = edges->planes[i];
+  for (std::size_t i = 0; i < edges.count; ++i) {
+    const Plane& own = edges.planes[i];
     if (!own.holds(glm::dvec3(0.0))) continue;
     Side side{own.normal, {}, 0};
-    for (std::size_t k = 0; k < edges->count; ++k) {
+    for (std::size_t k = 0; k < edges.count; ++k) {
       if (k == i || side.count == side.lines.size()) continue;
-      const auto line = line_between(around, own, edges->planes[k]);
-      const auto back = line_between(around, edges->planes[k], own);
+      const auto line = line_between(around, own, edges.planes[k]);
+      const auto back = line_between(around, edges.planes[k], own);
       if (!line || !back || turn_of(*line, *back) < crease || line->distance > around.reach()) continue;
       side.lines[side.count++] = *line;
     }
     if (side.count > 0) sides.push_back(side);
   }
   return sides;
+}
+
+}  // namespace
+
+std::vector<Side> find_sides(Around& around, double crease) {
+  for (const std::size_t count : COUNTS) {
+    around.count = std::min(around.count, count);
+    const auto edges = find_planes(around);
+    if (!edges) continue;
+    if (edges->count == 1) break;  // fewer neighbours lie on it, too
+    std::vector<Side> sides = sides_of(around, *edges, crease);
+    if (!sides.empty()) return sides;
+  }
+  return {};
 }
 
 bool is_flat(const Around& around) {
