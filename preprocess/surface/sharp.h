@@ -31,7 +31,7 @@ struct SharpSides {
 /// side that agrees with it. Borders: half of a point's surroundings, or three quarters at a corner, has no neighbours, those
 /// at the ends of the gap lie on its line, and far more room behind it is empty: where sampling is denser on one side nothing
 /// ends. Of points around
-/// which normals differ or there is a gap every fourth is looked at, and the others only beside those where something was found.
+/// which normals differ or there is a gap every other one is looked at, and whatever is beside those where something was found.
 [[nodiscard]] SharpSides find_sharp(const Cloud& cloud, const NearPlaces& near, double crease_degrees,
                                     std::span<const std::uint8_t> estimated, const Stage& stage);
 
