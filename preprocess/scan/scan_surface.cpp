@@ -72,7 +72,7 @@ void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, Bui
 std::vector<SharpSide> find_sharp_sides(const Cloud& cloud, const Survey& survey, const BuildParams& params,
                                         const Stage& stage) {
   if (!params.clip || !cloud.radius.empty()) return {};
-  return find_sharp(cloud, survey.near->search(), params.crease_degrees, survey.estimated, stage);
+  return find_sharp(cloud, *survey.near, params.crease_degrees, survey.estimated, stage).sides;
 }
 
 /// Turns the planes at creases and borders to the sides of their points' normals.

@@ -32,9 +32,9 @@ struct Side {
   std::size_t count = 0;
 };
 
-/// The sides of a point near a crease, those that it lies on; none where the evidence is not clear. `crease`: the least turn,
-/// radians.
-[[nodiscard]] std::vector<Side> find_sides(const Around& around, double crease);
+/// The sides of a point near a crease, those that it lies on; none where the evidence is not clear. `around` keeps the nearest of
+/// its neighbours, as many as show them. `crease`: the least turn, radians.
+[[nodiscard]] std::vector<Side> find_sides(Around& around, double crease);
 
 /// Whether one plane holds the point and all its neighbours.
 [[nodiscard]] bool is_flat(const Around& around);

@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -16,9 +17,10 @@
 namespace splatray {
 namespace {
 
-constexpr std::array<std::size_t, 3> COUNTS = {24, 16, 12};  // of which the first that shows planes is taken
-constexpr std::size_t SPACING_RANK = 5;                      // the sixth neighbour is one spacing away
-constexpr std::size_t AGREEING_NEIGHBOURS = 12;              // neighbours that may agree
+constexpr std::size_t SPACING_RANK = 5;  // the sixth neighbour is one spacing away
+constexpr std::size_t SEED_STEP =
+    2;  // of the points that may be sharp: every fourth would lose half a percent of the creases
+constexpr float ROOM = 1.3F;            // of a squared distance, for as many places as expected
 constexpr double GIVEN_COSINE = 0.95;   // 18 degrees: a given normal agrees with its plane
 constexpr double SAME_COSINE = 0.9945;  // 6 degrees: it is more exact than the plane, else interpolated, too
 constexpr double SMOOTH_SHARE =
@@ -47,7 +49,14 @@ struct Gap {
   double begin, end;
 };
 
-/// Whether two octants next to each other are empty; `filled` has a bit of each, in their order around.
+/// The bit of the octant that a direction in a plane lies in; the octants' bits are in their order around.
+unsigned octant_bit(double x, double y) {
+  constexpr std::array<unsigned, 8> AROUND{0, 1, 3, 2, 7, 6, 4, 5};  // by signs, and which is longer
+  const unsigned below = y < 0.0 ? 4 : 0, left = x < 0.0 ? 2 : 0, steep = std::abs(y) > std::abs(x) ? 1 : 0;
+  return 1U << AROUND[below + left + steep];
+}
+
+/// Whether two octants next to each other are empty, of those around.
 bool has_empty_quarter(unsigned filled) {
   const unsigned empty = ~filled & 0xFFU;
   return (empty & (empty >> 1U | empty << 7U)) != 0;
@@ -62,9 +71,7 @@ std::optional<Gap> widest_gap(const Around& around, const TangentFrame& frame) {
   for (std::size_t j = 0; j < around.count; ++j) {
     const double x = glm::dot(around.offset[j], frame.u), y = glm::dot(around.offset[j], frame.v);
     places[j] = {x, y};
-    constexpr std::array<unsigned, 8> AROUND{0, 1, 3, 2, 7, 6, 4, 5};  // by signs, and which is longer
-    const unsigned below = y < 0.0 ? 4 : 0, left = x < 0.0 ? 2 : 0, steep = std::abs(y) > std::abs(x) ? 1 : 0;
-    filled |= 1U << AROUND[below + left + steep];
+    filled |= octant_bit(x, y);
     squares += glm::dvec3(x * x, x * y, y * y);
   }
   if (!has_empty_quarter(filled)) return {};
@@ -116,14 +123,15 @@ bool agree(const Found& a, const Found& b) {
 /// Finds creases and borders around the points of one cloud.
 class SharpSearch {
  public:
-  SharpSearch(const Cloud& cloud, const NeighbourSearch& search, double crease_degrees,
+  SharpSearch(const Cloud& cloud, const NearPlaces& near, double crease_degrees,
               std::span<const std::uint8_t> estimated)
       : cloud_(cloud),
         estimated_(estimated),
         crease_(crease_degrees * std::numbers::pi / 180.0),
         cos_smooth_(std::cos(SMOOTH_SHARE * crease_)),
         sin_smooth_(std::sin(SMOOTH_SHARE * crease_)),
-        search_(search) {}
+        near_(near),
+        search_(near.search()) {}
 
   /// Whether a few points, spread over the cloud, show that there is something to find: noise bends surfaces everywhere, and
   /// where nothing bends, or less than noise would where normals are given, there may be borders.
@@ -154,35 +162,92 @@ class SharpSearch {
   }
 
   /// All sides of all points that enough of their neighbours agree with.
-  [[nodiscard]] std::vector<SharpSide> run(const Stage& stage) const {
-    tbb::concurrent_vector<Found> unordered;
-    search_.find_all(Around::MOST, stage, [&](std::uint32_t point, std::span<Neighbour> nearest) {
-      Found found = look_at(point, nearest);
-      if (!found.sides.empty()) unordered.push_back(std::move(found));
-    });
-    std::vector<Found> all(unordered.begin(), unordered.end());
-    const auto by_point = [](const Found& a, const Found& b) { return a.point < b.point; };
-    std::sort(all.begin(), all.end(), by_point);
+  [[nodiscard]] SharpSides run(const Stage& stage) const {
+    SharpSides result;
+    const std::vector<Found> all = find_along(stage, result.looked_at);
     std::vector<std::uint8_t> agreed(all.size());
     tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-      std::array<Neighbour, Around::MOST> nearest;
-      const std::size_t count =
-          search_.find(cloud_.coord[all[i].point], std::span(nearest).first(AGREEING_NEIGHBOURS));
       std::size_t alike = 0;
-      for (std::size_t j = 0; j < count; ++j) {
-        const Found key{.point = nearest[j].index()};
+      for (const std::uint32_t neighbour : near_.around(all[i].point)) {
+        const Found key{.point = neighbour};
         const auto other = std::lower_bound(all.begin(), all.end(), key, by_point);
-        alike += other != all.end() && other->point == key.point && agree(all[i], *other) ? 1 : 0;
+        alike += other != all.end() && other->point == neighbour && agree(all[i], *other) ? 1 : 0;
       }
       agreed[i] = alike >= AGREED ? 1 : 0;
     });
-    std::vector<SharpSide> sides;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (agreed[i] != 0) add_sides(all[i], sides);
-    return sides;
+      if (agreed[i] != 0) add_sides(all[i], result.sides);
+    return result;
   }
 
  private:
+  static bool by_point(const Found& a, const Found& b) { return a.point < b.point; }
+
+  /// What every SEED_STEP-th of the points that may be sharp shows, then the others beside what was found, and so on; by point.
+  [[nodiscard]] std::vector<Found> find_along(const Stage& stage, std::size_t& looked_at) const {
+    std::vector<std::uint8_t> may_be(cloud_.size());
+    parallel_each(stage, may_be.size(), [&](std::size_t i) { may_be[i] = may_be_sharp(i) ? 1 : 0; });
+    std::vector<std::uint32_t> batch =
+        numbers_where(may_be.size(), [&](std::size_t i) { return may_be[i] != 0; });
+    for (std::size_t n = 0; SEED_STEP * n < batch.size(); ++n) batch[n] = batch[SEED_STEP * n];
+    batch.resize((batch.size() + SEED_STEP - 1) / SEED_STEP);
+    std::vector<std::uint8_t> waits(cloud_.size(), 1);
+    tbb::concurrent_vector<Found> found;
+    while (!batch.empty()) {
+      looked_at += batch.size();
+      for (const std::uint32_t i : batch) waits[i] = 0;
+      const std::size_t before = found.size();
+      look_at_all(batch, stage, found);
+      batch.clear();
+      for (std::size_t n = before; n < found.size(); ++n)
+        for (const std::uint32_t j : near_.around(found[n].point))
+          if (std::exchange(waits[j], std::uint8_t{0}) != 0) batch.push_back(j);
+      std::sort(batch.begin(), batch.end());
+    }
+    std::vector<Found> all(found.begin(), found.end());
+    std::sort(all.begin(), all.end(), by_point);
+    return all;
+  }
+
+  /// Whether the nearest few show a bend or a gap: where they do not, neither has a crease or a border anything to say.
+  [[nodiscard]] bool may_be_sharp(std::size_t point) const {
+    const glm::dvec3 place(cloud_.coord[point]), normal(cloud_.normal[point]);
+    const TangentFrame frame(normal);
+    unsigned filled = 0;
+    for (const std::uint32_t j : near_.around(point)) {
+      const glm::dvec3 offset = glm::dvec3(cloud_.coord[j]) - place;
+      if (bends(point, normal, j, offset)) return true;
+      filled |= octant_bit(glm::dot(offset, frame.u), glm::dot(offset, frame.v));
+    }
+    return has_empty_quarter(filled);
+  }
+
+  /// Whether a point and a neighbour at `offset` lie on a surface that bends between them.
+  [[nodiscard]] bool bends(std::size_t point, const glm::dvec3& normal, std::uint32_t other,
+                           const glm::dvec3& offset) const {
+    const bool steep =
+        estimated_[point] == 0 && std::abs(glm::dot(offset, normal)) > sin_smooth_ * glm::length(offset);
+    return steep || !(std::abs(glm::dot(glm::dvec3(cloud_.normal[other]), normal)) > cos_smooth_);
+  }
+
+  /// Adds what is found at these points, ascending.
+  void look_at_all(const std::vector<std::uint32_t>& points, const Stage& stage,
+                   tbb::concurrent_vector<Found>& all) const {
+    const auto query = [&](std::uint32_t n) -> NeighbourSearch::Query {
+      const std::uint32_t point = points[n];
+      const glm::vec3 apart = cloud_.coord[near_.around(point, NearPlaces::LISTED - 1)] - cloud_.coord[point];
+      const float listed = std::max(glm::dot(apart, apart), COORD_STEP * COORD_STEP);
+      return {cloud_.coord[point], ROOM * static_cast<float>(Around::MOST / NearPlaces::LISTED) * listed,
+              std::numeric_limits<float>::infinity()};
+    };
+    search_.find_each(points.size(), query, Around::MOST, stage,
+                      [&](std::uint32_t n, std::span<Neighbour> nearest) {
+                        std::sort(nearest.begin(), nearest.end());
+                        Found found = look_at(points[n], nearest);
+                        if (!found.sides.empty()) all.push_back(std::move(found));
+                      });
+  }
+
   /// Calls use(what was found at a point, its nearest sites) for about `trials` points, spread over the cloud; for how many.
   template <typename Use>
   std::size_t try_points(std::size_t trials, const Use& use) const {
@@ -210,18 +275,12 @@ class SharpSearch {
     for (std::size_t j = 0; j < around.count; ++j) {
       const std::uint32_t other = nearest[j].index();
       const glm::dvec3& offset = around.offset[j] = (glm::dvec3(cloud_.coord[other]) - place) / found.spacing;
-      const bool steep = given && std::abs(glm::dot(offset, normal)) > sin_smooth_ * glm::length(offset);
-      found.crease = found.crease || steep ||
-                     !(std::abs(glm::dot(glm::dvec3(cloud_.normal[other]), normal)) > cos_smooth_);
+      found.crease = found.crease || bends(point, normal, other, offset);
     }
     // Normals that were interpolated bend where the surface does not.
     if (given && found.crease && is_flat(around)) found.crease = false;
     if (!found.crease) found.sides = border_at(around, found.spacing, place, normal);
-    for (const std::size_t count : COUNTS) {
-      if (!found.crease || !found.sides.empty()) break;
-      around.count = count;
-      found.sides = find_sides(around, crease_);
-    }
+    if (found.crease) found.sides = find_sides(around, crease_);
     if (given && found.crease && found.sides.empty()) {  // a bent surface may end, too
       around.count = nearest.size();
       found.sides = border_at(around, found.spacing, place, normal);
@@ -303,15 +362,16 @@ class SharpSearch {
   const Cloud& cloud_;
   std::span<const std::uint8_t> estimated_;
   const double crease_, cos_smooth_, sin_smooth_;
+  const NearPlaces& near_;
   const NeighbourSearch& search_;
 };
 
 }  // namespace
 
-std::vector<SharpSide> find_sharp(const Cloud& cloud, const NeighbourSearch& search, double crease_degrees,
-                                  std::span<const std::uint8_t> estimated, const Stage& stage) {
-  const SharpSearch sharp(cloud, search, crease_degrees, estimated);
-  return sharp.promises() ? sharp.run(stage) : std::vector<SharpSide>{};
+SharpSides find_sharp(const Cloud& cloud, const NearPlaces& near, double crease_degrees,
+                      std::span<const std::uint8_t> estimated, const Stage& stage) {
+  const SharpSearch sharp(cloud, near, crease_degrees, estimated);
+  return sharp.promises() ? sharp.run(stage) : SharpSides{};
 }
 
 void take_normals(Cloud& cloud, std::span<const SharpSide> sides) {

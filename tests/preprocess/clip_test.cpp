@@ -308,9 +308,10 @@ Mesh wavy_sphere(glm::uint n, double waves) {
   return mesh_of(places, triangles);
 }
 
-std::size_t sharp_edges(const Mesh& mesh) {
+/// Sides of triangles at edges; creases of the mesh are two each.
+std::size_t sharp_edges(const Mesh& mesh, double crease_degrees = 30.0) {
   const std::vector<glm::uint> weld = weld_positions(mesh.vertices.position);
-  const double cosine = std::cos(glm::radians(30.0));
+  const double cosine = std::cos(glm::radians(crease_degrees));
   const MeshEdges edges(mesh, weld, corner_normals(mesh, weld, cosine), cosine);
   std::size_t found = 0;
   for (std::uint32_t t = 0; t < edges.triangles(); ++t)
@@ -336,10 +337,12 @@ std::size_t turning_edges(const Mesh& mesh) {
 }
 
 TEST(Clip, CurvedBodiesHaveNoCreasesHoweverCoarse) {
-  const Mesh wavy = wavy_sphere(24, 0.07);
-  EXPECT_GT(turning_edges(wavy), 40U) << "or there was nothing to find";
-  EXPECT_EQ(sharp_edges(wavy), 0U);
-  EXPECT_TRUE(scene_of(wavy, 5000, {.clip = true}).clip_pool.empty());
+  for (const auto& [n, waves] : {std::pair{20U, 0.1}, {24U, 0.07}, {32U, 0.05}}) {
+    const Mesh wavy = wavy_sphere(n, waves);
+    EXPECT_GT(turning_edges(wavy), 40U) << "or there was nothing to find";
+    EXPECT_EQ(sharp_edges(wavy), 0U) << n << ' ' << waves;
+  }
+  EXPECT_TRUE(scene_of(wavy_sphere(24, 0.07), 5000, {.clip = true}).clip_pool.empty());
 }
 
 TEST(Clip, EdgesThatStandOutAreKept) {
@@ -347,6 +350,50 @@ TEST(Clip, EdgesThatStandOutAreKept) {
   for (dvec3& place : cut.vertices.position) place.z = std::max(place.z, -0.6);
   EXPECT_GE(sharp_edges(cut), 2U * 48U * 9 / 10) << "of 48 edges, each on two triangles";
   EXPECT_EQ(sharp_edges(box(dvec3(1.0))), 24U);
+}
+
+/// Turns a line of radii and heights, from the axis to the axis, around z in `n` steps.
+Mesh lathe(const std::vector<glm::dvec2>& line, glm::uint n) {
+  std::vector<dvec3> places;
+  std::vector<glm::uvec3> triangles;
+  for (const glm::dvec2& at : line)
+    for (glm::uint i = 0; i < n; ++i)
+      places.emplace_back(at.x * std::cos(2.0 * M_PI * i / n), at.x * std::sin(2.0 * M_PI * i / n), at.y);
+  for (glm::uint ring = 0; ring + 1 < line.size(); ++ring)
+    for (glm::uint i = 0; i < n; ++i) {
+      const glm::uint a = ring * n + i, b = ring * n + (i + 1) % n;
+      if (line[ring].x > 0.0) triangles.push_back({a, b, a + n});
+      if (line[ring + 1].x > 0.0) triangles.push_back({b, b + n, a + n});
+    }
+  return mesh_of(places, triangles);
+}
+
+/// A cone whose side leans by this angle, 0 a cylinder's, and ends below at a chamfer that turns by `chamfer`; degrees.
+Mesh chamfered(double lean, double chamfer, glm::uint n) {
+  const double down = glm::radians(lean - chamfer);
+  const glm::dvec2 end(1.0 + 0.3 * std::sin(down), -0.3 * std::cos(down));
+  return lathe({{0.0, end.y}, end, {1.0, 0.0}, {1.0 - 2.0 * std::tan(glm::radians(lean)), 2.0}, {0.0, 2.0}},
+               n);
+}
+
+TEST(Clip, ChamfersAreCreasesHoweverCoarseTheCylinder) {
+  for (const glm::uint n : {16U, 24U, 48U})
+    for (const double lean : {0.0, 15.0})
+      for (const double chamfer : {33.0, 40.0})
+        EXPECT_EQ(sharp_edges(chamfered(lean, chamfer, n)), 2U * 3U * n)
+            << n << ' ' << lean << ' ' << chamfer;
+  for (const glm::uint n : {24U, 48U}) EXPECT_EQ(sharp_edges(chamfered(0.0, 25.0, n), 20.0), 2U * 3U * n);
+  EXPECT_GE(sharp_edges(chamfered(0.0, 45.0, 4)), 2U * 3U * 4U) << "a box's";
+}
+
+TEST(Clip, AToolsRoundEndIsNoCreaseAndItsChamferIs) {
+  std::vector<glm::dvec2> line{{0.0, 0.0}, {0.6, 0.0}, {0.6, 2.0}, {1.0, 2.6}};  // turns by 34 degrees
+  for (int step = 0; step < 9; ++step) {
+    const double angle = step * M_PI / 18.0;
+    line.emplace_back(std::cos(angle), 4.0 + std::sin(angle));
+  }
+  line.emplace_back(0.0, 5.0);
+  for (const glm::uint n : {16U, 32U}) EXPECT_EQ(sharp_edges(lathe(line, n)), 2U * 3U * n);
 }
 
 TEST(Clip, EdgesOfSmallPartsAreKeptBesideALargeOneWithout) {

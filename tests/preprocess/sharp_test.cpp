@@ -7,6 +7,7 @@
 #include <random>
 
 #include "preprocess/build.h"
+#include "preprocess/scan/survey.h"
 #include "tests/preprocess/discs.h"
 #include "tests/preprocess/shapes.h"
 
@@ -102,6 +103,26 @@ TEST(Sharp, NoiseAndSmoothShapesHaveNone) {
     EXPECT_EQ(smooth.stats.creased + smooth.stats.bordered, 0U);
     EXPECT_TRUE(smooth.scene.clip_pool.empty());
   }
+}
+
+SharpSides sharp_sides(InputObject object) {
+  BuildStats stats;
+  Cloud cloud = make_cloud(std::move(object.points), false, true, stats);
+  const Stage stage{"normals", {}};
+  const Survey survey = survey_points(cloud, {0, 0, 1}, stage);
+  return find_sharp(cloud, *survey.near, BuildParams{}.crease_degrees, survey.estimated, stage);
+}
+
+TEST(Sharp, MostPointsAreNotLookedAt) {
+  constexpr std::size_t BALL = 2000;  // so few that its normals differ beside each other
+  InputObject both = cube_points(0.0);
+  const std::size_t cube_size = both.points.position.size();
+  for (const dvec3& place : test::even_sphere(BALL).points.position)
+    both.points.position.push_back(place + dvec3(5.0, 0.0, 0.0));
+  const SharpSides cube = sharp_sides(cube_points(0.0)), all = sharp_sides(std::move(both));
+  EXPECT_LT(cube.looked_at, cube_size * 2 / 3) << "those that are far from edges";
+  EXPECT_LT(all.looked_at, cube.looked_at + BALL * 2 / 3) << "of what bends without a crease";
+  EXPECT_GE(all.sides.size(), cube.sides.size()) << "a crease is followed from any of its points";
 }
 
 TEST(Sharp, NothingDependsOnTheOrderOfPoints) {

@@ -97,27 +97,6 @@ std::vector<Crease> creases_where(const std::vector<Crease>& creases, const std:
   return gather(creases, numbers_where(creases.size(), [&](std::size_t i) { return kept[i] != 0; }));
 }
 
-/// Adds one to both places of an edge.
-void count_edge(const EdgeSide& side, std::vector<std::uint32_t>& edges_at) {
-  ++edges_at[side.places >> 32];
-  ++edges_at[static_cast<std::uint32_t>(side.places)];
-}
-
-/// Leaves out the creases' last edges where they end in the midst of the surface, one from each end.
-std::vector<Crease> without_ends(const std::vector<Crease>& creases, std::vector<std::uint32_t>& edges_at) {
-  std::vector<Crease> kept, ends;
-  for (const Crease& crease : creases) {
-    const auto from = static_cast<std::uint32_t>(crease.a.places >> 32);
-    const auto to = static_cast<std::uint32_t>(crease.a.places);
-    (edges_at[from] == 1 || edges_at[to] == 1 ? ends : kept).push_back(crease);
-  }
-  for (const Crease& crease : ends) {
-    --edges_at[crease.a.places >> 32];
-    --edges_at[static_cast<std::uint32_t>(crease.a.places)];
-  }
-  return kept;
-}
-
 /// Calls use(sides of an edge) for each edge.
 template <typename Use>
 void for_each_joint(const Mesh& mesh, const std::vector<glm::uint>& weld, const Use& use) {
@@ -146,20 +125,18 @@ MeshEdges::MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld,
     : beside_(3 * mesh.triangles.size(), NONE) {
   const CreaseTest test(mesh, weld, corners, crease_cosine);
   std::vector<Crease> creases;
-  std::vector<std::uint32_t> edges_at(weld.size(), 0);
+  std::vector<std::uint8_t> on_border(weld.size());
   for_each_joint(mesh, weld, [&](std::span<const EdgeSide> edge) {
     pair_up(edge);
-    if (edge.size() == 2 && test.smooth(edge[0], edge[1])) return;
-    if (edge.size() == 2)
+    if (edge.size() != 2)
+      on_border[edge[0].places >> 32] = on_border[static_cast<std::uint32_t>(edge[0].places)] = 1;
+    else if (!test.smooth(edge[0], edge[1]))
       creases.push_back({edge[0], edge[1], test.turn(edge[0], edge[1])});
-    else
-      count_edge(edge[0], edges_at);
   });
-  creases =
-      creases_where(creases, standing_out(mesh, beside_, turning_edges(creases), std::acos(crease_cosine)));
-  for (const Crease& crease : creases) count_edge(crease.a, edges_at);
-  for (int cut = 0; cut < TWIG; ++cut) creases = without_ends(creases, edges_at);
-  creases = creases_where(creases, bounding(mesh, beside_, turning_edges(creases)));
+  const auto keep = [&](const std::vector<std::uint8_t>& kept) { creases = creases_where(creases, kept); };
+  keep(standing_out(mesh, beside_, turning_edges(creases), std::acos(crease_cosine)));
+  keep(without_twigs(mesh, weld, on_border, turning_edges(creases)));
+  keep(bounding(mesh, beside_, turning_edges(creases)));
   for (const Crease& crease : creases)
     for (const EdgeSide& side : {crease.a, crease.b}) beside_side(side) |= END;
   any_ = any_ || !creases.empty();

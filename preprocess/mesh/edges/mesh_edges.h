@@ -25,13 +25,10 @@ class MeshEdges {
 
   static constexpr std::uint32_t NONE = 0xFFFFFFFFU;
 
-  static constexpr int TWIG = 3;
-
   /// `weld` is weld_positions of the vertices, `corners` corner_normals. An edge ends the surface where one triangle has it, or
   /// more than two; it is a crease where two triangles turn by more than the angle of `crease_cosine`, and their corners have
   /// different normals there: what is shaded smoothly is no crease. Triangles without area join whatever they touch. Edges that
-  /// do not stand out of a curved surface (standing_out) are none. Creases of at most TWIG edges that end on both sides in the
-  /// midst of the surface, as noise has them, are none; longer ones lose TWIG edges where they end. Nor are those that are too
+  /// do not stand out of a curved surface (standing_out) are none, nor are creases that do not go on (without_twigs) or are too
   /// short, all together, to bound anything on their part of the mesh (bounding).
   MeshEdges(const Mesh& mesh, const std::vector<glm::uint>& weld, const std::vector<glm::vec3>& corners,
             double crease_cosine);
