@@ -156,6 +156,7 @@ int run(int argc, char** argv) {
   const bool is_new = is_point_output(output.path) || !options.change_from.empty();
   note_inputs(options.request);
   note_input(options.change_from);
+  require_inputs_present(options.request);
   claim_output(output.path);
   if (!output.stats_json.empty()) claim_output(output.stats_json);
   require_writable(output.path);

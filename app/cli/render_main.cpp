@@ -95,6 +95,7 @@ int render(int argc, char** argv) {
   const Sequence sequence = plan_sequence(asked);
   if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
   note_inputs(asked);
+  require_inputs_present(asked);
   claim_outputs(asked, sequence);
   require_outputs_writable(asked);
   require_picture_memory(asked);

@@ -4,13 +4,13 @@
 
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
+#include "app/library/codec/picture_format.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/picture/series/run_files.h"
 #include "app/library/request/request_json.h"
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/file_roles.h"
-#include "preprocess/base/file_extension.h"
 
 namespace splatray {
 namespace {
@@ -49,7 +49,7 @@ Request base_request(const RequestFiles& files, const std::vector<FieldText>& va
   request.output.path.replace_extension(".again" + files.picture.extension().string());
   const auto output = std::find_if(values.rbegin(), values.rend(),
                                    [](const FieldText& value) { return value.name == "output"; });
-  if (output != values.rend() && lower_extension(output->text) == ".png")
+  if (output != values.rend() && is_display_format(output->text))
     assign(request, std::vector<FieldText>{{"aov", ""}}, DOOR_RENDER);
   return request;
 }
@@ -74,7 +74,8 @@ std::optional<GivenRequest> parse_render_options(int argc, char** argv) {
       return write_text_file(request_json(request), files.save_request), std::nullopt;
     }
     if (request.output.path.empty())
-      throw Error(ExitCode::usage, "found no output, expected -o with a .png or .exr file");
+      throw Error(ExitCode::usage,
+                  std::string("found no output, expected -o with a file of ") + PICTURE_NAMES);
   }
   return GivenRequest{std::move(request), std::move(given.notes)};
 }

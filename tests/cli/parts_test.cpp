@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -169,6 +170,27 @@ TEST_F(CliParts, ACropIsThatPartOfThePicture) {
   EXPECT_EQ(read_display_image(file("crop.png"), {}).width, 11U);
 }
 
+TEST_F(CliParts, ADenoisedCropIsFilteredByItself) {
+  const std::vector<std::string> crop{"--crop=13,7,11,9", "--aov=normal"};
+  for (const std::string option : {"--denoise", "--despeckle"}) {
+    for (const std::string look : {"lit", "clay"}) {
+      ASSERT_EQ(make("noisy.exr", {crop[0], crop[1], "--look=" + look}).code, 0);
+      const ChildResult result = make("crop.exr", {crop[0], crop[1], "--look=" + look, option});
+      ASSERT_EQ(result.code, 0) << result.err;
+      const ExrPicture made = read_exr(file("crop.exr")), noisy = read_exr(file("noisy.exr"));
+      EXPECT_EQ(made.window, (PixelWindow{13, 7, 11, 9}));
+      ASSERT_EQ(made.values.size(), noisy.values.size());
+      for (std::size_t i = 0; i < made.values.size(); ++i) ASSERT_TRUE(std::isfinite(made.values[i])) << i;
+      EXPECT_TRUE(option != "--denoise" || made.values != noisy.values) << look;
+    }
+    expect_refused(
+        [&] {
+          return merge({file("crop.exr"), "-o", file("out.exr")});
+        },
+        3, "noise was taken out");
+  }
+}
+
 TEST_F(CliParts, PartsThatDoNotMakeAPictureAreRefused) {
   ASSERT_EQ(make("a.exr", {"--tile=1/2"}).code, 0);
   ASSERT_EQ(make("b.exr", {"--tile=2/2"}).code, 0);
@@ -233,6 +255,7 @@ TEST_F(CliParts, OptionsThatNeedTheWholePictureAreRefused) {
   refused({"--tile=1/31"}, "30 rows");
   refused({"--tile=1/4", "--crop=0,0,1,1"}, "one of them");
   refused({"--tile=1/4", "--denoise"}, "a whole picture");
+  refused({"--tile=1/4", "--despeckle"}, "a whole picture");
   refused({"--tile=1/4", "--error=0.1"}, "--samples");
 }
 
