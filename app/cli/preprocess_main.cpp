@@ -48,12 +48,22 @@ bool parse(int argc, char** argv, Options& options) {
            "scene file to write (.soct), or its points with normals, radii and attributes (.ply, .las, .csv, "
            ".vtp)");
   list.require("--output");
+  list.set_brief("--output", "a scene (.soct), or points: .ply, .las, .csv, .vtp");
   list.add_switch(
       "--keep-dropped", options.keep_dropped,
       "with -o of points: those that the scene leaves out are written too, as class 7 (low noise)");
   add_path(list, "--change-from", options.change_from,
            "an earlier scan or scene: adds the attribute change, how far each point lies before (+) or "
            "behind (-) its surface");
+  list.set_brief("--attributes", "further attributes to keep: extra bytes, columns");
+  list.set_brief("--keep-withheld", "keep points marked as deleted or as noise");
+  list.set_brief("--smooth", "how noise is smoothed; default as it asks for");
+  list.set_brief("--z-scale", "factor on heights: 0.3048 for feet beside metres");
+  list.set_brief("--change-from", "an earlier scan: how far each point lies from it");
+  list.set_examples(
+      {{"splatray-preprocess survey.laz -o survey.soct", "read once, show as often as you like"},
+       {"splatray-preprocess rooms/*.e57 -o rooms.soct", "several scans in one scene"},
+       {"splatray-preprocess survey.laz -o clean.las", "its cleaned points, with normals and radii"}});
   if (!list.parse(argc, argv)) return false;
   assign(request, given, DOOR_PREPROCESS);
   options.notes = given.notes;

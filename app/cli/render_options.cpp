@@ -22,8 +22,6 @@ struct RequestFiles {
 
 void add_request_files(OptionList& list, RequestFiles& files) {
   list.set_group(group_title(FieldGroup::files));
-  list.add_answer(
-      "--version", [] { return SPLATRAY_VERSION; }, "print the version");
   add_path(
       list, "--from", files.picture,
       "make this picture again, from the request kept in it; options beside it replace parts of that, -o "
@@ -34,6 +32,7 @@ void add_request_files(OptionList& list, RequestFiles& files) {
            "parts of it");
   add_path(list, "--save-request", files.save_request,
            "write all that is asked for here, as --request reads it, and end");
+  list.set_brief("--from", "make this picture again, with the options beside it");
 }
 
 /// What the options stand on: the request of a picture or of a file.
@@ -62,6 +61,12 @@ std::optional<GivenRequest> parse_render_options(int argc, char** argv) {
   RequestFiles files;
   add_fields(list, DOOR_RENDER, "SCENE", given);
   add_request_files(list, files);
+  list.set_examples({{"splatray-render survey.laz -o survey.png",
+                      "view, colours, light and exposure follow from what the scan is of"},
+                     {"splatray-render room.e57 -o room.png --view dollhouse --samples 64",
+                      "into a room from above, with less noise"},
+                     {"splatray-render --from room.png -o poster.png --resolution 3840x2160",
+                      "the same picture again, larger"}});
   if (!list.parse(argc, argv)) return {};
   Request request = base_request(files, given.values);
   assign(request, given, DOOR_RENDER);
