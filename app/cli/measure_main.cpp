@@ -5,6 +5,7 @@
 #include "app/cli/load_reporting.h"
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
+#include "app/cli/typical_work.h"
 #include "app/library/measure/measure_file.h"
 #include "app/library/picture/measuring.h"
 #include "app/library/picture/scene_source.h"
@@ -96,7 +97,7 @@ int run(int argc, char** argv) {
   const std::optional<Asked> asked = parse(argc, argv);
   if (!asked) return static_cast<int>(ExitCode::done);
   catch_interrupts();
-  ProgressLine line(/*quiet=*/false);
+  ProgressLine line(/*quiet=*/false, ProgressStyle::line, work_of_scene(asked->request.source));
   LoadedScene loaded = load_reporting(asked->request, "splatray-measure", line);
   if (kind_of_scan(loaded.scene) == SceneKind::camera)
     std::fprintf(

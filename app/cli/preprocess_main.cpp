@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
+#include "app/cli/typical_work.h"
 #include "app/library/picture/change.h"
 #include "app/library/picture/series/run_files.h"
 #include "engine/base/crs.h"
@@ -174,7 +176,9 @@ int run(int argc, char** argv) {
   catch_interrupts();
   keep_freed_memory();
 
-  ProgressLine line(/*quiet=*/false);
+  WorkPlan plan = work_of_scene(options.request.source);
+  plan.push_back({"writing", 2});
+  ProgressLine line(/*quiet=*/false, ProgressStyle::line, std::move(plan));
   const Progress progress = watching_memory([&](const char* stage, double share) {
     line.show(stage, share);
     return !interrupted();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <utility>
 
 #include "app/library/image_file.h"
@@ -32,6 +33,13 @@ class CliParts : public CliTest {
   static std::string read_file(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  /// Points of a wavy ground as text, without normals.
+  [[nodiscard]] static std::string scattered() {
+    std::ostringstream text;
+    for (int i = 0; i < 2500; ++i) text << i % 50 << ' ' << i / 50 << ' ' << std::sin(0.2 * i) << '\n';
+    return text.str();
   }
 
   std::string grid;
@@ -269,10 +277,40 @@ TEST_F(CliParts, ProgressIsReportedAsAsked) {
   const auto progress = [&](const std::string& style) {
     return run_program({RENDER, grid, "-o", file("p.png"), "--resolution=40x30", "--progress=" + style});
   };
-  EXPECT_NE(progress("json").err.find("{\"stage\": \"tracing\", \"share\": 1.00}"), std::string::npos);
+  EXPECT_NE(progress("json").err.find("{\"stage\": \"tracing\", \"share\": 1.00, \"total\": 1.00}\n"),
+            std::string::npos);
   EXPECT_NE(progress("plain").err.find("tracing 100 %\n"), std::string::npos);
   EXPECT_NE(progress("openjd").out.find("openjd_status: tracing\nopenjd_progress: 100\n"), std::string::npos);
   EXPECT_EQ(progress("line").err.find("100 %"), std::string::npos) << "no terminal";
+}
+
+TEST_F(CliParts, ProgressNeverFallsAndCountsItsStages) {
+  const std::string err =
+      run_program({RENDER, write("bare.xyz", scattered()), "-o", file("p.####.png"), "--turntable=3",
+                   "--device=cpu", "--resolution=40x30", "--progress=json"})
+          .err;
+  double total = 0.0, share = 0.0;
+  std::string stage;
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("{\"stage\": \"")) continue;
+    const std::string name = line.substr(11, line.find("\", ") - 11);
+    const double now = std::stod(line.substr(line.find("\"total\": ") + 9));
+    const double part = std::stod(line.substr(line.find("\"share\": ") + 9));
+    EXPECT_GE(now, total) << err;
+    EXPECT_TRUE(part >= share || name != stage) << line;
+    EXPECT_LT(line.size(), 80U);
+    total = now, share = part, stage = name;
+  }
+  EXPECT_EQ(total, 1.0) << err;
+  const std::string last = "\"stage\": \"frame 2\", \"share\": ";
+  ASSERT_NE(err.find(last), std::string::npos) << err;
+  EXPECT_GE(std::stod(err.substr(err.find(last) + last.size())), 0.66) << "of all frames";
+  const std::string plain = run_program({RENDER, grid, "-o", file("p.png"), "--resolution=40x30",
+                                         "--device=cpu", "--progress=plain"})
+                                .err;
+  EXPECT_NE(plain.find("1/9 reading "), std::string::npos) << plain;
+  EXPECT_NE(plain.find("9/9 tracing 100 %\n"), std::string::npos) << plain;
 }
 
 }  // namespace
