@@ -5,6 +5,7 @@
 #include "app/cli/load_reporting.h"
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
+#include "app/cli/typical_work.h"
 #include "app/library/measure/measure_file.h"
 #include "app/library/picture/measuring.h"
 #include "app/library/picture/scene_source.h"
@@ -34,6 +35,7 @@ constexpr const char* PLACES =
 void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
   list.set_group("Measures");
   const auto add = [&](MeasureKind kind, const std::string& help, const char* value) {
+    const std::string brief = help.substr(0, help.find(';'));
     const std::string name = std::string("--") + measure_name(kind);
     list.add_repeated(
         name,
@@ -45,6 +47,7 @@ void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
           }
         },
         help, value);
+    list.set_brief(name, brief);
   };
   add(MeasureKind::point, std::string("coordinates of a place") + PLACES, "PLACE");
   add(MeasureKind::distance, "distance along two places and more", "PLACE;PLACE...");
@@ -69,8 +72,13 @@ std::optional<Asked> parse(int argc, char** argv) {
   list.set_group("Files");
   add_path(list, "-o,--output", asked.output,
            "file to write: .geojson, .dxf or .csv; default: a table on stdout");
-  list.add_answer(
-      "--version", [] { return SPLATRAY_VERSION; }, "print the version");
+  list.set_brief("--output", "file to write: .geojson, .dxf or .csv");
+  list.set_examples({{"splatray-measure room.e57 --distance '0,0,0>1,0,0;0,0,0>-1,0,0'",
+                      "from wall to wall, along rays from the scanner"},
+                     {"splatray-measure room.e57 --height '1,2,0;1,2,2.5' --point 1,2,0",
+                      "a height between two places, and one of them"},
+                     {"splatray-measure pipes.laz --cylinder '4.1,0.3,1.2;0.15' -o pipe.dxf",
+                      "a pipe's radius, for a drawing"}});
   if (!list.parse(argc, argv)) return {};
   assign(asked.request, given, DOOR_RENDER);
   require_inputs(asked.request.source);
@@ -89,7 +97,7 @@ int run(int argc, char** argv) {
   const std::optional<Asked> asked = parse(argc, argv);
   if (!asked) return static_cast<int>(ExitCode::done);
   catch_interrupts();
-  ProgressLine line(/*quiet=*/false);
+  ProgressLine line(/*quiet=*/false, ProgressStyle::line, work_of_scene(asked->request.source));
   LoadedScene loaded = load_reporting(asked->request, "splatray-measure", line);
   if (kind_of_scan(loaded.scene) == SceneKind::camera)
     std::fprintf(

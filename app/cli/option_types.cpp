@@ -16,9 +16,9 @@ void add_text(OptionList& list, const std::string& name, std::string& target, co
 }
 
 void add_path(OptionList& list, const std::string& name, std::filesystem::path& target,
-              const std::string& help) {
+              const std::string& help, const std::string& value_name) {
   list.add_value(
-      name, [&target](const std::string& text) { target = text; }, help, "FILE");
+      name, [&target](const std::string& text) { target = text; }, help, value_name);
 }
 
 }  // namespace splatray

@@ -30,9 +30,9 @@ template <typename Number>
 void add_text(OptionList& list, const std::string& name, std::string& target, const std::string& help,
               const std::string& value_name = "TEXT");
 
-/// A file or folder.
+/// A file, or a folder where that is the value's name.
 void add_path(OptionList& list, const std::string& name, std::filesystem::path& target,
-              const std::string& help);
+              const std::string& help, const std::string& value_name = "FILE");
 
 /// A number in [least, most].
 template <typename Number>

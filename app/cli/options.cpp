@@ -30,7 +30,10 @@ void add_fields(OptionList& list, FieldDoors door, const std::string& inputs, Gi
     list.set_group(group_title(field.group));
     const std::string dashed = "--" + field.name;
     const std::string name = field.letter.empty() ? dashed : field.letter + "," + dashed;
-    add_option(list, field, field.name == "inputs" ? inputs : name, given, "");
+    const bool is_input = field.name == "inputs";
+    add_option(list, field, is_input ? inputs : name, given, "");
+    list.set_brief(is_input ? inputs : dashed, field.brief);
+    list.set_extensions(is_input ? inputs : dashed, field.extensions);
     list.set_group("");
     for (const std::string& old : field.old_names)
       if (find_field(old, door) == &field)

@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
+#include "app/cli/typical_work.h"
 #include "app/library/picture/change.h"
 #include "app/library/picture/series/run_files.h"
 #include "engine/base/crs.h"
@@ -48,12 +50,22 @@ bool parse(int argc, char** argv, Options& options) {
            "scene file to write (.soct), or its points with normals, radii and attributes (.ply, .las, .csv, "
            ".vtp)");
   list.require("--output");
+  list.set_brief("--output", "a scene (.soct), or points: .ply, .las, .csv, .vtp");
   list.add_switch(
       "--keep-dropped", options.keep_dropped,
       "with -o of points: those that the scene leaves out are written too, as class 7 (low noise)");
   add_path(list, "--change-from", options.change_from,
            "an earlier scan or scene: adds the attribute change, how far each point lies before (+) or "
            "behind (-) its surface");
+  list.set_brief("--attributes", "further attributes to keep: extra bytes, columns");
+  list.set_brief("--keep-withheld", "keep points marked as deleted or as noise");
+  list.set_brief("--smooth", "how noise is smoothed; default as it asks for");
+  list.set_brief("--z-scale", "factor on heights: 0.3048 for feet beside metres");
+  list.set_brief("--change-from", "an earlier scan: how far each point lies from it");
+  list.set_examples(
+      {{"splatray-preprocess survey.laz -o survey.soct", "read once, show as often as you like"},
+       {"splatray-preprocess rooms/*.e57 -o rooms.soct", "several scans in one scene"},
+       {"splatray-preprocess survey.laz -o clean.las", "its cleaned points, with normals and radii"}});
   if (!list.parse(argc, argv)) return false;
   assign(request, given, DOOR_PREPROCESS);
   options.notes = given.notes;
@@ -156,6 +168,7 @@ int run(int argc, char** argv) {
   const bool is_new = is_point_output(output.path) || !options.change_from.empty();
   note_inputs(options.request);
   note_input(options.change_from);
+  require_inputs_present(options.request);
   claim_output(output.path);
   if (!output.stats_json.empty()) claim_output(output.stats_json);
   require_writable(output.path);
@@ -163,7 +176,9 @@ int run(int argc, char** argv) {
   catch_interrupts();
   keep_freed_memory();
 
-  ProgressLine line(/*quiet=*/false);
+  WorkPlan plan = work_of_scene(options.request.source);
+  plan.push_back({"writing", 2});
+  ProgressLine line(/*quiet=*/false, ProgressStyle::line, std::move(plan));
   const Progress progress = watching_memory([&](const char* stage, double share) {
     line.show(stage, share);
     return !interrupted();

@@ -6,6 +6,7 @@
 #include "app/cli/load_reporting.h"
 #include "app/cli/render_options.h"
 #include "app/cli/stats_json.h"
+#include "app/cli/typical_work.h"
 #include "app/library/image_file.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/picture_notes.h"
@@ -62,16 +63,15 @@ void report_choices(const Request& asked, const Request& request, const LoadedSc
 }
 
 /// Writes the run's progress and sentences to stderr.
-SequenceListener reporting_on(ProgressLine& progress, const Request& request) {
+SequenceListener reporting_on(ProgressLine& progress, const Request& request, std::size_t pictures) {
   const auto say = [&progress](const std::string& sentence) {
     progress.clear();
     std::fprintf(stderr, "splatray-render: %s\n", sentence.c_str());
   };
-  return {[&](const SequenceFrame& frame, std::size_t, double share) {
-            progress.show(request.output.many() || request.output.orbit_columns > 0
-                              ? "frame " + std::to_string(frame.number)
-                              : "tracing",
-                          share);
+  return {[&progress, &request, pictures](const SequenceFrame& frame, std::size_t before, double share) {
+            const bool several = request.output.many() || request.output.orbit_columns > 0;
+            const double all = (static_cast<double>(before) + share) / static_cast<double>(pictures);
+            progress.show("tracing", all, several ? "frame " + std::to_string(frame.number) : "");
             return true;
           },
           [&request, say](const std::string& note) {
@@ -95,6 +95,7 @@ int render(int argc, char** argv) {
   const Sequence sequence = plan_sequence(asked);
   if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
   note_inputs(asked);
+  require_inputs_present(asked);
   claim_outputs(asked, sequence);
   require_outputs_writable(asked);
   require_picture_memory(asked);
@@ -108,7 +109,7 @@ int render(int argc, char** argv) {
 
   // After the driver is there, as one library is loaded at a time.
   const std::future<void> codec = std::async(std::launch::async, load_image_codec);
-  ProgressLine progress(asked.output.quiet, asked.output.progress);
+  ProgressLine progress(asked.output.quiet, asked.output.progress, work_of_pictures(asked, sequence));
   LoadedScene loaded = load_reporting(asked, "splatray-render", progress);
   Request request = suited(asked, loaded);
   for (const std::string& sentence : ignored_options(asked, choose_look(loaded.scene, request)))
@@ -124,7 +125,7 @@ int render(int argc, char** argv) {
   expose(sequence, shown, still, request);
   report_choices(asked, request, loaded);
   times.upload_ms = watch.lap_ms();
-  const SequenceListener listener = reporting_on(progress, request);
+  const SequenceListener listener = reporting_on(progress, request, pictures_of(request, sequence));
   const SequenceRecord record = request.output.orbit_columns > 0
                                     ? render_orbit(request, shown, still, listener)
                                     : render_sequence(request, sequence, shown, still, listener);

@@ -4,13 +4,13 @@
 
 #include "app/cli/option_types.h"
 #include "app/cli/options.h"
+#include "app/library/codec/picture_format.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/picture/series/run_files.h"
 #include "app/library/request/request_json.h"
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/file_roles.h"
-#include "preprocess/base/file_extension.h"
 
 namespace splatray {
 namespace {
@@ -22,8 +22,6 @@ struct RequestFiles {
 
 void add_request_files(OptionList& list, RequestFiles& files) {
   list.set_group(group_title(FieldGroup::files));
-  list.add_answer(
-      "--version", [] { return SPLATRAY_VERSION; }, "print the version");
   add_path(
       list, "--from", files.picture,
       "make this picture again, from the request kept in it; options beside it replace parts of that, -o "
@@ -34,6 +32,7 @@ void add_request_files(OptionList& list, RequestFiles& files) {
            "parts of it");
   add_path(list, "--save-request", files.save_request,
            "write all that is asked for here, as --request reads it, and end");
+  list.set_brief("--from", "make this picture again, with the options beside it");
 }
 
 /// What the options stand on: the request of a picture or of a file.
@@ -49,7 +48,7 @@ Request base_request(const RequestFiles& files, const std::vector<FieldText>& va
   request.output.path.replace_extension(".again" + files.picture.extension().string());
   const auto output = std::find_if(values.rbegin(), values.rend(),
                                    [](const FieldText& value) { return value.name == "output"; });
-  if (output != values.rend() && lower_extension(output->text) == ".png")
+  if (output != values.rend() && is_display_format(output->text))
     assign(request, std::vector<FieldText>{{"aov", ""}}, DOOR_RENDER);
   return request;
 }
@@ -62,6 +61,12 @@ std::optional<GivenRequest> parse_render_options(int argc, char** argv) {
   RequestFiles files;
   add_fields(list, DOOR_RENDER, "SCENE", given);
   add_request_files(list, files);
+  list.set_examples({{"splatray-render survey.laz -o survey.png",
+                      "view, colours, light and exposure follow from what the scan is of"},
+                     {"splatray-render room.e57 -o room.png --view dollhouse --samples 64",
+                      "into a room from above, with less noise"},
+                     {"splatray-render --from room.png -o poster.png --resolution 3840x2160",
+                      "the same picture again, larger"}});
   if (!list.parse(argc, argv)) return {};
   Request request = base_request(files, given.values);
   assign(request, given, DOOR_RENDER);
@@ -74,7 +79,8 @@ std::optional<GivenRequest> parse_render_options(int argc, char** argv) {
       return write_text_file(request_json(request), files.save_request), std::nullopt;
     }
     if (request.output.path.empty())
-      throw Error(ExitCode::usage, "found no output, expected -o with a .png or .exr file");
+      throw Error(ExitCode::usage,
+                  std::string("found no output, expected -o with a file of ") + PICTURE_NAMES);
   }
   return GivenRequest{std::move(request), std::move(given.notes)};
 }

@@ -4,6 +4,7 @@
 #include "app/cli/option_list.h"
 #include "app/cli/option_types.h"
 #include "app/farm/join_tiles.h"
+#include "app/library/codec/picture_format.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/reproduce.h"
 #include "engine/base/error.h"
@@ -29,19 +30,24 @@ bool parse(int argc, char** argv, Options& options) {
   list.add_paths("PART", options.parts,
                  "an EXR with a part of the picture; each sample of each pixel must be in one", "FILE");
   list.require("PART");
-  add_path(
-      list, "-o,--output", options.output,
-      "the picture: .exr, the very file that one splatray-render writes, or .png with its exposure and tone");
+  list.set_extensions("PART", ".exr");
+  list.set_brief("PART", "EXRs, each with a part of the picture");
+  add_path(list, "-o,--output", options.output,
+           "the picture: .exr, the very file that one splatray-render writes, or .png, .jpg or .webp with "
+           "its exposure and tone");
   list.require("--output");
+  list.set_brief("--output", "the picture: .exr, .png, .jpg or .webp");
   list.add_switch("--mixed-devices", options.mixed_devices,
                   "join parts of several devices or drivers, whose samples may differ");
-  list.add_answer(
-      "--version", [] { return SPLATRAY_VERSION; }, "print the version");
+  list.set_brief("--mixed-devices", "join parts of several devices or drivers");
+  list.set_examples(
+      {{"splatray-merge part.*.exr -o picture.exr", "the very file that one process would have written"},
+       {"splatray-merge part.1.exr part.2.exr -o picture.png", "with the exposure and tone of the parts"},
+       {"splatray-merge part.*.exr -o picture.exr --mixed-devices", "of machines with other drivers"}});
   if (!list.parse(argc, argv)) return false;
-  const std::string extension = lower_extension(options.output);
-  if (extension != ".exr" && extension != ".png")
-    throw Error(ExitCode::usage,
-                "found output '" + options.output.string() + "', expected -o with a .png or .exr file");
+  if (!is_picture_format(options.output))
+    throw Error(ExitCode::usage, "found output '" + options.output.string() +
+                                     "', expected -o with a file of " + PICTURE_NAMES);
   return true;
 }
 
@@ -51,6 +57,7 @@ int merge(int argc, char** argv) {
   std::for_each(options.parts.begin(), options.parts.end(), note_input);
   claim_output(options.output);
   require_writable(options.output);
+  require_picture_writer(options.output);
   catch_interrupts();
   const ExrPicture picture = join_tiles(options.parts, options.mixed_devices);
   if (lower_extension(options.output) == ".exr") {

@@ -7,6 +7,7 @@
 
 #include "app/library/palette.h"
 #include "engine/base/error.h"
+#include "engine/base/nearest_name.h"
 #include "engine/base/number_text.h"
 #include "engine/base/rank.h"
 #include "engine/base/srgb.h"
@@ -278,7 +279,8 @@ AttributeColors color_by(const Scene& scene, const AttributeOptions& options) {
   const std::vector<std::string> sources = color_sources(scene);
   if (std::find(sources.begin(), sources.end(), options.color_by) == sources.end())
     throw Error(ExitCode::usage, "--color-by: found '" + options.color_by +
-                                     "', expected what the scene's points have: " + joined(sources));
+                                     "', expected what the scene's points have: " + joined(sources) +
+                                     did_you_mean(options.color_by, sources));
   if (options.color_by == "normal") return normal_colors(scene);
   if (options.color_by == HEIGHT_AND_INTENSITY) return relief_colors(scene, options);
   if (const Column* column = find_column(scene.columns, options.color_by); column && has_categories(*column))

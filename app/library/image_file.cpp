@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/library/codec/image_codec.h"
+#include "app/library/codec/picture_format.h"
 #include "app/library/exr_check.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
@@ -131,6 +132,13 @@ Metadata metadata_of(const PictureHeader& header) {
   return metadata;
 }
 
+/// What writes WebP.
+const ImageCodec& webp_codec() {
+  static const ImageCodec& loaded = load_codec("splatray_oiio", ExitCode::failed,
+                                               "cannot load what writes WebP", ": the package splatray-oiio");
+  return loaded;
+}
+
 /// A picture's file in memory; `name` is what to call it where that fails.
 std::vector<unsigned char> encode(PictureHeader header, const Metadata& metadata, const void* values,
                                   const char* format, const std::string& name) {
@@ -139,25 +147,26 @@ std::vector<unsigned char> encode(PictureHeader header, const Metadata& metadata
   for (const auto& [key, value] : sorted) header.attributes.emplace_back(PREFIX + key, value);
   std::vector<unsigned char> bytes;
   std::string reason;
-  if (!codec().encode(format, header, values, bytes, reason))
+  const ImageCodec& writer = std::strcmp(format, "webp") == 0 ? webp_codec() : codec();
+  if (!writer.encode(format, header, values, bytes, reason))
     throw Error(ExitCode::failed, "cannot write " + name + ": " + reason);
   return bytes;
 }
 
-/// What a PNG's file holds beside its metadata.
-struct PngContents {
+/// What the file of a display format holds beside its metadata.
+struct DisplayContents {
   PictureHeader header;
   std::vector<std::uint8_t> bytes;
 };
 
-PngContents png_contents(const DisplayImage& image) {
-  PngContents contents{{.width = static_cast<int>(image.width),
-                        .height = static_cast<int>(image.height),
-                        .channels = {"R", "G", "B"},
-                        .integers = true,
-                        .attributes = {{"oiio:ColorSpace", "sRGB"}},
-                        .dots_per_inch = image.dots_per_inch},
-                       {}};
+DisplayContents display_contents(const DisplayImage& image) {
+  DisplayContents contents{{.width = static_cast<int>(image.width),
+                            .height = static_cast<int>(image.height),
+                            .channels = {"R", "G", "B"},
+                            .integers = true,
+                            .attributes = {{"oiio:ColorSpace", "sRGB"}},
+                            .dots_per_inch = image.dots_per_inch},
+                           {}};
   const auto put = [&contents](float value) {
     contents.bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * value)));
   };
@@ -180,14 +189,27 @@ void write_png(const DisplayImage& image, const Metadata& metadata, const std::f
 }
 
 std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata& metadata) {
-  PngContents contents = png_contents(image);
+  DisplayContents contents = display_contents(image);
   return encode(std::move(contents.header), metadata, contents.bytes.data(), "png", "a PNG");
 }
 
-std::vector<unsigned char> encode_jpeg(DisplayImage image) {
+std::vector<unsigned char> encode_jpeg(DisplayImage image, const Metadata& metadata, int quality) {
   image.alpha.clear();
-  PngContents contents = png_contents(image);
-  return encode(std::move(contents.header), {}, contents.bytes.data(), "jpeg", "a JPEG");
+  DisplayContents contents = display_contents(image);
+  contents.header.quality = quality;
+  return encode(std::move(contents.header), metadata, contents.bytes.data(), "jpeg", "a JPEG");
+}
+
+std::vector<unsigned char> encode_display(const DisplayImage& image, const Metadata& metadata,
+                                          const std::filesystem::path& path) {
+  if (is_jpeg(path)) return encode_jpeg(image, metadata);
+  if (!is_webp(path)) return encode_png(image, metadata);
+  DisplayContents contents = display_contents(image);
+  return encode(std::move(contents.header), metadata, contents.bytes.data(), "webp", "a WebP");
+}
+
+void require_picture_writer(const std::filesystem::path& path) {
+  if (is_webp(path)) static_cast<void>(webp_codec());
 }
 
 ExrPicture exr_picture(const Image& image, AovSet aovs, const Metadata& metadata) {
@@ -282,6 +304,7 @@ bool is_whole_picture(const std::filesystem::path& path) {
   const std::string png_end{"\0\0\0\0IEND\xAE\x42\x60\x82", 12};
   std::ifstream file(path, std::ios::binary);
   if (has_bytes(file, 0, "\x89PNG")) return has_bytes(file, -12, png_end);
+  if (has_bytes(file, 0, "\xFF\xD8\xFF")) return has_bytes(file, -2, "\xFF\xD9");
   PictureHeader header;
   std::string damage;
   const PixelSink nowhere = [](const float*, std::size_t) {};

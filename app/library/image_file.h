@@ -1,4 +1,4 @@
-/// Pictures in files: PNG and EXR out, pictures and environment maps in.
+/// Pictures in files: PNG, JPEG, WebP and EXR out, pictures and environment maps in.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -14,11 +14,12 @@
 
 namespace splatray {
 
-/// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, their names after "splatray.".
+/// Names and values kept in the file: attributes of an EXR, text chunks of a PNG, comments of a JPEG, a chunk of a WebP; their names
+/// after "splatray.".
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-/// Bytes a pixel that writing a picture takes beside it, at most: a PNG, or an EXR by its count of channels.
-inline constexpr std::uint64_t PNG_WRITING_BYTES = sizeof(vec3) + sizeof(float) + 3 * 4;
+/// Bytes a pixel that writing a picture takes beside it, at most: of a display format (picture_format.h), or an EXR by its count of channels.
+inline constexpr std::uint64_t DISPLAY_WRITING_BYTES = sizeof(vec3) + sizeof(float) + 3 * 4;
 [[nodiscard]] constexpr std::uint64_t exr_writing_bytes(std::size_t channels) {
   return 2 * sizeof(float) * channels;
 }
@@ -29,8 +30,15 @@ void write_png(const DisplayImage& image, const Metadata& metadata, const std::f
 
 /// The bytes that write_png writes.
 [[nodiscard]] std::vector<unsigned char> encode_png(const DisplayImage& image, const Metadata& metadata);
-/// A JPEG's, without alpha.
-[[nodiscard]] std::vector<unsigned char> encode_jpeg(DisplayImage image);
+/// A JPEG's, without alpha; `quality` 1 to 100, of which 95 shows no blocks.
+[[nodiscard]] std::vector<unsigned char> encode_jpeg(DisplayImage image, const Metadata& metadata = {},
+                                                     int quality = 95);
+/// The bytes of a file of a display format (picture_format.h), by its name; of a JPEG or WebP of quality 95. Throws Error (failed):
+/// WebP needs the library that OpenImageIO is in.
+[[nodiscard]] std::vector<unsigned char> encode_display(const DisplayImage& image, const Metadata& metadata,
+                                                        const std::filesystem::path& path);
+/// Throws Error (failed), which says what to install, where what writes this file's format is not there.
+void require_picture_writer(const std::filesystem::path& path);
 
 /// The channels of a picture, or of a part of it, as an EXR holds them.
 struct ExrPicture {
@@ -57,11 +65,11 @@ void write_exr(const Image& image, AovSet aovs, const Metadata& metadata, const 
 /// Its window's colours and coverage alone; black where it lacks their channels.
 [[nodiscard]] Image image_of(const ExrPicture& picture);
 
-/// Whether the file was written completely: a PNG has its end, of other pictures the last row can be read. Throws Error (failed)
-/// when the library for pictures cannot be loaded, which it is but for PNG.
+/// Whether the file was written completely: a PNG or JPEG has its end, of other pictures the last row can be read. Throws Error (failed)
+/// when the library for pictures cannot be loaded, which it is but for these.
 [[nodiscard]] bool is_whole_picture(const std::filesystem::path& path);
 
-/// Reads what write_png or write_exr kept; empty for pictures of others. Throws Error (input_unreadable) with path,
+/// Reads what encode_display or write_exr kept; empty for pictures of others. Throws Error (input_unreadable) with path,
 /// found and expected.
 [[nodiscard]] Metadata read_metadata(const std::filesystem::path& path);
 

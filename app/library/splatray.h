@@ -296,13 +296,13 @@ struct SPLATRAY_API Image {
   std::vector<std::int32_t> object{};  ///< -1 on a miss; likewise
   /// Estimated error of the radiance, the root of the mean square of r, g, b; empty unless "aov" has error.
   std::vector<float> error{};
-  /// Brightness of a .png, stops, and its tone curve, "neutral", "agx", "soft" or "none": as asked for, or what suits the
+  /// Brightness of what is no .exr, stops, and its tone curve, "neutral", "agx", "soft" or "none": as asked for, or what suits the
   /// picture.
   double exposure = 0.0;
   std::string tone = "neutral";
 
-  /// Writes .png (sRGB, 8 bit, through exposure and tone) or .exr (linear float; with Z, N.X N.Y N.Z, id and error where there
-  /// are such channels). Throws Error (usage, failed); an older file then stays as it was.
+  /// Writes .png, .jpg (without alpha) or .webp (sRGB, 8 bit, through exposure and tone) or .exr (linear float; with Z, N.X N.Y N.Z,
+  /// id and error where there are such channels). WebP needs the package splatray-oiio, which wheels do not have. Throws Error (usage, failed); an older file then stays as it was.
   void save(const std::filesystem::path& file) const;
   /// The bytes of the .png.
   [[nodiscard]] std::vector<unsigned char> png() const;

@@ -1,6 +1,7 @@
 """man_page.py PROGRAM NAME VERSION OUTPUT: writes the gzipped man page of a program from what its --help says."""
 
 import gzip
+import os
 import pathlib
 import re
 import subprocess
@@ -14,7 +15,7 @@ def escaped(text):
 
 
 def entries(lines):
-    """Pairs of an option or argument and what it does; CLI11 puts the latter into the next line where the former is long."""
+    """Pairs of an option or argument and what it does, which stands in the next line where the former is long."""
     found = []
     for line in lines:
         name, _, meaning = line.strip().partition("  ")
@@ -36,9 +37,8 @@ def page(name, version, text):
     summary, usage, parts = sections(text)
     out = [f'.TH {name.upper()} 1 "" "splatray {version}" "User Commands"', ".SH NAME",
            f"{escaped(name)} \\- {escaped(summary[0].lower() + summary[1:].rstrip('.'))}", ".SH SYNOPSIS", escaped(usage)]
-    titles = {"Positionals": "ARGUMENTS"}
     for title, pairs in parts.items():
-        out.append(f".SH {titles.get(title, title.upper())}")
+        out.append(f".SH {title.upper()}")
         for option, meaning in pairs:
             out += [".TP", f".B {escaped(option)}", escaped(meaning)]
     out += [".SH EXIT STATUS",
@@ -56,6 +56,7 @@ def prove():
 if __name__ == "__main__":
     prove()
     program, name, version, output = sys.argv[1:]
-    text = subprocess.run([program, "--help"], check=True, capture_output=True, text=True).stdout
+    wide = os.environ | {"COLUMNS": "100000"}  # nothing is broken into lines
+    text = subprocess.run([program, "--help"], check=True, capture_output=True, text=True, env=wide).stdout
     with pathlib.Path(output).open("wb") as file, gzip.GzipFile("", "wb", 9, file, mtime=0) as packed:
         packed.write(page(name, version, text).encode())

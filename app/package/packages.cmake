@@ -73,5 +73,5 @@ add_custom_target(splatray_changelog ALL DEPENDS ${changelog})
 foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} name)
   install(FILES ${CMAKE_CURRENT_LIST_DIR}/copyright ${changelog} COMPONENT ${component}
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME})
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME} OPTIONAL)
 endforeach()

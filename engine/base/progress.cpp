@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 namespace splatray {
 namespace {
@@ -21,37 +22,60 @@ bool is_time_for_a_line() {
   return true;
 }
 
+int percent_of(double share) { return static_cast<int>(100.0 * share); }
+
+/// Of a whole per cent as JSON has a share: "0.40".
+std::string share_text(int percent) {
+  return std::to_string(percent / 100) + (percent % 100 < 10 ? ".0" : ".") + std::to_string(percent % 100);
+}
+
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet, ProgressStyle style) : enabled_(!quiet), style_(style) {}
+ProgressLine::ProgressLine(bool quiet, ProgressStyle style, WorkPlan plan)
+    : enabled_(!quiet), style_(style), track_(std::move(plan)), begin_(Clock::now()) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
-void ProgressLine::show(const std::string& stage, double share) {
+std::string ProgressLine::place(const std::string& label) const {
+  const std::string number =
+      track_.number() == 0 || track_.count() < 2
+          ? ""
+          : std::to_string(track_.number()) + "/" + std::to_string(track_.count()) + " ";
+  return number + label + " " + std::to_string(percent_of(track_.share())) + " %";
+}
+
+void ProgressLine::show(const std::string& stage, double share, const std::string& label) {
   if (!enabled_) return;
-  const int percent = static_cast<int>(100.0 * share);
-  const std::string line = stage + " " + std::to_string(percent) + " %";
-  if (line == shown_) return;
-  if (style_ == ProgressStyle::line && !is_terminal()) {
-    if (!is_time_for_a_line()) return;
-    std::fprintf(stderr, "%s\n", line.c_str());
-    shown_ = line;
-    return;
-  }
-  shown_ = line;
+  track_.reached(stage, share);
+  const std::string name = label.empty() ? stage : label;
+  const std::string now = place(name);
+  if (now == shown_) return;
+  if (style_ == ProgressStyle::line && !is_terminal() && !is_time_for_a_line()) return;
+  shown_ = now;
+  draw(name);
+}
+
+void ProgressLine::draw(const std::string& label) const {
+  const bool has_total = track_.number() > 0;
+  const int total = percent_of(track_.total());
+  const std::string left =
+      time_left(std::chrono::duration<double>(Clock::now() - begin_).count(), track_.total());
+  const std::string line = shown_ + (left.empty() ? "" : ", " + left + " left");
   switch (style_) {
     case ProgressStyle::line:
-      std::fprintf(stderr, "\r\033[K%s", line.c_str());
+      std::fprintf(stderr, is_terminal() ? "\r\033[K%s" : "%s\n", line.c_str());
       break;
     case ProgressStyle::plain:
       std::fprintf(stderr, "%s\n", line.c_str());
       break;
     case ProgressStyle::json:
-      std::fprintf(stderr, "{\"stage\": \"%s\", \"share\": %d.%02d}\n", stage.c_str(), percent / 100,
-                   percent % 100);
+      std::fprintf(stderr, "{\"stage\": \"%s\", \"share\": %s%s}\n", label.c_str(),
+                   share_text(percent_of(track_.share())).c_str(),
+                   has_total ? (", \"total\": " + share_text(total)).c_str() : "");
       break;
     case ProgressStyle::openjd:
-      std::printf("openjd_status: %s\nopenjd_progress: %d\n", stage.c_str(), percent);
+      std::printf("openjd_status: %s\nopenjd_progress: %d\n", label.c_str(),
+                  has_total ? total : percent_of(track_.share()));
       std::fflush(stdout);
       break;
   }

@@ -19,16 +19,12 @@
 #include "preprocess/read/one_system.h"
 #include "preprocess/read/read_mesh.h"
 #include "preprocess/read/scan/empty_stations.h"
+#include "preprocess/read/scan/input_files.h"
+#include "preprocess/read/scan/missing_attributes.h"
 #include "preprocess/read/text/read_track.h"
 
 namespace splatray {
 namespace {
-
-/// A file to read.
-struct NamedFile {
-  std::filesystem::path path;
-  bool may_be_left_out;  ///< it was not named, and it need not be a scan
-};
 
 Input read_geometry(const std::filesystem::path& path, const ReadOptions& options,
                     const ReadListener& listener) {
@@ -135,45 +131,10 @@ void drop_empty_objects(Input& input) {
   });
 }
 
-std::string join(const std::vector<NamedFile>& files) {
+std::string join(const std::vector<InputFile>& files) {
   std::string text;
-  for (const NamedFile& file : files) text += (text.empty() ? "" : ", ") + file.path.string();
+  for (const InputFile& file : files) text += (text.empty() ? "" : ", ") + file.path.string();
   return text;
-}
-
-/// Whether a file in a folder is taken for a scan.
-bool is_scan(const std::filesystem::path& path) {
-  const Format* format = find_format(path);
-  return (format != nullptr && format->read_scan != nullptr) || lower_extension(path) == ".ply";
-}
-
-/// Whether the extension is one that all kinds of files have.
-bool may_be_anything(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
-  return extension == ".txt" || extension == ".csv" || extension == ".asc" || extension == ".bin";
-}
-
-/// The paths, a folder being those of its scans, by name.
-std::vector<NamedFile> with_folders_opened(const std::vector<std::filesystem::path>& paths) {
-  std::vector<NamedFile> files;
-  for (const std::filesystem::path& path : paths) {
-    std::error_code error;
-    if (!std::filesystem::is_directory(path, error)) {
-      files.push_back({path, false});
-      continue;
-    }
-    const std::size_t before = files.size();
-    for (const auto& entry : std::filesystem::directory_iterator(path, error))
-      if (is_scan(entry.path())) files.push_back({entry.path(), may_be_anything(entry.path())});
-    if (error) throw Error(ExitCode::input_unreadable, path.string() + ": " + error.message());
-    if (files.size() == before)
-      throw Error(
-          ExitCode::input_unreadable,
-          path.string() + ": found a folder without scans, expected files such as .laz or .e57 in it");
-    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end(),
-              [](const NamedFile& a, const NamedFile& b) { return a.path < b.path; });
-  }
-  return files;
 }
 
 Input read_file(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener,
@@ -192,7 +153,7 @@ Input read_file(const std::filesystem::path& path, const ReadOptions& options, c
   return read_geometry(path, options, listener);
 }
 
-[[noreturn]] void refuse_no_points(const std::vector<NamedFile>& files, const ScanCounts& counts) {
+[[noreturn]] void refuse_no_points(const std::vector<InputFile>& files, const ScanCounts& counts) {
   std::string found = join(files) + ": " + no_points_found(counts);
   found += fate_of(counts).empty() ? " and no triangles" : "; expected at least one other";
   if (counts.withheld + counts.noise > 0) found += " (--keep-withheld keeps those withheld or of noise)";
@@ -212,6 +173,21 @@ void add_track(Input& input, const ReadOptions& options) {
     used = used || !object.points.track.empty();
   }
   if (!used) throw_unreadable(path, "found no point that has a time of this trajectory, expected some");
+}
+
+bool has_attribute(const InputObject& object, const std::string& name) {
+  return find_column(object.points.columns, name) != nullptr ||
+         std::any_of(object.meshes.begin(), object.meshes.end(),
+                     [&](const Mesh& mesh) { return find_column(mesh.vertices.columns, name) != nullptr; });
+}
+
+/// Names those of the attributes asked for that no file has.
+void note_missing_attributes(Input& input, const std::vector<std::string>& asked) {
+  const std::string note = missing_attributes(asked, [&input](const std::string& name) {
+    return std::any_of(input.objects.begin(), input.objects.end(),
+                       [&](const InputObject& object) { return has_attribute(object, name); });
+  });
+  if (!note.empty()) input.notes.push_back(note);
 }
 
 }  // namespace
@@ -238,8 +214,8 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   if (named.empty()) {
     throw Error(ExitCode::usage, "no input file was named");
   }
-  const std::vector<NamedFile> files = with_folders_opened(named);
-  for (const NamedFile& file : files) note_input(file.path);  // before the first is read
+  const std::vector<InputFile> files = input_files(named);
+  for (const InputFile& file : files) note_input(file.path);  // before the first is read
   const ThreadLimit limit(options.threads);
   Input input;
   std::vector<NamedScan> scans;
@@ -267,6 +243,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   require_one_system(scans);
   input.crs = one_crs(systems, input.notes);
   if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
+  note_missing_attributes(input, options.scans.attributes);
   finish_objects(input, options);
   drop_empty_objects(input);
   if (input.objects.empty()) {

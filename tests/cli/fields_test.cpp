@@ -115,7 +115,7 @@ TEST(Fields, OldNamesStillHold) {
 TEST(RequestJson, RefusesWhatIsNoRequest) {
   for (const char* text : {"", "[]", "{\"samples\": []}", "{\"samples\": \"many\"}", "{\"nothing\": 1}",
                            "{\"lights\": 3}", "{\"lights\": [\"sun\"]}", "{\"lights\": [\"lamp=1,2,3\"]}",
-                           "{\"object\": [1]}", "{\"samples\": 1e999}", "{\"inputs\": \"a.ply\"}"}) {
+                           "{\"object\": [1]}", "{\"samples\": 1e999}", "{\"resolution\": [64, [48]]}"}) {
     try {
       (void)read_request_text(text, "the test");
       ADD_FAILURE() << "taken: " << text;
@@ -128,6 +128,53 @@ TEST(RequestJson, RefusesWhatIsNoRequest) {
   const Request dark = read_request_text("{\"lights\": []}", "the test");
   ASSERT_TRUE(dark.look.lights.has_value());
   EXPECT_TRUE(dark.look.lights->empty());
+}
+
+/// The sentence that refuses a request.
+std::string request_refusal(const std::string& text) {
+  try {
+    (void)read_request_text(text, "the test");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(RequestJson, SaysWhereItIsWrongInOurWords) {
+  EXPECT_EQ(
+      request_refusal("{\"samples\": 4,\n  \"seed\" 5}"),
+      "cannot read the request in the test: found no JSON at line 2, column 10, expected an object of names "
+      "and values");
+  EXPECT_NE(request_refusal("{\"samples\": 4,\n").find("JSON that ends in its middle, at line 1, column 15"),
+            std::string::npos);
+  EXPECT_NE(request_refusal(" \n").find("an empty text"), std::string::npos);
+  EXPECT_NE(request_refusal("{\"samples\": 1e999}").find("a number beyond float64 at line 1, column 17"),
+            std::string::npos);
+  EXPECT_NE(request_refusal("{\"samples\": 4, \"seed\": 1, \"samples\": 5}").find("'samples' twice"),
+            std::string::npos);
+  for (const char* text :
+       {"{\"samples\": 4,\n", "nul", "{\"a\": \"\xff\"}", "[1", "\"\\x\"", "{\"a\": 1e999}"})
+    EXPECT_EQ(request_refusal(text).find("exception"), std::string::npos) << request_refusal(text);
+}
+
+TEST(RequestJson, TakesArraysForWhatHasParts) {
+  const Request parts = read_request_text(
+      R"({"inputs": "a.ply", "resolution": [64, 48], "tile": [1, 4], "eye": [1, -2, 0.5], "sun": [0, -1, 1],
+          "light": [[0, 0, 3], "1,2,3"], "hide-class": [7, 18], "aov": ["depth", "id"]})",
+      "the test");
+  Request whole;
+  assign(whole,
+         {{"inputs", "a.ply"},
+          {"resolution", "64x48"},
+          {"tile", "1/4"},
+          {"eye", "1,-2,0.5"},
+          {"sun", "0,-1,1"},
+          {"light", "0,0,3"},
+          {"light", "1,2,3"},
+          {"hide-class", "7,18"},
+          {"aov", "depth,id"}},
+         DOORS_ALL);
+  EXPECT_EQ(parts, whole);
 }
 
 }  // namespace

@@ -109,6 +109,26 @@ TEST_F(CliInfo, KeepsWhatTheSceneKnows) {
   EXPECT_EQ(json["scans"][0]["points"], 3);
 }
 
+TEST_F(CliInfo, AFolderIsItsScans) {
+  const std::string tiles = file("tiles");
+  expect_refused([&] { return info({tiles}); }, 3, "tiles: no such file");
+  std::filesystem::create_directory(tiles);
+  expect_refused([&] { return info({tiles}); }, 3, "a folder without scans");
+  write("tiles/notes.txt", "bring the tripod\n");
+  expect_refused([&] { return info({tiles}); }, 3, "notes.txt");
+  write("tiles/b.las", survey().bytes());
+  write("tiles/a.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  write("tiles/house.obj", "v 0 0 0\n");
+  const ChildResult result = info({tiles, "--json"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  ASSERT_EQ(json.size(), 2U) << "scans alone, as the other programs read them";
+  EXPECT_EQ(json[0]["file"], tiles + "/a.xyz");
+  EXPECT_EQ(json[1]["points"], 3);
+  EXPECT_NE(result.err.find("notes.txt"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("it was left out"), std::string::npos) << result.err;
+}
+
 TEST_F(CliInfo, UnreadableFilesAreRefused) {
   for (const char* name : {"a.las", "a.e57", "a.ply", "a.soct", "a.gltf", "a.xyzzy"}) {
     expect_refused([&] { return info({file(name)}); }, 3, name);

@@ -33,6 +33,55 @@ TEST_F(CliInputs, MissingFile) {
     expect_unreadable(file(name));
 }
 
+TEST_F(CliInputs, MissingFilesAreReportedBeforeTheDevice) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  const auto refused = [&](std::vector<std::string> words, const std::string& name) {
+    words.push_back("--device=no such device");
+    expect_refused([&] { return render(words); }, 3, name + ": no such file");
+  };
+  refused({file("a.ply")}, "a.ply");
+  refused({file("b.soct")}, "b.soct");
+  refused({grid, file("b.las")}, "b.las");
+  refused({grid, "--environment", file("a.hdr")}, "a.hdr");
+  refused({grid, "--trajectory", file("a.txt")}, "a.txt");
+  refused({grid, "--resume", file("a.exr")}, "a.exr");
+}
+
+TEST_F(CliInputs, AttributesThatNoFileHasAreNamed) {
+  const std::string scan = write("a.csv", "x,y,z,gain\n0,0,0,1\n1,0,0,2\n0,1,0,3\n1,1,0,4\n");
+  const ChildResult result = preprocess({scan, "--attributes=gain,gian,echo"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("note: --attributes: no input has 'gian', 'echo'"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(preprocess({scan, "--attributes=gain"}).err.find("no input has"), std::string::npos);
+}
+
+TEST_F(CliInputs, OtherFilesOfJsonAreRefusedInOurWords) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  const auto refused = [&](std::vector<std::string> words, const std::string& found) {
+    words.insert(words.begin(), {RENDER, grid, "--quiet", "--device=cpu"});
+    const ChildResult result = run_program(words);
+    EXPECT_EQ(result.code, 3) << result.err;
+    EXPECT_NE(result.err.find(found), std::string::npos) << result.err;
+    for (const char* foreign : {"exception", "found found"})
+      EXPECT_EQ(result.err.find(foreign), std::string::npos) << result.err;
+  };
+  const std::string broken = write("broken.json", "{\n \"eye\": [0, 0,\n}");
+  refused({"--camera", broken, "-o", file("out.png")}, "line 3, column 1");
+  refused({"--camera-path", broken, "-o", file("out.#.png")}, "line 3, column 1");
+  refused({"--request", broken, "-o", file("out.png")}, "line 3, column 1");
+  const auto measures = [&](const std::string& text, const std::string& found) {
+    refused({"--sheet=plan", "-o", file("out.svg"), "--measures", write("m.geojson", text)}, found);
+  };
+  measures("{\"features\": [1,]}", "no JSON at line 1, column 17");
+  measures("{\"sheet\": \"plan\"}", "no list 'features'");
+  measures("{\"features\": [{}]}", "feature 1 without all that a measure has");
+  measures(R"({"features": [{"properties": {"kind": "mood"}, "geometry": {}}]})", "not 'mood'");
+  measures(R"({"features": [{"properties": {"kind": 3}, "geometry": {}}]})", "feature 1 without");
+  const std::string gltf = write("a.gltf", "{\"asset\": {\"version\": 2}\n \"x\"}");
+  expect_refused([&] { return render({gltf}); }, 3, "line 2, column 4");
+}
+
 TEST_F(CliInputs, EmptyFile) {
   for (const char* name :
        {"a.ply", "a.obj", "a.stl", "a.vtk", "a.vtp", "a.vtu", "a.pvtu", "a.gltf", "a.glb", "a.soct"})

@@ -89,8 +89,8 @@ TEST_F(CliOptions, MissingPartsAreRefused) {
       },
       2, "--denoise with --reference");
   expect_refused([&] { return run_program({RENDER, grid}); }, 2, "no output");
-  expect_refused([&] { return run_program({RENDER, grid, "-o", file("a.jpg")}); }, 2, ".png or .exr");
-  expect_refused([&] { return run_program({RENDER, grid, "-o", file("a")}); }, 2, ".png or .exr");
+  expect_refused([&] { return run_program({RENDER, grid, "-o", file("a.gif")}); }, 2, ".webp or .exr");
+  expect_refused([&] { return run_program({RENDER, grid, "-o", file("a")}); }, 2, ".webp or .exr");
   expect_refused([&] { return run_program({RENDER, grid, "a.soct", "-o", file("a.png")}); }, 2, ".soct");
   expect_refused([&] { return run_program({PREPROCESS}); }, 2, "INPUT");
   expect_refused([&] { return run_program({PREPROCESS, grid}); }, 2, "--output");

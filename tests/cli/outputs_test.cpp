@@ -207,5 +207,30 @@ TEST_F(CliOutputs, InterruptWhileReadingLeavesNothing) {
       130, "reading was interrupted");
 }
 
+TEST_F(CliOutputs, JpegAndWebpKeepTheirCommand) {
+  for (const std::string name : {"a.jpg", "a.webp"}) {
+    const ChildResult made = run_program(
+        {RENDER, grid, "-o", file(name), "--resolution=24x16", "--samples=2", "--device=cpu", "--quiet"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const ChildResult again = run_program({RENDER, "--from", file(name), "-o", file("b.png"), "--quiet"});
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(read_display_image(file("b.png"), {}).width, 24U);
+  }
+}
+
+TEST_F(CliOutputs, WhatAFormatCannotHoldIsRefused) {
+  const auto refused = [&](const std::string& name, std::vector<std::string> words,
+                           const std::string& found) {
+    words.insert(words.begin(), {grid, "-o", file(name)});
+    expect_refused([&] { return render(words); }, 2, found);
+  };
+  refused("a.jpg", {"--background=transparent"}, "found --background transparent with a .jpg output");
+  refused("a.jpg", {"--aov=depth"}, "found --aov with a .jpg output");
+  refused("a.webp", {"--aov=depth"}, "found --aov with a .webp output");
+  refused("a.webp", {"--resolution=16384x2"}, "at most 16383 a side");
+  refused("a.webp", {"--sheet=plan"}, "found --sheet with a .webp output");
+  refused("a.gif", {}, ".png, .jpg, .webp or .exr");
+}
+
 }  // namespace
 }  // namespace splatray

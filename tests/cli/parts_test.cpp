@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <utility>
 
 #include "app/library/image_file.h"
@@ -31,6 +33,13 @@ class CliParts : public CliTest {
   static std::string read_file(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  /// Points of a wavy ground as text, without normals.
+  [[nodiscard]] static std::string scattered() {
+    std::ostringstream text;
+    for (int i = 0; i < 2500; ++i) text << i % 50 << ' ' << i / 50 << ' ' << std::sin(0.2 * i) << '\n';
+    return text.str();
   }
 
   std::string grid;
@@ -169,6 +178,27 @@ TEST_F(CliParts, ACropIsThatPartOfThePicture) {
   EXPECT_EQ(read_display_image(file("crop.png"), {}).width, 11U);
 }
 
+TEST_F(CliParts, ADenoisedCropIsFilteredByItself) {
+  const std::vector<std::string> crop{"--crop=13,7,11,9", "--aov=normal"};
+  for (const std::string option : {"--denoise", "--despeckle"}) {
+    for (const std::string look : {"lit", "clay"}) {
+      ASSERT_EQ(make("noisy.exr", {crop[0], crop[1], "--look=" + look}).code, 0);
+      const ChildResult result = make("crop.exr", {crop[0], crop[1], "--look=" + look, option});
+      ASSERT_EQ(result.code, 0) << result.err;
+      const ExrPicture made = read_exr(file("crop.exr")), noisy = read_exr(file("noisy.exr"));
+      EXPECT_EQ(made.window, (PixelWindow{13, 7, 11, 9}));
+      ASSERT_EQ(made.values.size(), noisy.values.size());
+      for (std::size_t i = 0; i < made.values.size(); ++i) ASSERT_TRUE(std::isfinite(made.values[i])) << i;
+      EXPECT_TRUE(option != "--denoise" || made.values != noisy.values) << look;
+    }
+    expect_refused(
+        [&] {
+          return merge({file("crop.exr"), "-o", file("out.exr")});
+        },
+        3, "noise was taken out");
+  }
+}
+
 TEST_F(CliParts, PartsThatDoNotMakeAPictureAreRefused) {
   ASSERT_EQ(make("a.exr", {"--tile=1/2"}).code, 0);
   ASSERT_EQ(make("b.exr", {"--tile=2/2"}).code, 0);
@@ -191,11 +221,7 @@ TEST_F(CliParts, PartsThatDoNotMakeAPictureAreRefused) {
   refused({a, file("seed.exr")}, "command_line");
   refused({a, grid}, "no picture");
   refused({a, file("missing.exr")}, "no such file");
-  expect_refused(
-      [&] {
-        return merge({a, b, "-o", file("out.jpg")});
-      },
-      2, "expected -o with a .png or .exr file");
+  expect_refused([&] { return merge({a, b, "-o", file("out.gif")}); }, 2, ".png, .jpg, .webp or .exr");
 }
 
 TEST_F(CliParts, PartsOfSeveralDevicesAreRefusedUnlessAllowed) {
@@ -233,6 +259,7 @@ TEST_F(CliParts, OptionsThatNeedTheWholePictureAreRefused) {
   refused({"--tile=1/31"}, "30 rows");
   refused({"--tile=1/4", "--crop=0,0,1,1"}, "one of them");
   refused({"--tile=1/4", "--denoise"}, "a whole picture");
+  refused({"--tile=1/4", "--despeckle"}, "a whole picture");
   refused({"--tile=1/4", "--error=0.1"}, "--samples");
 }
 
@@ -250,10 +277,40 @@ TEST_F(CliParts, ProgressIsReportedAsAsked) {
   const auto progress = [&](const std::string& style) {
     return run_program({RENDER, grid, "-o", file("p.png"), "--resolution=40x30", "--progress=" + style});
   };
-  EXPECT_NE(progress("json").err.find("{\"stage\": \"tracing\", \"share\": 1.00}"), std::string::npos);
+  EXPECT_NE(progress("json").err.find("{\"stage\": \"tracing\", \"share\": 1.00, \"total\": 1.00}\n"),
+            std::string::npos);
   EXPECT_NE(progress("plain").err.find("tracing 100 %\n"), std::string::npos);
   EXPECT_NE(progress("openjd").out.find("openjd_status: tracing\nopenjd_progress: 100\n"), std::string::npos);
   EXPECT_EQ(progress("line").err.find("100 %"), std::string::npos) << "no terminal";
+}
+
+TEST_F(CliParts, ProgressNeverFallsAndCountsItsStages) {
+  const std::string err =
+      run_program({RENDER, write("bare.xyz", scattered()), "-o", file("p.####.png"), "--turntable=3",
+                   "--device=cpu", "--resolution=40x30", "--progress=json"})
+          .err;
+  double total = 0.0, share = 0.0;
+  std::string stage;
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("{\"stage\": \"")) continue;
+    const std::string name = line.substr(11, line.find("\", ") - 11);
+    const double now = std::stod(line.substr(line.find("\"total\": ") + 9));
+    const double part = std::stod(line.substr(line.find("\"share\": ") + 9));
+    EXPECT_GE(now, total) << err;
+    EXPECT_TRUE(part >= share || name != stage) << line;
+    EXPECT_LT(line.size(), 80U);
+    total = now, share = part, stage = name;
+  }
+  EXPECT_EQ(total, 1.0) << err;
+  const std::string last = "\"stage\": \"frame 2\", \"share\": ";
+  ASSERT_NE(err.find(last), std::string::npos) << err;
+  EXPECT_GE(std::stod(err.substr(err.find(last) + last.size())), 0.66) << "of all frames";
+  const std::string plain = run_program({RENDER, grid, "-o", file("p.png"), "--resolution=40x30",
+                                         "--device=cpu", "--progress=plain"})
+                                .err;
+  EXPECT_NE(plain.find("1/9 reading "), std::string::npos) << plain;
+  EXPECT_NE(plain.find("9/9 tracing 100 %\n"), std::string::npos) << plain;
 }
 
 }  // namespace

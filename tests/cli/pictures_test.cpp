@@ -222,5 +222,58 @@ TEST(Compare, CountsWhatIsBeyond) {
   EXPECT_NEAR(one.difference.rgb[5].y, 0.1F, 1e-5F);
 }
 
+/// A picture whose colours rise by `rise` from one side to the other; with alpha that rises by a half.
+DisplayImage slope(float rise, bool with_alpha) {
+  DisplayImage image{64, 48, {}};
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const float right = static_cast<float>(x) / 64.0F, down = static_cast<float>(y) / 48.0F;
+      image.rgb.emplace_back(0.3F + rise * right, 0.3F + rise * down, 0.4F);
+      if (with_alpha) image.alpha.push_back(0.5F + 0.5F * right);
+    }
+  return image;
+}
+
+void write_bytes(const std::string& path, const std::vector<unsigned char>& bytes, std::size_t count) {
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(count));
+}
+
+TEST(DisplayFormats, AreReadAgainWithWhatTheyKeep) {
+  const Metadata kept{{"command_line", "splatray-render a.ply -o 'a b.jpg'"},
+                      {"seed", std::string(301, '7')}};
+  for (const char* name : {"a.png", "a.jpg", "a.JPEG", "a.webp"})
+    for (const bool with_alpha : {false, true}) {
+      const std::string path = temporary(name);
+      const bool is_webp = path.ends_with("webp");
+      const DisplayImage image =
+          slope(is_webp ? 0.0F : 0.5F, with_alpha);  // pixels of a WebP share their hues
+      const auto bytes = encode_display(image, kept, path);
+      write_bytes(path, bytes, bytes.size());
+      EXPECT_EQ(read_metadata(path), kept) << name << with_alpha;
+      EXPECT_TRUE(is_whole_picture(path)) << name;
+      const DisplayImage again = read_display_image(path, {});
+      ASSERT_EQ(again.rgb.size(), image.rgb.size()) << name;
+      // Three channels are rounded by half a step of PNG, by up to three of the others. OpenImageIO multiplies what it reads of a WebP
+      // by alpha, and divides what it writes, which rounds by two steps more.
+      const float steps = path.ends_with("png") ? 0.5F : (is_webp && with_alpha ? 5.0F : 3.0F);
+      const float most = steps * std::sqrt(3.0F) / 255.0F;
+      for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+        const float alpha = is_webp && with_alpha ? image.alpha[i] : 1.0F;
+        ASSERT_LE(glm::length(again.rgb[i] - alpha * image.rgb[i]), most) << name << i;
+      }
+      write_bytes(path, bytes, bytes.size() - 40);
+      EXPECT_FALSE(std::string(name) != "a.webp" && is_whole_picture(path)) << name;
+    }
+}
+
+TEST(DisplayFormats, AJpegLeavesOutWhatNoCommentHolds) {
+  const Metadata kept{{"long", std::string(70000, 'x')}, {"seed", "1"}};
+  const std::string path = temporary("long.jpg");
+  const auto bytes = encode_display(slope(0.5F, false), kept, path);
+  write_bytes(path, bytes, bytes.size());
+  EXPECT_EQ(read_metadata(path), (Metadata{{"seed", "1"}}));
+}
+
 }  // namespace
 }  // namespace splatray

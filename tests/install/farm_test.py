@@ -36,7 +36,7 @@ def by_openjd(farm, work, scene, environment):
     values = {"Input": work / "cloud.xyz", "Scene": scene, "Output": folder / "f##.png", "Camera": CAMERA, "Frames": f"0-{FRAMES - 1}",
               "ChunkSize": CHUNK, "Samples": 2, "Resolution": "64x36"}
     words = [word for name, value in values.items() for word in ("-p", f"{name}={value}")]
-    run("openjd", "run", farm / "frames.yaml", "--step", "Frames", "--run-dependencies", *words, env=environment)
+    run("openjd", "run", farm / "frames.yaml", *words, env=environment)
     return pictures(folder)
 
 

@@ -47,11 +47,10 @@ TEST(KeysTest, FlyDirectionIsTheSumOfTheKeysDown) {
 }
 
 TEST(KeysTest, RowsJoinKeysThatDoTheSame) {
-  const std::string text = keys_text();
-  EXPECT_NE(text.find("W, A, S, D, Q, E  "), std::string::npos) << text;
-  EXPECT_NE(text.find("Shift+1..9 "), std::string::npos);
-  EXPECT_NE(text.find("S, Ctrl+S "), std::string::npos);
-  EXPECT_NE(text.find("double click, middle click "), std::string::npos);
+  std::set<std::string> keys;
+  for (const KeyRow& row : key_rows()) keys.insert(row.keys);
+  for (const char* joined : {"W, A, S, D, Q, E", "Shift+1..9", "S, Ctrl+S", "double click, middle click"})
+    EXPECT_TRUE(keys.contains(joined)) << joined;
 }
 
 TEST(KeysTest, ReadmeShowsTheTable) {

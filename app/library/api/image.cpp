@@ -2,8 +2,10 @@
 
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
+#include "app/library/codec/picture_format.h"
 #include "app/library/image_file.h"
 #include "engine/base/memory.h"
+#include "engine/file/atomic_file.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray::api {
@@ -54,13 +56,15 @@ splatray::Image inner_image(const Image& image) {
 void Image::save(const std::filesystem::path& file) const {
   guarded([&] {
     check(*this);
-    const std::string extension = lower_extension(file);
-    const bool png = extension == ".png", channels = !depth.empty();
-    if (!png && extension != ".exr")
-      refuse("output '" + file.string() + "'", "a name ending in .png or .exr");
-    require_pixel_memory(*this, png ? PNG_WRITING_BYTES : exr_writing_bytes(channels ? 10 : 5));
+    const bool shown = is_display_format(file), channels = !depth.empty();
+    if (!is_picture_format(file))
+      refuse("output '" + file.string() + "'", std::string("a name ending in ") + PICTURE_NAMES);
+    require_pixel_memory(*this, shown ? DISPLAY_WRITING_BYTES : exr_writing_bytes(channels ? 10 : 5));
     const splatray::Image inner = inner_image(*this);
-    if (png) return write_png(display_image(inner, inner_display(*this)), {}, file);
+    if (shown) {
+      const auto bytes = encode_display(display_image(inner, inner_display(*this)), {}, file);
+      return write_file(bytes.data(), bytes.size(), file);
+    }
     write_exr(inner, aovs_of(inner), {}, file);
   });
 }
@@ -68,7 +72,7 @@ void Image::save(const std::filesystem::path& file) const {
 std::vector<unsigned char> Image::png() const {
   return guarded([&] {
     check(*this);
-    require_pixel_memory(*this, PNG_WRITING_BYTES);
+    require_pixel_memory(*this, DISPLAY_WRITING_BYTES);
     return encode_png(display_image(inner_image(*this), inner_display(*this)), {});
   });
 }

@@ -16,8 +16,10 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "app/library/codec/image_codec.h"
+#include "app/library/codec/kept_text.h"
 #include "app/library/codec/png_text.h"
 
 namespace splatray {
@@ -72,6 +74,7 @@ bool read_stb_header(const std::string& path, std::uint64_t file_bytes, PictureH
   // A run of up to 127 takes two bytes in each of an HDR's four channels.
   header.most_pixels = header.integers ? file_bytes * DEFLATE * 8 / png_bits(path) : file_bytes * 127 / 8;
   header.attributes = read_png_text(path);
+  for (auto& pair : read_kept_text(path)) header.attributes.push_back(std::move(pair));
   return true;
 }
 
@@ -202,9 +205,11 @@ bool encode_png(const PictureHeader& header, const void* values, std::vector<uns
 }
 
 bool encode_jpeg(const PictureHeader& header, const void* values, std::vector<unsigned char>& bytes) {
-  constexpr int QUALITY = 88;
   const auto channels = static_cast<int>(header.channels.size());
-  return stbi_write_jpg_to_func(append, &bytes, header.width, header.height, channels, values, QUALITY) != 0;
+  const bool made = stbi_write_jpg_to_func(append, &bytes, header.width, header.height, channels, values,
+                                           header.quality) != 0;
+  if (made) add_jpeg_text(bytes, header.attributes);
+  return made;
 }
 
 bool encode(const char* format, const PictureHeader& header, const void* values,

@@ -1,5 +1,5 @@
 /// What image_file.cpp loads as libraries of their own, by engine/base/module.h: splatray_image_codec (EXR by OpenEXR; PNG, HDR and
-/// JPEG by stb), which writes and reads, and splatray_oiio (OpenImageIO and the 200 libraries it needs) for files of other formats.
+/// JPEG by stb), and splatray_oiio (OpenImageIO and the 200 libraries it needs), which writes WebP and reads files of other formats.
 /// Strings and vectors cross the border as between any two C++ libraries of one compiler.
 #pragma once
 #include <cstdint>
@@ -19,6 +19,7 @@ struct PictureHeader {
   bool integers = false;                ///< 8 or 16 bits a channel, else floats
   std::vector<std::pair<std::string, std::string>> attributes;
   double dots_per_inch = 0.0;  ///< of a PNG to be written; 0 = it does not say
+  int quality = 95;            ///< of a JPEG or WebP to be written, 1 to 100
   /// No file of this one's size and format has more, however well it is compressed; for reading only.
   std::uint64_t most_pixels = ~0ULL;
 };
@@ -34,7 +35,7 @@ struct ImageCodec {
   /// grows with what the file holds and not with what its header says.
   bool (*read_pixels)(const std::string& path, int first_row, int channels, const PixelSink& sink,
                       std::string& error);
-  /// The bytes of a picture's file, "png" or "jpeg" of bytes or "openexr" of floats; nullptr in a library that only reads.
+  /// The bytes of a picture's file: "png" or "jpeg" of bytes or "openexr" of floats; OpenImageIO's: "webp" of bytes.
   bool (*encode)(const char* format, const PictureHeader& header, const void* values,
                  std::vector<unsigned char>& bytes, std::string& error);
 };

@@ -5,6 +5,7 @@
 
 #include "app/library/codec/json_file.h"
 #include "app/library/codec/json_vector.h"
+#include "app/library/request/value_text.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/json_text.h"
@@ -105,7 +106,7 @@ Measure measure_of(const Json& feature) {
   const Json& geometry = feature.at("geometry");
   const std::string name = properties.at("kind");
   const std::optional<MeasureKind> kind = measure_kind(name);
-  if (!kind) throw std::runtime_error("found kind '" + name + "'");
+  if (!kind) throw Expected{"a kind that splatray-measure has, not '" + name + "'"};
   Measure measure{*kind, {}};
   Json places = geometry.at("coordinates");
   if (geometry.at("type") == "Point") places = Json::array({places});
@@ -204,13 +205,19 @@ std::vector<Measure> read_measures(const std::filesystem::path& path) {
                 "cannot read measures '" + path.string() + "': found " + found + ", expected " + expected);
   };
   const Json collection = read_json_file(path, refuse);
+  const std::string expected = "a .geojson of splatray-measure";
+  if (!collection.is_object() || !collection.contains("features") || !collection["features"].is_array())
+    refuse("no list 'features'", expected);
   std::vector<Measure> measures;
-  try {
-    const Json& features = collection.at("features");
-    if (!features.is_array()) throw std::runtime_error("features that are no list");
-    for (const Json& feature : features) measures.push_back(measure_of(feature));
-  } catch (const std::exception& error) {
-    refuse(error.what(), "a .geojson of splatray-measure");
+  for (const Json& feature : collection["features"]) {
+    const std::string name = "feature " + std::to_string(measures.size() + 1);
+    try {
+      measures.push_back(measure_of(feature));
+    } catch (const Expected& other) {
+      refuse(name + " of another kind", other.what);
+    } catch (const Json::exception&) {
+      refuse(name + " without all that a measure has", expected);
+    }
   }
   return measures;
 }

@@ -18,8 +18,9 @@ constexpr std::uint32_t BASE_SAMPLES = 16;  ///< enough for what base colours do
 
 /// Base colours of a picture's pixels; of looks that have one for all, white.
 std::vector<vec4> base_colors(Tracer& tracer, const Look& look, const View& view, const Settings& settings) {
+  const PixelWindow made = view.made();
   if (!look_style(settings.look).colors)
-    return std::vector<vec4>(std::size_t{view.width} * view.height, vec4(1.0F));
+    return std::vector<vec4>(std::size_t{made.width} * made.height, vec4(1.0F));
   Settings plain = settings;
   plain.look = LOOK_BASE;
   plain.samples = std::min(settings.samples, BASE_SAMPLES);

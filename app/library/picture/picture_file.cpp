@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "app/library/codec/picture_format.h"
 #include "app/library/commit.h"
 #include "app/library/compare.h"
 #include "app/library/measure/measure_file.h"
@@ -28,7 +29,7 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
 
 std::vector<unsigned char> encode_picture(const Request& request, const Image& image,
                                           const Metadata& metadata, const std::filesystem::path& path) {
-  if (is_png(path)) return encode_png(shown_image(request, image), metadata);
+  if (is_display_format(path)) return encode_display(shown_image(request, image), metadata, path);
   if (lower_extension(path) != ".exr")
     return encode_sheet(request, shown_image(request, image), metadata, path);
   ExrPicture picture = exr_picture(image, request.output.aovs, metadata);
@@ -41,8 +42,6 @@ std::vector<unsigned char> encode_picture(const Request& request, const Image& i
 }
 
 }  // namespace
-
-bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
 
 std::uint64_t made_image_bytes(const Request& request) {
   const PixelWindow made = request.view.made();
@@ -58,7 +57,8 @@ void require_picture_memory(const Request& request) {
   const PixelWindow made = request.view.made();
   const Request::Output& output = request.output;
   const std::size_t channels = 4 + count_channels(output.aovs);
-  const std::uint64_t writing = is_png(output.path) ? PNG_WRITING_BYTES : exr_writing_bytes(channels);
+  const std::uint64_t writing =
+      is_display_format(output.path) ? DISPLAY_WRITING_BYTES : exr_writing_bytes(channels);
   const std::uint64_t ranges = output.many() ? 0 : range_bytes(request.settings.samples);
   require_memory(made_image_bytes(request) + std::uint64_t{made.width} * made.height * (writing + ranges),
                  "a picture of " + size_text(made.width, made.height) + " pixels and its file");
@@ -68,8 +68,8 @@ void require_outputs_writable(const Request& request) {
   require_writable(request.output.path);
   if (!request.output.height_raster.empty()) require_writable(request.output.height_raster);
   if (!request.output.measures.empty()) static_cast<void>(read_measures(request.output.measures));
-  const std::string extension = lower_extension(request.output.path);
-  const bool drawn = request.view.sheet && extension != ".png" && extension != ".exr";
+  require_picture_writer(request.output.path);
+  const bool drawn = request.view.sheet && !is_picture_format(request.output.path);
   if (drawn || !request.output.height_raster.empty()) require_sheet_writer();
   if (!request.output.stats_json.empty()) require_writable(request.output.stats_json);
 }
@@ -132,7 +132,7 @@ void require_match(const Request& request, const Image& image, const DisplayImag
   const Tolerance tolerance{request.output.reference_threshold, request.output.reference_share,
                             request.output.reference_limit};
   DisplayImage picture = shown_image(request, image);
-  if (is_png(request.output.path)) quantise(picture);
+  if (is_display_format(request.output.path)) quantise(picture);
   const Comparison comparison = compare(picture, reference, tolerance);
   const std::string numbers = describe(comparison, tolerance);
   if (comparison.passed) {

@@ -9,9 +9,6 @@
 
 namespace splatray {
 
-/// Whether a picture's name asks for a PNG.
-[[nodiscard]] bool is_png(const std::filesystem::path& path);
-
 /// Bytes of the image that is made, with the channels that denoising and goals need.
 [[nodiscard]] std::uint64_t made_image_bytes(const Request& request);
 

@@ -18,6 +18,7 @@
 #include "engine/scene/sky/daylight.h"
 #include "engine/scene/surface.h"
 #include "preprocess/base/file_extension.h"
+#include "preprocess/read/scan/missing_attributes.h"
 
 namespace splatray {
 namespace {
@@ -193,6 +194,8 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
                   "found --ground with a .soct, expected files of points or meshes, or splatray-preprocess "
                   "--ground");
     loaded.scene = read_scene(inputs.front(), listener.progress);
+    const std::string missing = missing_attributes(request.source.scans.attributes, loaded.scene.columns);
+    if (listener.note && !missing.empty()) listener.note(missing);
   } else {
     const Progress progress = watching_memory(listener.progress);
     ReadOptions reading = reading_of(request, progress);

@@ -10,7 +10,7 @@ namespace {
 constexpr FieldGroup CAMERA = FieldGroup::camera;
 
 Field resolution_row() {
-  return value_row(
+  Field row = value_row(
       "resolution", CAMERA, "WxH", "size of the picture, pixels; default 1920x1080",
       [](Request& request, const std::string& text) {
         const auto numbers = split_whole_numbers(text, 'x', 2);
@@ -22,6 +22,8 @@ Field resolution_row() {
       [](const Request& request) {
         return std::to_string(request.view.width) + "x" + std::to_string(request.view.height);
       });
+  row.between = 'x';
+  return row;
 }
 
 /// Before the camera, which it takes the place of and whose fields beside it are refused.
@@ -132,7 +134,7 @@ Field crop_row() {
 }
 
 Field tile_row() {
-  return value_row(
+  Field row = value_row(
       "tile", CAMERA, "I/N", "only this one of N bands of rows; splatray-merge joins them",
       [](Request& request, const std::string& text) {
         const auto numbers = split_whole_numbers(text, '/', 2);
@@ -146,15 +148,17 @@ Field tile_row() {
                    ? std::string()
                    : std::to_string(request.view.tile) + '/' + std::to_string(request.view.tiles);
       });
+  row.between = '/';
+  return row;
 }
 
 }  // namespace
 
 std::vector<Field> camera_fields() {
-  return {resolution_row(),
+  return {needed(resolution_row(), "size of the picture in pixels, such as 1920x1080"),
           camera_path_row(),
           camera_row(),
-          view_row(),
+          needed(view_row(), "front, oblique, top, inside, dollhouse or sensor"),
           vector_row("eye", CAMERA, MEMBER(view.eye),
                      "camera position; default: the scene's camera, else a view of the whole scene"),
           vector_row("target", CAMERA, MEMBER(view.target),

@@ -6,6 +6,7 @@
 
 #include "app/library/request/fields.h"
 #include "engine/base/error.h"
+#include "engine/base/nearest_name.h"
 
 namespace splatray {
 namespace {
@@ -55,7 +56,9 @@ const Field& option_field(const std::string& name) {
     if (const Field* field = find_field(name.substr(2), DOOR_RENDER)) return *field;
   for (const Field& field : fields())
     if (field.letter == name) return field;
-  throw Error(ExitCode::usage, "found '" + name + "', expected an option of " + PROGRAM);
+  const std::string word = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  throw Error(ExitCode::usage, "found '" + name + "', expected an option of " + PROGRAM +
+                                   did_you_mean(word, names_of(DOOR_RENDER), "--"));
 }
 
 /// The value of an option at `at`, which it skips: behind an equals sign, in the next word, or that of a switch.

@@ -20,6 +20,11 @@ Field with(Field field, FieldExtras extras) {
   return field;
 }
 
+Field needed(Field field, std::string brief) {
+  field.brief = std::move(brief);
+  return field;
+}
+
 std::string text_of(double value) { return number_text(value); }
 std::string text_of(float value) { return number_text(value); }
 std::string text_of(std::uint64_t value) { return std::to_string(value); }

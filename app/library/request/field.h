@@ -7,6 +7,7 @@
 
 #include "app/library/request/request.h"
 #include "app/library/request/value_text.h"
+#include "engine/base/nearest_name.h"
 #include "engine/base/number_text.h"
 #include "engine/base/utf8.h"
 
@@ -62,6 +63,9 @@ struct Field {
   std::function<void(Request&)> clear{};  ///< of repeated ones: takes out the values of the family
   bool adds = false;  ///< of repeated ones: values go behind those there were, instead of taking their place
   double least = 0.0, most = 0.0;  ///< of numbers
+  std::string brief{};  ///< what it is, in a few words, where most people need it: the short help shows it
+  std::string extensions{};  ///< of files that are read: with dots, a blank between; empty: any
+  char between = ',';        ///< what stands between the parts of a value, which JSON may have as an array
 
   [[nodiscard]] const std::string& family_name() const { return family.empty() ? name : family; }
   [[nodiscard]] bool in(FieldDoors door) const { return (doors & door) != 0; }
@@ -78,6 +82,8 @@ struct FieldExtras {
   std::string letter{};
 };
 [[nodiscard]] Field with(Field field, FieldExtras extras);
+/// One that most people need.
+[[nodiscard]] Field needed(Field field, std::string brief);
 
 /// A member of a request, for the kinds of rows: MEMBER(view.width).
 #define MEMBER(path) \
@@ -149,7 +155,9 @@ template <class Value, class Member>
       [=](Request& request, const std::string& text) {
         for (const Choice<Value>& choice : choices)
           if (text == choice.name) return void(member(request) = choice.value);
-        throw Expected{"one of " + names};
+        std::vector<std::string> all;
+        for (const Choice<Value>& choice : choices) all.push_back(choice.name);
+        throw Expected{"one of " + names + did_you_mean(text, all)};
       },
       [=](const Request& request) -> std::string {
         for (const Choice<Value>& choice : choices)

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/nearest_name.h"
 
 namespace splatray {
 namespace {
@@ -54,6 +55,13 @@ const Field* find_field(const std::string& name, FieldDoors door) {
   return old;
 }
 
+std::vector<std::string> names_of(FieldDoors door) {
+  std::vector<std::string> names;
+  for (const Field& field : fields())
+    if (field.in(door)) names.push_back(field.name);
+  return names;
+}
+
 void read_value(const Field& field, const std::string& text, Request& request,
                 const FieldSpelling& spelling) {
   try {
@@ -85,8 +93,9 @@ void assign(Request& request, const std::vector<FieldText>& values, FieldDoors d
   for (const FieldText& value : values) {
     const Field* field = find_field(value.name, door);
     if (field == nullptr)
-      throw Error(ExitCode::usage, "found '" + spelling.before + value.name +
-                                       "', expected the name of a field" + spelling.after);
+      throw Error(ExitCode::usage,
+                  "found '" + spelling.before + value.name + "', expected the name of a field" +
+                      did_you_mean(value.name, names_of(door), spelling.before) + spelling.after);
     sorted.push_back({field, &value.text, rank_of(*field)});
   }
   std::stable_sort(sorted.begin(), sorted.end(),

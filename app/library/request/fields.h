@@ -1,4 +1,4 @@
-/// The table of all that can be asked for. Help, man pages, the viewer's panels, C++, Python, JSON and what a picture keeps of
+/// The table of all that can be asked for. Help, man pages, completion of shells, the viewer's panels, C++, Python, JSON and what a picture keeps of
 /// its command come from it.
 #pragma once
 #include <span>
@@ -15,6 +15,9 @@ namespace splatray {
 /// The field of this name, or of this old name where no field of `door` has that as its name; null where there is none in the
 /// door.
 [[nodiscard]] const Field* find_field(const std::string& name, FieldDoors door);
+
+/// The names of the fields that a door has.
+[[nodiscard]] std::vector<std::string> names_of(FieldDoors door);
 
 /// How a door spells the name of a field, and what its sentences end with.
 struct FieldSpelling {

@@ -45,11 +45,14 @@ Field attributes_row() {
 }
 
 Field inputs_row() {
-  return with(paths_row("inputs", INPUT, MEMBER(source.inputs),
-                        "a .soct scene alone, or files or folders with points, meshes or a scene: " +
-                            format_extensions(),
-                        "FILE"),
-              {.doors = DOORS_ALL});
+  Field row = with(paths_row("inputs", INPUT, MEMBER(source.inputs),
+                             "a .soct scene alone, or files or folders with points, meshes or a scene: " +
+                                 format_extensions(),
+                             "FILE"),
+                   {.doors = DOORS_ALL});
+  row.brief = "scans, meshes or a scene: files, folders, or a .soct";
+  row.extensions = ".soct " + format_extensions();
+  return row;
 }
 
 }  // namespace
@@ -61,17 +64,19 @@ std::vector<Field> input_fields() {
       paths_row("data-path", INPUT, MEMBER(source.data_paths),
                 "folder searched for models a scene names; repeatable; then the variable SPLATRAY_DATA_DIR",
                 "FOLDER"),
-      number_row("mesh-points", INPUT, MEMBER(source.params.samples), 0, MOST_WHOLE,
-                 "points sampled on meshes by area; default 0 = their vertices where fine enough"),
+      needed(number_row("mesh-points", INPUT, MEMBER(source.params.samples), 0, MOST_WHOLE,
+                        "points sampled on meshes by area; default 0 = their vertices where fine enough"),
+             "points sampled on meshes"),
       number_row("radius-scale", INPUT, MEMBER(source.params.radius_scale), 1e-6, 1e6,
                  "factor on every radius; default 1"),
       number_row(
           "crease", INPUT, MEMBER(source.params.crease_degrees), 0, 180,
           "degrees by which a surface turns at a crease, where a mesh is not shaded smoothly; default 30"),
       switch_row("strict", INPUT, MEMBER(source.scans.strict), "refuse a scan that holds less than it says"),
-      vector_row(
-          "sensor", INPUT, MEMBER(source.scans.sensor_world),
-          "where the scanner stood, for points whose file does not say; decides the sides of their normals"),
+      needed(vector_row("sensor", INPUT, MEMBER(source.scans.sensor_world),
+                        "where the scanner stood, for points whose file does not say; decides the sides of "
+                        "their normals"),
+             "where the scanner stood, if the file does not say"),
       path_row("trajectory", INPUT, MEMBER(source.scans.trajectory),
                "text of times and places (time, x, y, z) where the scanner moved, for points with times"),
       number_row("z-scale", INPUT, MEMBER(source.scans.z_scale), 1e-6, 1e6,
@@ -80,10 +85,11 @@ std::vector<Field> input_fields() {
                  "read an E57 with damaged pages"),
       switch_row("keep-withheld", INPUT, MEMBER(source.scans.keep_withheld),
                  "keep points that are marked as deleted or as noise (classes 7 and 18)"),
-      text_row(
-          "columns", INPUT, MEMBER(source.scans.columns),
-          "columns of text files, such as x,y,z,intensity,-,r,g,b; - is skipped; default by header or values",
-          "NAME,..."),
+      needed(text_row("columns", INPUT, MEMBER(source.scans.columns),
+                      "columns of text files, such as x,y,z,intensity,-,r,g,b; - is skipped; default by "
+                      "header or values",
+                      "NAME,..."),
+             "columns of text files, such as x,y,z,-,r,g,b"),
       attributes_row(),
       switch_row("keep-strays", INPUT, MEMBER(source.params.keep_strays),
                  "keep the points of scans that lie on no surface, but for those far from all others"),

@@ -146,16 +146,17 @@ std::vector<Field> light_fields() {
           "light", LIGHT_POINT, "X,Y,Z[,R,G,B[,SIZE]]",
           "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at "
           "the scene's centre; SIZE: its radius, world units; repeatable"),
-      light_row(
-          "sun", LIGHT_DIRECTIONAL, "X,Y,Z[,R,G,B[,SIZE]]",
-          "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, default pi; "
-          "SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable"),
+      needed(light_row("sun", LIGHT_DIRECTIONAL, "X,Y,Z[,R,G,B[,SIZE]]",
+                       "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, "
+                       "default pi; "
+                       "SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable"),
+             "a sun in this direction"),
       light_row(
           "area-light", LIGHT_RECTANGLE, "X,Y,Z,TX,TY,TZ,W,H[,R,G,B]",
           "a rectangle of W x H here that shines towards TX,TY,TZ, instead of the scene's lights; R,G,B: its "
           "radiance, default irradiance pi there; with --look paper a point; repeatable"),
       lights_row(),
-      environment_row(),
+      needed(environment_row(), "an HDR or EXR, white, studio, sky:ELEVATION,AZIMUTH"),
       background_row(),
       with(number_row("environment-strength", LIGHT, MEMBER(settings.environment_strength), 0.0, 1e6,
                       "factor on the environment; default 1"),

@@ -115,21 +115,25 @@ Field exposure_row() {
 
 std::vector<Field> look_fields() {
   return {
-      look_row(),
-      text_row(
-          "color-by", LOOK, MEMBER(look.attributes.color_by),
-          "colours of points: rgb (their own), plain (none), height (low to high: blue-green, green, ochre, "
-          "rose), height+intensity (darker where that is low), normal, distance (from the scanner), or an "
-          "attribute they have, such as intensity, class, return, source, scan, kind (surface, line or "
-          "scatter); default rgb, of scans without colours intensity, of sites and rooms height with it",
-          "NAME"),
+      needed(look_row(), "lit, clay, ao, scan or paper"),
+      needed(
+          text_row(
+              "color-by", LOOK, MEMBER(look.attributes.color_by),
+              "colours of points: rgb (their own), plain (none), height (low to high: blue-green, green, "
+              "ochre, "
+              "rose), height+intensity (darker where that is low), normal, distance (from the scanner), or "
+              "an "
+              "attribute they have, such as intensity, class, return, source, scan, kind (surface, line or "
+              "scatter); default rgb, of scans without colours intensity, of sites and rooms height with it",
+              "NAME"),
+          "rgb, height, intensity, class, normal, ..."),
       color_range_row(),
       number_list_row("hide-class", MEMBER(look.attributes.hidden_classes),
                       "classes that are not shown, such as 7,18"),
       number_list_row("hide-scan", MEMBER(look.attributes.hidden_scans), "scans that are not shown, from 0"),
-      material_row(),
+      needed(material_row(), "what a scene of one object is made of"),
       object_row(),
-      exposure_row(),
+      needed(exposure_row(), "brightness in stops, or auto"),
       tone_row(),
       unset_number_row(
           "ao-radius", LOOK, MEMBER(settings.reach_world), 1e-30, 1e30,

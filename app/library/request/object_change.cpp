@@ -10,6 +10,7 @@
 #include "app/library/materials.h"
 #include "app/library/request/value_text.h"
 #include "engine/base/error.h"
+#include "engine/base/nearest_name.h"
 #include "engine/base/number_text.h"
 #include "engine/scene/surface.h"
 #include "engine/scene/surface_fields.h"
@@ -45,7 +46,7 @@ Key preset_key() {
   const auto check = [](const std::string& value) {
     const std::vector<std::string> names = material_names();
     if (std::find(names.begin(), names.end(), value) == names.end())
-      refuse("preset=" + value, "one of " + quoted_list(names));
+      refuse("preset=" + value, "one of " + quoted_list(names) + did_you_mean(value, names));
     return value;
   };
   const auto set = [](ObjectLook& look, const std::string& value) {
@@ -152,7 +153,8 @@ const Key& find_key(const std::string& name, const std::string& said) {
     if (key.name == name) return key;
     names.push_back(key.name);
   }
-  refuse(said, "key=value with a key of " + quoted_list(names));
+  refuse(said, "key=value with a key of " + quoted_list(names) +
+                   did_you_mean(said.substr(0, said.find('=')), names));
 }
 
 /// The index that a text is, if it is one.
@@ -169,7 +171,8 @@ std::size_t find_object(const std::string& object, const std::vector<std::string
     refuse(object, "an object's name or an index below " + std::to_string(names.size()));
   }
   const auto found = std::find(names.begin(), names.end(), object);
-  if (found == names.end()) refuse(object, "an object's index or name: " + quoted_list(names));
+  if (found == names.end())
+    refuse(object, "an object's index or name: " + quoted_list(names) + did_you_mean(object, names));
   if (std::find(found + 1, names.end(), object) != names.end())
     refuse(object, "an index, as several objects have this name");
   return static_cast<std::size_t>(found - names.begin());

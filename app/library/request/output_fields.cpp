@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "app/library/request/fields.h"
+#include "engine/base/nearest_name.h"
 #include "engine/base/number_text.h"
 #include "engine/image/aovs.h"
 
@@ -32,7 +33,8 @@ Field aov_row() {
         for (std::string name; std::getline(names, name, ',');) {
           const auto found = std::find_if(all_aovs().begin(), all_aovs().end(),
                                           [&](const Aov& aov) { return name == aov.name; });
-          if (found == all_aovs().end()) throw Expected{"a list of " + aov_names()};
+          if (found == all_aovs().end())
+            throw Expected{"a list of " + aov_names() + did_you_mean(name, split_names(aov_names()))};
           set |= 1U << (found - all_aovs().begin());
         }
         request.settings.aov = needs_centre_rays(set);
@@ -62,7 +64,7 @@ Field frames_row() {
 }
 
 Field orbit_row() {
-  return value_row(
+  Field row = value_row(
       "orbit", OUTPUT, "N[xHEIGHTS]",
       "a page (-o FILE.html) of N pictures all around, from this many heights, in which one turns, zooms and "
       "measures "
@@ -83,6 +85,8 @@ Field orbit_row() {
         const std::string columns = std::to_string(output.orbit_columns);
         return output.orbit_rows == 1 ? columns : columns + "x" + std::to_string(output.orbit_rows);
       });
+  row.between = 'x';
+  return row;
 }
 
 /// Of a program's run, not of a picture.
@@ -120,11 +124,13 @@ std::vector<Field> file_fields() {
 
 std::vector<Field> output_fields() {
   std::vector<Field> rows = {
-      with(path_row("output", OUTPUT, MEMBER(output.path),
-                    "the picture: .png (sRGB) or .exr (linear float); of a sequence with a run of # for the "
-                    "frame's "
-                    "digits such as out.####.png"),
-           {.letter = "-o"}),
+      needed(with(path_row("output", OUTPUT, MEMBER(output.path),
+                           "the picture: .png, .jpg or .webp (sRGB; the last two of quality 95, .jpg without "
+                           "transparency) or .exr (linear float); of a sequence with a run of # for the "
+                           "frame's "
+                           "digits such as out.####.png"),
+                  {.letter = "-o"}),
+             "the picture to write: .png, .jpg, .webp or .exr"),
       aov_row(),
       with(path_row("resume", OUTPUT, MEMBER(output.resume),
                     "add samples to this EXR of the same command and fewer --samples, as one that was "
@@ -133,9 +139,10 @@ std::vector<Field> output_fields() {
       with(switch_row("mixed-devices", OUTPUT, MEMBER(output.mixed_devices),
                       "--resume also a picture of another device or driver, whose samples may differ"),
            {.doors = DOOR_RENDER | DOOR_LIBRARY, .why_not = VIEWER_GOES_ON}),
-      number_row(
-          "turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
-          "this many pictures of a full turn about the scene's up axis through the target; default 0 = none"),
+      needed(number_row("turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
+                        "this many pictures of a full turn about the scene's up axis through the target; "
+                        "default 0 = none"),
+             "so many pictures of a full turn, -o out.####.png"),
       orbit_row(),
       frames_row(),
       switch_row("skip-existing", OUTPUT, MEMBER(output.skip_existing),

@@ -26,7 +26,9 @@ Field shadows_row() {
 
 std::vector<Field> quality_fields() {
   return {
-      number_row("samples", QUALITY, MEMBER(settings.samples), 1, 65536, "samples per pixel; default 16"),
+      needed(
+          number_row("samples", QUALITY, MEMBER(settings.samples), 1, 65536, "samples per pixel; default 16"),
+          "samples a pixel: more for less noise"),
       number_row(
           "sample-offset", QUALITY, MEMBER(settings.sample_offset), 0, 65535,
           "begin with this sample, not the first: splatray-merge adds up such parts of a picture, each of "
@@ -39,10 +41,11 @@ std::vector<Field> quality_fields() {
           "time", QUALITY, MEMBER(settings.seconds_goal), 1e-3, 1e9,
           "the best picture in X seconds of tracing, instead of --samples; beside --error the end of it; "
           "default none"),
-      switch_row(
-          "denoise", QUALITY, MEMBER(output.denoise),
-          "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of our own; "
-          "PNGs of scans whose look is not asked for go through it anyway"),
+      needed(switch_row("denoise", QUALITY, MEMBER(output.denoise),
+                        "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter "
+                        "of our own; "
+                        "PNGs of scans whose look is not asked for go through it anyway"),
+             "take the noise out"),
       switch_row("despeckle", QUALITY, MEMBER(output.despeckle),
                  "take out only bright dots: pixels that one half of the samples finds more than 1.5 times "
                  "as bright "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "app/library/codec/picture_format.h"
 #include "engine/base/error.h"
 #include "engine/image/sample_mean.h"
 #include "preprocess/base/file_extension.h"
@@ -41,8 +42,11 @@ void check_part(const Request& request) {
          std::to_string(view.height) + " pixels, expected a part of it (--resolution)");
   const std::string part = is_range ? "--sample-offset" : (view.tiles > 0 ? "--tile" : "--crop");
   if (request.settings.has_goal()) fail("found --error or --time with " + part + ", expected --samples");
-  if (request.output.denoise) fail("found --denoise with " + part + ", expected it for a whole picture");
-  if (request.output.despeckle) fail("found --despeckle with " + part + ", expected it for a whole picture");
+  // A crop is a picture by itself; parts that are joined later keep their noise, which is taken out of the whole.
+  const bool joined = view.tiles > 0 || is_range;
+  if (joined && (request.output.denoise || request.output.despeckle))
+    fail(std::string("found ") + (request.output.denoise ? "--denoise" : "--despeckle") + " with " + part +
+         ", expected it for a whole picture or a --crop");
   if (!request.output.reference.empty())
     fail("found --reference with " + part + ", expected a whole picture");
 }
@@ -128,6 +132,20 @@ void check_noise(const Request& request) {
     fail("found " + option + " with --reference, expected pictures compared as they were traced");
 }
 
+/// What the format of the picture's file cannot hold.
+void check_format(const Request& request) {
+  const std::filesystem::path& path = request.output.path;
+  const std::string of = " with a " + lower_extension(path) + " output, expected ";
+  if (is_jpeg(path) && request.settings.transparent)
+    fail("found --background transparent" + of + ".png, .webp or .exr, which hold how much is covered");
+  const PixelWindow made = request.view.made();
+  if (const std::uint32_t most = most_side(path); std::max(made.width, made.height) > most)
+    fail("found a picture of " + std::to_string(made.width) + "x" + std::to_string(made.height) + " pixels" +
+         of + "at most " + std::to_string(most) + " a side, or another format");
+  if (request.view.sheet && (is_jpeg(path) || is_webp(path)))
+    fail("found --sheet" + of + ".png, .exr, .tif, .svg or .pdf, which say where their pixels lie");
+}
+
 }  // namespace
 
 PixelWindow Request::View::window() const {
@@ -192,10 +210,11 @@ void require_consistent(const Request& request) {
   const bool orbit = output.orbit_columns > 0;
   const bool on_sheet =
       request.view.sheet && (extension == ".tif" || extension == ".svg" || extension == ".pdf");
-  if (!output.path.empty() && extension != ".png" && extension != ".exr" && !on_sheet &&
+  if (!output.path.empty() && !is_picture_format(output.path) && !on_sheet &&
       !(orbit && extension == ".html"))
-    fail("found output '" + output.path.string() + "', expected a name ending in .png or .exr" +
-         (request.view.sheet ? std::string(", .tif, .svg or .pdf") : std::string()));
+    fail("found output '" + output.path.string() + "', expected a name ending in " +
+         (request.view.sheet ? ".png, .exr, .tif, .svg or .pdf" : PICTURE_NAMES));
+  check_format(request);
   const bool aov = !request.view.sheet && request.settings.aov;
   if ((aov || output.aovs != 0) && !output.path.empty() && extension != ".exr")
     fail("found --aov with a " + extension + " output, expected .exr");

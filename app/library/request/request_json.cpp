@@ -4,11 +4,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/library/codec/json_file.h"
 #include "app/library/request/fields.h"
 #include "engine/base/error.h"
-#include "engine/base/json_depth.h"
 #include "engine/base/number_text.h"
-#include "engine/base/one_line.h"
 #include "engine/file/file_roles.h"
 
 namespace splatray {
@@ -36,6 +35,16 @@ std::optional<std::string> text_of(const Json& value) {
   return {};
 }
 
+bool is_numbers(const Json& value) {
+  return value.is_array() && !value.empty() &&
+         std::all_of(value.begin(), value.end(), [](const Json& part) { return part.is_number(); });
+}
+
+/// The values of a repeated field: those of an array, or one alone, which may be an array of numbers.
+Json in_a_list(const Json& value) {
+  return value.is_array() && !is_numbers(value) ? value : Json::array({value});
+}
+
 /// The fields of a family, in which the texts of an array begin with the field's name where it has several.
 std::vector<const Field*> family(const std::string& name) {
   std::vector<const Field*> found;
@@ -57,8 +66,11 @@ class Reader {
     if (!json.is_object()) refuse("no object", "{\"inputs\": [\"scan.laz\"], ...}");
     std::vector<FieldText> values;
     for (const auto& [name, value] : json.items()) {
+      const Field* field = find_field(name, DOORS_ALL);
       if (const std::vector<const Field*> members = family(name); !members.empty())
         read_family(name, members, value, values);
+      else if (field != nullptr && field->repeated)  // one kind of a family, such as "sun"
+        for (const Json& one : in_a_list(value)) values.push_back({name, text(name, one)});
       else
         values.push_back({name, text(name, value)});
     }
@@ -66,17 +78,33 @@ class Reader {
   }
 
  private:
-  [[nodiscard]] std::string text(const std::string& name, const Json& value) const {
+  /// A value's text; an array is the parts of one.
+  [[nodiscard]] std::string text(const std::string& name, const Json& value, char between) const {
+    if (value.is_array() && !value.empty()) {
+      std::string whole;
+      for (const Json& part : value) {
+        const std::optional<std::string> one = text_of(part);
+        if (!one) refuse("'" + name + "' of an array of " + part.type_name(), "numbers or texts in it");
+        whole += (whole.empty() ? "" : std::string(1, between)) + *one;
+      }
+      return whole;
+    }
     const std::optional<std::string> found = text_of(value);
-    if (!found) refuse("'" + name + "' of " + value.type_name(), "a number, true, false or a text");
+    if (!found)
+      refuse("'" + name + "' of " + (value.is_array() ? "an empty array" : value.type_name()),
+             "a number, true, false, a text or an array of such");
     return *found;
+  }
+
+  [[nodiscard]] std::string text(const std::string& name, const Json& value) const {
+    const Field* field = find_field(name, DOORS_ALL);
+    return text(name, value, field == nullptr ? ',' : field->between);
   }
 
   void read_family(const std::string& name, const std::vector<const Field*>& members, const Json& list,
                    std::vector<FieldText>& values) const {
-    if (!list.is_array()) refuse("'" + name + "' of " + list.type_name(), "an array of texts");
-    if (list.empty() && name == "lights") values.push_back({"lights", "none"});
-    for (const Json& value : list) {
+    if (list.empty() && list.is_array() && name == "lights") values.push_back({"lights", "none"});
+    for (const Json& value : in_a_list(list)) {
       const std::string whole = text(name, value);
       if (members.size() == 1) {
         values.push_back({name, whole});
@@ -120,13 +148,9 @@ std::string request_json(const Request& request, int indent) {
 
 Request read_request_text(const std::string& text, const std::string& source) {
   const Reader reader(source);
-  if (json_is_too_deep(text)) reader.refuse("JSON that nests deeply", "an object of names and values");
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::exception& damage) {  // no JSON, or a number beyond float64
-    reader.refuse(one_line(damage.what()), "an object of names and values");
-  }
+  const Json json = parse_json(text, [&reader](const std::string& found, const std::string&) {
+    reader.refuse(found, "an object of names and values");
+  });
   Request request;
   try {
     assign(request, reader.read(json), DOORS_ALL);

@@ -33,7 +33,7 @@ Field sheet_row() {
 
 std::vector<Field> sheet_fields() {
   return {
-      only_rendered(sheet_row()),
+      only_rendered(needed(sheet_row(), "a plan, section or elevation to scale")),
       only_rendered(switch_row("ink", SHEET, MEMBER(view.ink),
                                "of a sheet: lines where depth, direction or object change")),
       only_rendered(switch_row(

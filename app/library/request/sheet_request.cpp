@@ -6,6 +6,7 @@
 
 #include "app/library/request/value_text.h"
 #include "engine/base/length_unit.h"
+#include "engine/base/nearest_name.h"
 #include "engine/base/number_text.h"
 
 namespace splatray {
@@ -96,7 +97,8 @@ SheetRequest read_sheet(const std::string& text) {
   const auto row = std::find_if(KINDS.begin(), KINDS.end(),
                                 [&](const KindRow& kind) { return text.substr(0, colon) == kind.name; });
   if (row == KINDS.end())
-    throw Expected{"plan, section, elevation or ortho, such as plan:z=1.2,scale=50,dpi=300"};
+    throw Expected{"plan, section, elevation or ortho, such as plan:z=1.2,scale=50,dpi=300" +
+                   did_you_mean(text.substr(0, colon), {"plan", "section", "elevation", "ortho"})};
   SheetRequest sheet;
   sheet.kind = row->kind;
   if (colon < text.size())

@@ -180,16 +180,6 @@ std::vector<KeyRow> key_rows() {
   return rows;
 }
 
-std::string keys_text() {
-  const std::vector<KeyRow> rows = key_rows();
-  std::size_t width = 0;
-  for (const KeyRow& row : rows) width = std::max(width, row.keys.size());
-  std::string text;
-  for (const KeyRow& row : rows)
-    text += "  " + row.keys + std::string(width - row.keys.size() + 2, ' ') + row.does + "\n";
-  return text;
-}
-
 std::string keys_markdown() {
   std::string text = "| key or mouse | what it does |\n| --- | --- |\n";
   for (const KeyRow& row : key_rows()) text += "| " + row.keys + " | " + row.does + " |\n";

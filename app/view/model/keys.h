@@ -99,8 +99,7 @@ struct KeyRow {
   std::string does;
 };
 [[nodiscard]] std::vector<KeyRow> key_rows();
-/// The table as aligned text for --help, and as a Markdown table for the README; lines end with a newline.
-[[nodiscard]] std::string keys_text();
+/// The table in Markdown for the README; lines end with a newline.
 [[nodiscard]] std::string keys_markdown();
 
 }  // namespace splatray

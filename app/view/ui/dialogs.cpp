@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/library/camera_file.h"
+#include "app/library/codec/picture_format.h"
 #include "app/view/model/attempt.h"
 #include "app/view/ui/dialog.h"
 #include "app/view/ui/field_controls.h"
@@ -62,11 +63,9 @@ bool ends_in(const std::filesystem::path& path, const char* extension) {
   return path.extension() == extension;
 }
 
-bool is_picture(const std::filesystem::path& path) { return ends_in(path, ".png") || ends_in(path, ".exr"); }
-
 std::string refusal_of_save(const Request& save) {
-  if (is_picture(save.output.path) || ends_in(save.output.path, ".json")) return "";
-  return "The file's name must end in .png or .exr, or in .json for the camera alone.";
+  if (is_picture_format(save.output.path) || ends_in(save.output.path, ".json")) return "";
+  return std::string("The file's name must end in ") + PICTURE_NAMES + ", or in .json for the camera alone.";
 }
 
 std::string refusal_of_record(const Request& record) {
@@ -74,7 +73,8 @@ std::string refusal_of_record(const Request& record) {
   if (output.path.string().find('#') == std::string::npos)
     return "The files' name needs #### where the number goes.";
   if (!output.many()) return "A camera path is needed.";
-  return is_picture(output.path) ? "" : "The files' name must end in .png or .exr.";
+  return is_picture_format(output.path) ? ""
+                                        : std::string("The files' name must end in ") + PICTURE_NAMES + ".";
 }
 
 /// Writes a camera file at once, small as it is.
@@ -124,7 +124,7 @@ void save_dialog(const Document& document, PanelState& state, Requests& requests
   edge_input("samples", save.settings.samples, MOST_SAMPLES);
   file_fields(save, state.error, /*of_sequence=*/false);
   if (!dialog.done_or_cancelled("save", refusal_of_save(save))) return;
-  if (is_picture(save.output.path))
+  if (is_picture_format(save.output.path))
     requests.save = save;
   else
     write_file(state, save.output.path, [&] { write_camera(document.camera, save.output.path); });

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "app/library/codec/picture_format.h"
 #include "app/library/image_file.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/formats.h"
@@ -43,7 +44,7 @@ DropKind drop_kind(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, failed)) return DropKind::scene;
   if (extension == ".soct" || find_format(file) != nullptr) return DropKind::scene;
   if (extension == ".json") return DropKind::camera;
-  if (extension == ".png") return DropKind::picture;
+  if (is_display_format(file)) return DropKind::picture;
   if (extension == ".exr") return is_splatray_picture(file) ? DropKind::picture : DropKind::environment;
   return extension == ".hdr" ? DropKind::environment : DropKind::unknown;
 }

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstring>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/json_depth.h"
+#include "engine/base/json_fault.h"
 #include "engine/base/utf8.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/quoted_list.h"
@@ -189,15 +191,18 @@ void parse(GltfFile& file, bool binary, const ReadListener& listener) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const nlohmann::json::exception&) {
+    error = "found a value of another type than glTF has there";
   } catch (const std::exception& exception) {
     error = exception.what();
   }
   if (!folder.escape.empty()) {
     file.fail("found the uri '" + folder.escape + "', expected a file in the scene's folder or below");
   }
-  if (!good) {
-    file.fail("not a readable glTF 2.0: " + first_line(error));
-  }
+  if (good) return;
+  if (const auto fault = json_fault<nlohmann::json>(json_of(bytes, binary)))
+    file.fail("found " + *fault + ", expected the JSON of a glTF");
+  file.fail("not a readable glTF 2.0: " + first_line(error));
 }
 
 void check_extensions(const GltfFile& file, std::vector<std::string>& notes) {

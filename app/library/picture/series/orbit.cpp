@@ -104,6 +104,7 @@ SequenceRecord render_orbit(const Request& request, SceneOnDevice& shown, const 
       orbit_cameras(still, choose_up(shown.scene(), request), output.orbit_columns, output.orbit_rows);
   for (const Camera& camera : cameras) {
     stop_if_interrupted();
+    constexpr int QUALITY = 88;  // of JPEGs, of which a page has many
     const SequenceFrame frame{static_cast<std::uint32_t>(depths.size()), output.path};
     MadePicture made = make_picture(
         request, shown, camera,
@@ -111,7 +112,7 @@ SequenceRecord render_orbit(const Request& request, SceneOnDevice& shown, const 
         Stopped::dropped);
     if (depths.empty())
       for (const std::string& note : made.notes) listener.note("note: " + note);
-    page.pictures.push_back({camera, encode_jpeg(shown_image(request, made.image)), {}});
+    page.pictures.push_back({camera, encode_jpeg(shown_image(request, made.image), {}, QUALITY), {}});
     depths.push_back(depths_of(made.image));
     record.made.push_back({frame, made.lights, made.stats, 0.0, made.denoise_ms});
     record.last = std::move(made.image);

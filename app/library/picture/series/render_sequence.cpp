@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/stopwatch.h"
+#include "preprocess/base/file_extension.h"
 
 namespace splatray {
 namespace {
@@ -36,7 +37,7 @@ std::string goal_text(const RenderStats& stats) {
   return text.data();
 }
 
-/// Writes a picture that was stopped, as the one of fewer samples that it is, and beside a PNG the EXR that --resume needs.
+/// Writes a picture that was stopped, as the one of fewer samples that it is, and beside all but an EXR the EXR that --resume needs.
 /// Throws Error (interrupted), which says so.
 [[noreturn]] void write_unfinished(const Run& run, const Camera& camera, const SequenceFrame& frame,
                                    const MadePicture& made) {
@@ -45,8 +46,9 @@ std::string goal_text(const RenderStats& stats) {
   request.settings.samples -= made.samples_missing;
   request.output.denoise = request.output.despeckle = false;
   const Metadata metadata = metadata_of(run, request, camera, made);
-  const std::filesystem::path sums = is_png(frame.output) ? unfinished_file(frame.output) : frame.output;
-  if (is_png(frame.output)) write_output(request, made.image, metadata, sums);
+  const bool has_sums = lower_extension(frame.output) == ".exr";
+  const std::filesystem::path sums = has_sums ? frame.output : unfinished_file(frame.output);
+  if (!has_sums) write_output(request, made.image, metadata, sums);
   write_output(request, made.image, metadata, frame.output);
   throw Error(ExitCode::interrupted, "interrupted by a signal after " +
                                          std::to_string(request.settings.samples) + " of " +

@@ -40,7 +40,7 @@ struct SequenceListener {
   std::function<void(const FailedPicture&)> failed;  ///< of several, as soon as one is
 };
 
-/// Beside a PNG that a signal stopped, the EXR of its samples: NAME.unfinished.exr.
+/// Beside a picture other than an EXR that a signal stopped, the EXR of its samples: NAME.unfinished.exr.
 [[nodiscard]] std::filesystem::path unfinished_file(std::filesystem::path picture);
 
 /// Makes the pictures of a scene. `still`: the camera without a sequence. Each is the still of its camera, default lights

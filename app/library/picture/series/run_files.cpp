@@ -1,9 +1,12 @@
 #include "app/library/picture/series/run_files.h"
 
 #include "app/library/picture/picture_file.h"
+#include "app/library/picture/scene_source.h"
 #include "app/library/picture/series/render_sequence.h"
 #include "app/library/sheet/sheet_files.h"
+#include "engine/base/error.h"
 #include "engine/file/file_roles.h"
+#include "preprocess/base/file_extension.h"
 
 namespace splatray {
 namespace {
@@ -30,21 +33,40 @@ void claim_picture(const Request& request, const fs::path& file) {
     claim_if_named(beside);
 }
 
+/// What the request reads, but for --resume; empty ones are none.
+std::vector<fs::path> read_files(const Request& request) {
+  std::vector<fs::path> files = request.source.inputs;
+  const Request::Output& output = request.output;
+  files.insert(files.end(),
+               {request.source.scans.trajectory, output.camera_path, output.measures, output.reference});
+  const std::string& environment = request.look.environment;
+  if (!built_in_environment(environment)) files.emplace_back(environment);
+  return files;
+}
+
 }  // namespace
 
 void note_inputs(const Request& request) {
-  const Request::Output& output = request.output;
-  for (const fs::path& input : request.source.inputs) note_input(input);
-  for (const fs::path& input : {request.source.scans.trajectory, fs::path(request.look.environment),
-                                output.camera_path, output.measures, output.reference})
-    note_input(input);
-  if (!resumes_in_place(output)) note_input(output.resume);
+  for (const fs::path& file : read_files(request)) note_input(file);
+  if (!resumes_in_place(request.output)) note_input(request.output.resume);
+}
+
+void require_inputs_present(const Request& request) {
+  std::vector<fs::path> files = read_files(request);
+  files.push_back(request.output.resume);
+  for (const fs::path& file : files) {
+    std::error_code error;
+    if (!file.empty() && !fs::exists(file, error))
+      throw Error(ExitCode::input_unreadable, file.string() + ": no such file");
+  }
 }
 
 void claim_outputs(const Request& request, const Sequence& sequence) {
   const Request::Output& output = request.output;
   for (const SequenceFrame& frame : sequence.frames) claim_picture(request, frame.output);
-  if (!output.many() && is_png(output.path)) claim_picture(request, unfinished_file(output.path));
+  const bool has_sums = lower_extension(output.path) == ".exr";
+  if (!output.many() && output.orbit_columns == 0 && !has_sums)
+    claim_picture(request, unfinished_file(output.path));
   if (!output.reference.empty()) claim_output(difference_file(output.path));
   claim_if_named(output.height_raster);
   claim_if_named(output.stats_json);

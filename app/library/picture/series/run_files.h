@@ -7,6 +7,10 @@ namespace splatray {
 /// Notes the files that a request names. Throws Error (usage) as note_input does.
 void note_inputs(const Request& request);
 
+/// Throws Error (input_unreadable) for the first of the files that the request reads which is not there: programs ask before they open
+/// a device.
+void require_inputs_present(const Request& request);
+
 /// Claims all that a run of splatray-render may write: pictures, what lies beside them, and files of their own. Throws Error
 /// (usage) as claim_output does.
 void claim_outputs(const Request& request, const Sequence& sequence);
