@@ -25,6 +25,9 @@ constexpr std::size_t MANY_NEIGHBOURS = 32;                 // neighbours asked 
 constexpr float MANY_OVER_FEW =
     1.3F * MANY_NEIGHBOURS / FEW_NEIGHBOURS;  // of their squared distances on a surface, with some room
 constexpr double COVERAGE_MARGIN = 1.02;      // discs of a curved surface lie in different planes
+// The same of samples of a mesh, which lie on its facets: beyond an edge, a neighbour's disc lies beside this facet. Of 1 M samples holes
+// are half as many as with the margin above, wrong pixels 1.07 times (igea, gears, nefertiti).
+constexpr double FACETS_MARGIN = 1.06;
 // More where discs lie at different heights, in standard deviations of the heights.
 constexpr double ROUGHNESS_REACH = 1.0;
 constexpr double LEAST_SLANT = 0.5;      // sine of the angle between planes that meet in a crease
@@ -133,8 +136,9 @@ SPLATRAY_VECTOR_CLONES std::optional<Covering> covering_radius(const Neighbourho
   const bool settled = around.found < wanted || wanted == MANY_NEIGHBOURS ||
                        (surroundings.neighbours().size() >= EVEN_RING && reach.decisive_distance <= seen);
   if (!settled || !(reach.radius > 0.0)) return {};
-  const double covering =
-      COVERAGE_MARGIN * reach.radius + ROUGHNESS_REACH * surroundings.noise(MEETING_NEIGHBOURS);
+  const bool faceted = around.ends_known && !around.creases_known;
+  const double covering = (faceted ? FACETS_MARGIN : COVERAGE_MARGIN) * reach.radius +
+                          ROUGHNESS_REACH * surroundings.noise(MEETING_NEIGHBOURS);
   return Covering{std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW_NEIGHBOURS)),
                            NOISE_LIMIT * reach.radius),
                   reach.open};
