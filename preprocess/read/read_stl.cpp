@@ -29,13 +29,16 @@ std::uint64_t declared_bytes(const unsigned char* header) {
   return HEADER_BYTES + TRIANGLE_BYTES * std::uint64_t{count};
 }
 
-/// ASCII files begin with "solid", as some binary ones do; those have the size that they declare.
+/// ASCII files begin with "solid", in any encoding, as some binary ones do; those have the size that they declare.
 bool is_ascii(const std::filesystem::path& path) {
   ByteReader in(path);
   const std::uint64_t size = in.remaining();
   const auto length = static_cast<std::size_t>(std::min(size, HEADER_BYTES));
   const unsigned char* bytes = in.take(length);
-  const std::string_view start(reinterpret_cast<const char*>(bytes), length);
+  std::string start(reinterpret_cast<const char*>(bytes), length);
+  std::erase_if(start, [](char c) { return c == '\0' || static_cast<unsigned char>(c) > 127; });
+  std::transform(start.begin(), start.end(), start.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return start.starts_with("solid") && (length < HEADER_BYTES || size != declared_bytes(bytes));
 }
 

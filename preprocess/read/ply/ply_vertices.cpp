@@ -35,18 +35,18 @@ struct Columns {
   }
 };
 
-/// All three by name as plain scalars, or ABSENT.
-Triple find_triple(const PlyElement& element, const char* a, const char* b, const char* c) {
-  const Triple found{element.find(a), element.find(b), element.find(c)};
-  for (const int index : found) {
-    if (index < 0 || element.properties[static_cast<std::size_t>(index)].is_list) {
-      return ABSENT;
-    }
+/// The properties that mean these, all three, or ABSENT.
+Triple find_triple(const std::vector<std::string>& meanings, const std::string_view (&names)[3]) {
+  Triple found{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = std::find(meanings.begin(), meanings.end(), names[i]);
+    if (at == meanings.end()) return ABSENT;
+    found[i] = static_cast<int>(at - meanings.begin());
   }
   return found;
 }
 
-/// Whether a known column is none of a position, normal or colour, which have their own names in PLY.
+/// Whether a known column is none of a position, normal or colour.
 bool is_attribute(const std::string& known) {
   const auto is_it = [&](std::string_view name) { return name == known; };
   return !known.empty() && std::none_of(std::begin(COLUMN_AXES), std::end(COLUMN_AXES), is_it) &&
@@ -54,20 +54,23 @@ bool is_attribute(const std::string& known) {
          std::none_of(std::begin(COLUMN_COLORS), std::end(COLUMN_COLORS), is_it);
 }
 
+/// What each property means (known_columns); nothing of lists.
+std::vector<std::string> meanings_of(const PlyElement& element) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties)
+    names.push_back(property.is_list ? "" : property.name);
+  return known_columns(names);
+}
+
 Columns find_columns(const PlyBody& in, const PlyElement& element) {
+  const std::vector<std::string> meanings = meanings_of(element);
   Columns columns;
-  columns.position = find_triple(element, "x", "y", "z");
+  columns.position = find_triple(meanings, COLUMN_AXES);
   if (columns.position == ABSENT) {
     in.fail("element 'vertex' has no properties x, y, z");
   }
-  columns.normal = find_triple(element, "nx", "ny", "nz");
-  columns.color = find_triple(element, "red", "green", "blue");
-  if (columns.color == ABSENT) {
-    columns.color = find_triple(element, "diffuse_red", "diffuse_green", "diffuse_blue");
-  }
-  if (columns.color == ABSENT) {
-    columns.color = find_triple(element, "r", "g", "b");
-  }
+  columns.normal = find_triple(meanings, COLUMN_NORMALS);
+  columns.color = find_triple(meanings, COLUMN_COLORS);
   const int radius = element.find("radius");
   if (radius >= 0 && !element.properties[static_cast<std::size_t>(radius)].is_list) {
     columns.radius = radius;
@@ -76,14 +79,13 @@ Columns find_columns(const PlyBody& in, const PlyElement& element) {
 }
 
 void find_attributes(const PlyElement& element, const std::vector<std::string>& wanted, Columns& columns) {
-  std::vector<std::string> names;
-  for (const PlyProperty& property : element.properties) names.push_back(property.name);
-  const std::vector<std::string> known = known_columns(names);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto is_it = [&](const std::string& name) { return plain_name(name) == plain_name(names[i]); };
+  const std::vector<std::string> known = meanings_of(element);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const std::string& name = element.properties[i].name;
+    const auto is_it = [&](const std::string& one) { return plain_name(one) == plain_name(name); };
     const auto named = std::find_if(wanted.begin(), wanted.end(), is_it);
     std::string column = named != wanted.end() ? *named : is_attribute(known[i]) ? known[i] : "";
-    if (column.empty() && names[i] == "confidence") column = names[i];
+    if (column.empty() && plain_name(name) == "confidence") column = "confidence";
     const bool used = columns.uses(static_cast<int>(i)) || element.properties[i].is_list;
     if (!used && !column.empty()) columns.attributes.emplace_back(static_cast<int>(i), std::move(column));
   }
@@ -153,24 +155,21 @@ void append_rows(const unsigned char* rows, std::size_t count, const RowLayout& 
   }
 }
 
-void reserve(Points& points, const PlyElement& element, const Columns& columns) {
-  points.position.reserve(element.count);
-  points.normal.reserve(columns.normal == ABSENT ? 0 : element.count);
-  points.color.reserve(columns.color == ABSENT ? 0 : element.count);
-  points.radius.reserve(columns.radius < 0 ? 0 : element.count);
+void reserve(Points& points, std::uint64_t count, const Columns& columns) {
+  points.position.reserve(count);
+  points.normal.reserve(columns.normal == ABSENT ? 0 : count);
+  points.color.reserve(columns.color == ABSENT ? 0 : count);
+  points.radius.reserve(columns.radius < 0 ? 0 : count);
 }
 
-void gather_row(PlyBody& in, const PlyElement& element, double* row) {
-  in.begin_row();
+/// The values of a row that are used, in the places of their properties.
+void gather_row(PlyBody& in, const PlyElement& element, const Columns& columns, double* row) {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    if (element.properties[i].is_list) {
-      in.skip(element.properties[i]);
-      row[i] = 0.0;
-    } else {
+    if (columns.uses(static_cast<int>(i)))
       row[i] = in.number(element.properties[i].type);
-    }
+    else
+      in.skip(element.properties[i]);
   }
-  in.end_row();
 }
 
 void take_attributes(const Columns& columns, std::vector<std::vector<double>> values, Points& points) {
@@ -181,37 +180,74 @@ void take_attributes(const Columns& columns, std::vector<std::vector<double>> va
   }
 }
 
+/// Takes points out of rows in memory, block by block.
+class RowTaker {
+ public:
+  RowTaker(PlyBody& in, const PlyElement& element, const Columns& columns, bool in_place)
+      : in_(in),
+        element_(element),
+        columns_(columns),
+        layout_(make_layout(in, element, in_place)),
+        block_rows_(std::max<std::size_t>(1, ByteReader::BLOCK_BYTES / layout_.stride)),
+        values_(columns.attributes.size()) {
+    reserve(points_, in.most_rows(element), columns);
+  }
+
+  /// Binary rows without lists, as they stand in the file.
+  void take_in_place() {
+    const std::uint64_t count = in_.most_rows(element_);
+    for (std::uint64_t done = 0; done < count;) {
+      const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(block_rows_, count - done));
+      const unsigned char* rows = in_.bytes().take(step * layout_.stride);
+      if (rows == nullptr) in_.fail("it could not be read to its end");
+      append_rows(rows, step, layout_, columns_, points_, values_);
+      done += step;
+    }
+  }
+
+  /// Rows that are read value by value.
+  void take_gathered() {
+    const std::size_t width = element_.properties.size();
+    const std::uint64_t count = in_.read_rows(element_, [&] {
+      if (gathered_.size() == block_rows_ * width) append_gathered(block_rows_);
+      gathered_.resize(gathered_.size() + width);
+      gather_row(in_, element_, columns_, gathered_.data() + gathered_.size() - width);
+    });
+    append_gathered(static_cast<std::size_t>(count - points_.size()));
+  }
+
+  Points points() {
+    take_attributes(columns_, std::move(values_), points_);
+    return std::move(points_);
+  }
+
+ private:
+  void append_gathered(std::size_t count) {
+    append_rows(reinterpret_cast<const unsigned char*>(gathered_.data()), count, layout_, columns_, points_,
+                values_);
+    gathered_.clear();
+  }
+
+  PlyBody& in_;
+  const PlyElement& element_;
+  const Columns& columns_;
+  RowLayout layout_;
+  std::size_t block_rows_;
+  std::vector<double> gathered_;
+  Points points_;
+  std::vector<std::vector<double>> values_;
+};
+
 Points read_rows(PlyBody& in, const PlyElement& element, const Columns& columns) {
   const bool has_lists = std::any_of(element.properties.begin(), element.properties.end(),
                                      [](const PlyProperty& property) { return property.is_list; });
   const bool in_place = !in.is_ascii() && !has_lists;
-  const RowLayout layout = make_layout(in, element, in_place);
-  const std::size_t block_rows = std::max<std::size_t>(1, ByteReader::BLOCK_BYTES / layout.stride);
-  std::vector<double> gathered;
-  Points points;
-  reserve(points, element, columns);
-  std::vector<std::vector<double>> values(columns.attributes.size());
-  for (std::uint64_t done = 0; done < element.count;) {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block_rows, element.count - done));
-    const unsigned char* rows = nullptr;
-    if (in_place) {
-      rows = in.bytes().take(count * layout.stride);
-      if (rows == nullptr) {
-        in.fail("the file ends before vertex " + std::to_string(done + count) + " of " +
-                std::to_string(element.count));
-      }
-    } else {
-      gathered.resize(count * element.properties.size());
-      for (std::size_t i = 0; i < count; ++i) {
-        gather_row(in, element, gathered.data() + i * element.properties.size());
-      }
-      rows = reinterpret_cast<const unsigned char*>(gathered.data());
-    }
-    append_rows(rows, count, layout, columns, points, values);
-    done += count;
-  }
-  take_attributes(columns, std::move(values), points);
-  return points;
+  RowTaker taker(in, element, columns, in_place);
+  if (in_place)
+    taker.take_in_place();
+  else
+    taker.take_gathered();
+  return taker.points();
 }
 
 /// The value that stands for full intensity: by type, unless the values themselves say otherwise.

@@ -61,7 +61,6 @@ class HeadReader {
   TextLayout read() {
     if (!options_.columns.empty()) name_by_list();
     for (std::string_view line; layout_.data.lines < MOST_HEAD_LINES && in_.line(line, MOST_LINE_BYTES);) {
-      if (layout_.data.lines == 0 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
       if (is_first_row(line)) break;
       ++layout_.data.lines;
       layout_.data.offset = in_.offset();
