@@ -18,6 +18,7 @@
 #include "preprocess/read/one_system.h"
 #include "preprocess/read/read_mesh.h"
 #include "preprocess/read/scan/empty_stations.h"
+#include "preprocess/read/scan/no_data.h"
 #include "preprocess/read/text/read_track.h"
 
 namespace splatray {
@@ -36,6 +37,8 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
   object.name = path_text(path.stem());
   object.material = default_material();
   object.meshes.push_back(read_mesh(path, options, listener));
+  if (object.meshes.front().triangles.empty())
+    remove_no_data(path, object.meshes.front().vertices, input.scan_counts, listener);
   listener.show(object.meshes.front().vertices, object.meshes.front().triangles.empty());
   input.crs = object.meshes.front().vertices.crs;
   input.up = object.meshes.front().vertices.up;
@@ -67,6 +70,7 @@ std::string no_points_found(const ScanCounts& counts) {
 Input add_scan(const std::filesystem::path& path, ScanFile file, const ReadListener& listener,
                std::vector<NamedScan>& scans) {
   Input input;
+  remove_no_data(path, file.points, file.counts, listener);
   input.scan_counts = file.counts;
   if (file.points.size() == 0) {
     listener.note(path, no_points_found(file.counts) + "; it was left out");
@@ -265,7 +269,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   if (left_out && scans.empty() && input.objects.empty()) throw Error(*left_out);
   require_one_system(scans);
   input.crs = one_crs(systems, input.notes);
-  if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
+  if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans), input.notes));
   finish_objects(input, options);
   drop_empty_objects(input);
   if (input.objects.empty()) {

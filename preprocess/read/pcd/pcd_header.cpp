@@ -9,6 +9,7 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace splatray {
 namespace {
@@ -105,15 +106,18 @@ class HeaderParser {
   }
 
   void read_viewpoint(const Words& words) {
-    double values[7] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
-    for (std::size_t i = 0; i < 7; ++i) {
-      const std::optional<double> value = words.size() == 7 ? number_of<double>(words[i]) : std::nullopt;
-      if (!value || !std::isfinite(*value))
-        fail("found no seven finite numbers for VIEWPOINT, expected them");
-      values[i] = *value;
+    double values[7] = {};
+    bool is_whole = words.size() == 7;
+    for (std::size_t i = 0; i < 7 && is_whole; ++i) {
+      const std::optional<double> value = number_of<double>(words[i]);
+      is_whole = value && std::isfinite(*value);
+      values[i] = value.value_or(0.0);
     }
+    const glm::dvec4 rotation(values[3], values[4], values[5], values[6]);
+    header_.is_viewpoint_left_out = !is_whole || rotation == glm::dvec4(0.0);
+    if (header_.is_viewpoint_left_out) return;
     header_.viewpoint = {values[0], values[1], values[2]};
-    header_.rotation = {values[3], values[4], values[5], values[6]};
+    header_.rotation = rotation;
   }
 
   void read_data(const Words& words) {
@@ -138,6 +142,7 @@ class HeaderParser {
            " COUNTs, expected equally many, 1 to 1000");
     for (std::size_t i = 0; i < names_.size(); ++i) add_field(i);
     header_.points = points_.value_or(std::uint64_t{header_.width} * header_.height);
+    if (header_.width == 1) std::swap(header_.width, header_.height);
     return std::move(header_);
   }
 

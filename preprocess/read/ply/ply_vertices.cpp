@@ -10,6 +10,7 @@
 #include "preprocess/read/scan/column_names.h"
 #include "preprocess/read/scan/narrow_column.h"
 #include "preprocess/read/scan/scan_stations.h"
+#include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
 namespace {
@@ -252,29 +253,20 @@ Points read_rows(PlyBody& in, const PlyElement& element, const Columns& columns)
 
 /// The value that stands for full intensity: by type, unless the values themselves say otherwise.
 float color_scale(const Points& points, PlyType type, const PlyBody& in, std::vector<std::string>& notes) {
-  float most = 0.0F;
-  for (const glm::vec3& color : points.color) {
-    most = std::max({most, color.x, color.y, color.z});
-  }
-  const auto note = [&](const char* what) { notes.push_back(in.path().string() + ": " + what); };
-  switch (type) {
-    case PlyType::int16:
-    case PlyType::uint16:
-      if (most > 0.0F && most <= 255.0F) {
-        note("16-bit colours never exceed 255, taken as 8-bit");
-        return 255.0F;
-      }
-      return 65535.0F;
-    case PlyType::float32:
-    case PlyType::float64:
-      if (most > 1.001F) {
-        note("float colours exceed 1, taken as 0 to 255");
-        return 255.0F;
-      }
-      return 1.0F;
-    default:
-      return 255.0F;
-  }
+  if (type == PlyType::uint8 || type == PlyType::int8) return 255.0F;
+  const bool is_float = type >= PlyType::float16;
+  ColorRange range(is_float);
+  for (const glm::vec3& color : points.color)
+    for (int channel = 0; channel < 3; ++channel) range.add(static_cast<double>(color[channel]));
+  const bool is_short = type == PlyType::int16 || type == PlyType::uint16;
+  const float usual = is_float ? 1.0F : is_short ? 65535.0F : 255.0F;
+  const auto full =
+      static_cast<float>(is_float || range.full() > 1.0 ? range.full() : static_cast<double>(usual));
+  if (range.is_black() || (full == usual && range.outliers() == 0)) return full;
+  std::string said = color_note(range);
+  if (said.empty()) said = "colours are taken as of 0 to " + std::to_string(static_cast<int>(full));
+  notes.push_back(in.path().string() + ": " + said);
+  return full;
 }
 
 /// Raw file values to linear rgb; NaN becomes 0.

@@ -133,7 +133,7 @@ bool has_triangles(const PlyHeader& header) {
 void refuse_gaussians(const PlyElement& vertices, const std::filesystem::path& path) {
   std::vector<std::string> names;
   for (const PlyProperty& property : vertices.properties) names.push_back(property.name);
-  refuse_gaussian_ply(path, names);
+  refuse_gaussian_names(path, names);
 }
 
 std::uint64_t append_faces(PlyBody& in, const PlyElement& element, std::uint64_t vertex_count, int list,
