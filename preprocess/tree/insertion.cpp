@@ -114,10 +114,9 @@ class ReferenceCount {
           "fewer points");
     }
     if (total > most_) {
-      throw Error(ExitCode::failed, "the leaves would list each splat more than " +
-                                        std::to_string(MOST_EACH) +
-                                        " times, as discs reach far beyond their neighbours; use a smaller "
-                                        "--radius-scale or smaller radii");
+      throw Error(ExitCode::usage, "the leaves would list each splat more than " + std::to_string(MOST_EACH) +
+                                       " times, as discs reach far beyond their neighbours; use a smaller "
+                                       "--radius-scale or smaller radii");
     }
   }
 
