@@ -80,8 +80,8 @@ class ByteReader {
   std::size_t end_ = 0;
   std::uint64_t offset_ = 0;
   std::uint64_t size_ = 0;
-  bool cr_ends_lines_ =
-      false;  ///< a CR without LF ended one: an LF behind a CR belongs to what follows, as a binary body
+  /// A CR without LF ended one: an LF behind a CR belongs to what follows, as a binary body.
+  bool cr_ends_lines_ = false;
   bool line_is_open_ = false;
 };
 

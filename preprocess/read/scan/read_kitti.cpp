@@ -12,8 +12,8 @@
 namespace splatray {
 namespace {
 
-constexpr float MOST_METRES =
-    1e7F;  ///< no coordinate of a map on Earth is farther; bytes of other files are at once
+/// No coordinate of a map on Earth is farther; bytes of other files soon are.
+constexpr float MOST_METRES = 1e7F;
 constexpr float MOST_RING = 255.0F;
 constexpr std::string_view RING = "ring";
 
