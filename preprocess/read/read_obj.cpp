@@ -13,6 +13,7 @@
 #include "engine/base/srgb.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/scan/stored_colors.h"
+#include "preprocess/read/text/parse_number.h"
 
 namespace splatray {
 namespace {
@@ -115,18 +116,23 @@ class ObjReader {
     }
   }
 
-  /// The numbers that the line begins with, at most as many as there is room for.
+  /// The numbers that the line begins with, at most as many as there is room for; three of them must be there.
   template <std::size_t MOST>
-  std::size_t read_numbers(std::string_view line, std::array<double, MOST>& values) const {
-    std::size_t count = 0;
-    while (count < MOST && read_number(next_word(line), values[count])) ++count;
-    return count;
+  std::size_t read_numbers(std::string_view line, std::array<double, MOST>& values, const char* what) const {
+    for (std::size_t count = 0; count < MOST; ++count) {
+      const std::string_view word = next_word(line);
+      if (read_number(word, values[count])) continue;
+      if (count < 3)
+        fail("found a " + std::string(what) + " of " + std::to_string(count) + " numbers, expected 3" +
+             (word.empty() ? "" : ": " + no_number(word)));
+      return count;
+    }
+    return MOST;
   }
 
   void read_vertex(std::string_view line) {
     std::array<double, 6> values{};
-    const std::size_t numbers = read_numbers(line, values);
-    if (numbers < 3) fail("found a vertex of " + std::to_string(numbers) + " numbers, expected 3");
+    const std::size_t numbers = read_numbers(line, values, "vertex");
     count(VERTEX);
     if (numbers == 6) {
       content_.color.resize(content_.position.size(), glm::vec3(1.0F));
@@ -137,8 +143,7 @@ class ObjReader {
 
   void read_normal(std::string_view line) {
     std::array<double, 3> values{};
-    const std::size_t numbers = read_numbers(line, values);
-    if (numbers < 3) fail("found a normal of " + std::to_string(numbers) + " numbers, expected 3");
+    static_cast<void>(read_numbers(line, values, "normal"));
     count(NORMAL);
     content_.normal.emplace_back(values[0], values[1], values[2]);
   }

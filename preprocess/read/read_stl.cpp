@@ -14,6 +14,7 @@
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/float_precision.h"
+#include "preprocess/read/text/parse_number.h"
 
 namespace splatray {
 namespace {
@@ -122,7 +123,7 @@ class AsciiStl {
       double value = 0.0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc{} || end != word.data() + word.size()) {
-        fail("found '" + std::string(word.substr(0, 20)) + "' in a vertex, expected three numbers");
+        fail("of a vertex's three numbers, " + no_number(word));
       }
       corner[axis] = static_cast<float>(value);
     }

@@ -26,6 +26,12 @@ std::string lower(std::string text) {
   return text;
 }
 
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
 template <typename Number>
 std::optional<Number> number_of(const std::string& word) {
   Number value{};
@@ -61,7 +67,7 @@ class HeaderParser {
       std::istringstream stream{to_utf8(line)};
       Words words{std::istream_iterator<std::string>(stream), {}};
       if (words.empty() || words[0].front() == '#') continue;
-      const std::string key = words[0];
+      const std::string key = upper(words[0]);
       words.erase(words.begin());
       read_line(key, words);
       if (key == "DATA") return finished();
@@ -121,7 +127,7 @@ class HeaderParser {
   }
 
   void read_data(const Words& words) {
-    const std::string kind = words.size() == 1 ? words[0] : "";
+    const std::string kind = words.size() == 1 ? lower(words[0]) : "";
     if (kind == "ascii") {
       header_.data = PcdData::ascii;
     } else if (kind == "binary") {
@@ -151,7 +157,7 @@ class HeaderParser {
     field.name = names_[i];
     const auto size = number_of<std::uint32_t>(sizes_[i]);
     const auto count = number_of<std::uint32_t>(counts_[i]);
-    const auto type = size ? type_of(types_[i], *size) : std::nullopt;
+    const auto type = size ? type_of(upper(types_[i]), *size) : std::nullopt;
     if (!type || !count)
       fail("found TYPE '" + types_[i].substr(0, 20) + "', SIZE '" + sizes_[i].substr(0, 20) +
            "' and COUNT '" + counts_[i].substr(0, 20) + "' of field '" + field.name.substr(0, 40) +

@@ -40,7 +40,7 @@ struct PcdHeader {
   [[nodiscard]] const PcdField* find(std::string_view name) const;
 };
 
-/// Reads the header; `in` then stands on the first byte behind it. Lines may be missing: COUNT is 1, HEIGHT 1, VIEWPOINT
+/// Reads the header, whose words may be in any case; `in` then stands on the first byte behind it. Lines may be missing: COUNT is 1, HEIGHT 1, VIEWPOINT
 /// the origin, as it is where it makes no sense, and POINTS the cells of the grid. A single column is no grid: HEIGHT is 1 then. Throws Error (input_unreadable) with the line.
 [[nodiscard]] PcdHeader read_pcd_header(ByteReader& in);
 

@@ -151,7 +151,10 @@ bool parse_cell(std::string_view cell, const CellForm& form, double& value) {
   if (is_missing(cell)) return true;
   std::string text(cell);
   if (form.decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
-  return is_whole_number(text, value) || parse_groups(text, value);
+  if (is_whole_number(text, value) || parse_groups(text, value)) return true;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');  // Fortran's exponents
+  return is_whole_number(text, value);
 }
 
 bool is_remark(std::string_view line) {

@@ -27,7 +27,7 @@ struct CellForm {
 /// The first character behind the cell that begins at `begin`; `separator` is not a blank.
 [[nodiscard]] const char* end_of_cell(const char* begin, const char* end, char separator);
 
-/// Reads a cell that is more than a number between blanks: quotes around it, digits in groups of three (1,234.5, 1'234,
+/// Reads a cell that is more than a number between blanks: quotes around it, exponents of Fortran (1D3), digits in groups of three (1,234.5, 1'234,
 /// 1.234,5 where commas are decimal ones), NaN for what is empty or a word for "missing" (NULL, N/A, NaN, none, ?). Whether
 /// it is one of these.
 [[nodiscard]] bool parse_cell(std::string_view cell, const CellForm& form, double& value);

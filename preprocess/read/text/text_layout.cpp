@@ -26,15 +26,18 @@ char separator_of_names(std::string_view line) {
   return has_tab && separator != ';' ? '\t' : separator;
 }
 
-/// Whether cells count the rows: 0, 1, 2 ... or 1, 2, 3 ..., at least three of them with x, y and z behind.
+/// Whether cells count the rows, with x, y and z behind: at least three from 0 or 1 on, or as many as are looked at from any
+/// number on.
 bool count_rows(const std::vector<std::string>& rows, const CellForm& form) {
+  const bool starts_anywhere = rows.size() == CellForm::MOST_ROWS;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::vector<std::string> cells = split_cells(rows[i], form.separator);
     double number = NAN;
     double first = NAN;
     const bool are_numbers = cells.size() > 3 && parse_cell(cells[0], form, number) &&
                              parse_cell(split_cells(rows[0], form.separator)[0], form, first);
-    if (!are_numbers || (first != 0.0 && first != 1.0) || number != first + static_cast<double>(i))
+    if (!are_numbers || (!starts_anywhere && first != 0.0 && first != 1.0) ||
+        number != std::floor(first) + static_cast<double>(i))
       return false;
   }
   return rows.size() >= 3;

@@ -18,7 +18,7 @@ struct TextLayout {
   std::vector<std::string> unused;     ///< names in the header that are not known
   std::optional<std::uint64_t> count;  ///< of points, where a line before them says it
   bool degrees = false;                ///< x and y are a longitude and a latitude
-  /// The first cells of the first rows, of columns without names, are 0, 1, 2 ... or 1, 2, 3 ...
+  /// The first cells of the first rows, of columns without names, count them.
   bool numbered = false;
   bool has_more = false;  ///< the first row has more cells than there are names
 };

@@ -114,6 +114,21 @@ TEST_F(TextDialects, FirstColumnsThatCountAreLeftOut) {
   }
 }
 
+TEST_F(TextDialects, NumbersOfRowsBeginAnywhereInLongFiles) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += std::to_string(i + 1001) + ";" + std::to_string(i % 9) + ";1.5D0;3\n";
+  const ReadScan scan = read("a.csv", text);
+  EXPECT_EQ(scan.file.points.position.at(10), glm::dvec3(1, 1.5, 3));
+  EXPECT_TRUE(scan.has_note("counts the rows"));
+}
+
+TEST_F(TextDialects, MeshesWithDecimalCommasSaySo) {
+  EXPECT_NE(error("a.obj", "v 0,5 0 0\n").find("'0,5' with a decimal comma"), std::string::npos);
+  EXPECT_NE(error("a.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0,5 0 0\n")
+                .find("'0,5' with a decimal comma"),
+            std::string::npos);
+}
+
 /// A raster's x counts too, but begins anew.
 TEST_F(TextDialects, CoordinatesThatCountAreKept) {
   std::string text;

@@ -145,6 +145,16 @@ TEST_F(Values, FieldsOfPcdHaveAliases) {
   }
 }
 
+TEST_F(Values, WordsOfPcdAreInAnyCase) {
+  EXPECT_EQ(
+      read("a.pcd",
+           "fields X Y Z\nsize 4 4 4\ntype f f f\ncount 1 1 1\nWidth 3\nHeight 1\npoints 3\ndata ASCII\n"
+           "0 0 0\n1 0 0\n0 1 0\n")
+          .objects.at(0)
+          .points.size(),
+      3U);
+}
+
 TEST_F(Values, PcdOfOneColumnIsNoGridAndOddViewpointsAreLeftOut) {
   const std::string head = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 3\n";
   const std::string body = "POINTS 3\nDATA ascii\n0 0 0\n1 0 0\n0 1 0\n";
