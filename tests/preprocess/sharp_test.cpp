@@ -187,7 +187,10 @@ TEST(Sharp, AnObjectOfWhichNoPointIsLeftIsPassedOver) {
   for (dvec3& place : input.objects.back().points.position) place = dvec3(NAN);
   BuildStats stats;
   const std::size_t count = input.objects.front().points.size();
-  EXPECT_GE(build_scene(std::move(input), {}, 1, stats).data_pool.size(), count);
+  input.objects.back().points.columns = {{"height", std::vector<float>(count)}};
+  const Scene scene = build_scene(std::move(input), {}, 1, stats);
+  EXPECT_GE(scene.data_pool.size(), count);
+  for (const Column& column : scene.columns) EXPECT_EQ(column.size(), scene.data_pool.size()) << column.name;
 }
 
 TEST(Sharp, PositionsThatAreGoneSayNothingOfTheirSteps) {
