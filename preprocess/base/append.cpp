@@ -50,6 +50,7 @@ std::size_t number_of(const std::vector<Column>& columns, const std::string& nam
 
 void append_columns(std::vector<Column>& to, std::size_t to_size, std::vector<Column>&& more,
                     std::size_t size) {
+  if (size == 0) return;
   for (Column& column : more) {
     const std::size_t i = number_of(to, column.name);
     if (i == to.size()) to.push_back({column.name, std::vector<std::uint8_t>{}});

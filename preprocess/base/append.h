@@ -27,7 +27,7 @@ void append(std::vector<Value>& to, std::size_t to_size, std::vector<Value>&& mo
 }
 
 /// The same for all attributes: one that is absent on one side is absent_value() (texture_factors.h) there; where both store it differently, it becomes the
-/// wider type.
+/// wider type. Attributes of no points are none.
 void append_columns(std::vector<Column>& to, std::size_t to_size, std::vector<Column>&& more,
                     std::size_t size);
 

@@ -91,30 +91,45 @@ bool ByteReader::skip(std::uint64_t count) {
   return true;
 }
 
+void ByteReader::begin_text() {
+  if (offset_ != 0) return;
+  if (end_ - begin_ < 2) static_cast<void>(fill(std::min<std::uint64_t>(size_, UTF8_MARK.size())));
+  const std::string_view start(reinterpret_cast<const char*>(buffer_.data() + begin_), end_ - begin_);
+  const auto is_ascii = [](char c) { return c == '\t' || c == '\n' || c == '\r' || (c >= ' ' && c <= '~'); };
+  const bool zero_beside_letter = start.size() > 1 && ((start[0] == '\0' && is_ascii(start[1])) ||
+                                                       (start[1] == '\0' && is_ascii(start[0])));
+  if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF") || zero_beside_letter)
+    throw_unreadable(path_, "found text in UTF-16, expected UTF-8: save it as UTF-8");
+  if (start.starts_with(UTF8_MARK)) static_cast<void>(skip(UTF8_MARK.size()));
+}
+
+/// The bytes of the end that follows a line of `length` bytes in the buffer; 0: none, as the file ends or the line is cut.
+std::size_t ByteReader::end_of_line(std::size_t length, std::size_t max_bytes) {
+  if (begin_ + length == end_ || length > max_bytes) return 0;
+  if (buffer_[begin_ + length] == '\n') return 1;
+  const bool has_next = begin_ + length + 1 < end_ || fill(length + 2);
+  const bool is_pair = !cr_ends_lines_ && has_next && buffer_[begin_ + length + 1] == '\n';
+  cr_ends_lines_ = cr_ends_lines_ || (has_next && !is_pair);
+  return is_pair ? 2 : 1;
+}
+
 bool ByteReader::line(std::string_view& text, std::size_t max_bytes) {
-  std::size_t searched = 0;
-  const void* found = nullptr;
-  while (found == nullptr) {
-    found = std::memchr(buffer_.data() + begin_ + searched, '\n', end_ - begin_ - searched);
-    searched = end_ - begin_;
-    if (found == nullptr && (searched >= max_bytes || !fill(searched + 1))) {
-      break;
-    }
+  begin_text();
+  const auto is_end = [](unsigned char c) { return c == '\n' || c == '\r'; };
+  std::size_t length = 0;
+  for (bool searching = true; searching;) {
+    const unsigned char* const begin = buffer_.data() + begin_;
+    const unsigned char* const end = buffer_.data() + end_;
+    length = static_cast<std::size_t>(std::find_if(begin + length, end, is_end) - begin);
+    searching = begin + length == end && length < max_bytes && fill(length + 1);
   }
-  const std::size_t length =
-      found == nullptr
-          ? std::min(searched, max_bytes)
-          : static_cast<std::size_t>(static_cast<const unsigned char*>(found) - (buffer_.data() + begin_));
-  const std::size_t consumed = length + (found == nullptr ? 0 : 1);
-  if (consumed == 0) {
-    return false;
-  }
+  const std::size_t end_bytes = end_of_line(length, max_bytes);
+  if (end_bytes == 0) length = std::min(length, max_bytes);
+  line_is_open_ = end_bytes == 0;
+  if (length + end_bytes == 0) return false;
   text = {reinterpret_cast<const char*>(buffer_.data() + begin_), length};
-  begin_ += consumed;
-  offset_ += consumed;
-  if (!text.empty() && text.back() == '\r') {
-    text.remove_suffix(1);
-  }
+  begin_ += length + end_bytes;
+  offset_ += length + end_bytes;
   return true;
 }
 

@@ -12,6 +12,9 @@
 
 namespace splatray {
 
+/// The byte order mark that some programs write before a text of UTF-8.
+inline constexpr std::string_view UTF8_MARK = "\xEF\xBB\xBF";
+
 /// Throws Error (input_unreadable): "<path>: <what>".
 [[noreturn]] void throw_unreadable(const std::filesystem::path& path, const std::string& what);
 
@@ -50,12 +53,21 @@ class ByteReader {
   /// Skips bytes; false when fewer remain.
   [[nodiscard]] bool skip(std::uint64_t count);
 
-  /// The next line without its end (LF or CR LF), valid until the next call; false at the end of the file.
-  /// The last line may lack its end. A line is never longer than `max_bytes`: a longer one is cut there.
+  /// Goes behind a byte order mark where the file begins with one; does nothing elsewhere than at the file's begin. Throws
+  /// Error (input_unreadable) for text in UTF-16, which has a mark of its own or zeros beside its letters.
+  void begin_text();
+
+  /// The next line without its end (LF, CR LF or CR), valid until the next call; false at the end of the file.
+  /// The last line may lack its end. A line is never longer than `max_bytes`: a longer one is cut there. The file's
+  /// first line begins as begin_text() has it.
   [[nodiscard]] bool line(std::string_view& text, std::size_t max_bytes);
+
+  /// Whether the last line() had no end: the file ends in it, or it was cut.
+  [[nodiscard]] bool line_is_open() const { return line_is_open_; }
 
  private:
   bool fill(std::size_t count);
+  std::size_t end_of_line(std::size_t length, std::size_t max_bytes);
 
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -68,6 +80,9 @@ class ByteReader {
   std::size_t end_ = 0;
   std::uint64_t offset_ = 0;
   std::uint64_t size_ = 0;
+  /// A CR without LF ended one: an LF behind a CR belongs to what follows, as a binary body.
+  bool cr_ends_lines_ = false;
+  bool line_is_open_ = false;
 };
 
 }  // namespace splatray

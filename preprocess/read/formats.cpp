@@ -25,8 +25,7 @@ Mesh without_options(const std::filesystem::path& path, const ReadOptions& /*opt
 }
 
 constexpr Format READ_FORMATS[] = {
-    {".ply",
-     "ASCII and binary of both endians; float and double positions, normals, colours, radius; triangles",
+    {".ply", "ASCII and binary of both endians, all types; positions, normals, colours, radius; triangles",
      read_ply, nullptr, nullptr},
     {".obj", "points or triangles; normals, colours", without_options<read_obj>, nullptr, nullptr},
     {".stl", "triangles, ASCII and binary", without_options<read_stl>, nullptr, nullptr},
@@ -44,12 +43,14 @@ constexpr Format READ_FORMATS[] = {
     {".e57",
      "scans with their poses and grids, cartesian or spherical; colours, intensity, normals; all bit widths",
      nullptr, nullptr, read_e57},
-    {".pcd", "ascii, binary and compressed; grids, viewpoint, normals, packed colours, intensity", nullptr,
-     nullptr, read_pcd},
+    {".pcd", "ascii, binary and compressed; grids, viewpoint, normals, colours, intensity", nullptr, nullptr,
+     read_pcd},
     {".ptx", "scans in their grids, with transforms; intensity, colours", nullptr, nullptr, read_ptx},
-    {".pts", "points as text, counted or not; intensity, colours, normals", nullptr, nullptr, read_pts},
-    {".xyz .csv .txt .asc", "points as text, columns by header, `--columns` or their values", nullptr,
-     nullptr, read_xyz},
+    {".pts", "points as text, counted or not; intensity, colours, normals, or columns by header", nullptr,
+     nullptr, read_pts},
+    {".xyz .csv .txt .asc",
+     "points as text, columns by header, `--columns` or their values; ESRI's ASCII grids", nullptr, nullptr,
+     read_xyz},
     {".bin", "sweeps of KITTI or nuScenes: float32 x y z reflectance, ring", nullptr, nullptr, read_kitti},
 };
 

@@ -10,35 +10,31 @@
 #include "engine/base/error.h"
 #include "engine/base/release.h"
 #include "engine/base/srgb.h"
+#include "engine/base/utf8.h"
 #include "preprocess/base/append.h"
+#include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
 namespace {
-
-constexpr std::uint16_t MOST_8_BITS = 255;
-constexpr std::uint16_t MOST_16_BITS = 65535;
-
-std::uint16_t largest_channel(const std::vector<glm::u16vec3>& colors) {
-  std::uint16_t largest = 0;
-  for (const glm::u16vec3& color : colors) largest = std::max({largest, color.x, color.y, color.z});
-  return largest;
-}
 
 bool has_unjudged_colors(const Points& points) {
   return !points.stored_color.empty() && points.stored_color_most == 0;
 }
 
 /// Decides what the colours of unknown scale are, from all of them.
-void judge_colors(std::vector<NamedScan>& scans) {
-  std::uint16_t largest = 0;
+void judge_colors(std::vector<NamedScan>& scans, std::vector<std::string>& notes) {
+  ColorRange range;
   for (const NamedScan& scan : scans)
-    if (has_unjudged_colors(scan.file.points))
-      largest = std::max(largest, largest_channel(scan.file.points.stored_color));
+    if (has_unjudged_colors(scan.file.points)) range.add(scan.file.points.stored_color);
+  if (const std::string said = color_note(range); !said.empty()) notes.push_back(said);
   for (NamedScan& scan : scans) {
     Points& points = scan.file.points;
     if (!has_unjudged_colors(points)) continue;
-    points.stored_color_most = largest > MOST_8_BITS ? MOST_16_BITS : MOST_8_BITS;
-    if (largest == 0) release(points.stored_color);
+    points.stored_color_most = static_cast<std::uint16_t>(std::max(range.full(), 255.0));
+    if (range.is_black()) {
+      notes.push_back(path_text(scan.path) + ": its colours are all black and were left out");
+      release(points.stored_color);
+    }
   }
 }
 
@@ -94,8 +90,8 @@ bool is_constant_zero(const Column& column) {
 
 }  // namespace
 
-InputObject join_scans(std::vector<NamedScan> scans) {
-  judge_colors(scans);
+InputObject join_scans(std::vector<NamedScan> scans, std::vector<std::string>& notes) {
+  judge_colors(scans, notes);
   InputObject object;
   object.name = scans.size() == 1 ? scans.front().name : "scans";
   object.material = default_material();

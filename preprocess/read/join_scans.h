@@ -17,7 +17,8 @@ struct NamedScan {
 
 /// The object of all scans, in their order: stations follow one another, attributes that a file lacks are 0 there, and the
 /// column COLUMN_SCAN numbers the stations where there are several. Stored colours become linear ones: those whose scale is
-/// not known are 8-bit where no file of such has a value above 255, and none at all where all of them are zero.
-[[nodiscard]] InputObject join_scans(std::vector<NamedScan> scans);
+/// not known are judged from all files of such (ColorRange), and none at all where all of them are zero. What was taken for
+/// granted about them goes to `notes`.
+[[nodiscard]] InputObject join_scans(std::vector<NamedScan> scans, std::vector<std::string>& notes);
 
 }  // namespace splatray

@@ -21,6 +21,7 @@
 #include "preprocess/read/scan/empty_stations.h"
 #include "preprocess/read/scan/input_files.h"
 #include "preprocess/read/scan/missing_attributes.h"
+#include "preprocess/read/scan/no_data.h"
 #include "preprocess/read/text/read_track.h"
 
 namespace splatray {
@@ -33,6 +34,8 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
   object.name = path_text(path.stem());
   object.material = default_material();
   object.meshes.push_back(read_mesh(path, options, listener));
+  if (object.meshes.front().triangles.empty())
+    remove_no_data(path, object.meshes.front().vertices, input.scan_counts, listener);
   listener.show(object.meshes.front().vertices, object.meshes.front().triangles.empty());
   input.crs = object.meshes.front().vertices.crs;
   input.up = object.meshes.front().vertices.up;
@@ -64,6 +67,7 @@ std::string no_points_found(const ScanCounts& counts) {
 Input add_scan(const std::filesystem::path& path, ScanFile file, const ReadListener& listener,
                std::vector<NamedScan>& scans) {
   Input input;
+  remove_no_data(path, file.points, file.counts, listener);
   input.scan_counts = file.counts;
   if (file.points.size() == 0) {
     listener.note(path, no_points_found(file.counts) + "; it was left out");
@@ -242,7 +246,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   if (left_out && scans.empty() && input.objects.empty()) throw Error(*left_out);
   require_one_system(scans);
   input.crs = one_crs(systems, input.notes);
-  if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans)));
+  if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans), input.notes));
   note_missing_attributes(input, options.scans.attributes);
   finish_objects(input, options);
   drop_empty_objects(input);

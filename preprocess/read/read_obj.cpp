@@ -12,7 +12,9 @@
 
 #include "engine/base/srgb.h"
 #include "preprocess/read/byte_reader.h"
+#include "preprocess/read/scan/stored_colors.h"
 #include "preprocess/read/text/next_word.h"
+#include "preprocess/read/text/parse_number.h"
 
 namespace splatray {
 namespace {
@@ -102,18 +104,23 @@ class ObjReader {
     }
   }
 
-  /// The numbers that the line begins with, at most as many as there is room for.
+  /// The numbers that the line begins with, at most as many as there is room for; three of them must be there.
   template <std::size_t MOST>
-  std::size_t read_numbers(std::string_view line, std::array<double, MOST>& values) const {
-    std::size_t count = 0;
-    while (count < MOST && read_number(next_word(line), values[count])) ++count;
-    return count;
+  std::size_t read_numbers(std::string_view line, std::array<double, MOST>& values, const char* what) const {
+    for (std::size_t count = 0; count < MOST; ++count) {
+      const std::string_view word = next_word(line);
+      if (read_number(word, values[count])) continue;
+      if (count < 3)
+        fail("found a " + std::string(what) + " of " + std::to_string(count) + " numbers, expected 3" +
+             (word.empty() ? "" : ": " + no_number(word)));
+      return count;
+    }
+    return MOST;
   }
 
   void read_vertex(std::string_view line) {
     std::array<double, 6> values{};
-    const std::size_t numbers = read_numbers(line, values);
-    if (numbers < 3) fail("found a vertex of " + std::to_string(numbers) + " numbers, expected 3");
+    const std::size_t numbers = read_numbers(line, values, "vertex");
     count(VERTEX);
     if (numbers == 6) {
       content_.color.resize(content_.position.size(), glm::vec3(1.0F));
@@ -124,8 +131,7 @@ class ObjReader {
 
   void read_normal(std::string_view line) {
     std::array<double, 3> values{};
-    const std::size_t numbers = read_numbers(line, values);
-    if (numbers < 3) fail("found a normal of " + std::to_string(numbers) + " numbers, expected 3");
+    static_cast<void>(read_numbers(line, values, "normal"));
     count(NORMAL);
     content_.normal.emplace_back(values[0], values[1], values[2]);
   }
@@ -183,12 +189,17 @@ class ObjReader {
   std::array<std::uint64_t, KINDS> highest_line_{};
 };
 
-void decode_colors(std::vector<glm::vec3>& colors) {
-  const auto is_byte = [](const glm::vec3& c) { return c.x > 1.0F || c.y > 1.0F || c.z > 1.0F; };
-  const float scale = std::any_of(colors.begin(), colors.end(), is_byte) ? 1.0F / 255.0F : 1.0F;
+void decode_colors(std::vector<glm::vec3>& colors, const std::filesystem::path& path,
+                   const ReadListener& listener) {
+  ColorRange range;
+  for (const glm::vec3& color : colors)
+    for (int channel = 0; channel < 3; ++channel) range.add(static_cast<double>(color[channel]));
+  const auto full = static_cast<float>(range.full());
+  if (const std::string said = color_note(range); !said.empty() && (full != 1.0F || range.outliers() > 0))
+    listener.note(path, said);
   for (glm::vec3& color : colors)
     for (int channel = 0; channel < 3; ++channel)
-      color[channel] = color[channel] > 0.0F ? srgb_to_linear(std::min(color[channel] * scale, 1.0F))
+      color[channel] = color[channel] > 0.0F ? srgb_to_linear(std::min(color[channel] / full, 1.0F))
                                              : 0.0F;  // of what is no number too
 }
 
@@ -240,7 +251,7 @@ Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener) {
   vertices.position = std::move(content.position);
   if (!content.color.empty()) {
     content.color.resize(vertices.size(), glm::vec3(1.0F));
-    decode_colors(content.color);
+    decode_colors(content.color, path, listener);
     vertices.color = std::move(content.color);
   }
   mesh.triangles.reserve(content.triangles.size());

@@ -15,6 +15,7 @@
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/float_precision.h"
 #include "preprocess/read/text/next_word.h"
+#include "preprocess/read/text/parse_number.h"
 
 namespace splatray {
 namespace {
@@ -30,14 +31,16 @@ std::uint64_t declared_bytes(const unsigned char* header) {
   return STL_HEADER_BYTES + TRIANGLE_BYTES * std::uint64_t{count};
 }
 
-/// ASCII files begin with "solid", as some binary ones do; those have the size that they declare.
+/// ASCII files begin with "solid", in any encoding, as some binary ones do; those have the size that they declare.
 bool is_ascii(const std::filesystem::path& path) {
   ByteReader in(path);
   const std::uint64_t size = in.remaining();
   const auto length = static_cast<std::size_t>(std::min(size, STL_HEADER_BYTES));
   const unsigned char* bytes = in.take(length);
-  const std::string_view start(reinterpret_cast<const char*>(bytes), length);
-  return start.starts_with("solid") && (length < STL_HEADER_BYTES || size != declared_bytes(bytes));
+  std::string start(reinterpret_cast<const char*>(bytes), length);
+  std::erase_if(start, [](char c) { return c == '\0' || static_cast<unsigned char>(c) > 127; });
+  return lower_case(start).starts_with("solid") &&
+         (length < STL_HEADER_BYTES || size != declared_bytes(bytes));
 }
 
 /// Three corners for each triangle.
@@ -109,7 +112,7 @@ class AsciiStl {
       double value = 0.0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc{} || end != word.data() + word.size()) {
-        fail("found '" + std::string(word.substr(0, 20)) + "' in a vertex, expected three numbers");
+        fail("of a vertex's three numbers, " + no_number(word));
       }
       corner[axis] = static_cast<float>(value);
     }

@@ -105,8 +105,9 @@ std::vector<std::vector<std::uint32_t>> by_station(const Cloud& cloud, std::vect
   return lists;
 }
 
-/// Along each axis, world units, of these points.
+/// Along each axis, world units, of these points; 0 where the file's coordinates are gone.
 glm::dvec3 step_world(const Cloud& cloud, const std::vector<std::uint32_t>& points) {
+  if (cloud.position.empty()) return glm::dvec3(0.0);
   const std::size_t stride = points.size() / MOST_SORTED + 1;
   glm::dvec3 step(0.0);
   for (int axis = 0; axis < 3; ++axis) {

@@ -39,11 +39,11 @@ struct PairHeights {
 [[nodiscard]] std::vector<double> station_noise_world(const Cloud& cloud, const Survey& survey);
 
 /// What the coordinates of each station's points are multiples of, world units, along the axis where that is most
-/// (coordinate_step). The cloud's positions must be there.
+/// (coordinate_step).
 [[nodiscard]] std::vector<double> station_step_world(const Cloud& cloud);
 
 /// What the places' coordinates are multiples of, along each axis, in cloud coordinates: the least difference among at most 65
-/// 536 of them, which is next to nothing where they were not rounded. The cloud's positions must be there.
+/// 536 of them, which is next to nothing where they were not rounded; 0 where the cloud's positions are gone.
 [[nodiscard]] glm::vec3 coordinate_step(const Cloud& cloud);
 
 }  // namespace splatray

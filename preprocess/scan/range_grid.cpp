@@ -15,7 +15,8 @@ constexpr std::array<std::array<int, 2>, 8> COMPASS{
 RangeGrid::RangeGrid(const Cloud& cloud, const Station& station, const std::vector<std::uint32_t>& points)
     : cloud_(cloud) {
   const std::uint64_t cells = std::uint64_t{station.rows} * station.columns;
-  if (!station.sensor_world || cloud.grid_cell.empty() || cells == 0 ||
+  const bool is_line = std::min(station.rows, station.columns) < 2;  // a list that is called a grid
+  if (!station.sensor_world || cloud.grid_cell.empty() || is_line ||
       cells > MOST_CELLS_PER_POINT * points.size())
     return;
   rows_ = station.rows;

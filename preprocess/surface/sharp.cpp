@@ -251,6 +251,7 @@ class SharpSearch {
   /// Calls use(what was found at a point, its nearest sites) for about `trials` points, spread over the cloud; for how many.
   template <typename Use>
   std::size_t try_points(std::size_t trials, const Use& use) const {
+    if (trials == 0) return 0;  // a cloud of which no point is left
     const std::size_t step = cloud_.size() / trials + 1;
     tbb::parallel_for(std::size_t{0}, cloud_.size() / step, [&](std::size_t trial) {
       std::array<Neighbour, Around::MOST> nearest;

@@ -100,19 +100,33 @@ std::vector<std::uint32_t> leaves_of_chunk(const Octree& tree, const SplatList& 
   return leaves;
 }
 
-/// Adds up references; throws when there are more than can be addressed.
+/// Adds up references; throws when there are more than can be addressed or anyone wants.
 class ReferenceCount {
  public:
+  explicit ReferenceCount(std::size_t splats) : most_(std::max(MOST_FREE, MOST_EACH * splats)) {}
+
   void add(std::uint64_t count) {
-    if ((total_ += count) > std::numeric_limits<std::uint32_t>::max()) {
+    const std::uint64_t total = total_ += count;
+    if (total > std::numeric_limits<std::uint32_t>::max()) {
       throw Error(
           ExitCode::failed,
           "the leaves would list more than 2^32 - 1 splats, which cannot be addressed; use smaller radii or "
           "fewer points");
     }
+    if (total > most_) {
+      throw Error(ExitCode::usage, "the leaves would list each splat more than " + std::to_string(MOST_EACH) +
+                                       " times, as discs reach far beyond their neighbours; use a smaller "
+                                       "--radius-scale or smaller radii");
+    }
   }
 
  private:
+  /// Discs that meet their neighbours are listed 2 to 5 times, of ten times their radius 37 times; 100 times takes as long to
+  /// trace as it takes memory.
+  static constexpr std::uint64_t MOST_EACH = 100;
+  static constexpr std::uint64_t MOST_FREE = std::uint64_t{1} << 24U;  ///< 64 MiB, which any scene may have
+
+  const std::uint64_t most_;
   std::atomic<std::uint64_t> total_ = 0;
 };
 
@@ -141,7 +155,7 @@ LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Sta
   std::vector<std::vector<std::uint32_t>> met((splats.size() + SPLATS_PER_TASK - 1) / SPLATS_PER_TASK);
   LeafLists lists;
   lists.begin.assign(leaves + 1, 0);
-  ReferenceCount total;
+  ReferenceCount total(splats.size());
   const auto walk = [&](std::size_t chunk) {
     met[chunk] = leaves_of_chunk(tree, splats, chunk);
     total.add(met[chunk].size());

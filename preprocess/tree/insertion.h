@@ -20,7 +20,7 @@ struct LeafLists {
 [[nodiscard]] LeafLists insert_centres(const Octree& tree, const SplatList& splats);
 
 /// Policy `overlap`: each splat in every leaf whose cell it comes within LIST_INFLATION of, before its clip lines, and in no
-/// others. Throws Error (failed) above 2^32 - 1 references.
+/// others. Throws Error (failed) above 2^32 - 1 references, and (usage) above both 2^24 and 100 a splat.
 [[nodiscard]] LeafLists insert_overlaps(const Octree& tree, const SplatList& splats, const Stage& stage);
 
 /// The leaves that splats [begin, end) are listed in by policy `overlap`, splat by splat, as indices into the tree's leaves.

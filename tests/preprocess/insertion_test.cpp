@@ -9,6 +9,7 @@
 #include <random>
 #include <span>
 
+#include "engine/base/error.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
@@ -118,6 +119,24 @@ TEST(Insertion, OverlapListsDiscsOfTypicalSize) {
 }
 
 TEST(Insertion, OverlapListsTinyAndHugeDiscs) { check_against_exact(surface_splats(400, 1.5, 250000.0)); }
+
+TEST(Insertion, GrowthThatNoOneWantsIsRefused) {
+  SplatList splats;  // of a plane: each disc covers a fifth of it
+  for (unsigned x = 0; x < 150; ++x)
+    for (unsigned y = 0; y < 150; ++y) {
+      const glm::dvec3 center(450000.0 + 7900.0 * x, 450000.0 + 7900.0 * y, 1048577.0);
+      splats.words.push_back(pack_splat({center, {0, 0, 1}, 4e5 * 4e5, 0}));
+      splats.key.push_back(morton_key(glm::uvec3(center)));
+    }
+  order_splats(splats, 10);
+  try {
+    static_cast<void>(insert_overlaps(build_octree(splats, 4), splats, STAGE));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("--radius-scale"), std::string::npos);
+  }
+}
 
 TEST(Insertion, OverlapListsDiscsAtTheDepthCap) {
   SplatList splats;

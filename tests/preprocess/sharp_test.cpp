@@ -7,6 +7,7 @@
 #include <random>
 
 #include "preprocess/build.h"
+#include "preprocess/scan/noise.h"
 #include "preprocess/scan/survey.h"
 #include "tests/preprocess/discs.h"
 #include "tests/preprocess/shapes.h"
@@ -199,6 +200,24 @@ TEST(Sharp, GivenNormalsThatWereInterpolatedHideNoCrease) {
   EXPECT_LT(test::Discs(sharp.scene).overhang(outside_cube), 0.45)
       << "discs on flat faces lean as they were given";
   EXPECT_GT(test::Discs(blunt.scene).overhang(outside_cube), 0.6) << "or there was nothing to find";
+}
+
+TEST(Sharp, AnObjectOfWhichNoPointIsLeftIsPassedOver) {
+  Input input = test::input_of(cube_points(0.0));
+  input.objects.push_back(cube_points(0.0));
+  for (dvec3& place : input.objects.back().points.position) place = dvec3(NAN);
+  BuildStats stats;
+  const std::size_t count = input.objects.front().points.size();
+  input.objects.back().points.columns = {{"height", std::vector<float>(count)}};
+  const Scene scene = build_scene(std::move(input), {}, 1, stats);
+  EXPECT_GE(scene.data_pool.size(), count);
+  for (const Column& column : scene.columns) EXPECT_EQ(column.size(), scene.data_pool.size()) << column.name;
+}
+
+TEST(Sharp, PositionsThatAreGoneSayNothingOfTheirSteps) {
+  Cloud cloud;
+  cloud.coord = {glm::vec3(0.0F), glm::vec3(0.5F)};
+  EXPECT_EQ(coordinate_step(cloud), glm::vec3(0.0F));
 }
 
 TEST(Sharp, BordersOfABentSheetAreFound) {

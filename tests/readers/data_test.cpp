@@ -53,7 +53,7 @@ TEST(Data, EveryModelAndSceneIsRead) {
   EXPECT_FALSE(scenes.empty());
   for (const auto& files : {models, scenes})
     for (const std::filesystem::path& file : files)
-      if (all_tests() || std::filesystem::file_size(file) <= BYTES_FOR_A_LANDING) expect_sane(file);
+      if (testing::all_tests() || std::filesystem::file_size(file) <= BYTES_FOR_A_LANDING) expect_sane(file);
 }
 
 TEST(Data, EveryPlyScanIsReadOrRefusedInOneSentence) {

@@ -9,6 +9,11 @@
 namespace splatray {
 namespace {
 
+InputObject joined(std::vector<NamedScan> scans) {
+  std::vector<std::string> notes;
+  return join_scans(std::move(scans), notes);
+}
+
 ScanFile scan_at(double x, std::size_t count) {
   ScanFile file;
   file.points.position.assign(count, glm::dvec3(x, 0.0, 0.0));
@@ -19,7 +24,7 @@ TEST(JoinScans, OneFileKeepsItsNameAndArrays) {
   std::vector<NamedScan> scans{{"church", scan_at(1.0, 3)}};
   scans[0].file.points.columns = {{"intensity", std::vector<std::uint16_t>{5, 0, 7}},
                                   {"class", std::vector<std::uint8_t>{0, 0, 0}}};
-  const InputObject object = join_scans(std::move(scans));
+  const InputObject object = joined(std::move(scans));
   EXPECT_EQ(object.name, "church");
   EXPECT_EQ(object.points.size(), 3U);
   ASSERT_EQ(object.points.columns.size(), 1U) << "a column of zeros says nothing and takes no bytes";
@@ -35,7 +40,7 @@ TEST(JoinScans, AttributesThatAFileLacksAreZeroThere) {
   scans[1].file.points.normal = {glm::vec3(0.0F, 0.0F, 1.0F)};
   scans[2].file.points.grid_cell = {4};
   scans[2].file.points.stations = {{"s", glm::dvec3(1.0), 2, 3}};
-  const InputObject object = join_scans(std::move(scans));
+  const InputObject object = joined(std::move(scans));
   const Points& points = object.points;
   ASSERT_EQ(points.size(), 4U);
   const Column* intensity = find_column(points.columns, COLUMN_INTENSITY);
@@ -62,14 +67,15 @@ float joined_red(const std::vector<std::uint16_t>& reds) {
     scans.push_back({"a", scan_at(0.0, 1)});
     scans.back().file.points.stored_color = {{red, 0, 0}};
   }
-  const InputObject object = join_scans(std::move(scans));
+  const InputObject object = joined(std::move(scans));
   return object.points.color.empty() ? -1.0F : object.points.color[0].x;
 }
 
 TEST(JoinScans, ColoursAreJudgedOverAllFiles) {
   EXPECT_FLOAT_EQ(joined_red({255}), 1.0F);
   EXPECT_FLOAT_EQ(joined_red({128}), srgb_to_linear(128.0F / 255.0F));
-  EXPECT_FLOAT_EQ(joined_red({128, 256}), srgb_to_linear(128.0F / 65535.0F))
+  EXPECT_FLOAT_EQ(joined_red({128, 256}), srgb_to_linear(128.0F / 255.0F)) << "8 bits that were rounded up";
+  EXPECT_FLOAT_EQ(joined_red({128, 40000}), srgb_to_linear(128.0F / 65535.0F))
       << "the first tile is as dark as the second says";
   EXPECT_EQ(joined_red({0, 0}), -1.0F) << "fields that are all zero are no colours";
 }
@@ -79,7 +85,7 @@ std::string stations_of_points(const std::vector<std::size_t>& counts) {
   std::vector<NamedScan> scans;
   for (std::size_t i = 0; i < counts.size(); ++i)
     scans.push_back({std::string(1, static_cast<char>('a' + i)), scan_at(double(i), counts[i])});
-  const InputObject object = join_scans(std::move(scans));
+  const InputObject object = joined(std::move(scans));
   const Column* scan = find_column(object.points.columns, COLUMN_SCAN);
   EXPECT_EQ(object.points.station.size(), object.points.size());
   EXPECT_EQ(scan == nullptr ? 0 : scan->size(), object.points.size());
@@ -98,7 +104,7 @@ TEST(JoinScans, PointsKeepTheirStationsBesideEmptyScans) {
 TEST(JoinScans, MoreStationsThanNumbersAreRefused) {
   std::vector<NamedScan> scans{{"a", scan_at(0.0, 1)}};
   scans[0].file.points.stations.resize(65536);
-  EXPECT_THROW((void)join_scans(std::move(scans)), Error);
+  EXPECT_THROW((void)joined(std::move(scans)), Error);
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ TEST(Kitti, SweepsAreReadAndOtherFilesRefused) {
   EXPECT_EQ(scan.file.points.stations.at(0).sensor_world, glm::dvec3(0.0));
   EXPECT_NE(read_error(folder.write("b.bin", bytes + "x")).find("found 33 bytes"), std::string::npos);
   EXPECT_NE(
-      read_error(folder.write("c.bin", bytes + bytes_of(2000.0F) + std::string(12, '\0'))).find("at byte 32"),
+      read_error(folder.write("c.bin", bytes + bytes_of(2e7F) + std::string(12, '\0'))).find("at byte 32"),
       std::string::npos);
   EXPECT_NE(read_error(folder.write("d.bin", std::string(32, '\xFF'))).find("no plausible point"),
             std::string::npos);

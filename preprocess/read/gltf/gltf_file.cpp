@@ -16,6 +16,7 @@
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/find_file.h"
+#include "preprocess/read/scan/gaussian_capture.h"
 
 namespace splatray {
 namespace {
@@ -149,19 +150,64 @@ void store_little_endian_word(unsigned char* bytes, std::size_t word) {
   std::memcpy(bytes, &stored, sizeof(stored));
 }
 
-/// Makes the JSON UTF-8, as all JSON is to be; a GLB's lengths follow.
-void make_json_utf8(std::vector<unsigned char>& bytes, bool binary) {
+/// Puts a text in the JSON's place; a GLB's lengths follow.
+void replace_json(std::vector<unsigned char>& bytes, bool binary, std::string text) {
   constexpr std::size_t ALIGNMENT = 4;  // of a GLB's chunks, which blanks fill
   const std::string_view json = json_of(bytes, binary);
-  if (is_utf8(json)) return;
-  std::string utf8 = to_utf8(json);
+  if (json == text) return;
   const auto begin = bytes.begin() + (reinterpret_cast<const unsigned char*>(json.data()) - bytes.data());
-  if (binary) utf8.resize((utf8.size() + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT, ' ');
-  bytes.insert(bytes.erase(begin, begin + static_cast<std::ptrdiff_t>(json.size())), utf8.begin(),
-               utf8.end());
+  if (binary) text.resize((text.size() + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT, ' ');
+  bytes.insert(bytes.erase(begin, begin + static_cast<std::ptrdiff_t>(json.size())), text.begin(),
+               text.end());
   if (!binary) return;
   store_little_endian_word(bytes.data() + 8, bytes.size());
-  store_little_endian_word(bytes.data() + 12, utf8.size());
+  store_little_endian_word(bytes.data() + 12, text.size());
+}
+
+/// The end of a JSON string that begins at a quote: its closing quote, or the text's end.
+std::size_t end_of_string(std::string_view json, std::size_t quote) {
+  std::size_t at = quote + 1;
+  while (at < json.size() && json[at] != '"') at += json[at] == '\\' ? 2 : 1;
+  return std::min(at, json.size());
+}
+
+/// Spells "+" in the names of files so that tinygltf, which takes it for a blank as forms of web pages do, leaves it.
+std::string with_plus_encoded(std::string_view json) {
+  std::string text;
+  bool is_uri = false;  // of the next string
+  for (std::size_t at = 0; at < json.size();) {
+    if (json[at] != '"') {
+      text += json[at++];
+      continue;
+    }
+    const std::size_t end = std::min(end_of_string(json, at) + 1, json.size());
+    const std::string_view string = json.substr(at, end - at);
+    const bool is_file = is_uri && !string.starts_with("\"data:");
+    for (const char c : string) text += is_file && c == '+' ? "%2B" : std::string(1, c);
+    is_uri = string == "\"uri\"";
+    at = end;
+  }
+  return text;
+}
+
+/// Makes the JSON UTF-8, as all JSON is to be, and its names of files what they say.
+void mend_json(std::vector<unsigned char>& bytes, bool binary) {
+  const std::string_view json = json_of(bytes, binary);
+  replace_json(bytes, binary, with_plus_encoded(is_utf8(json) ? std::string(json) : to_utf8(json)));
+}
+
+void refuse_compressed(const GltfFile& file, const std::string& extension) {
+  file.fail("the geometry is compressed with " + extension +
+            ", expected plain buffers: save it without compression");
+}
+
+/// What of other versions and compressions looks like damage.
+void explain_failure(const GltfFile& file) {
+  if (file.model.asset.version.starts_with('1'))
+    file.fail("found glTF " + file.model.asset.version.substr(0, 20) +
+              ", expected 2.0: convert it, as by gltf-pipeline");
+  for (const std::string& name : file.model.extensionsUsed)
+    if (is_in(COMPRESSIONS, name)) refuse_compressed(file, name);
 }
 
 void parse(GltfFile& file, bool binary, const ReadListener& listener) {
@@ -172,7 +218,7 @@ void parse(GltfFile& file, bool binary, const ReadListener& listener) {
   if (json_is_too_deep(json_of(bytes, binary))) {
     file.fail("its JSON nests more than " + std::to_string(MOST_JSON_DEPTH) + " deep");
   }
-  make_json_utf8(bytes, binary);
+  mend_json(bytes, binary);
   SceneFolder folder{std::filesystem::absolute(file.path).parent_path().string(), listener, ""};
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(keep_image_bytes, nullptr);
@@ -199,17 +245,28 @@ void parse(GltfFile& file, bool binary, const ReadListener& listener) {
   if (!folder.escape.empty()) {
     file.fail("found the uri '" + folder.escape + "', expected a file in the scene's folder or below");
   }
+  if (!good || file.model.asset.version.starts_with('1')) explain_failure(file);
   if (good) return;
   if (const auto fault = json_fault<nlohmann::json>(json_of(bytes, binary)))
     file.fail("found " + *fault + ", expected the JSON of a glTF");
   file.fail("not a readable glTF 2.0: " + first_line(error));
 }
 
+/// Refuses captures of Gaussians, as PLY's are.
+void check_gaussians(const GltfFile& file) {
+  std::vector<std::string> names = file.model.extensionsUsed;
+  for (const tinygltf::Mesh& mesh : file.model.meshes)
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      for (const auto& [name, accessor] : primitive.attributes) names.push_back(name);
+      for (const auto& [name, value] : primitive.extensions) names.push_back(name);
+    }
+  refuse_gaussian_names(file.path, names);
+}
+
 void check_extensions(const GltfFile& file, std::vector<std::string>& notes) {
   for (const std::string& name : file.model.extensionsRequired) {
     if (is_in(COMPRESSIONS, name)) {
-      file.fail("the geometry is compressed with " + name +
-                ", expected plain buffers: save it without compression");
+      refuse_compressed(file, name);
     }
     if (!is_in(SUPPORTED_EXTENSIONS, name) && !is_look_only(name)) {
       file.fail("the file requires the extension " + name + ", which is not supported");
@@ -271,6 +328,7 @@ std::size_t GltfFile::checked(int index, std::size_t count, const char* what) co
 GltfFile load_gltf(const std::filesystem::path& path, const ReadListener& listener) {
   GltfFile file{path, {}};
   parse(file, check_container(path), listener);
+  check_gaussians(file);
   check_extensions(file, listener.notes);
   note_ignored(file, listener.notes);
   return file;

@@ -25,7 +25,7 @@ struct GltfFile {
 /// Loads .gltf or .glb with its buffers. A `uri` names a file in the scene's folder or below it, `extras.points` and
 /// `extras.environment` one there or in a data path (find_scene_file): names that are absolute or leave their folder by
 /// `..` are refused, so that a scene from elsewhere reads nothing but what lies beside it. Unknown required extensions,
-/// compressed geometry and JSON that nests deeper than MOST_JSON_DEPTH are errors; extensions that are used and ignored,
+/// compressed geometry, Gaussian splats, glTF 1.0 and JSON that nests deeper than MOST_JSON_DEPTH are errors; extensions that are used and ignored,
 /// textures that are not modelled, animations and skins are noted, each once. Throws Error (input_unreadable).
 [[nodiscard]] GltfFile load_gltf(const std::filesystem::path& path, const ReadListener& listener);
 

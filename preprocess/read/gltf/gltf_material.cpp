@@ -96,9 +96,6 @@ void apply_extras(Material& material, const tinygltf::Value& extras) {
   }
 }
 
-/// Of alphaMode BLEND: below it, a byte of opacity would be 0, and nothing is there.
-constexpr float LEAST_ALPHA = 0.5F / 255.0F;
-
 /// Whether a material's extras, which are for the paper's look, change it.
 bool changes_look(const tinygltf::Value& extras) {
   return number_in(extras, "mirror") || number_in(extras, "specular") || number_in(extras, "shininess");
@@ -289,9 +286,36 @@ std::optional<GltfMaterials::Map> GltfMaterials::opacity(int index) {
       texture->alpha_factor == 1.0F &&
       std::all_of(texels.begin(), texels.end(), [](const auto& texel) { return texel.w == 255; });
   if (is_opaque) return {};
+  return Map{{std::move(texture), opacity_channel(), 0.0F, nullptr}, is_even ? -1 : texcoord_of(info)};
+}
+
+std::vector<MapChannel> GltfMaterials::opacity_channel() {
   const TextureFactor& factor = *std::find_if(texture_factors().begin(), texture_factors().end(),
                                               [](const auto& one) { return one.column == COLUMN_OPACITY; });
-  return Map{{std::move(texture), {{&factor, 3}}, 0.0F, nullptr}, is_even ? -1 : texcoord_of(info)};
+  return {{&factor, 3}};
+}
+
+void GltfMaterials::set_alpha(int index, Texture& texture) const {
+  texture.factor = base_color(index);
+  texture.alpha_factor = alpha_of(source(index));
+  if (source(index).alphaMode == "MASK") texture.alpha_cutoff = unit_clamp(source(index).alphaCutoff);
+  if (source(index).alphaMode == "BLEND") texture.alpha_cutoff = LEAST_ALPHA;
+}
+
+std::shared_ptr<const Texture> GltfMaterials::alpha_ramp(int index, bool varies) {
+  if (index < 0) return nullptr;
+  const tinygltf::Material& from = source(index);
+  const bool cuts_all = from.alphaMode == "MASK" && alpha_of(from) < unit_clamp(from.alphaCutoff);
+  if (!cuts_all && (!varies || (from.alphaMode != "MASK" && from.alphaMode != "BLEND"))) return nullptr;
+  const auto [found, is_new] = ramps_.try_emplace(index);
+  if (!is_new) return found->second;
+  auto picture = std::make_shared<TextureImage>(TextureImage{256, 1, {}});
+  for (int alpha = 0; alpha < 256; ++alpha) picture->texels.emplace_back(255, 255, 255, alpha);
+  auto ramp = std::make_shared<Texture>();
+  ramp->image = picture;
+  ramp->wrap_s = ramp->wrap_t = TextureWrap::clamp;
+  set_alpha(index, *ramp);
+  return found->second = ramp;
 }
 
 std::optional<Surface> GltfMaterials::surface(int index, bool colored, const std::vector<bool>& sampled) {
@@ -333,12 +357,7 @@ std::shared_ptr<const Texture> GltfMaterials::base_texture(int index) {
   }
   const std::shared_ptr<Texture> texture =
       laid(index, source(index).pbrMetallicRoughness.baseColorTexture, "the base colour texture");
-  if (texture) {
-    texture->factor = base_color(index);
-    texture->alpha_factor = alpha_of(source(index));
-    if (source(index).alphaMode == "MASK") texture->alpha_cutoff = unit_clamp(source(index).alphaCutoff);
-    if (source(index).alphaMode == "BLEND") texture->alpha_cutoff = LEAST_ALPHA;
-  }
+  if (texture) set_alpha(index, *texture);
   textures_[index] = texture;
   return texture;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <type_traits>
@@ -9,6 +10,7 @@
 #include "preprocess/mesh/surface_maps.h"
 #include "preprocess/mesh/texture/texture.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
+#include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
 namespace {
@@ -31,16 +33,44 @@ std::vector<Vector> read_attribute(const GltfFile& file, const tinygltf::Primiti
   return vectors;
 }
 
-/// COLOR_0 within 0..1, as the specification wants it; NaN becomes 0.
-std::vector<glm::vec3> read_colors(const GltfFile& file, const tinygltf::Primitive& primitive,
-                                   std::size_t vertex_count) {
-  std::vector<glm::vec3> colors = read_attribute<glm::vec3>(file, primitive, "COLOR_0", vertex_count);
-  for (glm::vec3& color : colors) {
-    for (int channel = 0; channel < 3; ++channel) {
-      color[channel] = std::max(0.0F, std::min(color[channel], 1.0F));
-    }
-  }
-  return colors;
+/// What a primitive's COLOR_0 says.
+struct VertexColors {
+  std::vector<glm::vec3> color;  ///< linear, 0..1; empty = none
+  std::vector<float> alpha;      ///< 0..1; empty = 1 everywhere
+};
+
+/// Divides values that are beyond 0..1 though the specification wants them there, by what full is (ColorRange); NaN becomes 0.
+void scale_colors(const GltfFile& file, std::size_t accessor, std::vector<glm::vec4>& colors,
+                  std::vector<std::string>& notes) {
+  ColorRange range(file.model.accessors[accessor].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT);
+  for (const glm::vec4& color : colors)
+    for (int channel = 0; channel < 3; ++channel) range.add(static_cast<double>(color[channel]));
+  const auto full = static_cast<float>(range.full());
+  const bool is_odd = full != 1.0F || range.outliers() > 0;
+  if (const std::string said = color_note(range); !said.empty() && is_odd)
+    notes.push_back(file.path.string() + ": COLOR_0: " + said);
+  for (glm::vec4& color : colors)
+    for (int channel = 0; channel < 4; ++channel)
+      color[channel] = std::max(0.0F, std::min(color[channel] / full, 1.0F));
+}
+
+VertexColors read_colors(const GltfFile& file, const tinygltf::Primitive& primitive, std::size_t vertex_count,
+                         std::vector<std::string>& notes) {
+  VertexColors read;
+  const auto found = primitive.attributes.find("COLOR_0");
+  if (found == primitive.attributes.end()) return read;
+  const std::size_t accessor = file.checked(found->second, file.model.accessors.size(), "accessor");
+  std::vector<glm::vec4> colors;
+  if (file.model.accessors[accessor].type == TINYGLTF_TYPE_VEC4)
+    colors = read_attribute<glm::vec4>(file, primitive, "COLOR_0", vertex_count);
+  else
+    for (const glm::vec3& color : read_attribute<glm::vec3>(file, primitive, "COLOR_0", vertex_count))
+      colors.emplace_back(color, std::numeric_limits<float>::infinity());  // becomes 1
+  scale_colors(file, accessor, colors, notes);
+  for (const glm::vec4& color : colors) read.color.emplace_back(color);
+  if (std::any_of(colors.begin(), colors.end(), [](const glm::vec4& color) { return color.w < 1.0F; }))
+    for (const glm::vec4& color : colors) read.alpha.push_back(color.w);
+  return read;
 }
 
 std::vector<glm::dvec3> read_positions(const GltfFile& file, const tinygltf::Primitive& primitive) {
@@ -90,6 +120,32 @@ void add_maps(const GltfFile& file, const tinygltf::Primitive& primitive, GltfMa
     mesh.maps.push_back(map);
     mesh.maps.back().texcoord = sets[set];
   }
+}
+
+/// Lets the alpha of vertices, or of the material alone, cut out or thin a surface that has no texture: by a texture of
+/// which one coordinate is alpha.
+void add_alpha(const tinygltf::Primitive& primitive, std::vector<float> alpha, GltfMaterials& materials,
+               Mesh& mesh) {
+  const std::shared_ptr<const Texture> ramp =
+      mesh.texture ? nullptr : materials.alpha_ramp(primitive.material, !alpha.empty());
+  if (!ramp) return;
+  alpha.resize(mesh.vertices.size(), 1.0F);
+  for (const float a : alpha) mesh.texcoord.emplace_back((255.0F * a + 0.5F) / 256.0F, 0.5F);
+  mesh.texture = ramp;
+  if (ramp->alpha_cutoff > GltfMaterials::LEAST_ALPHA) return;
+  const auto is_opacity = [](const SurfaceMap& map) {
+    return std::any_of(map.channels.begin(), map.channels.end(),
+                       [](const MapChannel& channel) { return channel.factor->column == COLUMN_OPACITY; });
+  };
+  std::erase_if(mesh.maps, is_opacity);
+  mesh.maps.push_back({ramp, GltfMaterials::opacity_channel(), 0.0F,
+                       std::make_shared<const std::vector<glm::vec2>>(mesh.texcoord)});
+}
+
+/// Leaves out the points that the material's alpha cuts out.
+void cut_points(const Mesh& mesh, std::vector<glm::uint>& indices) {
+  if (mesh.texture)
+    std::erase_if(indices, [&](glm::uint index) { return mesh.texture->cut_out(mesh.texcoord[index]); });
 }
 
 /// Keeps the vertices that an indexed POINTS primitive names, each in the order named.
@@ -147,20 +203,23 @@ std::optional<Mesh> read_primitive(const GltfFile& file, const tinygltf::Primiti
   mesh.vertices.position = read_positions(file, primitive);
   const std::size_t count = mesh.vertices.size();
   mesh.vertices.normal = read_attribute<glm::vec3>(file, primitive, "NORMAL", count);
-  mesh.vertices.color = read_colors(file, primitive, count);
+  VertexColors colors = read_colors(file, primitive, count, notes);
+  mesh.vertices.color = std::move(colors.color);
   add_texture(file, primitive, materials, mesh);
   add_maps(file, primitive, materials, mesh);
+  add_alpha(primitive, std::move(colors.alpha), materials, mesh);
   if (!mesh.texture) {
     const glm::vec3 base = materials.base_color(primitive.material);
     for (glm::vec3& color : mesh.vertices.color) {
       color *= base;
     }
   }
-  const std::vector<glm::uint> indices = indices_of(file, primitive, count);
+  std::vector<glm::uint> indices = indices_of(file, primitive, count);
   if (!is_points) {
     mesh.triangles = triangles_of(indices, mode);
     return mesh;
   }
+  cut_points(mesh, indices);
   if (mesh.texture) {
     mesh.vertices.color.resize(count, glm::vec3(1.0F));
     for (std::size_t i = 0; i < count; ++i) {

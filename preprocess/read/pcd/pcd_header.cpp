@@ -9,6 +9,7 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace splatray {
 namespace {
@@ -18,6 +19,12 @@ constexpr std::uint64_t MOST_LINES = 1000;
 constexpr std::size_t MOST_FIELDS = 1000;
 
 using Words = std::vector<std::string>;
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
 
 template <typename Number>
 std::optional<Number> number_of(const std::string& word) {
@@ -54,7 +61,7 @@ class PcdHeaderParser {
       std::istringstream stream{to_utf8(line)};
       Words words{std::istream_iterator<std::string>(stream), {}};
       if (words.empty() || words[0].front() == '#') continue;
-      const std::string key = words[0];
+      const std::string key = upper(words[0]);
       words.erase(words.begin());
       read_line(key, words);
       if (key == "DATA") return finished();
@@ -99,19 +106,22 @@ class PcdHeaderParser {
   }
 
   void read_viewpoint(const Words& words) {
-    double values[7] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
-    for (std::size_t i = 0; i < 7; ++i) {
-      const std::optional<double> value = words.size() == 7 ? number_of<double>(words[i]) : std::nullopt;
-      if (!value || !std::isfinite(*value))
-        fail("found no seven finite numbers for VIEWPOINT, expected them");
-      values[i] = *value;
+    double values[7] = {};
+    bool is_whole = words.size() == 7;
+    for (std::size_t i = 0; i < 7 && is_whole; ++i) {
+      const std::optional<double> value = number_of<double>(words[i]);
+      is_whole = value && std::isfinite(*value);
+      values[i] = value.value_or(0.0);
     }
+    const glm::dvec4 rotation(values[3], values[4], values[5], values[6]);
+    header_.is_viewpoint_left_out = !is_whole || rotation == glm::dvec4(0.0);
+    if (header_.is_viewpoint_left_out) return;
     header_.viewpoint = {values[0], values[1], values[2]};
-    header_.rotation = {values[3], values[4], values[5], values[6]};
+    header_.rotation = rotation;
   }
 
   void read_data(const Words& words) {
-    const std::string kind = words.size() == 1 ? words[0] : "";
+    const std::string kind = words.size() == 1 ? lower_case(words[0]) : "";
     if (kind == "ascii") {
       header_.data = PcdData::ascii;
     } else if (kind == "binary") {
@@ -132,6 +142,7 @@ class PcdHeaderParser {
            " COUNTs, expected equally many, 1 to 1000");
     for (std::size_t i = 0; i < names_.size(); ++i) add_field(i);
     header_.points = points_.value_or(std::uint64_t{header_.width} * header_.height);
+    if (header_.width == 1) std::swap(header_.width, header_.height);
     return std::move(header_);
   }
 
@@ -140,7 +151,7 @@ class PcdHeaderParser {
     field.name = names_[i];
     const auto size = number_of<std::uint32_t>(sizes_[i]);
     const auto count = number_of<std::uint32_t>(counts_[i]);
-    const auto type = size ? type_of(types_[i], *size) : std::nullopt;
+    const auto type = size ? type_of(upper(types_[i]), *size) : std::nullopt;
     if (!type || !count)
       fail("found TYPE '" + types_[i].substr(0, 20) + "', SIZE '" + sizes_[i].substr(0, 20) +
            "' and COUNT '" + counts_[i].substr(0, 20) + "' of field '" + field.name.substr(0, 40) +

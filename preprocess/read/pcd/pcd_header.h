@@ -32,6 +32,7 @@ struct PcdHeader {
   std::uint64_t points = 0;  ///< as declared: not to be trusted before it is checked against the file
   glm::dvec3 viewpoint{0.0};
   glm::dvec4 rotation{1.0, 0.0, 0.0, 0.0};  ///< w x y z
+  bool is_viewpoint_left_out = false;  ///< the file's is no seven finite numbers with a rotation among them
   PcdData data = PcdData::ascii;
   std::uint64_t line_count = 0;  ///< of the header, DATA included
 
@@ -39,8 +40,8 @@ struct PcdHeader {
   [[nodiscard]] const PcdField* find(std::string_view name) const;
 };
 
-/// Reads the header; `in` then stands on the first byte behind it. Lines may be missing: COUNT is 1, HEIGHT 1, VIEWPOINT
-/// the origin, and POINTS the cells of the grid. Throws Error (input_unreadable) with the line.
+/// Reads the header, whose words may be in any case; `in` then stands on the first byte behind it. Lines may be missing: COUNT is 1, HEIGHT 1, VIEWPOINT
+/// the origin, as it is where it makes no sense, and POINTS the cells of the grid. A single column is no grid: HEIGHT is 1 then. Throws Error (input_unreadable) with the line.
 [[nodiscard]] PcdHeader read_pcd_header(ByteReader& in);
 
 }  // namespace splatray

@@ -3,20 +3,37 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "engine/base/release.h"
 #include "preprocess/base/little_endian.h"
 #include "preprocess/base/quoted_list.h"
+#include "preprocess/read/scan/column_names.h"
 #include "preprocess/read/scan/narrow_column.h"
+#include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCD's values are little-endian");
 
-std::vector<const PcdField*> find_triple(const PcdHeader& header, const char* a, const char* b,
-                                         const char* c) {
-  std::vector<const PcdField*> found{header.find(a), header.find(b), header.find(c)};
+/// What each field means (known_columns); nothing of those of several values.
+std::vector<std::string> meanings_of(const PcdHeader& header) {
+  std::vector<std::string> names;
+  for (const PcdField& field : header.fields) names.push_back(field.count == 1 ? field.name : "");
+  return known_columns(names);
+}
+
+const PcdField* find_meaning(const PcdHeader& header, std::string_view meaning) {
+  const std::vector<std::string> meanings = meanings_of(header);
+  const auto found = std::find(meanings.begin(), meanings.end(), meaning);
+  return found == meanings.end() ? nullptr
+                                 : &header.fields[static_cast<std::size_t>(found - meanings.begin())];
+}
+
+std::vector<const PcdField*> find_triple(const PcdHeader& header, const std::string_view (&names)[3]) {
+  std::vector<const PcdField*> found;
+  for (const std::string_view name : names) found.push_back(find_meaning(header, name));
   if (std::find(found.begin(), found.end(), nullptr) != found.end()) found.clear();
   return found;
 }
@@ -65,19 +82,20 @@ struct PcdPoints::View {
 
 PcdPoints::PcdPoints(const PcdHeader& header, const std::filesystem::path& path,
                      const std::vector<std::string>& attributes)
-    : header_(header), position_(find_triple(header, "x", "y", "z")) {
+    : header_(header), position_(find_triple(header, COLUMN_AXES)) {
   if (position_.empty()) {
     std::vector<std::string> names;
     for (const PcdField& field : header.fields) names.push_back(field.name);
     throw_unreadable(path, "found the fields " + quoted_list(names) + ", expected x, y and z among them");
   }
-  normal_ = find_triple(header, "normal_x", "normal_y", "normal_z");
+  normal_ = find_triple(header, COLUMN_NORMALS);
   for (const char* name : {"rgba", "rgb"})
     if (const PcdField* field = header.find(name); field != nullptr && is_color(*field)) color_ = field;
+  if (color_ == nullptr) channel_ = find_triple(header, COLUMN_COLORS);
   std::vector<std::string> names{std::string(COLUMN_INTENSITY)};
   names.insert(names.end(), attributes.begin(), attributes.end());
   for (const std::string& name : names) {
-    const PcdField* field = header.find(name);
+    const PcdField* field = name == COLUMN_INTENSITY ? find_meaning(header, name) : header.find(name);
     const bool known = std::any_of(attributes_.begin(), attributes_.end(),
                                    [field](const auto& attribute) { return attribute.second == field; });
     if (field != nullptr && !known) attributes_.emplace_back(name, field);
@@ -129,6 +147,8 @@ void PcdPoints::append(const PcdRows& rows) {
       points_.normal.push_back(normal);
     }
     if (color_ != nullptr) points_.stored_color.push_back(color(view(*color_, rows), i));
+    for (std::size_t c = 0; c < channel_.size(); ++c)
+      channels_[c].push_back(static_cast<float>(view(*channel_[c], rows).number(i)));
     for (std::size_t a = 0; a < attributes_.size(); ++a)
       values_[a].push_back(view(*attributes_[a].second, rows).number(i));
     if (header_.height > 1) points_.grid_cell.push_back(static_cast<std::uint32_t>(rows_));
@@ -138,7 +158,8 @@ void PcdPoints::append(const PcdRows& rows) {
 bool PcdPoints::uses(const PcdField& field) const {
   const auto is_it = [&](const PcdField* used) { return used == &field; };
   return std::any_of(position_.begin(), position_.end(), is_it) ||
-         std::any_of(normal_.begin(), normal_.end(), is_it) || color_ == &field ||
+         std::any_of(normal_.begin(), normal_.end(), is_it) ||
+         std::any_of(channel_.begin(), channel_.end(), is_it) || color_ == &field ||
          std::any_of(attributes_.begin(), attributes_.end(),
                      [&](const auto& attribute) { return attribute.second == &field; });
 }
@@ -160,9 +181,14 @@ std::vector<std::string> PcdPoints::unused() const {
   return names;
 }
 
-Points PcdPoints::take() {
+Points PcdPoints::take(std::vector<std::string>& notes) {
   for (std::size_t a = 0; a < attributes_.size(); ++a)
     points_.columns.push_back(narrow_column(attributes_[a].first, std::move(values_[a])));
+  if (!channel_.empty() && !channels_[0].empty()) {
+    if (const std::string said = store_colors(std::move(channels_), points_); !said.empty())
+      notes.push_back(said);
+    return std::move(points_);
+  }
   std::vector<glm::u16vec3>& colors = points_.stored_color;
   points_.stored_color_most = 255;
   if (std::all_of(colors.begin(), colors.end(), [](const glm::u16vec3& c) { return c == glm::u16vec3(0); }))

@@ -1,5 +1,6 @@
 /// Points of a PCD file's rows.
 #pragma once
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,10 +32,13 @@ class PcdPoints {
 
   /// Fields that are not used, but for paddings ("_").
   [[nodiscard]] std::vector<std::string> unused() const;
+  /// Whether positions are float32.
+  [[nodiscard]] bool has_float_positions() const { return position_[0]->type == PcdType::float32; }
   /// Rows appended without a position.
   [[nodiscard]] std::uint64_t no_return() const { return no_return_; }
-  /// What was appended, with grid cells by the number of the row; colours of zeros alone are none.
-  [[nodiscard]] Points take();
+  /// What was appended, with grid cells by the number of the row; colours of zeros alone are none. What was taken for granted
+  /// about colours goes to `notes`.
+  [[nodiscard]] Points take(std::vector<std::string>& notes);
 
  private:
   struct View;
@@ -44,8 +48,10 @@ class PcdPoints {
 
   const PcdHeader& header_;
   std::vector<const PcdField*> position_;
-  std::vector<const PcdField*> normal_;  ///< three or none
-  const PcdField* color_ = nullptr;
+  std::vector<const PcdField*> normal_;         ///< three or none
+  const PcdField* color_ = nullptr;             ///< of all three channels
+  std::vector<const PcdField*> channel_;        ///< three or none, where there is no `color_`
+  std::array<std::vector<float>, 3> channels_;  ///< their values
   std::vector<std::pair<std::string, const PcdField*>> attributes_;  ///< with the names of their columns
   std::vector<std::vector<double>> values_;                          ///< of the attributes
   Points points_;

@@ -14,21 +14,11 @@
 namespace splatray {
 namespace {
 
-/// Commas between the numbers of the first line that has any, else blanks.
-char separator_of(ByteReader& in) {
-  constexpr std::size_t MOST_LINE_BYTES = 65536;
-  std::string_view line;
-  while (in.line(line, MOST_LINE_BYTES))
-    if (line.find_first_not_of(" \t") != std::string_view::npos && line.front() != '#')
-      return line.find(',') == std::string_view::npos ? ' ' : ',';
-  return ' ';
-}
-
 /// How many points there are; the readers append them.
 std::uint64_t read_ascii(ByteReader& in, const PcdHeader& header, PcdPoints& points,
                          const ReadListener& listener) {
   const TextPlace start{in.offset(), header.line_count};
-  RowReader rows(in.path(), listener, {separator_of(in), false, {}}, start);
+  RowReader rows(in.path(), listener, find_cell_form(first_rows(in)), start);
   RowRun run;
   std::uint64_t read = 0;
   while (read < header.points && rows.next(run)) {
@@ -147,13 +137,18 @@ ScanFile read_pcd(const std::filesystem::path& path, const ReadOptions& options,
   file.counts.stored = header.points;
   file.counts.missing = header.points - read_points(in, header, collected, listener);
   file.counts.no_return = collected.no_return();
-  file.points = collected.take();
+  std::vector<std::string> said;
+  file.points = collected.take(said);
+  for (const std::string& sentence : said) listener.note(path, sentence);
+  if (header.is_viewpoint_left_out)
+    listener.note(path,
+                  "its VIEWPOINT is no seven finite numbers with a rotation among them and was left out");
   if (is_camera_frame(header, file.points)) file.up = {0.0, -1.0, 0.0};
   file.points.stations = {make_station(header, file.points)};
   report_missing(path, file.counts, options.scans, listener);
   if (const std::vector<std::string> unused = collected.unused(); !unused.empty())
     listener.note(path, "skipped fields " + quoted_list(unused));
-  if (header.data != PcdData::ascii && header.find("x")->type == PcdType::float32)
+  if (header.data != PcdData::ascii && collected.has_float_positions())
     note_float_precision(file.points, path, listener);
   return file;
 }

@@ -1,11 +1,12 @@
 #include "preprocess/read/ply/ply_header.h"
 
-#include "engine/base/utf8.h"
-
+#include <algorithm>
 #include <charconv>
-#include <optional>
 #include <sstream>
 #include <utility>
+
+#include "engine/base/utf8.h"
+#include "preprocess/base/lower_case.h"
 
 namespace splatray {
 namespace {
@@ -13,13 +14,17 @@ namespace {
 constexpr std::size_t MAX_HEADER_LINE_BYTES = 65536;
 constexpr std::uint64_t MAX_HEADER_BYTES = std::uint64_t{1} << 20U;
 
-std::optional<PlyType> type_of(const std::string& name) {
+PlyType type_of(const std::string& name) {
   static const std::pair<const char*, PlyType> NAMES[] = {
-      {"char", PlyType::int8},       {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-      {"uint8", PlyType::uint8},     {"short", PlyType::int16},     {"int16", PlyType::int16},
-      {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-      {"int32", PlyType::int32},     {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-      {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
+      {"char", PlyType::int8},        {"int8", PlyType::int8},       {"byte", PlyType::int8},
+      {"uchar", PlyType::uint8},      {"uint8", PlyType::uint8},     {"ubyte", PlyType::uint8},
+      {"bool", PlyType::uint8},       {"boolean", PlyType::uint8},   {"short", PlyType::int16},
+      {"int16", PlyType::int16},      {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},
+      {"int", PlyType::int32},        {"int32", PlyType::int32},     {"uint", PlyType::uint32},
+      {"uint32", PlyType::uint32},    {"long", PlyType::int64},      {"int64", PlyType::int64},
+      {"longlong", PlyType::int64},   {"ulong", PlyType::uint64},    {"uint64", PlyType::uint64},
+      {"ulonglong", PlyType::uint64}, {"half", PlyType::float16},    {"float16", PlyType::float16},
+      {"float", PlyType::float32},    {"float32", PlyType::float32}, {"double", PlyType::float64},
       {"float64", PlyType::float64},
   };
   for (const auto& [known, type] : NAMES) {
@@ -27,15 +32,17 @@ std::optional<PlyType> type_of(const std::string& name) {
       return type;
     }
   }
-  return std::nullopt;
+  return PlyType::other;
 }
+
+bool is_integer(PlyType type) { return type < PlyType::float16; }
 
 class PlyHeaderParser {
  public:
   explicit PlyHeaderParser(ByteReader& in) : in_(in) {}
 
   PlyHeader parse() {
-    if (next_line() != "ply") {
+    if (lower_case(next_line()) != "ply") {
       throw_unreadable(in_.path(), "the first line is not 'ply', expected a PLY file");
     }
     bool format_seen = false;
@@ -43,6 +50,7 @@ class PlyHeaderParser {
       std::istringstream words(next_line());
       std::string key;
       words >> key;
+      key = lower_case(key);
       if (key == "end_header") {
         break;
       }
@@ -85,6 +93,8 @@ class PlyHeaderParser {
     std::string format;
     std::string version;
     words >> format >> version;
+    format = lower_case(format);
+    if (!header_.elements.empty()) fail("found the format behind an element, expected it before the first");
     if (format == "ascii") {
       header_.format = PlyFormat::ascii;
     } else if (format == "binary_little_endian") {
@@ -104,6 +114,7 @@ class PlyHeaderParser {
     PlyElement element;
     std::string count;
     words >> element.name >> count;
+    element.name = lower_case(element.name);
     const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (element.name.empty() || count.empty() || error != std::errc{} || end != count.data() + count.size()) {
       fail("found the count '" + count.substr(0, 40) + "' of element '" + element.name.substr(0, 40) +
@@ -115,11 +126,11 @@ class PlyHeaderParser {
   PlyType parse_type(std::istringstream& words) {
     std::string name;
     words >> name;
-    const std::optional<PlyType> type = type_of(name);
-    if (!type) {
+    const PlyType type = type_of(lower_case(name));
+    if (type == PlyType::other && header_.format != PlyFormat::ascii) {
       fail("found property type '" + name.substr(0, 40) + "', expected char to double or int8 to float64");
     }
-    return *type;
+    return type;
   }
 
   void parse_property(std::istringstream& words) {
@@ -130,11 +141,11 @@ class PlyHeaderParser {
     const std::istringstream::pos_type start = words.tellg();
     std::string kind;
     words >> kind;
-    property.is_list = kind == "list";
+    property.is_list = lower_case(kind) == "list";
     if (property.is_list) {
       property.count_type = parse_type(words);
-      if (property.count_type == PlyType::float32 || property.count_type == PlyType::float64) {
-        fail("a list's length is a float, expected an integer type");
+      if (!is_integer(property.count_type)) {
+        fail("a list's length is no integer, expected an integer type");
       }
     } else {
       words.clear();
@@ -155,7 +166,7 @@ class PlyHeaderParser {
 }  // namespace
 
 std::size_t ply_type_bytes(PlyType type) {
-  static constexpr std::size_t BYTES[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  static constexpr std::size_t BYTES[] = {1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8, 0};
   return BYTES[static_cast<std::size_t>(type)];
 }
 
@@ -169,12 +180,14 @@ std::uint64_t PlyElement::min_row_bytes(PlyFormat format) const {
 }
 
 int PlyElement::find(const std::string& property) const {
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (properties[i].name == property) {
-      return static_cast<int>(i);
-    }
-  }
-  return -1;
+  const auto index_of = [&](const auto& is_it) {
+    const auto found = std::find_if(properties.begin(), properties.end(), is_it);
+    return found == properties.end() ? -1 : static_cast<int>(found - properties.begin());
+  };
+  const int same = index_of([&](const PlyProperty& one) { return one.name == property; });
+  return same >= 0
+             ? same
+             : index_of([&](const PlyProperty& one) { return lower_case(one.name) == lower_case(property); });
 }
 
 PlyHeader read_ply_header(ByteReader& in) { return PlyHeaderParser(in).parse(); }

@@ -9,9 +9,23 @@
 namespace splatray {
 
 enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+/// `other`: of a name that is not known; in ASCII files alone, where it can be passed over.
+enum class PlyType {
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float16,
+  float32,
+  float64,
+  other
+};
 
-/// Bytes of a value in a binary file.
+/// Bytes of a value in a binary file; 0 of `other`.
 [[nodiscard]] std::size_t ply_type_bytes(PlyType type);
 
 struct PlyProperty {
@@ -22,13 +36,13 @@ struct PlyProperty {
 };
 
 struct PlyElement {
-  std::string name;
+  std::string name;         ///< in lower case
   std::uint64_t count = 0;  ///< as declared: not to be trusted before min_row_bytes is checked
   std::vector<PlyProperty> properties;
 
   /// The least bytes a row takes in a file of this format.
   [[nodiscard]] std::uint64_t min_row_bytes(PlyFormat format) const;
-  /// Index of a property, -1 when there is none.
+  /// Index of a property, in any case, the one in the same case first; -1 when there is none.
   [[nodiscard]] int find(const std::string& property) const;
 };
 
@@ -39,8 +53,8 @@ struct PlyHeader {
   std::uint64_t line_count = 0;      ///< lines of the header, end_header included
 };
 
-/// Reads the header; `in` then stands on the first byte of the body. Throws Error (input_unreadable) with the
-/// line.
+/// Reads the header, whose keywords, types and names of elements may be in any case; `in` then stands on the first byte of
+/// the body. Throws Error (input_unreadable) with the line.
 [[nodiscard]] PlyHeader read_ply_header(ByteReader& in);
 
 }  // namespace splatray

@@ -51,11 +51,11 @@ std::optional<glm::uvec2> range_grid_form(const PlyHeader& header, const PlyElem
   return whole ? std::optional(glm::uvec2(rows, columns)) : std::nullopt;
 }
 
-void read_range_grid(PlyBody& in, const PlyElement& element, std::size_t list, const glm::uvec2& rows_columns,
-                     Points& points) {
+std::uint64_t read_range_grid(PlyBody& in, const PlyElement& element, std::size_t list,
+                              const glm::uvec2& rows_columns, Points& points) {
   points.grid_cell.assign(points.size(), NO_CELL);
-  for (std::uint64_t cell = 0; cell < element.count; ++cell) {
-    in.begin_row();
+  std::uint32_t cell = 0;
+  const std::uint64_t rows = in.read_rows(element, [&] {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (i != list) {
@@ -67,15 +67,17 @@ void read_range_grid(PlyBody& in, const PlyElement& element, std::size_t list, c
         if (!(vertex >= 0.0 && vertex < static_cast<double>(points.size())))
           in.fail("a cell of the range grid has vertex " + std::to_string(vertex) + ", expected less than " +
                   std::to_string(points.size()));
-        points.grid_cell[static_cast<std::size_t>(vertex)] = static_cast<std::uint32_t>(cell);
+        points.grid_cell[static_cast<std::size_t>(vertex)] = cell;
       }
     }
-    in.end_row();
-  }
+    ++cell;
+  });
+  if (rows < element.count) return points.grid_cell.clear(), rows;
   points.stations.resize(1);
   points.station.clear();
   points.stations[0].rows = rows_columns.x;
   points.stations[0].columns = rows_columns.y;
+  return rows;
 }
 
 void place_sensors(const PlyHeader& header, Points& points) {

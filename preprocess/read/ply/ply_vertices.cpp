@@ -10,6 +10,7 @@
 #include "preprocess/read/scan/column_names.h"
 #include "preprocess/read/scan/narrow_column.h"
 #include "preprocess/read/scan/scan_stations.h"
+#include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
 namespace {
@@ -35,18 +36,18 @@ struct PlyColumns {
   }
 };
 
-/// All three by name as plain scalars, or ABSENT.
-Triple find_triple(const PlyElement& element, const char* a, const char* b, const char* c) {
-  const Triple found{element.find(a), element.find(b), element.find(c)};
-  for (const int index : found) {
-    if (index < 0 || element.properties[static_cast<std::size_t>(index)].is_list) {
-      return ABSENT;
-    }
+/// The properties that mean these, all three, or ABSENT.
+Triple find_triple(const std::vector<std::string>& meanings, const std::string_view (&names)[3]) {
+  Triple found{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = std::find(meanings.begin(), meanings.end(), names[i]);
+    if (at == meanings.end()) return ABSENT;
+    found[i] = static_cast<int>(at - meanings.begin());
   }
   return found;
 }
 
-/// Whether a known column is none of a position, normal or colour, which have their own names in PLY.
+/// Whether a known column is none of a position, normal or colour.
 bool is_attribute(const std::string& known) {
   const auto is_it = [&](std::string_view name) { return name == known; };
   return !known.empty() && std::none_of(std::begin(COLUMN_AXES), std::end(COLUMN_AXES), is_it) &&
@@ -54,20 +55,23 @@ bool is_attribute(const std::string& known) {
          std::none_of(std::begin(COLUMN_COLORS), std::end(COLUMN_COLORS), is_it);
 }
 
+/// What each property means (known_columns); nothing of lists.
+std::vector<std::string> meanings_of(const PlyElement& element) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties)
+    names.push_back(property.is_list ? "" : property.name);
+  return known_columns(names);
+}
+
 PlyColumns find_columns(const PlyBody& in, const PlyElement& element) {
+  const std::vector<std::string> meanings = meanings_of(element);
   PlyColumns columns;
-  columns.position = find_triple(element, "x", "y", "z");
+  columns.position = find_triple(meanings, COLUMN_AXES);
   if (columns.position == ABSENT) {
     in.fail("element 'vertex' has no properties x, y, z");
   }
-  columns.normal = find_triple(element, "nx", "ny", "nz");
-  columns.color = find_triple(element, "red", "green", "blue");
-  if (columns.color == ABSENT) {
-    columns.color = find_triple(element, "diffuse_red", "diffuse_green", "diffuse_blue");
-  }
-  if (columns.color == ABSENT) {
-    columns.color = find_triple(element, "r", "g", "b");
-  }
+  columns.normal = find_triple(meanings, COLUMN_NORMALS);
+  columns.color = find_triple(meanings, COLUMN_COLORS);
   const int radius = element.find("radius");
   if (radius >= 0 && !element.properties[static_cast<std::size_t>(radius)].is_list) {
     columns.radius = radius;
@@ -76,14 +80,13 @@ PlyColumns find_columns(const PlyBody& in, const PlyElement& element) {
 }
 
 void find_attributes(const PlyElement& element, const std::vector<std::string>& wanted, PlyColumns& columns) {
-  std::vector<std::string> names;
-  for (const PlyProperty& property : element.properties) names.push_back(property.name);
-  const std::vector<std::string> known = known_columns(names);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto is_it = [&](const std::string& name) { return plain_name(name) == plain_name(names[i]); };
+  const std::vector<std::string> known = meanings_of(element);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const std::string& name = element.properties[i].name;
+    const auto is_it = [&](const std::string& one) { return plain_name(one) == plain_name(name); };
     const auto named = std::find_if(wanted.begin(), wanted.end(), is_it);
     std::string column = named != wanted.end() ? *named : is_attribute(known[i]) ? known[i] : "";
-    if (column.empty() && names[i] == "confidence") column = names[i];
+    if (column.empty() && plain_name(name) == "confidence") column = "confidence";
     const bool used = columns.uses(static_cast<int>(i)) || element.properties[i].is_list;
     if (!used && !column.empty()) columns.attributes.emplace_back(static_cast<int>(i), std::move(column));
   }
@@ -153,24 +156,21 @@ void append_rows(const unsigned char* rows, std::size_t count, const RowLayout& 
   }
 }
 
-void reserve(Points& points, const PlyElement& element, const PlyColumns& columns) {
-  points.position.reserve(element.count);
-  points.normal.reserve(columns.normal == ABSENT ? 0 : element.count);
-  points.color.reserve(columns.color == ABSENT ? 0 : element.count);
-  points.radius.reserve(columns.radius < 0 ? 0 : element.count);
+void reserve(Points& points, std::uint64_t count, const PlyColumns& columns) {
+  points.position.reserve(count);
+  points.normal.reserve(columns.normal == ABSENT ? 0 : count);
+  points.color.reserve(columns.color == ABSENT ? 0 : count);
+  points.radius.reserve(columns.radius < 0 ? 0 : count);
 }
 
-void gather_row(PlyBody& in, const PlyElement& element, double* row) {
-  in.begin_row();
+/// The values of a row that are used, in the places of their properties.
+void gather_row(PlyBody& in, const PlyElement& element, const PlyColumns& columns, double* row) {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    if (element.properties[i].is_list) {
-      in.skip(element.properties[i]);
-      row[i] = 0.0;
-    } else {
+    if (columns.uses(static_cast<int>(i)))
       row[i] = in.number(element.properties[i].type);
-    }
+    else
+      in.skip(element.properties[i]);
   }
-  in.end_row();
 }
 
 void take_attributes(const PlyColumns& columns, std::vector<std::vector<double>> values, Points& points) {
@@ -181,64 +181,92 @@ void take_attributes(const PlyColumns& columns, std::vector<std::vector<double>>
   }
 }
 
+/// Takes points out of rows in memory, block by block.
+class RowTaker {
+ public:
+  RowTaker(PlyBody& in, const PlyElement& element, const PlyColumns& columns, bool in_place)
+      : in_(in),
+        element_(element),
+        columns_(columns),
+        layout_(make_layout(in, element, in_place)),
+        block_rows_(std::max<std::size_t>(1, ByteReader::BLOCK_BYTES / layout_.stride)),
+        values_(columns.attributes.size()) {
+    reserve(points_, in.most_rows(element), columns);
+  }
+
+  /// Binary rows without lists, as they stand in the file.
+  void take_in_place() {
+    const std::uint64_t count = in_.most_rows(element_);
+    for (std::uint64_t done = 0; done < count;) {
+      const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(block_rows_, count - done));
+      const unsigned char* rows = in_.bytes().take(step * layout_.stride);
+      if (rows == nullptr) in_.fail("it could not be read to its end");
+      append_rows(rows, step, layout_, columns_, points_, values_);
+      done += step;
+    }
+  }
+
+  /// Rows that are read value by value.
+  void take_gathered() {
+    const std::size_t width = element_.properties.size();
+    const std::uint64_t count = in_.read_rows(element_, [&] {
+      if (gathered_.size() == block_rows_ * width) append_gathered(block_rows_);
+      gathered_.resize(gathered_.size() + width);
+      gather_row(in_, element_, columns_, gathered_.data() + gathered_.size() - width);
+    });
+    append_gathered(static_cast<std::size_t>(count - points_.size()));
+  }
+
+  Points points() {
+    take_attributes(columns_, std::move(values_), points_);
+    return std::move(points_);
+  }
+
+ private:
+  void append_gathered(std::size_t count) {
+    append_rows(reinterpret_cast<const unsigned char*>(gathered_.data()), count, layout_, columns_, points_,
+                values_);
+    gathered_.clear();
+  }
+
+  PlyBody& in_;
+  const PlyElement& element_;
+  const PlyColumns& columns_;
+  RowLayout layout_;
+  std::size_t block_rows_;
+  std::vector<double> gathered_;
+  Points points_;
+  std::vector<std::vector<double>> values_;
+};
+
 Points read_rows(PlyBody& in, const PlyElement& element, const PlyColumns& columns) {
   const bool has_lists = std::any_of(element.properties.begin(), element.properties.end(),
                                      [](const PlyProperty& property) { return property.is_list; });
   const bool in_place = !in.is_ascii() && !has_lists;
-  const RowLayout layout = make_layout(in, element, in_place);
-  const std::size_t block_rows = std::max<std::size_t>(1, ByteReader::BLOCK_BYTES / layout.stride);
-  std::vector<double> gathered;
-  Points points;
-  reserve(points, element, columns);
-  std::vector<std::vector<double>> values(columns.attributes.size());
-  for (std::uint64_t done = 0; done < element.count;) {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block_rows, element.count - done));
-    const unsigned char* rows = nullptr;
-    if (in_place) {
-      rows = in.bytes().take(count * layout.stride);
-      if (rows == nullptr) {
-        in.fail("the file ends before vertex " + std::to_string(done + count) + " of " +
-                std::to_string(element.count));
-      }
-    } else {
-      gathered.resize(count * element.properties.size());
-      for (std::size_t i = 0; i < count; ++i) {
-        gather_row(in, element, gathered.data() + i * element.properties.size());
-      }
-      rows = reinterpret_cast<const unsigned char*>(gathered.data());
-    }
-    append_rows(rows, count, layout, columns, points, values);
-    done += count;
-  }
-  take_attributes(columns, std::move(values), points);
-  return points;
+  RowTaker taker(in, element, columns, in_place);
+  if (in_place)
+    taker.take_in_place();
+  else
+    taker.take_gathered();
+  return taker.points();
 }
 
 /// The value that stands for full intensity: by type, unless the values themselves say otherwise.
 float color_scale(const Points& points, PlyType type, const PlyBody& in, std::vector<std::string>& notes) {
-  float most = 0.0F;
-  for (const glm::vec3& color : points.color) {
-    most = std::max({most, color.x, color.y, color.z});
-  }
-  const auto note = [&](const char* what) { notes.push_back(in.path().string() + ": " + what); };
-  switch (type) {
-    case PlyType::int16:
-    case PlyType::uint16:
-      if (most > 0.0F && most <= 255.0F) {
-        note("16-bit colours never exceed 255, taken as 8-bit");
-        return 255.0F;
-      }
-      return 65535.0F;
-    case PlyType::float32:
-    case PlyType::float64:
-      if (most > 1.001F) {
-        note("float colours exceed 1, taken as 0 to 255");
-        return 255.0F;
-      }
-      return 1.0F;
-    default:
-      return 255.0F;
-  }
+  if (type == PlyType::uint8 || type == PlyType::int8) return 255.0F;
+  const bool is_float = type >= PlyType::float16;
+  ColorRange range(is_float);
+  for (const glm::vec3& color : points.color)
+    for (int channel = 0; channel < 3; ++channel) range.add(static_cast<double>(color[channel]));
+  const bool is_short = type == PlyType::int16 || type == PlyType::uint16;
+  const float usual = is_float ? 1.0F : is_short ? 65535.0F : 255.0F;
+  const auto full =
+      static_cast<float>(is_float || range.full() > 1.0 ? range.full() : static_cast<double>(usual));
+  if (range.is_black() || (full == usual && range.outliers() == 0)) return full;
+  std::string said = color_note(range);
+  if (said.empty()) said = "colours are taken as of 0 to " + std::to_string(static_cast<int>(full));
+  notes.push_back(in.path().string() + ": " + said);
+  return full;
 }
 
 /// Raw file values to linear rgb; NaN becomes 0.

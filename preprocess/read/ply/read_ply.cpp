@@ -17,10 +17,12 @@ class FaceReader {
   FaceReader(PlyBody& in, std::uint64_t vertex_count, bool strips, std::vector<glm::uvec3>& triangles)
       : in_(in), vertex_count_(vertex_count), strips_(strips), triangles_(triangles) {}
 
-  void read(const PlyElement& element, std::size_t list_index) {
-    triangles_.reserve(triangles_.size() + element.count);
-    for (std::uint64_t row = 0; row < element.count; ++row) {
-      in_.begin_row();
+  /// How many rows there are.
+  std::uint64_t read(const PlyElement& element, std::size_t list_index) {
+    triangles_.reserve(triangles_.size() + in_.most_rows(element));
+    std::size_t before = 0;  // the row
+    const std::uint64_t rows = in_.read_rows(element, [&] {
+      before = triangles_.size();
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         if (i == list_index) {
           read_list(element.properties[i]);
@@ -28,8 +30,9 @@ class FaceReader {
           in_.skip(element.properties[i]);
         }
       }
-      in_.end_row();
-    }
+    });
+    if (rows < element.count) triangles_.resize(before);
+    return rows;
   }
 
  private:
@@ -100,25 +103,10 @@ int find_index_list(const PlyElement& element) {
   return -1;
 }
 
-/// A declared count must fit into what is left of the file, before anything is allocated for it.
-void check_count(const PlyBody& in, const PlyElement& element, PlyFormat format) {
-  const std::uint64_t row_bytes = element.min_row_bytes(format);
-  const std::uint64_t left = in.remaining() + (in.is_ascii() ? 1 : 0);
-  if (row_bytes > 0 && element.count > left / row_bytes) {
-    in.fail("the header declares " + std::to_string(element.count) + " rows of element '" + element.name +
-            "' of at least " + std::to_string(row_bytes) + " bytes, but only " +
-            std::to_string(in.remaining()) + " bytes are left");
-  }
-}
-
-void skip_element(PlyBody& in, const PlyElement& element) {
-  for (std::uint64_t row = 0; row < element.count; ++row) {
-    in.begin_row();
-    for (const PlyProperty& property : element.properties) {
-      in.skip(property);
-    }
-    in.end_row();
-  }
+std::uint64_t skip_element(PlyBody& in, const PlyElement& element) {
+  return in.read_rows(element, [&] {
+    for (const PlyProperty& property : element.properties) in.skip(property);
+  });
 }
 
 const PlyElement& vertex_element(const PlyHeader& header, const std::filesystem::path& path) {
@@ -145,19 +133,39 @@ bool has_triangles(const PlyHeader& header) {
 void refuse_gaussians(const PlyElement& vertices, const std::filesystem::path& path) {
   std::vector<std::string> names;
   for (const PlyProperty& property : vertices.properties) names.push_back(property.name);
-  refuse_gaussian_ply(path, names);
+  refuse_gaussian_names(path, names);
 }
 
-void append_faces(PlyBody& in, const PlyElement& element, std::uint64_t vertex_count, int list, Mesh& mesh,
-                  std::vector<std::string>& skipped) {
+std::uint64_t append_faces(PlyBody& in, const PlyElement& element, std::uint64_t vertex_count, int list,
+                           Mesh& mesh, std::vector<std::string>& skipped) {
   FaceReader faces(in, vertex_count, element.name == "tristrips", mesh.triangles);
-  faces.read(element, static_cast<std::size_t>(list));
+  const std::uint64_t rows = faces.read(element, static_cast<std::size_t>(list));
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     if (static_cast<int>(i) != list) {
       skipped.push_back(element.name + "." + element.properties[i].name);
     }
   }
+  return rows;
 }
+
+/// The first element whose rows the file ends before.
+struct Cut {
+  const PlyElement* element = nullptr;
+  std::uint64_t rows = 0;
+
+  void note(const PlyElement& one, std::uint64_t found) {
+    if (element == nullptr && found < one.count) *this = {&one, found};
+  }
+
+  void report(const std::filesystem::path& path, const ScanOptions& options,
+              const ReadListener& listener) const {
+    if (element == nullptr) return;
+    const std::string found = "found " + std::to_string(rows) + " rows of element '" + element->name +
+                              "', expected " + std::to_string(element->count) + " as the header says";
+    if (options.strict) throw_unreadable(path, found);
+    listener.note(path, found + "; those there are were read");
+  }
+};
 
 }  // namespace
 
@@ -170,27 +178,30 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
   PlyBody in(bytes, header);
   Mesh mesh;
   std::vector<std::string> skipped;
+  Cut cut;
   for (const PlyElement& element : header.elements) {
     if (element.properties.empty() && &element != &vertices) {
       continue;
     }
-    check_count(in, element, header.format);
     const int list = find_index_list(element);
     if (&element == &vertices) {
       std::vector<std::string> attributes = options.scans.attributes;
       if (has_splats(header))
         for (const PlyProperty& property : element.properties) attributes.push_back(property.name);
       mesh.vertices = read_ply_vertices(in, element, point_set ? &attributes : nullptr, listener.notes);
+      cut.note(element, mesh.vertices.size());
     } else if (list >= 0 && is_triangles(element)) {
-      append_faces(in, element, vertices.count, list, mesh, skipped);
+      cut.note(element, append_faces(in, element, mesh.vertices.size(), list, mesh, skipped));
     } else if (const auto grid = range_grid_form(header, element);
                point_set && list >= 0 && grid && mesh.vertices.size() > 0 && element.name == "range_grid") {
-      read_range_grid(in, element, static_cast<std::size_t>(list), *grid, mesh.vertices);
+      cut.note(element, read_range_grid(in, element, static_cast<std::size_t>(list), *grid, mesh.vertices));
     } else {
-      skip_element(in, element);
+      cut.note(element, skip_element(in, element));
       skipped.push_back(element.name);
     }
   }
+  in.finish();
+  cut.report(path, options.scans, listener);
   if (point_set) place_sensors(header, mesh.vertices), take_remarks(header, mesh.vertices);
   if (!skipped.empty()) {
     listener.note(path, "skipped elements " + quoted_list(skipped));

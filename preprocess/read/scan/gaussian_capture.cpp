@@ -1,6 +1,7 @@
 #include "preprocess/read/scan/gaussian_capture.h"
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <string_view>
 
@@ -31,9 +32,14 @@ void refuse_gaussian_file(const std::filesystem::path& path) {
   if (holds(EXTENSIONS, extension)) refuse(path, extension);
 }
 
-void refuse_gaussian_ply(const std::filesystem::path& path, const std::vector<std::string>& properties) {
-  for (const std::string& name : properties)
-    if (holds(PROPERTIES, name)) refuse(path, "property '" + name + "'");
+void refuse_gaussian_names(const std::filesystem::path& path, const std::vector<std::string>& names) {
+  constexpr std::string_view OF_GLTF = "gaussian_splatting";
+  for (const std::string& name : names) {
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (holds(PROPERTIES, lower) || lower.find(OF_GLTF) != std::string::npos) refuse(path, "'" + name + "'");
+  }
 }
 
 }  // namespace splatray

@@ -12,8 +12,8 @@
 namespace splatray {
 namespace {
 
-constexpr float MOST_METRES = 1000.0F;
-constexpr float MOST_REFLECTANCE = 255.0F;
+/// No coordinate of a map on Earth is farther; bytes of other files soon are.
+constexpr float MOST_METRES = 1e7F;
 constexpr float MOST_RING = 255.0F;
 constexpr std::string_view RING_COLUMN = "ring";
 
@@ -26,18 +26,22 @@ Floats floats_at(const std::vector<unsigned char>& bytes, std::size_t at, std::s
   return v;
 }
 
+bool has_position(const Floats& v) { return std::isfinite(v[0] + v[1] + v[2]); }
+
+/// A position that is not finite is none of a return.
 bool is_plausible(const Floats& v) {
   const float away = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
-  const bool finite = std::isfinite(v[0] + v[1] + v[2] + v[3] + v[4]);
   const bool ring = v[4] >= 0.0F && v[4] <= MOST_RING && v[4] == std::floor(v[4]);
-  return finite && away <= MOST_METRES && v[3] >= 0.0F && v[3] <= MOST_REFLECTANCE && ring;
+  return !has_position(v) || (away <= MOST_METRES && ring);
 }
 
-/// The first byte of a point that is none of `width` floats; the end where all are.
+/// The first byte of a point that is none of `width` floats; the end where all are, and the begin where none has a position.
 std::size_t first_implausible(const std::vector<unsigned char>& bytes, std::size_t width) {
   std::size_t at = 0;
-  while (at < bytes.size() && is_plausible(floats_at(bytes, at, width))) at += width * sizeof(float);
-  return at;
+  bool has_any = false;
+  for (; at < bytes.size() && is_plausible(floats_at(bytes, at, width)); at += width * sizeof(float))
+    has_any = has_any || has_position(floats_at(bytes, at, width));
+  return at == bytes.size() && !has_any ? 0 : at;
 }
 
 /// How many floats a point has: five where that makes sense of all bytes, as whole rings are no chance.
@@ -67,10 +71,17 @@ ScanFile read_kitti(const std::filesystem::path& path, const ReadOptions& option
   std::vector<double> ring;
   for (std::size_t at = 0; at < bytes.size(); at += width * sizeof(float)) {
     const Floats v = floats_at(bytes, at, width);
+    if (!has_position(v)) {
+      ++file.counts.no_return;
+      continue;
+    }
     file.points.position.emplace_back(v[0], v[1], v[2]);
-    reflectance.push_back(v[3]);
+    reflectance.push_back(std::isfinite(v[3]) ? v[3] : 0.0F);
     ring.push_back(v[4]);
   }
+  if (file.counts.no_return > 0)
+    listener.note(path, "left out what has no finite position: " + std::to_string(file.counts.no_return) +
+                            " of " + std::to_string(file.counts.stored) + " points");
   file.points.columns.push_back({std::string(COLUMN_INTENSITY), std::move(reflectance)});
   const std::vector<std::string>& wanted = options.scans.attributes;
   if (width == 5 && std::find(wanted.begin(), wanted.end(), RING_COLUMN) != wanted.end())

@@ -7,18 +7,55 @@
 
 namespace splatray {
 
+void ColorRange::add(double value) {
+  if (!std::isfinite(value)) return;
+  count_ += value > 0.0 ? 1 : 0;  // points without a colour are black
+  most_ = std::max(most_, value);
+  whole_ = whole_ && value == std::floor(value);
+  if (value <= 1.0) return;
+  above_one_ += value > 1.001 ? 1 : 0;  // which rounding makes of 1
+  for (std::size_t i = 0; i < FULL.size() && value > FULL[i] + 1.0; ++i) ++above_[i];
+}
+
+void ColorRange::add(const std::vector<glm::u16vec3>& colors) {
+  for (const glm::u16vec3& color : colors)
+    for (int channel = 0; channel < 3; ++channel) add(color[channel]);
+}
+
+double ColorRange::full() const {
+  constexpr std::uint64_t ONE_OF =
+      200;  // more are highlights of a wider range: four times as bright they would all be white
+  constexpr std::size_t FEW = 0;  // 8 bits have more than 16 levels wherever something is seen
+  const std::uint64_t allowed = count_ / ONE_OF;
+  if (most_ <= 1.0 || ((floats_ || !whole_) && above_[FEW] <= allowed)) return 1.0;
+  for (std::size_t i = 1; i < FULL.size(); ++i)
+    if (above_[i] <= allowed) return FULL[i];
+  return FULL.back();
+}
+
+std::uint64_t ColorRange::outliers() const {
+  const double most = full();
+  const auto* const found = std::find(FULL.begin(), FULL.end(), most);
+  return found == FULL.end() ? above_one_ : above_[static_cast<std::size_t>(found - FULL.begin())];
+}
+
+std::string color_note(const ColorRange& range) {
+  const auto full = static_cast<int>(range.full());
+  const bool is_usual = range.is_whole() && (full == 255 || full == 65535);
+  if (range.is_black() || (is_usual && range.outliers() == 0)) return "";
+  std::string said = "colours are taken as of 0 to " + std::to_string(full);
+  if (range.outliers() > 0)
+    said += "; " + std::to_string(range.outliers()) + " values above it are taken as full";
+  return said;
+}
+
 std::string store_colors(std::array<std::vector<float>, 3> channels, Points& points) {
-  float most = 0.0F;
-  bool whole = true;
+  ColorRange range;
   for (const std::vector<float>& channel : channels)
-    for (const float value : channel) {
-      if (!std::isfinite(value)) continue;
-      most = std::max(most, value);
-      whole = whole && value == std::floor(value);
-    }
-  const bool as_stored = whole && most != 1.0F;
-  const float full = most <= 1.0F ? 1.0F : most <= 255.0F ? 255.0F : 65535.0F;
-  const double scale = as_stored ? 1.0 : 65535.0 / static_cast<double>(full);
+    for (const float value : channel) range.add(static_cast<double>(value));
+  const double full = range.full();
+  const bool as_stored = range.is_whole() && full > 1.0;
+  const double scale = as_stored ? 1.0 : 65535.0 / full;
   points.stored_color.resize(channels[0].size());
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<float>& channel = channels[static_cast<std::size_t>(axis)];
@@ -26,8 +63,8 @@ std::string store_colors(std::array<std::vector<float>, 3> channels, Points& poi
       points.stored_color[i][axis] = stored_channel(scale * static_cast<double>(channel[i]));
     release(channel);
   }
-  points.stored_color_most = as_stored ? 0 : 65535;
-  return as_stored ? "" : "colours are taken as of 0 to " + std::to_string(static_cast<int>(full));
+  points.stored_color_most = as_stored || range.is_black() ? 0 : 65535;
+  return as_stored ? "" : color_note(range);
 }
 
 }  // namespace splatray

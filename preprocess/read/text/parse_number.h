@@ -1,11 +1,13 @@
 /// Numbers in text.
 #pragma once
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 namespace splatray {
 
@@ -57,6 +59,19 @@ namespace splatray {
   const char* behind = rest;
   while (behind != end && !is_cell_end(*behind)) ++behind;
   return behind;
+}
+
+/// What is wrong with a word that stands where a number is expected.
+[[nodiscard]] inline std::string no_number(std::string_view word) {
+  constexpr std::size_t SHOWN = 20;
+  const std::string found = "found '" + std::string(word.substr(0, SHOWN)) + "'";
+  std::string pointed(word);
+  std::replace(pointed.begin(), pointed.end(), ',', '.');
+  double value = 0.0;
+  const char* const end = pointed.data() + pointed.size();
+  const bool has_comma = pointed != word && parse_number(pointed.data(), end, value) == end;
+  return found + (has_comma ? " with a decimal comma, expected a number with a decimal point"
+                            : ", expected a number");
 }
 
 }  // namespace splatray

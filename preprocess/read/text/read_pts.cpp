@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "preprocess/read/scan/missing_points.h"
 #include "preprocess/read/text/read_expe_points.h"
+#include "preprocess/read/text/read_xyz.h"
 #include "preprocess/read/text/row_reader.h"
 #include "preprocess/read/text/survey_rows.h"
+#include "preprocess/read/text/text_layout.h"
 
 namespace splatray {
 namespace {
@@ -16,7 +21,7 @@ constexpr double MOST_COUNT = 4294967296.0;  ///< of a block; sums stay within 6
 class PtsReader {
  public:
   PtsReader(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener)
-      : path_(path), options_(options), listener_(listener), rows_(path, listener, {}) {}
+      : path_(path), options_(options), listener_(listener), rows_(path, listener, form_of_rows(path)) {}
 
   ScanFile read() {
     RowRun run;
@@ -32,7 +37,9 @@ class PtsReader {
     }
     end_block();
     ScanFile file;
-    file.points = points_.take();
+    std::vector<std::string> said;
+    file.points = points_.take(said);
+    for (const std::string& sentence : said) listener_.note(path_, sentence);
     file.counts = counts_;
     report_missing(path_, counts_, options_.scans, listener_);
     return file;
@@ -52,6 +59,8 @@ class PtsReader {
     if (!SurveyRows::is_width(run.width))
       rows_.fail(run.first_line, "found " + std::to_string(run.width) + " numbers, expected " +
                                      std::string(SurveyRows::EXPECTED));
+    points_.judge(run);
+    const std::optional<std::size_t> n = points_.normal_cell(run.width);
     if (run.open && counted_ && found_ + 1 < declared_) return;  // it may have lost digits
     for (std::size_t i = 0; i < run.rows; ++i) {
       const double* row = run.row(i);
@@ -59,7 +68,7 @@ class PtsReader {
       ++found_;
       const bool is_point = std::isfinite(position.x + position.y + position.z);
       counts_.no_return += is_point ? 0 : 1;
-      const glm::dvec3 normal = run.width == 10 ? glm::dvec3(row[7], row[8], row[9]) : glm::dvec3(0.0);
+      const glm::dvec3 normal = n ? glm::dvec3(row[*n], row[*n + 1], row[*n + 2]) : glm::dvec3(0.0);
       if (is_point) points_.append(row, run.width, position, normal);
     }
   }
@@ -91,6 +100,8 @@ class PtsReader {
 ScanFile read_pts(const std::filesystem::path& path, const ReadOptions& options,
                   const ReadListener& listener) {
   if (is_expe_points(path)) return read_expe_points(path, options, listener);
+  const TextLayout layout = find_text_layout(path, options.scans);
+  if (!layout.columns.empty() || layout.numbered) return read_xyz(path, options, listener);
   return PtsReader(path, options, listener).read();
 }
 

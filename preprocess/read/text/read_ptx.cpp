@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "preprocess/read/scan/missing_points.h"
@@ -38,7 +39,7 @@ struct PtxScan {
 class PtxReader {
  public:
   PtxReader(const std::filesystem::path& path, const ReadOptions& options, const ReadListener& listener)
-      : path_(path), options_(options), listener_(listener), rows_(path, listener, {}) {}
+      : path_(path), options_(options), listener_(listener), rows_(path, listener, form_of_rows(path)) {}
 
   ScanFile read() {
     RowRun run;
@@ -113,6 +114,8 @@ class PtxReader {
     if (!SurveyRows::is_width(run.width))
       rows_.fail(run.first_line + first, "found " + std::to_string(run.width) + " numbers, expected " +
                                              std::string(SurveyRows::EXPECTED));
+    points_.judge(run);
+    const std::optional<std::size_t> n = points_.normal_cell(run.width);
     if (run.open && scan_.cells + 1 < scan_.columns() * scan_.rows()) return;  // it may have lost digits
     for (std::size_t i = first; i < run.rows; ++i, ++scan_.cells) {
       const double* row = run.row(i);
@@ -123,7 +126,7 @@ class PtxReader {
         continue;
       }
       const glm::dvec3 normal =
-          run.width == 10 ? normals_ * glm::dvec3(row[7], row[8], row[9]) : glm::dvec3(0.0);
+          n ? normals_ * glm::dvec3(row[*n], row[*n + 1], row[*n + 2]) : glm::dvec3(0.0);
       points_.append(row, run.width, world, normal);
       cells_.push_back(scan_.cells);
     }
@@ -160,7 +163,9 @@ class PtxReader {
 
   ScanFile finished() {
     ScanFile file;
-    file.points = points_.take();
+    std::vector<std::string> said;
+    file.points = points_.take(said);
+    for (const std::string& sentence : said) listener_.note(path_, sentence);
     file.counts = counts_;
     file.counts.no_return = no_return_;
     if (std::any_of(grid_cell_.begin(), grid_cell_.end(), [](std::uint32_t cell) { return cell != NO_CELL; }))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "preprocess/base/quoted_list.h"
@@ -11,6 +12,7 @@
 #include "preprocess/read/scan/narrow_column.h"
 #include "preprocess/read/scan/scan_stations.h"
 #include "preprocess/read/scan/stored_colors.h"
+#include "preprocess/read/text/read_esri_grid.h"
 #include "preprocess/read/text/text_layout.h"
 #include "preprocess/read/text/unnamed_columns.h"
 
@@ -43,14 +45,21 @@ class XyzReader {
         layout_(find_text_layout(path, options.scans)),
         rows_(path, listener, layout_.form, layout_.data) {}
 
-  ScanFile read() {
+  /// Takes the first column for a coordinate, whatever it is.
+  void keep_first_column() { layout_.numbered = false; }
+
+  /// Nothing where the first column, which should count the rows, does not.
+  std::optional<ScanFile> read() {
     RowRun run;
     while (rows_.next(run)) {
       if (width_ == 0) choose_cells(run);
       check_width(run);
+      check_numbers(run);
+      if (numbers_break_) break;
       if (run.open && layout_.count && found_ + 1 < *layout_.count) break;  // it may have lost digits
       append(run);
     }
+    if (numbers_break_) return {};
     if (layout_.degrees) file_.in_degrees = true;
     count();
     if (layout_.columns.empty()) name_extras();
@@ -63,29 +72,47 @@ class XyzReader {
   /// Where the first row says how many columns there are.
   void choose_cells(const RowRun& run) {
     const std::vector<std::string>& columns = layout_.columns;
-    width_ = columns.empty() ? run.width : columns.size();
-    if (width_ < 3)
-      rows_.fail(run.first_line, "found " + std::to_string(width_) + " numbers, expected at least x y z");
-    for (std::size_t cell = 0; cell < width_; ++cell) {
+    const std::size_t first = layout_.numbered ? 1 : 0;
+    if (columns.empty()) axes_ = {first, first + 1, first + 2};
+    for (std::size_t cell = first; cell < (columns.empty() ? run.width : columns.size()); ++cell) {
       const std::string name = columns.empty() ? "" : columns[cell];
       const auto* const axis = std::find(std::begin(COLUMN_AXES), std::end(COLUMN_AXES), name);
       if (axis != std::end(COLUMN_AXES)) {
         axes_[static_cast<std::size_t>(axis - std::begin(COLUMN_AXES))] = cell;
-      } else if (columns.empty() ? cell >= 3 : !name.empty()) {
+      } else if (columns.empty() ? cell >= first + 3 : !name.empty()) {
         extras_.push_back({cell, name, {}, {}});
       }
     }
+    width_ = columns.empty() ? run.width : last_used_cell() + 1;
+    if (width_ < 3)
+      rows_.fail(run.first_line, "found " + std::to_string(width_) + " numbers, expected at least x y z");
   }
 
-  /// Rows may end in empty cells.
+  [[nodiscard]] std::size_t last_used_cell() const {
+    std::size_t last = *std::max_element(axes_.begin(), axes_.end());
+    for (const Extra& extra : extras_) last = std::max(last, extra.cell);
+    return last;
+  }
+
+  /// Rows without names may end in empty cells; others may have more cells than are used.
   void check_width(const RowRun& run) const {
-    if (run.width == width_) return;
+    if (run.width == width_ || (run.width > width_ && !layout_.columns.empty())) return;
     for (std::size_t i = 0; i < run.rows; ++i) {
       bool empty = run.width > width_ && layout_.form.separator != ' ';
       for (std::size_t cell = width_; cell < run.width && empty; ++cell) empty = std::isnan(run.row(i)[cell]);
       if (!empty)
         rows_.fail(run.first_line + i,
-                   "found " + std::to_string(run.width) + " columns, expected " + std::to_string(width_));
+                   "found " + std::to_string(run.width) + " columns, expected " + std::to_string(width_) +
+                       (layout_.columns.empty() ? "; --columns names those to read" : ""));
+    }
+  }
+
+  /// Numbers of rows ascend: those of rows that were deleted are missing.
+  void check_numbers(const RowRun& run) {
+    for (std::size_t i = 0; i < run.rows && layout_.numbered; ++i) {
+      const double number = run.row(i)[0];
+      numbers_break_ = numbers_break_ || !(number > last_number_ && number == std::floor(number));
+      last_number_ = number;
     }
   }
 
@@ -186,6 +213,10 @@ class XyzReader {
   void report() const {
     report_missing(path_, file_.counts, options_.scans, listener_);
     if (!layout_.unused.empty()) listener_.note(path_, "skipped columns " + quoted_list(layout_.unused));
+    if (layout_.has_more) listener_.note(path_, "cells behind the last named column were left out");
+    if (layout_.numbered) listener_.note(path_, "its first column counts the rows and was left out");
+    if (layout_.form.decimal_comma && layout_.form.separator == ' ')
+      listener_.note(path_, "commas are taken as decimal ones");
     if (layout_.degrees)
       listener_.note(
           path_,
@@ -196,20 +227,27 @@ class XyzReader {
   const std::filesystem::path& path_;
   const ReadOptions& options_;
   const ReadListener& listener_;
-  const TextLayout layout_;
+  TextLayout layout_;
   RowReader rows_;
   std::size_t width_ = 0;
   std::array<std::size_t, 3> axes_{0, 1, 2};
   std::vector<Extra> extras_;
   ScanFile file_;
   std::uint64_t found_ = 0;
+  double last_number_ = -1.0;   ///< of the rows so far, where they are numbered
+  bool numbers_break_ = false;  ///< they do not ascend
 };
 
 }  // namespace
 
 ScanFile read_xyz(const std::filesystem::path& path, const ReadOptions& options,
                   const ReadListener& listener) {
-  return XyzReader(path, options, listener).read();
+  if (is_esri_grid(path)) return read_esri_grid(path, options, listener);
+  XyzReader reader(path, options, listener);
+  if (std::optional<ScanFile> file = reader.read()) return *std::move(file);
+  XyzReader again(path, options, listener);
+  again.keep_first_column();
+  return again.read().value();
 }
 
 }  // namespace splatray

@@ -12,7 +12,6 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t PIECE_BYTES = std::size_t{128} << 10U;
-constexpr std::size_t SHOWN = 20;  ///< characters of what is wrong
 
 }  // namespace
 
@@ -28,7 +27,7 @@ class RowReader::PieceParser {
   }
 
   void parse(std::span<char> text) {
-    if (form_.decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
+    if (form_.decimal_comma && form_.separator != ',') std::replace(text.begin(), text.end(), ',', '.');
     piece_.values.reserve(text.size() / 4);
     const char* const end = text.data() + text.size();
     for (const char* line = text.data(); line != end && piece_.fault.empty();) {
@@ -79,20 +78,26 @@ class RowReader::PieceParser {
   [[nodiscard]] bool is_skipped(std::size_t cell) const {
     return cell < form_.skipped.size() && form_.skipped[cell];
   }
+  /// Whether the row ends before this cell, whatever the line has more.
+  [[nodiscard]] bool is_beyond(std::size_t cell) const {
+    return form_.has_more && cell >= form_.skipped.size();
+  }
 
-  void fault(const char* at, const char* end) {
-    const auto length = std::min(static_cast<std::size_t>(end - at), SHOWN);
-    piece_.fault = "found '" + std::string(at, length) + "', expected a number";
+  static std::string_view text_of(const char* at, const char* end) {
+    return {at, static_cast<std::size_t>(end - at)};
   }
 
   /// Cells with blanks between.
   void parse_words(const char* at, const char* end) {
-    for (std::size_t cell = 0; at != end; ++cell) {
+    for (std::size_t cell = 0; at != end && !is_beyond(cell); ++cell) {
       double value = NAN;
       const char* rest = is_skipped(cell) ? std::find_if(at, end, is_blank) : parse_number(at, end, value);
       if (rest == nullptr || (rest != end && !is_blank(*rest))) {
-        fault(at, std::find_if(at, end, is_blank));
-        return;
+        rest = std::find_if(at, end, is_blank);
+        if (!parse_cell(text_of(at, rest), form_, value)) {
+          piece_.fault = no_number(text_of(at, rest));
+          return;
+        }
       }
       piece_.values.push_back(value);
       at = behind_blanks(rest, end);
@@ -101,7 +106,7 @@ class RowReader::PieceParser {
 
   /// Cells with a separator between.
   void parse_cells(const char* at, const char* end) {
-    for (std::size_t cell = 0;; ++cell) {
+    for (std::size_t cell = 0; !is_beyond(cell); ++cell) {
       double value = NAN;
       const char* rest = nullptr;
       if (!is_skipped(cell)) {
@@ -110,9 +115,9 @@ class RowReader::PieceParser {
         rest = rest == nullptr ? nullptr : behind_blanks(rest, end);
       }
       if (rest == nullptr || (rest != end && *rest != form_.separator)) {
-        rest = std::find(at, end, form_.separator);
-        if (!is_skipped(cell) && !parse_quoted(at, rest, value)) {
-          fault(at, rest);
+        rest = end_of_cell(at, end, form_.separator);
+        if (!is_skipped(cell) && !parse_cell(text_of(at, rest), form_, value)) {
+          piece_.fault = no_number(text_of(at, rest));
           return;
         }
       }
@@ -120,14 +125,6 @@ class RowReader::PieceParser {
       if (rest == end) return;
       at = rest + 1;
     }
-  }
-
-  /// A cell that is empty or a number in quotes.
-  static bool parse_quoted(const char* at, const char* end, double& value) {
-    value = NAN;
-    while (at != end && (is_blank(*at) || *at == '"')) ++at;
-    while (at != end && (is_blank(end[-1]) || end[-1] == '"')) --end;
-    return at == end || parse_number(at, end, value) == end;
   }
 
   const CellForm& form_;

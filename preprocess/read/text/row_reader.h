@@ -5,16 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "preprocess/read/text/cell_form.h"
 #include "preprocess/read/text/line_blocks.h"
 
 namespace splatray {
-
-/// How a line is split into cells.
-struct CellForm {
-  char separator = ' ';  ///< ' ' = any number of blanks and tabs; any other ends a cell, which may be empty
-  bool decimal_comma = false;  ///< 1,5 is one and a half
-  std::vector<bool> skipped;   ///< cells, by number, that are not read; those beyond it are
-};
 
 /// Lines one after another, of equally many cells each.
 struct RowRun {

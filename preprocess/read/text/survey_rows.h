@@ -1,5 +1,8 @@
 /// Rows of the surveyors' text formats PTX and PTS.
 #pragma once
+#include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -8,16 +11,23 @@
 
 namespace splatray {
 
-/// Collects points of rows x y z [intensity [r g b [nx ny nz]]]. Blocks of a file may differ in what they have.
+/// Collects points of rows x y z [intensity] [r g b [nx ny nz]], where three numbers behind the first are normals if they have
+/// the length 1. Blocks of a file may differ in what they have.
 class SurveyRows {
  public:
   static constexpr std::string_view EXPECTED =
-      "x y z, or with intensity, with r g b, and with nx ny nz behind them";
+      "x y z, or with intensity, with r g b, and with nx ny nz behind them; other columns are named by "
+      "--columns";
 
   /// Whether rows of `width` cells are such.
   [[nodiscard]] static bool is_width(std::size_t width) {
-    return width == 3 || width == 4 || width == 7 || width == 10;
+    return width == 3 || width == 4 || width == 6 || width == 7 || width == 9 || width == 10;
   }
+
+  /// Looks at the first rows of a run, before they are appended, for what their columns are.
+  void judge(const RowRun& run);
+  /// Whether rows of that width have a normal, and where.
+  [[nodiscard]] std::optional<std::size_t> normal_cell(std::size_t width) const;
 
   /// Appends a point. `normal_world` is used where the row has one.
   void append(const double* row, std::size_t width, const glm::dvec3& position_world,
@@ -25,12 +35,18 @@ class SurveyRows {
 
   [[nodiscard]] const std::vector<glm::dvec3>& position() const { return points_.position; }
 
-  /// All points; attributes that some rows lack are 0 there, colours white. Colours are of 8 bits unless one exceeds them.
-  [[nodiscard]] Points take();
+  /// All points; attributes that some rows lack are 0 there, colours white. What was taken for granted about colours goes to
+  /// `notes`.
+  [[nodiscard]] Points take(std::vector<std::string>& notes);
 
  private:
   Points points_;
+  void store_all_colors(std::vector<std::string>& notes);
+
   std::vector<float> intensity_;
+  std::array<std::vector<float>, 3> channel_;  ///< NaN: the row has none
+  bool normals_first_ = false;                 ///< the first three numbers behind an intensity are normals
+  bool is_judged_ = false;
 };
 
 }  // namespace splatray

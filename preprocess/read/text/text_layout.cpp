@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/utf8.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/scan/column_names.h"
@@ -20,37 +19,28 @@ std::string_view without_blanks(std::string_view text, std::string_view blanks =
   return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-std::vector<std::string> split(std::string_view line, char separator) {
-  std::vector<std::string> cells;
-  const std::string_view ends =
-      separator == ' ' ? std::string_view(" \t\r") : std::string_view(&separator, 1);
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find_first_of(ends, begin), line.size());
-    const std::string_view cell = without_blanks(line.substr(begin, end - begin));
-    if (separator != ' ' || !cell.empty()) cells.push_back(to_utf8(cell));
-    begin = end + 1;
-  }
-  return cells;
+/// The separator of a line of names: tabs part names of several words.
+char separator_of_names(std::string_view line) {
+  const char separator = find_cell_form({std::string(line)}).separator;
+  const bool has_tab = line.find('\t') != std::string_view::npos;
+  return has_tab && separator != ';' ? '\t' : separator;
 }
 
-bool is_number(std::string cell, bool decimal_comma) {
-  if (decimal_comma) std::replace(cell.begin(), cell.end(), ',', '.');
-  double value = 0.0;
-  const char* const end = cell.data() + cell.size();
-  return cell.empty() || parse_number(cell.data(), end, value) == end;
-}
-
-/// Tabs count where each stands between cells of one word; else they are blanks among others.
-char separator_of(std::string_view line, bool names) {
-  if (line.find(';') != std::string_view::npos) return ';';
-  if (line.find('\t') != std::string_view::npos) {
-    const std::vector<std::string> cells = split(line, '\t');
-    const bool words = std::none_of(cells.begin(), cells.end(), [](const std::string& cell) {
-      return cell.find(' ') != std::string::npos;
-    });
-    if (words || names) return '\t';
+/// Whether cells count the rows, with x, y and z behind: at least three from 0 or 1 on, or as many as are looked at from any
+/// number on.
+bool count_rows(const std::vector<std::string>& rows, const CellForm& form) {
+  const bool starts_anywhere = rows.size() == CellForm::MOST_ROWS;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::vector<std::string> cells = split_cells(rows[i], form.separator);
+    double number = NAN;
+    double first = NAN;
+    const bool are_numbers = cells.size() > 3 && parse_cell(cells[0], form, number) &&
+                             parse_cell(split_cells(rows[0], form.separator)[0], form, first);
+    if (!are_numbers || (!starts_anywhere && first != 0.0 && first != 1.0) ||
+        number != std::floor(first) + static_cast<double>(i))
+      return false;
   }
-  return line.find(',') != std::string_view::npos ? ',' : ' ';
+  return rows.size() >= 3;
 }
 
 class HeadReader {
@@ -61,8 +51,10 @@ class HeadReader {
   TextLayout read() {
     if (!options_.columns.empty()) name_by_list();
     for (std::string_view line; layout_.data.lines < MOST_HEAD_LINES && in_.line(line, MOST_ROW_BYTES);) {
-      if (layout_.data.lines == 0 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
-      if (is_first_row(line)) break;
+      if (is_first_row(line)) {
+        take_rows(std::string(line));
+        break;
+      }
       ++layout_.data.lines;
       layout_.data.offset = in_.offset();
     }
@@ -75,20 +67,39 @@ class HeadReader {
   bool is_first_row(std::string_view line) {
     const std::string_view text = without_blanks(line, " \t\r");
     if (text.empty()) return false;
-    if (text.front() == '#' || text.starts_with("//")) {
+    if (is_remark(text)) {
       name_by_comment(text);
       return false;
     }
-    layout_.form.separator = separator_of(line, false);
-    layout_.form.decimal_comma = layout_.form.separator == ';' || layout_.form.separator == '\t';
-    const std::vector<std::string> cells = split(line, layout_.form.separator);
+    const CellForm form = find_cell_form({std::string(line)});
+    const std::vector<std::string> cells = split_cells(line, form.separator);
     if (cells.size() == 1 && !layout_.count && is_count(cells[0])) return false;
-    if (is_row(cells)) return true;
+    if (is_row(cells, form)) return true;
     if (named_) return !by_list_ || header_seen_;  // the rows' own reader says what is wrong with it
     header_seen_ = true;
     if (by_list_) return false;
     name_by_header(line);
     return false;
+  }
+
+  /// The rows from the first on, which say what their form is.
+  void take_rows(std::string first) {
+    const std::vector<std::string> rows = first_rows(in_, {std::move(first)});
+    layout_.form = find_cell_form(rows);
+    layout_.numbered = !named_ && count_rows(rows, layout_.form);
+    if (named_) check_cells(split_cells(rows[0], layout_.form.separator).size());
+  }
+
+  /// Numbers with decimal commas between commas make twice the cells.
+  void check_cells(std::size_t cells) {
+    const std::size_t names = layout_.columns.size();
+    layout_.has_more = cells > names;
+    if (layout_.form.separator == ',' && !by_list_ && cells >= 2 * names)
+      throw_unreadable(
+          path_,
+          "line " + std::to_string(layout_.data.lines + 1) + ": found " + std::to_string(cells) +
+              " cells under " + std::to_string(names) +
+              " names, expected as many: numbers with decimal commas need quotes or another separator");
   }
 
   bool is_count(const std::string& cell) {
@@ -101,17 +112,18 @@ class HeadReader {
     return true;
   }
 
-  bool is_row(const std::vector<std::string>& cells) const {
+  bool is_row(const std::vector<std::string>& cells, const CellForm& form) const {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const bool used =
           layout_.columns.empty() || (i < layout_.columns.size() && !layout_.columns[i].empty());
-      if (used && !is_number(cells[i], layout_.form.decimal_comma)) return false;
+      double value = NAN;
+      if (used && !parse_cell(cells[i], form, value)) return false;
     }
     return true;
   }
 
   void name_by_list() {
-    const std::vector<std::string> names = split(options_.columns, ',');
+    const std::vector<std::string> names = split_cells(options_.columns, ',');
     name(names, true);
     if (!has_axes())
       throw_unreadable(
@@ -120,12 +132,13 @@ class HeadReader {
   }
 
   void name_by_header(std::string_view line) {
-    const std::vector<std::string> names = split(line, separator_of(line, true));
+    const std::vector<std::string> names = split_cells(line, separator_of_names(line));
     name(names, false);
     if (!has_axes())
-      throw_unreadable(path_, "line " + std::to_string(layout_.data.lines + 1) + ": found " +
-                                  quoted_list(names) +
-                                  ", expected numbers, or names of columns with x, y and z among them");
+      throw_unreadable(path_,
+                       "line " + std::to_string(layout_.data.lines + 1) + ": found " + quoted_list(names) +
+                           ", expected numbers, or names of columns with x, y and z among them (--columns "
+                           "gives names)");
     named_ = true;
   }
 
@@ -133,7 +146,7 @@ class HeadReader {
   void name_by_comment(std::string_view text) {
     if (named_) return;
     const std::string_view words = without_blanks(text, "#/ \t\r");
-    name(split(words, separator_of(words, true)), false);
+    name(split_cells(words, separator_of_names(words)), false);
     named_ = has_axes();
     if (!named_) name({}, false);
   }
@@ -167,6 +180,7 @@ class HeadReader {
   void finish() {
     if (!named_) return;
     for (const std::string& column : layout_.columns) layout_.form.skipped.push_back(column.empty());
+    layout_.form.has_more = true;
   }
 
   const std::filesystem::path& path_;

@@ -18,10 +18,13 @@ struct TextLayout {
   std::vector<std::string> unused;     ///< names in the header that are not known
   std::optional<std::uint64_t> count;  ///< of points, where a line before them says it
   bool degrees = false;                ///< x and y are a longitude and a latitude
+  /// The first cells of the first rows, of columns without names, count them.
+  bool numbered = false;
+  bool has_more = false;  ///< the first row has more cells than there are names
 };
 
-/// Finds comments, a line that counts the points, one that names the columns (also behind # or //), the separator of the
-/// first row (semicolon, tab, comma, else blanks) and, with semicolons and tabs, that commas are decimal ones.
+/// Finds comments, a line that counts the points, one that names the columns (also behind # or //) and the form of the rows
+/// (cell_form.h). Cells beyond the last that has a name are not read.
 /// `options.columns` stands for the file's own names; `options.attributes` are kept under the names given there. Throws
 /// Error (input_unreadable) where the columns have no x, y and z, and where the first row is none.
 [[nodiscard]] TextLayout find_text_layout(const std::filesystem::path& path, const ScanOptions& options);

@@ -68,12 +68,23 @@ class LegacyScan {
   std::string rest_of_line() {
     std::string line;
     for (int c = line_ended_ ? '\n' : next(); c >= 0 && c != '\n'; c = next()) {
+      if (line.size() >= MOST_LINE && line.find('\r') != std::string::npos) refuse_cr();
       if (line.size() >= MOST_LINE) fail("found a line of more than 256 bytes");
       line += static_cast<char>(c);
     }
     line_ended_ = true;
     return line;
   }
+
+  /// VTK reads lines that end in LF alone.
+  std::string first_line() {
+    const std::string line = rest_of_line();
+    const std::size_t end = line.find('\r');
+    if (end != std::string::npos && end + 1 < line.size()) refuse_cr();
+    return line;
+  }
+
+  [[noreturn]] void refuse_cr() const { fail("found lines that end in CR, expected LF or CR LF"); }
 
   std::uint64_t number_of(const std::string& word, const char* what) const {
     std::uint64_t number = 0;
@@ -91,7 +102,9 @@ class LegacyScan {
   void read_header() {
     line_ended_ = false;
     constexpr std::string_view BEGIN = "# vtk DataFile Version ";
-    const std::string first = rest_of_line();
+    if (in_.begin_text(); in_.offset() > 0)
+      fail("found a byte order mark before '# vtk', expected none: save it as UTF-8 without one");
+    const std::string first = first_line();
     const std::size_t dot = first.find('.');
     if (!first.starts_with(BEGIN) || dot == std::string::npos)
       fail("found no '# vtk DataFile Version 5.1' or the like, expected it as the first line");
