@@ -14,3 +14,7 @@ template <typename Number>
 }
 
 }  // namespace splatray::testing
+
+/// Skips the rest of a long test unless all are asked for.
+#define SPLATRAY_NIGHTLY() \
+  if (!::splatray::testing::all_tests()) GTEST_SKIP() << "long: with tests/run --all"
