@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "tests/bench/cases/statistics.h"
 #include "tests/bench/measure/speed_record.h"
+#include "tests/bench/measure/warm_up.h"
 #include "tests/bench/truth/bounces.h"
 
 namespace splatray::testing {
@@ -27,12 +28,13 @@ using Times = std::map<Frame, std::vector<double>>;
 
 std::vector<Times> run_rounds(const std::vector<Racer*>& racers, const std::vector<Frame>& frames) {
   std::vector<Times> times(racers.size());
-  for (std::size_t round = 0; round < 1 + RACE_ROUNDS; ++round)
+  warm_up([&] {
     for (const Frame frame : frames)
-      for (std::size_t i = 0; i < racers.size(); ++i) {
-        const double ms = racers[i]->run(frame);
-        if (round > 0) times[i][frame].push_back(ms);
-      }
+      for (Racer* racer : racers) static_cast<void>(racer->run(frame));
+  });
+  for (std::size_t round = 0; round < RACE_ROUNDS; ++round)
+    for (const Frame frame : frames)
+      for (std::size_t i = 0; i < racers.size(); ++i) times[i][frame].push_back(racers[i]->run(frame));
   return times;
 }
 

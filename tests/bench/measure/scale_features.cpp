@@ -11,6 +11,7 @@
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/scale_cases.h"
 #include "tests/bench/measure/speed_record.h"
+#include "tests/bench/measure/warm_up.h"
 #include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
@@ -199,11 +200,15 @@ std::vector<Json> measure_features(const Device& device, const Case& one,
   Stage stage(device, one, folder);
   const std::vector<Entry> entries = stage.entries();
   std::vector<std::vector<double>> times(entries.size());
-  for (std::size_t round = 0; round < 1 + FEATURE_ROUNDS; ++round)
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      static_cast<void>(stage.render(entries[i], false));
-      if (round > 0) times[i].push_back(stage.stats().trace_ms);
-    }
+  const auto frame_ms = [&](const Entry& entry) {
+    static_cast<void>(stage.render(entry, false));
+    return stage.stats().trace_ms;
+  };
+  warm_up([&] {
+    for (const Entry& entry : entries) frame_ms(entry);
+  });
+  for (std::size_t round = 0; round < FEATURE_ROUNDS; ++round)
+    for (std::size_t i = 0; i < entries.size(); ++i) times[i].push_back(frame_ms(entries[i]));
   std::vector<Json> records;
   Image absent;
   for (std::size_t i = 0; i < entries.size(); ++i) {
