@@ -52,9 +52,8 @@ bool go_on(std::size_t rounds, double seconds) {
 void time_frames(LoadedCase& loaded, std::vector<Json>& records) {
   const std::vector<Run>& runs = loaded.about().runs;
   std::vector<std::vector<double>> times(runs.size());
-  warm_up([&] {
-    for (const Run& run : runs) static_cast<void>(frame_ms(loaded, run, 1));
-  });
+  for (const Run& run : runs) static_cast<void>(frame_ms(loaded, run, 1));
+  warm_up([&](std::uint32_t samples) { static_cast<void>(frame_ms(loaded, runs.front(), samples)); });
   const Clock::time_point start = Clock::now();
   for (std::size_t rounds = 0; go_on(rounds, seconds_since(start)); ++rounds)
     for (std::size_t i = 0; i < runs.size(); ++i)

@@ -8,7 +8,6 @@
 #include "engine/base/error.h"
 #include "tests/bench/cases/statistics.h"
 #include "tests/bench/measure/speed_record.h"
-#include "tests/bench/measure/warm_up.h"
 #include "tests/bench/truth/bounces.h"
 
 namespace splatray::testing {
@@ -28,10 +27,10 @@ using Times = std::map<Frame, std::vector<double>>;
 
 std::vector<Times> run_rounds(const std::vector<Racer*>& racers, const std::vector<Frame>& frames) {
   std::vector<Times> times(racers.size());
-  warm_up([&] {
-    for (const Frame frame : frames)
-      for (Racer* racer : racers) static_cast<void>(racer->run(frame));
-  });
+  for (Racer* racer : racers) {
+    for (const Frame frame : frames) static_cast<void>(racer->run(frame));
+    racer->warm();
+  }
   for (std::size_t round = 0; round < RACE_ROUNDS; ++round)
     for (const Frame frame : frames)
       for (std::size_t i = 0; i < racers.size(); ++i) times[i][frame].push_back(racers[i]->run(frame));

@@ -83,8 +83,11 @@ RenderStats frame(ShownTracer& tracer, const View& view, Settings settings, bool
 std::vector<std::vector<double>> times_in_turn(ShownTracer& tracer, const View& view,
                                                const std::vector<Settings>& runs) {
   std::vector<std::vector<double>> times(runs.size());
-  warm_up([&] {
-    for (const Settings& run : runs) static_cast<void>(frame(tracer, view, run, false));
+  for (const Settings& run : runs) static_cast<void>(frame(tracer, view, run, false));
+  warm_up([&](std::uint32_t samples) {
+    Settings settings = runs.front();
+    settings.samples = samples;
+    static_cast<void>(frame(tracer, view, settings, false));
   });
   for (std::size_t round = 0; round < ROUNDS; ++round)
     for (std::size_t i = 0; i < runs.size(); ++i)
