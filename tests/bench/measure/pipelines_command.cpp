@@ -53,7 +53,11 @@ class TellingDevice {
     DeviceNeeds needs;
     needs.device_extensions = {EXTENSION};
     needs.features = &features;
-    return std::make_unique<VulkanDevice>(wanted, false, needs);
+    try {
+      return std::make_unique<VulkanDevice>(wanted, false, needs);
+    } catch (const Error& error) {
+      throw Error(error.code(), std::string(error.what()) + " (expected one with " + EXTENSION + ")");
+    }
   }
 
   template <class Function>
@@ -135,7 +139,8 @@ int bench_pipelines(int argc, char** argv) {
   if (scene.empty())
     throw Error(ExitCode::usage, "found no scene, expected SCENE.soct (--help lists the options)");
   const TellingDevice device(wanted);
-  std::printf("%s, %s\n", device.vulkan().info().name.c_str(), device.vulkan().info().driver.c_str());
+  std::printf("%s, %s; fma() rounds once: %s\n", device.vulkan().info().name.c_str(),
+              device.vulkan().info().driver.c_str(), device.vulkan().make_queue()->fuses() ? "yes" : "no");
   print_programs(device, read_scene(scene));
   return static_cast<int>(ExitCode::done);
 }
