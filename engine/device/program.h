@@ -13,7 +13,6 @@ enum class Program {
   light,        ///< trace.comp.glsl, path tracing and its like (LOOK_*)
   empty_light,  ///< empty.comp.glsl for it
   rays,         ///< rays.comp.glsl: ray queries
-  fused,        ///< fused.comp.glsl: whether fma() rounds once; of Vulkan alone
 };
 
 /// Which program, with which constants and parameters, over how many groups.

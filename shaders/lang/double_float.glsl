@@ -44,6 +44,15 @@ vec2 two_product_split(float a, vec2 a_halves, float b, vec2 b_halves) {
   return vec2(p, low);
 }
 
+#ifndef __cplusplus
+/// What a product a * b, rounded to p, leaves out. That is a float32 itself (barring underflow; Muller et al. 2018, "Handbook of
+/// Floating-Point Arithmetic", sec. 4.4), so an fma that rounds once finds it exactly, as the halves do: the same bits.
+float fused_low(float a, float b, float p) {
+  PRECISE float low = fma(a, b, -p);
+  return low;
+}
+#endif
+
 #if defined(CPU) || defined(__cplusplus)
 /// a * b exactly (barring underflow).
 vec2 two_product(float a, float b) { return two_product_split(a, split_float(a), b, split_float(b)); }
@@ -54,13 +63,6 @@ vec2 square_exactly(float a) {
   return two_product_split(a, halves, a, halves);
 }
 #else
-/// What a product a * b, rounded to p, leaves out. That is a float32 itself (barring underflow; Muller et al. 2018, "Handbook of
-/// Floating-Point Arithmetic", sec. 4.4), so an fma that rounds once finds it exactly, as the halves do: the same bits.
-float fused_low(float a, float b, float p) {
-  PRECISE float low = fma(a, b, -p);
-  return low;
-}
-
 /// a * b exactly (barring underflow).
 vec2 two_product(float a, float b) {
   PRECISE float p = a * b;

@@ -44,7 +44,8 @@ bool finds_remainders(const VulkanDevice& vulkan, CommandQueue& commands, const 
   VulkanBuffer counters(vulkan, COUNTER_COUNT * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   bindings.bind(BIND_FRAME, frame_buffer, 0);
   bindings.bind(BIND_COUNTERS, counters, 0);
-  const PipelineKey key{Program::fused, {}};
+  PipelineKey key{Program::empty, {}};
+  key.constants[SPEC_STAGE] = STAGE_FUSED;
   const auto pipeline = make_pipeline(vulkan, key, program_code(key.program, Kernels::gpu, false),
                                       bindings.layout(), VK_NULL_HANDLE);
   std::array<std::uint32_t, COUNTER_COUNT> counted{};

@@ -11,8 +11,6 @@ std::span<const std::uint32_t> program_code(Program program, Kernels kernels, bo
       return EMPTY_CPU;
     case Program::empty_light:
       return EMPTY_LIGHT_CPU;
-    case Program::fused:
-      return FUSED;
     case Program::light:
       return cpu ? (paged ? LIGHT_CPU_PAGED : LIGHT_CPU) : (paged ? LIGHT_PAGED : LIGHT);
     case Program::rays:
