@@ -76,37 +76,34 @@ bool clip_keeps(uint clip, uvec4 words, PlaneHit hit) {
   return line_keeps(clip, words, hit) && (single || line_keeps(clip >> 16u, words, hit));
 }
 
-/// Whether a hit on a splat's disc is on what is left of it, and in the region.
-bool part_kept(uvec4 words, uint splat, PlaneHit hit, Ray ray) {
-  bool kept = true;
-  if (REGION) kept = region_keeps(ray, hit.t.x);
-#ifdef MASKED
-  if (CLIPS) kept = kept && clip_keeps(clip_word(splat), words, hit);
-#else
-  if (CLIPS) {
-    uint clip = clip_word(splat);
-    if (clip != CLIP_NONE) kept = kept && clip_keeps(clip, words, hit);
-  }
-#endif
-#ifndef LIT
-  // Without paths there is no chance to be had: what is see-through is cut out.
-  if (OPACITY) kept = kept && opacity_at(splat) >= 0.5f;
-#endif
-  return kept;
-}
-
 /// Whether a meeting with a disc's plane is a hit on the disc that counts in an interval [t_in, t_out) of the ray.
 bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, float t_in, float t_out) {
   bool on_disc =
       !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
   bool in_range = hit.t.x >= t_in && hit.t.x < t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
+  // Without paths there is no chance to be had: what is see-through is cut out.
 #ifdef MASKED
-  bool kept = part_kept(words, splat, hit, ray);
+  bool kept = true;
+  if (REGION) kept = region_keeps(ray, hit.t.x);
+  if (CLIPS) kept = kept && clip_keeps(clip_word(splat), words, hit);
+#ifndef LIT
+  if (OPACITY) kept = kept && opacity_at(splat) >= 0.5f;
+#endif
   return on_disc && in_range && kept && hit_allowed(words, hit, ray);
 #else
-  // Most are rejected by the first two: the rest is skipped where it is so for a whole warp.
+  // Most are rejected by the first two: the rest is skipped where that is so for a whole warp.
   bool accepted = on_disc && in_range;
-  if (accepted) accepted = part_kept(words, splat, hit, ray) && hit_allowed(words, hit, ray);
+  if (accepted) {
+    if (REGION) accepted = region_keeps(ray, hit.t.x);
+    if (CLIPS) {
+      uint clip = clip_word(splat);
+      if (clip != CLIP_NONE) accepted = accepted && clip_keeps(clip, words, hit);
+    }
+#ifndef LIT
+    if (OPACITY) accepted = accepted && opacity_at(splat) >= 0.5f;
+#endif
+    accepted = accepted && hit_allowed(words, hit, ray);
+  }
   return accepted;
 #endif
 }
