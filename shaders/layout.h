@@ -271,6 +271,7 @@ struct FrameParams {
   /// Planes n.x >= w, n a unit vector, root space: those kept, then those dropped.
   vec4 region[REGION_PLANES_MOST + REGION_BOX_PLANES];
 };
+SPLATRAY_CONST FUSED_ROWS = REGION_PLANES_MOST + REGION_BOX_PLANES;  ///< STAGE_FUSED: products in `region`
 
 /// A path between two of its rays, where paths are traced in stages (STAGE_*). Five texels.
 struct PathState {
@@ -396,6 +397,7 @@ SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
 SPLATRAY_CONST FEATURE_ELLIPSES = 524288u; ///< some splat is an ellipse
 SPLATRAY_CONST FEATURE_LEANS = 33554432u;  ///< some normal field is a constant term
 SPLATRAY_CONST FEATURE_REGION = 67108864u;  ///< rays meet only what a region keeps (trace/region.glsl)
+SPLATRAY_CONST FEATURE_FUSED = 134217728u;  ///< fma() rounds once (STAGE_FUSED)
 SPLATRAY_CONST FEATURE_OPACITY = 16777216u;  ///< some splat is see-through, and has the texture word LAYER
 SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word
 SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;
@@ -428,6 +430,7 @@ SPLATRAY_CONST STAGE_ALL = 0u;    ///< whole paths
 SPLATRAY_CONST STAGE_FIRST = 1u;  ///< primary rays; paths that go on are queued
 SPLATRAY_CONST STAGE_NEXT = 2u;   ///< one ray of each path queued before
 SPLATRAY_CONST STAGE_AOV = 3u;    ///< no paths: AovPixel of the ray through each pixel's centre
+SPLATRAY_CONST STAGE_FUSED = 4u;  ///< no pixels: whether fma() rounds once (stage/empty.comp.glsl)
 
 /// Iterations of a loop that shows whether a driver cuts loops short (stage/paths.glsl).
 SPLATRAY_CONST LOOP_PROBE = 8u;

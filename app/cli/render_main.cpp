@@ -122,9 +122,10 @@ int render(int argc, char** argv) {
   SceneOnDevice shown(*device, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
   shown.show_environment(loaded.environment_name, note);
   shown.open_and_free(loaded.scene);
-  expose(sequence, shown, still, request);
-  report_choices(asked, request, loaded);
   times.upload_ms = watch.lap_ms();
+  expose(sequence, shown, still, request);
+  times.exposure_ms = watch.lap_ms();
+  report_choices(asked, request, loaded);
   const SequenceListener listener = reporting_on(progress, request, pictures_of(request, sequence));
   const SequenceRecord record = request.output.orbit_columns > 0
                                     ? render_orbit(request, shown, still, listener)

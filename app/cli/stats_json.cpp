@@ -102,6 +102,7 @@ void write_stats(const Request& request, const LoadedScene& loaded, const PoolCo
        {{"device", times.device_ms},
         {"load", loaded.load_ms},
         {"upload", times.upload_ms},
+        {"exposure", times.exposure_ms},
         {"trace", sum.stats.trace_ms},
         {"render", sum.stats.wall_ms},
         {"write", sum.write_ms}}},

@@ -104,6 +104,8 @@ class Queue {
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
 
+  /// Whether programs may take fma() to round once (FEATURE_FUSED).
+  [[nodiscard]] virtual bool fuses() const { return false; }
   /// Throws Error (out_of_memory) naming the size.
   [[nodiscard]] virtual std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) = 0;
   /// Of an environment that has texels, at most DeviceLimits::texture_size across and down.

@@ -41,7 +41,7 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   splat_tree_.reset();
   pools_ = {};  // the device may not have room for two scenes
   shows_look_ = false;
-  cells_ = filled_cells(scene);
+  if (culls_) cells_ = filled_cells(scene);
   clip_content_ = clip_content(scene.clip_pool);
   leans_ = any_leans(scene.field_pool);
   std::vector<std::uint32_t> order;
@@ -185,7 +185,8 @@ SceneContent DeviceScene::content() const {
           .lights = lights_ > 0,
           .sized_lights = lights_sized_ > 0,
           .environment_texture = environment_texture_,
-          .sky = sky_.width > 0};
+          .sky = sky_.width > 0,
+          .fused = queue_.fuses()};
 }
 
 FrameParams DeviceScene::picture_params(const View& view, const Settings& settings) const {

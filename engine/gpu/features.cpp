@@ -103,6 +103,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   add(content.environment_texture, FEATURE_ENVIRONMENT);
   add(settings.counters, FEATURE_COUNTERS);
   add(!settings.region.empty(), FEATURE_REGION);
+  add(content.fused, FEATURE_FUSED);
   constants[SPEC_BLEND] = settings.blend;
   constants[SPEC_KERNEL] = settings.kernel;
   constants[SPEC_SIDE] = settings.side;

@@ -40,6 +40,7 @@ struct SceneContent {
   bool sized_lights = false;                 ///< some light has a size
   bool environment_texture = false;          ///< the environment is not constant
   bool sky = false;                          ///< it has a sky table
+  bool fused = false;                        ///< Queue::fuses
 };
 
 /// Constants of images (trace.comp.glsl), STAGE_ALL; of Program::light where the look is not LOOK_PAPER.

@@ -1,7 +1,7 @@
 // Double-float arithmetic: a number is the unevaluated sum of two float32, vec2(high, low), about 48 bits. T.
 // J. Dekker 1971, "A floating-point technique for extending the available precision"; D. E. Knuth, TAOCP 2,
 // 4.2.2. Needs nothing but correctly rounded + - *; the quotient is corrected from its residue, so an inexact
-// division will do. PRECISE forbids the compiler to reorder or fuse.
+// division will do. PRECISE forbids the compiler to reorder or fuse. On GPUs needs the constant FUSED.
 #ifndef SPLATRAY_DOUBLE_FLOAT_GLSL
 #define SPLATRAY_DOUBLE_FLOAT_GLSL
 #include "lang/language.glsl"
@@ -44,8 +44,40 @@ vec2 two_product_split(float a, vec2 a_halves, float b, vec2 b_halves) {
   return vec2(p, low);
 }
 
+#ifndef __cplusplus
+/// What a product a * b, rounded to p, leaves out. That is a float32 itself (barring underflow; Muller et al. 2018, "Handbook of
+/// Floating-Point Arithmetic", sec. 4.4), so an fma that rounds once finds it exactly, as the halves do: the same bits.
+float fused_low(float a, float b, float p) {
+  PRECISE float low = fma(a, b, -p);
+  return low;
+}
+#endif
+
+#if defined(CPU) || defined(__cplusplus)
 /// a * b exactly (barring underflow).
 vec2 two_product(float a, float b) { return two_product_split(a, split_float(a), b, split_float(b)); }
+
+/// a * a exactly.
+vec2 square_exactly(float a) {
+  vec2 halves = split_float(a);
+  return two_product_split(a, halves, a, halves);
+}
+#else
+/// a * b exactly (barring underflow).
+vec2 two_product(float a, float b) {
+  PRECISE float p = a * b;
+  vec2 product = vec2(p, 0.0f);
+  if (FUSED) {
+    product.y = fused_low(a, b, p);
+  } else {
+    product = two_product_split(a, split_float(a), b, split_float(b));
+  }
+  return product;
+}
+
+/// a * a exactly.
+vec2 square_exactly(float a) { return two_product(a, a); }
+#endif
 
 vec2 df_add(vec2 a, vec2 b) {
   vec2 s = two_sum(a.x, b.x);
@@ -63,8 +95,7 @@ vec2 df_scale(vec2 a, float b) {
 }
 
 vec2 df_square(vec2 a) {
-  vec2 halves = split_float(a.x);
-  vec2 p = two_product_split(a.x, halves, a.x, halves);
+  vec2 p = square_exactly(a.x);
   PRECISE float cross_term = 2.0f * a.x;
   PRECISE float low = cross_term * a.y;
   PRECISE float low_all = p.y + low;

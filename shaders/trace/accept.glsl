@@ -6,10 +6,11 @@
 #include "trace/factors.glsl"
 #include "trace/walk.glsl"
 
-/// The splat that decides the cluster, while the ray looks for it.
+/// The splat that decides the cluster, while the ray looks for it: that of least t or, with BLEND_PAPER and BLEND_LEAF, of least
+/// squared distance from the centre / r^2.
 struct First {
-  vec2 measure;   ///< least t, or least squared distance from the centre / r^2 (BLEND_PAPER, BLEND_LEAF)
   vec2 t;         ///< in double-float: float32 would be off by 2^-4 lattice units on the far side of the root
+  float share;    ///< squared distance / r^2; BLEND_PAPER and BLEND_LEAF only
   vec3 from_center;
   bool front;
   uvec4 words;
@@ -18,14 +19,16 @@ struct First {
 
 First no_first() {
   First first;
-  first.measure = vec2(INFINITY_F, INFINITY_F);
   first.t = vec2(INFINITY_F, 0.0f);
+  first.share = INFINITY_F;
   first.from_center = vec3(0.0f);
   first.front = true;
   first.words = uvec4(0u, 0u, 0u, 0u);
   first.splat = 0u;
   return first;
 }
+
+bool is_found(First first) { return first.t.x < INFINITY_F; }
 
 /// With a region all that is opaque is: whoever looks into a body that is cut open sees it from behind.
 bool is_two_sided(uint object) {
@@ -69,9 +72,6 @@ PlaneHit meet_splat(uint splat, uvec4 words, Ray ray) {
 
 /// Whether a meeting is on the part of the splat's plane that its clip lines leave.
 bool clip_keeps(uint clip, uvec4 words, PlaneHit hit) {
-#ifdef HOST
-  if (clip == CLIP_NONE) return true;
-#endif
   bool single = ELLIPSES && is_ellipse(clip);
   return line_keeps(clip, words, hit) && (single || line_keeps(clip >> 16u, words, hit));
 }
@@ -81,49 +81,51 @@ bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, float t_in, fl
   bool on_disc =
       !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
   bool in_range = hit.t.x >= t_in && hit.t.x < t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
+  // Without paths there is no chance to be had: what is see-through is cut out.
+#ifdef MASKED
   bool kept = true;
   if (REGION) kept = region_keeps(ray, hit.t.x);
   if (CLIPS) kept = kept && clip_keeps(clip_word(splat), words, hit);
 #ifndef LIT
-  // Without paths there is no chance to be had: what is see-through is cut out.
   if (OPACITY) kept = kept && opacity_at(splat) >= 0.5f;
 #endif
   return on_disc && in_range && kept && hit_allowed(words, hit, ray);
+#else
+  // Most are rejected by the first two: the rest is skipped where that is so for a whole warp.
+  bool accepted = on_disc && in_range;
+  if (accepted) {
+    if (REGION) accepted = region_keeps(ray, hit.t.x);
+    if (CLIPS) {
+      uint clip = clip_word(splat);
+      if (clip != CLIP_NONE) accepted = accepted && clip_keeps(clip, words, hit);
+    }
+#ifndef LIT
+    if (OPACITY) accepted = accepted && opacity_at(splat) >= 0.5f;
+#endif
+    accepted = accepted && hit_allowed(words, hit, ray);
+  }
+  return accepted;
+#endif
 }
 
 /// Makes a hit the first one, if it comes before that; `wanted`: else never.
 void take_first(uint splat, uvec4 words, PlaneHit hit, bool wanted, INOUT(First) first) {
-  vec2 measure = hit.t;
-  if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF)
-    measure = vec2(hit.rho_squared.x / splat_radius_squared(words), 0.0f);
-  bool before = df_less(measure, first.measure) ||
-                (measure.x == first.measure.x && measure.y == first.measure.y && words_less(words, first.words));
-  if (wanted && before) {
-    first.measure = measure;
+  float share = 0.0f;
+  bool before = df_less(hit.t, first.t);
+  bool beside = hit.t.x == first.t.x && hit.t.y == first.t.y;
+  if (BLEND == BLEND_PAPER || BLEND == BLEND_LEAF) {
+    share = hit.rho_squared.x / splat_radius_squared(words);
+    before = share < first.share;
+    beside = share == first.share;
+  }
+  if (wanted && (before || (beside && words_less(words, first.words)))) {
     first.t = hit.t;
+    first.share = share;
     first.from_center = hit.from_center;
     first.front = hit.facing < 0.0f;
     first.words = words;
     first.splat = splat;
   }
-}
-
-/// The candidates that are hits. `first` is updated while `finding`.
-uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool finding, INOUT(First) first) {
-  uint accepted = 0u;
-  do {
-    if (candidates != 0u) {
-      uint bit = uint(findLSB(candidates));
-      candidates &= candidates - 1u;
-      uint splat = splat_at(chunk + bit);
-      uvec4 words = splat_words(splat);
-      PlaneHit hit = meet_splat(splat, words, ray);
-      bool accept = hit_accepted(words, splat, hit, ray, walk.t_in, walk.t_out);
-      accepted |= (accept ? 1u : 0u) << bit;
-      take_first(splat, words, hit, accept && finding, first);
-    }
-  } while (candidates != 0u);
-  return accepted;
 }
 
 #endif

@@ -74,6 +74,13 @@ void meet_sheet(INOUT(Sheets) sheets, uint splat, uvec4 words, PlaneHit hit, Ray
   }
   add_to_sheet(sheets.last, opacity_at(splat), weight);
 }
+
+/// Whether sheets hide all that lies behind t, as they let nothing through.
+bool sheets_hide(Sheets sheets, float t) {
+  bool hidden = t > sheets.last.t + sheets.last.depth && sheet_passes(sheets.last) <= 0.0f;
+  hidden = hidden || (t > sheets.other.t + sheets.other.depth && sheet_passes(sheets.other) <= 0.0f);
+  return hidden || sheets.passed <= 0.0f;
+}
 #endif
 
 /// Whether a splat that a shadow ray meets is of a dielectric that the ray passes; tints the light by each object that has not
@@ -93,11 +100,10 @@ bool pass_glass(uvec4 words, INOUT(vec3) light, INOUT(uint) passed) {
 
 /// How much light passes along the ray: 0 behind anything opaque, the product of the tints of the dielectrics
 /// met, as if they did not bend it (each object counts once), else 1. The ray starts inside the root; one that ends before it
-/// starts is not traced.
+/// starts is not traced. HOST: engine/cpu/wide_shadow.h, by the wide tree.
 #ifdef HOST
-// engine/cpu/wide_shadow.h, by the wide tree.
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally);
-#else
+#elif defined(MASKED)
 vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   First first = no_first();
   bool traced = ray.t_max >= 0.0f;
@@ -140,12 +146,7 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
         }
       } while (accepted != 0u);
 #ifdef LIT
-      // Sheets that the walk has left behind; what is opaque ends it.
-      if (OPACITY) {
-        bool behind = walk.t_in > sheets.last.t + sheets.last.depth && sheet_passes(sheets.last) <= 0.0f;
-        behind = behind || (walk.t_in > sheets.other.t + sheets.other.depth && sheet_passes(sheets.other) <= 0.0f);
-        opaque = behind || sheets.passed <= 0.0f;
-      }
+      if (OPACITY) opaque = sheets_hide(sheets, walk.t_in);
 #endif
     }
     light = opaque ? vec3(0.0f) : light;
@@ -155,6 +156,74 @@ vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
   if (OPACITY) light *= sheets.passed * sheet_passes(sheets.last) * sheet_passes(sheets.other);
 #endif
   return light;
+}
+#else
+/// What of a shadow ray's light goes on, and what it depends on.
+struct Passing {
+  vec3 light;
+  uint glass;  ///< bits of the dielectrics that have tinted it
+#ifdef LIT
+  Sheets sheets;
+#endif
+};
+
+/// Has a shadow ray meet a splat that it hits. Returns whether nothing of its light goes on.
+bool meet_passing(uint splat, uvec4 words, PlaneHit hit, Ray ray, INOUT(Passing) passing) {
+  bool ends = true;
+#ifdef LIT
+  if (OPACITY || TINTED) {
+    bool glass = pass_glass(words, passing.light, passing.glass);
+    if (OPACITY && !glass) meet_sheet(passing.sheets, splat, words, hit, ray);
+    ends = !OPACITY && !glass;
+  }
+#else
+  if (TINTED) ends = !pass_glass(words, passing.light, passing.glass);
+#endif
+  return ends;
+}
+
+/// The same for a chunk of the current leaf.
+bool meet_chunk(uint chunk, Walk walk, Ray ray, INOUT(Passing) passing, INOUT(Tally) tally) {
+  bool ends = false;
+  uint candidates = test_chunk(chunk, walk, ray, tally);
+  while (!ends && candidates != 0u) {
+    uint splat = splat_at(chunk + uint(findLSB(candidates)));
+    candidates &= candidates - 1u;
+    uvec4 words = splat_words(splat);
+    PlaneHit hit = meet_splat(splat, words, ray);
+    if (hit_accepted(words, splat, hit, ray, walk.t_in, walk.t_out)) ends = meet_passing(splat, words, hit, ray, passing);
+  }
+  return ends;
+}
+
+vec3 trace_shadow(Ray ray, INOUT(Tally) tally) {
+  bool traced = ray.t_max >= 0.0f;
+  float t_start = 0.0f;
+  if (REGION) {
+    clip_to_region(ray);
+    traced = traced && ray.t_min < ray.t_max && ray.t_max >= 0.0f;
+    t_start = region_start(ray, t_start);
+  }
+  Walk walk = walk_start(ray, t_start, traced);
+  Passing passing;
+  passing.light = vec3(1.0f);
+  passing.glass = 0u;
+#ifdef LIT
+  passing.sheets = no_sheets();
+#endif
+  bool ends = false;
+  while (traced && !ends && walk_on(walk, ray, ray.t_max, tally)) {
+    for (uint chunk = walk.begin; !ends && chunk < walk.end; chunk += CHUNK)
+      ends = meet_chunk(chunk, walk, ray, passing, tally);
+#ifdef LIT
+    if (OPACITY) ends = sheets_hide(passing.sheets, walk.t_in);
+#endif
+  }
+  if (ends) passing.light = vec3(0.0f);
+#ifdef LIT
+  if (OPACITY) passing.light *= passing.sheets.passed * sheet_passes(passing.sheets.last) * sheet_passes(passing.sheets.other);
+#endif
+  return passing.light;
 }
 #endif
 

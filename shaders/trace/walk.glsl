@@ -2,9 +2,6 @@
 // Lefebvre et al. 2005), with integer cells, so that no ray can be stuck or skip a cell. The leaves'
 // intervals [t_in, t_out) tile the ray. Needs top_entry(index), node_word(index), begin_end_at(index),
 // slab_word(index), splat_at(place), splat_words(splat).
-// Loops that trace test their condition at the end, and their bodies test again whether this lane has work. llvmpipe masks lanes
-// off instead of branching, so a loop that tests first executes its body once more with all lanes masked off (frames take 1 / 0.65
-// times as long), and SwiftShader was seen to lose candidates in loops that some lanes skip by an `if` around them.
 #ifndef SPLATRAY_WALK_GLSL
 #define SPLATRAY_WALK_GLSL
 #include "trace/hit.glsl"
@@ -146,9 +143,7 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
   float dir = x_first ? ray.dir.x : (y_first ? ray.dir.y : ray.dir.z);
   uint exit_cell = dir > 0.0f ? plane : plane - 1u;
   walk.t_out = max(x_first ? t_x : (y_first ? t_y : t_z), walk.t_in);
-  bool filled = (word >> NODE_TAG_SHIFT) == NODE_FILLED;
-  walk.filled = filled ? word & NODE_ADDRESS_MASK : NO_LEAF;
-  if (filled && slab_missed(walk_crossing(slab_word(walk.filled), walk, ray))) walk.filled = NO_LEAF;
+  walk.filled = (word >> NODE_TAG_SHIFT) == NODE_FILLED ? word & NODE_ADDRESS_MASK : NO_LEAF;
   uvec3 cell = cell_at(ray, walk.t_out, low, high - uvec3(1u));
   walk.cell = uvec3(x_first ? exit_cell : cell.x, y_first ? exit_cell : cell.y, x_first || y_first ? cell.z : exit_cell);
   return top_shift - shift + 1u;
@@ -172,66 +167,6 @@ Walk walk_start(Ray ray, float t_start, bool inside) {
   walk.next = 0u;
   walk.leaves = 0u;
   return walk;
-}
-
-/// ADVANCE to the leaf behind walk.t_out, unless that is outside the root or behind t_end.
-void walk_advance(INOUT(Walk) walk, Ray ray, float t_end, INOUT(Tally) tally) {
-  walk.t_in = walk.t_out;
-  walk.inside = (walk.cell.x | walk.cell.y | walk.cell.z) < CELL_LIMIT && walk.t_in <= t_end && walk.leaves < MAX_LEAVES;
-  if (COUNTERS) tally.lost += walk.leaves == MAX_LEAVES ? 1u : 0u;
-  uint steps = walk_descend(walk, ray);
-  walk.leaves += 1u;
-  if (COUNTERS) tally.node_steps += steps;
-  if (COUNTERS) tally.leaves += 1u;
-}
-
-/// The current leaf's splats that the ray may meet.
-void walk_list(INOUT(Walk) walk, Ray ray) {
-  walk.begin = 0u;
-  walk.end = 0u;
-  if (walk.filled != NO_LEAF) {
-    uint slab = slab_word(walk.filled);
-    walk.begin = begin_end_at(walk.filled);
-    walk.end = begin_end_at(walk.filled + 1u);
-    slab_halves(slab, walk_crossing(slab, walk, ray), walk.begin, walk.end);
-  }
-  walk.next = walk.begin;
-}
-
-/// TEST: the ray's next candidates: bit i of the answer is splat chunk + i. Goes from leaf to leaf until
-/// there are some or the walk ends; with `stay`, no further than the end of this leaf. Two splats per iteration: updating lane
-/// masks costs a third of a test on llvmpipe.
-uint walk_candidates(INOUT(Walk) walk, Ray ray, float t_end, bool stay, OUT(uint) chunk, INOUT(Tally) tally) {
-  uint candidates = 0u;
-  bool searching = walk.inside;
-  chunk = walk.next;
-  do {
-    bool advances = searching && walk.next >= walk.end && !stay;
-    bool advancing = advances;
-    do {
-      if (advancing) walk_advance(walk, ray, t_end, tally);
-      advancing = advancing && walk.inside && walk.filled == NO_LEAF;
-    } while (advancing);
-    if (advances) walk_list(walk, ray);
-    chunk = walk.next;
-    uint chunk_end = walk.inside ? min(chunk + CHUNK, walk.end) : chunk;
-    uint bit = 1u;
-    do {
-      if (walk.next < chunk_end) {
-        uint last = min(walk.next + 1u, chunk_end - 1u);
-        uvec4 words = splat_words(splat_at(walk.next));
-        uvec4 words_last = splat_words(splat_at(last));
-        bool maybe = splat_maybe_hit(words, ray.origin, ray.dir, walk.t_in, walk.t_out);
-        bool maybe_last = splat_maybe_hit(words_last, ray.origin, ray.dir, walk.t_in, walk.t_out);
-        candidates |= (maybe ? bit : 0u) | (maybe_last ? bit << (last - walk.next) : 0u);
-        bit <<= 2u;
-        walk.next = last + 1u;
-      }
-    } while (walk.next < chunk_end);
-    if (COUNTERS) tally.tests += chunk_end - chunk;
-    searching = walk.inside && candidates == 0u && !(stay && walk.next >= walk.end);
-  } while (searching);
-  return candidates;
 }
 
 #endif

@@ -15,7 +15,7 @@ struct Command {
 };
 
 constexpr Command COMMANDS[] = {
-    {"run", bench_run},         {"scale", bench_scale},
+    {"run", bench_run},         {"scale", bench_scale}, {"pipelines", bench_pipelines},
 #ifdef SPLATRAY_BENCH_WHOLE
     {"prepare", bench_prepare}, {"exact", bench_exact},
 #endif

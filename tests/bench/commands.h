@@ -8,6 +8,8 @@ namespace splatray::testing {
 int bench_run(int argc, char** argv);
 /// Features, coverage and rays of splatray alone.
 int bench_scale(int argc, char** argv);
+/// What the driver says of the programs: registers, code, spills.
+int bench_pipelines(int argc, char** argv);
 
 // Not where the engine is built alone:
 /// Makes the cases.

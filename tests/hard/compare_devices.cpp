@@ -10,6 +10,7 @@
 #include "tests/hard/support/device_scene.h"
 #include "tests/hard/support/lattice_soup.h"
 #include "tests/temp_folder.h"
+#include "tests/trace/agreement.h"
 #include "tests/trace/rays.h"
 
 namespace splatray::testing {
@@ -54,13 +55,8 @@ void compare_hits(const NamedScene& named, DeviceScene& a, DeviceScene& b) {
   const std::vector<RayQuery> rays = rays_of(named.scene);
   const std::vector<RayHit> of_a = a.intersect(rays);
   const std::vector<RayHit> of_b = b.intersect(rays);
-  std::size_t hit_or_miss = 0, first = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    hit_or_miss += (of_a[i].object == NO_OBJECT) != (of_b[i].object == NO_OBJECT) ? 1 : 0;
-    first += of_a[i].first != of_b[i].first || of_a[i].members != of_b[i].members ? 1 : 0;
-  }
   std::cout << "| " << named.name << " | rays | " << rays.size() << " | " << different_bits(of_a, of_b)
-            << " | hit or miss " << hit_or_miss << ", first splat or cluster " << first << " |\n";
+            << " | " << device_agreement(rays, of_a, of_b) << " |\n";
 }
 
 void compare_pictures(const NamedScene& named, DeviceScene& a, DeviceScene& b) {

@@ -84,7 +84,9 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
   const auto gpu_kernels = gpu_intersect(scenes.front(), truth.rays, settings, {.kernels = Kernels::gpu});
   expect_exact(agreement_of(brute, truth.hits, gpu_kernels), "kernels of GPUs");
   const auto host = intersect_on(HostDevice(), scenes.front(), truth.rays, settings);
-  EXPECT_EQ(different_bits(host, gpu_kernels), 0U) << "other bits from the host";
+  const DeviceAgreement with_host = device_agreement(truth.rays, host, gpu_kernels);
+  std::cout << "host and kernels of GPUs: " << with_host << '\n';
+  EXPECT_EQ(unlike_answers(truth.rays, host, gpu_kernels, shared_device().is_cpu()), 0U) << with_host;
   EXPECT_EQ(different_bits(host, twin_intersect(scenes.front(), truth.rays, settings)), 0U)
       << "other bits from the twin";
   std::vector<RayHit> first_answers;
@@ -286,6 +288,69 @@ TEST(Exactness, GaussianKernelAndNearestAgreeToo) {
       expect_exact(agreement, "kernel " + std::to_string(kernel) + ", blend " + std::to_string(blend));
     }
   }
+}
+
+/// Both texts of the walk (shaders/trace/masked.glsl, plain.glsl), also in leaves of more chunks than they remember the hits of.
+TEST(Exactness, BothTextsFindTheSameWithAllBlends) {
+  if (!shared_device().is_cpu()) GTEST_SKIP() << "the device runs one of them alone";
+  for (const std::uint32_t leaf_size : {10U, 150U}) {
+    const Scene scene = scene_of({sphere_object(5000, false, MATERIAL_DIELECTRIC)}, leaf_size);
+    const std::vector<RayQuery> rays = random_primary_rays(scene, 10000, 5);
+    for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST, BLEND_PAPER, BLEND_LEAF, BLEND_COUNT}) {
+      Settings settings;
+      settings.blend = blend;
+      const auto answers = gpu_intersect(scene, rays, settings);
+      EXPECT_EQ(different_bits(answers, gpu_intersect(scene, rays, settings, {.kernels = Kernels::gpu})), 0U)
+          << blend;
+      EXPECT_EQ(different_bits(answers, twin_intersect(scene, rays, settings)), 0U) << blend;
+    }
+  }
+}
+
+/// A hit, and the ray that has it.
+struct OneHit {
+  RayQuery ray{};
+  RayHit hit{};
+};
+
+OneHit one_hit() {
+  OneHit one;
+  one.ray.dir = vec3(0.0F, 0.6F, 0.8F);
+  one.hit.first = pack_splat({glm::dvec3(1000.0), glm::dvec3(0.0, 0.0, -1.0), 400.0, 0});
+  one.hit.normal = vec3(0.0F, 0.0F, -1.0F);
+  one.hit.t = one.hit.t_first = 1000.0F;
+  one.hit.members = 3;
+  one.hit.color = 0xFF804020U;
+  return one;
+}
+
+/// Whether an answer that differs by what `change` does passes for another device's.
+template <class Change>
+bool may_differ(const Change& change) {
+  const OneHit one = one_hit();
+  RayHit other = one.hit;
+  change(other);
+  return unlike_answers({one.ray}, {one.hit}, {other}, false) == 0;
+}
+
+TEST(Exactness, WhatDevicesMayDifferInIsBounded) {
+  constexpr float STEP = 0x1p-14F;  // of float32 at 1000
+  EXPECT_TRUE(may_differ([](RayHit& hit) { hit.t_first += STEP; }));
+  EXPECT_FALSE(may_differ([](RayHit& hit) { hit.t_first += 2 * STEP; }));
+  EXPECT_TRUE(may_differ([](RayHit& hit) { hit.t += float(20 * MEAN_ERROR); }));
+  EXPECT_FALSE(may_differ([](RayHit& hit) { hit.t += float(50 * MEAN_ERROR); }));  // of a depth of 25
+  EXPECT_TRUE(may_differ([](RayHit& hit) { hit.normal.x = float(0.9 * MEAN_ERROR); }));
+  EXPECT_FALSE(may_differ([](RayHit& hit) { hit.normal.x = float(1.1 * MEAN_ERROR); }));
+  EXPECT_TRUE(may_differ([](RayHit& hit) { hit.color += 0x000100U; }));
+  EXPECT_FALSE(may_differ([](RayHit& hit) { hit.color += 0x000200U; }));
+  EXPECT_FALSE(may_differ([](RayHit& hit) { ++hit.members; }));
+  EXPECT_FALSE(may_differ([](RayHit& hit) { hit.object = NO_OBJECT; }));
+  EXPECT_FALSE(may_differ([](RayHit& hit) { hit.first.x ^= 1U << 11U; }));
+  EXPECT_FALSE(may_differ([](RayHit& hit) { hit.t = NAN; }));
+  const OneHit one = one_hit();
+  RayHit other = one.hit;
+  other.t_first += STEP;
+  EXPECT_EQ(unlike_answers({one.ray}, {one.hit}, {other}, true), 1U) << "processors give the same bits";
 }
 
 TEST(Exactness, EmptySpaceThatIsTooWideIsNoticed) {

@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
                   true,
                   {0.02, 0.004, 0.25},
                   0.01,
-                  "as the Buddha; glass magnifies last bits, so that a choice tips at Fresnel's share"},
+                  "as the Buddha; each hit in glass multiplies last bits, until a choice tips or another place is hit (tests/hard/cross_device.md)"},
         SceneCase{
             "teapot", true, true, {0.02, 0.0005, 0.1}, 0.001, "as the dragon, in a part of the picture"},
         SceneCase{

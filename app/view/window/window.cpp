@@ -181,11 +181,11 @@ std::string Window::clipboard() const {
 
 void Window::set_clipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
 
-WindowNeeds Window::needs() const {
+DeviceNeeds Window::needs() const {
   std::uint32_t count = 0;
   const char** names = glfwGetRequiredInstanceExtensions(&count);
   if (names == nullptr) throw no_window("no way to show Vulkan's pictures on this display found");
-  return {{names, names + count}, {VK_KHR_SWAPCHAIN_EXTENSION_NAME}, reason_not_to_present};
+  return {{names, names + count}, {VK_KHR_SWAPCHAIN_EXTENSION_NAME}, reason_not_to_present, nullptr};
 }
 
 VkSurfaceKHR Window::make_surface(VkInstance instance) const {

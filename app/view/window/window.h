@@ -55,7 +55,7 @@ class Window {
   void set_clipboard(const std::string& text);
 
   /// What a VulkanDevice that presents in this window needs.
-  [[nodiscard]] WindowNeeds needs() const;
+  [[nodiscard]] DeviceNeeds needs() const;
   /// A surface for vkDestroySurfaceKHR. Throws Error (failed).
   [[nodiscard]] VkSurfaceKHR make_surface(VkInstance instance) const;
 

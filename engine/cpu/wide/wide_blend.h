@@ -1,5 +1,5 @@
 /// Blending, for the CPU that this file is compiled for; after wide_step.h. What accumulate_candidates of
-/// shaders/trace/blend.glsl does for one splat after the other, by the same operations in the same order, so to the same bits.
+/// shaders/trace/cluster.glsl does for one splat after the other, by the same operations in the same order, so to the same bits.
 
 namespace splatray {
 namespace {

@@ -81,7 +81,7 @@ inline constexpr std::uint32_t WIDE_MEETINGS = MEMBERS_MOST / WIDE * WIDE;
 template <class Value>
 using OfMeetings = std::array<Value, WIDE_MEETINGS>;
 
-/// What is blended: the meetings of a ray that may be of one cluster (shaders/trace/blend.glsl).
+/// What is blended: the meetings of a ray that may be of one cluster (shaders/trace/cluster.glsl).
 struct alignas(64) WideMeetings {
   OfMeetings<float> t, t_low;  ///< two floats
   OfMeetings<float> rho_squared;
@@ -93,7 +93,7 @@ struct alignas(64) WideMeetings {
   std::uint32_t count = 0;
 };
 
-/// The cluster that they are blended to; as Window of shaders/trace/blend.glsl.
+/// The cluster that they are blended to; as Window of shaders/trace/cluster.glsl.
 struct WideWindow {
   std::array<float, 3> dir;
   std::array<float, 3> normal;

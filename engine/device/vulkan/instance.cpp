@@ -1,5 +1,8 @@
 #include "engine/device/vulkan/instance.h"
 
+#include <dlfcn.h>
+#include <link.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -156,6 +159,22 @@ class Starter {
   std::vector<std::string> words_;
 };
 
+int add_name(dl_phdr_info* library, std::size_t, void* names) {
+  if (library->dlpi_name[0] != '\0')
+    static_cast<std::vector<std::string>*>(names)->emplace_back(library->dlpi_name);
+  return 0;
+}
+
+/// Keeps all libraries that are loaded until the process ends, the drivers among them. The loader unloads a driver with its last
+/// instance, and glibc does not get back what a library had of the static thread-local storage: NVIDIA's driver 580 could not be
+/// loaded any more once it had been some tens of times.
+void keep_libraries() {
+  std::vector<std::string> names;
+  dl_iterate_phdr(add_name, &names);
+  for (const std::string& name : names)
+    if (void* library = dlopen(name.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE)) dlclose(library);
+}
+
 }  // namespace
 
 void sleep_for(std::chrono::milliseconds time) { std::this_thread::sleep_for(time); }
@@ -180,6 +199,7 @@ VulkanStart start_vulkan(const VkDebugUtilsMessengerCreateInfoEXT* validation,
     pause(time);
     started = starter.start_listening();
   }
+  if (!started.devices.empty()) keep_libraries();
   return started;
 }
 

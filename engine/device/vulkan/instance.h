@@ -24,7 +24,7 @@ void sleep_for(std::chrono::milliseconds time);
 
 /// Makes an instance with these extensions, with the validation layer where `validation` is set. A driver may be installed and
 /// not start because others hold what it needs (memory to load its libraries, the hardware): without a device the start is
-/// tried again up to five times within half a second. Throws Error as check() does.
+/// tried again up to five times within half a second. Drivers once started stay loaded. Throws Error as check() does.
 [[nodiscard]] VulkanStart start_vulkan(const VkDebugUtilsMessengerCreateInfoEXT* validation = nullptr,
                                        const std::vector<const char*>& extensions = {},
                                        const Pause& pause = sleep_for);

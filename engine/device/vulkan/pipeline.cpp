@@ -1,7 +1,6 @@
 #include "engine/device/vulkan/pipeline.h"
 
 #include <cassert>
-#include <span>
 
 #include "engine/device/vulkan/program_code.h"
 #include "engine/device/vulkan/texture.h"
@@ -29,28 +28,6 @@ Handle<VkShaderModule, vkDestroyShaderModule> make_module(const VulkanDevice& vu
   VkShaderModule module = VK_NULL_HANDLE;
   check(vkCreateShaderModule(vulkan.device, &info, nullptr, &module), "loading a shader");
   return {vulkan.device, module};
-}
-
-Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const VulkanDevice& vulkan, const PipelineKey& key,
-                                                    std::span<const std::uint32_t> code,
-                                                    VkPipelineLayout layout, VkPipelineCache cache) {
-  std::array<VkSpecializationMapEntry, SPEC_COUNT> entries{};
-  for (std::uint32_t i = 0; i < SPEC_COUNT; ++i)
-    entries[i] = {i, i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)};
-  const VkSpecializationInfo specialization{SPEC_COUNT, entries.data(), sizeof(key.constants),
-                                            key.constants.data()};
-  const auto module = make_module(vulkan, code);
-  VkComputePipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  info.stage.module = module.get();
-  info.stage.pName = "main";
-  info.stage.pSpecializationInfo = &specialization;
-  info.layout = layout;
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateComputePipelines(vulkan.device, cache, 1, &info, nullptr, &pipeline), "building a pipeline");
-  return {vulkan.device, pipeline};
 }
 
 }  // namespace
@@ -135,6 +112,30 @@ void VulkanBindings::bind(const Texture& texture) {
   write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
   write.pImageInfo = &image_info;
   vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
+}
+
+Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const VulkanDevice& vulkan, const PipelineKey& key,
+                                                    std::span<const std::uint32_t> code,
+                                                    VkPipelineLayout layout, VkPipelineCache cache,
+                                                    VkPipelineCreateFlags flags) {
+  std::array<VkSpecializationMapEntry, SPEC_COUNT> entries{};
+  for (std::uint32_t i = 0; i < SPEC_COUNT; ++i)
+    entries[i] = {i, i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)};
+  const VkSpecializationInfo specialization{SPEC_COUNT, entries.data(), sizeof(key.constants),
+                                            key.constants.data()};
+  const auto module = make_module(vulkan, code);
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.flags = flags;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module.get();
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialization;
+  info.layout = layout;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  check(vkCreateComputePipelines(vulkan.device, cache, 1, &info, nullptr, &pipeline), "building a pipeline");
+  return {vulkan.device, pipeline};
 }
 
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 
 #include "engine/device/queue.h"
 #include "engine/device/vulkan/buffer.h"
@@ -43,6 +44,11 @@ struct PipelineKey {
 
   auto operator<=>(const PipelineKey&) const = default;
 };
+
+/// The key's pipeline of a module's words (program_code.h).
+[[nodiscard]] Handle<VkPipeline, vkDestroyPipeline> make_pipeline(
+    const VulkanDevice& vulkan, const PipelineKey& key, std::span<const std::uint32_t> code,
+    VkPipelineLayout layout, VkPipelineCache cache, VkPipelineCreateFlags flags = 0);
 
 /// Builds each pipeline once. The device must outlive it.
 class PipelineCache {

@@ -88,7 +88,7 @@ std::vector<DeviceInfo> vulkan_devices() {
   return infos;
 }
 
-VulkanDevice::VulkanDevice(const std::string& wanted, bool validation, const WindowNeeds& needs) {
+VulkanDevice::VulkanDevice(const std::string& wanted, bool validation, const DeviceNeeds& needs) {
   try {
     const VulkanStart started = start(validation || validation_in_environment(), needs);
     choose_device(started, wanted, needs);
@@ -101,7 +101,7 @@ VulkanDevice::VulkanDevice(const std::string& wanted, bool validation, const Win
 
 VulkanDevice::~VulkanDevice() { destroy(); }
 
-VulkanStart VulkanDevice::start(bool validation, const WindowNeeds& needs) {
+VulkanStart VulkanDevice::start(bool validation, const DeviceNeeds& needs) {
   refuse_vulkan_of_parent();
   if (validation && !validation_layer_present())
     throw Error(ExitCode::failed, std::string("validation was asked for, but the layer ") + VALIDATION_LAYER +
@@ -121,7 +121,7 @@ void VulkanDevice::create_messenger() {
 }
 
 void VulkanDevice::choose_device(const VulkanStart& started, const std::string& wanted,
-                                 const WindowNeeds& needs) {
+                                 const DeviceNeeds& needs) {
   std::vector<DeviceInfo> infos;
   for (VkPhysicalDevice candidate : started.devices) {
     infos.push_back(describe_device(candidate));
@@ -133,7 +133,7 @@ void VulkanDevice::choose_device(const VulkanStart& started, const std::string& 
   info_ = infos[chosen];
 }
 
-void VulkanDevice::create_device(const WindowNeeds& needs) {
+void VulkanDevice::create_device(const DeviceNeeds& needs) {
   VkPhysicalDeviceSubgroupProperties subgroup{};
   subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
   VkPhysicalDeviceMaintenance3Properties limits{};
@@ -163,6 +163,7 @@ void VulkanDevice::create_device(const WindowNeeds& needs) {
   queue_info.pQueuePriorities = &priority;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = needs.features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue_info;
   info.enabledExtensionCount = static_cast<std::uint32_t>(needs.device_extensions.size());

@@ -13,12 +13,13 @@
 
 namespace splatray {
 
-/// What a program that presents in a window needs of Vulkan; nothing for a headless one.
-struct WindowNeeds {
+/// What a program needs of Vulkan beside what the engine does: to present in a window, say.
+struct DeviceNeeds {
   std::vector<const char*> instance_extensions;
   std::vector<const char*> device_extensions;
   /// Why the device's compute queue will not do; empty = it will.
   std::function<std::string(VkInstance, VkPhysicalDevice)> refusal;
+  const void* features = nullptr;  ///< of device_extensions, as VkDeviceCreateInfo::pNext has them
 };
 
 class VulkanDevice final : public Device {
@@ -28,7 +29,7 @@ class VulkanDevice final : public Device {
   /// SPLATRAY_VALIDATION=1) is set; each validation warning or error is counted and printed on stderr. Throws
   /// Error (failed) when they are asked for but not installed.
   explicit VulkanDevice(const std::string& wanted = "", bool validation = false,
-                        const WindowNeeds& needs = {});
+                        const DeviceNeeds& needs = {});
   ~VulkanDevice() override;
 
   [[nodiscard]] const DeviceInfo& info() const override { return info_; }
@@ -51,10 +52,10 @@ class VulkanDevice final : public Device {
   bool ballot = false;   ///< compute shaders may use ballots of their subgroups
 
  private:
-  VulkanStart start(bool validation, const WindowNeeds& needs);
+  VulkanStart start(bool validation, const DeviceNeeds& needs);
   void create_messenger();
-  void choose_device(const VulkanStart& started, const std::string& wanted, const WindowNeeds& needs);
-  void create_device(const WindowNeeds& needs);
+  void choose_device(const VulkanStart& started, const std::string& wanted, const DeviceNeeds& needs);
+  void create_device(const DeviceNeeds& needs);
   void destroy();
 
   DeviceInfo info_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/device/vulkan/fused_products.h"
 #include "engine/device/vulkan/texture.h"
 
 namespace splatray {
@@ -25,7 +26,9 @@ VulkanQueue::VulkanQueue(const VulkanDevice& vulkan, const QueueOptions& options
       commands_(vulkan),
       pipelines_(vulkan, vulkan.profile(options.kernels).kernels, options.pipeline_folder),
       frame_(vulkan, sizeof(FrameParams), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
-      counters_(vulkan, COUNTER_COUNT * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {}
+      counters_(vulkan, COUNTER_COUNT * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
+      fuses_(vulkan.profile(options.kernels).kernels == Kernels::gpu &&
+             finds_remainders(vulkan, commands_, exact_products())) {}
 
 std::unique_ptr<Buffer> VulkanQueue::make_buffer(std::uint64_t bytes, BufferKind kind) {
   const VkBufferUsageFlags texels =

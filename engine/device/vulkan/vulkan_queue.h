@@ -11,6 +11,7 @@ class VulkanQueue final : public Queue {
   /// The device must outlive it.
   VulkanQueue(const VulkanDevice& vulkan, const QueueOptions& options);
 
+  [[nodiscard]] bool fuses() const override { return fuses_; }
   [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) override;
   [[nodiscard]] std::unique_ptr<Texture> make_texture(const Environment& environment) override;
   [[nodiscard]] std::unique_ptr<Bindings> make_bindings(const Paging& paging) override;
@@ -24,6 +25,7 @@ class VulkanQueue final : public Queue {
   CommandQueue commands_;
   PipelineCache pipelines_;
   VulkanBuffer frame_, counters_;
+  const bool fuses_;
 };
 
 }  // namespace splatray

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "tests/bench/measure/speed_record.h"
+#include "tests/bench/measure/warm_up.h"
 
 namespace splatray::testing {
 namespace {
@@ -52,6 +53,7 @@ void time_frames(LoadedCase& loaded, std::vector<Json>& records) {
   const std::vector<Run>& runs = loaded.about().runs;
   std::vector<std::vector<double>> times(runs.size());
   for (const Run& run : runs) static_cast<void>(frame_ms(loaded, run, 1));
+  warm_up([&](std::uint32_t samples) { static_cast<void>(frame_ms(loaded, runs.front(), samples)); });
   const Clock::time_point start = Clock::now();
   for (std::size_t rounds = 0; go_on(rounds, seconds_since(start)); ++rounds)
     for (std::size_t i = 0; i < runs.size(); ++i)

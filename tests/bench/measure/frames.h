@@ -7,7 +7,7 @@
 namespace splatray::testing {
 
 /// Adds `speed` to the records of the case's runs, which are in the runs' order. Frames are timed in rounds, each with one
-/// frame of every run, so that what else the machine does meets all alike: FEWEST_ROUNDS at least after a warm-up, up to
+/// frame of every run, so that what else the machine does meets all alike: FEWEST_ROUNDS at least after a warm_up(), up to
 /// MOST_ROUNDS while they are short, fewer (one at least) when they take longer than MOST_SECONDS. A frame's time is that of
 /// its dispatches, on the device's clock where it has one.
 void time_frames(LoadedCase& loaded, std::vector<Json>& records);

@@ -27,12 +27,13 @@ using Times = std::map<Frame, std::vector<double>>;
 
 std::vector<Times> run_rounds(const std::vector<Racer*>& racers, const std::vector<Frame>& frames) {
   std::vector<Times> times(racers.size());
-  for (std::size_t round = 0; round < 1 + RACE_ROUNDS; ++round)
+  for (Racer* racer : racers) {
+    for (const Frame frame : frames) static_cast<void>(racer->run(frame));
+    racer->warm();
+  }
+  for (std::size_t round = 0; round < RACE_ROUNDS; ++round)
     for (const Frame frame : frames)
-      for (std::size_t i = 0; i < racers.size(); ++i) {
-        const double ms = racers[i]->run(frame);
-        if (round > 0) times[i][frame].push_back(ms);
-      }
+      for (std::size_t i = 0; i < racers.size(); ++i) times[i][frame].push_back(racers[i]->run(frame));
   return times;
 }
 

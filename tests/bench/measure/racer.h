@@ -15,6 +15,8 @@ class Racer {
  public:
   virtual ~Racer() = default;
 
+  /// Has a card work until its clocks are what they are at work (warm_up.h).
+  virtual void warm() {}
   /// Traces a frame of the course and returns its time in milliseconds.
   virtual double run(Frame frame) = 0;
   /// Secondary rays of a frame, as counted; of Frame::random all rays.

@@ -7,6 +7,7 @@
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/random_rays.h"
 #include "tests/bench/measure/speed_record.h"
+#include "tests/bench/measure/warm_up.h"
 #include "tests/bench/truth/pixel_rays.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/trace/agreement.h"
@@ -78,15 +79,19 @@ RenderStats frame(ShownTracer& tracer, const View& view, Settings settings, bool
   return tracer.stats();
 }
 
-/// Milliseconds of ROUNDS frames of each run, after one of each that does not count.
+/// Milliseconds of ROUNDS frames of each run.
 std::vector<std::vector<double>> times_in_turn(ShownTracer& tracer, const View& view,
                                                const std::vector<Settings>& runs) {
   std::vector<std::vector<double>> times(runs.size());
-  for (std::size_t round = 0; round < 1 + ROUNDS; ++round)
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      const double ms = frame(tracer, view, runs[i], false).trace_ms;
-      if (round > 0) times[i].push_back(ms);
-    }
+  for (const Settings& run : runs) static_cast<void>(frame(tracer, view, run, false));
+  warm_up([&](std::uint32_t samples) {
+    Settings settings = runs.front();
+    settings.samples = samples;
+    static_cast<void>(frame(tracer, view, settings, false));
+  });
+  for (std::size_t round = 0; round < ROUNDS; ++round)
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      times[i].push_back(frame(tracer, view, runs[i], false).trace_ms);
   return times;
 }
 

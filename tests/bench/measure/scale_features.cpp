@@ -11,6 +11,7 @@
 #include "tests/bench/cases/case_file.h"
 #include "tests/bench/cases/scale_cases.h"
 #include "tests/bench/measure/speed_record.h"
+#include "tests/bench/measure/warm_up.h"
 #include "tests/gpu/shown_tracer.h"
 
 namespace splatray::testing {
@@ -156,14 +157,14 @@ class Stage {
   [[nodiscard]] std::vector<Entry> entries() const { return entries_of(key_, behind_); }
   [[nodiscard]] std::uint64_t splats() const { return splats_; }
 
-  Image render(const Entry& entry, bool counters) {
+  Image render(const Entry& entry, bool counters, std::uint32_t samples = 1) {
     ShownTracer& tracer = *tracers_.at(entry.pools);
     const std::vector<Material> materials{entry.near, entry.far};
     tracer.set_materials(materials);
     tracer.look.lights = entry.lights;
     tracer.set_environment(environments_.at(entry.surroundings));
     Settings settings;
-    settings.samples = 1;
+    settings.samples = samples;
     settings.shadows = entry.shadows;
     settings.counters = counters;
     Image image = tracer.render(view_, settings);
@@ -199,11 +200,14 @@ std::vector<Json> measure_features(const Device& device, const Case& one,
   Stage stage(device, one, folder);
   const std::vector<Entry> entries = stage.entries();
   std::vector<std::vector<double>> times(entries.size());
-  for (std::size_t round = 0; round < 1 + FEATURE_ROUNDS; ++round)
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      static_cast<void>(stage.render(entries[i], false));
-      if (round > 0) times[i].push_back(stage.stats().trace_ms);
-    }
+  const auto frame_ms = [&](const Entry& entry) {
+    static_cast<void>(stage.render(entry, false));
+    return stage.stats().trace_ms;
+  };
+  for (const Entry& entry : entries) frame_ms(entry);
+  warm_up([&](std::uint32_t samples) { static_cast<void>(stage.render(entries.front(), false, samples)); });
+  for (std::size_t round = 0; round < FEATURE_ROUNDS; ++round)
+    for (std::size_t i = 0; i < entries.size(); ++i) times[i].push_back(frame_ms(entries[i]));
   std::vector<Json> records;
   Image absent;
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include "tests/bench/cases/scale_cases.h"
 #include "tests/bench/measure/speed_record.h"
+#include "tests/bench/measure/warm_up.h"
 
 namespace splatray::testing {
 namespace {
@@ -43,6 +44,14 @@ void SplatrayRacer::trace(Frame frame, const Settings& settings) {
   } else {
     static_cast<void>(render(frame, settings));
   }
+}
+
+void SplatrayRacer::warm() {
+  warm_up([&](std::uint32_t samples) {
+    Settings settings = settings_of(Frame::primary);
+    settings.samples = samples;
+    static_cast<void>(render(Frame::primary, settings));
+  });
 }
 
 double SplatrayRacer::run(Frame frame) {

@@ -12,6 +12,7 @@ class SplatrayRacer : public Racer {
   /// `tracer` holds the course's sphere and its surroundings; both must outlive the racer.
   SplatrayRacer(const Device& device, ShownTracer& tracer, const Course& course, std::uint32_t blend);
 
+  void warm() override;
   double run(Frame frame) override;
   [[nodiscard]] std::uint64_t count_rays(Frame frame) override;
   [[nodiscard]] Image picture() override;
