@@ -20,10 +20,15 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "engine/base/srgb.h"
 #include "engine/base/utf8.h"
@@ -154,9 +159,42 @@ vtkSmartPointer<vtkDataSet> read_by(const std::filesystem::path& path, const Rea
   return data;
 }
 
+/// Whether a .vtu lists the faces of polyhedra.
+bool names_faces(const std::filesystem::path& path) {
+  constexpr std::string_view NAME = "\"faceoffsets\"";
+  ByteReader in(path);
+  std::string seen;
+  while (in.remaining() > 0) {
+    const std::size_t count = std::min<std::uint64_t>(in.remaining(), ByteReader::BLOCK_BYTES);
+    seen.append(reinterpret_cast<const char*>(in.take(count)), count);
+    if (seen.find(NAME) != std::string::npos) return true;
+    seen.erase(0, seen.size() - std::min(seen.size(), NAME.size()));
+  }
+  return false;
+}
+
+/// VTK 9.1 follows lists of polyhedra's faces wherever they lead, before anyone sees them: a child process reads them first. Throws
+/// Error (input_unreadable) where that ends it.
+void require_faces_that_fit(const std::filesystem::path& path) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDERR_FILENO);
+    const vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    _exit(0);
+  }
+  int status = 0;
+  if (child > 0) waitpid(child, &status, 0);
+  if (status != 0)
+    throw_unreadable(path, "found lists of polyhedra's faces that end elsewhere, expected VTK's");
+}
+
 vtkSmartPointer<vtkDataSet> read_file(const std::filesystem::path& path, const ReadListener& listener) {
   const std::string extension = lower_extension(path);
   if (extension == ".vtp") return read_by<vtkXMLPolyDataReader>(path, listener);
+  if (extension == ".vtu" && names_faces(path)) require_faces_that_fit(path);
   if (extension == ".vtu") return read_by<vtkXMLUnstructuredGridReader>(path, listener);
   return read_by<vtkDataSetReader>(path, listener);
 }
