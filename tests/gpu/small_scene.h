@@ -29,7 +29,7 @@ enum class Coverage { inside, outside, rim };
 [[nodiscard]] Coverage disc_coverage(const View& view, std::uint32_t x, std::uint32_t y);
 
 /// A test with a device of its own, which must end without validation messages.
-class DeviceTest : public testing::Test {
+class DeviceTest : public ::testing::Test {
  protected:
   void TearDown() override { EXPECT_EQ(device.validation_messages(), 0U); }
 
