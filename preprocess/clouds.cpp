@@ -39,6 +39,7 @@ std::vector<Cloud> make_clouds(Input& input, const std::vector<std::string>& nam
     const bool measured =
         object.measured && !object.oriented && !(object.surface_area > 0.0) && !object.points.lattice;
     clouds.push_back(make_cloud(std::move(object.points), object.oriented, measured, stats));
+    clouds.back().on_facets = object.surface_area > 0.0;
     if (!clouds.back().far.numbers.empty())
       stats.notes.push_back(far_note(names[clouds.size() - 1], clouds.back()));
   }

@@ -51,6 +51,7 @@ struct Cloud {
   std::vector<std::uint32_t> field_words, clip_words;
   bool ends_known = false;  ///< the surface ends, or has a crease, only where `clip` says so
   bool measured = false;    ///< by a scanner: neither a mesh's nor made
+  bool on_facets = false;   ///< a mesh's: its points lie on flat facets
   bool oriented = false;    ///< normals point outwards: opposite normals are opposite sheets
   FarPoints far;            ///< as they were found; in the cloud only where it is not measured
   /// Of these coordinates, all different and of surfaces; null = not looked for yet, or the points have changed since.

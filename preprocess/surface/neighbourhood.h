@@ -31,6 +31,7 @@ struct Neighbourhood {
   Neighbourhood(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest)
       : normal(cloud.normal[point]),
         oriented(cloud.oriented),
+        on_facets(cloud.on_facets),
         ends_known(cloud.ends_known || (!cloud.clip.empty() && cloud.clip[point].lines() > 0)),
         creases_known(ends_known && !cloud.ends_known),
         clip(cloud.clip.empty() ? PointClip{} : cloud.clip[point]),
@@ -50,6 +51,7 @@ struct Neighbourhood {
 
   glm::dvec3 normal;  ///< of the point, as the cloud has it
   bool oriented;      ///< Cloud::oriented
+  bool on_facets;     ///< Cloud::on_facets
   bool ends_known;    ///< the surface ends, or has a crease, only where clip lines say so
   /// Of this point: its clip lines were found among points, and neighbours suggest no others.
   bool creases_known;

@@ -136,8 +136,7 @@ SPLATRAY_VECTOR_CLONES std::optional<Covering> covering_radius(const Neighbourho
   const bool settled = around.found < wanted || wanted == MANY_NEIGHBOURS ||
                        (surroundings.neighbours().size() >= EVEN_RING && reach.decisive_distance <= seen);
   if (!settled || !(reach.radius > 0.0)) return {};
-  const bool faceted = around.ends_known && !around.creases_known;
-  const double covering = (faceted ? FACETS_MARGIN : COVERAGE_MARGIN) * reach.radius +
+  const double covering = (around.on_facets ? FACETS_MARGIN : COVERAGE_MARGIN) * reach.radius +
                           ROUGHNESS_REACH * surroundings.noise(MEETING_NEIGHBOURS);
   return Covering{std::min(std::max(covering, NOISE_REACH * surroundings.noise(FEW_NEIGHBOURS)),
                            NOISE_LIMIT * reach.radius),

@@ -22,7 +22,7 @@ bool layer_is_installed() {
   });
 }
 
-class Validation : public testing::Test {
+class Validation : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!layer_is_installed()) GTEST_SKIP() << "the validation layer is not installed";
@@ -35,15 +35,15 @@ TEST_F(Validation, MistakesAreCountedAndPrinted) {
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   VkBuffer buffer = VK_NULL_HANDLE;
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   vkCreateBuffer(device->device, &info, nullptr, &buffer);
-  EXPECT_NE(testing::internal::GetCapturedStderr(), "");
+  EXPECT_NE(::testing::internal::GetCapturedStderr(), "");
   EXPECT_GT(device->validation_messages(), 0U);
   vkDestroyBuffer(device->device, buffer, nullptr);
 }
 
 TEST_F(Validation, NothingIsSaidOfAWholeLifeAndNothingIsLeftBehind) {
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   {
     const auto device = std::make_unique<VulkanDevice>("", true);
     ShownTracer tracer(*device);
@@ -56,7 +56,7 @@ TEST_F(Validation, NothingIsSaidOfAWholeLifeAndNothingIsLeftBehind) {
     const std::vector<RayQuery> rays(5);
     (void)tracer.intersect(rays, settings);
   }
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace
