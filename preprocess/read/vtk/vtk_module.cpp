@@ -17,18 +17,14 @@
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLDataElement.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
-
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
-#include <string_view>
 
 #include "engine/base/srgb.h"
 #include "engine/base/utf8.h"
@@ -145,12 +141,70 @@ void drop_unfit_arrays(vtkFieldData* attributes, vtkIdType count) {
     if (attributes->GetAbstractArray(i)->GetNumberOfTuples() != count) attributes->RemoveArray(i);
 }
 
+constexpr std::uint64_t MOST_FACE_NUMBERS =
+    16;  ///< of polyhedra for a byte of the file: real ones compress less
+
+/// VTK's reader of .vtu, which (9.1) follows the lists of polyhedra's faces wherever they lead: they are looked at before.
+class GridReader : public vtkXMLUnstructuredGridReader {
+ public:
+  static GridReader* New();
+  std::uint64_t file_bytes = 0;
+  bool faces_fit = true;
+
+ protected:
+  int ReadPieceData() override {
+    faces_fit = faces_fit && check_faces();
+    return faces_fit ? vtkXMLUnstructuredGridReader::ReadPieceData() : 0;
+  }
+
+ private:
+  /// The first `count` of an array; fewer where it has fewer.
+  std::vector<vtkIdType> values_of(vtkXMLDataElement* element, vtkIdType count) {
+    const auto made = vtkSmartPointer<vtkAbstractArray>::Take(CreateArray(element));
+    auto* array = vtkDataArray::SafeDownCast(made);
+    if (array == nullptr || array->GetNumberOfComponents() != 1) return {};
+    array->SetNumberOfTuples(count);
+    if (ReadArrayValues(element, 0, array, 0, count) == 0) return {};
+    std::vector<vtkIdType> values;
+    for (vtkIdType i = 0; i < count; ++i) values.push_back(static_cast<vtkIdType>(array->GetTuple1(i)));
+    return values;
+  }
+
+  /// Whether each polyhedron's list ends where its offset says: the number of faces, then each face's points after their number.
+  bool check_faces() {
+    vtkXMLDataElement* cells = CellElements[Piece];
+    vtkXMLDataElement* lists = cells == nullptr ? nullptr : FindDataArrayWithName(cells, "faces");
+    vtkXMLDataElement* offsets = cells == nullptr ? nullptr : FindDataArrayWithName(cells, "faceoffsets");
+    if (lists == nullptr || offsets == nullptr) return true;
+    const std::vector<vtkIdType> ends = values_of(offsets, NumberOfCells[Piece]);
+    const vtkIdType total = ends.empty() ? 0 : *std::max_element(ends.begin(), ends.end());
+    if (total > 0 && static_cast<std::uint64_t>(total) > MOST_FACE_NUMBERS * file_bytes) return false;
+    const std::vector<vtkIdType> numbers = values_of(lists, std::max<vtkIdType>(total, 0));
+    vtkIdType at = 0;
+    for (const vtkIdType end : ends) {
+      if (end < 0) continue;  // no polyhedron
+      if (end <= at || static_cast<std::size_t>(end) > numbers.size()) return false;
+      for (vtkIdType faces = numbers[at++]; faces > 0; --faces) {
+        if (at >= end || numbers[at] < 0 || numbers[at] >= end - at) return false;
+        at += numbers[at] + 1;
+      }
+      if (at != end) return false;
+    }
+    return true;
+  }
+};
+vtkStandardNewMacro(GridReader);
+
 template <class Reader>
 vtkSmartPointer<vtkDataSet> read_by(const std::filesystem::path& path, const ReadListener& listener) {
   Run run(path, listener);
   const vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
+  if constexpr (std::is_same_v<Reader, GridReader>) reader->file_bytes = std::filesystem::file_size(path);
   run.update(reader.Get());
+  if constexpr (std::is_same_v<Reader, GridReader>)
+    if (!reader->faces_fit)
+      throw_unreadable(path, "found lists of polyhedra's faces that end elsewhere than their offsets say");
   vtkSmartPointer<vtkDataSet> data = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (data == nullptr) throw_unreadable(path, "VTK found no points in it");
   check_vtk_cells(data, path);
@@ -159,43 +213,10 @@ vtkSmartPointer<vtkDataSet> read_by(const std::filesystem::path& path, const Rea
   return data;
 }
 
-/// Whether a .vtu lists the faces of polyhedra.
-bool names_faces(const std::filesystem::path& path) {
-  constexpr std::string_view NAME = "\"faceoffsets\"";
-  ByteReader in(path);
-  std::string seen;
-  while (in.remaining() > 0) {
-    const std::size_t count = std::min<std::uint64_t>(in.remaining(), ByteReader::BLOCK_BYTES);
-    seen.append(reinterpret_cast<const char*>(in.take(count)), count);
-    if (seen.find(NAME) != std::string::npos) return true;
-    seen.erase(0, seen.size() - std::min(seen.size(), NAME.size()));
-  }
-  return false;
-}
-
-/// VTK 9.1 follows lists of polyhedra's faces wherever they lead, before anyone sees them: a child process reads them first. Throws
-/// Error (input_unreadable) where that ends it.
-void require_faces_that_fit(const std::filesystem::path& path) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    dup2(nowhere, STDERR_FILENO);
-    const vtkNew<vtkXMLUnstructuredGridReader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    _exit(0);
-  }
-  int status = 0;
-  if (child > 0) waitpid(child, &status, 0);
-  if (status != 0)
-    throw_unreadable(path, "found lists of polyhedra's faces that end elsewhere, expected VTK's");
-}
-
 vtkSmartPointer<vtkDataSet> read_file(const std::filesystem::path& path, const ReadListener& listener) {
   const std::string extension = lower_extension(path);
   if (extension == ".vtp") return read_by<vtkXMLPolyDataReader>(path, listener);
-  if (extension == ".vtu" && names_faces(path)) require_faces_that_fit(path);
-  if (extension == ".vtu") return read_by<vtkXMLUnstructuredGridReader>(path, listener);
+  if (extension == ".vtu") return read_by<GridReader>(path, listener);
   return read_by<vtkDataSetReader>(path, listener);
 }
 
