@@ -103,7 +103,11 @@ TEST_F(CliInputs, UnknownExtension) {
 TEST_F(CliInputs, TruncatedPly) {
   const std::string whole = grid_ply(true);
   expect_unreadable(write("header.ply", whole.substr(0, 60)));
-  expect_unreadable(write("body.ply", whole.substr(0, whole.size() / 2)));
+  const std::string body = write("body.ply", whole.substr(0, whole.size() / 2));
+  expect_refused([&] { return preprocess({body, "--strict"}); }, 3, "body.ply");
+  const ChildResult read = preprocess({body});
+  EXPECT_EQ(read.code, 0);
+  EXPECT_NE(read.err.find("expected 144 as the header says"), std::string::npos) << read.err;
   expect_unreadable(
       write("binary.ply",
             "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"

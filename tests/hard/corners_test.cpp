@@ -2,6 +2,7 @@
 // the minimum distance that fails there (Goradia et al. 2010, Fig. 11).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/hard/support/chains.h"
@@ -108,7 +109,8 @@ TEST_P(Wedge, MinimumDistanceFails) {
   Settings settings;
   settings.side = SIDE_DELTA;
   settings.delta_world = 0.02;
-  WrongBounces wrong = wrong_bounces(GetParam(), hard_rays() / 20, settings);
+  constexpr std::size_t ENOUGH_TO_FAIL = 10'000;
+  WrongBounces wrong = wrong_bounces(GetParam(), std::max(hard_rays() / 20, ENOUGH_TO_FAIL), settings);
   wrong.beyond.compared = "the same with side rule delta = 0.02";
   conclude_failing(wrong.beyond);
 }

@@ -253,7 +253,7 @@ TEST(ScanSurface, CleanPointsStayBitForBit) {
   for (const bool measured : {true, false}) {
     Input input;
     input.objects.push_back(clean_points());
-    input.objects[0].surface_area = measured ? 0.0 : 1.0;  // a mesh's points are never touched
+    input.objects[0].measured = measured;  // points that were made are never touched
     BuildStats stats;
     scenes[measured ? 0 : 1] = build_scene(std::move(input), {}, 0, stats);
     EXPECT_EQ(stats.smoothed + stats.dropped_isolated + stats.dropped_mixed, 0U);
