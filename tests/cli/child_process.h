@@ -38,7 +38,7 @@ void set_child_environment(const std::vector<std::string>& environment);
                                       const Limits& limits = {});
 
 /// A test with a folder of its own, gone afterwards.
-class CliTest : public testing::Test {
+class CliTest : public ::testing::Test {
  protected:
   /// Path of a file in the folder.
   [[nodiscard]] std::string file(const std::string& name) const { return (folder / name).string(); }

@@ -1,5 +1,6 @@
 /// --ground: shadows fall on it.
 #include "app/library/image_file.h"
+#include "tests/all_tests.h"
 #include "tests/cli/child_process.h"
 
 namespace splatray {
@@ -39,6 +40,7 @@ class CliGround : public CliTest {
 };
 
 TEST_F(CliGround, CatchesTheShadow) {
+  SPLATRAY_NIGHTLY();
   EXPECT_GT(shadowed({"--ground"}), 50U);
   EXPECT_LT(shadowed({}), 10U);
 }

@@ -104,7 +104,7 @@ TEST_P(CliHelp, AnOptionThatIsNoneGetsTheNearest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CliHelp,
-                         testing::Values(PREPROCESS, RENDER, INFO, MEASURE, MERGE, VIEW, GENERATE),
+                         ::testing::Values(PREPROCESS, RENDER, INFO, MEASURE, MERGE, VIEW, GENERATE),
                          [](const auto& test) {
                            const std::string name = std::filesystem::path(test.param).filename();
                            return name.substr(name.find('-') + 1);

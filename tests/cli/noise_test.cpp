@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "app/library/image_file.h"
+#include "tests/all_tests.h"
 #include "tests/cli/child_process.h"
 
 namespace splatray {
@@ -56,6 +57,7 @@ Noise noise_between(const DisplayImage& a, const DisplayImage& b) {
 }
 
 TEST_F(CliNoise, SixteenSamplesOfAScanShowNone) {
+  SPLATRAY_NIGHTLY();
   ASSERT_EQ(preprocess({site(), "-o", file("site.soct")}).code, 0);
   const std::string scene = file("site.soct");
   const Noise left = noise_between(shown(scene, "1"), shown(scene, "2"));

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "app/library/image_file.h"
+#include "tests/all_tests.h"
 #include "tests/cli/child_process.h"
 
 namespace splatray {
@@ -70,6 +71,7 @@ TEST_F(CliOutputs, PictureAndStatistics) {
 }
 
 TEST_F(CliOutputs, MaterialsOfScansAreShownOrALineSaysWhyNot) {
+  SPLATRAY_NIGHTLY();
   std::string sheet = "# x y z r g b\n";
   for (int i = 0; i < 400; ++i)
     sheet += std::to_string(i % 20) + ' ' + std::to_string(i / 20) + " 0 " + std::to_string(i % 20 * 12) +

@@ -29,7 +29,7 @@ Bytes read_hex(const char* path) {
   return bytes;
 }
 
-class SceneFile : public testing::Test {
+class SceneFile : public ::testing::Test {
  protected:
   void SetUp() override {
     path = folder / "tiny.soct";

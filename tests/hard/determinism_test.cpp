@@ -11,6 +11,7 @@
 
 #include "data/shapes.h"
 #include "engine/device/vulkan/vulkan_device.h"
+#include "tests/all_tests.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 #include "tests/trace/rays.h"
@@ -89,6 +90,7 @@ TEST(Determinism, ShuffledInput) {
 }
 
 TEST(Determinism, LeafSizes) {
+  SPLATRAY_NIGHTLY();
   DeviceScene device(some_of_everything(10));
   const Image expected = picture_of(device);
   for (const std::uint32_t leaf_size : {4U, 40U}) {

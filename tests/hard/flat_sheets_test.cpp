@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/all_tests.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 #include "tests/trace/rays.h"
@@ -81,6 +82,7 @@ TEST(FlatSheet, InTheMiddlePlane) {
 }
 
 TEST(FlatSheet, InEveryPlaneBetweenCells) {
+  SPLATRAY_NIGHTLY();
   std::vector<Disc> discs;
   for (int plane = 1; plane < 16; ++plane)
     append(discs, square(SHEET_SPLATS / 15, 2, plane * SHEET_ROOT_EDGE / 16.0));
@@ -106,12 +108,14 @@ TEST(FlatSheet, WithASpeckBesideIt) {
 }
 
 TEST(FlatSheet, HardlyTilted) {
+  SPLATRAY_NIGHTLY();
   for (const double tilt : {1e-7, 1e-6, 1e-5, 1e-4, 1e-2})
     expect_cheap(square(SHEET_SPLATS, 2, 0.5 * SHEET_ROOT_EDGE, 0.9 * SHEET_ROOT_EDGE, tilt),
                  "sheet tilted by " + short_number(tilt));
 }
 
 TEST(FlatSheet, BesideThePlane) {
+  SPLATRAY_NIGHTLY();
   for (const double off : {-5.0, -4.0, 4.0})
     expect_cheap(square(SHEET_SPLATS, 2, 0.5 * SHEET_ROOT_EDGE + off), "sheet " + short_number(off) + " off");
 }

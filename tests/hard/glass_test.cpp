@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "data/shapes.h"
+#include "tests/all_tests.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 #include "tests/hard/support/expected_radiance.h"
@@ -179,6 +180,7 @@ TEST(Glass, TotalReflectionInA45DegreePrism) {
 
 /// The inner one stands first in the scene, so that its bit comes from its size.
 TEST(Glass, NestedGlassInWater) {
+  SPLATRAY_NIGHTLY();
   const Scene scene = scene_of({{sphere({.count = 20000}, 0.5), glass_material(1.5F)},
                                 {sphere({.count = 40000}, 1.0), glass_material(1.33F)}});
   conclude_radiance(
@@ -189,6 +191,7 @@ TEST(Glass, NestedGlassInWater) {
 
 /// A bubble is a boundary of the same object whose normals point into it, out of the glass.
 TEST(Glass, BubbleInGlass) {
+  SPLATRAY_NIGHTLY();
   OrientedPoints points = sphere({.count = 40000}, 1.0);
   append(points, flipped(sphere({.count = 20000}, 0.5)));
   conclude_radiance(
@@ -200,6 +203,7 @@ TEST(Glass, BubbleInGlass) {
 
 /// Two slabs with a common face: light that passes both straight.
 TEST(Glass, TouchingSlabs) {
+  SPLATRAY_NIGHTLY();
   const dvec3 half(0.5, 0.1, 0.5);
   const OrientedPoints slab = box_points(2.0 * half, 8000.0);
   const Scene scene = scene_of({{moved(slab, {0.0, 0.1, 0.0}), glass_material(1.5F)},
@@ -217,6 +221,7 @@ TEST(Glass, TouchingSlabs) {
 
 /// Glass on a table: the sphere touches a mirror-free plane of another object; no path may get under it.
 TEST(Glass, OnATable) {
+  SPLATRAY_NIGHTLY();
   OrientedPoints table = rectangle({.count = 20000}, {-1.5, -1.0, 1.5}, {3, 0, 0}, {0, 0, -3});
   const Scene scene =
       scene_of({{sphere({.count = 40000}, 1.0), glass_material(1.5F)}, {table, test_material(0)}});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "data/shapes.h"
+#include "tests/all_tests.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 #include "tests/trace/reference_path.h"
@@ -76,6 +77,7 @@ TEST(Image, ManySamples) {
 
 /// A dispatch of many long paths must not lose any: drivers may limit the loop iterations of an invocation.
 TEST(Image, ManySamplesOfGlass) {
+  SPLATRAY_NIGHTLY();
   ShownTracer tracer(shared_device());
   tracer.upload(scene_of({{sphere({.count = 20000}, 1.0), glass_material(1.5F)}}));
   tracer.set_environment({0, 0, {}, vec3(1.0F)});

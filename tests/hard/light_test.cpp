@@ -5,6 +5,7 @@
 
 #include "data/shapes.h"
 #include "engine/scene/splat.h"
+#include "tests/all_tests.h"
 #include "tests/hard/support/clouds.h"
 #include "tests/hard/support/device_scene.h"
 
@@ -49,6 +50,7 @@ TEST(Energy, WhiteFurnace) {
 }
 
 TEST(Energy, BounceLimits) {
+  SPLATRAY_NIGHTLY();
   for (const std::uint32_t limit : {0U, 1U, 2U, 5U, 64U})
     conclude(furnace(
         glass_material(1.5F), limit,
@@ -161,6 +163,7 @@ TEST(Shadow, LightInAndBehindSplats) {
 
 /// A light behind another sheet must not shine through it, however near.
 TEST(Shadow, LightBehindASheet) {
+  SPLATRAY_NIGHTLY();
   Scene floor = white_floor();
   const double radius = median_radius_root(floor) * floor.root.unit_world;
   for (const double gap_r : {0.5, 3.0}) {

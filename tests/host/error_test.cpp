@@ -8,9 +8,9 @@ namespace splatray {
 namespace {
 
 int run_and_expect(int (*body)(int, char**), const std::string& sentence) {
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   const int code = run_main("program", body, 0, nullptr);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), sentence);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), sentence);
   return code;
 }
 

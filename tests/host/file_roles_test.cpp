@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The list is the process's: each test has files of its own.
-class FileRoles : public testing::Test {
+class FileRoles : public ::testing::Test {
  protected:
   [[nodiscard]] fs::path there(const std::string& name) const { return folder.write(name, "text"); }
   [[nodiscard]] fs::path absent(const std::string& name) const { return folder.path() / name; }

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class MemoryTest : public testing::Test {
+class MemoryTest : public ::testing::Test {
  protected:
   void write(const fs::path& file, const std::string& text) {
     fs::create_directories((root.path() / file).parent_path());

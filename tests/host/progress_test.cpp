@@ -9,14 +9,14 @@ namespace {
 
 /// What is reported of work that takes `wait`, on a stderr that is no terminal.
 std::string report_of(bool quiet, std::chrono::seconds wait) {
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   {
     ProgressLine line(quiet);
     line.show("tracing", 0.0);
     std::this_thread::sleep_for(wait);
     for (int i = 1; i <= 10; ++i) line.show("tracing", 0.1 * i);
   }
-  return testing::internal::GetCapturedStderr();
+  return ::testing::internal::GetCapturedStderr();
 }
 
 TEST(Progress, IsALineInSomeSecondsWithoutATerminal) {
@@ -64,13 +64,13 @@ TEST(TimeLeft, IsSaidOnceItIsKnown) {
 }
 
 TEST(Progress, OfAPlanSaysTheStagesNumber) {
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   {
     ProgressLine line(false, ProgressStyle::plain, {{"reading", 1.0}, {"tracing", 1.0}});
     line.show("reading", 1.0);
     line.show("tracing", 0.5, "frame 7");
   }
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "1/2 reading 100 %\n2/2 frame 7 50 %\n");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "1/2 reading 100 %\n2/2 frame 7 50 %\n");
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ class Adaptive : public ::testing::Test {
 };
 
 TEST_F(Adaptive, ReportsTheErrorItHas) {
+  SPLATRAY_NIGHTLY();
   double samples_before = 0.0;
   for (const double error : {0.3, 0.1, 0.05}) {
     const Image image = tracer_.render_until(view(), settings_, {.error = error});
@@ -55,6 +56,7 @@ TEST_F(Adaptive, ReportsTheErrorItHas) {
 }
 
 TEST_F(Adaptive, UsesTheTimeItHas) {
+  SPLATRAY_NIGHTLY();
   (void)tracer_.render_until(view(), settings_, {.seconds = 0.2});
   const double samples = tracer_.stats().samples, error = tracer_.stats().error;
   (void)tracer_.render_until(view(), settings_, {.seconds = 2.0});

@@ -226,6 +226,7 @@ TEST_F(Plane, LightsHideThePartOfAnotherThatIsBehindThem) {
 }
 
 TEST_F(Plane, ManyLightsOfAllKinds) {
+  SPLATRAY_NIGHTLY();
   std::vector<SceneLight> lights;
   double expected = 0.0;
   for (int i = 0; i < 40; ++i) {

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "tests/all_tests.h"
 #include "tests/light/lit.h"
 
 namespace splatray::testing {
@@ -43,6 +44,7 @@ class Denoise : public Plane {
 };
 
 TEST_F(Denoise, IsNearerToTheTruth) {
+  SPLATRAY_NIGHTLY();
   const Image truth = traced(512, 99), noisy = traced(8, 1);
   const Image clean = denoised(noisy, base());
   RecordProperty("before", std::to_string(error_against(noisy, truth.rgba)));
@@ -52,6 +54,7 @@ TEST_F(Denoise, IsNearerToTheTruth) {
 }
 
 TEST_F(Denoise, LeavesWhatHasNoNoise) {
+  SPLATRAY_NIGHTLY();
   Image image = traced(512, 99);
   image.part = image.rgba;
   const Image clean = denoised(image, base());

@@ -387,10 +387,10 @@ TEST(Build, RefusesInASentenceWhereAStageWouldTakeMoreThanThereIs) {
   [[maybe_unused]] const auto ends_well = [](int status) {
     return WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 5);
   };
-  EXPECT_EXIT(build_within(20U << 20U), testing::ExitedWithCode(5),
+  EXPECT_EXIT(build_within(20U << 20U), ::testing::ExitedWithCode(5),
               "a scene of 300000 points needs .* found");
 #ifndef __SANITIZE_ADDRESS__  // which gives nothing back that is freed, and whose threads take more than that
-  EXPECT_EXIT(build_within(59U << 19U), testing::ExitedWithCode(5),
+  EXPECT_EXIT(build_within(59U << 19U), ::testing::ExitedWithCode(5),
               "the stage .* of the build needs .* found");
   for (const std::uint64_t megabytes : {30U, 38U, 60U})
     EXPECT_EXIT(build_within(megabytes << 20U), ends_well, "") << megabytes;

@@ -104,10 +104,10 @@ TEST(Stl, IsReadAndItsCountIsChecked) {
 
 TEST(Obj, BrokenFilesAreErrorsAndNothingIsPrinted) {
   const TempFolder folder;
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   read_every_prefix(folder, "cube.obj", CUBE_OBJ);
   static_cast<void>(read_error(folder.write("i.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n")));
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(Obj, IndicesAreChecked) {

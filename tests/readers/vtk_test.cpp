@@ -275,13 +275,13 @@ TEST(Vtk, LegacyFilesThatLieAreRefused) {
 
 TEST(Vtk, BrokenFilesAreErrorsAndNothingIsPrinted) {
   const TempFolder folder;
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   read_every_prefix(folder, "p.vtp", std::string(VTP).substr(0, 400));
   read_every_prefix(folder, "t.vtu", two_cubes());
   read_every_prefix(folder, "s.vtk", LEGACY_SQUARE);
   for (const bool list : {true, false}) read_every_prefix(folder, "t.vtk", legacy_triangle(list));
   static_cast<void>(read_error(folder.write("x.vtp", "this is not XML")));
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(Vtk, ListsOfCellsHoldWholeNumbers) {

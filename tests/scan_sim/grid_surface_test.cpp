@@ -10,6 +10,7 @@
 #include <random>
 
 #include "engine/scene/splat.h"
+#include "tests/all_tests.h"
 #include "tests/scan_sim/built_scan.h"
 #include "tests/scan_sim/scan_cases.h"
 #include "tests/scan_sim/sim_meshes.h"
@@ -188,6 +189,7 @@ TEST(GridSurface, TheScenesCameraIsTheDepthCameras) {
 
 /// Grids of the same points that no pinhole sees so.
 TEST(GridSurface, OtherGridsHaveNoCamera) {
+  SPLATRAY_NIGHTLY();
   const SimulatedScan room = scan_from_tripods(
       TriangleTree(room_mesh()), {.sensors = {{-0.3, 0.2, 1.6}}, .step_deg = 2.0, .highest_deg = 75.0}, {});
   EXPECT_FALSE(build_scan(room.points).scene.camera);
@@ -232,6 +234,7 @@ TEST(GridSurface, SeveralStationsAreSmoothedInSpace) {
 
 /// Stereo on a table: depths are steps of disparity, 0.6 mm on the mug.
 TEST(GridSurface, StereoKeepsItsPoints) {
+  SPLATRAY_NIGHTLY();
   const char* folder = std::getenv("SPLATRAY_DATA_DIR");
   if (folder == nullptr) GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: no scan to read";
   BuildStats stats;

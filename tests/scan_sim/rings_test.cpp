@@ -31,6 +31,7 @@ TEST_P(RingSweep, AreBuiltScanByEllipses) {
 INSTANTIATE_TEST_SUITE_P(Rings, RingSweep, ::testing::Values(16, 32, 64, 128));
 
 TEST(Rings, OfDiscsHaveStripesOrOverlap) {
+  SPLATRAY_NIGHTLY();
   const Sweep sweep = street_sweep(32);
   const RingErrors discs =
       ring_errors(build_scan(sweep.scan.points, {.clip = false}).scene, *sweep.mesh, sweep.spinner, 10000);

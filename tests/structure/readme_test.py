@@ -27,7 +27,8 @@ INPUT_UNREADABLE = 3
 SMALLER = {"splatray-render": "--resolution=16x16 --samples=2", "splatray-preprocess": ""}
 # Vulkan takes seconds to start with sanitizers, the CPU device a fifth of that: Vulkan for each command with tests/run --all.
 DEVICE = "" if "SPLATRAY_TEST_ALL" in os.environ else " --device=cpu"
-SMALLER_IF = {"splatray-render": {"--mesh-points": "--mesh-points=2000", "--error": "--time=0.2", "--time": "--time=0.2", "--turntable": "--frames=0-1"},
+SMALLER_IF = {"splatray-render": {"--mesh-points": "--mesh-points=2000", "--error": "--time=0.2", "--time": "--time=0.2", "--turntable": "--frames=0-1",
+                                  "vase.ply": "--mesh-points=2000", "bunny.ply": "--mesh-points=2000"},
               "splatray-preprocess": {"--mesh-points": "--mesh-points=2000"}}
 # In place of both, behind those that name one of these: a sheet has a size of its own.
 INSTEAD_IF = {"splatray-render": {"--sheet": "--samples=2"}}

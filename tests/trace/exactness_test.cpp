@@ -229,6 +229,7 @@ Scene ringed_sphere(std::uint32_t leaf_size) {
 }
 
 TEST(Exactness, EllipsesOfRingsWhateverTheTree) {
+  SPLATRAY_NIGHTLY();
   compare_gpu({ringed_sphere(10), ringed_sphere(4), ringed_sphere(40)}, 100000);
 }
 

@@ -6,7 +6,7 @@
 namespace splatray {
 namespace {
 
-class CommandsTest : public testing::Test {
+class CommandsTest : public ::testing::Test {
  protected:
   bool act(Action action, int digit = 0) { return apply({action, digit}, 1.5, document, state); }
 

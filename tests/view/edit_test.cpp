@@ -17,7 +17,7 @@ namespace {
 
 constexpr glm::dvec2 PICTURE(800.0, 600.0);
 
-class RegionEdit : public testing::TestWithParam<NamedDocument> {
+class RegionEdit : public ::testing::TestWithParam<NamedDocument> {
  protected:
   Document document = GetParam().document;
   double size = 2.0 * scene_radius_world(document);
@@ -122,7 +122,7 @@ TEST_P(RegionEdit, WalkingStaysLevelWhereverOneLooks) {
   EXPECT_NEAR(glm::dot(document.camera.eye - eye, up), 0.02 * size, 1e-6 * size);
 }
 
-INSTANTIATE_TEST_SUITE_P(Documents, RegionEdit, testing::ValuesIn([] {
+INSTANTIATE_TEST_SUITE_P(Documents, RegionEdit, ::testing::ValuesIn([] {
                            std::vector<NamedDocument> documents = navigated_documents();
                            std::erase_if(documents,
                                          [](const NamedDocument& one) { return one.name == "one point"; });
@@ -184,7 +184,7 @@ TEST(FolderListingTest, ShowsFoldersAndWhatCanBeOpened) {
   EXPECT_EQ(size_text(12'000'000'000), "12 GB");
 }
 
-class EditPanels : public testing::Test {
+class EditPanels : public ::testing::Test {
  protected:
   void SetUp() override {
     gui.document = box_document({1.0, 2.0, 3.0}, 2.0);

@@ -15,7 +15,7 @@ using std::numbers::pi;
 const glm::dvec2 WINDOW_SIZE(800.0, 600.0);
 
 /// Every document, perspective and orthographic.
-class EveryDocument : public testing::TestWithParam<std::tuple<int, bool>> {
+class EveryDocument : public ::testing::TestWithParam<std::tuple<int, bool>> {
  protected:
   EveryDocument() {
     const auto [index, ortho] = GetParam();
@@ -217,7 +217,8 @@ TEST_P(EveryDocument, NothingMakesACameraThatSeesNothing) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Navigation, EveryDocument, testing::Combine(testing::Range(0, 5), testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Navigation, EveryDocument,
+                         ::testing::Combine(testing::Range(0, 5), ::testing::Bool()));
 
 TEST(NavigationTest, LookTurnsAboutTheEye) {
   Document document = box_document({1.0, 2.0, 3.0}, 2.0);

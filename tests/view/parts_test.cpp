@@ -78,7 +78,7 @@ TEST(MovingResolution, OneOutlierDoesLittle) {
   EXPECT_EQ(scaled_size({3, 2}, 0.01), glm::uvec2(1));
 }
 
-class MouseTest : public testing::Test {
+class MouseTest : public ::testing::Test {
  protected:
   std::optional<Gesture> press(double x, bool over_controls = false) {
     return take(InputEvent::Kind::press, x, over_controls);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class SceneCacheTest : public testing::Test {
+class SceneCacheTest : public ::testing::Test {
  protected:
   void SetUp() override {
     request.source.inputs = {write("scan.xyz", 20)};
