@@ -78,6 +78,7 @@ Sent albedo(const TwinSurface& surface, const glm::vec3& to_eye, std::uint32_t s
 }
 
 TEST(Bsdf, WhiteFurnace) {
+  SPLATRAY_NIGHTLY();
   double least = 2.0, most = 0.0;
   for (const Case& tested : white_cases())
     for (const float cosine : {0.02F, 0.05F, 0.2F, 0.5F, 0.8F, 0.99F}) {

@@ -8,6 +8,7 @@
 
 #include "preprocess/build.h"
 #include "preprocess/mesh/sample_mesh.h"
+#include "tests/all_tests.h"
 #include "tests/preprocess/discs.h"
 #include "tests/preprocess/sampled_scene.h"
 
@@ -44,6 +45,7 @@ double overlap(const Scene& scene) {
 }
 
 TEST(FlatQuads, HaveNoHolesWhateverTheirLengthAndDensity) {
+  SPLATRAY_NIGHTLY();
   // 1:60 with this number of points had holes where the lattice was slanted.
   for (const auto& [aspect, points] :
        {std::pair(1.0, 300), std::pair(1.0, 10000), std::pair(2.0, 3000), std::pair(5.0, 1000),
@@ -65,7 +67,8 @@ double sampling_seconds(const Mesh& mesh, std::uint64_t points) {
 
 /// A thousand times as long an edge has thirty times as many places to look at, and as little to look at from each.
 TEST(FlatQuads, ThatAreNeedlesTakeNoLonger) {
-  constexpr double LONGER = 40.0;  // for these places; looking at all samples from each of them took over 150 times as long
+  constexpr double LONGER =
+      40.0;  // for these places; looking at all samples from each of them took over 150 times as long
   const double square = sampling_seconds(quad(1.0), 100000);
   for (const double aspect : {2e4, 1e6})
     EXPECT_LT(sampling_seconds(quad(aspect), 100000), LONGER * square) << aspect;

@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> data_files(const std::string& folder) {
 }
 
 /// What a landing reads of them: larger files take a minute.
-constexpr std::uintmax_t BYTES_FOR_A_LANDING = 1U << 20U;
+constexpr std::uintmax_t BYTES_FOR_A_LANDING = 1U << 18U;
 
 void expect_sane(const std::filesystem::path& file) {
   const Input input = read_input({file}, {});

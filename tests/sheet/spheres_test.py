@@ -45,7 +45,7 @@ def write_ply(path, places, unit):
 
 
 def run(*arguments):
-    subprocess.run([render, "--quiet", "--samples", "16", "--keep-noise", "--look", "ao", "--device", "cpu", *arguments], check=True)
+    subprocess.run([render, "--quiet", "--samples", "16", "--keep-noise", "--look", "ao", *arguments], check=True)
 
 
 FIND = """

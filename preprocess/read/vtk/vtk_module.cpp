@@ -141,8 +141,8 @@ void drop_unfit_arrays(vtkFieldData* attributes, vtkIdType count) {
     if (attributes->GetAbstractArray(i)->GetNumberOfTuples() != count) attributes->RemoveArray(i);
 }
 
-constexpr std::uint64_t MOST_FACE_NUMBERS =
-    16;  ///< of polyhedra for a byte of the file: real ones compress less
+/// Numbers of polyhedra for a byte of the file: real ones compress less.
+constexpr std::uint64_t MOST_FACE_NUMBERS = 16;
 
 /// VTK's reader of .vtu, which (9.1) follows the lists of polyhedra's faces wherever they lead: they are looked at before.
 class GridReader : public vtkXMLUnstructuredGridReader {
