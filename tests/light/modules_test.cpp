@@ -1,4 +1,5 @@
 // The module of path tracing that GPUs run, beside that of CPU devices: the same bits on one device.
+#include "tests/all_tests.h"
 #include "tests/light/lit.h"
 #include "tests/trace/different_bits.h"
 
@@ -47,7 +48,7 @@ TEST_F(Modules, OfGpusAndCpuDevicesLightTheSame) {
 
 /// Slow to compile for little more: with tests/run --all.
 TEST_F(Modules, OfGpusAndCpuDevicesAgreeInAllLooks) {
-  if (std::getenv("SPLATRAY_TEST_ALL") == nullptr) GTEST_SKIP() << "without SPLATRAY_TEST_ALL";
+  SPLATRAY_NIGHTLY();
   if (device_.profile().kernels == Kernels::gpu) GTEST_SKIP() << "the device runs the module of GPUs alone";
   for (const std::uint32_t look : {LOOK_CLAY, LOOK_AO, LOOK_SCAN}) expect_same_bits(look);
 }

@@ -1,11 +1,11 @@
 #include "preprocess/read/scan/gaussian_capture.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <string_view>
 
 #include "preprocess/base/file_extension.h"
+#include "preprocess/base/lower_case.h"
 #include "preprocess/read/byte_reader.h"
 
 namespace splatray {
@@ -35,9 +35,7 @@ void refuse_gaussian_file(const std::filesystem::path& path) {
 void refuse_gaussian_names(const std::filesystem::path& path, const std::vector<std::string>& names) {
   constexpr std::string_view OF_GLTF = "gaussian_splatting";
   for (const std::string& name : names) {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string lower = lower_case(name);
     if (holds(PROPERTIES, lower) || lower.find(OF_GLTF) != std::string::npos) refuse(path, "'" + name + "'");
   }
 }

@@ -8,6 +8,7 @@
 
 #include "engine/base/utf8.h"
 #include "preprocess/read/byte_reader.h"
+#include "preprocess/read/text/next_word.h"
 #include "preprocess/read/text/parse_number.h"
 
 namespace splatray {
@@ -15,11 +16,6 @@ namespace {
 
 constexpr std::string_view MISSING[] = {"null", "nan",     "na",      "n/a", "#n/a", "none",
                                         "nil",  "no data", "missing", "?",   "\\n"};
-
-std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\"") {
-  const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
-  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-}
 
 bool is_missing(std::string_view cell) {
   const auto is_it = [&](std::string_view word) {
@@ -129,7 +125,7 @@ std::vector<std::string> split_cells(std::string_view line, char separator) {
   for (const char* begin = line.data();; ++begin) {
     const char* const cell_end =
         separator == ' ' ? std::find_if(begin, end, is_blank) : end_of_cell(begin, end, separator);
-    const std::string_view cell = trimmed({begin, static_cast<std::size_t>(cell_end - begin)});
+    const std::string_view cell = without_blanks({begin, static_cast<std::size_t>(cell_end - begin)});
     if (separator != ' ' || !cell.empty()) cells.push_back(to_utf8(cell));
     if (cell_end == end) return cells;
     begin = cell_end;
@@ -147,7 +143,7 @@ const char* end_of_cell(const char* begin, const char* end, char separator) {
 
 bool parse_cell(std::string_view cell, const CellForm& form, double& value) {
   value = NAN;
-  cell = trimmed(cell);
+  cell = without_blanks(cell);
   if (is_missing(cell)) return true;
   std::string text(cell);
   if (form.decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
@@ -158,7 +154,7 @@ bool parse_cell(std::string_view cell, const CellForm& form, double& value) {
 }
 
 bool is_remark(std::string_view line) {
-  const std::string_view text = trimmed(line, " \t\r");
+  const std::string_view text = without_blanks(line, " \t\r");
   return text.empty() || text.front() == '#' || text.starts_with("//");
 }
 

@@ -15,4 +15,11 @@ namespace splatray {
   return word;
 }
 
+/// The text without these letters at its begin and end.
+[[nodiscard]] inline std::string_view without_blanks(std::string_view text,
+                                                     std::string_view blanks = " \t\r\"") {
+  const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
+  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+}
+
 }  // namespace splatray

@@ -6,6 +6,7 @@
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/scan/column_names.h"
+#include "preprocess/read/text/next_word.h"
 #include "preprocess/read/text/parse_number.h"
 
 namespace splatray {
@@ -13,11 +14,6 @@ namespace {
 
 constexpr std::size_t MOST_ROW_BYTES = ByteReader::BLOCK_BYTES;
 constexpr std::uint64_t MOST_HEAD_LINES = 100000;  ///< of comments
-
-std::string_view without_blanks(std::string_view text, std::string_view blanks = " \t\r\"") {
-  const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
-  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-}
 
 /// The separator of a line of names: tabs part names of several words.
 char separator_of_names(std::string_view line) {

@@ -40,7 +40,9 @@ ColumnsKind kind_of(const Lists& columns, std::size_t first) {
 
 }  // namespace
 
-bool are_normals(const Lists& columns, std::size_t first) { return kind_of(columns, first) == ColumnsKind::normals; }
+bool are_normals(const Lists& columns, std::size_t first) {
+  return kind_of(columns, first) == ColumnsKind::normals;
+}
 
 std::vector<std::string> guess_columns(const Lists& columns, std::vector<std::string>& notes) {
   const std::size_t count = columns.size();

@@ -9,8 +9,6 @@
 #include "tests/trace/scenes.h"
 
 namespace splatray::testing {
-namespace {}  // namespace
-
 int bench_peers(int argc, char** argv) {
   OptionList list("Measures Embree on the cases that splatray-bench prepare made in FOLDER.",
                   "splatray-bench peers");

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "engine/scene/splat.h"
+#include "tests/all_tests.h"
 #include "tests/trace/agreement.h"
 #include "tests/trace/rays.h"
 
@@ -54,7 +55,7 @@ const Device& shared_device() {
 std::size_t hard_rays() {
   const char* wanted = std::getenv("SPLATRAY_HARD_RAYS");
   if (wanted != nullptr) return static_cast<std::size_t>(std::stod(wanted));
-  return std::getenv("SPLATRAY_TEST_ALL") == nullptr ? RAYS_OF_A_LANDING : DEFAULT_RAYS;
+  return all_or(DEFAULT_RAYS, RAYS_OF_A_LANDING);
 }
 
 std::uint64_t known_of(std::uint64_t by_default, std::uint64_t of_ten_million) {
