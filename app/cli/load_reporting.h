@@ -1,6 +1,6 @@
 /// Loading of scenes by programs, as they report it.
 #pragma once
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_source.h"
 #include "engine/base/progress.h"
 
 namespace splatray {

@@ -8,14 +8,13 @@
 #include "app/cli/typical_work.h"
 #include "app/library/measure/measure_file.h"
 #include "app/library/picture/measuring.h"
-#include "app/library/picture/scene_source.h"
 #include "app/library/picture/series/run_files.h"
+#include "app/library/shot/scene_source.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/file_roles.h"
-#include "engine/image/scan_kind.h"
 
 namespace {
 
@@ -99,7 +98,7 @@ int run(int argc, char** argv) {
   catch_interrupts();
   ProgressLine line(/*quiet=*/false, ProgressStyle::line, work_of_scene(asked->request.source));
   LoadedScene loaded = load_reporting(asked->request, "splatray-measure", line);
-  if (kind_of_scan(loaded.scene) == SceneKind::camera)
+  if (loaded.facts.kind == SceneKind::camera)
     std::fprintf(
         stderr,
         "splatray-measure: note: the scan is a depth camera's, whose depths may be farther off than the "

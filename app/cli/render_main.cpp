@@ -9,16 +9,14 @@
 #include "app/cli/typical_work.h"
 #include "app/library/image_file.h"
 #include "app/library/picture/picture_file.h"
-#include "app/library/picture/picture_notes.h"
-#include "app/library/picture/series/orbit.h"
-#include "app/library/picture/series/render_sequence.h"
+#include "app/library/picture/series/make.h"
 #include "app/library/picture/series/run_files.h"
+#include "app/library/shot/picture_lights.h"
+#include "app/library/shot/resolve.h"
 #include "app/library/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
-#include "engine/base/number_text.h"
 #include "engine/base/progress.h"
-#include "preprocess/base/file_extension.h"
 
 namespace {
 
@@ -34,48 +32,28 @@ int print_devices() {
   return static_cast<int>(ExitCode::done);
 }
 
-/// Decides the exposure where that is left to the picture. Of EXR files too, which keep it for what makes PNGs of them.
-void expose(const Sequence& sequence, SceneOnDevice& shown, const Camera& still, Request& request) {
-  if (!suits_exposure(shown.scene(), request)) return;
-  const std::uint32_t first = sequence.path.empty() ? 0 : sequence.path.front().frame;
-  const Camera camera = frame_camera(sequence, first, still, choose_up(shown.scene(), request));
-  request.look.exposure_ev = preview_exposure_ev(request, shown, camera);
-}
-
-/// The request with what suits the scan where nothing is asked for.
-Request suited(const Request& asked, const LoadedScene& loaded) {
-  Request request = loaded.request;
-  request.settings.aov = request.settings.aov || request.output.orbit_columns > 0;
-  const bool shows = lower_extension(request.output.path) != ".exr" && !request.view.xray;
-  request.output.denoise = request.output.denoise || (shows && suits_denoising(loaded.scene, asked));
-  require_picture_memory(request);
-  return request;
-}
-
-/// Says in a line what was chosen for a scan, as the options that would choose it.
-void report_choices(const Request& asked, const Request& request, const LoadedScene& loaded) {
-  if (request.output.quiet || loaded.choices.empty()) return;
-  std::string choices = loaded.choices;
-  if (request.look.exposure_ev && !asked.look.exposure_ev)
-    choices += " --exposure " + number_text(*request.look.exposure_ev);
-  if (request.output.denoise && !asked.output.denoise) choices += " --denoise";
-  std::fprintf(stderr, "splatray-render: %s\n", choices.c_str());
+/// Says in a line what was chosen, as the options that would choose it.
+void report_choices(const Shot& shot) {
+  if (shot.request.output.quiet || shot.choices.empty()) return;
+  const std::string of = shot.of.empty() ? "chosen" : shot.of;
+  std::fprintf(stderr, "splatray-render: %s: %s\n", of.c_str(), choices_text(shot).c_str());
 }
 
 /// Writes the run's progress and sentences to stderr.
-SequenceListener reporting_on(ProgressLine& progress, const Request& request, std::size_t pictures) {
+SequenceListener reporting_on(ProgressLine& progress, const Shot& shot) {
   const auto say = [&progress](const std::string& sentence) {
     progress.clear();
     std::fprintf(stderr, "splatray-render: %s\n", sentence.c_str());
   };
-  return {[&progress, &request, pictures](const SequenceFrame& frame, std::size_t before, double share) {
-            const bool several = request.output.many() || request.output.orbit_columns > 0;
-            const double all = (static_cast<double>(before) + share) / static_cast<double>(pictures);
+  const auto pictures = static_cast<double>(pictures_of(shot));
+  const bool several = shot.is_sequence() || shot.is_orbit(), quiet = shot.request.output.quiet;
+  return {[&progress, several, pictures](const SequenceFrame& frame, std::size_t before, double share) {
+            const double all = (static_cast<double>(before) + share) / pictures;
             progress.show("tracing", all, several ? "frame " + std::to_string(frame.number) : "");
             return true;
           },
-          [&request, say](const std::string& note) {
-            if (!request.output.quiet) say(note);
+          [quiet, say](const std::string& note) {
+            if (!quiet) say(note);
           },
           [say](const FailedPicture& picture) {
             say("error: frame " + std::to_string(picture.frame.number) + ": " + picture.reason);
@@ -92,13 +70,13 @@ int render(int argc, char** argv) {
   };
   std::for_each(given->notes.begin(), given->notes.end(), note);
 
-  const Sequence sequence = plan_sequence(asked);
-  if (sequence.frames.empty()) return static_cast<int>(ExitCode::done);
+  const Shot planned = draft(asked);
+  if (planned.frames.empty()) return static_cast<int>(ExitCode::done);
   note_inputs(asked);
   require_inputs_present(asked);
-  claim_outputs(asked, sequence);
+  claim_outputs(asked, planned.frames);
   require_outputs_writable(asked);
-  require_picture_memory(asked);
+  require_picture_memory(planned);
   static_cast<void>(read_reference(asked));  // refused before any work
   catch_interrupts();
   StageTimes times;
@@ -109,34 +87,29 @@ int render(int argc, char** argv) {
 
   // After the driver is there, as one library is loaded at a time.
   const std::future<void> codec = std::async(std::launch::async, load_image_codec);
-  ProgressLine progress(asked.output.quiet, asked.output.progress, work_of_pictures(asked, sequence));
+  ProgressLine progress(asked.output.quiet, asked.output.progress, work_of_pictures(planned));
   LoadedScene loaded = load_reporting(asked, "splatray-render", progress);
-  Request request = suited(asked, loaded);
-  for (const std::string& sentence : ignored_options(asked, choose_look(loaded.scene, request)))
-    note(sentence);
-  // What is asked of the pools, before they go.
-  const Camera still = choose_camera(loaded.scene, request);
-  const PoolCounts counts = pool_counts(loaded.scene);
+  Shot shot = resolve(asked, loaded.scene, loaded.facts);
+  require_picture_memory(shot);
+  std::for_each(shot.notes.begin(), shot.notes.end(), note);
+  const PoolCounts counts = pool_counts(loaded.scene);  // before the pools go
 
   watch.lap_ms();
-  SceneOnDevice shown(*device, {.pipeline_folder = user_cache_folder(), .threads = request.source.threads});
-  shown.show_environment(loaded.environment_name, note);
+  SceneOnDevice shown(*device, {.pipeline_folder = user_cache_folder(), .threads = asked.source.threads});
+  shown.show_environment(shot.environment, note);
   shown.open_and_free(loaded.scene);
   times.upload_ms = watch.lap_ms();
-  expose(sequence, shown, still, request);
+  expose(shot, shown);
   times.exposure_ms = watch.lap_ms();
-  report_choices(asked, request, loaded);
-  const SequenceListener listener = reporting_on(progress, request, pictures_of(request, sequence));
-  const SequenceRecord record = request.output.orbit_columns > 0
-                                    ? render_orbit(request, shown, still, listener)
-                                    : render_sequence(request, sequence, shown, still, listener);
+  report_choices(shot);
+  const SequenceRecord record = make(shot, shown, reporting_on(progress, shot));
   progress.clear();
 
-  if (!request.output.stats_json.empty())
-    write_stats(request, loaded, counts, *device, shown.tracer().pool_bytes(), times, record);
+  if (!asked.output.stats_json.empty())
+    write_stats(shot, loaded, counts, *device, shown.tracer().pool_bytes(), times, record);
   require_all_made(record);
   // In the exposure of the picture, which is known by now.
-  if (const auto reference = read_reference(request)) require_match(request, record.last, *reference);
+  if (const auto reference = read_reference(shot.request)) require_match(shot, record.last, *reference);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -7,6 +7,7 @@
 #include "app/library/codec/picture_format.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/picture/series/run_files.h"
+#include "app/library/request/consistent.h"
 #include "app/library/request/request_json.h"
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"

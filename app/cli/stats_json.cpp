@@ -54,6 +54,13 @@ Json bytes_json(const PoolBytes& bytes) {
   return json;
 }
 
+/// What was chosen, by the fields that ask for the same.
+Json choices_json(const Shot& shot) {
+  Json json = Json::object();
+  for (const FieldText& choice : shot.choices) json[choice.name] = choice.text;
+  return json;
+}
+
 /// The pictures together, as if they were one.
 PictureRecord sum_of(const std::vector<PictureRecord>& pictures) {
   PictureRecord sum;
@@ -82,22 +89,22 @@ Json frames_json(const std::vector<PictureRecord>& pictures) {
 
 }  // namespace
 
-void write_stats(const Request& request, const LoadedScene& loaded, const PoolCounts& counts,
-                 const Device& device, const PoolBytes& bytes, const StageTimes& times,
-                 const SequenceRecord& record) {
+void write_stats(const Shot& shot, const LoadedScene& loaded, const PoolCounts& counts, const Device& device,
+                 const PoolBytes& bytes, const StageTimes& times, const SequenceRecord& record) {
   const DeviceInfo& info = device.info();
   const PictureRecord sum = sum_of(record.made);
-  const Settings& settings = request.settings;
+  const Settings& settings = shot.settings;
   Json json = {
       {"commit", COMMIT},
       {"device", {{"name", info.name}, {"type", info.type}, {"driver", info.driver}, {"api", info.api}}},
       {"scene", scene_json(loaded.scene, counts, sum.lights)},
       {"picture",
-       {{"width", request.view.width},
-        {"height", request.view.height},
+       {{"width", shot.view.width},
+        {"height", shot.view.height},
         {"samples", sum.stats.samples},
         {"error", sum.stats.error},
         {"seed", settings.seed}}},
+      {"choices", choices_json(shot)},
       {"times_ms",
        {{"device", times.device_ms},
         {"load", loaded.load_ms},
@@ -109,9 +116,9 @@ void write_stats(const Request& request, const LoadedScene& loaded, const PoolCo
       {"bytes", bytes_json(bytes)}};
   if (loaded.build) json["build"] = Json::parse(build_stats_json(*loaded.build));
   if (settings.counters) json["counters"] = counters_json(sum.stats.counters);
-  if (request.output.denoise) json["times_ms"]["denoise"] = sum.denoise_ms;
-  if (request.output.many()) json["frames"] = frames_json(record.made);
-  write_text_file(json_text(json, 2) + '\n', request.output.stats_json);
+  if (shot.denoises()) json["times_ms"]["denoise"] = sum.denoise_ms;
+  if (shot.is_sequence()) json["frames"] = frames_json(record.made);
+  write_text_file(json_text(json, 2) + '\n', shot.request.output.stats_json);
 }
 
 }  // namespace splatray

@@ -39,13 +39,12 @@ bool is_a_scene(const Request::Source& source) {
 }
 
 /// Seconds that tracing may take.
-double tracing_s(const Request& request, std::size_t pictures) {
-  const PixelWindow made = request.view.made();
+double tracing_s(const Shot& shot) {
+  const PixelWindow made = shot.view.made();
   constexpr double MILLION = 1e6;
-  const double samples = double(made.width) * made.height * request.settings.samples / MILLION;
-  const double seconds =
-      request.settings.seconds_goal > 0.0 ? request.settings.seconds_goal : SAMPLES_S * samples;
-  return seconds * static_cast<double>(pictures);
+  const double samples = double(made.width) * made.height * shot.settings.samples / MILLION;
+  const double goal = shot.request.settings.seconds_goal;
+  return (goal > 0.0 ? goal : SAMPLES_S * samples) * static_cast<double>(pictures_of(shot));
 }
 
 }  // namespace
@@ -54,7 +53,8 @@ WorkPlan work_of_scene(const Request::Source& source) {
   return is_a_scene(source) ? WorkPlan{{"reading", 1.0}} : BUILD;
 }
 
-WorkPlan work_of_pictures(const Request& request, const Sequence& sequence) {
+WorkPlan work_of_pictures(const Shot& shot) {
+  const Request& request = shot.request;
   WorkPlan plan = work_of_scene(request.source);
   double cost = 0.0;
   for (const PlannedStage& stage : plan) cost += stage.cost;
@@ -62,14 +62,13 @@ WorkPlan work_of_pictures(const Request& request, const Sequence& sequence) {
   constexpr double LEAST_S = 0.1;  // what any scene takes
   const double factor = std::max(scene_s, LEAST_S) / cost;
   for (PlannedStage& stage : plan) stage.cost *= factor;
-  plan.push_back({"tracing", tracing_s(request, pictures_of(request, sequence))});
+  plan.push_back({"tracing", tracing_s(shot)});
   return plan;
 }
 
-std::size_t pictures_of(const Request& request, const Sequence& sequence) {
-  const Request::Output& output = request.output;
-  return output.orbit_columns > 0 ? std::size_t{output.orbit_columns} * output.orbit_rows
-                                  : sequence.frames.size();
+std::size_t pictures_of(const Shot& shot) {
+  const auto* orbit = std::get_if<Orbit>(&shot.output);
+  return orbit != nullptr ? std::size_t{orbit->columns} * orbit->rows : shot.frames.size();
 }
 
 }  // namespace splatray

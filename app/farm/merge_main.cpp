@@ -7,6 +7,7 @@
 #include "app/library/codec/picture_format.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/reproduce.h"
+#include "app/library/shot/resolve.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/file/atomic_file.h"
@@ -63,7 +64,7 @@ int merge(int argc, char** argv) {
   if (lower_extension(options.output) == ".exr") {
     write_exr(picture, options.output);
   } else {
-    write_output(read_picture_request(options.parts.front()), image_of(picture), picture.metadata,
+    write_output(draft(read_picture_request(options.parts.front())), image_of(picture), picture.metadata,
                  options.output);
   }
   return static_cast<int>(ExitCode::done);

@@ -6,7 +6,7 @@
 
 #include "app/library/measure/surface_point.h"
 #include "app/library/picture/reproduce.h"
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_source.h"
 #include "app/library/request/command_line.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"

@@ -126,6 +126,11 @@ glm::dmat3 upright_axes(const glm::dvec3& up) {
   return {right, unit_up, glm::cross(right, unit_up)};
 }
 
+glm::dvec3 up_across(const glm::dvec3& up, const glm::dvec3& view_dir) {
+  const glm::dmat3 axes = upright_axes(up);
+  return glm::length(glm::cross(axes[1], view_dir)) > 1e-6 * glm::length(view_dir) ? axes[1] : -axes[2];
+}
+
 FrameParams make_frame_params(const Scene& scene, const View& view, const Settings& settings) {
   check_view(view);
   FrameParams frame{};

@@ -110,6 +110,8 @@ inline constexpr double DEFAULT_FOV_Y_DEG = 30.0;
 /// right, up, front; right-handed, unit. Right is the world's +x made perpendicular to up (+y where up is
 /// along x), so that the front, from where the default camera looks, is +z for y-up and -y for z-up scenes.
 [[nodiscard]] glm::dmat3 upright_axes(const glm::dvec3& up);
+/// Upwards in a picture, or across that where the camera looks straight up or down.
+[[nodiscard]] glm::dvec3 up_across(const glm::dvec3& up, const glm::dvec3& view_dir);
 
 /// A camera that shows the whole scene from its front, a little from above and to the side, for the given
 /// aspect ratio. The scene's own camera when it has one.

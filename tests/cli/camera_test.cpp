@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "app/library/camera_file.h"
-#include "app/library/picture/series/sequence.h"
+#include "app/library/shot/sequence.h"
 #include "engine/base/error.h"
 #include "tests/property/dice.h"
 #include "tests/temp_folder.h"

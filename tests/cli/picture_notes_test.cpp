@@ -1,12 +1,13 @@
 /// What is said of a picture's light and of options that it does not use; the light of a camera that is shut in.
-#include "app/library/picture/picture_notes.h"
+#include "app/library/shot/picture_notes.h"
+#include "app/library/shot/resolve.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "app/library/picture/make_picture.h"
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_source.h"
 #include "app/library/request/fields.h"
 #include "engine/device/host/host_device.h"
 
@@ -88,7 +89,10 @@ TEST(EyeLight, ComesToCamerasThatAreShutIn) {
     SceneOnDevice shown(device);
     shown.open(loaded.scene);
     shown.show_environment("studio");
-    const auto made = [&] { return make_picture(request, shown, choose_camera(loaded.scene, request), {}); };
+    const auto made = [&] {
+      const Shot shot = resolve(request, loaded.scene, loaded.facts);
+      return make_picture(shot, shown, shot.view.camera, {});
+    };
     const MadePicture first = made();
     double mean = 0.0;
     for (const vec4& pixel : first.image.rgba) mean += double(pixel.x) / double(first.image.rgba.size());

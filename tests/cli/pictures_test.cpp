@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 
-#include "app/library/compare.h"
+#include "app/library/picture/compare.h"
 #include "app/library/image_file.h"
 #include "engine/base/error.h"
 #include "tests/temp_folder.h"

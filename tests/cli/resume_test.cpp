@@ -100,7 +100,7 @@ TEST_F(CliResume, OtherPicturesAreRefused) {
   refuse(9, {resume("none.exr")}, 3, "no such file");
   refuse(9, {resume("clean.exr")}, 3, "without its noise");
   refuse(9, {"--despeckle", "--denoise"}, 2, "expected one of them");
-  refuse(9, {"--despeckle", "--tile=1/2"}, 2, "expected it for a whole picture");
+  refuse(9, {"--despeckle", "--tile=1/2"}, 2, "as parts that are joined keep their noise");
   refuse(1, {"--despeckle"}, 2, "--despeckle with one sample");
   refuse(9, {resume("some.exr"), "--time=1"}, 2, "--resume with --error or --time");
   expect_refused(

@@ -1,5 +1,5 @@
 /// Scenes as options ask for them.
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_source.h"
 
 #include <gtest/gtest.h>
 
@@ -48,23 +48,6 @@ TEST(LoadScene, GlassOfAMeshWoundInwardsIsTurnedOutwards) {
   EXPECT_EQ(outward_share("glass"), 1.0);
   EXPECT_EQ(outward_share("gold"), 0.0);  // all else stays as it was made
   EXPECT_EQ(outward_share(""), 0.0);
-}
-
-TEST(OwnLights, RectanglesArePointsInThePapersLook) {
-  Scene scene;
-  scene.bounds_min_world = glm::dvec3(-1.0);
-  scene.bounds_max_world = glm::dvec3(1.0);
-  SceneLight lamp{LIGHT_RECTANGLE, {0.0, 5.0, 0.0}, glm::vec3(3.0F)};
-  lamp.edge_u = {0.5, 0.0, 0.0};
-  lamp.edge_v = {0.0, 0.0, 1.0};  // it shines down
-  scene.lights = {lamp};
-  const std::vector<SceneLight> lit = own_lights(scene, false, LOOK_LIT, {});
-  EXPECT_EQ(lit, exposed_lights(scene));
-  const std::vector<SceneLight> paper = own_lights(scene, false, LOOK_PAPER, {});
-  ASSERT_EQ(paper.size(), 1U);
-  EXPECT_EQ(paper[0].kind, LIGHT_POINT);
-  EXPECT_GT(summed_irradiance(scene, lit), 0.0);
-  EXPECT_NEAR(summed_irradiance(scene, paper) / summed_irradiance(scene, lit), 1.0, 1e-6);
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 
 #include "app/library/picture/picture_file.h"
 #include "app/library/request/fields.h"
-#include "app/library/sheet/cut_lines.h"
+#include "app/library/shot/cut_lines.h"
 #include "app/library/sheet/geotiff.h"
 #include "app/library/sheet/ink.h"
-#include "app/library/sheet/sheet.h"
+#include "app/library/shot/sheet_placement.h"
 #include "app/library/sheet/sheet_files.h"
 #include "app/library/sheet/sheet_page.h"
 #include "data/shapes.h"
@@ -270,11 +270,15 @@ TEST(SheetFiles, EachOfOneStemHasADescriptionOfItsOwn) {
 TEST(SheetFiles, APngSaysHowLargeItsPixelsAre) {
   const Image image{2, 1, std::vector<vec4>(2, vec4(1.0F)), {}};
   const std::string physical("\0\0\0\x09pHYs\0\0\x27\x10\0\0\x27\x10\x01", 17);  // 10000 a metre
-  const auto bytes_of = [&](const Request& request) {
-    const std::vector<unsigned char> bytes = encode_png(shown_image(request, image), {});
+  const auto bytes_of = [&](const Shot& shot) {
+    const std::vector<unsigned char> bytes = encode_png(shown_image(shot, image), {});
     return std::string(bytes.begin(), bytes.end());
   };
-  const std::string sheet = bytes_of(with_sheet("plan:dpi=254"));
+  Shot shot;
+  Sheet asked;
+  asked.asked = read_sheet("plan:dpi=254");
+  shot.output = asked;
+  const std::string sheet = bytes_of(shot);
   EXPECT_NE(sheet.find(physical), std::string::npos);
   EXPECT_LT(sheet.find(physical), sheet.find("IDAT"));
   EXPECT_EQ(bytes_of({}).find("pHYs"), std::string::npos);
@@ -288,14 +292,16 @@ std::size_t count(const std::string& text, const std::string& word) {
 
 TEST(SheetFiles, DrawingsTakeMorePixelsThanCairosImages) {
   constexpr std::uint32_t WIDTH = 40000, HEIGHT = 3;
-  Request request = with_sheet("plan");
   Sheet sheet;
-  sheet.width = request.view.width = WIDTH;
-  sheet.height = request.view.height = HEIGHT;
-  request.view.made_sheet = std::make_shared<const Sheet>(sheet);
+  sheet.width = WIDTH;
+  sheet.height = HEIGHT;
+  Shot shot;
+  shot.view.width = WIDTH;
+  shot.view.height = HEIGHT;
+  shot.output = sheet;
   const DisplayImage picture{WIDTH, HEIGHT, std::vector<vec3>(std::size_t{WIDTH} * HEIGHT, vec3(0.5F)), {}};
   const auto page = [&](const char* name) {
-    const auto bytes = encode_sheet(request, picture, {}, name);
+    const auto bytes = encode_sheet(shot, picture, {}, name);
     return std::string(bytes.begin(), bytes.end());
   };
   EXPECT_EQ(count(page("a.svg"), "<image"), 3U);

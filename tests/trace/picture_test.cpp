@@ -8,7 +8,7 @@
 #include <array>
 #include <iostream>
 
-#include "app/library/compare.h"
+#include "app/library/picture/compare.h"
 #include "app/library/image_file.h"
 #include "data/shapes.h"
 #include "engine/device/host/host_device.h"

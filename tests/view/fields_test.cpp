@@ -34,7 +34,7 @@ const std::map<std::string, std::string> TEXTS = {{"inputs", "other.ply"},
                                                   {"lights", "none"},
                                                   {"environment", "black"},
                                                   {"background", "0.5,0.25,2"},
-                                                  {"keep-box", "0,0,0,1,2,3,30"},
+                                                  {"keep-box", "-1,-1,-1,1,2,3,30"},
                                                   {"drop-box", "0.25,0,0,1,2,3"},
                                                   {"cut", "0,0,1,0,0,-1"},
                                                   {"resolution", "33x17"},
@@ -70,7 +70,7 @@ const std::map<std::string, std::string> RESOLVED = {
 std::string other_text(const Field& field) {
   if (const auto found = TEXTS.find(field.name); found != TEXTS.end()) return found->second;
   const std::vector<FieldText> now = field.write(Request{});
-  if (field.kind == FieldKind::flag) return now.front().text == "on" ? "off" : "on";
+  if (field.kind == FieldKind::flag) return !now.empty() && now.front().text == "on" ? "off" : "on";
   if (field.kind == FieldKind::whole) return std::to_string(static_cast<int>(field.least) + 3);
   if (field.kind == FieldKind::number) return field.most >= 0.5 ? "0.5" : "0";
   return field.value.substr(field.value.rfind('|') + 1);  // the last of a choice
@@ -79,7 +79,7 @@ std::string other_text(const Field& field) {
 Document loaded(const Scene& scene) {
   Request request;
   request.source.inputs = {"discs.ply"};
-  return first_document(scene, request);
+  return first_document(scene, facts_of(scene), request);
 }
 
 TEST(ViewFields, WhatIsAskedForIsWhatIsShownAndSaved) {
@@ -95,7 +95,7 @@ TEST(ViewFields, WhatIsAskedForIsWhatIsShownAndSaved) {
     if (field.name == "inputs") values.erase(values.begin());
     assign(asked, values, DOOR_VIEW);
     const Request made = is_of_files(field) ? save_job(loaded(scene), asked).request
-                                            : request_of(first_document(scene, asked), 320, 200);
+                                            : request_of(first_document(scene, facts_of(scene), asked), 320, 200);
     EXPECT_EQ(texts_of(field, made), std::vector{text}) << field.name;
   }
 }

@@ -18,7 +18,7 @@ inline SharedScene shared_discs(std::uint32_t count = 2) {
 inline Document disc_document(const Scene& scene) {
   Document document;
   document.loaded = std::make_shared<const LoadedPart>(
-      LoadedPart{{}, LOOK_LIT, scene.object_names, {scene.materials, surfaces_of(scene)}});
+      LoadedPart{{}, {}, LOOK_LIT, scene.object_names, {scene.materials, surfaces_of(scene)}});
   document.looks = document.loaded->looks;
   document.lights = scene.lights;
   document.environment = "white";

@@ -278,7 +278,7 @@ TEST(PanelsTest, TheSaveDialogAsksForThePicture) {
   ASSERT_TRUE(requests.save.has_value());
   EXPECT_EQ(requests.save->output.path, "picture.exr");
   EXPECT_EQ(requests.save->view.width, 3840U);
-  EXPECT_TRUE(requests.save->output.denoise);
+  EXPECT_TRUE(requests.save->output.denoise.value_or(false));
   EXPECT_FALSE(gui.state.show_save);
 }
 

@@ -163,7 +163,7 @@ TEST(DocumentRequest, ComeBackThroughTheCommandLine) {
   document.settings.environment_turn = 0.4F;
   document.up = {0.0, 0.6, 0.8};
   const Request request = parse_command_line(command_line(request_of(document, 320, 200)));
-  const Document again = first_document(scene, request);
+  const Document again = first_document(scene, facts_of(scene), request);
   EXPECT_TRUE(again.camera == document.camera);
   EXPECT_TRUE(again.lights == document.lights);
   EXPECT_TRUE(same_looks(again.looks, document.looks));
@@ -183,7 +183,7 @@ Request copied_from(const Document& document) {
 Document loaded_document(const Scene& scene) {
   Request request;
   request.source.inputs = {"discs.ply"};
-  return first_document(scene, request);
+  return first_document(scene, facts_of(scene), request);
 }
 
 TEST(DocumentRequest, ACommandOfTheSceneShownChangesTheLookAlone) {

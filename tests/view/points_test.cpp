@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_source.h"
 #include "app/view/model/document_request.h"
 #include "app/view/thread/eye_dome.h"
 #include "app/view/thread/point_picture.h"
@@ -179,7 +179,7 @@ TEST(PointSampler, ShowsARoomAsItsSceneIsShown) {
   input.objects[0].material = default_material();
   input.up = glm::dvec3(0.0, 0.0, 1.0);
   const LoadedScene loaded = load_objects(std::move(input), asked(), {});
-  const Document document = first_document(loaded.scene, asked());
+  const Document document = first_document(loaded.scene, loaded.facts, asked());
   EXPECT_EQ(opened.document.up, document.up);
   EXPECT_EQ(opened.document.settings.cutaway, document.settings.cutaway);
   EXPECT_LT(glm::length(opened.document.camera.eye - document.camera.eye), 0.1);

@@ -3,7 +3,7 @@
 
 #include <thread>
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/environment.h"
 #include "engine/base/error.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/view/live_documents.h"
@@ -40,7 +40,7 @@ class ProgressiveTest : public DeviceTest {
     shown.lights = document.lights;
     shown.up = document.up;
     tracer.upload(shown);
-    tracer.set_environment(choose_environment(document.environment));
+    tracer.set_environment(load_environment(document.environment));
     return tracer.render({document.camera, SIZE.x, SIZE.y}, document.settings);
   }
 

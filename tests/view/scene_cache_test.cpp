@@ -6,7 +6,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_source.h"
 #include "app/library/request/command_line.h"
 #include "app/view/model/document_request.h"
 #include "engine/base/error.h"
@@ -51,8 +51,8 @@ TEST_F(SceneCacheTest, GivesBackTheSceneThatWasKept) {
   EXPECT_EQ(found->node_pool, loaded.scene.node_pool);
   EXPECT_EQ(found->build.leaf_size, loaded.scene.build.leaf_size);
   EXPECT_TRUE(found->build.keep_strays) << "which scene files do not hold";
-  EXPECT_EQ(command_line(request_of(first_document(*found, request), 64, 48)),
-            command_line(request_of(first_document(loaded.scene, request), 64, 48)))
+  EXPECT_EQ(command_line(request_of(first_document(*found, facts_of(*found), request), 64, 48)),
+            command_line(request_of(first_document(loaded.scene, loaded.facts, request), 64, 48)))
       << "it is shown alike";
 }
 

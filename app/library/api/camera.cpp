@@ -19,14 +19,15 @@ void check(const Framing& framing) {
     refuse("an elevation of " + std::to_string(*framing.elevation_deg) + " degrees", "-90 to 90");
 }
 
-splatray::Camera framed(const splatray::Scene& scene, const Framing& framing) {
+splatray::Camera framed(const LoadedScene& loaded, const Framing& framing) {
+  const splatray::Scene& scene = loaded.scene;
   if (framing.azimuth_deg || framing.elevation_deg)
     return angled_camera(scene, framing.aspect, framing.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG),
                          framing.azimuth_deg.value_or(DEFAULT_AZIMUTH_DEG),
                          framing.elevation_deg.value_or(DEFAULT_ELEVATION_DEG));
   if (!scene.camera || !scene.stations.empty()) {
     // Pictures of the library leave nothing out, so that a doll's house would be a closed box.
-    const Viewpoint chosen = choose_viewpoint(scene);
+    const Viewpoint chosen = loaded.facts.viewpoint;
     return viewpoint_camera(scene, chosen == Viewpoint::dollhouse ? Viewpoint::front : chosen, framing.aspect,
                             framing.fov_y_deg);
   }
@@ -87,7 +88,7 @@ Camera camera_from_pose(const std::array<std::array<double, 4>, 4>& pose, const 
 Camera frame(const Scene& scene, const Framing& framing) {
   return guarded([&] {
     check(framing);
-    const splatray::Camera camera = framed(SceneAccess::impl(scene)->loaded.scene, framing);
+    const splatray::Camera camera = framed(SceneAccess::impl(scene)->loaded, framing);
     return Camera{array(camera.eye),  array(camera.target), array(camera.up),
                   camera.fov_y_deg,   camera.ortho_height,  {camera.lens_shift.x, camera.lens_shift.y},
                   camera.pixel_aspect};

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/library/api/guard.h"
-#include "app/library/picture/scene_on_device.h"
+#include "app/library/shot/scene_on_device.h"
 #include "engine/device/device.h"
 
 namespace splatray::api {

@@ -36,6 +36,7 @@ Scene open(std::span<const std::filesystem::path> files, const Request& asked, c
     const LoadListener listener{std::ref(relay),
                                 [&](const std::string& note) { impl->notes.push_back(note); }};
     impl->loaded = load_scene(request, listener);
+    impl->asked = std::move(request);
     return SceneAccess::make(std::move(impl));
   });
 }
@@ -52,6 +53,7 @@ Scene make_scene(std::span<const Object> objects, const Request& asked, const Pr
     const LoadListener listener{std::ref(relay),
                                 [&](const std::string& note) { impl->notes.push_back(one_line(note)); }};
     impl->loaded = load_objects(std::move(input), request, listener);
+    impl->asked = std::move(request);
     if (const std::uint64_t dropped = impl->loaded.build->dropped_non_finite; dropped > 0)
       impl->notes.push_back(std::to_string(dropped) + " points that are not finite were left out");
     for (const Object& object : objects) impl->has_points.push_back(std::holds_alternative<Points>(object));

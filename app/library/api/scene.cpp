@@ -28,7 +28,7 @@ Scene::Impl::~Impl() {
 std::shared_ptr<Place> Scene::Impl::open_device() {
   std::shared_ptr<Place> place = place_.load();
   if (place && !place->device->is_of_parent()) return place;
-  auto opened = std::make_shared<Place>(Place{shared_device(loaded.request.settings.device)});
+  auto opened = std::make_shared<Place>(Place{shared_device(asked.settings.device)});
   if (place) keep_for_good(place);
   return place_.compare_exchange_strong(place, opened) ? opened : place;
 }
@@ -39,8 +39,8 @@ Scene::Impl::InUse::InUse(const Impl& scene, Place& place) : place_(place) {
            "other scenes there, or this one afterwards");
   if (!place.scene) {
     auto shown = std::make_unique<SceneOnDevice>(
-        *place.device->device, TracerOptions{.pipeline_folder = scene.loaded.request.settings.cache,
-                                             .threads = scene.loaded.request.source.threads});
+        *place.device->device,
+        TracerOptions{.pipeline_folder = scene.asked.settings.cache, .threads = scene.asked.source.threads});
     shown->open(scene.loaded.scene);
     place.scene = std::move(shown);
   }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/library/api/device.h"
-#include "app/library/picture/scene_on_device.h"
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_on_device.h"
+#include "app/library/shot/scene_source.h"
 #include "app/library/request/object_change.h"
 #include "app/library/splatray.h"
 
@@ -28,6 +28,7 @@ struct Place {
 
 struct Scene::Impl {
   LoadedScene loaded;
+  splatray::Request asked{};  ///< by whom opened it
   std::vector<std::string> notes;
   /// By object, whether it was made of Points, which COLUMN_POINT numbers; empty: none was.
   std::vector<bool> has_points{};

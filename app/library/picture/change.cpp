@@ -6,7 +6,7 @@
 #include <span>
 
 #include "app/library/picture/aimed_ray.h"
-#include "app/library/picture/scene_on_device.h"
+#include "app/library/shot/scene_on_device.h"
 #include "engine/base/error.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/select.h"

@@ -1,10 +1,10 @@
-/// The one way from a request and a scene on a device to a picture.
+/// The one way from a shot and a scene on a device to a picture.
 #pragma once
 #include <string>
 #include <vector>
 
-#include "app/library/picture/scene_on_device.h"
-#include "app/library/request/request.h"
+#include "app/library/shot/scene_on_device.h"
+#include "app/library/shot/shot.h"
 
 namespace splatray {
 
@@ -21,15 +21,10 @@ struct MadePicture {
   std::string devices;  ///< that made its samples, as picture_metadata names them
 };
 
-/// The picture in the lights that the request asks for, or where it asks for none and none enters in that of the camera
-/// (eye_light.h): by samples or until it is good enough, from those of --resume on, and without noise, as it says. Throws Error:
-/// usage, input_unreadable, failed, interrupted when `progress` says so and it is not kept; a picture that is traced until it is
-/// good enough never is.
-[[nodiscard]] MadePicture make_picture(const Request& request, SceneOnDevice& shown, const Camera& camera,
+/// The shot's picture from a camera, in its lights (picture_lights.h): by samples or until it is good enough, from those of --resume
+/// on, and without noise, as it says. Throws Error: usage, input_unreadable, failed, interrupted when `progress` says so and it is not
+/// kept; a picture that is traced until it is good enough never is.
+[[nodiscard]] MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& camera,
                                        const Tracer::Progress& progress, Stopped stopped = Stopped::dropped);
-
-/// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide
-/// and high. Parts of a picture, and all pictures of a run, have one exposure by it.
-[[nodiscard]] double preview_exposure_ev(const Request& request, SceneOnDevice& shown, const Camera& camera);
 
 }  // namespace splatray

@@ -1,7 +1,7 @@
 /// Measures at places as they are given.
 #pragma once
 #include "app/library/measure/measure_text.h"
-#include "app/library/picture/scene_on_device.h"
+#include "app/library/shot/scene_on_device.h"
 #include "engine/image/region.h"
 
 namespace splatray {

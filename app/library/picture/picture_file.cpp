@@ -4,11 +4,12 @@
 
 #include "app/library/codec/picture_format.h"
 #include "app/library/commit.h"
-#include "app/library/compare.h"
 #include "app/library/measure/measure_file.h"
+#include "app/library/picture/compare.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/command_line.h"
 #include "app/library/sheet/sheet_files.h"
+#include "app/library/shot/resolve.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/number_text.h"
@@ -20,47 +21,45 @@ namespace splatray {
 namespace {
 
 Display display_of(const Request& request) {
-  return {request.look.exposure_ev.value_or(0.0), choose_tone(request), request.settings.transparent};
+  return {request.look.exposure_ev.value_or(0.0), resolve_tone(request), request.settings.transparent};
 }
 
 std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-std::vector<unsigned char> encode_picture(const Request& request, const Image& image,
-                                          const Metadata& metadata, const std::filesystem::path& path) {
-  if (is_display_format(path)) return encode_display(shown_image(request, image), metadata, path);
-  if (lower_extension(path) != ".exr")
-    return encode_sheet(request, shown_image(request, image), metadata, path);
-  ExrPicture picture = exr_picture(image, request.output.aovs, metadata);
-  if (const PixelWindow window = request.view.window(); window.width > 0) {
-    picture.width = request.view.width;
-    picture.height = request.view.height;
-    picture.window = window;
+std::vector<unsigned char> encode_picture(const Shot& shot, const Image& image, const Metadata& metadata,
+                                          const std::filesystem::path& path) {
+  if (is_display_format(path)) return encode_display(shown_image(shot, image), metadata, path);
+  if (lower_extension(path) != ".exr") return encode_sheet(shot, shown_image(shot, image), metadata, path);
+  ExrPicture picture = exr_picture(image, shot.request.output.aovs, metadata);
+  if (shot.view.window.width > 0) {
+    picture.width = shot.view.width;
+    picture.height = shot.view.height;
+    picture.window = shot.view.window;
   }
   return encode_exr(picture);
 }
 
 }  // namespace
 
-std::uint64_t made_image_bytes(const Request& request) {
-  const PixelWindow made = request.view.made();
-  const bool denoise = request.output.denoise;
-  Settings settings = request.settings;
-  settings.aov = settings.aov || denoise;
-  settings.estimate_error =
-      settings.estimate_error || denoise || request.output.despeckle || request.settings.has_goal();
+std::uint64_t made_image_bytes(const Shot& shot) {
+  const PixelWindow made = shot.view.made();
+  Settings settings = shot.settings;
+  settings.aov = settings.aov || shot.denoises();
+  settings.estimate_error = settings.estimate_error || shot.denoises() || shot.request.output.despeckle ||
+                            shot.request.settings.has_goal();
   return std::uint64_t{made.width} * made.height * image_bytes(settings);
 }
 
-void require_picture_memory(const Request& request) {
-  const PixelWindow made = request.view.made();
-  const Request::Output& output = request.output;
+void require_picture_memory(const Shot& shot) {
+  const PixelWindow made = shot.view.made();
+  const Request::Output& output = shot.request.output;
   const std::size_t channels = 4 + count_channels(output.aovs);
   const std::uint64_t writing =
       is_display_format(output.path) ? DISPLAY_WRITING_BYTES : exr_writing_bytes(channels);
-  const std::uint64_t ranges = output.many() ? 0 : range_bytes(request.settings.samples);
-  require_memory(made_image_bytes(request) + std::uint64_t{made.width} * made.height * (writing + ranges),
+  const std::uint64_t ranges = shot.is_sequence() ? 0 : range_bytes(shot.settings.samples);
+  require_memory(made_image_bytes(shot) + std::uint64_t{made.width} * made.height * (writing + ranges),
                  "a picture of " + size_text(made.width, made.height) + " pixels and its file");
 }
 
@@ -93,34 +92,36 @@ std::string joined_devices(const std::string& devices, const std::string& more) 
   return named ? devices : devices + between + more;
 }
 
-Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
+Metadata picture_metadata(const Shot& shot, const Scene& scene, const Camera& camera,
                           const std::string& devices) {
-  const Camera& camera = view.camera;
   const bool ortho = camera.ortho_height > 0.0;
-  return {{"command_line", command_line(still_request(request, camera))},
-          {"eye", number_text(camera.eye)},
-          {"target", number_text(camera.target)},
-          {"up", number_text(camera.up)},
-          {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
-          {"diagonal_world", number_text(scene.diagonal_world())},
-          {"device", devices},
-          {"samples", std::to_string(request.settings.samples)},
-          {"seed", std::to_string(request.settings.seed)},
-          {"commit", COMMIT}};
+  Metadata metadata{
+      {"command_line", command_line(still_request(shot, camera))},
+      {"eye", number_text(camera.eye)},
+      {"target", number_text(camera.target)},
+      {"up", number_text(camera.up)},
+      {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
+      {"diagonal_world", number_text(scene.diagonal_world())},
+      {"device", devices},
+      {"samples", std::to_string(shot.settings.samples)},
+      {"seed", std::to_string(shot.settings.seed)},
+      {"commit", COMMIT}};
+  if (!shot.choices.empty()) metadata.emplace_back("choices", choices_text(shot));
+  return metadata;
 }
 
-DisplayImage shown_image(const Request& request, const Image& image) {
-  DisplayImage shown = display_image(image, display_of(request));
-  if (request.view.sheet) shown.dots_per_inch = request.view.sheet->dpi;
+DisplayImage shown_image(const Shot& shot, const Image& image) {
+  DisplayImage shown = display_image(image, display_of(shot.request));
+  if (shot.sheet() != nullptr) shown.dots_per_inch = shot.sheet()->asked.dpi;
   return shown;
 }
 
-void write_output(const Request& request, const Image& image, const Metadata& metadata,
+void write_output(const Shot& shot, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path) {
   FileSet files;
-  const std::vector<unsigned char> bytes = encode_picture(request, image, metadata, path);
+  const std::vector<unsigned char> bytes = encode_picture(shot, image, metadata, path);
   files.add(path, bytes.data(), bytes.size());
-  if (request.view.made_sheet) add_sheet_places(request, image, path, files);
+  if (shot.sheet() != nullptr) add_sheet_places(shot, image, path, files);
   files.commit();
 }
 
@@ -128,10 +129,11 @@ std::filesystem::path difference_file(std::filesystem::path picture) {
   return picture.replace_extension(".diff.png");
 }
 
-void require_match(const Request& request, const Image& image, const DisplayImage& reference) {
+void require_match(const Shot& shot, const Image& image, const DisplayImage& reference) {
+  const Request& request = shot.request;
   const Tolerance tolerance{request.output.reference_threshold, request.output.reference_share,
                             request.output.reference_limit};
-  DisplayImage picture = shown_image(request, image);
+  DisplayImage picture = shown_image(shot, image);
   if (is_display_format(request.output.path)) quantise(picture);
   const Comparison comparison = compare(picture, reference, tolerance);
   const std::string numbers = describe(comparison, tolerance);

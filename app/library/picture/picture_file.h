@@ -3,17 +3,17 @@
 #include <optional>
 
 #include "app/library/image_file.h"
-#include "app/library/request/request.h"
+#include "app/library/shot/shot.h"
 #include "engine/base/stopwatch.h"
 #include "engine/device/device.h"
 
 namespace splatray {
 
 /// Bytes of the image that is made, with the channels that denoising and goals need.
-[[nodiscard]] std::uint64_t made_image_bytes(const Request& request);
+[[nodiscard]] std::uint64_t made_image_bytes(const Shot& shot);
 
 /// Throws Error (out_of_memory) where there is less memory than a picture takes until it is written.
-void require_picture_memory(const Request& request);
+void require_picture_memory(const Shot& shot);
 
 /// Throws Error (failed) when the pictures or the statistics have no place to go, and as read_measures does for --measures.
 void require_outputs_writable(const Request& request);
@@ -29,22 +29,22 @@ void require_outputs_writable(const Request& request);
 [[nodiscard]] std::string joined_devices(const std::string& devices, const std::string& more);
 
 /// The command line that makes this picture (still_request), camera, scene's diagonal, `devices` that made its samples,
-/// their number, seed and commit, for the picture's file.
-[[nodiscard]] Metadata picture_metadata(const Request& request, const Scene& scene, const View& view,
+/// their number, seed, commit and what was chosen, for the picture's file.
+[[nodiscard]] Metadata picture_metadata(const Shot& shot, const Scene& scene, const Camera& camera,
                                         const std::string& devices);
 
 /// The picture as files of 8 bits show it.
-[[nodiscard]] DisplayImage shown_image(const Request& request, const Image& image);
+[[nodiscard]] DisplayImage shown_image(const Shot& shot, const Image& image);
 
 /// Writes the picture in the format of its name, of a sheet with what says where it lies (add_sheet_places): all of these files or
 /// none. Throws Error (failed).
-void write_output(const Request& request, const Image& image, const Metadata& metadata,
+void write_output(const Shot& shot, const Image& image, const Metadata& metadata,
                   const std::filesystem::path& path);
 
 /// Where a picture and its reference are compared: NAME.diff.png.
 [[nodiscard]] std::filesystem::path difference_file(std::filesystem::path picture);
 
 /// Compares the picture, as its file shows it, with the reference. When they differ, writes its difference_file and throws Error (failed); else prints the numbers on stderr unless quiet.
-void require_match(const Request& request, const Image& image, const DisplayImage& reference);
+void require_match(const Shot& shot, const Image& image, const DisplayImage& reference);
 
 }  // namespace splatray

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/library/image_file.h"
-#include "app/library/picture/scene_source.h"
 #include "app/library/request/command_line.h"
+#include "app/library/shot/environment.h"
 #include "engine/base/error.h"
 
 namespace splatray {
@@ -19,7 +19,6 @@ Request looks_only(const Request& request) {
   Request::Output& output = looks.output;
   output.denoise = from.denoise;
   output.despeckle = from.despeckle;
-  output.keep_noise = from.keep_noise;
   output.aovs = from.aovs;
   return looks;
 }
@@ -39,12 +38,9 @@ fs::path find_beside(const fs::path& path, const fs::path& picture) {
 
 }  // namespace
 
-Request still_request(const Request& request, const Camera& camera) {
-  Request still = looks_only(request);
-  if (request.view.made_sheet)
-    forget_sheet(still.view);
-  else
-    set_camera(still.view, camera);
+Request still_request(const Shot& shot, const Camera& camera) {
+  Request still = looks_only(shot.request);
+  if (shot.sheet() == nullptr) set_camera(still.view, camera);
   return still;
 }
 
@@ -76,6 +72,8 @@ Request read_picture_request(const fs::path& picture) {
   } catch (const Error& error) {
     refuse(error.what());
   }
+  // It says whether its noise was taken out; without a word it was not.
+  if (!request.output.despeckle) request.output.denoise = request.output.denoise.value_or(false);
   for (fs::path& input : request.source.inputs) input = find_beside(input, picture);
   for (fs::path& folder : request.source.data_paths) folder = find_beside(folder, picture);
   std::string& environment = request.look.environment;

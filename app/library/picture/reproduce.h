@@ -2,14 +2,14 @@
 #pragma once
 #include <filesystem>
 
-#include "app/library/request/request.h"
+#include "app/library/shot/shot.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
 
-/// The request of one picture, seen by `camera`: those of scene, picture, exposure and AOVs, without any file
+/// The request of one picture of a shot, seen by `camera`: those of scene, picture, exposure and AOVs, without any file
 /// written or compared with.
-[[nodiscard]] Request still_request(const Request& request, const Camera& camera);
+[[nodiscard]] Request still_request(const Shot& shot, const Camera& camera);
 
 /// The request, its input files spelt in one way.
 [[nodiscard]] Request plain_request(Request request);

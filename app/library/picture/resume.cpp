@@ -37,7 +37,7 @@ std::string option_text(const Field& field, const Request& request, const Reques
 
 /// Refuses a picture of another command, by the first option that differs.
 void require_same_light(const std::filesystem::path& file, const Request& kept, const Request& asked) {
-  if (kept.output.denoise || kept.output.despeckle)
+  if (kept.output.denoise.value_or(false) || kept.output.despeckle)
     refuse(file, "a picture without its noise", "one without --denoise and --despeckle");
   for (const Field& field : fields()) {
     const bool decides =
@@ -62,13 +62,14 @@ void require_same_scene(const std::filesystem::path& file, const Metadata& metad
 
 }  // namespace
 
-std::optional<StartedPicture> read_started(const Request& request, const Scene& scene, const Camera& camera,
+std::optional<StartedPicture> read_started(const Shot& shot, const Scene& scene, const Camera& camera,
                                            const Device& device) {
+  const Request& request = shot.request;
   const std::filesystem::path& file = request.output.resume;
   if (file.empty()) return {};
   const ExrPicture header = read_exr_header(file);
   const Request kept = plain_request(read_picture_request(file));
-  require_same_light(file, kept, plain_request(still_request(request, camera)));
+  require_same_light(file, kept, plain_request(still_request(shot, camera)));
   require_same_scene(file, header.metadata, scene);
   const std::string devices = kept_value(header.metadata, "device");
   if (devices != device_text(device) && !request.output.mixed_devices)
@@ -77,8 +78,8 @@ std::optional<StartedPicture> read_started(const Request& request, const Scene& 
   if (kept.settings.samples >= request.settings.samples)
     refuse(file, std::to_string(kept.settings.samples) + " samples a pixel",
            "fewer than the " + std::to_string(request.settings.samples) + " of --samples");
-  const PixelWindow made = request.view.made();
-  if (header.width != request.view.width || header.height != request.view.height || header.window != made)
+  if (header.width != shot.view.width || header.height != shot.view.height ||
+      header.window != shot.view.made())
     refuse(file, "other pixels than those of its command", "a file as splatray-render writes it");
   return StartedPicture{image_of(read_exr(file)).rgba, kept.settings.samples, devices};
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/library/request/request.h"
+#include "app/library/shot/shot.h"
 #include "engine/gpu/tracer.h"
 
 namespace splatray {
@@ -20,7 +20,7 @@ struct StartedPicture {
 /// expected for what splatray-render did not write, or with other options that decide a sample's light, another camera, or a
 /// scene of another size, and where it has all samples that are asked for; of another device or driver than this one, whose
 /// samples may differ, unless that is allowed.
-[[nodiscard]] std::optional<StartedPicture> read_started(const Request& request, const Scene& scene,
+[[nodiscard]] std::optional<StartedPicture> read_started(const Shot& shot, const Scene& scene,
                                                          const Camera& camera, const Device& device);
 
 /// Adds them to an image of the samples behind them, and to its statistics; `estimate_error`: also its error.

@@ -1,6 +1,6 @@
 /// How many splats lie one behind the other on a sheet.
 #pragma once
-#include "app/library/sheet/sheet.h"
+#include "app/library/shot/sheet.h"
 #include "engine/gpu/tracer.h"
 
 namespace splatray {

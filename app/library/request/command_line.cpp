@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "app/library/request/consistent.h"
 #include "app/library/request/fields.h"
 #include "engine/base/error.h"
 #include "engine/base/nearest_name.h"

@@ -18,6 +18,21 @@ Field seed_row() {
   return row;
 }
 
+/// One of two names for whether noise is taken out, of which the last one holds.
+Field noise_row(std::string name, bool denoises, std::string help) {
+  Field row = switch_row(std::move(name), QUALITY, MEMBER(output.despeckle), std::move(help));
+  row.family = "noise";
+  row.read = [denoises](Request& request, const std::string& text) {
+    if (text != "on" && text != "off") throw Expected{"on or off"};
+    request.output.denoise = denoises == (text == "on");
+  };
+  row.write = [name = row.name, denoises](const Request& request) {
+    const bool said = request.output.denoise == denoises;
+    return said ? std::vector<FieldText>{{name, "on"}} : std::vector<FieldText>{};
+  };
+  return row;
+}
+
 Field shadows_row() {
   return on_off_row("shadows", QUALITY, MEMBER(settings.shadows), "whether lights cast shadows; default on");
 }
@@ -41,17 +56,18 @@ std::vector<Field> quality_fields() {
           "time", QUALITY, MEMBER(settings.seconds_goal), 1e-3, 1e9,
           "the best picture in X seconds of tracing, instead of --samples; beside --error the end of it; "
           "default none"),
-      needed(switch_row("denoise", QUALITY, MEMBER(output.denoise),
-                        "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter "
-                        "of our own; "
-                        "PNGs of scans whose look is not asked for go through it anyway"),
+      needed(noise_row(
+                 "denoise", /*denoises=*/true,
+                 "take the noise out: by Open Image Denoise 2 where it is installed, else by a filter of our "
+                 "own; "
+                 "whole pictures but .exr go through it anyway, unless --keep-noise, --despeckle, --error, "
+                 "--time or --reference say otherwise or the look has none"),
              "take the noise out"),
       switch_row("despeckle", QUALITY, MEMBER(output.despeckle),
                  "take out only bright dots: pixels that one half of the samples finds more than 1.5 times "
                  "as bright "
                  "as the other half finds any around them; a little light is lost"),
-      switch_row("keep-noise", QUALITY, MEMBER(output.keep_noise),
-                 "do not take the noise out of scans' pictures either"),
+      noise_row("keep-noise", /*denoises=*/false, "do not take the noise out"),
       with(number_row("bounces", QUALITY, MEMBER(settings.max_bounces), 0, 64,
                       "most secondary rays in a path; default 8"),
            {.old_names = {"max-bounces"}}),

@@ -3,7 +3,6 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,12 +40,9 @@ struct RegionRequest {
   std::vector<HalfSpace> cuts;
   /// What is cut off sends no light back and shades nothing; unset = of sheets.
   std::optional<bool> light_kept;
-  std::vector<HalfSpace> of_sheet;  ///< what the sheet adds, once the scene is known; no field has it
 
   bool operator==(const RegionRequest&) const = default;
 };
-
-struct Sheet;
 
 struct Request {
   /// Input files and how they become a scene: one .soct, or files that preprocess reads.
@@ -62,14 +58,14 @@ struct Request {
 
   /// What the scene is shown as, and in what light.
   struct Look {
-    std::optional<std::uint32_t> style;               ///< LOOK_*; unset: as choose_look has it
+    std::optional<std::uint32_t> style;               ///< LOOK_*; unset: as resolve_look has it
     std::string material;                             ///< a name of materials.h; empty = as the input says
     std::vector<ObjectChange> objects;                ///< changes to materials, in this order
     std::optional<std::vector<LightRequest>> lights;  ///< unset = the scene's, or the default ones
     std::string environment;                          ///< as written; empty = the scene's, else the studio
     AttributeOptions attributes;                      ///< what is shown of the points' attributes
     std::optional<glm::dvec3> up;                     ///< world; of the scene, its environment and the camera
-    std::optional<Tone> tone;                         ///< unset: as choose_tone has it
+    std::optional<Tone> tone;                         ///< unset: as resolve_tone has it
     std::optional<double> exposure_ev;                ///< stops; unset = automatic for scans, else 0
     bool exposure_auto = false;                       ///< unset = automatic for all
 
@@ -86,9 +82,7 @@ struct Request {
     bool look_in = false;                        ///< Settings::cutaway, from wherever one looks
     RegionRequest region;
     std::optional<SheetRequest> sheet;
-    bool ink = false, xray = false;  ///< of a sheet
-    /// What the sheet comes to, once the scene is known; no field has it.
-    std::shared_ptr<const Sheet> made_sheet;
+    bool ink = false, xray = false;     ///< of a sheet
     double ortho_height = 0.0;          ///< world units; 0 = perspective
     glm::dvec2 lens_shift{0.0};         ///< Camera::lens_shift
     double pixel_aspect = 1.0;          ///< Camera::pixel_aspect
@@ -96,10 +90,6 @@ struct Request {
     PixelWindow crop{};                 ///< without pixels: all
     std::uint32_t tile = 0, tiles = 0;  ///< of `tiles` bands of rows this one, from 1 on; 0 = all
 
-    /// What of the picture is made: the crop's or the tile's window.
-    [[nodiscard]] PixelWindow window() const;
-    /// That, or all pixels.
-    [[nodiscard]] PixelWindow made() const { return splatray::View{{}, width, height, window()}.made(); }
     bool operator==(const View&) const = default;
   };
 
@@ -121,9 +111,8 @@ struct Request {
     std::filesystem::path path;    ///< empty = nowhere
     std::filesystem::path resume;  ///< an EXR of fewer samples that they are added to; empty = none
     bool mixed_devices = false;    ///< also of one that another device or driver made
-    bool denoise = false;
-    bool despeckle = false;   ///< sparks.h
-    bool keep_noise = false;  ///< also of scans, whose pictures are denoised where nothing else is asked for
+    std::optional<bool> denoise;   ///< false: --keep-noise; unset: as suits the picture
+    bool despeckle = false;        ///< sparks.h
     AovSet aovs = 0;
     std::string title;                    ///< of a sheet's page; empty = the input's name
     std::filesystem::path measures;       ///< drawn on a sheet's page, measure_file.h; empty = none
@@ -157,23 +146,25 @@ struct Request {
   bool operator==(const Request&) const = default;
 };
 
+/// What of a picture of this size is made: the crop's or the tile's window; without pixels: all.
+[[nodiscard]] PixelWindow window_of(const Request::View& view, std::uint32_t width, std::uint32_t height);
+/// That of the request's own size, or all its pixels.
+[[nodiscard]] PixelWindow made_pixels(const Request::View& view);
+
+/// Whether other materials than the scene's are asked for.
+[[nodiscard]] bool asks_for_materials(const Request::Look& look);
+
 /// Makes the request's camera exactly this one.
 void set_camera(Request::View& view, const Camera& camera);
 
-/// The region: --keep-box, --drop-box, --cut, and what a sheet adds. `up` of the scene as shown, about which boxes are turned.
+/// The region: --keep-box, --drop-box, --cut. `up` of the scene as shown, about which boxes are turned.
 [[nodiscard]] Region region_of(const RegionRequest& asked, const glm::dvec3& up);
-
-/// Without what came of the scene: as it was asked for, but for the size of the sheet's picture.
-void forget_sheet(Request::View& view);
 
 /// Whether it is a whole scene by its name, a .soct.
 [[nodiscard]] bool is_scene_file(const std::filesystem::path& path);
 
 /// Throws Error (usage), one sentence, where no input is named, or a .soct beside others.
 void require_inputs(const Request::Source& source);
-
-/// Throws Error (usage), one sentence, for what no single field can check of pictures; there may be no inputs and no output.
-void require_consistent(const Request& request);
 
 /// Throws Error (usage) where a .soct, which is a whole scene, is not the only input.
 void require_scene_alone(const std::vector<std::filesystem::path>& inputs);

@@ -50,8 +50,8 @@ Bytes encode_page(const Drawing& drawing, const std::string& format, const std::
 }
 
 /// Heights of a sheet from above, else distances behind the cut or the eye's plane.
-Bytes encode_heights(const Request& request, const Image& image) {
-  const Sheet& sheet = *request.view.made_sheet;
+Bytes encode_heights(const Shot& shot, const Image& image) {
+  const Sheet& sheet = *shot.sheet();
   const Camera camera = sheet.camera();
   const double eye = glm::dot(camera.eye, sheet.toward);
   const bool from_above = sheet.asked.kind == SheetKind::plan;
@@ -63,10 +63,10 @@ Bytes encode_heights(const Request& request, const Image& image) {
     raster.floats.push_back(std::isfinite(pixel.z) ? static_cast<float>(value)
                                                    : std::numeric_limits<float>::quiet_NaN());
   }
-  GeoTags tags = geo_tags(place_of(sheet, request.view.made()));
+  GeoTags tags = geo_tags(place_of(sheet, shot.view.made()));
   tags.no_data = "nan";
   tags.description = from_above ? "heights, world units" : "distances behind the sheet's plane, world units";
-  return encode_tiff(raster, tags, request.output.height_raster);
+  return encode_tiff(raster, tags, shot.request.output.height_raster);
 }
 
 /// Where the file's pixels lie in the world.
@@ -98,10 +98,11 @@ std::string world_file(const GeoPlace& place) {
 
 void require_sheet_writer() { static_cast<void>(codec()); }
 
-Bytes encode_sheet(const Request& request, const DisplayImage& picture, const Metadata& metadata,
+Bytes encode_sheet(const Shot& shot, const DisplayImage& picture, const Metadata& metadata,
                    const std::filesystem::path& path) {
-  const Sheet& sheet = *request.view.made_sheet;
-  const PixelWindow window = request.view.made();
+  const Request& request = shot.request;
+  const Sheet& sheet = *shot.sheet();
+  const PixelWindow window = shot.view.made();
   const std::string extension = lower_extension(path);
   if (extension == ".tif") {
     GeoTags tags = geo_tags(place_of(sheet, window));
@@ -134,15 +135,16 @@ SheetPlaces sheet_places(const std::filesystem::path& path) {
   return places;
 }
 
-void add_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path,
+void add_sheet_places(const Shot& shot, const Image& image, const std::filesystem::path& path,
                       FileSet& files) {
-  const Sheet& sheet = *request.view.made_sheet;
-  const PixelWindow window = request.view.made();
+  const Request& request = shot.request;
+  const Sheet& sheet = *shot.sheet();
+  const PixelWindow window = shot.view.made();
   const GeoPlace place = place_of(sheet, window);
   const SheetPlaces names = sheet_places(path);
   files.add(names.description, description_of(sheet, window));
   if (!request.output.height_raster.empty()) {
-    const Bytes heights = encode_heights(request, image);
+    const Bytes heights = encode_heights(shot, image);
     files.add(request.output.height_raster, heights.data(), heights.size());
   }
   if (!names.world_file.empty()) files.add(names.world_file, world_file(place));

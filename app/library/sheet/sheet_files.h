@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/library/image_file.h"
-#include "app/library/request/request.h"
+#include "app/library/shot/shot.h"
 #include "engine/file/atomic_file.h"
 #include "engine/image/image.h"
 
@@ -15,7 +15,7 @@ void require_sheet_writer();
 
 /// A sheet's file in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, and
 /// grid, bar and title around it as lines and letters. Throws Error (failed).
-[[nodiscard]] std::vector<unsigned char> encode_sheet(const Request& request, const DisplayImage& picture,
+[[nodiscard]] std::vector<unsigned char> encode_sheet(const Shot& shot, const DisplayImage& picture,
                                                       const Metadata& metadata,
                                                       const std::filesystem::path& path);
 
@@ -30,7 +30,7 @@ struct SheetPlaces {
 [[nodiscard]] SheetPlaces sheet_places(const std::filesystem::path& path);
 
 /// Adds those of a sheet's file, and --height-raster. Throws Error (failed).
-void add_sheet_places(const Request& request, const Image& image, const std::filesystem::path& path,
+void add_sheet_places(const Shot& shot, const Image& image, const std::filesystem::path& path,
                       FileSet& files);
 
 }  // namespace splatray

@@ -6,7 +6,7 @@
 #include "app/library/codec/drawing.h"
 #include "app/library/display_image.h"
 #include "app/library/measure/measure.h"
-#include "app/library/sheet/sheet.h"
+#include "app/library/shot/sheet.h"
 
 namespace splatray {
 

@@ -7,6 +7,7 @@
 
 #include "app/library/measure/measure.h"
 #include "app/library/request/request.h"
+#include "app/library/shot/scene_facts.h"
 #include "engine/image/view.h"
 #include "engine/scene/scene.h"
 
@@ -27,6 +28,7 @@ enum class ViewMode {
 /// What stays as it was loaded.
 struct LoadedPart {
   Request asked;                             ///< files, how points are made of them, and how they are shown
+  SceneFacts facts{};                        ///< of the scene in its own colours
   std::uint32_t look = LOOK_LIT;             ///< as first shown
   std::vector<std::string> object_names;     ///< one per object
   ObjectLooks looks{};                       ///< one per object, as the scene has them

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/lights.h"
+#include "app/library/shot/resolve.h"
 #include "engine/scene/surface.h"
 
 namespace splatray {
@@ -15,20 +16,21 @@ Request::Source plain(Request::Source source) {
   return source;
 }
 
-/// The document of the scene as a request of which nothing is left open shows it.
-Document shown_in(const Scene& scene, const Document& document, const Request& request) {
+/// The document of the scene as a shot shows it.
+Document shown_in(const Scene& scene, const Document& document, const Shot& shot) {
+  const Request& request = shot.request;
   Document shown = document;
   shown.looks = document.loaded->looks;
   apply_object_changes(request.look.objects, scene.object_names, shown.looks);
-  shown.camera = choose_camera(scene, request);
-  shown.lights = choose_lights(scene, request, shown.camera);
-  shown.environment = choose_environment_name(scene, request);
-  shown.settings = choose_settings(scene, request);
+  shown.camera = shot.view.camera;
+  shown.lights = resolve_lights(scene, request, shot.view.camera);
+  shown.environment = shot.environment;
+  shown.settings = shot.settings;
   shown.region = request.view.region;
-  shown.tone = choose_tone(request);
+  shown.tone = resolve_tone(request);
   static_cast<void>(color_by(scene, request.look.attributes));  // throws where the scene does not have it
   shown.attributes = request.look.attributes;
-  shown.up = choose_up(scene, request);
+  shown.up = request.look.up.value_or(scene.up);
   shown.bounds_min_world = scene.bounds_min_world;
   shown.bounds_max_world = scene.bounds_max_world;
   return shown;
@@ -63,14 +65,15 @@ Request request_of(const Document& document, std::uint32_t width, std::uint32_t 
   return request;
 }
 
-Document first_document(const Scene& scene, const Request& asked) {
-  return first_document(scene, asked, suited_picture(scene, asked).request);
+Document first_document(const Scene& scene, const SceneFacts& facts, const Request& asked) {
+  return first_document(scene, facts, asked, resolve(asked, scene, facts));
 }
 
-Document first_document(const Scene& scene, const Request& asked, const Request& suited) {
+Document first_document(const Scene& scene, const SceneFacts& facts, const Request& asked, const Shot& shot) {
   Document document;
   document.loaded = std::make_shared<const LoadedPart>(LoadedPart{asked,
-                                                                  choose_look(scene, suited),
+                                                                  facts,
+                                                                  shot.settings.look,
                                                                   scene.object_names,
                                                                   {scene.materials, surfaces_of(scene)},
                                                                   color_sources(scene),
@@ -78,7 +81,7 @@ Document first_document(const Scene& scene, const Request& asked, const Request&
                                                                   categories_of(scene, COLUMN_SCAN),
                                                                   scene.crs,
                                                                   !scene.stations.empty()});
-  return shown_in(scene, document, suited);
+  return shown_in(scene, document, shot);
 }
 
 bool is_of_scene(const Document& document, const Request& request) {
@@ -90,7 +93,7 @@ bool is_of_scene(const Document& document, const Request& request) {
 }
 
 Document shown_as(const Scene& scene, const Document& document, const Request& asked) {
-  return shown_in(scene, document, suited_picture(scene, asked).request);
+  return shown_in(scene, document, resolve(asked, scene, document.loaded->facts));
 }
 
 Request kept_request(const Document& document) {
@@ -101,7 +104,7 @@ Request kept_request(const Document& document) {
   kept.settings.region = {};
   if (loaded.asked.look.style || document.settings.look != loaded.look)
     kept.look.style = document.settings.look;
-  if (loaded.asked.look.tone || document.tone != choose_tone(loaded.asked)) kept.look.tone = document.tone;
+  if (loaded.asked.look.tone || document.tone != resolve_tone(loaded.asked)) kept.look.tone = document.tone;
   return kept;
 }
 

@@ -1,6 +1,6 @@
 /// What is shown, as the request that makes the same picture.
 #pragma once
-#include "app/library/request/request.h"
+#include "app/library/shot/shot.h"
 #include "app/view/model/document.h"
 #include "app/view/model/scene_files.h"
 
@@ -9,11 +9,12 @@ namespace splatray {
 /// The request of this picture, `width` x `height` pixels, in ViewMode::shaded; without an output.
 [[nodiscard]] Request request_of(const Document& document, std::uint32_t width, std::uint32_t height);
 
-/// The document of a scene that load_scene read without the objects and attributes of the look, with the camera, lights, materials
-/// and settings that the request asks for. Throws Error (usage) for objects that the scene does not have.
-[[nodiscard]] Document first_document(const Scene& scene, const Request& asked);
-/// The same where `suited` is the request of suited_picture, which takes a while.
-[[nodiscard]] Document first_document(const Scene& scene, const Request& asked, const Request& suited);
+/// The document of a scene that load_scene read without the objects and attributes of the look: the shot of the request, whose camera,
+/// lights, materials and settings it has. `facts`: of the scene. Throws Error (usage) for objects that the scene does not have.
+[[nodiscard]] Document first_document(const Scene& scene, const SceneFacts& facts, const Request& asked);
+/// The same of that shot.
+[[nodiscard]] Document first_document(const Scene& scene, const SceneFacts& facts, const Request& asked,
+                                      const Shot& shot);
 
 /// Whether the document's scene is the one of this request, so that it changes the look alone.
 [[nodiscard]] bool is_of_scene(const Document& document, const Request& request);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/library/attributes.h"
-#include "app/library/picture/scene_on_device.h"
+#include "app/library/shot/scene_on_device.h"
 #include "app/view/model/false_color.h"
 #include "engine/image/image.h"
 #include "engine/image/view.h"

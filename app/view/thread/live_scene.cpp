@@ -1,5 +1,7 @@
 #include "app/view/thread/live_scene.h"
 
+#include "app/library/shot/lights.h"
+
 namespace splatray {
 namespace {
 
@@ -28,7 +30,7 @@ void LiveScene::open(SharedScene scene, const AttributeOptions& attributes) {
 void LiveScene::match(const Document& document, ViewMode mode) {
   match_attributes(document.attributes);
   shown_.show_objects(mode == ViewMode::facing ? two_sided(document.looks) : document.looks);
-  shown_.show_lights(document.lights);
+  shown_.show_lights(lights_of_look(document.settings.look, document.lights));
   shown_.show_up(document.up);
   shown_.show_environment(document.environment);
 }

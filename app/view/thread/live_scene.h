@@ -3,7 +3,7 @@
 #pragma once
 #include <memory>
 
-#include "app/library/picture/scene_on_device.h"
+#include "app/library/shot/scene_on_device.h"
 #include "app/library/user_folders.h"
 #include "app/view/model/document.h"
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/resolve.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/scene_files.h"
@@ -131,9 +131,10 @@ void LoadThread::load_now(const Request& asked) {
   request.look.attributes.color_by = "rgb";
   bool worth_keeping = false;
   Scene scene = made_scene(request, listener, worth_keeping);
-  const SuitedPicture suited = suited_picture(scene, asked);
-  if (!suited.choices.empty()) listener.note(suited.choices);
-  OpenedScene opened{nullptr, first_document(scene, asked, suited.request)};
+  const SceneFacts facts = facts_of(scene);
+  const Shot shot = resolve(asked, scene, facts);
+  if (!shot.of.empty() && !shot.choices.empty()) listener.note(shot.of + ": " + choices_text(shot));
+  OpenedScene opened{nullptr, first_document(scene, facts, asked, shot)};
   opened.scene = std::make_shared<const Scene>(std::move(scene));
   const SharedScene kept = worth_keeping ? opened.scene : nullptr;
   if (is_cancelled()) return;

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_source.h"
 #include "app/library/request/request.h"
 #include "app/view/model/document.h"
 #include "app/view/thread/live_scene.h"

@@ -9,11 +9,10 @@
 #include <utility>
 
 #include "app/library/palette.h"
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/resolve.h"
 #include "app/view/model/document_request.h"
 #include "engine/base/rank.h"
 #include "engine/base/srgb.h"
-#include "engine/image/upright.h"
 #include "engine/scene/splat.h"
 #include "preprocess/base/usable_position.h"
 #include "preprocess/build.h"
@@ -236,7 +235,7 @@ Scene PointSampler::small_scene() const {
   params.smooth_world = 0.0;
   BuildStats stats;
   Scene scene = build_scene(std::move(input), params, asked_.source.threads, stats);
-  scene.up = asked_.look.up.value_or(upright(scene));
+  scene.up = resolve_up(scene, asked_);
   return scene;
 }
 
@@ -248,9 +247,9 @@ OpenedPoints PointSampler::make() const {
   OpenedPoints opened{nullptr, {}};
   // What the whole scene has and a few points may lack must not be refused.
   const std::string color_by = std::exchange(asked.look.attributes, {}).color_by;
-  opened.document = first_document(scene, asked);
-  const std::string shown =
-      color_by.empty() ? suited_picture(scene, asked).request.look.attributes.color_by : color_by;
+  const SceneFacts facts = facts_of(scene);
+  opened.document = first_document(scene, facts, asked);
+  const std::string shown = color_by.empty() ? resolve_attributes(asked, facts).color_by : color_by;
   PointCloud cloud;
   cloud.origin_world = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
   cloud.spacing_world = spacing_of(scene) *

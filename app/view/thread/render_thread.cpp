@@ -3,7 +3,8 @@
 #include <utility>
 
 #include "app/library/measure/surface_point.h"
-#include "app/library/picture/make_picture.h"
+#include "app/library/shot/picture_lights.h"
+#include "app/library/shot/resolve.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/inspect.h"
@@ -158,7 +159,8 @@ void RenderThread::show_points(bool others, glm::uvec2 window_px) {
 void RenderThread::expose() {
   const glm::uvec2 size = glm::max(progressive_.window_px(), glm::uvec2(1));
   live_.match(shown_, ViewMode::shaded);
-  const double ev = preview_exposure_ev(request_of(shown_, size.x, size.y), live_.shown(), shown_.camera);
+  const Shot shot = resolve(request_of(shown_, size.x, size.y), live_.scene(), shown_.loaded->facts);
+  const double ev = preview_exposure_ev(shot, live_.shown(), shot.view.camera);
   deliver([&](RenderNews& news) { news.exposure_ev = ev; });
 }
 

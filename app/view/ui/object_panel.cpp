@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/library/materials.h"
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/scene_source.h"
 #include "app/view/ui/panel_parts.h"
 #include "engine/scene/look_style.h"
 #include "engine/scene/surface.h"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/resolve.h"
 #include "app/view/ui/field_controls.h"
 #include "app/view/ui/panel_parts.h"
 
@@ -26,7 +26,7 @@ void choices(Document& document, std::initializer_list<const char*> names, std::
   if (!changed) return;
   document.settings = request.settings;
   document.settings.look = request.look.style.value_or(document.loaded->look);
-  document.tone = choose_tone(request);
+  document.tone = resolve_tone(request);
 }
 
 /// The text of --environment, taken over when it is complete.

@@ -87,39 +87,39 @@ std::vector<Camera> orbit_cameras(const Camera& still, const glm::dvec3& up, std
   return cameras;
 }
 
-SequenceRecord render_orbit(const Request& request, SceneOnDevice& shown, const Camera& still,
-                            const SequenceListener& listener) {
-  const Request::Output& output = request.output;
+SequenceRecord make_orbit(const Shot& shot, SceneOnDevice& shown, const SequenceListener& listener) {
+  const auto& orbit = std::get<Orbit>(shot.output);
+  const std::filesystem::path& path = shot.request.output.path;
   const Crs crs = describe_crs(shown.scene().crs);
   OrbitPage page;
-  page.title = title_of(request);
-  page.width = request.view.width;
-  page.height = request.view.height;
+  page.title = title_of(shot.request);
+  page.width = shot.view.width;
+  page.height = shot.view.height;
   page.depth_step = DEPTH_STEP;
   page.unit_metres = crs.horizontal_metres;
-  page.columns = output.orbit_columns;
+  page.columns = orbit.columns;
   SequenceRecord record;
   std::vector<std::vector<float>> depths;
-  const auto cameras =
-      orbit_cameras(still, choose_up(shown.scene(), request), output.orbit_columns, output.orbit_rows);
+  const auto cameras = orbit_cameras(shot.view.camera, shot.request.look.up.value_or(shown.scene().up),
+                                     orbit.columns, orbit.rows);
   for (const Camera& camera : cameras) {
     stop_if_interrupted();
     constexpr int QUALITY = 88;  // of JPEGs, of which a page has many
-    const SequenceFrame frame{static_cast<std::uint32_t>(depths.size()), output.path};
+    const SequenceFrame frame{static_cast<std::uint32_t>(depths.size()), path};
     MadePicture made = make_picture(
-        request, shown, camera,
+        shot, shown, camera,
         [&](double share) { return listener.progress(frame, depths.size(), share) && !interrupted(); },
         Stopped::dropped);
     if (depths.empty())
       for (const std::string& note : made.notes) listener.note("note: " + note);
-    page.pictures.push_back({camera, encode_jpeg(shown_image(request, made.image), {}, QUALITY), {}});
+    page.pictures.push_back({camera, encode_jpeg(shown_image(shot, made.image), {}, QUALITY), {}});
     depths.push_back(depths_of(made.image));
     record.made.push_back({frame, made.lights, made.stats, 0.0, made.denoise_ms});
     record.last = std::move(made.image);
   }
   set_range(depths, page);
   for (std::size_t i = 0; i < depths.size(); ++i) page.pictures[i].depth_png = depth_png(depths[i], page);
-  write_text_file(orbit_html(page), output.path);
+  write_text_file(orbit_html(page), path);
   return record;
 }
 

@@ -1,7 +1,7 @@
 /// An orbit of pictures in one page.
 #pragma once
 #include "app/library/picture/make_picture.h"
-#include "app/library/picture/series/render_sequence.h"
+#include "app/library/picture/series/make.h"
 
 namespace splatray {
 
@@ -11,8 +11,8 @@ inline constexpr double ORBIT_LOWEST_DEG = 10.0, ORBIT_HIGHEST_DEG = 65.0;
 [[nodiscard]] std::vector<Camera> orbit_cameras(const Camera& still, const glm::dvec3& up,
                                                 std::uint32_t columns, std::uint32_t rows);
 
-/// Makes the pictures of --orbit and writes the page (app/library/codec/orbit_page.h). Throws Error as render_sequence does.
-[[nodiscard]] SequenceRecord render_orbit(const Request& request, SceneOnDevice& shown, const Camera& still,
-                                          const SequenceListener& listener);
+/// Makes the pictures of --orbit and writes the page (app/library/codec/orbit_page.h). Throws Error as make() does.
+[[nodiscard]] SequenceRecord make_orbit(const Shot& shot, SceneOnDevice& shown,
+                                        const SequenceListener& listener);
 
 }  // namespace splatray

@@ -1,9 +1,9 @@
 #include "app/library/picture/series/run_files.h"
 
 #include "app/library/picture/picture_file.h"
-#include "app/library/picture/scene_source.h"
-#include "app/library/picture/series/render_sequence.h"
+#include "app/library/picture/series/make.h"
 #include "app/library/sheet/sheet_files.h"
+#include "app/library/shot/environment.h"
 #include "engine/base/error.h"
 #include "engine/file/file_roles.h"
 #include "preprocess/base/file_extension.h"
@@ -61,9 +61,9 @@ void require_inputs_present(const Request& request) {
   }
 }
 
-void claim_outputs(const Request& request, const Sequence& sequence) {
+void claim_outputs(const Request& request, const std::vector<SequenceFrame>& frames) {
   const Request::Output& output = request.output;
-  for (const SequenceFrame& frame : sequence.frames) claim_picture(request, frame.output);
+  for (const SequenceFrame& frame : frames) claim_picture(request, frame.output);
   const bool has_sums = lower_extension(output.path) == ".exr";
   if (!output.many() && output.orbit_columns == 0 && !has_sums)
     claim_picture(request, unfinished_file(output.path));

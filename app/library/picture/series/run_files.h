@@ -1,6 +1,6 @@
 /// The files of a run of a program, none of which is input and output (engine/file/file_roles.h).
 #pragma once
-#include "app/library/picture/series/sequence.h"
+#include "app/library/shot/sequence.h"
 
 namespace splatray {
 
@@ -13,6 +13,6 @@ void require_inputs_present(const Request& request);
 
 /// Claims all that a run of splatray-render may write: pictures, what lies beside them, and files of their own. Throws Error
 /// (usage) as claim_output does.
-void claim_outputs(const Request& request, const Sequence& sequence);
+void claim_outputs(const Request& request, const std::vector<SequenceFrame>& frames);
 
 }  // namespace splatray

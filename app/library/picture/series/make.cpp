@@ -1,4 +1,4 @@
-#include "app/library/picture/series/render_sequence.h"
+#include "app/library/picture/series/make.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/reproduce.h"
+#include "app/library/picture/series/orbit.h"
 #include "app/library/request/command_line.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
@@ -18,15 +19,10 @@ namespace {
 
 /// What all pictures of a run share.
 struct Run {
-  const Request& request;
+  const Shot& shot;
   SceneOnDevice& shown;
   const SequenceListener& listener;
 };
-
-Metadata metadata_of(const Run& run, const Request& request, const Camera& camera, const MadePicture& made) {
-  const View view{camera, request.view.width, request.view.height, request.view.window()};
-  return picture_metadata(request, run.shown.scene(), view, made.devices);
-}
 
 /// How far a picture of --error or --time came.
 std::string goal_text(const RenderStats& stats) {
@@ -41,17 +37,18 @@ std::string goal_text(const RenderStats& stats) {
 /// Throws Error (interrupted), which says so.
 [[noreturn]] void write_unfinished(const Run& run, const Camera& camera, const SequenceFrame& frame,
                                    const MadePicture& made) {
-  Request request = run.request;
-  const std::uint32_t asked = request.settings.samples;
-  request.settings.samples -= made.samples_missing;
-  request.output.denoise = request.output.despeckle = false;
-  const Metadata metadata = metadata_of(run, request, camera, made);
+  Shot shot = run.shot;
+  const std::uint32_t asked = shot.settings.samples;
+  shot.settings.samples = shot.request.settings.samples = asked - made.samples_missing;
+  shot.request.output.denoise = false;
+  shot.request.output.despeckle = false;
+  const Metadata metadata = picture_metadata(shot, run.shown.scene(), camera, made.devices);
   const bool has_sums = lower_extension(frame.output) == ".exr";
   const std::filesystem::path sums = has_sums ? frame.output : unfinished_file(frame.output);
-  if (!has_sums) write_output(request, made.image, metadata, sums);
-  write_output(request, made.image, metadata, frame.output);
+  if (!has_sums) write_output(shot, made.image, metadata, sums);
+  write_output(shot, made.image, metadata, frame.output);
   throw Error(ExitCode::interrupted, "interrupted by a signal after " +
-                                         std::to_string(request.settings.samples) + " of " +
+                                         std::to_string(shot.settings.samples) + " of " +
                                          std::to_string(asked) + " samples, which '" + frame.output.string() +
                                          "' has; --resume '" + sums.string() + "' goes on from them");
 }
@@ -63,31 +60,31 @@ void write_picture(const Run& run, const Camera& camera, const SequenceFrame& fr
     return run.listener.progress(frame, before, share) && !interrupted();
   };
   // A frame of a sequence is whole or absent, as those who take it up look for files.
-  const Stopped stopped = run.request.output.many() ? Stopped::dropped : Stopped::kept;
+  const Stopped stopped = run.shot.is_sequence() ? Stopped::dropped : Stopped::kept;
   if (stopped == Stopped::kept) take_time_to_end();
-  MadePicture made = make_picture(run.request, run.shown, camera, progress, stopped);
+  MadePicture made = make_picture(run.shot, run.shown, camera, progress, stopped);
   for (const std::string& note : made.notes) run.listener.note("note: " + note);
-  if (run.request.settings.has_goal()) run.listener.note(goal_text(made.stats));
+  if (run.shot.request.settings.has_goal()) run.listener.note(goal_text(made.stats));
   if (made.samples_missing > 0) write_unfinished(run, camera, frame, made);
-  Metadata metadata = metadata_of(run, run.request, camera, made);
+  Metadata metadata = picture_metadata(run.shot, run.shown.scene(), camera, made.devices);
   if (!made.denoiser.empty()) {
     metadata.emplace_back("denoised", made.denoiser);
     run.listener.note("denoised by " + made.denoiser);
   }
   Stopwatch watch;
-  write_output(run.request, made.image, metadata, frame.output);
+  write_output(run.shot, made.image, metadata, frame.output);
   record.made.push_back({frame, made.lights, made.stats, watch.lap_ms(), made.denoise_ms});
   record.last = std::move(made.image);
 }
 
 /// Whether the picture is there, whole, and made by the command that would make it now.
-bool is_made(const Request& request, const Camera& camera, const std::filesystem::path& path) {
+bool is_made(const Shot& shot, const Camera& camera, const std::filesystem::path& path) {
   if (!is_whole_picture(path)) return false;
   const Metadata metadata = read_metadata(path);
   const auto kept = std::find_if(metadata.begin(), metadata.end(),
                                  [](const auto& entry) { return entry.first == "command_line"; });
   if (kept == metadata.end()) return false;
-  const Request still = still_request(request, camera);
+  const Request still = still_request(shot, camera);
   if (kept->second == command_line(still)) return true;
   try {
     return command_line(plain_request(parse_command_line(kept->second))) ==
@@ -103,21 +100,21 @@ std::filesystem::path unfinished_file(std::filesystem::path picture) {
   return picture.replace_extension(".unfinished.exr");
 }
 
-SequenceRecord render_sequence(const Request& request, const Sequence& sequence, SceneOnDevice& shown,
-                               const Camera& still, const SequenceListener& listener) {
-  const Run run{request, shown, listener};
+SequenceRecord make(const Shot& shot, SceneOnDevice& shown, const SequenceListener& listener) {
+  if (shot.is_orbit()) return make_orbit(shot, shown, listener);
+  const Run run{shot, shown, listener};
   SequenceRecord record;
   std::size_t before = 0;
-  for (const SequenceFrame& frame : sequence.frames) {
+  for (const SequenceFrame& frame : shot.frames) {
     stop_if_interrupted();
     try {
-      const Camera camera = frame_camera(sequence, frame.number, still, choose_up(shown.scene(), request));
-      if (!request.output.skip_existing || !is_made(request, camera, frame.output))
+      const Camera camera = frame_camera(shot, frame.number, shown.scene());
+      if (!shot.request.output.skip_existing || !is_made(shot, camera, frame.output))
         write_picture(run, camera, frame, before, record);
       else if (++record.skipped; !listener.progress(frame, before, 1.0))
         throw Error(ExitCode::interrupted, "rendering was interrupted");
     } catch (const Error& error) {
-      if (!request.output.many() || error.code() == ExitCode::interrupted) throw;
+      if (!shot.is_sequence() || error.code() == ExitCode::interrupted) throw;
       listener.failed(record.failed.emplace_back(FailedPicture{frame, error.what()}));
     }
     ++before;

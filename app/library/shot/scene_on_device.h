@@ -25,7 +25,7 @@ class SceneOnDevice {
 
   /// Shows other materials; the scene has its pools.
   void show_objects(ObjectLooks objects) { splatray::show_objects(*scene_, std::move(objects), look_); }
-  /// Shows the environment of a name, as choose_environment has it. Throws Error (input_unreadable), once: the one before stays.
+  /// Shows the environment of a name, as load_environment has it. Throws Error (input_unreadable), once: the one before stays.
   /// `note` hears of what is odd in its file.
   void show_environment(const std::string& name, const std::function<void(const std::string&)>& note = {});
   void show_lights(std::vector<SceneLight> lights) { look_.lights = std::move(lights); }

@@ -1,11 +1,11 @@
-#include "app/library/sheet/sheet.h"
+#include "app/library/shot/sheet_placement.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "app/library/sheet/cut_lines.h"
+#include "app/library/shot/cut_lines.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
@@ -118,25 +118,6 @@ void set_pixels(const PointSample& shown, Sheet& sheet) {
 
 }  // namespace
 
-Camera Sheet::camera() const {
-  const glm::dvec2 middle = corner + 0.5 * glm::dvec2(width, -static_cast<double>(height)) * pixel_world;
-  // Behind the plane of the cut, which ends rays by itself.
-  const double eye = near + (near - far) * 0.01;
-  Camera camera;
-  camera.eye = middle.x * right + middle.y * top + eye * toward;
-  camera.target = camera.eye - std::max(near - far, pixel_world) * toward;
-  camera.up = top;
-  camera.ortho_height = height * pixel_world;
-  return camera;
-}
-
-std::vector<HalfSpace> Sheet::planes() const {
-  std::vector<HalfSpace> planes;
-  if (cuts) planes.push_back({near * toward, -toward});
-  if (asked.depth) planes.push_back({far * toward, toward});
-  return planes;
-}
-
 Sheet make_sheet(const Scene& scene, const Request& request) {
   Sheet sheet;
   sheet.asked = *request.view.sheet;
@@ -158,27 +139,6 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
   set_pixels(shown, sheet);
   if (sheet.cuts && sheet.asked.weight_mm > 0.0) sheet.cut_lines = cut_lines(scene, region, sheet);
   return sheet;
-}
-
-void place_sheet(const Scene& scene, const ColorLegend& legend, Request& request) {
-  if (!request.view.sheet) return;
-  Request::View& view = request.view;
-  const auto sheet = std::make_shared<Sheet>(make_sheet(scene, request));
-  if (!view.xray) sheet->legend = legend;
-  set_camera(view, sheet->camera());
-  view.width = sheet->width;
-  view.height = sheet->height;
-  view.region.of_sheet = sheet->planes();
-  view.region.light_kept = view.region.light_kept.value_or(true);
-  view.made_sheet = sheet;
-  if (!request.settings.background) request.settings.transparent = true;
-  request.settings.aov =
-      request.settings.aov || (view.ink && view.window().width == 0) || !request.output.height_raster.empty();
-  if (view.xray) {
-    request.look.exposure_ev = 0.0;
-    request.look.tone = Tone::none;
-  }
-  require_consistent(request);
 }
 
 }  // namespace splatray

@@ -1,12 +1,10 @@
-/// The pictures of a run, made one after the other from a scene that is loaded and uploaded once.
+/// A shot made: its pictures, one after the other, from a scene that is loaded and uploaded once.
 #pragma once
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "app/library/picture/make_picture.h"
-#include "app/library/picture/scene_source.h"
-#include "app/library/picture/series/sequence.h"
 
 namespace splatray {
 
@@ -43,12 +41,10 @@ struct SequenceListener {
 /// Beside a picture other than an EXR that a signal stopped, the EXR of its samples: NAME.unfinished.exr.
 [[nodiscard]] std::filesystem::path unfinished_file(std::filesystem::path picture);
 
-/// Makes the pictures of a scene. `still`: the camera without a sequence. Each is the still of its camera, default lights
-/// included. One of several that cannot be made is recorded, and the others go on; of a single one throws the Error. Throws Error
-/// (interrupted) when the listener stops it, and after a signal.
-[[nodiscard]] SequenceRecord render_sequence(const Request& request, const Sequence& sequence,
-                                             SceneOnDevice& shown, const Camera& still,
-                                             const SequenceListener& listener);
+/// Makes the pictures of a shot and writes their files. Each is the still of its camera, default lights included. One of several that
+/// cannot be made is recorded, and the others go on; of a single one throws the Error. Throws Error (interrupted) when the listener
+/// stops it, and after a signal.
+[[nodiscard]] SequenceRecord make(const Shot& shot, SceneOnDevice& shown, const SequenceListener& listener);
 
 /// Throws Error (failed) when a picture failed.
 void require_all_made(const SequenceRecord& record);

@@ -1,4 +1,4 @@
-#include "app/library/compare.h"
+#include "app/library/picture/compare.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "app/library/picture/picture_notes.h"
+#include "app/library/shot/picture_notes.h"
 
 #include <algorithm>
 
@@ -13,10 +13,6 @@ bool is_black(const Environment& environment) {
   return environment.texels.empty() ? is_black(environment.constant)
                                     : std::all_of(environment.texels.begin(), environment.texels.end(),
                                                   [](const vec3& texel) { return is_black(texel); });
-}
-
-bool asks_for_materials(const Request::Look& look) {
-  return !look.material.empty() || std::any_of(look.objects.begin(), look.objects.end(), changes_look);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "app/library/sheet/sheet.h"
+#include "app/library/shot/sheet.h"
 #include "engine/image/image.h"
 
 namespace splatray {

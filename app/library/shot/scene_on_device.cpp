@@ -1,6 +1,6 @@
-#include "app/library/picture/scene_on_device.h"
+#include "app/library/shot/scene_on_device.h"
 
-#include "app/library/picture/scene_source.h"
+#include "app/library/shot/environment.h"
 
 namespace splatray {
 
@@ -29,7 +29,7 @@ void SceneOnDevice::show_environment(const std::string& name,
                                      const std::function<void(const std::string&)>& note) {
   if (environment_ == name) return;
   environment_ = name;
-  look_.environment = std::make_shared<const Environment>(choose_environment(name, note));
+  look_.environment = std::make_shared<const Environment>(load_environment(name, note));
 }
 
 }  // namespace splatray

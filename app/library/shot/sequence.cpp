@@ -1,4 +1,4 @@
-#include "app/library/picture/series/sequence.h"
+#include "app/library/shot/sequence.h"
 
 #include <algorithm>
 
@@ -29,24 +29,18 @@ std::vector<std::uint32_t> wanted_frames(const Sequence& sequence, const Request
 
 }  // namespace
 
-Sequence plan_sequence(const Request& request) {
-  Sequence sequence;
-  if (request.output.many()) {
-    if (!request.output.camera_path.empty()) sequence.path = read_camera_path(request.output.camera_path);
-    sequence.turntable = request.output.turntable;
-    for (const std::uint32_t number : wanted_frames(sequence, request.output))
-      sequence.frames.push_back({number, frame_file(request.output.path, number)});
-  } else {
-    sequence.frames.push_back({0, request.output.path});
+Plan plan_pictures(const Request& request) {
+  Plan plan;
+  if (!request.output.many()) {
+    plan.frames.push_back({0, request.output.path});
+    return plan;
   }
-  return sequence;
-}
-
-Camera frame_camera(const Sequence& sequence, std::uint32_t frame, const Camera& still,
-                    const glm::dvec3& up) {
-  if (!sequence.path.empty()) return camera_at(sequence.path, frame);
-  if (sequence.turntable > 0) return turned_camera(still, up, double(frame) / sequence.turntable);
-  return still;
+  Sequence& sequence = plan.sequence;
+  if (!request.output.camera_path.empty()) sequence.path = read_camera_path(request.output.camera_path);
+  sequence.turntable = request.output.turntable;
+  for (const std::uint32_t number : wanted_frames(sequence, request.output))
+    plan.frames.push_back({number, frame_file(request.output.path, number)});
+  return plan;
 }
 
 }  // namespace splatray

@@ -55,13 +55,4 @@ struct Sheet {
   }
 };
 
-/// The sheet of what the request's region holds. The scene has its pools. Throws Error (usage), one sentence, for one that has
-/// nothing on it, more pixels than a picture may have, or lengths in degrees.
-[[nodiscard]] Sheet make_sheet(const Scene& scene, const Request& request);
-
-/// Gives a request with --sheet the camera, size and region of its sheet, and what suits one: light of what is kept, nothing in
-/// the background, for --xray no tone. `legend`: of the colours that the scene has now, as the request's look shows them. Throws
-/// as make_sheet does, and where --crop or --tile are beyond its pixels.
-void place_sheet(const Scene& scene, const ColorLegend& legend, Request& request);
-
 }  // namespace splatray

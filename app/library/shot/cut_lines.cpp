@@ -1,4 +1,4 @@
-#include "app/library/sheet/cut_lines.h"
+#include "app/library/shot/cut_lines.h"
 
 #include <algorithm>
 #include <cmath>

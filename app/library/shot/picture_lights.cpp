@@ -1,0 +1,100 @@
+#include "app/library/shot/picture_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "app/library/display_image.h"
+#include "app/library/shot/lights.h"
+#include "app/library/shot/picture_notes.h"
+#include "engine/base/number_text.h"
+#include "engine/base/rank.h"
+#include "engine/scene/look_style.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::size_t RAYS = 256;
+constexpr std::size_t MOST_OUT = RAYS / 64;  ///< of them, from where light hardly enters
+
+/// Rays from the eye in even directions: a Fibonacci lattice.
+std::vector<RayQuery> rays_around(const Scene& scene, const glm::dvec3& eye) {
+  std::vector<RayQuery> rays(RAYS);
+  for (std::size_t i = 0; i < RAYS; ++i) {
+    const double height = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / RAYS;
+    const double turn = 2.0 * std::numbers::pi * std::numbers::phi * static_cast<double>(i);
+    const double level = std::sqrt(1.0 - height * height);
+    rays[i].origin = scene.root.to_root(eye);
+    rays[i].dir = glm::dvec3(level * std::cos(turn), level * std::sin(turn), height);
+    rays[i].from_object = NO_OBJECT;
+  }
+  return rays;
+}
+
+/// A light at the camera where neither the environment nor the lights that scenes have by default reach: where next to none of
+/// the directions from the eye lead out of the scene. As bright as makes irradiance pi at the median distance of what the eye
+/// sees around it. Nothing for looks that do not trace paths, eyes outside the scene's bounds, orthographic cameras, and scenes
+/// that have lights or objects that send out light.
+std::optional<SceneLight> eye_light(SceneOnDevice& shown, const Camera& camera, const Settings& settings) {
+  const Scene& scene = shown.scene();
+  const bool within = glm::all(glm::greaterThan(camera.eye, scene.bounds_min_world)) &&
+                      glm::all(glm::lessThan(camera.eye, scene.bounds_max_world));
+  if (!within || camera.ortho_height > 0.0 || !look_style(settings.look).paths || !scene.lights.empty() ||
+      sends_out_light(shown.look().objects))
+    return {};
+  std::vector<double> distances;
+  for (const RayHit& hit : shown.tracer().intersect(shown.look(), rays_around(scene, camera.eye), settings))
+    if (hit.object != NO_OBJECT) distances.push_back(double{hit.t} * scene.root.unit_world);
+  if (distances.size() + MOST_OUT < RAYS) return {};
+  const double usual = value_at(distances, 0.5);
+  SceneLight light;
+  light.kind = LIGHT_POINT;
+  light.position = camera.eye;
+  light.power = glm::vec3(static_cast<float>(std::numbers::pi * usual * usual));
+  return light;
+}
+
+}  // namespace
+
+LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
+  LitLook lit{shown.look()};
+  lit.look.lights = lights_of_look(shot.settings.look, resolve_lights(shown.scene(), shot.request, camera));
+  const auto at_eye = shot.request.look.lights ? std::nullopt : eye_light(shown, camera, shot.settings);
+  if (at_eye) {
+    lit.look.lights = {*at_eye};
+    lit.notes.emplace_back("no light enters where the camera is, one is put there; --light says others");
+  }
+  for (std::string& note : missing_light(lit.look, shot.settings)) lit.notes.push_back(std::move(note));
+  return lit;
+}
+
+double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
+  constexpr std::uint32_t LONGEST = 160, SAMPLES = 4;
+  const std::uint32_t longest = std::max(shot.view.width, shot.view.height);
+  const auto scaled = [&](std::uint32_t side) {
+    return longest > LONGEST ? std::max(side * LONGEST / longest, 1U) : side;
+  };
+  const View view{camera, scaled(shot.view.width), scaled(shot.view.height)};
+  Settings settings = shot.settings;
+  settings.samples = SAMPLES;
+  settings.sample_offset = 0;
+  settings.aov = settings.estimate_error = settings.counters = false;
+  constexpr double MOST_STOPS = 60.0, STEPS = 100.0;
+  const double ev =
+      automatic_exposure_ev(shown.tracer().render(lit_look(shot, shown, camera).look, view, settings));
+  return std::clamp(std::round(STEPS * ev) / STEPS, -MOST_STOPS, MOST_STOPS);
+}
+
+void expose(Shot& shot, SceneOnDevice& shown) {
+  if (!shot.exposes) return;
+  const double ev = preview_exposure_ev(shot, shown, first_camera(shot, shown.scene()));
+  shot.request.look.exposure_ev = ev;
+  shot.exposes = false;
+  // Behind what decides what is seen, before what is done to the picture.
+  const auto noise = std::find_if(shot.choices.begin(), shot.choices.end(),
+                                  [](const FieldText& choice) { return choice.name == "denoise"; });
+  shot.choices.insert(noise, {"exposure", number_text(ev)});
+}
+
+}  // namespace splatray

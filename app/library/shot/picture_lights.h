@@ -1,0 +1,27 @@
+/// The light that a picture is seen in, and how bright it is shown.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/library/shot/scene_on_device.h"
+#include "app/library/shot/shot.h"
+
+namespace splatray {
+
+/// A scene's look in a picture's lights, and what is to be said of them.
+struct LitLook {
+  Look look;
+  std::vector<std::string> notes{};  ///< sentences
+};
+
+/// In the lights that the request asks for, or where it asks for none and none enters, in one at the camera.
+[[nodiscard]] LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera);
+
+/// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide
+/// and high. Parts of a picture, and all pictures of a run, have one exposure by it.
+[[nodiscard]] double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera);
+
+/// Chooses the exposure where that is left to the picture, by the first of the shot's pictures.
+void expose(Shot& shot, SceneOnDevice& shown);
+
+}  // namespace splatray

@@ -1,0 +1,227 @@
+#include "app/library/shot/resolve.h"
+
+#include <algorithm>
+
+#include "app/library/request/consistent.h"
+#include "app/library/request/fields.h"
+#include "app/library/shot/picture_notes.h"
+#include "app/library/shot/sheet_placement.h"
+#include "engine/base/error.h"
+#include "engine/base/number_text.h"
+#include "engine/image/point_sample.h"
+#include "engine/image/upright.h"
+#include "engine/scene/look_style.h"
+#include "preprocess/base/file_extension.h"
+
+namespace splatray {
+namespace {
+
+void note(Shot& shot, const std::string& field, const std::string& text) {
+  shot.choices.push_back({field, text});
+}
+
+/// Where a scan is seen from. An orbit is from outside.
+void choose_view(const SceneFacts& facts, Shot& shot) {
+  Request::View& view = shot.request.view;
+  if (facts.kind == SceneKind::none || view.eye || view.sheet || view.viewpoint != Viewpoint::automatic)
+    return;
+  const bool from_outside = shot.request.output.orbit_columns > 0;
+  view.viewpoint =
+      from_outside && facts.viewpoint == Viewpoint::inside ? Viewpoint::dollhouse : facts.viewpoint;
+  note(shot, "view", viewpoint_name(view.viewpoint));
+}
+
+bool is_inside(const SceneFacts& facts, const Request& request) {
+  return facts.kind == SceneKind::room && request.view.viewpoint == Viewpoint::inside;
+}
+
+const char* suited_colors(const SceneFacts& facts, bool inside) {
+  if (facts.has_colors) return "rgb";
+  const bool land = facts.kind == SceneKind::site || facts.kind == SceneKind::sweep ||
+                    (facts.kind == SceneKind::room && !inside);
+  if (facts.has_intensity) return land ? "height+intensity" : "intensity";
+  return land || facts.kind == SceneKind::room ? "height" : "plain";
+}
+
+void choose_colors(const SceneFacts& facts, Shot& shot) {
+  std::string& color_by = shot.request.look.attributes.color_by;
+  if (facts.kind == SceneKind::none || !color_by.empty()) return;
+  color_by = facts.color_by.empty() ? suited_colors(facts, is_inside(facts, shot.request)) : facts.color_by;
+  note(shot, "color-by", color_by);
+}
+
+/// A section lies in the shade of what is above it: the sky's light shows it, too.
+void choose_scan_look(const Scene& scene, const SceneFacts& facts, Shot& shot) {
+  Request& request = shot.request;
+  if (facts.kind == SceneKind::none || request.look.style || resolve_look(scene, request) != LOOK_SCAN)
+    return;
+  const bool all_lit =
+      request.look.attributes.color_by == "rgb" || is_inside(facts, request) || request.view.sheet;
+  request.look.style = all_lit ? LOOK_SCAN : LOOK_LIT;
+  note(shot, "look", all_lit ? "scan" : "lit");
+}
+
+/// Noise is taken out of whole pictures for looking at of which nothing decides that: what is measured or joined keeps it.
+void choose_noise(Shot& shot) {
+  const Request& request = shot.request;
+  Request::Output& output = shot.request.output;
+  const bool decided = output.denoise || output.despeckle || request.settings.has_goal() ||
+                       !output.reference.empty() || request.settings.samples < 2;
+  const bool is_part = shot.view.window.width > 0 || request.settings.sample_offset > 0;
+  const bool shows = lower_extension(output.path) != ".exr" && !request.view.xray;
+  if (decided || is_part || !shows || shot.settings.look == LOOK_PAPER) return;
+  output.denoise = true;
+  note(shot, "denoise", "on");
+}
+
+/// Has occlusion reach as far as suits what a region holds. Throws Error (usage) where that is nothing.
+void suit_region(const Scene& scene, const Region& region, double& reach_world) {
+  if (region.empty()) return;
+  const PointSample kept = sample_points(scene, region);
+  if (kept.size() == 0)
+    throw Error(ExitCode::usage, "the region holds nothing of the scene, whose points lie between " +
+                                     number_text(scene.bounds_min_world) + " and " +
+                                     number_text(scene.bounds_max_world) +
+                                     "; expected boxes and cuts that do");
+  if (reach_world == 0.0) reach_world = REACH_SHARE * diagonal_of(kept);
+}
+
+/// What suits a drawing: light of what is kept, nothing in the background, for --xray no tone.
+void suit_sheet(Request& request) {
+  Request::View& view = request.view;
+  view.region.light_kept = view.region.light_kept.value_or(true);
+  if (!request.settings.background) request.settings.transparent = true;
+  request.settings.aov = request.settings.aov || (view.ink && view.crop.width == 0 && view.tiles == 0) ||
+                         !request.output.height_raster.empty();
+  if (!view.xray) return;
+  request.look.exposure_ev = 0.0;
+  request.look.tone = Tone::none;
+}
+
+Sheet drawn_sheet(const Scene& scene, const SceneFacts& facts, const Request& request) {
+  Sheet sheet = make_sheet(scene, request);
+  if (!request.view.xray && look_style(resolve_look(scene, request)).colors) sheet.legend = facts.legend;
+  return sheet;
+}
+
+Settings settings_of(const Scene& scene, const Request& request) {
+  Settings settings = request.settings;
+  settings.region = region_of(request.view.region, request.look.up.value_or(scene.up));
+  settings.look = resolve_look(scene, request);
+  settings.cutaway = request.view.look_in || request.view.viewpoint == Viewpoint::dollhouse;
+  settings.lens_radius_world = 0.5 * request.view.aperture_world;
+  settings.delta_world = request.settings.asked_delta_world.value_or(1e-3 * scene.diagonal_world());
+  return settings;
+}
+
+void set_pixels(std::uint32_t width, std::uint32_t height, Shot& shot) {
+  shot.view.width = width;
+  shot.view.height = height;
+  shot.view.window = window_of(shot.request.view, width, height);
+}
+
+/// The camera but for what lens and pixels have.
+Camera placed_camera(const Scene& scene, const Request& request, double aspect) {
+  const glm::dvec3 scene_up = request.look.up.value_or(scene.up);
+  if (request.view.eye) {
+    const glm::dvec3 target =
+        request.view.target.value_or(0.5 * (scene.bounds_min_world + scene.bounds_max_world));
+    const auto up = request.view.camera_up ? request.view.camera_up : request.look.up;
+    return {*request.view.eye, target, up.value_or(up_across(scene.up, target - *request.view.eye)),
+            request.view.fov_y_deg.value_or(DEFAULT_FOV_Y_DEG), request.view.ortho_height};
+  }
+  // A depth camera's view suits the picture's shape; a model's own camera is its author's.
+  if (!scene.camera || !scene.stations.empty() || request.look.up ||
+      request.view.viewpoint != Viewpoint::automatic)
+    return viewpoint_camera(scene, request.view.viewpoint, aspect, request.view.fov_y_deg,
+                            region_of(request.view.region, scene_up));
+  Camera camera = *scene.camera;
+  camera.fov_y_deg = request.view.fov_y_deg.value_or(camera.fov_y_deg);
+  return camera;
+}
+
+/// Whether a material is another than readers give to points, whose base colour alone depends on them.
+bool is_chosen(const Material& material) {
+  const Material plain = default_material();
+  return material.specular != plain.specular || material.shininess != plain.shininess ||
+         material.mirror != plain.mirror || (material.flags & MATERIAL_DIELECTRIC) != 0;
+}
+
+}  // namespace
+
+std::uint32_t resolve_look(const Scene& scene, const Request& request) {
+  if (request.look.style) return *request.look.style;
+  const bool plain = scene.lights.empty() && request.look.environment.empty() &&
+                     scene.environment_path.empty() && !request.look.lights;
+  const bool materials = asks_for_materials(request.look) ||
+                         std::any_of(scene.materials.begin(), scene.materials.end(), is_chosen);
+  return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;
+}
+
+Tone resolve_tone(const Request& request) {
+  return request.look.tone.value_or(request.look.style == LOOK_PAPER ? Tone::soft : Tone::neutral);
+}
+
+Camera resolve_camera(const Scene& scene, const Request& request, double aspect) {
+  Camera camera = placed_camera(scene, request, request.view.pixel_aspect * aspect);
+  camera.lens_shift = request.view.lens_shift;
+  camera.pixel_aspect = request.view.pixel_aspect;
+  return camera;
+}
+
+glm::dvec3 resolve_up(const Scene& scene, const Request& asked) {
+  return asked.look.up.value_or(upright(scene));
+}
+
+AttributeOptions resolve_attributes(const Request& asked, const SceneFacts& facts) {
+  Shot shot;
+  shot.request = asked;
+  choose_view(facts, shot);
+  choose_colors(facts, shot);
+  return shot.request.look.attributes;
+}
+
+Shot draft(const Request& asked) {
+  Shot shot;
+  shot.request = asked;
+  shot.settings = asked.settings;
+  set_pixels(asked.view.width, asked.view.height, shot);
+  Plan plan = plan_pictures(asked);
+  shot.frames = std::move(plan.frames);
+  if (asked.output.many()) shot.output = std::move(plan.sequence);
+  if (asked.output.orbit_columns > 0)
+    shot.output = Orbit{asked.output.orbit_columns, asked.output.orbit_rows};
+  return shot;
+}
+
+Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) {
+  require_consistent(asked);
+  Shot shot = draft(asked);
+  choose_view(facts, shot);
+  choose_colors(facts, shot);
+  choose_scan_look(scene, facts, shot);
+  Request& request = shot.request;
+  if (request.view.sheet) suit_sheet(request);
+  shot.settings = settings_of(scene, request);
+  if (request.view.sheet) {
+    Sheet sheet = drawn_sheet(scene, facts, request);
+    require_part_of(request.view, sheet.width, sheet.height);
+    set_pixels(sheet.width, sheet.height, shot);
+    shot.view.camera = sheet.camera();
+    for (const HalfSpace& plane : sheet.planes()) shot.settings.region.kept.push_back(plane);
+    shot.output = std::move(sheet);
+  } else {
+    shot.view.camera =
+        resolve_camera(scene, request, static_cast<double>(shot.view.width) / shot.view.height);
+  }
+  suit_region(scene, shot.settings.region, request.settings.reach_world);
+  shot.settings.reach_world = request.settings.reach_world;
+  choose_noise(shot);
+  shot.exposes = !request.look.exposure_ev && (request.look.exposure_auto || !scene.stations.empty());
+  shot.environment = request.look.environment.empty() ? scene.environment_path : request.look.environment;
+  shot.notes = ignored_options(asked, shot.settings.look);
+  if (facts.kind != SceneKind::none) shot.of = scan_kind_name(facts.kind);
+  return shot;
+}
+
+}  // namespace splatray

@@ -1,0 +1,60 @@
+#include "app/library/shot/scene_facts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/rank.h"
+
+namespace splatray {
+namespace {
+
+constexpr std::size_t SAMPLED = 1U << 16;  ///< values that decide whether an attribute says something
+constexpr double OUTSIDE = 0.02;           ///< of the values at each end
+constexpr std::uint8_t FEW_STEPS = 10;     ///< of 255 in each channel: one colour
+constexpr double FEW_SHARE = 0.02;         ///< of the range, between the quartiles: one value
+
+/// The values that leave a share out at each end.
+template <class Value>
+std::array<Value, 2> middle_of(std::vector<Value>& values, double outside) {
+  return {value_at(values, outside), value_at(values, 1.0 - outside)};
+}
+
+bool has_colors(const Scene& scene) {
+  if (scene.color_pool.empty()) return false;
+  const std::size_t stride = scene.color_pool.size() / SAMPLED + 1;
+  for (unsigned channel = 0; channel < 3; ++channel) {
+    std::vector<std::uint8_t> values;
+    for (std::size_t i = 0; i < scene.color_pool.size(); i += stride)
+      values.push_back(static_cast<std::uint8_t>(scene.color_pool[i] >> (8 * channel)));
+    const auto [low, high] = middle_of(values, OUTSIDE);
+    if (high - low > FEW_STEPS) return true;
+  }
+  return false;
+}
+
+bool has_intensity(const Scene& scene) {
+  const Column* column = find_column(scene.columns, COLUMN_INTENSITY);
+  if (column == nullptr || column->size() == 0) return false;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < column->size(); i += column->size() / SAMPLED + 1)
+    if (std::isfinite(column->number(i))) values.push_back(column->number(i));
+  if (values.empty()) return false;
+  const auto [low, high] = middle_of(values, OUTSIDE);
+  const auto [first, last] = middle_of(values, 0.25);
+  return high > low && last - first > FEW_SHARE * (high - low);
+}
+
+}  // namespace
+
+SceneFacts facts_of(const Scene& scene) {
+  SceneFacts facts;
+  facts.kind = kind_of_scan(scene);
+  if (facts.kind == SceneKind::none) return facts;
+  facts.viewpoint = choose_viewpoint(scene);
+  facts.has_colors = has_colors(scene);
+  facts.has_intensity = has_intensity(scene);
+  return facts;
+}
+
+}  // namespace splatray

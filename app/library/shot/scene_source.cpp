@@ -1,0 +1,111 @@
+#include "app/library/shot/scene_source.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/library/materials.h"
+#include "app/library/shot/resolve.h"
+#include "engine/base/error.h"
+#include "engine/base/memory.h"
+#include "engine/file/scene_file.h"
+#include "engine/scene/surface.h"
+#include "preprocess/base/file_extension.h"
+#include "preprocess/read/scan/missing_attributes.h"
+
+namespace splatray {
+namespace {
+
+void report_progress(const LoadListener& listener, const char* stage, double share) {
+  if (listener.progress && !listener.progress(stage, share))
+    throw Error(ExitCode::interrupted, "loading was interrupted");
+}
+
+ReadOptions reading_of(const Request& request, const Progress& progress) {
+  ReadOptions reading = read_options(request.source, progress);
+  reading.turn_outwards = !request.look.material.empty() &&
+                          (named_material(request.look.material).flags & MATERIAL_DIELECTRIC) != 0;
+  return reading;
+}
+
+/// Builds the scene of objects whose points are there.
+void build(Input input, const Request& request, const LoadListener& listener, const Progress& progress,
+           LoadedScene& loaded) {
+  const auto report_notes = [&](const std::vector<std::string>& notes) {
+    if (listener.note) std::for_each(notes.begin(), notes.end(), listener.note);
+  };
+  report_notes(input.notes);
+  if (request.source.params.ground && request.look.up) input.up = request.look.up;
+  BuildStats& stats = loaded.build.emplace();
+  loaded.scene =
+      build_scene(std::move(input), request.source.params, request.source.threads, stats, progress);
+  report_notes(stats.notes);
+}
+
+/// Applies --material, --object, --up (else upright of upright.h), and shows the attributes that are asked for or suit the scene.
+void show_as_asked(const Request& request, LoadedScene& loaded) {
+  Scene& scene = loaded.scene;
+  if (!request.look.material.empty() || !request.look.objects.empty()) {
+    ObjectLooks objects = choose_objects(scene, request);
+    scene.materials = std::move(objects.materials);
+    scene.surfaces = std::move(objects.surfaces);
+  }
+  scene.up = resolve_up(scene, request);
+  loaded.facts = facts_of(scene);
+  const AttributeOptions attributes = resolve_attributes(request, loaded.facts);
+  if (request.look.attributes.color_by.empty()) loaded.facts.color_by = attributes.color_by;
+  loaded.facts.legend = show_attributes(scene, attributes);
+}
+
+}  // namespace
+
+LoadedScene load_scene(const Request& request, const LoadListener& listener) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  LoadedScene loaded;
+  report_progress(listener, "reading", 0.0);
+  const std::vector<std::filesystem::path>& inputs = request.source.inputs;
+  require_scene_alone(inputs);
+  if (is_scene_file(inputs.front())) {
+    if (request.source.params.ground)
+      throw Error(ExitCode::usage,
+                  "found --ground with a .soct, expected files of points or meshes, or splatray-preprocess "
+                  "--ground");
+    loaded.scene = read_scene(inputs.front(), listener.progress);
+    const std::string missing = missing_attributes(request.source.scans.attributes, loaded.scene.columns);
+    if (listener.note && !missing.empty()) listener.note(missing);
+  } else {
+    const Progress progress = watching_memory(listener.progress);
+    ReadOptions reading = reading_of(request, progress);
+    reading.points = listener.points;
+    build(read_input(inputs, reading), request, listener, progress, loaded);
+  }
+  loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  show_as_asked(request, loaded);
+  return loaded;
+}
+
+LoadedScene load_objects(Input input, const Request& request, const LoadListener& listener) {
+  LoadedScene loaded;
+  const Progress progress = watching_memory(listener.progress);
+  finish_objects(input, reading_of(request, progress));
+  build(std::move(input), request, listener, progress, loaded);
+  show_as_asked(request, loaded);
+  return loaded;
+}
+
+ObjectLooks choose_objects(const Scene& scene, const Request& request) {
+  ObjectLooks objects{scene.materials, surfaces_of(scene)};
+  std::vector<ObjectChange> changes;
+  if (!request.look.material.empty()) {
+    const std::size_t shown = scene.materials.size() - (scene.build.ground ? 1 : 0);
+    if (shown != 1)
+      throw Error(ExitCode::usage, "found --material with a scene of " + std::to_string(shown) +
+                                       " objects, expected one object");
+    changes.push_back(read_object_change("0:preset=" + request.look.material));
+  }
+  changes.insert(changes.end(), request.look.objects.begin(), request.look.objects.end());
+  apply_object_changes(changes, scene.object_names, objects);
+  return objects;
+}
+
+}  // namespace splatray

@@ -1,0 +1,50 @@
+/// A request resolved for a scene: nothing that pictures depend on is left open.
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/library/request/field.h"
+#include "app/library/shot/sequence.h"
+#include "app/library/shot/sheet.h"
+#include "engine/image/view.h"
+
+namespace splatray {
+
+/// One picture.
+struct Still {};
+
+/// A page of pictures all around.
+struct Orbit {
+  std::uint32_t columns = 1, rows = 1;  ///< pictures of a full turn, and heights
+};
+
+struct Shot {
+  Request request;                   ///< as asked for, with the choices as if they had been asked for
+  std::string of{};                  ///< what the scan is of, "a room"; empty: no scan
+  std::vector<FieldText> choices{};  ///< what was chosen, as the fields that ask for the same
+  std::vector<std::string> notes{};  ///< sentences about options that have no effect
+  View view{};                       ///< the camera of a still, and which pixels are made
+  Settings settings{};               ///< of the tracer
+  std::string environment{};  ///< name of the environment, as load_environment takes it; empty = studio
+  bool exposes = false;       ///< the exposure is left to the picture: expose() chooses it
+  std::vector<SequenceFrame> frames{};  ///< the pictures and their files
+  std::variant<Still, Sequence, Orbit, Sheet> output{};
+
+  /// The drawing, or null.
+  [[nodiscard]] const Sheet* sheet() const { return std::get_if<Sheet>(&output); }
+  [[nodiscard]] bool is_sequence() const { return std::holds_alternative<Sequence>(output); }
+  [[nodiscard]] bool is_orbit() const { return std::holds_alternative<Orbit>(output); }
+  /// Whether the picture goes through the denoiser.
+  [[nodiscard]] bool denoises() const { return request.output.denoise.value_or(false); }
+};
+
+/// The camera of a frame of the shot.
+[[nodiscard]] Camera frame_camera(const Shot& shot, std::uint32_t frame, const Scene& scene);
+/// That of the first of all frames, though it may not be asked for.
+[[nodiscard]] Camera first_camera(const Shot& shot, const Scene& scene);
+
+/// The choices as options of splatray-render, "--view inside --look scan"; empty where there are none.
+[[nodiscard]] std::string choices_text(const Shot& shot);
+
+}  // namespace splatray

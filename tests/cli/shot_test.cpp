@@ -1,0 +1,233 @@
+/// What is chosen for pictures of which nothing is said.
+
+#include <gtest/gtest.h>
+
+#include "app/library/request/command_line.h"
+#include "app/library/request/fields.h"
+#include "app/library/shot/lights.h"
+#include "app/library/shot/resolve.h"
+#include "engine/base/error.h"
+#include "tests/host/scenes.h"
+
+namespace splatray {
+namespace {
+
+/// A flat site of 50 x 50 points, on a slope along x.
+Scene site() {
+  OrientedPoints points;
+  for (int x = 0; x < 50; ++x)
+    for (int y = 0; y < 50; ++y) points.emplace_back(glm::dvec3(x, y, 0.1 * x), glm::dvec3(0.0, 0.0, 1.0));
+  return scan_scene(points);
+}
+
+Scene room() { return scan_scene(box_points({4.0, 5.0, 3.0}, true)); }
+
+Shot shot_of(const Scene& scene, const Request& request = {}) {
+  return resolve(request, scene, facts_of(scene));
+}
+
+Request suited(const Scene& scene, const Request& request = {}) { return shot_of(scene, request).request; }
+
+/// What the picture is of, and the choices.
+std::string said(const Shot& shot) { return shot.of + ": " + choices_text(shot); }
+
+/// A grey for each splat, from `dark` to `bright`.
+void colour(Scene& scene, float dark, float bright) {
+  scene.color_pool.clear();
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(scene.data_pool.size());
+    scene.color_pool.push_back(pack_color(glm::vec3(dark + share * (bright - dark))));
+  }
+}
+
+TEST(Shot, OfAModelIsAsAskedForButForNoise) {
+  Scene model = site();
+  model.stations.clear();
+  Request asked;
+  asked.output.denoise = false;
+  EXPECT_EQ(suited(model, asked), asked);
+  EXPECT_EQ(said(shot_of(model, asked)), ": ");
+  EXPECT_EQ(said(shot_of(model)), ": --denoise");
+}
+
+TEST(Shot, NoiseIsTakenOutOfWholePicturesForLookingAt) {
+  const auto denoises = [](const std::string& options) {
+    return shot_of(site(), parse_command_line("splatray-render a.ply " + options)).denoises();
+  };
+  EXPECT_TRUE(denoises(""));
+  EXPECT_TRUE(denoises("-o a.jpg --look lit --samples 256"));
+  EXPECT_FALSE(denoises("--tile 1/2") || denoises("--crop 0,0,8,8"));
+  EXPECT_FALSE(denoises("-o a.exr")) << "is measured";
+  EXPECT_FALSE(denoises("--look paper")) << "has none";
+  EXPECT_TRUE(denoises("--keep-noise --denoise")) << "the last one holds";
+  EXPECT_FALSE(denoises("--denoise --keep-noise") || denoises("--keep-noise"));
+  EXPECT_FALSE(denoises("--despeckle") || denoises("--reference b.png"));
+  EXPECT_FALSE(denoises("--error 0.1") || denoises("--time 1")) << "is as good as it is asked to be";
+  EXPECT_FALSE(denoises("--samples 64 --sample-offset 64") || denoises("--samples 1"));
+}
+
+/// The one sentence that refuses what is asked for beside a scene; empty where nothing does.
+std::string sentence_against(const std::string& options) {
+  try {
+    static_cast<void>(parse_command_line("splatray-render a.ply " + options));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Consistent, WhatExcludesOrNeedsOthersIsNamed) {
+  constexpr std::pair<const char*, const char*> REFUSED[] = {
+      {"--tile 1/2 --crop 0,0,8,8", "found --tile and --crop, expected one of them"},
+      {"--samples 256 --sample-offset 3",
+       "found --sample-offset 3 with --samples 256, expected a multiple of"},
+      {"--samples 64 --sample-offset 65535", "found --sample-offset 65535 with --samples 64, expected"},
+      {"--sample-offset 64 --samples 64 --aov error -o a.exr",
+       "found --aov error with --sample-offset, expected it for all samples of a picture"},
+      {"--tile 1/9 --resolution 8x8", "found --tile of 9 parts, expected at most the picture's 8 rows"},
+      {"--crop 9,0,8,8 --resolution 8x8", "found --crop beyond the picture's 8x8 pixels"},
+      {"--error 0.1 --crop 0,0,8,8",
+       "found --error and --crop, expected one of them, as parts of a picture have the same --samples"},
+      {"--time 9 --tile 1/2", "found --time and --tile, expected one of them"},
+      {"--error 0.1 --sample-offset 64", "found --error and --sample-offset, expected one of them"},
+      {"--denoise --tile 1/2",
+       "found --denoise and --tile, expected one of them, as parts that are joined keep their noise"},
+      {"--despeckle --sample-offset 64", "found --despeckle and --sample-offset, expected one of them"},
+      {"--reference a.png --crop 0,0,8,8",
+       "found --crop and --reference, expected one of them, as whole pictures are compared"},
+      {"--resume a.exr --error 0.1",
+       "found --error and --resume, expected one of them, as that goes up to --samples"},
+      {"--resume a.exr --turntable 8",
+       "found --turntable and --resume, expected one of them, as these are of a single picture"},
+      {"--frames 0-3", "found --frames alone, expected --turntable or --camera-path beside it"},
+      {"--turntable 8 --camera-path a.json", "found --camera-path and --turntable, expected one of them"},
+      {"--camera-path a.json --eye 1,2,3",
+       "found --eye and --camera-path, expected one of them, as the path has its cameras"},
+      {"--turntable 8 --reference a.png", "found --turntable and --reference, expected one of them"},
+      {"--turntable 8 -o a.png", "expected a name with one run of #"},
+      {"--target 1,2,3", "found --target alone, expected --eye beside it"},
+      {"--ortho-height 2", "found --ortho-height alone, expected --eye beside it"},
+      {"--camera-up 0,0,1", "found --camera-up alone, expected --eye beside it"},
+      {"--ink", "found --ink alone, expected --sheet beside it"},
+      {"--xray", "found --xray alone, expected --sheet beside it"},
+      {"--measures a.geojson", "found --measures alone, expected --sheet beside it"},
+      {"--height-raster a.tif", "found --height-raster alone, expected --sheet beside it"},
+      {"--sheet plan --eye 1,2,3",
+       "found --eye and --sheet, expected one of them, as a sheet has its camera"},
+      {"--sheet plan --resolution 8x8",
+       "found --resolution and --sheet, expected one of them, as scale= and dpi="},
+      {"--sheet plan --turntable 8", "found --turntable and --sheet, expected one of them"},
+      {"--sheet plan --measures a.geojson -o a.png",
+       "with --measures, expected a name ending in .svg or .pdf"},
+      {"--sheet plan --ink --xray", "found --xray and --ink, expected one of them"},
+      {"--sheet plan -o a.jpg", "with --sheet, expected a name ending in .png, .exr, .tif, .svg or .pdf"},
+      {"--orbit 8 -o a.png", "found output 'a.png' with --orbit, expected a name ending in .html"},
+      {"--orbit 8 --sheet plan", "found --orbit and --sheet, expected one of them"},
+      {"--orbit 8 --lens-shift 1,0", "found --orbit and --lens-shift, expected one of them"},
+      {"--aov error --samples 1 -o a.exr", "found --aov error with one sample, expected at least two"},
+      {"--denoise --despeckle", "found --despeckle and --denoise, expected one of them"},
+      {"--despeckle --keep-noise", "found --despeckle and --keep-noise, expected one of them"},
+      {"--denoise --samples 1", "found --denoise with one sample, expected at least two"},
+      {"--denoise --look paper", "found --denoise with --look paper, expected a look that has noise"},
+      {"--denoise --reference a.png",
+       "found --denoise and --reference, expected one of them, as pictures are compared as they were traced"},
+      {"--background transparent -o a.jpg",
+       "with --background transparent, expected a name ending in .png, .webp or .exr"},
+      {"--resolution 20000x8 -o a.webp",
+       "found a picture of 20000x8 pixels with a .webp output, expected at most 16383 a side"},
+      {"-o a.bmp", "found output 'a.bmp', expected a name ending in .png, .jpg, .webp or .exr"},
+      {"--aov error -o a.png", "found output 'a.png' with --aov, expected a name ending in .exr"}};
+  for (const auto& [options, sentence] : REFUSED)
+    EXPECT_NE(sentence_against(options).find(sentence), std::string::npos)
+        << options << ": found '" << sentence_against(options) << "', expected '" << sentence << "'";
+  EXPECT_EQ(sentence_against("--sheet plan --ink --measures a.geojson -o a.pdf"), "");
+}
+
+TEST(Shot, WithoutColoursShowsTheShapeInLight) {
+  const Shot land = shot_of(site());
+  EXPECT_EQ(said(land), "a site: --view oblique --color-by height --look lit --denoise");
+  EXPECT_EQ(land.request.view.viewpoint, Viewpoint::oblique);
+  EXPECT_EQ(land.request.look.attributes.color_by, "height");
+  EXPECT_EQ(land.request.look.style, LOOK_LIT);
+  EXPECT_FALSE(land.settings.cutaway);
+}
+
+TEST(Shot, RoomsLieOpenUnlessAScannerStandsInThem) {
+  Scene scene = room();
+  EXPECT_EQ(said(shot_of(scene)), "a room: --view dollhouse --color-by height --look lit --denoise");
+  EXPECT_TRUE(shot_of(scene).settings.cutaway);
+  scene.stations[0].sensor_world = glm::dvec3(0.0);
+  const Shot inside = shot_of(scene);
+  EXPECT_EQ(said(inside), "a room: --view inside --color-by height --look scan --denoise")
+      << "light comes from outside, which a closed room has none of";
+  EXPECT_FALSE(inside.settings.cutaway);
+}
+
+TEST(Shot, ColoursThatSaySomethingComeFirst) {
+  Scene scene = site();
+  std::vector<float> intensity(scene.data_pool.size());
+  for (std::size_t i = 0; i < intensity.size(); ++i) intensity[i] = static_cast<float>(i % 200);
+  scene.columns = {{std::string(COLUMN_INTENSITY), intensity}};
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "height+intensity");
+  EXPECT_EQ(suited(scene).look.style, LOOK_LIT);
+  colour(scene, 0.5F, 0.5F);
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "height+intensity") << "all colours are one";
+  colour(scene, 0.1F, 0.8F);
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "rgb");
+  EXPECT_EQ(suited(scene).look.style, LOOK_SCAN);
+  colour(scene, 0.0F, 0.0F);
+  intensity.assign(intensity.size(), 7.0F);
+  intensity.back() = 9.0F;
+  scene.columns = {{std::string(COLUMN_INTENSITY), intensity}};
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "height") << "nor does one value say anything";
+}
+
+TEST(Shot, WhatIsAskedForStays) {
+  Request asked;
+  asked.view.viewpoint = Viewpoint::top;
+  asked.look.attributes.color_by = "normal";
+  asked.look.style = LOOK_CLAY;
+  asked.output.despeckle = true;
+  const Shot picture = shot_of(room(), asked);
+  EXPECT_EQ(picture.request, asked);
+  EXPECT_EQ(picture.choices, std::vector<FieldText>{});
+  asked.look.style.reset();
+  asked.look.environment = "white";
+  EXPECT_FALSE(suited(room(), asked).look.style) << "an environment asks for its light";
+}
+
+TEST(Shot, ADollhouseMayBeSeenFromAnEyeOfOnesOwn) {
+  Request asked;
+  asked.view.viewpoint = Viewpoint::dollhouse;
+  asked.view.eye = glm::dvec3(0.0, 0.0, 9.0);
+  EXPECT_TRUE(shot_of(room(), asked).settings.cutaway);
+  EXPECT_EQ(shot_of(room(), asked).view.camera.eye, *asked.view.eye);
+  asked.view.viewpoint = Viewpoint::automatic;
+  EXPECT_FALSE(shot_of(room(), asked).settings.cutaway);
+}
+
+TEST(Shot, ChoosingTwiceChangesNothing) {
+  for (const Scene& scene : {site(), room()}) EXPECT_EQ(suited(scene, suited(scene)), suited(scene));
+}
+
+TEST(Lights, RectanglesArePointsInThePapersLookAlone) {
+  Scene scene;
+  scene.bounds_min_world = glm::dvec3(-1.0);
+  scene.bounds_max_world = glm::dvec3(1.0);
+  SceneLight lamp{LIGHT_RECTANGLE, {0.0, 5.0, 0.0}, glm::vec3(3.0F)};
+  lamp.edge_u = {0.5, 0.0, 0.0};
+  lamp.edge_v = {0.0, 0.0, 1.0};  // it shines down
+  scene.lights = {lamp};
+  const std::vector<SceneLight> lit = resolve_lights(scene, {}, {});
+  EXPECT_EQ(lit, exposed_lights(scene));
+  EXPECT_EQ(lights_of_look(LOOK_LIT, lit), lit);
+  const std::vector<SceneLight> paper = lights_of_look(LOOK_PAPER, lit);
+  ASSERT_EQ(paper.size(), 1U);
+  EXPECT_EQ(paper[0].kind, LIGHT_POINT);
+  EXPECT_GT(summed_irradiance(scene, lit), 0.0);
+  EXPECT_NEAR(summed_irradiance(scene, paper) / summed_irradiance(scene, lit), 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace splatray
