@@ -147,15 +147,16 @@ std::vector<std::uint8_t> find_movable(const Cloud& cloud, const Survey& survey)
   return movable;
 }
 
-/// Leaves out those around which points are so far from each other that noise does not show: a move would level what they are of.
-void keep_near_points(const Survey& survey, double noise_length, std::vector<std::uint8_t>& movable) {
+/// Lets those around which points are so far from each other that noise hardly shows move only where what lies around is flat within
+/// noise: another move would level what they are of.
+void keep_far_relief(const Survey& survey, double noise_length, std::vector<std::uint8_t>& movable) {
   const auto far = static_cast<float>(noise_length / LEAST_NOISE);
   tbb::parallel_for(std::size_t{0}, movable.size(), [&](std::size_t i) {
     std::array<float, Survey::LISTED> reach;
     const auto around = survey.around(i);
     std::transform(around.begin(), around.end(), reach.begin(),
                    [&](std::uint32_t j) { return survey.reach[j]; });
-    if (median_of(std::span<float>(reach)) > far) movable[i] = 0;
+    if (movable[i] != 0 && median_of(std::span<float>(reach)) > far) movable[i] = MOVES_WHERE_FLAT;
   });
 }
 
@@ -171,7 +172,7 @@ void move_to_surface(Cloud& cloud, Survey& survey, const BuildParams& params, Sm
     if (asked)
       for (std::size_t i = 0; i < cloud.size(); ++i) movable[i] = cloud.on_surface(i) ? 1 : 0;
     else
-      keep_near_points(survey, how.noise_length, movable);
+      keep_far_relief(survey, how.noise_length, movable);
     survey.near = {};
     how.moves = std::move(movable);
     smoothed = smooth_points(cloud, std::move(survey), how, stage);

@@ -15,8 +15,9 @@ namespace {
 constexpr std::size_t NEIGHBOURS_AROUND = 24;  // neighbours
 constexpr std::size_t LEAST_NEIGHBOURS = 6;    // of them, that a plane is put through
 constexpr double LAYERED = 0.2;                // noise from which points are projected again
-constexpr float ONE_SHEET_COSINE =
-    0.5F;                       // cosine of normals of one sheet: 60 degrees, as a hit's cluster has it
+// Cosines of normals of one sheet: 40 degrees, so that edges stay sharp, and 60, as a hit's cluster has it, where points lie in
+// layers. There the normals of one bent sheet scatter more, and what is left out makes holes.
+constexpr float ONE_SHEET_COSINE = 0.766F, ONE_LAYERED_SHEET_COSINE = 0.5F;
 constexpr float NARROW = 2.0F;  // of the weights: exp(-NARROW d^2 / the farthest's)
 
 /// Sums of weighted places, and from them the plane through them.
@@ -52,7 +53,11 @@ glm::vec3 sided(const glm::dvec3& axis, const glm::vec3& normal) {
 /// Points that are looked at again, with their neighbours.
 class Again {
  public:
-  Again(Cloud& cloud, const Reprojection& how) : cloud_(cloud), how_(how), normal_(cloud.normal) {}
+  Again(Cloud& cloud, const Reprojection& how)
+      : cloud_(cloud),
+        how_(how),
+        least_cosine_(projects() ? ONE_LAYERED_SHEET_COSINE : ONE_SHEET_COSINE),
+        normal_(cloud.normal) {}
 
   /// Whether points are projected again.
   [[nodiscard]] bool projects() const { return how_.noise > LAYERED; }
@@ -115,7 +120,7 @@ class Again {
   /// Whether two points are of one sheet: edges stay.
   [[nodiscard]] bool is_like(std::size_t i, std::size_t j) const {
     const float along = glm::dot(cloud_.normal[i], cloud_.normal[j]);
-    return (how_.sided ? along : std::abs(along)) >= ONE_SHEET_COSINE &&
+    return (how_.sided ? along : std::abs(along)) >= least_cosine_ &&
            is_same_sheet(how_.sheet_end, i, glm::dot(cloud_.normal[i], cloud_.coord[j] - cloud_.coord[i]));
   }
 
@@ -145,6 +150,7 @@ class Again {
 
   Cloud& cloud_;
   Reprojection how_;
+  float least_cosine_;                     ///< of normals of one sheet
   NumberLists<NEIGHBOURS_AROUND> listed_;  ///< of each point that moves, or fewer and itself
   std::vector<glm::vec3> normal_;          ///< those that come next
 };

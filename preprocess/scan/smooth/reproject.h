@@ -17,9 +17,9 @@ struct Reprojection {
 };
 
 /// Goes on where points were projected (smooth_points): means of normals lean where the surface ends or bends, the projected
-/// points do not. The normal becomes the axis of the point and those of its 24 nearest on its sheet whose normals are within 60
-/// degrees, so that edges stay, on its old side. Where the noise is above 0.2, as of scans in many layers, the point then goes onto
-/// their plane (by their covariance, weights exp(-2 d^2 / d24^2)), which adds to `lift`, and the normal becomes the axis again. The
+/// points do not. The normal becomes the axis of the point and those of its 24 nearest on its sheet whose normals are within 40
+/// degrees, so that edges stay, on its old side. Where the noise is above 0.2, as of scans in many layers, within 60, and the point
+/// then goes onto their plane (by their covariance, weights exp(-2 d^2 / d24^2)), which adds to `lift`, and the normal becomes the axis again. The
 /// cloud is out of order afterwards, but coincident points stay so.
 void reproject_points(Cloud& cloud, const Reprojection& how, std::vector<float>& lift, const Stage& stage);
 

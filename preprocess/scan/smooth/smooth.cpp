@@ -21,6 +21,9 @@ constexpr std::size_t MOST_PLACES = Surroundings::MOST;
 constexpr float ENOUGH = Surroundings::ENOUGH;
 constexpr std::size_t LEAST_AROUND = 6;  // of them, that have any weight
 constexpr int REWEIGHTINGS = 2;
+// Deviation of the places around a point from their plane, over the noise's, up to which they are flat (MOVES_WHERE_FLAT). A plane's own
+// is one; three leave room for noise that is larger there, and relief between points that are far apart is mostly higher.
+constexpr float FLAT_NOISES = 3.0F;
 constexpr float WIDE = 4.0F;  // of the heights' standard deviation: what is farther off has little weight
 
 /// The point that is moved and its neighbours, component by component; without weight up to whole vectors.
@@ -134,7 +137,8 @@ SPLATRAY_VECTOR_CLONES std::size_t weigh(PlacesAround& around, const float* dist
 struct Moved {
   std::vector<float> lift;  ///< cloud coordinates
   std::vector<glm::vec3> normal;
-  std::vector<std::uint8_t> supported;  ///< has enough neighbours
+  std::vector<std::uint8_t> moves;      ///< SmoothParams::moves, 0 where the point stays after all
+  std::vector<std::uint8_t> supported;  ///< has enough neighbours, or stays without
 };
 
 /// Moves points by their neighbours.
@@ -193,9 +197,17 @@ class SmoothProjection {
     const float widest = nearest.size() == MOST_PLACES ? farthest(nearest) : query(i).limit_squared;
     gather(i, nearest, around, distance_squared);
     const std::size_t used = weigh(around, distance_squared, widest, cloud_.normal[i], params_.sided);
-    moved.supported[i] = used > LEAST_AROUND;
-    if (moved.supported[i] == 0) return;
+    const bool stays_unless_flat = params_.moves[i] == MOVES_WHERE_FLAT;
+    if (used <= LEAST_AROUND) {
+      moved.supported[i] = stays_unless_flat ? 1 : 0;
+      moved.moves[i] = 0;
+      return;
+    }
     const MeanPlane plane = fit_robust_plane(around);
+    if (stays_unless_flat && plane.deviation > FLAT_NOISES * static_cast<float>(params_.noise_length)) {
+      moved.moves[i] = 0;
+      return;
+    }
     moved.lift[i] = glm::dot(plane.normal, plane.mean);
     moved.normal[i] = plane.normal;
   }
@@ -250,7 +262,7 @@ Smoothed smooth_points(Cloud& cloud, Survey survey, const SmoothParams& params, 
   if (cloud.size() == 0) return {};
   const std::size_t size = cloud.size();
   const SmoothProjection projection(cloud, survey, params);
-  Moved moved{std::vector<float>(size), cloud.normal, std::vector<std::uint8_t>(size, 1)};
+  Moved moved{std::vector<float>(size), cloud.normal, params.moves, std::vector<std::uint8_t>(size, 1)};
   for (std::size_t stride = 1; stride == 1 || (params.radius > 0.0 && stride < 4 * size); stride *= 4) {
     const auto movers = numbers_where(
         size, [&](std::size_t i) { return params.moves[i] != 0 && projection.stride_of(i) == stride; });
@@ -261,11 +273,11 @@ Smoothed smooth_points(Cloud& cloud, Survey survey, const SmoothParams& params, 
   if (supported.empty()) return {};  // nothing supports anything: the radius is too small for these points
   cloud.normal = std::move(moved.normal);
   keep_points(cloud, supported);
-  const std::vector<std::uint8_t> moves = gather(params.moves, supported);
+  const std::vector<std::uint8_t> moves = gather(moved.moves, supported);
   std::vector<float> lift = gather(moved.lift, supported);
   std::vector<float> sheet_end = gather(params.sheet_end, supported);
   for (std::size_t i = 0; i < sheet_end.size(); ++i) sheet_end[i] -= lift[i];
-  release(moved.lift), release(moved.supported), release(supported);
+  release(moved.lift), release(moved.moves), release(moved.supported), release(supported);
   survey = {};
   move_points(cloud, lift);
   reproject_points(cloud, {moves, params.sided, params.noise, sheet_end}, lift, stage);

@@ -15,9 +15,12 @@ struct SmoothParams {
   bool sided = false;                    ///< whether normals' sides are known
   double noise = 0.0;                    ///< measure_noise
   double noise_length = 0.0;             ///< PairHeights::near_length
-  std::vector<std::uint8_t> moves = {};  ///< of each point: != 0 where it may be moved
+  std::vector<std::uint8_t> moves = {};  ///< of each point: != 0 where it may be moved; MOVES_WHERE_FLAT
   std::vector<float> sheet_end = {};     ///< part_layers; empty = there is one sheet everywhere
 };
+
+/// Of SmoothParams::moves: a point that stays as it is unless the places around it lie on their plane but for noise.
+constexpr std::uint8_t MOVES_WHERE_FLAT = 2;
 
 /// What smoothing did.
 struct Smoothed {
