@@ -60,7 +60,7 @@ Part read_part_header(const std::filesystem::path& file) {
     refuse(file, std::string("a command that is none of ours (") + error.what() + ")",
            "an EXR of splatray-render");
   }
-  if (part.request.output.denoise || part.request.output.despeckle)
+  if (part.request.output.denoise.value_or(false) || part.request.output.despeckle)
     refuse(file, "a part whose noise was taken out", "one made without --denoise and --despeckle");
   return part;
 }

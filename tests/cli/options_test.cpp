@@ -87,7 +87,7 @@ TEST_F(CliOptions, MissingPartsAreRefused) {
       [&] {
         return render({grid, "--denoise", "--samples=2", "--reference=x.png"});
       },
-      2, "--denoise with --reference");
+      2, "--denoise and --reference, expected one of them");
   expect_refused([&] { return run_program({RENDER, grid}); }, 2, "no output");
   expect_refused([&] { return run_program({RENDER, grid, "-o", file("a.gif")}); }, 2, ".webp or .exr");
   expect_refused([&] { return run_program({RENDER, grid, "-o", file("a")}); }, 2, ".webp or .exr");

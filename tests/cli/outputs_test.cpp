@@ -226,11 +226,11 @@ TEST_F(CliOutputs, WhatAFormatCannotHoldIsRefused) {
     words.insert(words.begin(), {grid, "-o", file(name)});
     expect_refused([&] { return render(words); }, 2, found);
   };
-  refused("a.jpg", {"--background=transparent"}, "found --background transparent with a .jpg output");
-  refused("a.jpg", {"--aov=depth"}, "found --aov with a .jpg output");
-  refused("a.webp", {"--aov=depth"}, "found --aov with a .webp output");
+  refused("a.jpg", {"--background=transparent"}, "a.jpg' with --background transparent, expected");
+  refused("a.jpg", {"--aov=depth"}, "a.jpg' with --aov, expected a name ending in .exr");
+  refused("a.webp", {"--aov=depth"}, "a.webp' with --aov, expected a name ending in .exr");
   refused("a.webp", {"--resolution=16384x2"}, "at most 16383 a side");
-  refused("a.webp", {"--sheet=plan"}, "found --sheet with a .webp output");
+  refused("a.webp", {"--sheet=plan"}, "a.webp' with --sheet, expected a name ending in .png");
   refused("a.gif", {}, ".png, .jpg, .webp or .exr");
 }
 

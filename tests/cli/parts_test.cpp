@@ -53,9 +53,11 @@ TEST_F(CliParts, MergedTilesAreTheWholePictureByteForByte) {
   const std::vector<std::string> parts{file("part2.exr"), file("part1.exr"), file("part3.exr")};
   ASSERT_EQ(merge({parts[0], parts[1], parts[2], "-o", file("merged.exr")}).code, 0);
   EXPECT_TRUE(bytes("merged.exr") == bytes("whole.exr"));
-  ASSERT_EQ(make("whole.png", {}).code, 0);
+  ASSERT_EQ(make("whole.png", {"--keep-noise"}).code, 0);
   ASSERT_EQ(merge({parts[0], parts[1], parts[2], "-o", file("merged.png")}).code, 0);
-  ASSERT_EQ(make("plain.exr", {"--tile=1/2"}).code + make("plain2.exr", {"--tile=2/2"}).code, 0);
+  ASSERT_EQ(make("plain.exr", {"--tile=1/2", "--keep-noise"}).code +
+                make("plain2.exr", {"--tile=2/2", "--keep-noise"}).code,
+            0);
   ASSERT_EQ(merge({file("plain.exr"), file("plain2.exr"), "-o", file("plain.png")}).code, 0);
   EXPECT_TRUE(bytes("plain.png") == bytes("whole.png"));
   EXPECT_EQ(read_display_image(file("merged.png"), {}).rgb, read_display_image(file("whole.png"), {}).rgb);
@@ -68,7 +70,8 @@ using Ranges = std::vector<std::pair<int, int>>;
 class CliSampleRanges : public CliParts {
  protected:
   /// Renders as the whole picture and in ranges, joins these in another order, and expects the same file, as EXR and as PNG.
-  void expect_same(const Ranges& ranges, const std::vector<std::string>& options) const {
+  void expect_same(const Ranges& ranges, std::vector<std::string> options) const {
+    options.emplace_back("--keep-noise");  // as parts do
     const int samples = ranges.back().first + ranges.back().second;
     ASSERT_EQ(make_range("whole", ".exr", {0, samples}, options).code, 0);
     std::vector<std::string> parts;
@@ -161,7 +164,7 @@ TEST_F(CliSampleRanges, OptionsThatNeedAllSamplesAreRefused) {
   refused({"--sample-offset=65536", "--samples=64"}, "65535");
   refused({"--sample-offset=65472", "--samples=64", "--error=0.1"}, "--samples");
   refused({"--sample-offset=64", "--samples=64", "--aov=error"}, "for all samples");
-  refused({"--sample-offset=64", "--samples=64", "--denoise"}, "a whole picture");
+  refused({"--sample-offset=64", "--samples=64", "--denoise"}, "keep their noise");
 }
 
 TEST_F(CliParts, ACropIsThatPartOfThePicture) {
@@ -258,8 +261,8 @@ TEST_F(CliParts, OptionsThatNeedTheWholePictureAreRefused) {
   refused({"--tile=5/4"}, "1/4");
   refused({"--tile=1/31"}, "30 rows");
   refused({"--tile=1/4", "--crop=0,0,1,1"}, "one of them");
-  refused({"--tile=1/4", "--denoise"}, "a whole picture");
-  refused({"--tile=1/4", "--despeckle"}, "a whole picture");
+  refused({"--tile=1/4", "--denoise"}, "keep their noise");
+  refused({"--tile=1/4", "--despeckle"}, "keep their noise");
   refused({"--tile=1/4", "--error=0.1"}, "--samples");
 }
 

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "app/library/picture/make_picture.h"
-#include "app/library/shot/scene_source.h"
 #include "app/library/request/fields.h"
+#include "app/library/shot/scene_source.h"
 #include "engine/device/host/host_device.h"
 
 namespace splatray {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <limits>
 
-#include "app/library/picture/compare.h"
 #include "app/library/image_file.h"
+#include "app/library/picture/compare.h"
 #include "engine/base/error.h"
 #include "tests/temp_folder.h"
 

@@ -102,12 +102,12 @@ TEST_F(CliResume, OtherPicturesAreRefused) {
   refuse(9, {"--despeckle", "--denoise"}, 2, "expected one of them");
   refuse(9, {"--despeckle", "--tile=1/2"}, 2, "as parts that are joined keep their noise");
   refuse(1, {"--despeckle"}, 2, "--despeckle with one sample");
-  refuse(9, {resume("some.exr"), "--time=1"}, 2, "--resume with --error or --time");
+  refuse(9, {resume("some.exr"), "--time=1"}, 2, "found --time and --resume, expected one of them");
   expect_refused(
       [&] {
         return run_program(command("a.#.exr", 9, {resume("some.exr"), "--turntable=2"}));
       },
-      2, "--resume with a sequence");
+      2, "found --turntable and --resume, expected one of them");
   const std::string eye = "--eye=3,3,3", target = "--target=0,0,0";
   ASSERT_EQ(make("seen.exr", 4, {eye, target}).code, 0);
   write("grid.ply", grid_ply(true, 0.0, 0.2));

@@ -153,14 +153,14 @@ TEST_F(CliSequences, NonsenseIsRefused) {
     all.insert(all.end(), arguments.begin(), arguments.end());
     expect_refused([&] { return render_to("a.#.png", all); }, code, words);
   };
-  refuse({"--frames=1-2"}, "--camera-path or --turntable");
+  refuse({"--frames=1-2"}, "--turntable or --camera-path");
   refuse({"--turntable=4", "--frames=2-4"}, "0-3");
   refuse({"--turntable=4", "--frames=2-1"}, "first-last");
   refuse({"--turntable=4", "--frames=0,2-3:0"}, "first-last");
   refuse({"--turntable=4", "--camera-path", path}, "one of them");
   refuse({"--camera-path", path, "--frames=2-9"}, "3-9");
-  refuse({"--camera-path", path, "--eye=1,1,1"}, "only the path");
-  refuse({"--camera-path", path, "--reference", file("a.png")}, "single");
+  refuse({"--camera-path", path, "--eye=1,1,1"}, "as the path has its cameras");
+  refuse({"--camera-path", path, "--reference", file("a.png")}, "of a single picture");
   refuse({"--camera-path", file("none.json")}, "no such file", 3);
   refuse({"--camera", path}, "a camera path", 3);
   expect_refused([&] { return render_to("a.png", {grid, "--turntable=4"}); }, 2, "one run of #");

@@ -95,19 +95,17 @@ std::string joined_devices(const std::string& devices, const std::string& more) 
 Metadata picture_metadata(const Shot& shot, const Scene& scene, const Camera& camera,
                           const std::string& devices) {
   const bool ortho = camera.ortho_height > 0.0;
-  Metadata metadata{
-      {"command_line", command_line(still_request(shot, camera))},
-      {"eye", number_text(camera.eye)},
-      {"target", number_text(camera.target)},
-      {"up", number_text(camera.up)},
-      {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
-      {"diagonal_world", number_text(scene.diagonal_world())},
-      {"device", devices},
-      {"samples", std::to_string(shot.settings.samples)},
-      {"seed", std::to_string(shot.settings.seed)},
-      {"commit", COMMIT}};
-  if (!shot.choices.empty()) metadata.emplace_back("choices", choices_text(shot));
-  return metadata;
+  return {{"command_line", command_line(still_request(shot, camera))},
+          {"eye", number_text(camera.eye)},
+          {"target", number_text(camera.target)},
+          {"up", number_text(camera.up)},
+          {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
+          {"diagonal_world", number_text(scene.diagonal_world())},
+          {"device", devices},
+          {"samples", std::to_string(shot.settings.samples)},
+          {"seed", std::to_string(shot.settings.seed)},
+          {"commit", COMMIT},
+          {"choices", shot.choices.empty() ? "none" : choices_text(shot)}};
 }
 
 DisplayImage shown_image(const Shot& shot, const Image& image) {

@@ -63,8 +63,11 @@ Request read_picture_request(const fs::path& picture) {
                                                 "': " + found + ", expected a picture of splatray-render");
   };
   const Metadata metadata = read_metadata(picture);
-  const auto line = std::find_if(metadata.begin(), metadata.end(),
-                                 [](const auto& entry) { return entry.first == "command_line"; });
+  const auto kept = [&metadata](const std::string& name) {
+    return std::find_if(metadata.begin(), metadata.end(),
+                        [&](const auto& entry) { return entry.first == name; });
+  };
+  const auto line = kept("command_line");
   if (line == metadata.end()) refuse("found no splatray.command_line in it");
   Request request;
   try {
@@ -72,8 +75,9 @@ Request read_picture_request(const fs::path& picture) {
   } catch (const Error& error) {
     refuse(error.what());
   }
-  // It says whether its noise was taken out; without a word it was not.
-  if (!request.output.despeckle) request.output.denoise = request.output.denoise.value_or(false);
+  // Before pictures kept what was chosen, noise was taken out of those alone that say so.
+  if (kept("choices") == metadata.end() && !request.output.despeckle)
+    request.output.denoise = request.output.denoise.value_or(false);
   for (fs::path& input : request.source.inputs) input = find_beside(input, picture);
   for (fs::path& folder : request.source.data_paths) folder = find_beside(folder, picture);
   std::string& environment = request.look.environment;

@@ -164,8 +164,8 @@ void require_part_of(const Request::View& view, std::uint32_t width, std::uint32
 }
 
 void require_consistent(const Request& request) {
-  check_fields(request);
   check_format(request);
+  check_fields(request);
   check_size(request);
   check_noise(request);
   check_sample_range(request);

@@ -40,7 +40,8 @@ std::string goal_text(const RenderStats& stats) {
   Shot shot = run.shot;
   const std::uint32_t asked = shot.settings.samples;
   shot.settings.samples = shot.request.settings.samples = asked - made.samples_missing;
-  shot.request.output.denoise = false;
+  shot.request.output.denoise.reset();
+  std::erase_if(shot.choices, [](const FieldText& choice) { return choice.name == "denoise"; });
   shot.request.output.despeckle = false;
   const Metadata metadata = picture_metadata(shot, run.shown.scene(), camera, made.devices);
   const bool has_sums = lower_extension(frame.output) == ".exr";
