@@ -146,6 +146,19 @@ TEST(Sheet, MayHaveManyPixelsWhereThereAreManyPoints) {
       << "28900 splats, which are 46 pixels apart";
 }
 
+TEST(Sheet, OfCoordinatesThatHaveNoPixelsIsRefused) {
+  Scene scene = ball();
+  scene.root.origin_world.x = 1e16;
+  try {
+    (void)make_sheet(scene, with_sheet("plan"));
+    FAIL() << "the grid's lines would have no end";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("coordinates of 1e+16, which are too large"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(CutLines, LieOnTheCircleThatABallIsCutIn) {
   const Scene scene = ball();
   const double radius = std::sqrt(1.0 - 0.3 * 0.3), length = 2.0 * 3.14159265 * radius;

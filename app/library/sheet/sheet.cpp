@@ -97,6 +97,16 @@ void set_depths(const PlanAxes& plan, const PointSample& all, Sheet& sheet) {
   sheet.far = sheet.asked.depth ? first - *sheet.asked.depth : low - slack;
 }
 
+/// Refuses a place on the paper, world units, at which float64 has no thousand steps a pixel: pixels would not lie where they
+/// say, and the lines of the page's grid would coincide.
+void require_resolved(double place, double pixel_world) {
+  if (!(std::abs(place) * std::numeric_limits<double>::epsilon() * 1000.0 <= pixel_world))
+    throw Error(ExitCode::usage, "the scene lies at coordinates of " + short_number(place) +
+                                     ", which are too large for the sheet's pixels of " +
+                                     short_number(pixel_world) +
+                                     "; expected a scale of a larger number, or --keep-box");
+}
+
 /// Refuses sheets that take long for what is on them: a few points far apart at a large scale.
 void require_pixels(double width, double height, std::size_t splats) {
   const std::string found =
@@ -123,6 +133,7 @@ void set_pixels(const PointSample& shown, std::size_t splats, Sheet& sheet) {
     across = {across[0] - margin, across[1] + margin};
   }
   const double pixel = sheet.pixel_world;
+  for (const double place : {across[0], across[1], along[0], along[1]}) require_resolved(place, pixel);
   sheet.corner.x = sheet.origin.x + pixel * std::floor((across[0] - sheet.origin.x) / pixel);
   sheet.corner.y = sheet.origin.y + pixel * std::ceil((along[1] + margin - sheet.origin.y) / pixel);
   const double width = std::ceil((across[1] - sheet.corner.x) / pixel);
