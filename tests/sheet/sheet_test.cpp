@@ -148,13 +148,13 @@ TEST(Sheet, MayHaveManyPixelsWhereThereAreManyPoints) {
 
 TEST(Sheet, OfCoordinatesThatHaveNoPixelsIsRefused) {
   Scene scene = ball();
-  scene.root.origin_world.x = 1e16;
+  scene.root.origin_world.x = scene.bounds_max_world.x = 1e17;
   try {
     (void)make_sheet(scene, with_sheet("plan"));
     FAIL() << "the grid's lines would have no end";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_NE(std::string(error.what()).find("coordinates of 1e+16, which are too large"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("coordinates of 1e+17, which are too large"), std::string::npos)
         << error.what();
   }
 }
