@@ -97,6 +97,7 @@ struct Mesh {
   Points vertices;                         ///< position, maybe normal and colour
   std::vector<glm::vec2> texcoord;         ///< beside vertices, or empty
   std::vector<glm::uvec3> triangles;       ///< indices < vertices.size()
+  std::vector<float> alpha;                ///< multiplies the texture's, beside vertices; empty = 1 everywhere
   std::shared_ptr<const Texture> texture;  ///< base colour by texcoord, times the vertex colour; null = none
   std::vector<SurfaceMap> maps;            ///< further textures (mesh/surface_maps.h); empty = none
 };

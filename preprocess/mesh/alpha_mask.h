@@ -14,6 +14,8 @@ class AlphaMask {
 
   /// Whether anything may be cut out.
   [[nodiscard]] bool any() const { return any_; }
+  /// Whether a vertex is cut out.
+  [[nodiscard]] bool cut_out(std::size_t vertex) const;
   /// Whether the point of a triangle with these barycentric weights is cut out.
   [[nodiscard]] bool cut_out(std::uint32_t triangle, const glm::dvec3& weights) const;
   /// Adds a line to a point of a triangle where the mask ends within `reach`, world units: square to where the nearest part is
@@ -22,6 +24,10 @@ class AlphaMask {
             PointClip& clip) const;
 
  private:
+  [[nodiscard]] float alpha(std::size_t vertex) const {
+    return mesh_.alpha.empty() ? 1.0F : mesh_.alpha[vertex];
+  }
+
   const Mesh& mesh_;
   bool any_;
 };

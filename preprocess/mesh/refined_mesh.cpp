@@ -27,6 +27,7 @@ RefinedMesh::RefinedMesh(const Mesh& mesh, const MeshEdges& edges, const SmoothS
     : mesh_(mesh), edges_(edges), tolerance_(tolerance_world) {
   refined_.vertices.position = mesh.vertices.position;
   refined_.texcoord = mesh.texcoord;
+  refined_.alpha = mesh.alpha;
   refined_.texture = mesh.texture;
   refined_.triangles.reserve(mesh.triangles.size());
   parts_.reserve(mesh.triangles.size());
@@ -65,9 +66,11 @@ RefinedMesh::Corner RefinedMesh::middle_of(const SmoothTriangle& smooth, std::ui
                                            const Corner& a, const Corner& b) {
   const Corner middle{0.5 * (a.weights + b.weights), static_cast<glm::uint>(refined_.vertices.size())};
   refined_.vertices.position.push_back(smooth.place(middle.weights));
+  const glm::uvec3& t = mesh_.triangles[triangle];
+  const glm::vec3 w(middle.weights);
+  if (!refined_.alpha.empty())
+    refined_.alpha.push_back(w.x * mesh_.alpha[t.x] + w.y * mesh_.alpha[t.y] + w.z * mesh_.alpha[t.z]);
   if (!refined_.texcoord.empty()) {
-    const glm::uvec3& t = mesh_.triangles[triangle];
-    const glm::vec3 w(middle.weights);
     refined_.texcoord.push_back(w.x * mesh_.texcoord[t.x] + w.y * mesh_.texcoord[t.y] +
                                 w.z * mesh_.texcoord[t.z]);
   }

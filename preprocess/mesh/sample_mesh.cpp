@@ -373,7 +373,7 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
     while (other != NONE && glm::dot(normals[other], normals[i]) < COS_SAME_POINT) {
       other = next_kept[other];
     }
-    if (!used[i] || other != NONE || (mask.any() && mesh.texture->cut_out(mesh.texcoord[i]))) {
+    if (!used[i] || other != NONE || mask.cut_out(i)) {
       continue;
     }
     next_kept[i] = std::exchange(first_kept[weld[i]], static_cast<glm::uint>(i));

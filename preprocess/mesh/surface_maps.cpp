@@ -39,13 +39,16 @@ MapSamples::MapSamples(const Mesh& mesh) : mesh_(mesh) {
   for (const SurfaceMap& map : mesh.maps) bytes_.resize(bytes_.size() + map.channels.size());
 }
 
-template <class TexcoordOf>
-void MapSamples::add_at(const TexcoordOf& texcoord_of, const glm::uvec3* triangle, const glm::vec3& normal) {
+template <class ValueOf>
+void MapSamples::add_at(const ValueOf& value_of, const glm::uvec3* triangle, const glm::vec3& normal) {
   std::size_t column = 0;
+  const float alpha = mesh_.alpha.empty() ? 1.0F : value_of(mesh_.alpha);
   for (const SurfaceMap& map : mesh_.maps) {
-    const glm::vec2 texcoord = texcoord_of(*map.texcoord);
-    for (const MapChannel& channel : map.channels)
-      bytes_[column++].push_back(encode_factor(*channel.factor, map_value(map, channel, texcoord)));
+    const glm::vec2 texcoord = value_of(*map.texcoord);
+    for (const MapChannel& channel : map.channels) {
+      const float thinned = channel.factor->column == COLUMN_OPACITY ? alpha : 1.0F;
+      bytes_[column++].push_back(encode_factor(*channel.factor, thinned * map_value(map, channel, texcoord)));
+    }
     if (map.normal_scale != 0.0F) add_normal(map, texcoord, triangle, normal);
   }
 }
@@ -73,8 +76,8 @@ void MapSamples::add_normal(const SurfaceMap& map, glm::vec2 texcoord, const glm
 
 void MapSamples::add(const glm::uvec3& triangle, const glm::vec3& weights, const glm::vec3& normal) {
   add_at(
-      [&](const std::vector<glm::vec2>& uv) {
-        return weights.x * uv[triangle.x] + weights.y * uv[triangle.y] + weights.z * uv[triangle.z];
+      [&](const auto& of) {
+        return weights.x * of[triangle.x] + weights.y * of[triangle.y] + weights.z * of[triangle.z];
       },
       &triangle, normal);
 }
@@ -85,8 +88,8 @@ void MapSamples::add(glm::uint vertex, const glm::vec3& normal) {
     for (const glm::uvec3& triangle : mesh_.triangles)
       for (glm::length_t corner = 0; corner < 3; ++corner) triangle_at_[triangle[corner]] = &triangle;
   }
-  add_at([&](const std::vector<glm::vec2>& uv) { return uv[vertex]; },
-         mesh_.maps.empty() ? nullptr : triangle_at_[vertex], normal);
+  add_at([&](const auto& of) { return of[vertex]; }, mesh_.maps.empty() ? nullptr : triangle_at_[vertex],
+         normal);
 }
 
 std::vector<Column> MapSamples::take() {

@@ -26,8 +26,8 @@ class MapSamples {
   [[nodiscard]] std::vector<Column> take();
 
  private:
-  template <class TexcoordOf>
-  void add_at(const TexcoordOf& texcoord_of, const glm::uvec3* triangle, const glm::vec3& normal);
+  template <class ValueOf>
+  void add_at(const ValueOf& value_of, const glm::uvec3* triangle, const glm::vec3& normal);
   /// `triangle`: one at the point, whose texture coordinates say where the map's x and y lead; null: there is none.
   void add_normal(const SurfaceMap& map, glm::vec2 texcoord, const glm::uvec3* triangle,
                   const glm::vec3& normal);

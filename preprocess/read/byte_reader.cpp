@@ -1,6 +1,7 @@
 #include "preprocess/read/byte_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "engine/base/error.h"
@@ -12,6 +13,34 @@ namespace splatray {
 void throw_unreadable(const std::filesystem::path& path, const std::string& what) {
   throw Error(ExitCode::input_unreadable, one_line(path.string() + ": " + what));
 }
+
+namespace {
+
+/// Refuses what a download often is, whatever it is called. Of all float32 that a KITTI sweep may begin with, one in 16 million
+/// looks so.
+void refuse_archive(const std::filesystem::path& path, std::FILE* file) {
+  using namespace std::string_view_literals;
+  struct Start {
+    std::string_view bytes, what, instead;
+  };
+  constexpr Start STARTS[] = {
+      {"\x1F\x8B\x08"sv, "a file packed by gzip", "what is in it: unpack it with gunzip"},
+      {"PK\x03\x04"sv, "a ZIP archive", "what is in it: unpack it"},
+      {"7z\xBC\xAF\x27\x1C"sv, "a 7-Zip archive", "what is in it: unpack it"},
+      {"\xFD"
+       "7zXZ\0"sv,
+       "a file packed by xz", "what is in it: unpack it with unxz"},
+      {"<!DOCTYPE html"sv, "a web page", "points: the download gave a page instead"}};
+  std::array<char, 16> bytes{};
+  const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), file);
+  const std::string_view begin(bytes.data(), got);
+  for (const Start& start : STARTS)
+    if (begin.starts_with(start.bytes))
+      throw_unreadable(path, "found " + std::string(start.what) + ", expected " + std::string(start.instead));
+  std::rewind(file);
+}
+
+}  // namespace
 
 ByteReader::ByteReader(const std::filesystem::path& path, const ReadListener* listener)
     : path_(path), listener_(listener) {
@@ -36,6 +65,7 @@ ByteReader::ByteReader(const std::filesystem::path& path, const ReadListener* li
     throw_unreadable(path, "cannot be opened for reading");
   }
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  refuse_archive(path_, file_.get());
   buffer_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(size_, BLOCK_BYTES)));
 }
 

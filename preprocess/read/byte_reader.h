@@ -23,7 +23,7 @@ class ByteReader {
   /// Most bytes one take() may ask for.
   static constexpr std::size_t BLOCK_BYTES = std::size_t{1} << 20U;
 
-  /// Opens a regular file that is not empty; throws Error (input_unreadable) otherwise. `listener` hears of each block; it
+  /// Opens a regular file that is neither empty nor an archive; throws Error (input_unreadable) otherwise. `listener` hears of each block; it
   /// must live as long as this. All functions that read may so throw Error (interrupted).
   explicit ByteReader(const std::filesystem::path& path, const ReadListener* listener = nullptr);
 

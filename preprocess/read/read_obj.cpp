@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/srgb.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/scan/stored_colors.h"
 #include "preprocess/read/text/next_word.h"
@@ -189,20 +188,6 @@ class ObjReader {
   std::array<std::uint64_t, KINDS> highest_line_{};
 };
 
-void decode_colors(std::vector<glm::vec3>& colors, const std::filesystem::path& path,
-                   const ReadListener& listener) {
-  ColorRange range;
-  for (const glm::vec3& color : colors)
-    for (int channel = 0; channel < 3; ++channel) range.add(static_cast<double>(color[channel]));
-  const auto full = static_cast<float>(range.full());
-  if (const std::string said = color_note(range); !said.empty() && (full != 1.0F || range.outliers() > 0))
-    listener.note(path, said);
-  for (glm::vec3& color : colors)
-    for (int channel = 0; channel < 3; ++channel)
-      color[channel] = color[channel] > 0.0F ? srgb_to_linear(std::min(color[channel] / full, 1.0F))
-                                             : 0.0F;  // of what is no number too
-}
-
 /// Gives corners their normals: a vertex has that of its first corner, and a double for each further one.
 class CornerJoiner {
  public:
@@ -251,7 +236,7 @@ Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener) {
   vertices.position = std::move(content.position);
   if (!content.color.empty()) {
     content.color.resize(vertices.size(), glm::vec3(1.0F));
-    decode_colors(content.color, path, listener);
+    if (const std::string said = decode_colors(content.color); !said.empty()) listener.note(path, said);
     vertices.color = std::move(content.color);
   }
   mesh.triangles.reserve(content.triangles.size());

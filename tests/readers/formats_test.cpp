@@ -46,6 +46,22 @@ TEST(Formats, EveryExtensionHasOneReaderThatRefusesWhatIsNoSuchFile) {
   }
 }
 
+TEST(Formats, ArchivesAndWebPagesAreNamed) {
+  const TempFolder folder;
+  const auto error = [&](const std::string& name, const std::string& bytes) {
+    return read_error(folder.write(name, bytes + std::string(300, '\0')));
+  };
+  for (const char* name :
+       {"a.xyz.gz", "a.xyz", "a.las", "a.e57", "a.ply", "a.vtp", "a.gltf", "a.pcd", "a.obj", "a.stl"}) {
+    EXPECT_NE(
+        error(name, "\x1F\x8B\x08").find("packed by gzip, expected what is in it: unpack it with gunzip"),
+        std::string::npos)
+        << name;
+    EXPECT_NE(error(name, "PK\x03\x04").find("found a ZIP archive"), std::string::npos) << name;
+    EXPECT_NE(error(name, "<!DOCTYPE html><html>").find("found a web page"), std::string::npos) << name;
+  }
+}
+
 TEST(Formats, RefusalsListTheTable) {
   const TempFolder folder;
   EXPECT_NE(read_error(folder.write("a.abc", "1 2 3")).find(format_extensions()), std::string::npos);

@@ -105,6 +105,52 @@ TEST(GltfTextures, AlphaThatBlendsIsOpacity) {
   EXPECT_TRUE(solid.objects[0].points.columns.empty()) << "opaque all over";
 }
 
+/// The same quad with a COLOR_0 of bytes whose alpha is 255, but 128 at the vertices of x = 1.
+std::string fading_quad(const std::string& alpha_mode) {
+  std::string json = quad(alpha_mode + R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}})",
+                          R"(,"TEXCOORD_0":1,"COLOR_0":2)");
+  json.insert(json.find(R"("type":"VEC2"})") + 14,
+              R"(,{"bufferView":2,"componentType":5121,"normalized":true,"count":4,"type":"VEC4"})");
+  json.insert(json.find(R"("byteLength":32})") + 16, R"(,{"buffer":1,"byteLength":16})");
+  json.insert(json.find(R"("buffers":[)") + 11,
+              R"({"byteLength":16,"uri":"data:application/octet-stream;base64,/////////4D/////////gA=="},)");
+  std::string::size_type at = 0;  // the new buffer is the first one
+  for (const char* number : {"1", "1", "0"}) {
+    at = json.find(R"("buffer":)", at) + 9;
+    json.replace(at, 1, number);
+  }
+  return json;
+}
+
+/// The column's value at the point nearest to this x, y 0.
+double value_at(const InputObject& object, const std::string& name, double x) {
+  const Column* column = find_column(object.points.columns, name);
+  std::size_t nearest = 0;
+  const auto distance = [&](std::size_t i) {
+    return glm::distance(object.points.position[i], glm::dvec3(x, 0, 0));
+  };
+  for (std::size_t i = 0; i < object.points.size(); ++i)
+    if (distance(i) < distance(nearest)) nearest = i;
+  return column == nullptr ? -1.0 : column->number(nearest);
+}
+
+TEST(GltfTextures, AlphaOfVerticesMultipliesThatOfTheTexture) {
+  const Input blend = read_quad(fading_quad(R"("alphaMode":"BLEND")"));
+  const double half = 128.0 / 255.0;
+  EXPECT_NEAR(value_at(blend.objects.at(0), "texture-opacity", -0.5), 255.0 * (0.75 + 0.25 * half), 4.0);
+  EXPECT_NEAR(value_at(blend.objects.at(0), "texture-opacity", 0.5), 102.0 * (0.25 + 0.75 * half), 4.0);
+  // 0.4 of the right half is above the cutoff where the vertices' alpha is above 0.75: nothing is there from the middle on.
+  const auto right_end = [](const std::string& cutoff) {
+    double most = -1.0;
+    const Input mask = read_quad(fading_quad(R"("alphaMode":"MASK","alphaCutoff":)" + cutoff));
+    for (const glm::dvec3& place : mask.objects.at(0).points.position) most = std::max(most, place.x);
+    return most;
+  };
+  EXPECT_NEAR(right_end("0.25"), 2.0 * (1.0 - 0.625) / (1.0 - half) - 1.0, 0.05)
+      << "where 0.4 times it is 0.25";
+  EXPECT_GT(right_end("0.1"), 0.95);
+}
+
 TEST(GltfTextures, NormalMapsTiltWhereTheirPictureSays) {
   const Input input = read_quad(quad(R"("normalTexture":{"index":0,"scale":0.5})"));
   const InputObject& object = input.objects[0];

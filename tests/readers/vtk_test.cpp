@@ -1,6 +1,7 @@
 /// VTK's own formats.
 #include <cmath>
 
+#include "engine/base/srgb.h"
 #include "tests/readers/read_error.h"
 
 namespace splatray {
@@ -28,6 +29,44 @@ TEST(Vtk, VtpKeepsDoublesNormalsColoursAndRadii) {
   EXPECT_FLOAT_EQ(points.normal[1].y, 1.0F);
   EXPECT_NEAR(points.color[0].z, 0.2158605F, 1e-6F);
   EXPECT_FLOAT_EQ(points.radius[1], 0.25F);
+}
+
+/// The red of a middle grey, 0.2 for display, that these arrays give two points; NaN where they give no colours.
+float grey_of(const std::string& arrays) {
+  const TempFolder folder;
+  const Points points =
+      read_input({folder.write(
+                     "p.vtp",
+                     "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\"><PolyData>"
+                     "<Piece NumberOfPoints=\"2\"><PointData>" +
+                         arrays +
+                         "</PointData><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+                         "format=\"ascii\">0 0 0 1 2 3</DataArray></Points></Piece></PolyData></VTKFile>")},
+                 {})
+          .objects[0]
+          .points;
+  return points.color.empty() ? NAN : points.color[0].x;
+}
+
+std::string color_array(const std::string& type, const std::string& name, const std::string& grey,
+                        const std::string& full) {
+  return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"3\" format=\"ascii\">" +
+         grey + " " + grey + " " + grey + " " + full + " 0 0</DataArray>";
+}
+
+TEST(Vtk, ColoursOfAnyTypeAreScaledByTheirValues) {
+  const float grey = srgb_to_linear(0.2F);
+  EXPECT_NEAR(grey_of(color_array("UInt8", "RGB", "51", "255")), grey, 1e-6F) << "not the active scalars";
+  EXPECT_NEAR(grey_of(color_array("Float32", "Colors", "0.2", "1")), grey, 1e-6F);
+  EXPECT_NEAR(grey_of(color_array("Float64", "rgb", "51", "255")), grey, 1e-6F);
+  EXPECT_NEAR(grey_of(color_array("UInt16", "Diffuse Color", "13107", "65535")), grey, 1e-6F);
+  EXPECT_NEAR(grey_of(color_array("UInt16", "RGB", "51", "255")), grey, 1e-6F) << "8 bits in 16";
+  EXPECT_TRUE(std::isnan(grey_of(color_array("Float32", "velocity", "0.2", "1"))));
+  std::string channels;
+  for (const char* name : {"Red", "Green", "Blue"})
+    channels +=
+        std::string("<DataArray type=\"Int32\" Name=\"") + name + "\" format=\"ascii\">51 255</DataArray>";
+  EXPECT_NEAR(grey_of(channels), grey, 1e-6F);
 }
 
 TEST(Vtk, VtpFacesBeyondTheirArraysAreErrors) {

@@ -117,6 +117,48 @@ TEST(Sheet, OfNothingOrTooManyPixelsIsRefused) {
     EXPECT_THROW((void)make_sheet(scene, with_sheet(text)), Error) << text;
 }
 
+/// Points at the corners of a square of this width and in it, so many a side.
+Scene square(double width, int side) {
+  testing::TestObject object{OrientedPoints{}, testing::test_material(MATERIAL_TWO_SIDED)};
+  for (int i = 0; i < side * side; ++i) {
+    object.points.position.emplace_back(width * (i % side) / (side - 1), width * (i / side) / (side - 1),
+                                        0.0);
+    object.points.normal.emplace_back(0.0F, 0.0F, 1.0F);
+  }
+  Scene scene = testing::scene_of({object});
+  scene.up = {0.0, 0.0, 1.0};
+  return scene;
+}
+
+TEST(Sheet, MayHaveManyPixelsWhereThereAreManyPoints) {
+  const Request request = with_sheet("plan:scale=1000,dpi=20");
+  EXPECT_LT(make_sheet(square(7000.0, 15), request).width, 6000U) << "less than A2 at 300 dpi";
+  try {
+    (void)make_sheet(square(10000.0, 15), request);
+    FAIL() << "62 million pixels for 225 splats";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("for a scene of 225 splats, expected at most 35 million pixels"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_GT(make_sheet(square(10000.0, 170), request).width, 7800U)
+      << "28900 splats, which are 46 pixels apart";
+}
+
+TEST(Sheet, OfCoordinatesThatHaveNoPixelsIsRefused) {
+  Scene scene = ball();
+  scene.root.origin_world.x = scene.bounds_max_world.x = 1e17;
+  try {
+    (void)make_sheet(scene, with_sheet("plan"));
+    FAIL() << "the grid's lines would have no end";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("coordinates of 1e+17, which are too large"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(CutLines, LieOnTheCircleThatABallIsCutIn) {
   const Scene scene = ball();
   const double radius = std::sqrt(1.0 - 0.3 * 0.3), length = 2.0 * 3.14159265 * radius;

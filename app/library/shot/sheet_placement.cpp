@@ -19,6 +19,10 @@ constexpr double METRE_MM = 1000.0;
 constexpr double MARGIN_MM = 4.0;
 /// Pixels of a side that rays are numbered by.
 constexpr double MOST_PIXELS = 1U << 20U;
+/// Pixels of a sheet whatever is drawn on it: A2 at 300 dpi, about a minute of two cores for each sample.
+constexpr double FREE_PIXELS = 4961.0 * 7016.0;
+/// Further pixels for each splat. Where splats are 32 pixels apart, smaller pixels show the rims of discs and nothing else.
+constexpr double SPLAT_PIXELS = 32.0 * 32.0;
 constexpr double DEG = std::numbers::pi / 180.0;
 
 /// The plan's right and top in the world, and up.
@@ -93,7 +97,32 @@ void set_depths(const PlanAxes& plan, const PointSample& all, Sheet& sheet) {
   sheet.far = sheet.asked.depth ? first - *sheet.asked.depth : low - slack;
 }
 
-void set_pixels(const PointSample& shown, Sheet& sheet) {
+/// Refuses a place on the paper, world units, at which float64 has no thousand steps a pixel: pixels would not lie where they
+/// say, and the lines of the page's grid would coincide.
+void require_resolved(double place, double pixel_world) {
+  if (!(std::abs(place) * std::numeric_limits<double>::epsilon() * 1000.0 <= pixel_world))
+    throw Error(ExitCode::usage, "the scene lies at coordinates of " + short_number(place) +
+                                     ", which are too large for the sheet's pixels of " +
+                                     short_number(pixel_world) +
+                                     "; expected a scale of a larger number, or --keep-box");
+}
+
+/// Refuses sheets that take long for what is on them: a few points far apart at a large scale.
+void require_pixels(double width, double height, std::size_t splats) {
+  const std::string found =
+      "the sheet would be " + number_text(width) + " x " + number_text(height) + " pixels";
+  const std::string instead = ": a scale of a larger number, fewer dpi, or --keep-box";
+  if (!(width <= MOST_PIXELS && height <= MOST_PIXELS))
+    throw Error(ExitCode::usage,
+                found + ", expected at most " + number_text(MOST_PIXELS) + " a side" + instead);
+  const double most = FREE_PIXELS + SPLAT_PIXELS * static_cast<double>(splats);
+  if (width * height > most)
+    throw Error(ExitCode::usage, found + " for a scene of " + std::to_string(splats) +
+                                     " splats, expected at most " + number_text(std::round(most / 1e6)) +
+                                     " million pixels" + instead);
+}
+
+void set_pixels(const PointSample& shown, std::size_t splats, Sheet& sheet) {
   const double margin = MARGIN_MM / sheet.pixel_mm() * sheet.pixel_world;
   std::array<double, 2> across = range_along(shown.position, sheet.right, 0.0);
   const std::array<double, 2> along = range_along(shown.position, sheet.top, 0.0);
@@ -104,14 +133,12 @@ void set_pixels(const PointSample& shown, Sheet& sheet) {
     across = {across[0] - margin, across[1] + margin};
   }
   const double pixel = sheet.pixel_world;
+  for (const double place : {across[0], across[1], along[0], along[1]}) require_resolved(place, pixel);
   sheet.corner.x = sheet.origin.x + pixel * std::floor((across[0] - sheet.origin.x) / pixel);
   sheet.corner.y = sheet.origin.y + pixel * std::ceil((along[1] + margin - sheet.origin.y) / pixel);
   const double width = std::ceil((across[1] - sheet.corner.x) / pixel);
   const double height = std::ceil((sheet.corner.y - along[0] + margin) / pixel);
-  if (!(width <= MOST_PIXELS && height <= MOST_PIXELS))
-    throw Error(ExitCode::usage, "the sheet would be " + number_text(width) + " x " + number_text(height) +
-                                     " pixels, expected at most " + number_text(MOST_PIXELS) +
-                                     " a side: a scale of a larger number, fewer dpi, or --keep-box");
+  require_pixels(width, height, splats);
   sheet.width = std::max(static_cast<std::uint32_t>(width), 1U);
   sheet.height = std::max(static_cast<std::uint32_t>(height), 1U);
 }
@@ -136,7 +163,7 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
                                      number_text(scene.bounds_min_world) + " and " +
                                      number_text(scene.bounds_max_world) +
                                      "; expected a cut that leaves some");
-  set_pixels(shown, sheet);
+  set_pixels(shown, scene.data_pool.size(), sheet);
   if (sheet.cuts && sheet.asked.weight_mm > 0.0) sheet.cut_lines = cut_lines(scene, region, sheet);
   return sheet;
 }

@@ -47,8 +47,8 @@ glm::vec4 TextureImage::mean() const {
 
 glm::vec3 Texture::color(glm::vec2 texcoord) const { return factor * glm::vec3(texel(texcoord)); }
 
-bool Texture::cut_out(glm::vec2 texcoord) const {
-  return alpha_cutoff > 0.0F && alpha_factor * texel(texcoord).w < alpha_cutoff;
+bool Texture::cut_out(glm::vec2 texcoord, float alpha) const {
+  return alpha_cutoff > 0.0F && alpha * alpha_factor * texel(texcoord).w < alpha_cutoff;
 }
 
 glm::vec4 Texture::numbers(glm::vec2 texcoord) const {

@@ -37,8 +37,8 @@ struct Texture {
   [[nodiscard]] glm::vec4 numbers(glm::vec2 texcoord) const;
   /// Where in the picture a texture coordinate lies: (0, 0) to (1, 1) is all of it.
   [[nodiscard]] glm::vec2 place(glm::vec2 texcoord) const;
-  /// Whether there is no surface at a texture coordinate.
-  [[nodiscard]] bool cut_out(glm::vec2 texcoord) const;
+  /// Whether there is no surface at a texture coordinate where alpha is multiplied by this.
+  [[nodiscard]] bool cut_out(glm::vec2 texcoord, float alpha) const;
 
  private:
   /// The mean of what `decode` makes of the texels around, without factors.

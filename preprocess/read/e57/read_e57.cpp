@@ -95,6 +95,7 @@ ScanFile read_e57(const std::filesystem::path& path, const ReadOptions& options,
   if (options.heads_only) return for_heads(scans, std::move(file));
   file.points.position.reserve(likely);
   std::vector<std::string> notes;
+  ScanColors colors;
   std::vector<std::size_t> last_of_scan;
   const auto share_of = [likely](std::uint64_t records) {
     return static_cast<double>(records) / static_cast<double>(std::max<std::uint64_t>(likely, 1));
@@ -104,13 +105,14 @@ ScanFile read_e57(const std::filesystem::path& path, const ReadOptions& options,
     const std::uint64_t from = done;
     done += likely_records(scans[i], sections[i]);
     const ScanLayout layout = find_layout(scans[i], options.scans.attributes, path, notes);
-    ScanDecoder decoder(scans[i], layout, file);
+    ScanDecoder decoder(scans[i], layout, colors, file);
     decoder.decode(pages, sections[i], listener.part(share_of(from), share_of(done)));
     decoder.finish(notes);
     last_of_scan.push_back(file.points.size());
     listener.show(file.points);
   }
   finish_scans(file.points, last_of_scan);
+  colors.finish(file.points, notes);
   note_once(std::move(notes), path, listener);
   judge(pages, file.counts, options.scans.strict, listener);
   return file;

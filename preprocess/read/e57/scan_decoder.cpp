@@ -83,9 +83,10 @@ void erase_marked(std::vector<Value>& list, std::size_t first, const std::vector
 
 }  // namespace
 
-ScanDecoder::ScanDecoder(const E57Scan& scan, const ScanLayout& layout, ScanFile& file)
+ScanDecoder::ScanDecoder(const E57Scan& scan, const ScanLayout& layout, ScanColors& colors, ScanFile& file)
     : scan_(scan),
       layout_(layout),
+      colors_(colors),
       file_(file),
       first_(file.points.size()),
       rotation_(glm::mat3_cast(scan.rotation)),
@@ -99,6 +100,7 @@ ScanDecoder::ScanDecoder(const E57Scan& scan, const ScanLayout& layout, ScanFile
   }
   Points& points = file.points;
   if (layout.colors) begin_list(points.stored_color, points, WHITE_8_BIT);
+  if (layout.color_scale.is_judged) colors.begin(first_, layout.color_scale);
   if (layout.normals) begin_list(points.normal, points, glm::vec3(0.0F));
   if (layout.cell) begin_list(points.grid_cell, points, NO_CELL);
   for (const ColumnSource& column : layout.columns) columns_.push_back(column_number(points, column.empty));
@@ -177,18 +179,23 @@ void ScanDecoder::find_positions(std::size_t count) {
 
 void ScanDecoder::append_colors() {
   const double* invalid = layout_.color_invalid ? values(*layout_.color_invalid) : nullptr;
+  const auto& [low, high, is_stated, is_float, is_judged] = layout_.color_scale;
   std::array<const double*, 3> channel{};
   std::array<double, 3> scale{};
   for (std::size_t c = 0; c < 3; ++c) {
     channel[c] = values(layout_.colors->at(c));
-    scale[c] = 255.0 / (layout_.color_high[c] - layout_.color_low[c]);
+    scale[c] = 255.0 / (high[c] - low[c]);
   }
   glm::u16vec3* to = grow(file_.points.stored_color, kept_.size());
   for (const std::uint32_t i : kept_) {
     glm::u16vec3 color = WHITE_8_BIT;
-    for (std::size_t c = 0; c < 3 && (invalid == nullptr || invalid[i] == 0.0); ++c)
-      color[static_cast<int>(c)] =
-          attribute_of<std::uint8_t>((channel[c][i] - layout_.color_low[c]) * scale[c] + 0.5);
+    glm::dvec3 stored(NAN);
+    for (std::size_t c = 0; c < 3 && (invalid == nullptr || invalid[i] == 0.0); ++c) {
+      const int axis = static_cast<int>(c);
+      color[axis] = attribute_of<std::uint8_t>((channel[c][i] - low[c]) * scale[c] + 0.5);
+      stored[axis] = attribute_of<float>(channel[c][i]);
+    }
+    if (is_judged) colors_.add(stored);
     *to++ = color;
   }
 }
@@ -255,6 +262,7 @@ void ScanDecoder::drop_origins() {
   std::vector<bool> marks(points.size() - first_);
   for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = points.position[first_ + i] == scan_.translation;
   erase_marked(points.stored_color, first_, marks);
+  erase_marked(colors_.stored(), first_, marks);
   erase_marked(points.normal, first_, marks);
   erase_marked(points.grid_cell, first_, marks);
   erase_marked(column_, 0, marks);

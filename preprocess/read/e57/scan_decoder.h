@@ -8,6 +8,7 @@
 #include "preprocess/read/e57/description.h"
 #include "preprocess/read/e57/field_stream.h"
 #include "preprocess/read/e57/packet_reader.h"
+#include "preprocess/read/e57/scan_colors.h"
 #include "preprocess/read/e57/scan_layout.h"
 #include "preprocess/read/e57/scan_sensor.h"
 #include "preprocess/read/read_listener.h"
@@ -19,7 +20,7 @@ namespace splatray {
 class ScanDecoder {
  public:
   /// The arguments must live as long as this.
-  ScanDecoder(const E57Scan& scan, const ScanLayout& layout, ScanFile& file);
+  ScanDecoder(const E57Scan& scan, const ScanLayout& layout, ScanColors& colors, ScanFile& file);
 
   /// Decodes all records of the section, or what is there of them; `listener` hears of the share. Throws Error
   /// (input_unreadable) for packets that are none, or (interrupted).
@@ -51,6 +52,7 @@ class ScanDecoder {
 
   const E57Scan& scan_;
   const ScanLayout& layout_;
+  ScanColors& colors_;
   ScanFile& file_;
   std::size_t first_;  ///< of this scan's points in the file's
   glm::dmat3 rotation_;

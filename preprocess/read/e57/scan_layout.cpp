@@ -84,13 +84,18 @@ void find_colors(ScanLayout& layout, const E57Scan& scan, const FieldFinder& fin
   layout.colors = find.all<3>({"colorRed", "colorGreen", "colorBlue"});
   layout.color_invalid = find.readable("isColorInvalid");
   if (!layout.colors) return;
+  ColorScale& scale = layout.color_scale;
   for (std::size_t i = 0; i < 3; ++i) {
+    const E57Field& field = scan.fields[layout.colors->at(i)];
     const E57Limits& limits = scan.color_limits.at(i);
     const double low = limits.minimum.value_or(0.0);
     const double high = limits.maximum.value_or(0.0);
     const bool is_range = high > low && high - low < 1e300;
-    layout.color_low.at(i) = is_range ? low : 0.0;
-    layout.color_high.at(i) = is_range ? high : usual_most(scan.fields[layout.colors->at(i)]);
+    scale.low.at(i) = is_range ? low : 0.0;
+    scale.high.at(i) = is_range ? high : usual_most(field);
+    scale.is_stated = scale.is_stated || is_range || field.largest;
+    scale.is_float = scale.is_float || field.kind != E57Field::Kind::integer;
+    scale.is_judged = scale.is_judged || scale.is_float || scale.high.at(i) > 255.0;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "engine/scene/columns.h"
 #include "preprocess/points.h"
 #include "preprocess/read/e57/description.h"
+#include "preprocess/read/e57/scan_colors.h"
 
 namespace splatray {
 
@@ -29,8 +30,7 @@ struct ScanLayout {
   std::optional<FieldIndex> invalid_state;  ///< not 0: no position
   std::optional<std::array<FieldIndex, 3>> colors;
   std::optional<FieldIndex> color_invalid;
-  std::array<double, 3> color_low{};  ///< what is black
-  std::array<double, 3> color_high{};
+  ColorScale color_scale;
   std::optional<std::array<FieldIndex, 3>> normals;
   std::optional<std::array<FieldIndex, 2>> cell;  ///< row and column
   std::vector<ColumnSource> columns;

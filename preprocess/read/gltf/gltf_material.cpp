@@ -186,6 +186,10 @@ std::uint64_t stored_bytes(const tinygltf::Model& model) {
   return bytes;
 }
 
+std::shared_ptr<const TextureImage> white_texel() {
+  return std::make_shared<TextureImage>(TextureImage{1, 1, {glm::u8vec4(255)}});
+}
+
 }  // namespace
 
 GltfMaterials::GltfMaterials(const GltfFile& file, std::vector<std::string>& notes)
@@ -278,7 +282,7 @@ std::optional<GltfMaterials::Map> GltfMaterials::opacity(int index) {
   const bool is_even = texture == nullptr;
   if (is_even) {
     texture = std::make_shared<Texture>();
-    texture->image = std::make_shared<TextureImage>(TextureImage{1, 1, {glm::u8vec4(255)}});
+    texture->image = white_texel();
   }
   texture->alpha_factor = alpha_of(from);
   const std::vector<glm::u8vec4>& texels = texture->image->texels;
@@ -302,20 +306,15 @@ void GltfMaterials::set_alpha(int index, Texture& texture) const {
   if (source(index).alphaMode == "BLEND") texture.alpha_cutoff = LEAST_ALPHA;
 }
 
-std::shared_ptr<const Texture> GltfMaterials::alpha_ramp(int index, bool varies) {
+std::shared_ptr<const Texture> GltfMaterials::even_texture(int index, bool varies) {
   if (index < 0) return nullptr;
   const tinygltf::Material& from = source(index);
   const bool cuts_all = from.alphaMode == "MASK" && alpha_of(from) < unit_clamp(from.alphaCutoff);
   if (!cuts_all && (!varies || (from.alphaMode != "MASK" && from.alphaMode != "BLEND"))) return nullptr;
-  const auto [found, is_new] = ramps_.try_emplace(index);
-  if (!is_new) return found->second;
-  auto picture = std::make_shared<TextureImage>(TextureImage{256, 1, {}});
-  for (int alpha = 0; alpha < 256; ++alpha) picture->texels.emplace_back(255, 255, 255, alpha);
-  auto ramp = std::make_shared<Texture>();
-  ramp->image = picture;
-  ramp->wrap_s = ramp->wrap_t = TextureWrap::clamp;
-  set_alpha(index, *ramp);
-  return found->second = ramp;
+  auto texture = std::make_shared<Texture>();
+  texture->image = white_texel();
+  set_alpha(index, *texture);
+  return texture;
 }
 
 std::optional<Surface> GltfMaterials::surface(int index, bool colored, const std::vector<bool>& sampled) {

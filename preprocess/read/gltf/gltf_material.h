@@ -64,10 +64,9 @@ class GltfMaterials {
 
   /// Of alphaMode BLEND: below it, a byte of opacity would be 0, and nothing is there.
   static constexpr float LEAST_ALPHA = 0.5F / 255.0F;
-  /// A texture of the base colour's factor whose alpha grows along u from 0 to 1 at the middles of the first and the last
-  /// texel of 256, times the factor's: for surfaces without a texture whose alpha matters. Null where it does not: of
-  /// alphaMode OPAQUE, and where neither the vertices have any (`varies`) nor a mask cuts out all.
-  [[nodiscard]] std::shared_ptr<const Texture> alpha_ramp(int index, bool varies);
+  /// A texture of the base colour's factor alone, the same all over: for surfaces without a texture whose alpha matters. Null
+  /// where it does not: of alphaMode OPAQUE, and where neither the vertices have any (`varies`) nor a mask cuts out all.
+  [[nodiscard]] std::shared_ptr<const Texture> even_texture(int index, bool varies);
   /// The channel of such a texture that thins a surface.
   [[nodiscard]] static std::vector<MapChannel> opacity_channel();
 
@@ -92,7 +91,6 @@ class GltfMaterials {
   std::vector<std::string>& notes_;
   std::map<std::size_t, std::shared_ptr<const TextureImage>> images_;
   std::map<int, std::shared_ptr<const Texture>> textures_;
-  std::map<int, std::shared_ptr<const Texture>> ramps_;
   std::map<int, std::vector<Map>> maps_;
   std::uint64_t pixels_left_;
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <type_traits>
 
+#include "preprocess/mesh/alpha_mask.h"
 #include "preprocess/mesh/surface_maps.h"
 #include "preprocess/mesh/texture/texture.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
@@ -122,30 +123,30 @@ void add_maps(const GltfFile& file, const tinygltf::Primitive& primitive, GltfMa
   }
 }
 
-/// Lets the alpha of vertices, or of the material alone, cut out or thin a surface that has no texture: by a texture of
-/// which one coordinate is alpha.
+/// Lets the alpha of vertices, or of the material alone, cut out or thin a surface, beside that of its texture (glTF 2.0,
+/// section 3.9.2: they are multiplied); one that has none gets a texture of one texel.
 void add_alpha(const tinygltf::Primitive& primitive, std::vector<float> alpha, GltfMaterials& materials,
                Mesh& mesh) {
-  const std::shared_ptr<const Texture> ramp =
-      mesh.texture ? nullptr : materials.alpha_ramp(primitive.material, !alpha.empty());
-  if (!ramp) return;
-  alpha.resize(mesh.vertices.size(), 1.0F);
-  for (const float a : alpha) mesh.texcoord.emplace_back((255.0F * a + 0.5F) / 256.0F, 0.5F);
-  mesh.texture = ramp;
-  if (ramp->alpha_cutoff > GltfMaterials::LEAST_ALPHA) return;
+  if (!mesh.texture) {
+    mesh.texture = materials.even_texture(primitive.material, !alpha.empty());
+    if (mesh.texture) mesh.texcoord.assign(mesh.vertices.size(), glm::vec2(0.0F));
+  }
+  if (!mesh.texture || mesh.texture->alpha_cutoff == 0.0F || alpha.empty()) return;
+  mesh.alpha = std::move(alpha);
   const auto is_opacity = [](const SurfaceMap& map) {
     return std::any_of(map.channels.begin(), map.channels.end(),
                        [](const MapChannel& channel) { return channel.factor->column == COLUMN_OPACITY; });
   };
-  std::erase_if(mesh.maps, is_opacity);
-  mesh.maps.push_back({ramp, GltfMaterials::opacity_channel(), 0.0F,
+  const bool is_mask = mesh.texture->alpha_cutoff > GltfMaterials::LEAST_ALPHA;
+  if (is_mask || std::any_of(mesh.maps.begin(), mesh.maps.end(), is_opacity)) return;
+  mesh.maps.push_back({mesh.texture, GltfMaterials::opacity_channel(), 0.0F,
                        std::make_shared<const std::vector<glm::vec2>>(mesh.texcoord)});
 }
 
 /// Leaves out the points that the material's alpha cuts out.
 void cut_points(const Mesh& mesh, std::vector<glm::uint>& indices) {
-  if (mesh.texture)
-    std::erase_if(indices, [&](glm::uint index) { return mesh.texture->cut_out(mesh.texcoord[index]); });
+  const AlphaMask mask(mesh);
+  if (mask.any()) std::erase_if(indices, [&](glm::uint index) { return mask.cut_out(std::size_t{index}); });
 }
 
 /// Keeps the vertices that an indexed POINTS primitive names, each in the order named.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/release.h"
+#include "engine/base/srgb.h"
 
 namespace splatray {
 
@@ -65,6 +66,17 @@ std::string store_colors(std::array<std::vector<float>, 3> channels, Points& poi
   }
   points.stored_color_most = as_stored || range.is_black() ? 0 : 65535;
   return as_stored ? "" : color_note(range);
+}
+
+std::string decode_colors(std::vector<glm::vec3>& colors, bool floats) {
+  ColorRange range(floats);
+  for (const glm::vec3& color : colors)
+    for (int channel = 0; channel < 3; ++channel) range.add(static_cast<double>(color[channel]));
+  const auto full = static_cast<float>(range.full());
+  for (glm::vec3& color : colors)
+    for (int channel = 0; channel < 3; ++channel)
+      color[channel] = color[channel] > 0.0F ? srgb_to_linear(std::min(color[channel] / full, 1.0F)) : 0.0F;
+  return full != 1.0F || range.outliers() > 0 ? color_note(range) : "";
 }
 
 }  // namespace splatray

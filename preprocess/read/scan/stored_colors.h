@@ -52,4 +52,8 @@ class ColorRange {
 /// granted; empty = nothing.
 [[nodiscard]] std::string store_colors(std::array<std::vector<float>, 3> channels, Points& points);
 
+/// Display-encoded colours of any one scale to linear rgb, 0..1; what is no number becomes 0. `floats` as of ColorRange. What
+/// was taken for granted; empty = nothing.
+[[nodiscard]] std::string decode_colors(std::vector<glm::vec3>& colors, bool floats = false);
+
 }  // namespace splatray

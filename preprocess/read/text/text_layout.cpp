@@ -1,6 +1,7 @@
 #include "preprocess/read/text/text_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "preprocess/base/quoted_list.h"
@@ -37,6 +38,25 @@ bool count_rows(const std::vector<std::string>& rows, const CellForm& form) {
       return false;
   }
   return rows.size() >= 3;
+}
+
+/// Whether these are rows of COLMAP's points3D.txt, whose names stand in comments that people cut off: a number, x y z, colours
+/// of 8 bits, an error, then pairs of an image and a point in it.
+bool are_colmap_rows(const std::vector<std::string>& rows, const CellForm& form) {
+  const auto is_whole = [](double value, double most) {
+    return value >= 0.0 && value <= most && value == std::floor(value);
+  };
+  for (const std::string& row : rows) {
+    const std::vector<std::string> cells = split_cells(row, form.separator);
+    if (cells.size() < 8 || cells.size() % 2 != 0) return false;
+    std::array<double, 8> values{};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!parse_cell(cells[i], form, values[i])) return false;
+    const bool is_point = is_whole(values[0], 1e18) && is_whole(values[4], 255.0) &&
+                          is_whole(values[5], 255.0) && is_whole(values[6], 255.0) && values[7] >= 0.0;
+    if (!is_point) return false;
+  }
+  return true;
 }
 
 class HeadReader {
@@ -82,6 +102,10 @@ class HeadReader {
   void take_rows(std::string first) {
     const std::vector<std::string> rows = first_rows(in_, {std::move(first)});
     layout_.form = find_cell_form(rows);
+    if (!named_ && plain_name(path_.stem().string()) == "points3d" && are_colmap_rows(rows, layout_.form)) {
+      name({"-", "x", "y", "z", "red", "green", "blue"}, false);
+      named_ = true;
+    }
     layout_.numbered = !named_ && count_rows(rows, layout_.form);
     if (named_) check_cells(split_cells(rows[0], layout_.form.separator).size());
   }

@@ -24,7 +24,7 @@ struct TextLayout {
 };
 
 /// Finds comments, a line that counts the points, one that names the columns (also behind # or //) and the form of the rows
-/// (cell_form.h). Cells beyond the last that has a name are not read.
+/// (cell_form.h). Without names, those of a points3D.txt are COLMAP's where its rows are. Cells beyond the last that has a name are not read.
 /// `options.columns` stands for the file's own names; `options.attributes` are kept under the names given there. Throws
 /// Error (input_unreadable) where the columns have no x, y and z, and where the first row is none.
 [[nodiscard]] TextLayout find_text_layout(const std::filesystem::path& path, const ScanOptions& options);

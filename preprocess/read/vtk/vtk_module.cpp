@@ -15,7 +15,6 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLPolyDataReader.h>
@@ -26,12 +25,12 @@
 #include <exception>
 #include <new>
 
-#include "engine/base/srgb.h"
 #include "engine/base/utf8.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/byte_reader.h"
 #include "preprocess/read/scan/narrow_column.h"
 #include "preprocess/read/vtk/vtk_cells_check.h"
+#include "preprocess/read/vtk/vtk_colors.h"
 
 namespace splatray {
 namespace {
@@ -317,17 +316,7 @@ void copy_points(vtkPointSet* data, const std::filesystem::path& path, const Rea
       points.normal.emplace_back(n[0], n[1], n[2]);
     }
   }
-  auto* colors = vtkUnsignedCharArray::SafeDownCast(attributes->GetScalars());
-  if (is_beside(colors, count) &&
-      (colors->GetNumberOfComponents() == 3 || colors->GetNumberOfComponents() == 4)) {
-    used.push_back(colors);
-    for (vtkIdType i = 0; i < count; ++i) {
-      const auto linear = [&](int channel) {
-        return srgb_to_linear(static_cast<float>(colors->GetTypedComponent(i, channel)) / 255.0F);
-      };
-      points.color.emplace_back(linear(0), linear(1), linear(2));
-    }
-  }
+  for (vtkDataArray* colors : read_vtk_colors(attributes, path, listener, points)) used.push_back(colors);
   vtkDataArray* radii = attributes->GetArray("radius");
   if (is_beside(radii, count) && radii->GetNumberOfComponents() == 1) {
     used.push_back(radii);

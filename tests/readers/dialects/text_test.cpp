@@ -70,13 +70,16 @@ TEST_F(TextDialects, CellsBehindTheLastNameArePassedOver) {
              "# 3D point list with one line of data per point:\n#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, "
              "TRACK[] as (IMAGE_ID, POINT2D_IDX)\n" +
                  rows),
-        read("a.txt", rows, "-,x,y,z,r,g,b"), read("a.csv", "id x y z r g b\n" + rows)}) {
+        read("Points3D.TXT", rows), read("a.txt", rows, "-,x,y,z,r,g,b"),
+        read("a.csv", "id x y z r g b\n" + rows)}) {
     ASSERT_EQ(scan.file.points.size(), 3U);
     EXPECT_EQ(scan.file.points.position[2], glm::dvec3(7, 8, 9));
     EXPECT_EQ(scan.file.points.stored_color.at(0), glm::u16vec3(10, 20, 30));
     EXPECT_TRUE(scan.has_note("behind the last named column"));
   }
   EXPECT_NE(error("b.csv", "x,y,z\n1,5,2,0,3,0\n").find("decimal commas need quotes"), std::string::npos);
+  EXPECT_NE(error("d.txt", rows).find("--columns"), std::string::npos) << "of another name";
+  EXPECT_NE(error("points3D.txt", "7 1 2 3 10 20 300 0.5\n7 1 2 3\n").find("--columns"), std::string::npos);
   EXPECT_NE(error("c.txt", "1 2 3\n1 2 3 4\n").find("--columns"), std::string::npos);
 }
 

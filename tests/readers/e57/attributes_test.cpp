@@ -101,14 +101,15 @@ std::vector<E57TestField> channels(const Make& make) {
   return {make("colorRed"), make("colorGreen"), make("colorBlue")};
 }
 
+std::string limits(const std::string& low, const std::string& high) {
+  std::string xml = "<colorLimits type=\"Structure\">";
+  for (const char* name : {"colorRed", "colorGreen", "colorBlue"})
+    for (const auto& [end, value] : {std::pair{"Minimum", low}, std::pair{"Maximum", high}})
+      xml += std::string("<") + name + end + " type=\"Float\">" + value + "</" + name + end + ">";
+  return xml + "</colorLimits>";
+}
+
 TEST(E57Attributes, ColoursAreScaledByTheirLimits) {
-  const auto limits = [](const std::string& low, const std::string& high) {
-    std::string xml = "<colorLimits type=\"Structure\">";
-    for (const char* name : {"colorRed", "colorGreen", "colorBlue"})
-      for (const auto& [end, value] : {std::pair{"Minimum", low}, std::pair{"Maximum", high}})
-        xml += std::string("<") + name + end + " type=\"Float\">" + value + "</" + name + end + ">";
-    return xml + "</colorLimits>";
-  };
   const std::vector<glm::u16vec3> grey{glm::u16vec3(0), glm::u16vec3(51), glm::u16vec3(255)};
   const auto bytes = channels([](const char* name) {
     return E57TestField::integer(name, 0, 255, {0, 51, 255});
@@ -134,6 +135,56 @@ TEST(E57Attributes, ColoursAreScaledByTheirLimits) {
   auto invalid = bytes;
   invalid.push_back(E57TestField::integer("isColorInvalid", 0, 1, {1, 0, 0}));
   EXPECT_EQ(colors_of(invalid)[0], glm::u16vec3(255)) << "white, as where there is none";
+}
+
+/// A scan of three points whose channels have these values.
+E57TestScan grey_scan(const std::vector<float>& values, const std::string& xml) {
+  E57TestScan scan = line_scan(3);
+  scan.xml = xml;
+  for (const char* name : {"colorRed", "colorGreen", "colorBlue"})
+    scan.fields.push_back(E57TestField::float32(name, values));
+  return scan;
+}
+
+TEST(E57Attributes, ColoursThatSpeakAgainstTheirLimitsAreScaledByTheirValues) {
+  const std::vector<glm::u16vec3> grey{glm::u16vec3(0), glm::u16vec3(51), glm::u16vec3(255)};
+  const auto read = [](const E57TestScan& scan) {
+    return read_bytes(e57_bytes(scan), 1).points.stored_color;
+  };
+  EXPECT_EQ(read(grey_scan({0, 0.2F, 1}, "")), grey) << "floats without limits";
+  EXPECT_EQ(read(grey_scan({0, 0.2F, 1}, limits("0", "255"))), grey);
+  EXPECT_EQ(read(grey_scan({0, 51, 255}, limits("0", "1"))), grey);
+  EXPECT_EQ(read(grey_scan({0, 51, 255}, limits("0", "65535"))), grey);
+  EXPECT_EQ(read(grey_scan({0, 13107, 65535}, limits("0", "255"))), grey);
+  EXPECT_EQ(read(grey_scan({0, 13107, 65535}, "")), grey);
+  E57TestScan words = line_scan(3);
+  for (const char* name : {"colorRed", "colorGreen", "colorBlue"})
+    words.fields.push_back(E57TestField::integer(name, 0, 65535, {0, 51, 255}));
+  EXPECT_EQ(read(words), grey) << "8 bits in fields of 16";
+}
+
+TEST(E57Attributes, ColoursOfAllScansOfOneScaleAreJudgedTogether) {
+  const std::string wide = limits("0", "65535");
+  const testing::E57TestFile dark{{grey_scan({0, 13107, 65535}, wide), grey_scan({257, 514, 771}, wide)}};
+  const std::vector<glm::u16vec3> colors = read_bytes(e57_bytes(dark)).points.stored_color;
+  EXPECT_EQ(colors.at(2), glm::u16vec3(255));
+  EXPECT_EQ(colors.at(5), glm::u16vec3(3)) << "a dark room beside a bright one";
+  const testing::E57TestFile mixed{{grey_scan({0, 0.2F, 1}, limits("0", "255")), line_scan(2),
+                                    scan_with_origins(100, 11), grey_scan({0, 51, 255}, wide)}};
+  const Points points = read_bytes(e57_bytes(mixed), 2).points;
+  ASSERT_EQ(points.stored_color.size(), 97U);
+  EXPECT_EQ(points.stored_color[1], glm::u16vec3(51));
+  EXPECT_EQ(points.stored_color[4], glm::u16vec3(255)) << "white, as where there is none";
+  EXPECT_EQ(points.stored_color[5], glm::u16vec3(11));
+  EXPECT_EQ(points.stored_color[95], glm::u16vec3(51));
+}
+
+TEST(E57Attributes, ColoursThatAreAllBlackAreLeftToBeJudged) {
+  EXPECT_EQ(read_bytes(e57_bytes(grey_scan({0, 0, 0}, limits("0", "1")))).points.stored_color_most, 0U);
+  const TempFolder folder;
+  const Input input = read_input({folder.write("a.e57", e57_bytes(grey_scan({0, 0, 0}, "")))}, {});
+  EXPECT_TRUE(input.objects.at(0).points.color.empty());
+  EXPECT_TRUE(has_note(input, "all black and were left out"));
 }
 
 TEST(E57Attributes, IntensityIsScaledButItsLimitsAreNotApplied) {
