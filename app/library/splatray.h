@@ -286,6 +286,11 @@ struct Framing {
 /// one of them the other is 27 or 17 degrees. Throws Error (usage).
 [[nodiscard]] SPLATRAY_API Camera frame(const Scene& scene, const Framing& framing = {});
 
+/// Something that was not asked for and was chosen to suit the scene: the field that asks for the same, and its value.
+struct Choice {
+  std::string field, value;
+};
+
 /// A picture; rows from the top.
 struct SPLATRAY_API Image {
   std::uint32_t width = 0, height = 0;
@@ -300,6 +305,7 @@ struct SPLATRAY_API Image {
   /// picture.
   double exposure = 0.0;
   std::string tone = "neutral";
+  std::vector<Choice> choices{};  ///< view, colours, look, exposure, noise
 
   /// Writes .png, .jpg (without alpha) or .webp (sRGB, 8 bit, through exposure and tone) or .exr (linear float; with Z, N.X N.Y N.Z,
   /// id and error where there are such channels). WebP needs the package splatray-oiio, which wheels do not have. Throws Error (usage, failed); an older file then stays as it was.
@@ -312,6 +318,17 @@ struct SPLATRAY_API Image {
 /// same bits (but for "time"). How the scene is read is not looked at. Throws Error.
 [[nodiscard]] SPLATRAY_API Image render(const Scene& scene, const Request& request = {},
                                         const Progress& progress = {});
+/// What make() has written.
+struct Made {
+  std::vector<std::filesystem::path> files{};  ///< pictures, drawings or a page; without what lies beside a drawing
+  std::vector<Choice> choices{};               ///< as Image::choices
+  std::vector<std::string> notes{};            ///< sentences
+};
+/// Writes what a request asks for to its "output", as splatray-render does, with what made it inside: a picture, a sequence
+/// ("turntable", "camera-path"), a page ("orbit", .html) or a drawing to scale ("sheet", .png .tif .svg .pdf .exr). Drawings other than
+/// .png and .exr need the package splatray-sheet, which wheels do not have. Throws Error: usage, also where a file that was read would be
+/// replaced, and failed; then a file is whole or as it was.
+[[nodiscard]] SPLATRAY_API Made make(const Scene& scene, const Request& request, const Progress& progress = {});
 /// The picture of the files that the request names as "inputs". Throws Error.
 [[nodiscard]] SPLATRAY_API Image make_picture(const Request& request, const Progress& progress = {});
 

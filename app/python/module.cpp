@@ -26,9 +26,24 @@ api::Camera frame(const api::Scene& scene, std::optional<double> azimuth, std::o
   return unlocked([&] { return api::frame(scene, {azimuth, elevation, fov, aspect}); });
 }
 
+std::vector<std::pair<std::string, std::string>> choices_of(const std::vector<api::Choice>& choices) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const api::Choice& choice : choices) pairs.emplace_back(choice.field, choice.value);
+  return pairs;
+}
+
 api::Image* render(const api::Scene& scene, const api::Request& request, const nb::object& progress) {
   const api::Progress relay = progress_of(progress);
   return unlocked([&] { return new api::Image(api::render(scene, request, relay)); });
+}
+
+/// The files written, names and values of what was chosen, and notes.
+nb::tuple make(const api::Scene& scene, const api::Request& request, const nb::object& progress) {
+  const api::Progress relay = progress_of(progress);
+  const api::Made made = unlocked([&] { return api::make(scene, request, relay); });
+  std::vector<std::string> files;
+  for (const std::filesystem::path& file : made.files) files.push_back(file.string());
+  return nb::make_tuple(files, choices_of(made.choices), made.notes);
 }
 
 api::Image* make_picture(const api::Request& request, const nb::object& progress) {
@@ -153,6 +168,7 @@ void add_scene(nb::module_& module) {
       .def("frame", frame, nb::arg("azimuth").none(), nb::arg("elevation").none(), nb::arg("fov").none(),
            nb::arg("aspect"))
       .def("render", render, nb::arg("request"), nb::arg("progress").none())
+      .def("make", make, nb::arg("request"), nb::arg("progress").none())
       .def("trace", trace, nb::arg("origins"), nb::arg("directions"), nb::arg("progress").none())
       .def("measure", measure, nb::arg("kind"), nb::arg("places"), nb::arg("reach"), nb::arg("request"),
            nb::arg("progress").none());
@@ -171,6 +187,7 @@ void add_image(nb::module_& module) {
       .def_prop_ro("normal", [](api::Image& image) { return channel<float>(image, image.normal, 3); })
       .def_prop_ro("object", [](api::Image& image) { return channel<std::int32_t>(image, image.object, 1); })
       .def_prop_ro("error", [](api::Image& image) { return channel<float>(image, image.error, 1); })
+      .def_prop_ro("choices", [](const api::Image& image) { return choices_of(image.choices); })
       .def_rw("exposure", &api::Image::exposure)
       .def_rw("tone", &api::Image::tone)
       .def("png", png)

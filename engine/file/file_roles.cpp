@@ -55,6 +55,11 @@ fs::path name_in(const std::map<FileId, fs::path>& list, const FileId& id) {
                                    input.string() + "', expected another file");
 }
 
+void refuse_input(const Roles& all, const std::optional<FileId>& id, const fs::path& output) {
+  const fs::path input = id ? name_in(all.inputs, *id) : fs::path();
+  if (!input.empty()) refuse_replacing(output, input);
+}
+
 }  // namespace
 
 void note_input(const fs::path& file) {
@@ -70,13 +75,19 @@ void claim_output(const fs::path& file) {
   const std::optional<FileId> id = id_of(file);
   Roles& all = roles();
   const std::lock_guard lock(all.mutex);
-  if (const fs::path input = id ? name_in(all.inputs, *id) : fs::path(); !input.empty())
-    refuse_replacing(file, input);
+  refuse_input(all, id, file);
   const auto [other, is_new] = all.outputs.emplace(place_of(file), file);
   if (!is_new)
     throw Error(ExitCode::usage, "found the outputs '" + other->second.string() + "' and '" + file.string() +
                                      "', which are one file, expected a file for each");
   if (id) all.replaced.insert_or_assign(*id, file);
+}
+
+void require_no_input(const fs::path& file) {
+  const std::optional<FileId> id = id_of(file);
+  Roles& all = roles();
+  const std::lock_guard lock(all.mutex);
+  refuse_input(all, id, file);
 }
 
 }  // namespace splatray

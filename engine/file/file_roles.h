@@ -13,4 +13,8 @@ void note_input(const std::filesystem::path& file);
 /// sentence, where it is an input, or was claimed already.
 void claim_output(const std::filesystem::path& file);
 
+/// Throws Error (usage), one sentence, where a file that is going to be written is an input: for processes that write a file as often
+/// as they like.
+void require_no_input(const std::filesystem::path& file);
+
 }  // namespace splatray

@@ -31,6 +31,27 @@ class Pictures(unittest.TestCase):
         self.points, self.normals = sphere()
         self.scene = sr.points(self.points, normals=self.normals, name="ball")
 
+    def test_make_writes_what_made_it_inside(self):
+        with tempfile.TemporaryDirectory() as folder:
+            still, turn, page, plan = (os.path.join(folder, name) for name in ("a.png", "t.##.png", "a.html", "plan.png"))
+            made = self.scene.make(still, resolution=(32, 32), samples=4)
+            self.assertEqual((made.files, made.choices), ([still], {"denoise": "on"}))
+            asked = sr.Request.of_picture(still)
+            self.assertEqual(asked.get("resolution"), ["32x32"])
+            self.assertEqual(self.scene.make(turn, turntable=2, resolution=(16, 16), samples=2).files,
+                             [turn.replace("##", number) for number in ("00", "01")])
+            self.scene.make(page, orbit=(4, 1), resolution=(30, 30), samples=2)
+            self.assertIn(b"<html", open(page, "rb").read())
+            self.scene.make(plan, sheet="plan:scale=50,dpi=40", samples=2)
+            self.assertTrue(os.path.exists(plan + ".sheet.json"))
+            size = png_size(open(plan, "rb").read())
+            drawn = self.scene.render(request=sr.Request(sheet="plan:scale=50,dpi=40", samples=2))
+            self.assertEqual((drawn.width, drawn.height), size)
+            with self.assertRaisesRegex(ValueError, "expected one picture; make"):
+                self.scene.render(request=sr.Request(turntable=3, output="a.#.png"))
+            with self.assertRaisesRegex(ValueError, "expected one of them"):
+                self.scene.make(plan, sheet="plan", turntable=3)
+
     def test_five_lines(self):
         image = self.scene.render(sr.frame(self.scene, azimuth=30, fov=35), (160, 90), samples=4)
         with tempfile.TemporaryDirectory() as folder:

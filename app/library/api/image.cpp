@@ -6,6 +6,7 @@
 #include "app/library/image_file.h"
 #include "engine/base/memory.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/file_roles.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray::api {
@@ -56,6 +57,7 @@ splatray::Image inner_image(const Image& image) {
 void Image::save(const std::filesystem::path& file) const {
   guarded([&] {
     check(*this);
+    require_no_input(file);
     const bool shown = is_display_format(file), channels = !depth.empty();
     if (!is_picture_format(file))
       refuse("output '" + file.string() + "'", std::string("a name ending in ") + PICTURE_NAMES);

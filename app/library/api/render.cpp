@@ -6,6 +6,8 @@
 #include "app/library/image_file.h"
 #include "app/library/picture/make_picture.h"
 #include "app/library/picture/picture_file.h"
+#include "app/library/picture/series/make.h"
+#include "app/library/picture/series/run_files.h"
 #include "app/library/shot/lights.h"
 #include "app/library/shot/picture_lights.h"
 #include "app/library/shot/resolve.h"
@@ -24,7 +26,39 @@ splatray::Request request_for(const splatray::Request& opened, const splatray::R
   if (!asked.view.eye && asked.view.viewpoint == Viewpoint::automatic && !asked.look.up)
     request.view.viewpoint = opened.view.viewpoint;
   request.look.attributes = opened.look.attributes;
+  if (!opened.source.inputs.empty()) request.source = opened.source;
   return request;
+}
+
+/// A shot, and what the scene's objects look like in it.
+struct Resolved {
+  Shot shot;
+  ObjectLooks objects;
+};
+
+/// Refuses a camera and lights before a device is opened.
+Resolved resolve_for(const Scene::Impl& impl, const splatray::Request& asked) {
+  const splatray::Scene& scene = impl.loaded.scene;
+  const splatray::Request request = request_for(impl.asked, asked);
+  Resolved resolved{{}, choose_objects(scene, request)};
+  const Shot& shot = resolved.shot = resolve(request, scene, impl.loaded.facts);
+  (void)make_frame_params(scene, {shot.view.camera, shot.view.width, shot.view.height}, shot.settings);
+  if (const auto defect =
+          find_look_defect(resolved.objects, resolve_lights(scene, request, shot.view.camera)))
+    refuse(defect->found, defect->expected);
+  return resolved;
+}
+
+void show(Resolved& resolved, SceneOnDevice& shown) {
+  shown.show_environment(resolved.shot.environment);
+  shown.show_objects(std::move(resolved.objects));
+  expose(resolved.shot, shown);
+}
+
+std::vector<Choice> choices_of(const Shot& shot) {
+  std::vector<Choice> choices;
+  for (const FieldText& choice : shot.choices) choices.push_back({choice.name, choice.text});
+  return choices;
 }
 
 /// The interface's image; its channels where the request asks for any.
@@ -36,6 +70,7 @@ Image outer_image(const splatray::Image& made, const Shot& shot) {
   image.pixels.resize(made.rgba.size());
   static_assert(sizeof(vec4) == sizeof(std::array<float, 4>));
   std::memcpy(image.pixels.data(), made.rgba.data(), made.rgba.size() * sizeof(vec4));
+  image.choices = choices_of(shot);
   if (needs_noise(request.output.aovs)) image.error = made.error;
   image.exposure = request.look.exposure_ev.value_or(0.0);
   image.tone = TONE_NAMES[static_cast<std::size_t>(resolve_tone(request))];
@@ -53,22 +88,42 @@ Image outer_image(const splatray::Image& made, const Shot& shot) {
 Image render(const Scene& scene, const Request& asked, const Progress& progress) {
   return guarded(progress, [&](ProgressRelay& relay) {
     const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
-    const splatray::Scene& inner = impl->loaded.scene;
-    const splatray::Request request = request_for(impl->asked, RequestAccess::inner(asked));
-    ObjectLooks objects = choose_objects(inner, request);
-    Shot shot = resolve(request, inner, impl->loaded.facts);
+    Resolved resolved = resolve_for(*impl, RequestAccess::inner(asked));
+    Shot& shot = resolved.shot;
+    if (shot.is_sequence() || shot.is_orbit())
+      refuse("a sequence of pictures or a page", "one picture; make() writes the others");
     require_memory(2 * made_image_bytes(shot), "a picture of " + std::to_string(shot.view.width) + "x" +
                                                    std::to_string(shot.view.height) + " pixels");
-    // Refuses a camera and lights before a device is opened.
-    (void)make_frame_params(inner, {shot.view.camera, shot.view.width, shot.view.height}, shot.settings);
-    if (const auto defect = find_look_defect(objects, resolve_lights(inner, request, shot.view.camera)))
-      refuse(defect->found, defect->expected);
     return impl->on_device(relay, [&](SceneOnDevice& shown) {
-      shown.show_environment(shot.environment);
-      shown.show_objects(std::move(objects));
-      expose(shot, shown);
+      show(resolved, shown);
       const auto progressed = [&relay](double share) { return relay("tracing", share); };
       return outer_image(make_picture(shot, shown, shot.view.camera, progressed).image, shot);
+    });
+  });
+}
+
+Made make(const Scene& scene, const Request& asked, const Progress& progress) {
+  return guarded(progress, [&](ProgressRelay& relay) {
+    const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
+    Resolved resolved = resolve_for(*impl, RequestAccess::inner(asked));
+    Shot& shot = resolved.shot;
+    if (shot.request.output.path.empty()) refuse("no \"output\"", "the name of a file");
+    require_no_inputs_replaced(shot.request, shot.frames);
+    require_outputs_writable(shot.request);
+    require_picture_memory(shot);
+    return impl->on_device(relay, [&](SceneOnDevice& shown) {
+      show(resolved, shown);
+      Made made{{}, choices_of(shot), shot.notes};
+      const auto pictures = static_cast<double>(shot.frames.size());
+      const SequenceRecord record = splatray::make(
+          shot, shown,
+          {[&](const SequenceFrame&, std::size_t before, double share) {
+             return relay("tracing", (static_cast<double>(before) + share) / pictures);
+           },
+           [&made](const std::string& note) { made.notes.push_back(note); }, [](const FailedPicture&) {}});
+      require_all_made(record);
+      for (const SequenceFrame& frame : shot.frames) made.files.push_back(frame.output);
+      return made;
     });
   });
 }

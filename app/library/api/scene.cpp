@@ -1,5 +1,6 @@
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
+#include "engine/file/file_roles.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/splat.h"
 
@@ -85,6 +86,7 @@ Scene::Splat Scene::splat(std::size_t index) const {
 void Scene::save(const std::filesystem::path& file, const Progress& progress) const {
   guarded(progress, [&](ProgressRelay& relay) {
     const std::shared_ptr<Impl> impl = SceneAccess::impl(*this);
+    require_no_input(file);
     write_scene(impl->loaded.scene, file, std::ref(relay));
   });
 }

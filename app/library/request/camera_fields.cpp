@@ -28,7 +28,7 @@ Field resolution_row() {
 
 /// Before the camera, which it takes the place of and whose fields beside it are refused.
 Field camera_path_row() {
-  Field row = value_row(
+  return value_row(
       "camera-path", CAMERA, "FILE",
       "one picture for each frame of this camera path (JSON: keys, each a camera with its frame)",
       [](Request& request, const std::string& file) {
@@ -40,9 +40,6 @@ Field camera_path_row() {
         request.view.pixel_aspect = 1.0;
       },
       [](const Request& request) { return request.output.camera_path.string(); });
-  row.doors = DOOR_RENDER | DOOR_VIEW;
-  row.why_not = NOT_SEQUENCES;
-  return row;
 }
 
 Field camera_row() {

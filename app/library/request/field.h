@@ -71,9 +71,6 @@ struct Field {
   [[nodiscard]] bool in(FieldDoors door) const { return (doors & door) != 0; }
 };
 
-/// Why the library has no field of sequences.
-inline constexpr const char* NOT_SEQUENCES = "a call makes one picture, and programs have loops of their own";
-
 /// Another name, old ones, other doors: what a row says beside its kind.
 struct FieldExtras {
   FieldDoors doors = DOORS_OF_PICTURES;

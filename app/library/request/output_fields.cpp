@@ -147,10 +147,6 @@ std::vector<Field> output_fields() {
       frames_row(),
       switch_row("skip-existing", OUTPUT, MEMBER(output.skip_existing),
                  "leave out pictures whose file is whole and was made by the same command")};
-  for (std::size_t i = 4; i < rows.size(); ++i) {
-    rows[i].doors = DOOR_RENDER | DOOR_VIEW;
-    rows[i].why_not = NOT_SEQUENCES;
-  }
   for (Field& row : file_fields()) rows.push_back(std::move(row));
   return rows;
 }

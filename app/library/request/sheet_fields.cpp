@@ -5,11 +5,11 @@ namespace splatray {
 namespace {
 
 constexpr FieldGroup SHEET = FieldGroup::sheet;
-constexpr const char* ONE_PICTURE = "a sheet is a file with others beside it, which splatray-render writes";
+constexpr const char* OF_SECTIONS = "the window saves the sheet of the section that it shows";
 
-Field only_rendered(Field row) {
-  row.doors = DOOR_RENDER;
-  row.why_not = ONE_PICTURE;
+Field not_in_panels(Field row) {
+  row.doors = DOOR_RENDER | DOOR_LIBRARY;
+  row.why_not = OF_SECTIONS;
   return row;
 }
 
@@ -33,23 +33,23 @@ Field sheet_row() {
 
 std::vector<Field> sheet_fields() {
   return {
-      only_rendered(needed(sheet_row(), "a plan, section or elevation to scale")),
-      only_rendered(switch_row("ink", SHEET, MEMBER(view.ink),
+      not_in_panels(needed(sheet_row(), "a plan, section or elevation to scale")),
+      not_in_panels(switch_row("ink", SHEET, MEMBER(view.ink),
                                "of a sheet: lines where depth, direction or object change")),
-      only_rendered(switch_row(
+      not_in_panels(switch_row(
           "xray", SHEET, MEMBER(view.xray),
           "of a sheet: how many splats lie one behind the other, by the logarithm, dark for many")),
-      only_rendered(value_row(
+      not_in_panels(value_row(
           "title", SHEET, "TEXT",
           "of a sheet as .svg or .pdf: what stands below it; default the input's name",
           [](Request& request, const std::string& text) { request.output.title = to_utf8(text); },
           [](const Request& request) { return request.output.title; })),
-      only_rendered(value_row(
+      not_in_panels(value_row(
           "measures", SHEET, "FILE.geojson",
           "of a sheet as .svg or .pdf: measures of splatray-measure or splatray-view that are drawn on it",
           [](Request& request, const std::string& text) { request.output.measures = text; },
           [](const Request& request) { return request.output.measures.string(); })),
-      only_rendered(value_row(
+      not_in_panels(value_row(
           "height-raster", SHEET, "FILE.tif",
           "of a sheet: heights, or of sections and elevations distances behind the cut, world units, as "
           "GeoTIFF of floats",

@@ -24,8 +24,8 @@ from .image import Image
 from .look import Light, Material, material, point_light, sun
 from .objects import Mesh, Points
 from .request import Request
-from .scene import Hits, Measure, MeasureValue, Scene, Splats, make_picture, make_scene, open, points
+from .scene import Hits, Made, Measure, MeasureValue, Scene, Splats, make_picture, make_scene, open, points
 
 __version__ = _version()
-__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Material", "Measure", "MeasureValue", "Mesh", "NoDeviceError", "Points", "Request", "Scene", "Splats", "devices",
+__all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Made", "Material", "Measure", "MeasureValue", "Mesh", "NoDeviceError", "Points", "Request", "Scene", "Splats", "devices",
            "frame", "make_picture", "make_scene", "material", "open", "point_light", "points", "sun"]

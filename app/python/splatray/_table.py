@@ -16,6 +16,9 @@ OPENING: List[str] = [name for name, field in FIELDS.items() if field.group == "
 PICTURES: List[str] = [name for name, field in FIELDS.items() if field.group not in ("Input", "Output") and name not in LIGHTS
                        and (name not in OPENING or name in ("material", "object", "seed"))] + ["aov"]
 
+#: Fields of files that are made of it.
+FILES: List[str] = PICTURES + [name for name, field in FIELDS.items() if field.group == "Output" and name not in ("output", "aov")]
+
 
 def annotation_of(field: _core.FieldInfo) -> str:
     """The type of a field's value, for people and type checkers."""
@@ -29,9 +32,9 @@ def annotation_of(field: _core.FieldInfo) -> str:
 
 
 def stub() -> str:
-    """_fields.pyi: the types of the fields that open() and points(), and render(), take."""
+    """_fields.pyi: the types of the fields that open() and points(), render(), and make() take."""
     lines = ["from os import PathLike", "from typing import Literal, Optional, Sequence, TypedDict, Union", ""]
-    for name, fields in (("OpeningFields", OPENING), ("PictureFields", PICTURES)):
+    for name, fields in (("OpeningFields", OPENING), ("PictureFields", PICTURES), ("FileFields", FILES)):
         lines += ["", f"class {name}(TypedDict, total=False):"]
         lines += [f"    {field}: {annotation_of(FIELDS[field])}" for field in fields] + [""]
     return "\n".join(lines)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
 
@@ -51,6 +51,11 @@ class Image:
     def error(self) -> Optional[np.ndarray]:
         """float32 (height, width): estimated error of the radiance. None unless rendered with aov="error"."""
         return self._core.error
+
+    @property
+    def choices(self) -> Dict[str, str]:
+        """What was not asked for and suits the scene: fields that ask for the same, and their values."""
+        return dict(self._core.choices)
 
     @property
     def exposure(self) -> float:

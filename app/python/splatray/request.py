@@ -10,12 +10,12 @@ from typing import Any, Callable, List, TypeVar
 import numpy as np
 
 from . import _check, _core
-from ._table import FIELDS, OPENING, PICTURES, annotation_of
+from ._table import FIELDS, FILES, OPENING, PICTURES, annotation_of
 from .camera import Camera
 from .look import Light, Material
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-SEPARATORS = {"resolution": "x", "tile": "/"}
+SEPARATORS = {"resolution": "x", "orbit": "x", "tile": "/"}
 
 
 def text_of(name: str, value: Any) -> str:

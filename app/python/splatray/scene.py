@@ -14,12 +14,12 @@ from .camera import Camera
 from .image import Image
 from .look import Light, Material
 from .objects import Mesh, Points
-from .request import OPENING, PICTURES, Request, checked, takes_fields
+from .request import FILES, OPENING, PICTURES, Request, checked, takes_fields
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._fields import OpeningFields, PictureFields
+    from ._fields import FileFields, OpeningFields, PictureFields
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -61,6 +61,14 @@ class Measure(NamedTuple):
 
     points: np.ndarray
     values: Dict[str, MeasureValue]
+
+
+class Made(NamedTuple):
+    """What Scene.make has written. files: names; choices: as Image.choices; notes: sentences."""
+
+    files: List[str]
+    choices: Dict[str, str]
+    notes: List[str]
 
 
 class Scene:
@@ -158,6 +166,27 @@ class Scene:
         _check_objects(core, materials)
         asked._set({"camera": camera, "lights": lights, "materials": materials} | fields)
         return Image(core.render(asked._core, _check.progress(progress)))
+
+    @takes_fields(FILES)
+    def make(self, output: Path, camera: Optional[Camera] = None, *, lights: Optional[Sequence[Light]] = None,
+             materials: Optional[Mapping[str, Material]] = None, request: Optional[Request] = None,
+             progress: Optional[_check.Progress] = None, **fields: "Unpack[FileFields]") -> Made:
+        """Writes what is asked for to a file, as splatray-render does, with what made it inside: a picture, a sequence (turntable,
+        camera_path), a page (orbit, .html) or a drawing to scale (sheet, .png .tif .svg .pdf .exr).
+
+        output: the file's name, of a sequence with #### where the number goes. Else as render(); resolution: the picture's size. Drawings
+        other than .png and .exr need splatray-sheet, which wheels do not have.
+        """
+        core = self._open_core()
+        checked("make", fields, FILES)
+        asked = Request() if request is None else request.replace()
+        _check_objects(core, materials)
+        asked._set({"output": _check.path("output", output), "camera": camera, "lights": lights, "materials": materials} | fields)
+        try:
+            files, choices, notes = core.make(asked._core, _check.progress(progress))
+        except RuntimeError as error:
+            raise OSError(str(error)) from None
+        return Made(files, dict(choices), notes)
 
     def trace(self, origins: Any, directions: Any, *, progress: Optional[_check.Progress] = None) -> Hits:
         """Traces rays exactly, as brute force over all discs would.

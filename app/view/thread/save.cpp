@@ -2,6 +2,7 @@
 
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/series/make.h"
+#include "app/library/picture/series/run_files.h"
 #include "app/library/shot/picture_lights.h"
 #include "app/library/shot/resolve.h"
 #include "app/view/model/document_request.h"
@@ -30,6 +31,7 @@ std::string save_pictures(const SaveJob& job, LiveScene& live, const SaveProgres
   live.match(document, ViewMode::shaded);
   facts.legend = live.legend();
   Shot shot = resolve(job.request, live.scene(), facts);
+  require_no_inputs_replaced(shot.request, shot.frames);
   require_outputs_writable(shot.request);
   require_picture_memory(shot);
   expose(shot, live.shown());

@@ -20,17 +20,24 @@ bool resumes_in_place(const Request::Output& output) {
          fs::equivalent(output.resume, unfinished_file(output.path), error);
 }
 
-void claim_if_named(const fs::path& file) {
-  if (!file.empty()) claim_output(file);
-}
-
-/// A picture and what lies beside it.
-void claim_picture(const Request& request, const fs::path& file) {
-  claim_output(file);
+/// A picture and what lies beside it; empty ones are none.
+void add_picture(const Request& request, const fs::path& file, std::vector<fs::path>& files) {
+  files.push_back(file);
   if (!request.view.sheet) return;
   const SheetPlaces places = sheet_places(file);
-  for (const fs::path& beside : {places.description, places.world_file, places.crs, places.crs_of_gdal})
-    claim_if_named(beside);
+  files.insert(files.end(), {places.description, places.world_file, places.crs, places.crs_of_gdal});
+}
+
+/// All that a run may write; empty ones are none.
+std::vector<fs::path> written_files(const Request& request, const std::vector<SequenceFrame>& frames) {
+  const Request::Output& output = request.output;
+  std::vector<fs::path> files{output.height_raster, output.stats_json};
+  for (const SequenceFrame& frame : frames) add_picture(request, frame.output, files);
+  const bool has_sums = lower_extension(output.path) == ".exr";
+  if (!output.many() && output.orbit_columns == 0 && !has_sums)
+    add_picture(request, unfinished_file(output.path), files);
+  if (!output.reference.empty()) files.push_back(difference_file(output.path));
+  return files;
 }
 
 /// What the request reads, but for --resume; empty ones are none.
@@ -62,14 +69,12 @@ void require_inputs_present(const Request& request) {
 }
 
 void claim_outputs(const Request& request, const std::vector<SequenceFrame>& frames) {
-  const Request::Output& output = request.output;
-  for (const SequenceFrame& frame : frames) claim_picture(request, frame.output);
-  const bool has_sums = lower_extension(output.path) == ".exr";
-  if (!output.many() && output.orbit_columns == 0 && !has_sums)
-    claim_picture(request, unfinished_file(output.path));
-  if (!output.reference.empty()) claim_output(difference_file(output.path));
-  claim_if_named(output.height_raster);
-  claim_if_named(output.stats_json);
+  for (const fs::path& file : written_files(request, frames))
+    if (!file.empty()) claim_output(file);
+}
+
+void require_no_inputs_replaced(const Request& request, const std::vector<SequenceFrame>& frames) {
+  for (const fs::path& file : written_files(request, frames)) require_no_input(file);
 }
 
 }  // namespace splatray

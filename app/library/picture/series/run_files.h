@@ -15,4 +15,7 @@ void require_inputs_present(const Request& request);
 /// (usage) as claim_output does.
 void claim_outputs(const Request& request, const std::vector<SequenceFrame>& frames);
 
+/// The same for processes that make pictures as often as they like: throws Error (usage) where one of these files is an input.
+void require_no_inputs_replaced(const Request& request, const std::vector<SequenceFrame>& frames);
+
 }  // namespace splatray
