@@ -1,0 +1,226 @@
+/// One request through every door: the same pixels, choices and metadata.
+#include <fstream>
+#include <map>
+
+#include "app/library/image_file.h"
+#include "app/library/request/command_line.h"
+#include "app/library/shot/picture_lights.h"
+#include "app/library/shot/resolve.h"
+#include "app/library/shot/scene_source.h"
+#include "app/library/splatray.h"
+#include "app/view/model/document_request.h"
+#include "app/view/thread/save.h"
+#include "engine/device/device.h"
+#include "preprocess/base/file_extension.h"
+#include "tests/cli/child_process.h"
+
+namespace splatray {
+namespace {
+
+/// A box of 4 x 5 x 3 seen from its middle, as a sensor there saw it.
+std::string scan_pcd() {
+  constexpr int SIDE = 24;
+  std::string rows;
+  int count = 0;
+  for (int face = 0; face < 6; ++face)
+    for (int i = 0; i < SIDE; ++i)
+      for (int j = 0; j < SIDE; ++j) {
+        const glm::dvec3 half(2.0, 2.5, 1.5);
+        const int axis = face / 2;
+        glm::dvec3 place;
+        place[axis] = (face % 2 == 0 ? -1.0 : 1.0) * half[axis];
+        place[(axis + 1) % 3] = ((i + 0.5) / SIDE * 2.0 - 1.0) * half[(axis + 1) % 3];
+        place[(axis + 2) % 3] = ((j + 0.5) / SIDE * 2.0 - 1.0) * half[(axis + 2) % 3];
+        rows +=
+            std::to_string(place.x) + " " + std::to_string(place.y) + " " + std::to_string(place.z) + "\n";
+        ++count;
+      }
+  const std::string points = std::to_string(count);
+  return "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + points +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA ascii\n" + rows;
+}
+
+/// A cube of one material, open or a room around the camera.
+std::string cube_obj() {
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " +
+            std::to_string(i >> 2 & 1) + "\n";
+  return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+}
+
+/// What a picture's file says but for who wrote it by which command, when.
+std::map<std::string, std::string> said_in(const std::filesystem::path& picture, bool choices = true) {
+  std::map<std::string, std::string> said;
+  for (const auto& [name, value] : read_metadata(picture))
+    if (name != "command_line" && name != "commit" && (choices || name != "choices")) said[name] = value;
+  return said;
+}
+
+class Doors : public CliTest {
+ protected:
+  Doors() {
+    write("room.pcd", scan_pcd());
+    write("cube.obj", cube_obj());
+    write("grid.ply", grid_ply(true));
+  }
+
+  /// The file that splatray-render makes of a scene of the folder, and the request that it was given.
+  std::string by_program(const std::string& scene, const std::string& options, const std::string& name) {
+    std::vector<std::string> words{RENDER, "--quiet", "--device=cpu", file(scene)};
+    const std::vector<std::string> more = shell_words(options + " -o " + name);
+    words.insert(words.end(), more.begin(), more.end() - 1);
+    words.push_back(file(name));
+    const ChildResult result = run_program(words);
+    EXPECT_EQ(result.code, 0) << options << ": " << result.err;
+    words.insert(words.end(), {"--save-request", file(name + ".json")});
+    EXPECT_EQ(run_program(words).code, 0);
+    return file(name);
+  }
+
+  /// The same request's file by JSON and by C++; expects them to be the program's.
+  void expect_same(const std::string& scene, const std::string& options, const std::string& extension) {
+    const std::string asked = "asked" + extension;
+    const std::string made = by_program(scene, options, asked);
+    const std::string by_json = file("json" + extension), by_api = file("api" + extension);
+    const ChildResult json =
+        run_program({RENDER, "--quiet", "--request", file(asked + ".json"), "-o", by_json});
+    EXPECT_EQ(json.code, 0) << json.err;
+    const api::Request request = api::Request::from_json(text_of_file(asked + ".json")).set("output", by_api);
+    const api::Scene opened = api::open(std::filesystem::path(file(scene)), request);
+    const api::Made done = api::make(opened, request);
+    EXPECT_EQ(done.files, std::vector<std::filesystem::path>{by_api});
+    for (const std::string& other : {by_json, by_api}) expect_equal(made, other, options);
+    const bool keeps = extension != ".html";
+    EXPECT_TRUE(!keeps || said_in(made)["choices"] == choices_text_of(done.choices)) << options;
+    std::filesystem::remove(made);
+    std::filesystem::remove(by_json);
+    std::filesystem::remove(by_api);
+  }
+
+  /// Of drawings and pages the whole files but for what names them and their command.
+  void expect_equal(const std::string& made, const std::string& other, const std::string& options) {
+    if (lower_extension(made) == ".html") {
+      EXPECT_TRUE(bytes_of(made) == bytes_of(other)) << options;
+      return;
+    }
+    EXPECT_EQ(said_in(made), said_in(other)) << options;
+    if (lower_extension(made) == ".exr") {
+      const ExrPicture a = read_exr(made), b = read_exr(other);
+      EXPECT_TRUE(a.values == b.values && a.channels == b.channels) << options;
+    } else {
+      EXPECT_TRUE(read_display_image(made, {}).rgb == read_display_image(other, {}).rgb) << options;
+    }
+  }
+
+  static std::string choices_text_of(const std::vector<api::Choice>& choices) {
+    std::string text;
+    for (const auto& [field, value] : choices)
+      text += (text.empty() ? "--" : " --") + field + (value == "on" ? "" : " " + value);
+    return text.empty() ? "none" : text;
+  }
+
+  [[nodiscard]] static std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  [[nodiscard]] std::string text_of_file(const std::string& name) const { return bytes_of(file(name)); }
+};
+
+TEST_F(Doors, MakeOnePictureOfARequest) {
+  const std::string small = "--resolution=24x16 --samples=4 ";
+  expect_same("room.pcd", small, ".png");  // view, colours, look, exposure and noise are chosen
+  expect_same("room.pcd", small + "--keep-noise --view=dollhouse", ".png");
+  expect_same("room.pcd", small + "--aov=depth,normal", ".exr");
+  expect_same("room.pcd", small + "--keep-box=-1,-1,-2,1,1,2 --look=ao", ".png");
+  expect_same("cube.obj", small + "--mesh-points=2000", ".png");
+  expect_same("cube.obj", small + "--mesh-points=2000 --material=glass --environment=sky:30,120", ".png");
+  expect_same("cube.obj", small + "--mesh-points=2000 --eye=0.5,0.5,0.9 --target=0.5,0.5,0",
+              ".png");  // a room
+  expect_same("cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=paper", ".png");
+  expect_same("cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1", ".png");
+  expect_same("grid.ply", small + "--despeckle --exposure=auto", ".png");
+}
+
+TEST_F(Doors, MakeOneDrawingOfARequest) {
+  expect_same("room.pcd", "--samples=4 --sheet=plan:z=0.5,scale=100,dpi=40", ".png");
+  expect_same("room.pcd", "--samples=2 --sheet=section:-1,0,1,0,scale=100,dpi=40 --ink", ".exr");
+  expect_same("room.pcd", "--resolution=21x15 --samples=2 --orbit=3", ".html");
+}
+
+TEST_F(Doors, InputsAreNotReplaced) {
+  const api::Scene scene = api::open(std::filesystem::path(file("grid.ply")));
+  write("grid.png", "");
+  std::filesystem::remove(file("grid.png"));
+  std::filesystem::create_hard_link(file("grid.ply"), file("grid.png"));
+  EXPECT_THROW((void)api::make(scene, {{"output", file("grid.png")}, {"resolution", "8x8"}}), api::Error);
+  EXPECT_THROW(scene.save(file("grid.ply")), api::Error);
+  EXPECT_GT(bytes_of(file("grid.ply")).size(), 100U);
+}
+
+/// The viewer: its document of a request is saved as the program's picture, though all that was chosen is said by then.
+TEST_F(Doors, TheViewerSavesTheProgramsPicture) {
+  const std::unique_ptr<Device> device = open_device(HOST_DEVICE);
+  int saves = 0;
+  const auto saved = [&](const std::string& scene, const std::string& options,
+                         const std::function<void(Document&)>& change) {
+    Request asked = parse_command_line("splatray-render x --device=cpu " + options);
+    asked.source.inputs = {file(scene)};
+    Request loading = asked;  // as the viewer loads: the document has materials and colours
+    loading.look.objects.clear();
+    loading.look.attributes = {};
+    loading.look.attributes.color_by = "rgb";
+    LoadedScene loaded = load_scene(loading, {});
+    const SharedScene shared = std::make_shared<const Scene>(std::move(loaded.scene));
+    Document document = first_document(*shared, loaded.facts, asked);
+    LiveScene live(*device);
+    live.open(shared, document.attributes);
+    if (change) change(document);
+    const Shot shot =
+        resolve(request_of(document, asked.view.width, asked.view.height), *shared, document.loaded->facts);
+    if (document.loaded->is_scan && !asked.look.exposure_ev) {
+      live.match(document, ViewMode::shaded);
+      document.exposure_ev = preview_exposure_ev(shot, live.shown(), document.camera);
+    }
+    Request save = asked;
+    save.output.path = file("saved" + std::to_string(++saves) + ".png");
+    (void)save_pictures(save_job(document, save), live, [](const Work&) { return true; });
+    return save.output.path.string();
+  };
+  const std::string small = "--resolution=24x16 --samples=4 ";
+  for (const auto& [scene, options] : std::vector<std::pair<std::string, std::string>>{
+           {"room.pcd", small},
+           {"room.pcd", small + "--keep-noise --view=dollhouse"},
+           {"cube.obj", small + "--mesh-points=2000"},
+           {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1"},
+           {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=paper"}}) {
+    const std::string made = by_program(scene, options, "program.png"), other = saved(scene, options, {});
+    EXPECT_TRUE(read_display_image(made, {}).rgb == read_display_image(other, {}).rgb)
+        << scene << " " << options;
+    EXPECT_EQ(said_in(made, false), said_in(other, false)) << scene << " " << options;
+  }
+  // An area light stays one when the paper's look, which has none, is left.
+  const std::string lamp = small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=";
+  const std::string lit =
+      saved("cube.obj", lamp + "paper", [](Document& document) { document.settings.look = LOOK_LIT; });
+  const std::string made = by_program("cube.obj", lamp + "lit --tone=soft", "program.png");
+  EXPECT_TRUE(read_display_image(made, {}).rgb == read_display_image(lit, {}).rgb);
+}
+
+/// Pictures of before did not keep what was chosen, and none of a named look went through a denoiser.
+TEST_F(Doors, PicturesOfBeforeAreMadeAgainAsTheyWere) {
+  const std::string noisy =
+      by_program("cube.obj", "--mesh-points=2000 --resolution=24x16 --samples=2 --keep-noise", "a.png");
+  Metadata kept;
+  for (const auto& [name, value] : read_metadata(noisy)) {
+    std::string text = value;
+    if (const std::size_t at = text.find(" --keep-noise"); at != std::string::npos) text.erase(at, 13);
+    if (name != "choices") kept.emplace_back(name, text);
+  }
+  write_png(read_display_image(noisy, {}), kept, file("old.png"));
+  ASSERT_EQ(run_program({RENDER, "--quiet", "--from", file("old.png"), "-o", file("again.png")}).code, 0);
+  EXPECT_TRUE(read_display_image(file("again.png"), {}).rgb == read_display_image(noisy, {}).rgb);
+}
+
+}  // namespace
+}  // namespace splatray
