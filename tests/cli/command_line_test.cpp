@@ -64,9 +64,14 @@ ObjectChange random_object(Dice& dice) {
 }
 
 LightRequest random_light(Dice& dice) {
-  LightRequest light{dice.chance(0.5) ? LIGHT_POINT : LIGHT_DIRECTIONAL, vector(dice), {}};
-  maybe(dice, light.power, color(dice) * static_cast<float>(number(dice, 1e-6, 1e6)));
-  return light;
+  LightRequest asked;
+  SceneLight& light = asked.light;
+  light.kind = dice.chance(0.5) ? LIGHT_POINT : LIGHT_DIRECTIONAL;
+  light.position = vector(dice);
+  asked.has_power = dice.chance(0.5);
+  if (asked.has_power) light.power = color(dice) * static_cast<float>(number(dice, 1e-6, 1e6));
+  if (light.kind == LIGHT_POINT && dice.chance(0.5)) light.range = number(dice, 0.1, 1e3);
+  return asked;
 }
 
 Request::Source random_source(Dice& dice) {
@@ -220,8 +225,8 @@ TEST(CommandLine, AcceptsWhatPeoplePaste) {
   EXPECT_EQ(request.source.inputs.front(), "it's $5.ply");
   EXPECT_EQ(request.view.eye, glm::dvec3(-1.0, 2.0, 3.0));
   ASSERT_EQ(request.look.lights->size(), 3U);
-  EXPECT_EQ((*request.look.lights)[1].kind, LIGHT_DIRECTIONAL);
-  EXPECT_EQ((*request.look.lights)[2].position, glm::dvec3(4.0, 5.0, 6.0));
+  EXPECT_EQ((*request.look.lights)[1].light.kind, LIGHT_DIRECTIONAL);
+  EXPECT_EQ((*request.look.lights)[2].light.position, glm::dvec3(4.0, 5.0, 6.0));
 }
 
 TEST(CommandLine, RefusesWhatIsNoCommand) {

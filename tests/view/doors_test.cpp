@@ -139,6 +139,8 @@ TEST_F(Doors, MakeOnePictureOfARequest) {
               ".png");  // a room
   expect_same("cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=paper", ".png");
   expect_same("cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1", ".png");
+  expect_same("cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9",
+              ".png");
   expect_same("grid.ply", small + "--despeckle --exposure=auto", ".png");
 }
 
@@ -192,6 +194,7 @@ TEST_F(Doors, TheViewerSavesTheProgramsPicture) {
            {"room.pcd", small},
            {"room.pcd", small + "--keep-noise --view=dollhouse"},
            {"cube.obj", small + "--mesh-points=2000"},
+           {"cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9"},
            {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1"},
            {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=paper"}}) {
     const std::string made = by_program(scene, options, "program.png"), other = saved(scene, options, {});

@@ -59,7 +59,7 @@ const std::map<std::string, std::string> RESOLVED = {
     {"camera", "becomes eye, target, camera-up and fov"},
     {"view", "becomes a camera"},
     {"object", "becomes all changes of its object, by its name"},
-    {"area-light", "shines towards a point at distance 1"},
+    {"area-light", "becomes a --light of the kind rectangle"},
     {"exposure", "is the window's, which knows what it chose"},
     {"device", "is the program's: the window has one"},
     {"stats-json", "is the program's"},

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "app/library/request/fields.h"
@@ -17,55 +18,62 @@ std::vector<double> light_numbers(const std::string& text, std::size_t least, co
   throw Expected{expected};
 }
 
-void set_power(std::span<const double> numbers, LightRequest& light) {
-  light.power = glm::vec3(numbers[0], numbers[1], numbers[2]);
-  if (!(light.power->x >= 0.0F && light.power->y >= 0.0F && light.power->z >= 0.0F) ||
-      !std::isfinite(light.power->x + light.power->y + light.power->z))
+void set_power(std::span<const double> numbers, LightRequest& asked) {
+  const glm::vec3 power(numbers[0], numbers[1], numbers[2]);
+  if (!(power.x >= 0.0F && power.y >= 0.0F && power.z >= 0.0F) || !std::isfinite(power.x + power.y + power.z))
     throw Expected{"R,G,B of finite numbers >= 0"};
+  asked.light.power = power;
+  asked.has_power = true;
 }
 
 /// A light of X,Y,Z[,R,G,B[,SIZE]].
-LightRequest read_light(const std::string& text, std::uint32_t kind) {
+LightRequest read_sized(const std::string& text, std::uint32_t kind) {
   const auto numbers =
       light_numbers(text, 3, "three, six or seven numbers such as 1,-2,0.5 or 1,-2,0.5,9,9,9");
-  LightRequest light;
-  light.kind = kind;
-  light.position = {numbers[0], numbers[1], numbers[2]};
-  if (kind == LIGHT_DIRECTIONAL && light.position == glm::dvec3(0.0))
-    throw Expected{"a direction other than 0,0,0"};
-  if (numbers.size() > 3) set_power(std::span(numbers).subspan(3), light);
-  if (numbers.size() == 7) light.size = numbers[6];
-  const double most = kind == LIGHT_DIRECTIONAL ? 180.0 : 1e30;
-  if (!(light.size >= 0.0 && light.size <= most))
-    throw Expected{kind == LIGHT_DIRECTIONAL ? "a SIZE from 0 to 180 degrees" : "a SIZE of 0 or more"};
-  return light;
+  LightRequest asked;
+  asked.light.kind = kind;
+  asked.light.position = {numbers[0], numbers[1], numbers[2]};
+  const bool sun = kind == LIGHT_DIRECTIONAL;
+  if (sun && asked.light.position == glm::dvec3(0.0)) throw Expected{"a direction other than 0,0,0"};
+  if (numbers.size() > 3) set_power(std::span(numbers).subspan(3), asked);
+  const double size = numbers.size() == 7 ? numbers[6] : 0.0, most = sun ? 180.0 : 1e30;
+  if (!(size >= 0.0 && size <= most))
+    throw Expected{sun ? "a SIZE from 0 to 180 degrees" : "a SIZE of 0 or more"};
+  asked.light.size = sun ? size * std::numbers::pi / 360.0 : size;
+  return asked;
 }
 
 /// A rectangle of X,Y,Z,TX,TY,TZ,WIDTH,HEIGHT[,R,G,B].
 LightRequest read_rectangle(const std::string& text) {
   const auto numbers =
       light_numbers(text, 8, "eight or eleven numbers such as 0,0,3,0,0,0,2,1 or 0,0,3,0,0,0,2,1,9,9,9");
-  LightRequest light;
-  light.kind = LIGHT_RECTANGLE;
-  light.position = {numbers[0], numbers[1], numbers[2]};
-  light.target = {numbers[3], numbers[4], numbers[5]};
-  light.edges = {numbers[6], numbers[7]};
-  if (light.position == light.target) throw Expected{"a point TX,TY,TZ other than X,Y,Z to shine at"};
-  if (!(light.edges.x > 0.0 && light.edges.y > 0.0)) throw Expected{"a WIDTH and HEIGHT of more than 0"};
+  LightRequest asked;
+  asked.light.kind = LIGHT_RECTANGLE;
+  asked.light.position = {numbers[0], numbers[1], numbers[2]};
+  asked.level = {{numbers[3], numbers[4], numbers[5]}, {numbers[6], numbers[7]}};
+  if (asked.light.position == asked.level->target)
+    throw Expected{"a point TX,TY,TZ other than X,Y,Z to shine at"};
+  if (!(asked.level->edges.x > 0.0 && asked.level->edges.y > 0.0))
+    throw Expected{"a WIDTH and HEIGHT of more than 0"};
   if (numbers.size() == 12) throw Expected{"eight or eleven numbers"};
-  if (numbers.size() > 8) set_power(std::span(numbers).subspan(8), light);
-  return light;
+  if (numbers.size() > 8) set_power(std::span(numbers).subspan(8), asked);
+  return asked;
 }
 
-FieldText light_text(const LightRequest& light) {
-  const bool rectangle = light.kind == LIGHT_RECTANGLE;
+/// As short as can be: in the spelling by places where that says all of it.
+FieldText shortest_text(const LightRequest& asked) {
+  const SceneLight& light = asked.light;
+  const bool rectangle = light.kind == LIGHT_RECTANGLE, sun = light.kind == LIGHT_DIRECTIONAL;
+  if (is_spot(light) || light.range > 0.0 || (rectangle && !asked.level) ||
+      (light.size > 0.0 && !asked.has_power))
+    return {"light", light_text(asked)};
   std::string text = number_text(light.position);
   if (rectangle)
-    text +=
-        "," + number_text(light.target) + "," + number_text(light.edges.x) + "," + number_text(light.edges.y);
-  if (light.power) text += "," + number_text(*light.power);
-  if (light.size > 0.0) text += "," + number_text(light.size);
-  return {rectangle ? "area-light" : (light.kind == LIGHT_POINT ? "light" : "sun"), text};
+    text += "," + number_text(asked.level->target) + "," + number_text(asked.level->edges.x) + "," +
+            number_text(asked.level->edges.y);
+  if (asked.has_power) text += "," + number_text(light.power);
+  if (light.size > 0.0) text += "," + number_text(sun ? sun_degrees(light) : light.size);
+  return {rectangle ? "area-light" : (sun ? "sun" : "light"), text};
 }
 
 /// One of the family of lights, which keeps the order in which they are given; the first replaces those there were.
@@ -73,8 +81,10 @@ Field light_row(std::string name, std::uint32_t kind, std::string value, std::st
   Field row = value_row(std::move(name), LIGHT, std::move(value), std::move(help),
                         [kind](Request& request, const std::string& text) {
                           if (!request.look.lights) request.look.lights.emplace();
-                          request.look.lights->push_back(kind == LIGHT_RECTANGLE ? read_rectangle(text)
-                                                                                 : read_light(text, kind));
+                          const bool named = kind == LIGHT_POINT && text.find(':') != std::string::npos;
+                          request.look.lights->push_back(named                     ? read_light(text)
+                                                         : kind == LIGHT_RECTANGLE ? read_rectangle(text)
+                                                                                   : read_sized(text, kind));
                         },
                         {});
   row.repeated = true;
@@ -93,7 +103,7 @@ Field lights_row() {
   row.write = [](const Request& request) {
     std::vector<FieldText> texts;
     if (!request.look.lights) return texts;
-    for (const LightRequest& light : *request.look.lights) texts.push_back(light_text(light));
+    for (const LightRequest& light : *request.look.lights) texts.push_back(shortest_text(light));
     if (texts.empty()) texts.push_back({"lights", "none"});
     return texts;
   };
@@ -142,10 +152,11 @@ Field background_row() {
 
 std::vector<Field> light_fields() {
   return {
-      light_row(
-          "light", LIGHT_POINT, "X,Y,Z[,R,G,B[,SIZE]]",
-          "a point light here instead of the scene's lights; R,G,B: its intensity, default irradiance pi at "
-          "the scene's centre; SIZE: its radius, world units; repeatable"),
+      light_row("light", LIGHT_POINT, "KIND:KEY=VALUE,...|X,Y,Z[,R,G,B[,SIZE]]",
+                "a point, spot, sun or rectangle instead of the scene's lights, such as "
+                "spot:at=0,3,0,to=0,0,0,cone=17,range=9; " +
+                    light_keys_help() +
+                    "; or by places a point: where it is, its intensity and radius; repeatable"),
       needed(light_row("sun", LIGHT_DIRECTIONAL, "X,Y,Z[,R,G,B[,SIZE]]",
                        "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, "
                        "default pi; "

@@ -10,6 +10,7 @@
 #include "app/library/attributes.h"
 #include "app/library/display_image.h"
 #include "app/library/request/frame_list.h"
+#include "app/library/request/light_request.h"
 #include "app/library/request/object_change.h"
 #include "app/library/request/sheet_request.h"
 #include "engine/base/progress.h"
@@ -19,20 +20,6 @@
 #include "preprocess/points.h"
 
 namespace splatray {
-
-/// A light that is asked for, world space.
-struct LightRequest {
-  std::uint32_t kind = LIGHT_POINT;  ///< LIGHT_*
-  /// Point: position; directional: towards the light, any length > 0; rectangle: its centre.
-  glm::dvec3 position{0.0};
-  /// As SceneLight's; unset = irradiance pi, of a point light at the scene's centre, of a rectangle at its target.
-  std::optional<glm::vec3> power;
-  double size = 0.0;       ///< point: radius; directional: angular diameter, degrees; 0 = none
-  glm::dvec3 target{0.0};  ///< rectangle: what it shines at
-  glm::dvec2 edges{0.0};   ///< rectangle: width and height; the width is level
-
-  bool operator==(const LightRequest&) const = default;
-};
 
 /// What of the scene a picture shows.
 struct RegionRequest {

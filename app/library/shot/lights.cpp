@@ -14,14 +14,11 @@ glm::dvec3 scene_center(const Scene& scene) {
   return 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
 }
 
-/// The light, as bright as it asks for or else with irradiance pi at the scene's centre.
-SceneLight scene_light(const Scene& scene, const LightRequest& light) {
+/// Irradiance pi, of a point light at the scene's centre.
+glm::vec3 default_power(const Scene& scene, const SceneLight& light) {
   const glm::dvec3 to_light = light.position - scene_center(scene);
   const double squared_distance = light.kind == LIGHT_POINT ? glm::dot(to_light, to_light) : 1.0;
-  const glm::vec3 irradiance_pi(static_cast<float>(std::numbers::pi * squared_distance));
-  SceneLight made{light.kind, light.position, light.power.value_or(irradiance_pi)};
-  made.size = light.kind == LIGHT_DIRECTIONAL ? light.size * std::numbers::pi / 360.0 : light.size;
-  return made;
+  return glm::vec3(static_cast<float>(std::numbers::pi * squared_distance));
 }
 
 /// The key light for LOOK_SCAN, whose sky gives most of the light: softer and weaker.
@@ -31,18 +28,28 @@ SceneLight scan_light(SceneLight key) {
   return key;
 }
 
-/// A rectangle whose width is level, facing its target.
-SceneLight rectangle_light(const glm::dvec3& up, const LightRequest& light) {
-  const glm::dvec3 to_target = light.target - light.position;
-  const double distance_squared = glm::dot(to_target, to_target);
-  const glm::dvec3 normal = to_target / std::sqrt(distance_squared);
-  const glm::dvec3 level = glm::normalize(glm::cross(up_across(up, normal), normal));
-  const double radiance = std::numbers::pi * distance_squared / (light.edges.x * light.edges.y);
-  SceneLight made{LIGHT_RECTANGLE, light.position,
-                  light.power.value_or(glm::vec3(static_cast<float>(radiance)))};
-  made.edge_u = 0.5 * light.edges.x * level;
-  made.edge_v = 0.5 * light.edges.y * glm::cross(normal, level);
-  return made;
+/// A level rectangle, facing its target.
+void set_edges(const glm::dvec3& up, const LevelRectangle& level, SceneLight& light) {
+  const glm::dvec3 to_target = level.target - light.position;
+  const glm::dvec3 normal = to_target / std::sqrt(glm::dot(to_target, to_target));
+  const glm::dvec3 across = glm::normalize(glm::cross(up_across(up, normal), normal));
+  light.edge_u = 0.5 * level.edges.x * across;
+  light.edge_v = 0.5 * level.edges.y * glm::cross(normal, across);
+}
+
+/// That of irradiance pi where a rectangle shines, straight ahead.
+glm::vec3 level_power(const LevelRectangle& level, const glm::dvec3& position) {
+  const glm::dvec3 to_target = level.target - position;
+  const double radiance = std::numbers::pi * glm::dot(to_target, to_target) / (level.edges.x * level.edges.y);
+  return glm::vec3(static_cast<float>(radiance));
+}
+
+SceneLight resolved(const Scene& scene, const glm::dvec3& up, const LightRequest& asked) {
+  SceneLight light = asked.light;
+  if (asked.level) set_edges(up, *asked.level, light);
+  if (!asked.has_power)
+    light.power = asked.level ? level_power(*asked.level, light.position) : default_power(scene, light);
+  return light;
 }
 
 /// The lights of a scene that nothing is said of: its own, else the key light of the look, none where an environment is named.
@@ -64,19 +71,8 @@ std::vector<SceneLight> resolve_lights(const Scene& scene, const Request& reques
                                      std::to_string(LIGHTS_MOST));
   const glm::dvec3 up = request.look.up.value_or(scene.up);
   std::vector<SceneLight> lights;
-  for (const LightRequest& light : *request.look.lights)
-    lights.push_back(light.kind == LIGHT_RECTANGLE ? rectangle_light(up, light) : scene_light(scene, light));
+  for (const LightRequest& light : *request.look.lights) lights.push_back(resolved(scene, up, light));
   return lights;
-}
-
-LightRequest light_request(const SceneLight& light) {
-  LightRequest asked{light.kind, light.position, light.power};
-  asked.size = light.kind == LIGHT_DIRECTIONAL ? light.size * 360.0 / std::numbers::pi : light.size;
-  if (light.kind != LIGHT_RECTANGLE) return asked;
-  asked.size = 0.0;
-  asked.target = light.position + glm::normalize(glm::cross(light.edge_u, light.edge_v));
-  asked.edges = 2.0 * glm::dvec2(glm::length(light.edge_u), glm::length(light.edge_v));
-  return asked;
 }
 
 std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLight> lights) {

@@ -12,9 +12,6 @@ namespace splatray {
 [[nodiscard]] std::vector<SceneLight> resolve_lights(const Scene& scene, const Request& request,
                                                      const Camera& camera);
 
-/// The request that makes a light.
-[[nodiscard]] LightRequest light_request(const SceneLight& light);
-
 /// Lights as a look (LOOK_*) takes them: LOOK_PAPER, which knows no sizes, has points in place of rectangles, as bright straight ahead.
 [[nodiscard]] std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLight> lights);
 

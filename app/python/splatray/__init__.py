@@ -21,11 +21,11 @@ from ._core import Cancelled, NoDeviceError, version as _version
 from .camera import Camera, frame
 from .device import Device, devices
 from .image import Image
-from .look import Light, Material, material, point_light, sun
+from .look import Light, Material, material, point_light, spot_light, sun
 from .objects import Mesh, Points
 from .request import Request
 from .scene import Hits, Made, Measure, MeasureValue, Scene, Splats, make_picture, make_scene, open, points
 
 __version__ = _version()
 __all__ = ["Camera", "Cancelled", "Device", "Hits", "Image", "Light", "Made", "Material", "Measure", "MeasureValue", "Mesh", "NoDeviceError", "Points", "Request", "Scene", "Splats", "devices",
-           "frame", "make_picture", "make_scene", "material", "open", "point_light", "points", "sun"]
+           "frame", "make_picture", "make_scene", "material", "open", "point_light", "points", "spot_light", "sun"]

@@ -67,28 +67,48 @@ def material(name: str) -> Material:
 
 @dataclass(frozen=True)
 class Light:
-    """A light; point_light() and sun() make them. power: intensity of a point light, irradiance of a sun, linear r, g, b. size:
-    radius of a point light in world units, angular diameter of a sun in degrees.
+    """A light; point_light(), spot_light() and sun() make them. power: intensity of a point light, irradiance of a sun, linear r, g, b.
+    size: radius of a point light in world units, angular diameter of a sun in degrees. Of spots, target: what it shines at, and cone:
+    degrees from there to where it is dark. range: how far a point light shines, world units, 0 for any distance.
     """
 
     position: Vector
     power: Color
     point: bool = False
     size: float = 0.0
+    target: Optional[Vector] = None
+    cone: float = 0.0
+    range: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "position", _check.vector("position", self.position))
         object.__setattr__(self, "power", _check.color("power", self.power))
-        object.__setattr__(self, "size", _check.number("size", self.size))
+        for name in ("size", "cone", "range"):
+            object.__setattr__(self, name, _check.number(name, getattr(self, name)))
+        if self.target is not None:
+            object.__setattr__(self, "target", _check.vector("target", self.target))
 
     def _to_field(self) -> Tuple[str, str]:
-        numbers = [*self.position, *self.power, self.size]
-        return ("light" if self.point else "sun"), ",".join(map(repr, numbers))
+        def text(*numbers: float) -> str:
+            return ",".join(map(repr, numbers))
+
+        if not self.point:
+            return "sun", text(*self.position, *self.power, self.size)
+        words = ["point:" if self.target is None else "spot:", f"at={text(*self.position)},power={text(*self.power)}"]
+        if self.target is not None:
+            words.append(f",to={text(*self.target)},cone={text(self.cone)}")
+        words += [f",{name}={text(value)}" for name, value in (("radius", self.size), ("range", self.range)) if value != 0.0]
+        return "light", "".join(words)
 
 
 def point_light(position: Vector, power: Color, radius: float = 0.0) -> Light:
     """A light at a place; power: irradiance times distance^2, a number or r, g, b. radius: world units; above 0 shadows are soft."""
     return Light(position, power, True, radius)
+
+
+def spot_light(position: Vector, target: Vector, power: Color, cone: float = 30.0, radius: float = 0.0, range: float = 0.0) -> Light:
+    """A light at a place that shines at a target; cone: degrees from there to where it is dark; else as point_light()."""
+    return Light(position, power, True, radius, target, cone, range)
 
 
 def sun(direction: Vector, power: Color = (3.14, 3.14, 3.14), diameter: float = 0.0) -> Light:

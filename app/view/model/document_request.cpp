@@ -61,7 +61,7 @@ Request request_of(const Document& document, std::uint32_t width, std::uint32_t 
   look.objects =
       object_changes_between(document.loaded->looks, document.looks, document.loaded->object_names);
   std::vector<LightRequest>& lights = look.lights.emplace();
-  for (const SceneLight& light : document.lights) lights.push_back(light_request(light));
+  for (const SceneLight& light : document.lights) lights.push_back({light, {}, /*has_power=*/true});
   return request;
 }
 

@@ -18,6 +18,7 @@ constexpr std::size_t MOST_LIGHTS = 64;
 constexpr double POINT_DISTANCE_RADII = 2.0;  ///< of a new point light from the scene's centre
 constexpr float MOST_STRENGTH = 1e30F;
 constexpr std::array KINDS = {"sun ", "point light ", "area light "};  // LIGHT_*
+constexpr double NEW_CONE = pi / 6.0;                                  ///< of a new spot
 
 /// Over the viewer's shoulder, the direction of new lights.
 glm::dvec3 shoulder(const Document& document) {
@@ -48,9 +49,46 @@ void add_button(const char* label, std::uint32_t kind, Document& document, Panel
   state.light = static_cast<std::uint32_t>(document.lights.size() - 1);
 }
 
+/// It shines at the scene's centre.
+void add_spot_button(Document& document, PanelState& state) {
+  const std::size_t before = document.lights.size();
+  add_button("add spot", LIGHT_POINT, document, state);
+  if (document.lights.size() == before) return;
+  SceneLight& light = document.lights.back();
+  light.spot_axis =
+      glm::normalize(0.5 * (document.bounds_min_world + document.bounds_max_world) - light.position);
+  light.spot_outer = NEW_CONE;
+}
+
+void angle_control(const char* label, double least, double most, double& radians) {
+  auto angle = static_cast<float>(radians);
+  if (ImGui::SliderAngle(label, &angle, static_cast<float>(glm::degrees(least)),
+                         static_cast<float>(glm::degrees(most)), "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp))
+    radians = std::clamp(static_cast<double>(angle), least, most);
+}
+
+/// Of a point light: how far it shines; of a spot: where to.
+void reach_controls(const Document& document, SceneLight& light) {
+  const auto speed = static_cast<float>(scene_radius_world(document) / 200.0);
+  const double nothing = 0.0;
+  ImGui::DragScalar("range", ImGuiDataType_Double, &light.range, speed, &nothing, nullptr, "%.5g");
+  light.range = std::max(light.range, 0.0);
+  tip("how far it shines, world units; 0: as far as there is anything");
+  if (!is_spot(light)) return;
+  constexpr double NARROW = 1e-3, WIDE = 0.5 * pi;
+  angle_control("cone", NARROW, WIDE, light.spot_outer);
+  light.spot_inner = std::min(light.spot_inner, light.spot_outer - 0.5 * NARROW);
+  angle_control("inner cone", 0.0, light.spot_outer - 0.5 * NARROW, light.spot_inner);
+  glm::dvec3 target = light.position + scene_radius_world(document) * glm::normalize(light.spot_axis);
+  if (ImGui::DragScalarN("shines at", ImGuiDataType_Double, &target.x, 3, speed, nullptr, nullptr, "%.5g") &&
+      glm::distance(target, light.position) > 0.0)
+    light.spot_axis = glm::normalize(target - light.position);
+}
+
 void light_list(const Document& document, PanelState& state) {
   for (std::size_t i = 0; i < document.lights.size(); ++i) {
-    const std::string name = KINDS[document.lights[i].kind] + std::to_string(i + 1);
+    const SceneLight& light = document.lights[i];
+    const std::string name = (is_spot(light) ? "spot " : KINDS[light.kind]) + std::to_string(i + 1);
     if (ImGui::Selectable(name.c_str(), state.light == i)) state.light = static_cast<std::uint32_t>(i);
   }
 }
@@ -106,12 +144,15 @@ void light_panel(Document& document, PanelState& state) {
   add_button("add sun", LIGHT_DIRECTIONAL, document, state);
   ImGui::SameLine();
   add_button("add point light", LIGHT_POINT, document, state);
+  ImGui::SameLine();
+  add_spot_button(document, state);
   light_list(document, state);
   if (document.lights.empty()) return;
   state.light = std::min(state.light, static_cast<std::uint32_t>(document.lights.size() - 1));
   SceneLight& light = document.lights[state.light];
   ImGui::PushID(static_cast<int>(state.light));
   light.kind == LIGHT_DIRECTIONAL ? sun_controls(document, light) : point_controls(document, light);
+  if (light.kind == LIGHT_POINT) reach_controls(document, light);
   if (document.settings.look != LOOK_PAPER) size_controls(document, light);
   power_controls(light);
   if (ImGui::Button("remove")) document.lights.erase(document.lights.begin() + state.light);
