@@ -17,7 +17,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/scene_check.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 #include "engine/scene/surface.h"
 #include "preprocess/base/append.h"
 #include "preprocess/base/parallel.h"
@@ -281,9 +281,9 @@ void count_result(const Scene& scene, BuildStats& stats) {
   stats.nodes = scene.node_pool.size();
   stats.filled_leaves = scene.begin_end.size() - 1;
   stats.growth = static_cast<double>(stats.references) / static_cast<double>(stats.splats) - 1.0;
-  std::vector<double> squared(scene.data_pool.size());
-  tbb::parallel_for(std::size_t{0}, scene.data_pool.size(),
-                    [&](std::size_t i) { squared[i] = unpack_radius_squared(scene.data_pool[i]); });
+  std::vector<double> squared(stats.splats);
+  tbb::parallel_for(std::size_t{0}, squared.size(),
+                    [&](std::size_t i) { squared[i] = splat_at(scene, i).in_root().radius_squared; });
   const double sum_squared = std::accumulate(squared.begin(), squared.end(), 0.0);
   stats.radius_median_world = std::sqrt(median_of(std::span(squared))) * scene.root.unit_world;
   if (scene.surface_area_world > 0.0) {

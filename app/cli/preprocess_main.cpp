@@ -19,6 +19,7 @@
 #include "engine/file/atomic_file.h"
 #include "engine/file/file_roles.h"
 #include "engine/file/scene_file.h"
+#include "engine/scene/scene_splat.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/build.h"
 #include "preprocess/build_report.h"
@@ -125,7 +126,7 @@ void compare(Scene& scene, const Options& options, const Progress& progress, Pro
   const ChangeFound found = add_change(scene, earlier, *open_device(HOST_DEVICE), progress);
   line.clear();
   std::printf("change: %zu of %zu splats meet the earlier surface, median size %.4g", std::size_t{found.met},
-              scene.data_pool.size(), found.median_world);
+              splat_count(scene), found.median_world);
   if (found.significant_world > 0.0)
     std::printf("; %zu differ by more than the %.4g that noise explains (95 %%)",
                 std::size_t{found.significant}, found.significant_world);

@@ -11,7 +11,7 @@
 #include "engine/base/number_text.h"
 #include "engine/base/rank.h"
 #include "engine/base/srgb.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray {
 namespace {
@@ -112,10 +112,6 @@ Category category(const Scene& scene, std::string_view column, std::uint32_t val
   return {value, named ? scene.stations[value].name : "", color_of(number_color(value)), 0};
 }
 
-glm::dvec3 center_world(const Scene& scene, std::size_t splat) {
-  return scene.root.to_world(unpack_splat(scene.data_pool[splat]).center);
-}
-
 /// The scanner's place of each scan; throws where none is known.
 std::vector<std::optional<glm::dvec3>> sensors(const Scene& scene) {
   std::vector<std::optional<glm::dvec3>> places;
@@ -130,7 +126,7 @@ bool knows_a_sensor(const Scene& scene) {
 
 /// The value of an attribute at each splat; NaN where it has none.
 std::vector<double> values_of(const Scene& scene, const std::string& name) {
-  std::vector<double> values(scene.data_pool.size());
+  std::vector<double> values(splat_count(scene));
   const auto fill = [&values](const auto& value) {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(i);
   };
@@ -138,14 +134,14 @@ std::vector<double> values_of(const Scene& scene, const std::string& name) {
     fill([&](std::size_t i) { return column->number(i); });
   } else if (name == "height") {
     const glm::dvec3 up = glm::normalize(scene.up);
-    fill([&](std::size_t i) { return glm::dot(up, center_world(scene, i)); });
+    fill([&](std::size_t i) { return glm::dot(up, splat_at(scene, i).center_world()); });
   } else {
     const auto places = sensors(scene);
     const Column* scan = find_column(scene.columns, COLUMN_SCAN);
     fill([&](std::size_t i) {
       const auto station = scan != nullptr ? static_cast<std::size_t>(scan->number(i)) : 0;
       return station < places.size() && places[station]
-                 ? glm::length(center_world(scene, i) - *places[station])
+                 ? glm::length(splat_at(scene, i).center_world() - *places[station])
                  : std::nan("");
     });
   }
@@ -228,9 +224,10 @@ AttributeColors category_colors(const Scene& scene, const Column& column) {
 AttributeColors normal_colors(const Scene& scene) {
   AttributeColors result;
   result.legend.title = "normal";
-  for (const uvec4& words : scene.data_pool) {
-    result.colors.push_back(color_of(glm::vec3(0.5 * unpack_splat(words).normal + 0.5)));
-  }
+  result.colors.reserve(splat_count(scene));
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
+    result.colors.push_back(color_of(glm::vec3(0.5 * splat.normal() + 0.5)));
+  });
   return result;
 }
 

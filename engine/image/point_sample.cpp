@@ -6,7 +6,7 @@
 #include <map>
 
 #include "engine/base/rank.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray {
 namespace {
@@ -67,21 +67,21 @@ PointSample every(std::size_t stride, const Scene& scene, const Region& region) 
   PointSample sample;
   const glm::dvec3 rounding(2.0 * scene.root.unit_world);
   const glm::dvec3 low = scene.bounds_min_world - rounding, high = scene.bounds_max_world + rounding;
-  for (std::size_t i = 0; i < scene.data_pool.size(); i += stride) {
-    const Splat splat = unpack_splat(scene.data_pool[i]);
-    const glm::dvec3 place = scene.root.to_world(splat.center);
-    if (glm::any(glm::lessThan(place, low)) || glm::any(glm::greaterThan(place, high))) continue;
-    if (!region.holds(place)) continue;
+  const auto add = [&](std::size_t, const SceneSplat& splat) {
+    const glm::dvec3 place = splat.center_world();
+    if (glm::any(glm::lessThan(place, low)) || glm::any(glm::greaterThan(place, high))) return;
+    if (!region.holds(place)) return;
     sample.position.push_back(place);
-    sample.normal.push_back(splat.normal);
-  }
+    sample.normal.push_back(splat.normal());
+  };
+  for_each_splat(scene, add, stride);
   return sample;
 }
 
 }  // namespace
 
 PointSample sample_points(const Scene& scene, const Region& region) {
-  const std::size_t stride = scene.data_pool.size() / SAMPLE_MOST + 1;
+  const std::size_t stride = splat_count(scene) / SAMPLE_MOST + 1;
   PointSample sample = every(stride, scene, region);
   return stride > 1 && sample.size() < FEW_KEPT ? every(1, scene, region) : sample;
 }

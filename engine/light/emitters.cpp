@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "engine/light/emitter_area.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 #include "engine/scene/texture_factors.h"
 
 namespace splatray {
@@ -26,13 +26,13 @@ Emitters find_emitters(const Scene& scene, const ObjectLooks& objects) {
     return {};
   const SplatEmission emission(scene);
   const auto radiance = [&](std::size_t index) {
-    const vec3 sent = emission.of(index, of_objects[scene.data_pool[index].w & OBJECT_MASK]);
+    const vec3 sent = emission.of(index, of_objects[splat_at(scene, index).object()]);
     return (sent.x + sent.y + sent.z) / 3.0F;
   };
   std::vector<std::size_t> indices;  // in the data pool
-  for (std::size_t i = 0; i < scene.data_pool.size(); ++i)
+  for (std::size_t i = 0; i < splat_count(scene); ++i)
     if (radiance(i) > 0.0F) indices.push_back(i);
-  const auto words = [&scene](std::size_t index) { return scene.data_pool[index]; };
+  const auto words = [&scene](std::size_t index) { return splat_at(scene, index).words(); };
   std::sort(indices.begin(), indices.end(),
             [&](std::size_t a, std::size_t b) { return order(words(a)) < order(words(b)); });
   // Rays cannot distinguish splats of the same words: together they are one.
@@ -43,7 +43,7 @@ Emitters find_emitters(const Scene& scene, const ObjectLooks& objects) {
   std::vector<Splat> splats;
   std::vector<std::uint32_t> clips;
   for (const std::size_t index : indices) {
-    splats.push_back(unpack_splat(words(index)));
+    splats.push_back(splat_at(scene, index).in_root());
     if (!scene.clip_pool.empty()) clips.push_back(scene.clip_pool[index]);
   }
   const std::vector<float> areas = areas_alone(splats, clips);
@@ -59,8 +59,7 @@ double emitted_irradiance(const Scene& scene, const Emitters& emitters) {
   const double size = glm::distance(scene.bounds_min_world, scene.bounds_max_world) / scene.root.unit_world;
   double sum = 0.0;
   for (const Emitter& emitter : *emitters) {
-    const Splat splat = unpack_splat(emitter.words);
-    const glm::dvec3 apart = splat.center - center;
+    const glm::dvec3 apart = emitter.splat().center - center;
     const double distance_squared = std::max(glm::dot(apart, apart), 0.01 * size * size);
     sum += 0.25 * double(emitter.power) / distance_squared;
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/scene/splat.h"
 
 namespace splatray {
 
@@ -11,6 +12,8 @@ namespace splatray {
 struct Emitter {
   uvec4 words;
   float power;  ///< mean radiance of rgb times the area that it has for itself (emitter_area.h), > 0
+
+  [[nodiscard]] Splat splat() const { return unpack_splat(words); }  ///< root space
 };
 
 /// Each once; null: none. Shared, and compared by its address, as there may be many.

@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/scene/splat.h"
-
 namespace splatray {
 namespace {
 
@@ -242,7 +240,7 @@ Item item_of(const Light& light, std::uint32_t index) {
 }
 
 Item item_of(const Emitter& emitter, std::uint32_t index, const std::vector<bool>& two_sided) {
-  const Splat splat = unpack_splat(emitter.words);
+  const Splat splat = emitter.splat();
   const Cone cone{glm::normalize(dvec3(splat.normal)), 0.0, 0.5 * pi, two_sided[splat.object]};
   return {dvec3(splat.center), std::sqrt(splat.radius_squared), cone, double(emitter.power),
           LIGHT_NODE_LEAF | LIGHT_NODE_EMITTER | index};

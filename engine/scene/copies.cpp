@@ -7,8 +7,8 @@
 namespace splatray {
 
 PoolCounts pool_counts(const Scene& scene) {
-  PoolCounts counts{scene.data_pool.size(), scene.reference_pool.size(), scene.node_pool.size(),
-                    scene.begin_end.size() - 1};
+  PoolCounts counts{pool_length(scene, PoolLength::splats), pool_length(scene, PoolLength::references),
+                    pool_length(scene, PoolLength::nodes), pool_length(scene, PoolLength::leaves)};
   for_each_pool([&](const auto& row) { counts.pools |= (scene.*row.pool).empty() ? 0 : row.feature; });
   counts.texture_words = texture_word_count(texture_features(scene.columns));
   return counts;

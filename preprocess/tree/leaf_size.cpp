@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/scene/disc.h"
+#include "engine/scene/leaf/disc.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/tree.h"
 #include "preprocess/tree/insertion.h"

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "engine/scene/clip.h"
-#include "engine/scene/disc.h"
+#include "engine/scene/leaf/disc.h"
 #include "engine/scene/splat.h"
 #include "preprocess/tree/octree.h"
 

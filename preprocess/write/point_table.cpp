@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/srgb.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 #include "preprocess/base/little_endian.h"
 
 namespace splatray {
@@ -14,9 +14,9 @@ namespace {
 
 /// The radius of a splat as a file has it: squared radii are rounded up to 9 bits of mantissa when they are packed, so one that
 /// is a quarter of such a step smaller becomes the same.
-float file_radius(const uvec4& words, double unit_world) {
+float file_radius(const SceneSplat& splat, double unit_world) {
   constexpr double BELOW = 1.0 - 0x1p-12;
-  return static_cast<float>(std::sqrt(unpack_radius_squared(words) * BELOW) * unit_world);
+  return static_cast<float>(std::sqrt(splat.in_root().radius_squared * BELOW) * unit_world);
 }
 
 /// A display-encoded channel of a packed colour, 0 to `most`.
@@ -52,16 +52,16 @@ std::string file_name(std::string name, const std::vector<PointProperty>& taken)
 }
 
 void add_shape(const Scene& scene, PointTable& table) {
-  const std::size_t splats = scene.data_pool.size();
+  const std::size_t splats = splat_count(scene);
   const char* const names[] = {"nx", "ny", "nz"};
   for (int axis = 0; axis < 3; ++axis)
     table.properties.push_back({names[axis], ValueType::float32, [&scene, splats, axis](std::size_t i) {
                                   if (i >= splats) return 0.0;
-                                  return unpack_splat(scene.data_pool[i]).normal[axis];
+                                  return splat_at(scene, i).normal()[axis];
                                 }});
   table.properties.push_back({"radius", ValueType::float32, [&scene, splats](std::size_t i) {
                                 if (i >= splats) return 0.0;
-                                return double(file_radius(scene.data_pool[i], scene.root.unit_world));
+                                return double(file_radius(splat_at(scene, i), scene.root.unit_world));
                               }});
 }
 
@@ -72,7 +72,7 @@ void add_colors(const Scene& scene, const LeftOut& left_out, PointTable& table) 
   const char* const names[] = {"red", "green", "blue"};
   for (int channel = 0; channel < 3; ++channel)
     table.properties.push_back({names[channel], narrow ? ValueType::uint8 : ValueType::uint16,
-                                [&, channel, most, splats = scene.data_pool.size()](std::size_t i) {
+                                [&, channel, most, splats = splat_count(scene)](std::size_t i) {
                                   if (i < splats) return channel_of(scene.color_pool[i], channel, most);
                                   return left_out.color.empty()
                                              ? most
@@ -82,7 +82,7 @@ void add_colors(const Scene& scene, const LeftOut& left_out, PointTable& table) 
 
 void add_columns(const Scene& scene, const LeftOut& left_out, PointTable& table) {
   constexpr ValueType TYPES[] = {ValueType::uint8, ValueType::uint16, ValueType::float32, ValueType::float64};
-  const std::size_t splats = scene.data_pool.size();
+  const std::size_t splats = splat_count(scene);
   const bool marks = !left_out.position.empty();
   for (const Column& column : scene.columns) {
     const Column* more = find_column(left_out.columns, column.name);
@@ -125,18 +125,17 @@ void store_value(ValueType type, double number, unsigned char* bytes) {
 }
 
 PointTable make_point_table(const Scene& scene, const LeftOut& left_out) {
-  const std::size_t splats = scene.data_pool.size();
+  const std::size_t splats = splat_count(scene);
   PointTable table{scene, splats + left_out.position.size(), {}, {}};
   table.splats_alone = left_out.position.empty();
   table.position = [&scene, &left_out, splats](std::size_t i) {
-    return i < splats ? scene.root.to_world(unpack_center(scene.data_pool[i]))
-                      : left_out.position[i - splats];
+    return i < splats ? splat_at(scene, i).center_world() : left_out.position[i - splats];
   };
   add_shape(scene, table);
   add_colors(scene, left_out, table);
   if (scene.materials.size() > 1)
     table.properties.push_back({"object", ValueType::uint16, [&scene, splats](std::size_t i) {
-                                  return i < splats ? double(scene.data_pool[i].w & OBJECT_MASK) : 0.0;
+                                  return i < splats ? double(splat_at(scene, i).object()) : 0.0;
                                 }});
   add_columns(scene, left_out, table);
   return table;

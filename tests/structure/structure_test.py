@@ -38,6 +38,11 @@ MOST_MODULES = 14
 MOST_FLAGS = 3
 MOST_CONSTANTS = 11
 MOST_FEATURES = 28
+# What knows how splats are stored, as of today: these numbers may only fall. Who reads splats does so by engine/scene/scene_splat.h.
+DECODING = re.compile(r"\bunpack_(?:splat|center|radius_squared|stored_normal)\(")
+WHOLE_POOL = re.compile(r"(?:\.|->|::)(?:node|slab|reference|data|color|field|clip)_pool\b")
+MOST_DECODERS = 12
+MOST_POOL_HOLDERS = 22
 
 
 def tracked(root):
@@ -160,6 +165,20 @@ def kernel_counts(root):
             yield f"shaders: found {count} {what}, expected at most {most}"
 
 
+def code_that_names(root, files, names):
+    """The files of code outside tests in which the expression is found, comments aside."""
+    code = (name for name in files if name.endswith((".cpp", ".h")) and not name.startswith("tests/"))
+    return [name for name in code if names.search(re.sub(r"//.*", "", (root / name).read_text()))]
+
+
+def readers_of_words(root, files):
+    """Files that decode splats, or hold whole pools of a scene, themselves."""
+    for what, names, most in (("decode splats", DECODING, MOST_DECODERS), ("name whole pools", WHOLE_POOL, MOST_POOL_HOLDERS)):
+        count = len(code_that_names(root, files, names))
+        if count > most:
+            yield f"engine/scene/scene_splat.h: found {count} files that {what}, expected at most {most}"
+
+
 def full_folders(files):
     entries = collections.defaultdict(set)
     for name in files:
@@ -190,7 +209,7 @@ def findings(root):
     files = tracked(root)
     return [*includes_upwards(root, files), *unranked(files), *circles(root, files), *closed_circles(root, files), *closed_rooms(root, files),
             *full_folders(files), *long_files(root, files),
-            *torn_lines(root, files), *kernel_counts(root)]
+            *torn_lines(root, files), *kernel_counts(root), *readers_of_words(root, files)]
 
 
 def prove():
@@ -211,6 +230,9 @@ def prove():
         "torn": {"engine/base/a.h": "struct A {\n  int\n      a;  ///< a number\n};\n"},
         "modules": {"shaders/variants.cmake": "add_variant(A a.glsl CPU)\n" * (MOST_MODULES + 1), "shaders/layout.h": ""},
         "features": {"shaders/variants.cmake": "", "shaders/layout.h": "", "shaders/pools.glsl": "SPLATRAY_OPTIONAL_POOL(0u, A)\n" * (MOST_FEATURES + 1)},
+        "decoders": {f"preprocess/read/{i}.cpp": "Splat splat = unpack_splat(words);\n" for i in range(MOST_DECODERS + 1)},
+        "decoders of a part": {f"app/cli/{i}.h": "auto at = unpack_center(words);\n" for i in range(MOST_DECODERS + 1)},
+        "pools": {f"app/cli/{i}.cpp": "f(scene.data_pool, scene->clip_pool);\n" for i in range(MOST_POOL_HOLDERS + 1)},
         "constants": {"shaders/variants.cmake": "", "shaders/layout.h": "SPLATRAY_CONST SPEC_A = 0u;\n" * (MOST_CONSTANTS + 1)},
     }
     for rule, files in cases.items():

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/library/picture/aimed_ray.h"
 #include "engine/scene/splat.h"
 #include "preprocess/build.h"
 #include "tests/view/documents.h"
@@ -73,6 +74,20 @@ TEST(InspectTest, TheCursorsRayGoesThroughWhatProjectsThere) {
     EXPECT_LT(glm::length(glm::cross(offset, dir)) * scene.root.unit_world, 0.01 * SPACING);
     EXPECT_EQ(query.from_object, NO_OBJECT);
   }
+}
+
+TEST(InspectTest, FindsEachSplatByItsWords) {
+  const Scene scene = plane_scene();
+  RayHit hit{};
+  for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
+    hit.first = scene.data_pool[i];
+    ASSERT_EQ(find_splat(scene, hit), i);
+  }
+  hit.first.w ^= 1U << 16U;  // another radius in the same place
+  EXPECT_FALSE(find_splat(scene, hit).has_value());
+  hit.first = uvec4(0);
+  EXPECT_FALSE(find_splat(scene, hit).has_value());
+  EXPECT_FALSE(find_splat(Scene{}, hit).has_value());
 }
 
 TEST(InspectTest, DescribesTheSplatInWorldCoordinates) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "app/cli/info/file_info.h"
 #include "app/library/request/request.h"
@@ -7,7 +8,7 @@
 #include "engine/base/one_line.h"
 #include "engine/base/utf8.h"
 #include "engine/file/scene_file.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/formats.h"
 #include "preprocess/read/read_mesh.h"
@@ -112,12 +113,11 @@ void add_scan_file(FileInfo& info, const ScanFile& file, bool heads_only) {
 void add_scene(FileInfo& info, const Scene& scene) {
   info.facts = {{"splats in leaves of", std::to_string(scene.build.leaf_size)},
                 {"coordinates in steps of", number_text(scene.root.unit_world)}};
-  info.points = scene.data_pool.size();
+  info.points = splat_count(scene);
   info.box = {scene.bounds_min_world, scene.bounds_max_world};
   info.crs = scene.crs;
-  add_values(info, "radius", "float32", scene.data_pool, [&](const uvec4& words) {
-    return std::sqrt(unpack_radius_squared(words)) * scene.root.unit_world;
-  });
+  add_values(info, "radius", "float32", std::views::iota(std::size_t{0}, splat_count(scene)),
+             [&](std::size_t i) { return splat_at(scene, i).radius_world(); });
   add_values(info, "rgb", "uint8", scene.color_pool,
              [](std::uint32_t color) { return most(unpack_color(color)); });
   for (const Column& column : scene.columns) add_column(info, column);
@@ -125,7 +125,7 @@ void add_scene(FileInfo& info, const Scene& scene) {
   const auto* station = scan == nullptr ? nullptr : std::get_if<std::vector<std::uint16_t>>(&scan->values);
   add_scans(info, scene.stations, station == nullptr ? std::vector<std::uint16_t>{} : *station, info.points);
   for (const std::string& name : scene.object_names) info.objects.push_back({name});
-  for (const uvec4& words : scene.data_pool) ++info.objects[words.w & OBJECT_MASK].points;
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) { ++info.objects[splat.object()].points; });
   info.lights = scene.lights.size();
   info.has_camera = scene.camera.has_value();
 }

@@ -2,7 +2,7 @@
 #include "app/library/api/scene_impl.h"
 #include "engine/file/file_roles.h"
 #include "engine/file/scene_file.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray::api {
 
@@ -50,7 +50,7 @@ Scene::Impl::InUse::InUse(const Impl& scene, Place& place) : place_(place) {
 
 std::string Scene::Impl::device_name() { return open_device()->device->device->info().name; }
 
-std::size_t Scene::splats() const { return SceneAccess::impl(*this)->loaded.scene.data_pool.size(); }
+std::size_t Scene::splats() const { return splat_count(SceneAccess::impl(*this)->loaded.scene); }
 
 Double3 Scene::bounds_low() const { return array(SceneAccess::impl(*this)->loaded.scene.bounds_min_world); }
 Double3 Scene::bounds_high() const { return array(SceneAccess::impl(*this)->loaded.scene.bounds_max_world); }
@@ -76,11 +76,10 @@ std::string Scene::device() const {
 
 Scene::Splat Scene::splat(std::size_t index) const {
   const splatray::Scene& scene = SceneAccess::impl(*this)->loaded.scene;
-  if (index >= scene.data_pool.size())
-    refuse("splat " + std::to_string(index), "a number below " + std::to_string(scene.data_pool.size()));
-  const splatray::Splat splat = unpack_splat(scene.data_pool[index]);
-  return {array(scene.root.to_world(splat.center)), array(splat.normal),
-          std::sqrt(splat.radius_squared) * scene.root.unit_world, splat.object};
+  if (index >= splat_count(scene))
+    refuse("splat " + std::to_string(index), "a number below " + std::to_string(splat_count(scene)));
+  const SceneSplat splat = splat_at(scene, index);
+  return {array(splat.center_world()), array(splat.normal()), splat.radius_world(), splat.object()};
 }
 
 void Scene::save(const std::filesystem::path& file, const Progress& progress) const {

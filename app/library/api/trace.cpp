@@ -4,8 +4,6 @@
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
 #include "app/library/picture/aimed_ray.h"
-#include "engine/scene/splat.h"
-#include "preprocess/base/morton.h"
 
 namespace splatray::api {
 namespace {
@@ -25,15 +23,6 @@ void check_rays(std::span<const Double3> origins, std::span<const Double3> direc
   }
 }
 
-/// The number of the splat with these words; splats lie in Z-order.
-std::int64_t find_splat(const splatray::Scene& scene, const uvec4& words) {
-  const auto key = [](const uvec4& splat) { return morton_key(glm::uvec3(unpack_splat(splat).center)); };
-  auto at = std::lower_bound(scene.data_pool.begin(), scene.data_pool.end(), key(words),
-                             [&](const uvec4& splat, std::uint64_t wanted) { return key(splat) < wanted; });
-  while (at != scene.data_pool.end() && *at != words && key(*at) == key(words)) ++at;
-  return at != scene.data_pool.end() && *at == words ? at - scene.data_pool.begin() : -1;
-}
-
 void reserve(Hits& hits, std::size_t count) {
   hits.t.resize(count, std::numeric_limits<double>::infinity());
   hits.normal.resize(count, Float3{});
@@ -48,10 +37,11 @@ void keep(const Scene::Impl& impl, const RayHit& hit, double start, std::size_t 
   hits.t[ray] = (start + static_cast<double>(hit.t)) * scene.root.unit_world;
   hits.normal[ray] = array(hit.normal);
   hits.object[ray] = static_cast<std::int32_t>(hit.object);
-  hits.splat[ray] = find_splat(scene, hit.first);
-  if (hits.splat[ray] >= 0 && hit.object < impl.has_points.size() && impl.has_points[hit.object])
-    hits.point[ray] = static_cast<std::int64_t>(
-        find_column(scene.columns, COLUMN_POINT)->number(static_cast<std::size_t>(hits.splat[ray])));
+  const std::optional<std::size_t> splat = find_splat(scene, hit);
+  if (!splat) return;
+  hits.splat[ray] = static_cast<std::int64_t>(*splat);
+  if (hit.object < impl.has_points.size() && impl.has_points[hit.object])
+    hits.point[ray] = static_cast<std::int64_t>(find_column(scene.columns, COLUMN_POINT)->number(*splat));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/library/measure/least_squares.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray {
 namespace {
@@ -28,19 +28,18 @@ struct Near {
 /// The splats of the spot's surface that are nearest.
 std::vector<Near> near_splats(const Scene& scene, const SurfaceSpot& spot) {
   std::vector<Near> heap;
-  for (const uvec4& words : scene.data_pool) {
-    const glm::dvec3 place = scene.root.to_world(unpack_center(words));
-    const glm::dvec3 to = place - spot.place;
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
+    const glm::dvec3 place = splat.center_world(), to = place - spot.place;
     Near near{glm::dot(to, to), place, glm::dvec3(0.0)};
-    if (heap.size() == NEAR && !(near < heap.front())) continue;
-    near.normal = unpack_splat(words).normal;
-    if (std::abs(glm::dot(near.normal, spot.normal)) < SAME_SIDE) continue;
+    if (heap.size() == NEAR && !(near < heap.front())) return;
+    near.normal = splat.normal();
+    if (std::abs(glm::dot(near.normal, spot.normal)) < SAME_SIDE) return;
     heap.push_back(near);
     std::push_heap(heap.begin(), heap.end());
-    if (heap.size() <= NEAR) continue;
+    if (heap.size() <= NEAR) return;
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
-  }
+  });
   return heap;
 }
 
@@ -106,18 +105,18 @@ SurfacePoint point_on_ray(const Scene& scene, const SurfaceSpot& spot, const glm
 std::optional<SnappedPoint> nearest_point(const Scene& scene, const Region& region, const glm::dvec3& place) {
   double least = std::numeric_limits<double>::infinity();
   SurfaceSpot spot;
-  for (const uvec4& words : scene.data_pool) {
-    const Splat splat = unpack_splat(words);
-    const glm::dvec3 center = scene.root.to_world(splat.center), to = place - center;
-    const double radius = std::sqrt(splat.radius_squared) * scene.root.unit_world;
-    if (glm::length(to) - radius > least || !region.holds(center)) continue;
-    glm::dvec3 on_disc = to - glm::dot(to, splat.normal) * splat.normal;
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
+    const glm::dvec3 center = splat.center_world(), to = place - center;
+    const double radius = splat.radius_world();
+    if (glm::length(to) - radius > least || !region.holds(center)) return;
+    const glm::dvec3 normal = splat.normal();
+    glm::dvec3 on_disc = to - glm::dot(to, normal) * normal;
     if (const double length = glm::length(on_disc); length > radius) on_disc *= radius / length;
     const double distance = glm::distance(to, on_disc);
-    if (!(distance < least)) continue;
+    if (!(distance < least)) return;
     least = distance;
-    spot = {center + on_disc, splat.normal};
-  }
+    spot = {center + on_disc, normal};
+  });
   if (!std::isfinite(least)) return {};
   const std::vector<Near> near = near_splats(scene, spot);
   const glm::dvec3 moved = spot.place - place, normal = mean_normal(near, spot);
@@ -129,12 +128,12 @@ std::optional<SnappedPoint> nearest_point(const Scene& scene, const Region& regi
 std::optional<RadiusFit> radius_near(const Scene& scene, const Region& region, const glm::dvec3& place,
                                      double reach, MeasureKind kind) {
   std::vector<glm::dvec3> points, normals;
-  for (const uvec4& words : scene.data_pool) {
-    const glm::dvec3 center = scene.root.to_world(unpack_center(words));
-    if (glm::distance(center, place) > reach || !region.holds(center)) continue;
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
+    const glm::dvec3 center = splat.center_world();
+    if (glm::distance(center, place) > reach || !region.holds(center)) return;
     points.push_back(center);
-    normals.push_back(unpack_splat(words).normal);
-  }
+    normals.push_back(splat.normal());
+  });
   auto fit = kind == MeasureKind::sphere ? fit_sphere(points, normals) : fit_cylinder(points, normals);
   const double noise = most_noise_world(scene.stations);
   if (fit && fit->residual > 0.0) fit->radius_error *= std::max(1.0, noise / fit->residual);

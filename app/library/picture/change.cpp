@@ -8,7 +8,7 @@
 #include "app/library/picture/aimed_ray.h"
 #include "app/library/shot/scene_on_device.h"
 #include "engine/base/error.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 #include "preprocess/base/select.h"
 
 namespace splatray {
@@ -35,9 +35,9 @@ class Probe {
     std::vector<std::size_t> number;
     std::vector<double> start;
     for (std::size_t i = 0; i < count; ++i) {
-      const Splat splat = unpack_splat(scene_.data_pool[begin + i]);
-      const glm::dvec3 dir = way * splat.normal;
-      const auto aimed = aim_ray(earlier_.root, scene_.root.to_world(splat.center) - behind_world * dir, dir);
+      const SceneSplat splat = splat_at(scene_, begin + i);
+      const glm::dvec3 dir = way * splat.normal();
+      const auto aimed = aim_ray(earlier_.root, splat.center_world() - behind_world * dir, dir);
       if (!aimed) continue;
       queries.push_back(aimed->query);
       number.push_back(i);
@@ -78,12 +78,12 @@ ChangeFound add_change(Scene& scene, const Scene& earlier, const Device& device,
   shown.open(earlier);
   Probe probe(scene, earlier, shown);
   std::vector<float> changes;
-  changes.reserve(scene.data_pool.size());
-  for (std::size_t begin = 0; begin < scene.data_pool.size(); begin += SPLATS_AT_ONCE) {
-    if (progress &&
-        !progress("comparing", static_cast<double>(begin) / static_cast<double>(scene.data_pool.size())))
+  const std::size_t splats = splat_count(scene);
+  changes.reserve(splats);
+  for (std::size_t begin = 0; begin < splats; begin += SPLATS_AT_ONCE) {
+    if (progress && !progress("comparing", static_cast<double>(begin) / static_cast<double>(splats)))
       throw Error(ExitCode::interrupted, "comparing the scenes was interrupted");
-    const std::size_t count = std::min(SPLATS_AT_ONCE, scene.data_pool.size() - begin);
+    const std::size_t count = std::min(SPLATS_AT_ONCE, splats - begin);
     const std::vector<double> before = probe.reach(begin, count, 1.0),
                               behind = probe.reach(begin, count, -1.0);
     for (std::size_t i = 0; i < count; ++i) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray {
 namespace {
@@ -27,22 +27,21 @@ double distance_from(const CutLine& line, const glm::dvec2& point) {
 std::vector<CutLine> cut_lines(const Scene& scene, const Region& region, const Sheet& sheet) {
   std::vector<CutLine> lines;
   const glm::dvec3& n = sheet.toward;
-  for (const uvec4& words : scene.data_pool) {
-    const Splat splat = unpack_splat(words);
-    const glm::dvec3 center = scene.root.to_world(splat.center);
-    const double radius = DRAWN * std::sqrt(splat.radius_squared) * scene.root.unit_world;
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
+    const glm::dvec3 center = splat.center_world();
+    const double radius = DRAWN * splat.radius_world();
     const double height = glm::dot(n, center) - sheet.near;
-    if (std::abs(height) > radius) continue;
-    const glm::dvec3 along = glm::cross(splat.normal, n);
+    if (std::abs(height) > radius) return;
+    const glm::dvec3 normal = splat.normal(), along = glm::cross(normal, n);
     const double sine = glm::length(along);
-    if (sine < LEAST_SINE || std::abs(height) > radius * sine) continue;
+    if (sine < LEAST_SINE || std::abs(height) > radius * sine) return;
     const double away = -height / sine;
-    const glm::dvec3 middle = center + away * (n - glm::dot(n, splat.normal) * splat.normal) / sine;
+    const glm::dvec3 middle = center + away * (n - glm::dot(n, normal) * normal) / sine;
     // A little inside, where the plane itself is a border of the region.
-    if (!region.holds(middle - 1e-6 * radius * n)) continue;
+    if (!region.holds(middle - 1e-6 * radius * n)) return;
     const glm::dvec3 half = std::sqrt(radius * radius - away * away) / sine * along;
     lines.push_back({sheet.on_paper(middle - half), sheet.on_paper(middle + half)});
-  }
+  });
   return lines;
 }
 

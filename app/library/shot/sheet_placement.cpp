@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 #include "engine/image/point_sample.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray {
 namespace {
@@ -163,7 +164,7 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
                                      number_text(scene.bounds_min_world) + " and " +
                                      number_text(scene.bounds_max_world) +
                                      "; expected a cut that leaves some");
-  set_pixels(shown, scene.data_pool.size(), sheet);
+  set_pixels(shown, splat_count(scene), sheet);
   if (sheet.cuts && sheet.asked.weight_mm > 0.0) sheet.cut_lines = cut_lines(scene, region, sheet);
   return sheet;
 }

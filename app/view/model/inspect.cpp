@@ -1,9 +1,10 @@
 #include "app/view/model/inspect.h"
 
-#include <algorithm>
-#include <cmath>
+#include <bit>
 
-#include "engine/scene/splat.h"
+#include "app/library/picture/aimed_ray.h"
+#include "engine/scene/scene_splat.h"
+#include "engine/scene/tree.h"
 
 namespace splatray {
 namespace {
@@ -16,17 +17,17 @@ struct Leaf {
 
 /// The leaf that holds a point; root space, inside the root.
 Leaf leaf_of(const Scene& scene, const glm::dvec3& point_root) {
-  const glm::uvec3 cell(point_root);
+  const glm::uvec3 point(point_root);
   Leaf leaf;
-  std::uint32_t word = scene.node_pool[0];
-  while (word >> NODE_TAG_SHIFT == NODE_INNER) {
-    const glm::uvec3 bit = cell >> (LATTICE_BITS - 1U - leaf.depth) & 1U;
-    word = scene.node_pool[(word & NODE_ADDRESS_MASK) + bit.x + 2U * bit.y + 4U * bit.z];
-    ++leaf.depth;
-  }
-  const std::uint32_t address = word & NODE_ADDRESS_MASK;
-  if (word >> NODE_TAG_SHIFT == NODE_FILLED)
-    leaf.references = scene.begin_end[address + 1] - scene.begin_end[address];
+  visit_cells(scene, [&](std::uint32_t word, const OctreeCell& cell) {
+    if (glm::any(glm::greaterThanEqual(point - cell.low, glm::uvec3(cell.size)))) return false;
+    if (word >> NODE_TAG_SHIFT == NODE_INNER) return true;
+    leaf.depth = LATTICE_BITS - static_cast<std::uint32_t>(std::countr_zero(cell.size));
+    const std::uint32_t address = word & NODE_ADDRESS_MASK;
+    if (word >> NODE_TAG_SHIFT == NODE_FILLED)
+      leaf.references = scene.begin_end[address + 1] - scene.begin_end[address];
+    return true;
+  });
   return leaf;
 }
 
@@ -46,21 +47,20 @@ RayQuery cursor_query(const Scene& scene, const View& view, glm::dvec2 position_
 std::optional<Inspected> inspect(const Scene& scene, const Camera& camera, const RayQuery& query,
                                  const RayHit& hit) {
   if (hit.object == NO_OBJECT) return std::nullopt;
-  const Splat splat = unpack_splat(hit.first);
-  const Leaf leaf = leaf_of(scene, splat.center);
+  const SceneSplat splat(scene, hit.first);
+  const Leaf leaf = leaf_of(scene, splat.in_root().center);
   const glm::dvec3 hit_root = glm::dvec3(query.origin) + double(hit.t) * glm::dvec3(query.dir);
   Inspected inspected;
-  inspected.object = splat.object;
-  inspected.object_name = scene.object_names[splat.object];
-  inspected.center_world = scene.root.to_world(splat.center);
-  inspected.normal = splat.normal;
-  inspected.radius_world = std::sqrt(splat.radius_squared) * scene.root.unit_world;
+  inspected.object = splat.object();
+  inspected.object_name = scene.object_names[inspected.object];
+  inspected.center_world = splat.center_world();
+  inspected.normal = splat.normal();
+  inspected.radius_world = splat.radius_world();
   inspected.leaf_depth = leaf.depth;
   inspected.leaf_references = leaf.references;
   inspected.hit_world = scene.root.to_world(hit_root);
-  const auto place = std::find(scene.data_pool.begin(), scene.data_pool.end(), hit.first);
-  if (!scene.columns.empty() && place != scene.data_pool.end())
-    inspected.attributes = attributes_of(scene, static_cast<std::size_t>(place - scene.data_pool.begin()));
+  if (const auto index = find_splat(scene, hit); index && !scene.columns.empty())
+    inspected.attributes = attributes_of(scene, *index);
   inspected.distance_world = glm::length(inspected.hit_world - camera.eye);
   return inspected;
 }

@@ -8,6 +8,7 @@
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/scene_files.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray {
 namespace {
@@ -80,7 +81,7 @@ void LoadThread::run() {
 Scene LoadThread::made_scene(const Request& request, const LoadListener& listener, bool& worth_keeping) {
   if (std::optional<Scene> made = cache_.find(request, listener.progress)) return *std::move(made);
   LoadedScene loaded = load_and_show_points(request, listener);
-  worth_keeping = loaded.build && loaded.scene.data_pool.size() > WORTH_KEEPING;
+  worth_keeping = loaded.build && splat_count(loaded.scene) > WORTH_KEEPING;
   return std::move(loaded.scene);
 }
 

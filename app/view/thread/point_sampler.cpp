@@ -13,7 +13,7 @@
 #include "app/view/model/document_request.h"
 #include "engine/base/rank.h"
 #include "engine/base/srgb.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 #include "preprocess/base/usable_position.h"
 #include "preprocess/build.h"
 
@@ -74,9 +74,10 @@ std::vector<std::uint32_t> height_colors(const std::vector<glm::dvec3>& position
 /// Distance to the next of points that are spread over their surface as a scene's splats are.
 double spacing_of(const Scene& scene) {
   std::vector<double> radius;
-  for (std::size_t i = 0; i < scene.data_pool.size(); i += scene.data_pool.size() / FEW + 1)
-    radius.push_back(std::sqrt(unpack_radius_squared(scene.data_pool[i])));
-  return value_at(radius, 0.5) * scene.root.unit_world;
+  for_each_splat(
+      scene, [&](std::size_t, const SceneSplat& splat) { radius.push_back(splat.radius_world()); },
+      splat_count(scene) / FEW + 1);
+  return value_at(radius, 0.5);
 }
 
 /// For each place the normal of a splat in its cell; zero where there is none.
@@ -89,10 +90,9 @@ std::vector<glm::vec3> normals_near(const std::vector<glm::dvec3>& position, con
            static_cast<std::uint64_t>(at.z) * 0x165667B19E3779F9U;
   };
   std::unordered_map<std::uint64_t, glm::vec3> in_cell;
-  for (const uvec4& words : scene.data_pool) {
-    const Splat splat = unpack_splat(words);
-    in_cell.emplace(cell(scene.root.to_world(splat.center)), glm::vec3(splat.normal));
-  }
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
+    in_cell.emplace(cell(splat.center_world()), glm::vec3(splat.normal()));
+  });
   std::vector<glm::vec3> normal(position.size(), glm::vec3(0.0F));
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t i) {
     const auto found = in_cell.find(cell(position[i]));
@@ -120,7 +120,7 @@ void keep_region(const Region& region, PointCloud& cloud) {
 }  // namespace
 
 PointCloud points_of(const Scene& scene, const Document& document) {
-  const std::size_t stride = scene.data_pool.size() / FEW_HUNDRED_THOUSAND + 1;
+  const std::size_t stride = splat_count(scene) / FEW_HUNDRED_THOUSAND + 1;
   const Region region = region_of(document.region, document.up);
   const std::string& color_by = document.attributes.color_by;
   const bool own = !scene.color_pool.empty() && (color_by.empty() || color_by == "rgb");
@@ -128,14 +128,14 @@ PointCloud points_of(const Scene& scene, const Document& document) {
   cloud.origin_world = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
   cloud.spacing_world = spacing_of(scene) * std::sqrt(static_cast<double>(stride));
   std::vector<glm::dvec3> position;
-  for (std::size_t i = 0; i < scene.data_pool.size(); i += stride) {
-    const Splat splat = unpack_splat(scene.data_pool[i]);
-    position.push_back(scene.root.to_world(splat.center));
-    cloud.normal.emplace_back(splat.normal);
+  const auto add = [&](std::size_t i, const SceneSplat& splat) {
+    position.push_back(splat.center_world());
+    cloud.normal.emplace_back(splat.normal());
     const glm::vec3 linear = own ? unpack_color(scene.color_pool[i]) : glm::vec3(0.0F);
     cloud.color.push_back(own ? packed(glm::u16vec3(encoded(linear.x), encoded(linear.y), encoded(linear.z)))
                               : PLAIN);
-  }
+  };
+  for_each_splat(scene, add, stride);
   if (color_by.starts_with("height")) cloud.color = height_colors(position, document.up);
   for (const glm::dvec3& place : position) cloud.position.emplace_back(place - cloud.origin_world);
   keep_region(region, cloud);
@@ -252,8 +252,8 @@ OpenedPoints PointSampler::make() const {
   const std::string shown = color_by.empty() ? resolve_attributes(asked, facts).color_by : color_by;
   PointCloud cloud;
   cloud.origin_world = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
-  cloud.spacing_world = spacing_of(scene) *
-                        std::sqrt(double(scene.data_pool.size()) / double(std::max<std::size_t>(size(), 1)));
+  cloud.spacing_world =
+      spacing_of(scene) * std::sqrt(double(splat_count(scene)) / double(std::max<std::size_t>(size(), 1)));
   const bool as_stored = has_colors() && (shown.empty() || shown == "rgb" || shown == "plain");
   cloud.color = as_stored || !measured_ ? own_colors() : height_colors(kept_.position, scene.up);
   cloud.position.reserve(size());

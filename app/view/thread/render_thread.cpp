@@ -11,6 +11,7 @@
 #include "app/view/thread/point_picture.h"
 #include "app/view/thread/point_sampler.h"
 #include "engine/base/stopwatch.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray {
 namespace {
@@ -124,7 +125,7 @@ void RenderThread::fulfil(const Pending& pending) {
 
 /// Brings a scene to the device. A large one takes a while there: its points are seen until then.
 void RenderThread::open_now(const Pending& pending) {
-  if (!points_ && pending.document && pending.scene->data_pool.size() > MANY_SPLATS) {
+  if (!points_ && pending.document && splat_count(*pending.scene) > MANY_SPLATS) {
     shown_ = *pending.document;
     points_ = std::make_shared<const PointCloud>(points_of(*pending.scene, shown_));
     show_points(true, pending.window_px);

@@ -1,6 +1,6 @@
 /// What discs have in a cell of the octree, along the axis of its slab and in its halves.
 #pragma once
-#include "engine/scene/disc.h"
+#include "engine/scene/leaf/disc.h"
 #include "engine/scene/leaf/slab.h"
 #include "engine/scene/tree.h"
 

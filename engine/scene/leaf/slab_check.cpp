@@ -2,7 +2,7 @@
 
 #include "engine/scene/leaf/halved_cell.h"
 #include "engine/scene/leaf/slab.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/scene_splat.h"
 #include "engine/scene/tree.h"
 
 namespace splatray {
@@ -34,7 +34,7 @@ std::optional<SceneDefect> find_slab_defect(const Scene& scene) {
     const HalvedCell cell(cells[leaf], slab.axis);
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t splat = scene.reference_pool[i];
-      const Disc disc(unpack_splat(scene.data_pool[splat]));
+      const Disc disc(splat_at(scene, splat).in_root());
       if (const char* part = wrong_with(slab, cell, disc, i - begin))
         return SceneDefect{"leaf " + std::to_string(leaf) + " whose " + part +
                                " leaves out a part of splat " + std::to_string(splat),
