@@ -7,8 +7,8 @@ namespace splatray {
 /// Times of the program's own stages, milliseconds.
 struct StageTimes {
   double device_ms = 0.0, upload_ms = 0.0;
-  double exposure_ms =
-      0.0;  ///< of the preview that the exposure is taken from, its program's building included
+  /// Of the preview that the exposure is taken from, its program's building included.
+  double exposure_ms = 0.0;
 };
 
 /// Writes the file that the options name: device, scene, picture, times per stage, bytes per pool, and rays by class,
