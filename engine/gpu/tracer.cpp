@@ -15,8 +15,9 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-void report(const Tracer::Progress& progress, double share) {
-  if (progress && !progress(share)) throw Error(ExitCode::interrupted, "rendering was interrupted");
+void report(const Tracer::Progress& progress, double share, bool may_stop) {
+  if (progress && !progress(share) && may_stop)
+    throw Error(ExitCode::interrupted, "rendering was interrupted");
 }
 
 void Tracer::Impl::start() {
@@ -82,13 +83,12 @@ void place_tiles(std::span<const Tile> tiles, const std::vector<vec4>& means, st
   }
 }
 
-/// Adds samples until there are `end` in each pixel; of those that are kept where `progress` says stop, fewer but at least one.
+/// Adds samples until there are `end` in each pixel, or fewer that are kept where `progress` says stop.
 void add_samples(Passes& passes, std::uint32_t end, Stopped stopped, const Passes::Advance& advance) {
   try {
     while (passes.samples() < end) passes.add(end, advance);
   } catch (const Error& error) {
-    const bool has_samples = stopped == Stopped::kept && passes.samples() > 0;
-    if (error.code() != ExitCode::interrupted || !has_samples) throw;
+    if (error.code() != ExitCode::interrupted || stopped != Stopped::kept) throw;
   }
 }
 
@@ -108,11 +108,13 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
   Image& image = picture.image;
   std::vector<vec4> first_half(settings.estimate_error ? image.rgba.size() : 0);
   const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;
+  // Made to its end, as without it nothing could be kept.
+  const std::uint64_t first_pass = keeps ? image.rgba.size() : 0;
   const double all = static_cast<double>(image.rgba.size()) * settings.samples;
   std::uint64_t done = 0;
   const auto advance = [&](std::uint64_t samples) {
     done += samples;
-    report(progress, static_cast<double>(done) / all);
+    report(progress, static_cast<double>(done) / all, done > first_pass);
   };
   // What is kept when it is stopped has as many samples in all tiles; else a tile at a time takes less memory.
   const std::size_t together = keeps ? picture.tiles.size() : 1;

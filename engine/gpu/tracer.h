@@ -46,7 +46,7 @@ struct TracerOptions {
 /// What becomes of an image whose tracing `progress` stops.
 enum class Stopped {
   dropped,  ///< Error (interrupted)
-  kept,     ///< it has the samples that all its pixels have; Error (interrupted) where there is none
+  kept,     ///< it has the samples that all its pixels have; their first one is made to its end
 };
 
 /// What it shows is given with each call; of a look, what equals that of the call before is not uploaded again. Calls that make

@@ -52,7 +52,7 @@ struct Tracer::Impl {
   std::uint32_t uploads = 0;
 };
 
-/// Throws Error (interrupted) where `progress` says so.
-void report(const Tracer::Progress& progress, double share);
+/// Throws Error (interrupted) where `progress` says so and it may.
+void report(const Tracer::Progress& progress, double share, bool may_stop = true);
 
 }  // namespace splatray

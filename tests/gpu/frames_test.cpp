@@ -189,7 +189,10 @@ TEST_F(FramesTest, AnImageStoppedAndKeptIsTheOneOfTheSamplesThatItHas) {
   EXPECT_TRUE(tracer.render(view, settings).rgba == kept.rgba);
   settings.samples = samples + 1;
   EXPECT_FALSE(tracer.render(view, settings).rgba == kept.rgba);
-  EXPECT_THROW((void)tracer.render(view, settings, until(0.0), Stopped::kept), Error);
+  const Image one = tracer.render(view, settings, until(0.0), Stopped::kept);
+  EXPECT_EQ(tracer.stats().samples, 1.0) << "where it is stopped before all pixels have a sample";
+  settings.samples = 1;
+  EXPECT_TRUE(tracer.render(view, settings).rgba == one.rgba);
 }
 
 /// Each step is one that somebody may wait for.

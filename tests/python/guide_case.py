@@ -49,7 +49,7 @@ class Guide(unittest.TestCase):
         self.assertAlmostEqual(np.nanmax(names["heights"]), 311.0, delta=0.7)
         self.assertGreater(np.isfinite(names["heights"]).mean(), 0.9)
         self.assertTrue(0.5 < names["seen"].mean() < 1.0)
-        self.assertAlmostEqual(names["width"].value, 69.3, delta=0.5)
+        self.assertAlmostEqual(names["width"].value, 58 * 2**0.5, delta=0.5)
         self.assertTrue(abs(names["drop"].value) < names["drop"].within < 2.0)
         self.assertGreater(len(names["again"]), 1000)
         self.assertGreater(np.isfinite(names["depth"]).mean(), 0.2)

@@ -57,11 +57,16 @@ std::string goal_text(const RenderStats& stats) {
 /// Makes and writes one picture, `before` others having come before it.
 void write_picture(const Run& run, const Camera& camera, const SequenceFrame& frame, std::size_t before,
                    SequenceRecord& record) {
-  const auto progress = [&](double share) {
-    return run.listener.progress(frame, before, share) && !interrupted();
-  };
   // A frame of a sequence is whole or absent, as those who take it up look for files.
   const Stopped stopped = run.shot.is_sequence() ? Stopped::dropped : Stopped::kept;
+  bool told = stopped == Stopped::dropped || run.shot.request.settings.has_goal();
+  const auto progress = [&](double share) {
+    if (interrupted() && !std::exchange(told, true))
+      run.listener.note(
+          "a signal came: all pixels get their first sample and what they have is written; a second signal "
+          "ends this at once");
+    return run.listener.progress(frame, before, share) && !interrupted();
+  };
   if (stopped == Stopped::kept) take_time_to_end();
   MadePicture made = make_picture(run.shot, run.shown, camera, progress, stopped);
   for (const std::string& note : made.notes) run.listener.note("note: " + note);
