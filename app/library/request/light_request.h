@@ -20,8 +20,8 @@ struct LevelRectangle {
 struct LightRequest {
   SceneLight light;
   std::optional<LevelRectangle> level;  ///< of rectangles: light.edge_u and edge_v follow from it
-  bool has_power =
-      false;  ///< false: irradiance pi, of a point light at the scene's centre, of a rectangle at its target
+  /// Where not: irradiance pi, of a point light at the scene's centre, of a rectangle at its target.
+  bool has_power = false;
 
   bool operator==(const LightRequest&) const = default;
 };
