@@ -81,9 +81,10 @@ PointSample every(std::size_t stride, const Scene& scene, const Region& region) 
 }  // namespace
 
 PointSample sample_points(const Scene& scene, const Region& region) {
-  const std::size_t stride = splat_count(scene) / SAMPLE_MOST + 1;
-  PointSample sample = every(stride, scene, region);
-  return stride > 1 && sample.size() < FEW_KEPT ? every(1, scene, region) : sample;
+  for (std::size_t stride = splat_count(scene) / SAMPLE_MOST + 1;; stride = 1) {
+    PointSample sample = every(stride, scene, region);
+    if (stride == 1 || sample.size() >= FEW_KEPT) return sample;
+  }
 }
 
 double diagonal_of(const PointSample& sample) {
