@@ -57,7 +57,8 @@ SequenceListener reporting_on(ProgressLine& progress, const Shot& shot) {
           },
           [say](const FailedPicture& picture) {
             say("error: frame " + std::to_string(picture.frame.number) + ": " + picture.reason);
-          }};
+          },
+          Stopped::kept};
 }
 
 int render(int argc, char** argv) {

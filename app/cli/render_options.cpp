@@ -36,6 +36,13 @@ void add_request_files(OptionList& list, RequestFiles& files) {
   list.set_brief("--from", "make this picture again, with the options beside it");
 }
 
+/// Whether options ask for another picture than the one that is made again.
+bool changes_picture(const std::vector<FieldText>& values) {
+  return std::any_of(values.begin(), values.end(), [](const FieldText& value) {
+    return value.name != "output" && value.name != "quiet" && value.name != "device";
+  });
+}
+
 /// What the options stand on: the request of a picture or of a file.
 Request base_request(const RequestFiles& files, const std::vector<FieldText>& values) {
   if (!files.picture.empty() && !files.request.empty())
@@ -45,6 +52,7 @@ Request base_request(const RequestFiles& files, const std::vector<FieldText>& va
   if (files.picture.empty()) return request;
   note_input(files.picture);
   request = read_picture_request(files.picture);
+  if (changes_picture(values)) request.output.chosen.clear();
   request.output.path = files.picture;
   request.output.path.replace_extension(".again" + files.picture.extension().string());
   const auto output = std::find_if(values.rbegin(), values.rend(),

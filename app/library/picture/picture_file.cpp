@@ -41,6 +41,12 @@ std::vector<unsigned char> encode_picture(const Shot& shot, const Image& image, 
   return encode_exr(picture);
 }
 
+/// What was chosen, of a picture made again by that picture's request.
+std::string choices_of(const Shot& shot) {
+  if (!shot.choices.empty()) return choices_text(shot);
+  return shot.request.output.chosen.empty() ? "none" : shot.request.output.chosen;
+}
+
 }  // namespace
 
 std::uint64_t made_image_bytes(const Shot& shot) {
@@ -105,7 +111,7 @@ Metadata picture_metadata(const Shot& shot, const Scene& scene, const Camera& ca
           {"samples", std::to_string(shot.settings.samples)},
           {"seed", std::to_string(shot.settings.seed)},
           {"commit", COMMIT},
-          {"choices", shot.choices.empty() ? "none" : choices_text(shot)}};
+          {"choices", choices_of(shot)}};
 }
 
 DisplayImage shown_image(const Shot& shot, const Image& image) {

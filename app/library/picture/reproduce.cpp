@@ -75,6 +75,7 @@ Request read_picture_request(const fs::path& picture) {
   } catch (const Error& error) {
     refuse(error.what());
   }
+  if (kept("choices") != metadata.end()) request.output.chosen = kept("choices")->second;
   // Before pictures kept what was chosen, noise was taken out of those alone that say so.
   if (kept("choices") == metadata.end() && !request.output.despeckle)
     request.output.denoise = request.output.denoise.value_or(false);

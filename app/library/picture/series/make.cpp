@@ -58,7 +58,7 @@ std::string goal_text(const RenderStats& stats) {
 void write_picture(const Run& run, const Camera& camera, const SequenceFrame& frame, std::size_t before,
                    SequenceRecord& record) {
   // A frame of a sequence is whole or absent, as those who take it up look for files.
-  const Stopped stopped = run.shot.is_sequence() ? Stopped::dropped : Stopped::kept;
+  const Stopped stopped = run.shot.is_sequence() ? Stopped::dropped : run.listener.stopped;
   bool told = stopped == Stopped::dropped || run.shot.request.settings.has_goal();
   const auto progress = [&](double share) {
     if (interrupted() && !std::exchange(told, true))

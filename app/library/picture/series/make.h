@@ -36,6 +36,8 @@ struct SequenceListener {
   std::function<bool(const SequenceFrame& frame, std::size_t before, double share)> progress;
   std::function<void(const std::string&)> note;      ///< a sentence
   std::function<void(const FailedPicture&)> failed;  ///< of several, as soon as one is
+  /// What becomes of a still picture that is stopped: a signal's is kept, one that a person gives up is not.
+  Stopped stopped = Stopped::dropped;
 };
 
 /// Beside a picture other than an EXR that a signal stopped, the EXR of its samples: NAME.unfinished.exr.
