@@ -52,7 +52,7 @@ Request base_request(const RequestFiles& files, const std::vector<FieldText>& va
   if (files.picture.empty()) return request;
   note_input(files.picture);
   request = read_picture_request(files.picture);
-  if (changes_picture(values)) request.output.chosen.clear();
+  if (!changes_picture(values)) request.output.chosen = kept_choices(files.picture);
   request.output.path = files.picture;
   request.output.path.replace_extension(".again" + files.picture.extension().string());
   const auto output = std::find_if(values.rbegin(), values.rend(),

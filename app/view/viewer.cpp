@@ -6,8 +6,8 @@
 
 #include "app/library/measure/surface_point.h"
 #include "app/library/picture/reproduce.h"
-#include "app/library/shot/scene_source.h"
 #include "app/library/request/command_line.h"
+#include "app/library/shot/scene_source.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/model/navigation.h"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "app/library/api/device.h"
+#include "app/library/request/object_change.h"
 #include "app/library/shot/scene_on_device.h"
 #include "app/library/shot/scene_source.h"
-#include "app/library/request/object_change.h"
 #include "app/library/splatray.h"
 
 namespace splatray::api {

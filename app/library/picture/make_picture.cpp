@@ -43,11 +43,9 @@ MadePicture traced_picture(const Shot& shot, SceneOnDevice& shown, const Camera&
   View view = shot.view;
   view.camera = camera;
   const Request& request = shot.request;
-  Settings settings = shot.settings;
+  Settings settings = shot.traced_settings();
   LitLook lit = lit_look(shot, shown, camera);
   const Look& look = lit.look;
-  settings.aov = settings.aov || shot.denoises();
-  settings.estimate_error = settings.estimate_error || shot.denoises() || request.output.despeckle;
   MadePicture made;
   made.devices = device_text(shown.device());
   made.lights = look.lights.size();

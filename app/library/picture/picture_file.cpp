@@ -51,10 +51,8 @@ std::string choices_of(const Shot& shot) {
 
 std::uint64_t made_image_bytes(const Shot& shot) {
   const PixelWindow made = shot.view.made();
-  Settings settings = shot.settings;
-  settings.aov = settings.aov || shot.denoises();
-  settings.estimate_error = settings.estimate_error || shot.denoises() || shot.request.output.despeckle ||
-                            shot.request.settings.has_goal();
+  Settings settings = shot.traced_settings();
+  settings.estimate_error = settings.estimate_error || shot.request.settings.has_goal();
   return std::uint64_t{made.width} * made.height * image_bytes(settings);
 }
 

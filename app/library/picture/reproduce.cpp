@@ -57,6 +57,12 @@ Request plain_request(Request request) {
   return request;
 }
 
+std::string kept_choices(const fs::path& picture) {
+  for (const auto& [name, value] : read_metadata(picture))
+    if (name == "choices") return value;
+  return "";
+}
+
 Request read_picture_request(const fs::path& picture) {
   const auto refuse = [&](const std::string& found) {
     throw Error(ExitCode::input_unreadable, "cannot read a request from picture '" + picture.string() +
@@ -75,7 +81,6 @@ Request read_picture_request(const fs::path& picture) {
   } catch (const Error& error) {
     refuse(error.what());
   }
-  if (kept("choices") != metadata.end()) request.output.chosen = kept("choices")->second;
   // Before pictures kept what was chosen, noise was taken out of those alone that say so.
   if (kept("choices") == metadata.end() && !request.output.despeckle)
     request.output.denoise = request.output.denoise.value_or(false);

@@ -14,6 +14,9 @@ namespace splatray {
 /// The request, its input files spelt in one way.
 [[nodiscard]] Request plain_request(Request request);
 
+/// What a picture of splatray-render says was chosen for it (choices_text); empty where it does not say.
+[[nodiscard]] std::string kept_choices(const std::filesystem::path& picture);
+
 /// The request kept in a picture of splatray-render, as still_request made them. A relative path of an input that does
 /// not exist here is looked for in the picture's folder and those above it. Throws Error (input_unreadable) with path,
 /// found and expected.

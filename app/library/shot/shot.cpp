@@ -2,6 +2,13 @@
 
 namespace splatray {
 
+Settings Shot::traced_settings() const {
+  Settings traced = settings;
+  traced.aov = traced.aov || denoises();
+  traced.estimate_error = traced.estimate_error || denoises() || request.output.despeckle;
+  return traced;
+}
+
 Camera frame_camera(const Shot& shot, std::uint32_t frame, const Scene& scene) {
   const auto* sequence = std::get_if<Sequence>(&shot.output);
   if (sequence == nullptr) return shot.view.camera;

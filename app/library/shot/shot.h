@@ -37,6 +37,8 @@ struct Shot {
   [[nodiscard]] bool is_orbit() const { return std::holds_alternative<Orbit>(output); }
   /// Whether the picture goes through the denoiser.
   [[nodiscard]] bool denoises() const { return request.output.denoise.value_or(false); }
+  /// The settings, with what a filter of the picture needs.
+  [[nodiscard]] Settings traced_settings() const;
 };
 
 /// The camera of a frame of the shot.

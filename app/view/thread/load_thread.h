@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "app/library/shot/scene_source.h"
 #include "app/library/request/request.h"
+#include "app/library/shot/scene_source.h"
 #include "app/view/model/document.h"
 #include "app/view/thread/live_scene.h"
 #include "app/view/thread/point_sampler.h"
