@@ -15,6 +15,7 @@
 #include "engine/base/memory.h"
 #include "engine/base/release.h"
 #include "engine/base/stopwatch.h"
+#include "engine/image/upright.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/scene_check.h"
 #include "engine/scene/scene_splat.h"
@@ -143,6 +144,30 @@ void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const Progress&
     }
     station += stations;
   }
+}
+
+/// An even choice of the points of all clouds.
+PointSample sample_of(const std::vector<Cloud>& clouds) {
+  constexpr std::size_t MOST = 1U << 16;
+  std::size_t points = 0;
+  for (const Cloud& cloud : clouds) points += cloud.size();
+  PointSample sample;
+  const std::size_t stride = points / MOST + 1;
+  for (const Cloud& cloud : clouds)
+    for (std::size_t i = 0; i < cloud.size(); i += stride) {
+      sample.position.push_back(cloud.place_world(i));
+      sample.normal.emplace_back(cloud.normal[i]);
+    }
+  return sample;
+}
+
+/// Which way a model stands whose format does not say. A scan's is found where it is shown, by its stations and its kind.
+void stand_up(const std::vector<Cloud>& clouds, Scene& scene, BuildStats& stats) {
+  if (scene.camera || !scene.stations.empty()) return;
+  const glm::dvec3 up = upright_model(sample_of(clouds));
+  if (up == scene.up) return;
+  scene.up = up;
+  stats.notes.push_back(up_note(up));
 }
 
 void find_bounds(const std::vector<Cloud>& clouds, Scene& scene) {
@@ -310,11 +335,13 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   check_counts(input);
   require_build_memory(input);
   Scene scene = describe_scene(input, params);
+  const bool up_said = input.up.has_value();
   std::vector<Cloud> clouds = make_clouds(input, scene.object_names, stats);
   if (!scene.camera) scene.camera = camera_of_scan(clouds);
   const std::optional<RootTransform> lattice = kept_lattice(clouds, params);
   find_all_surfaces(clouds, scene, progress, stats);
   require_points(clouds, stats);
+  if (!up_said) stand_up(clouds, scene, stats);
   find_bounds(clouds, scene);
   if (params.ground) add_ground(clouds, scene);
   number_objects(clouds, scene.materials);

@@ -42,6 +42,7 @@ void Viewer::add(const SceneFiles& files) {
 
 /// A request of the scene shown changes what it looks like, at once; another is loaded.
 void Viewer::open(Request request) {
+  require_inputs(request.source);
   if (scene_ && is_of_scene(document_, request)) {
     request.view.width = std::max(picture_px().x, 1U);
     request.view.height = std::max(picture_px().y, 1U);

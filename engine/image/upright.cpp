@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/number_text.h"
 #include "engine/image/scan_kind.h"
 #include "engine/image/view.h"
 
@@ -18,6 +19,13 @@ constexpr double OPEN_LEAST = 0.06, OPEN_MOST = 0.25, OPEN_TIMES = 3.0;
 constexpr double BASE_SHARE = 0.03, BASE_TIMES = 3.0, BASE_HEIGHT = 0.03, BASE_OUTSIDE = 0.005,
                  BASE_DEG = 15.0;
 constexpr double WALL = 0.3;  ///< height over width of what is too flat to stand
+
+/// Of the height; of the points at each end; of the outline; times the other axis's. Of 33 models with a known up these shares turn the
+/// six that stand along z, statues and busts on 0.27 to 0.76 of their outline, and none of those along y, which stand on 0 to 0.27
+/// of it along z.
+constexpr double FOOT_HEIGHT = 0.05, FOOT_OUTSIDE = 0.0025, FOOT_SHARE = 0.25, FOOT_TIMES = 2.0;
+/// The mean of the normals of what was seen from one side alone is longer: a half ball's is 0.5.
+constexpr double ONE_SIDED = 0.4;
 
 /// The six axes: x, y, z and their opposites.
 glm::dvec3 signed_axis(int number) {
@@ -77,6 +85,57 @@ bool is_opposite(const glm::dvec3& up, const Scene& scene) {
   return glm::dot(up, glm::normalize(scene.up)) < -0.5;
 }
 
+/// How far c lies to the left of the way from a to b, times its length.
+double left_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// The corners of the points' convex hull, counter-clockwise (Andrew 1979, "Another Efficient Algorithm for Convex Hulls in Two
+/// Dimensions").
+std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<glm::dvec2> hull;
+  const auto add = [&](std::size_t kept, const glm::dvec2& point) {
+    while (hull.size() > kept + 1 && left_of(hull[hull.size() - 2], hull.back(), point) <= 0.0)
+      hull.pop_back();
+    hull.push_back(point);
+  };
+  for (const glm::dvec2& point : points) add(0, point);
+  const std::size_t lower = hull.empty() ? 0 : hull.size() - 1;
+  for (auto point = points.rbegin(); point != points.rend(); ++point) add(lower, *point);
+  if (hull.size() > 1) hull.pop_back();
+  return hull;
+}
+
+double area_of(const std::vector<glm::dvec2>& hull) {
+  double area = 0.0;
+  for (std::size_t i = 2; i < hull.size(); ++i) area += 0.5 * left_of(hull[0], hull[i - 1], hull[i]);
+  return area;
+}
+
+bool holds(const std::vector<glm::dvec2>& hull, const glm::dvec2& place) {
+  for (std::size_t i = 0; i < hull.size(); ++i)
+    if (left_of(hull[i], hull[(i + 1) % hull.size()], place) <= 0.0) return false;
+  return hull.size() > 2;
+}
+
+/// Whether a thing stands on the end of another up direction than its format's, and plainly not on that of its own. What is flat along
+/// it lies, and what was seen from there alone has no other side: neither stands.
+bool stands_better(const glm::dvec3& up, const glm::dvec3& own, const PointSample& sample) {
+  const glm::dvec3 size = robust_size(sample, upright_axes(up));
+  if (size.y < WALL * std::min(size.x, size.z) || glm::dot(mean_normal(sample), up) > ONE_SIDED) return false;
+  return stands_on(sample, up) > std::max(FOOT_SHARE, FOOT_TIMES * stands_on(sample, own));
+}
+
+/// Of what stands on its end by the other of the two directions that programs take for up, y and z.
+std::optional<glm::dvec3> up_of_feet(const glm::dvec3& own, const PointSample& sample) {
+  const glm::dvec3 y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
+  if (own == y && stands_better(z, own, sample)) return z;
+  if (own == z && stands_better(y, own, sample)) return y;
+  return {};
+}
+
 /// Of what is open below.
 std::optional<glm::dvec3> up_of_opening(const Scene& scene, const PointSample& sample) {
   const glm::dvec3 mean = mean_normal(sample);
@@ -121,6 +180,32 @@ glm::dvec3 up_of_base(const Scene& scene, const PointSample& sample, bool room) 
 
 }  // namespace
 
+double stands_on(const PointSample& sample, const glm::dvec3& up) {
+  const glm::dmat3 axes = upright_axes(up);
+  const auto [low, high] = range_along(sample.position, up, FOOT_OUTSIDE);
+  glm::dvec2 middle(0.0);
+  std::vector<glm::dvec2> all, foot;
+  for (const glm::dvec3& point : sample.position) {
+    const glm::dvec3 from = point - sample.position.front();
+    const glm::dvec2 place(glm::dot(from, axes[2]), glm::dot(from, axes[0]));
+    middle += place / static_cast<double>(sample.size());
+    all.push_back(place);
+    if (glm::dot(point, up) < low + FOOT_HEIGHT * (high - low)) foot.push_back(place);
+  }
+  const std::vector<glm::dvec2> outline = convex_hull(std::move(all)), hull = convex_hull(std::move(foot));
+  return outline.size() > 2 && holds(hull, middle) ? area_of(hull) / area_of(outline) : 0.0;
+}
+
+std::string up_note(const glm::dvec3& up) {
+  return "up is " + number_text(up) +
+         " by the shape of the points, not by their format; --up=X,Y,Z says otherwise";
+}
+
+glm::dvec3 upright_model(const PointSample& sample) {
+  const glm::dvec3 own(0.0, 1.0, 0.0);
+  return up_of_feet(own, sample).value_or(own);
+}
+
 glm::dvec3 upright(const Scene& scene) {
   const SceneKind kind = kind_of_scan(scene);
   if (kind == SceneKind::none || scene.camera) return scene.up;
@@ -129,8 +214,10 @@ glm::dvec3 upright(const Scene& scene) {
   if (const auto up = up_of_ring(scene, sample)) return *up;
   if (const auto up = up_of_sweep(scene, all)) return *up;
   if (kind != SceneKind::object && kind != SceneKind::room) return scene.up;
-  if (kind == SceneKind::object)
+  if (kind == SceneKind::object) {
+    if (const auto up = up_of_feet(scene.up, sample)) return *up;
     if (const auto up = up_of_opening(scene, sample)) return *up;
+  }
   return up_of_base(scene, sample, kind == SceneKind::room);
 }
 

@@ -1,5 +1,8 @@
 /// Which way a scan stands.
 #pragma once
+#include <string>
+
+#include "engine/image/point_sample.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
@@ -11,13 +14,27 @@ namespace splatray {
 ///   normals look to.
 /// - Of a sweep whose station's place is unknown up is the axis along which it is less than half as long as along the
 ///   others: formats of models promise y.
+/// - Things stand on their lower end (stands_on): of an object whose format promises y up is z, where it promises z up is y.
 /// - Things are open below, where no scanner sees them: of an object up is the axis that the normals look to on the
 ///   mean, by 0.06 to 0.25, three times as much as to any other.
 /// - Things stand on what is flat: of a room or an object up is the axis at whose lower end, within 3 % of the height,
 ///   most points lie with normals within 15 degrees of it, 3 % of all and three times as many as at the lower end of
 ///   the scene's own; not one along which an object is flat, as a wall is no floor.
-/// By the last two nothing is stood on its head: scans lie on their backs, but hardly any hangs from a ceiling; sides that
+/// By the last three nothing is stood on its head: scans lie on their backs, but hardly any hangs from a ceiling; sides that
 /// are found by votes may be wrong, and a room's ceiling is larger than what furniture leaves of its floor.
 [[nodiscard]] glm::dvec3 upright(const Scene& scene);
+
+/// The up direction of a model whose format says none: y, which most programs write, but z, which is the others', where the model
+/// plainly stands on that end (stands_on) and not on the other.
+[[nodiscard]] glm::dvec3 upright_model(const PointSample& sample);
+
+/// A sentence that says which way a scene is shown that was stood up.
+[[nodiscard]] std::string up_note(const glm::dvec3& up);
+
+/// The share of a thing's outline from above that it stands on: the convex hull of the points within 5 % of the height of its lower
+/// end, over that of all points; 0 where the middle of the points is not above that hull, so that it
+/// would fall over (static stability: Fu et al. 2008, "Upright Orientation of Man-Made Objects", section 4). `up`: an axis or its
+/// opposite.
+[[nodiscard]] double stands_on(const PointSample& sample, const glm::dvec3& up);
 
 }  // namespace splatray

@@ -229,11 +229,16 @@ TEST(CommandLine, AcceptsWhatPeoplePaste) {
   EXPECT_EQ((*request.look.lights)[2].light.position, glm::dvec3(4.0, 5.0, 6.0));
 }
 
+TEST(CommandLine, OfASceneOfAProgramsOwnHasNoFile) {
+  Request request;
+  request.view.width = 32;
+  EXPECT_EQ(parse_command_line(command_line(request)), request);
+}
+
 TEST(CommandLine, RefusesWhatIsNoCommand) {
-  for (const char* line :
-       {"", "   ", "ls -l", "splatray-render", "splatray-render 'a.ply", "splatray-render a.ply \"b",
-        "splatray-render a.ply --eye=1", "splatray-render a.ply --no-such-option",
-        "splatray-render a.ply --help", "splatray-render --from a.png"}) {
+  for (const char* line : {"", "   ", "ls -l", "splatray-render 'a.ply", "splatray-render a.ply \"b",
+                           "splatray-render a.ply --eye=1", "splatray-render a.ply --no-such-option",
+                           "splatray-render a.ply --help", "splatray-render --from a.png"}) {
     try {
       (void)parse_command_line(line);
       ADD_FAILURE() << "accepted: " << line;

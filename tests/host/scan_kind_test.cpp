@@ -104,6 +104,54 @@ TEST(Upright, ThingsStandOnTheirFlatEnd) {
   EXPECT_EQ(upright(model), model.up) << "no scan";
 }
 
+/// A statue: a tall half ellipsoid with a nose, three times as high as wide, and its pedestal's edges; no scanner saw what it stands on.
+OrientedPoints statue(const glm::dvec3& up) {
+  const glm::dmat3 axes = upright_axes(up);
+  OrientedPoints points;
+  for (int i = 0; i < 12000; ++i) {
+    const double height = (i + 0.5) / 12000.0, nose = height > 0.6 && height < 0.7 ? 1.4 : 1.0;
+    const double away = height < 0.1 ? 0.4 : 0.3 * std::sqrt(1.0 - height * height);
+    const glm::dvec3 out = std::cos(GOLDEN * i) * axes[0] + std::sin(GOLDEN * i) * axes[2];
+    const double stretch = glm::dot(out, axes[0]) > 0.9 ? nose : 1.0;
+    points.emplace_back(stretch * away * out + height * axes[1],
+                        glm::normalize(out + 0.3 * height * axes[1]));
+  }
+  return points;
+}
+
+PointSample sample_of(const OrientedPoints& points) { return sample_points(scan_scene(points)); }
+
+TEST(Upright, StatuesStandOnTheirLowerEnd) {
+  const glm::dvec3 y(0, 1, 0), z(0, 0, 1);
+  for (const glm::dvec3& up : {y, z}) {
+    EXPECT_EQ(upright_model(sample_of(statue(up))), up);
+    EXPECT_GT(stands_on(sample_of(statue(up)), up), 0.6);
+    EXPECT_LT(stands_on(sample_of(statue(up)), up == y ? z : y), 0.1);
+    for (const glm::dvec3& format : {y, z}) {
+      Scene scene = scan_scene(statue(up));
+      scene.up = format;
+      EXPECT_EQ(upright(scene), up);
+    }
+  }
+}
+
+TEST(Upright, ModelsThatStandOnNeitherEndStayAsTheirFormatHasThem) {
+  OrientedPoints ball, relief, leaning = statue({0, 0, 1});
+  for (int i = 0; i < 5000; ++i) {
+    const double z = 2.0 * (i + 0.5) / 5000.0 - 1.0, level = std::sqrt(1.0 - z * z);
+    const glm::dvec3 normal(level * std::cos(GOLDEN * i), level * std::sin(GOLDEN * i), z);
+    ball.emplace_back(normal, normal);
+    if (z > 0.0) relief.emplace_back(normal, normal);
+  }
+  for (auto& [position, normal] : leaning) position.x += 1.2 * position.z;
+  EXPECT_EQ(upright_model(sample_of(ball)), glm::dvec3(0, 1, 0));
+  EXPECT_EQ(upright_model(sample_of(relief)), glm::dvec3(0, 1, 0))
+      << "seen from one side, it does not stand on its rim";
+  EXPECT_EQ(upright_model(sample_of(leaning)), glm::dvec3(0, 1, 0)) << "it would fall over";
+  EXPECT_EQ(upright_model(sample_of(box_points({4.0, 5.0, 1.0}, true))), glm::dvec3(0, 1, 0)) << "a panel";
+  EXPECT_EQ(upright_model({}), glm::dvec3(0, 1, 0));
+}
+
 TEST(Upright, RoomsAndTerrainStayAsTheirFormatHasThem) {
   EXPECT_EQ(upright(scan_scene(box_points({4.0, 5.0, 3.0}, true))), glm::dvec3(0, 0, 1));
   EXPECT_EQ(upright(scan_scene(ground(false))), glm::dvec3(0, 0, 1));

@@ -127,7 +127,6 @@ Request parse_command_line(const std::string& text) {
   }
   Request request;
   assign(request, values, DOOR_RENDER, {"--", ""});
-  require_inputs(request.source);
   require_consistent(request);
   return request;
 }

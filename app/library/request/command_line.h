@@ -11,7 +11,7 @@ namespace splatray {
 /// request from it.
 [[nodiscard]] std::string command_line(const Request& request);
 
-/// The request of a splatray-render command; the program's name may have a folder, and the output may be missing. Throws
+/// The request of a splatray-render command; the program's name may have a folder, and scene and output may be missing. Throws
 /// Error (usage) for what is no such command.
 [[nodiscard]] Request parse_command_line(const std::string& text);
 

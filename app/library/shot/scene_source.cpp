@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "app/library/materials.h"
 #include "app/library/shot/resolve.h"
@@ -42,14 +43,15 @@ void build(Input input, const Request& request, const LoadListener& listener, co
 }
 
 /// Applies --material, --object, --up (else upright of upright.h), and shows the attributes that are asked for or suit the scene.
-void show_as_asked(const Request& request, LoadedScene& loaded) {
+void show_as_asked(const Request& request, const LoadListener& listener, LoadedScene& loaded) {
   Scene& scene = loaded.scene;
   if (!request.look.material.empty() || !request.look.objects.empty()) {
     ObjectLooks objects = choose_objects(scene, request);
     scene.materials = std::move(objects.materials);
     scene.surfaces = std::move(objects.surfaces);
   }
-  scene.up = resolve_up(scene, request);
+  const glm::dvec3 format_up = std::exchange(scene.up, resolve_up(scene, request));
+  if (listener.note && !request.look.up && scene.up != format_up) listener.note(up_note(scene.up));
   loaded.facts = facts_of(scene);
   const AttributeOptions attributes = resolve_attributes(request, loaded.facts);
   if (request.look.attributes.color_by.empty()) loaded.facts.color_by = attributes.color_by;
@@ -80,7 +82,7 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
     build(read_input(inputs, reading), request, listener, progress, loaded);
   }
   loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  show_as_asked(request, loaded);
+  show_as_asked(request, listener, loaded);
   return loaded;
 }
 
@@ -89,7 +91,7 @@ LoadedScene load_objects(Input input, const Request& request, const LoadListener
   const Progress progress = watching_memory(listener.progress);
   finish_objects(input, reading_of(request, progress));
   build(std::move(input), request, listener, progress, loaded);
-  show_as_asked(request, loaded);
+  show_as_asked(request, listener, loaded);
   return loaded;
 }
 
