@@ -85,7 +85,7 @@ std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const Devi
   return first != nullptr && (!first->paged() || second->paged()) ? texel : storage;
 }
 
-/// What the references refer to, in parts: a whole list beside the buffer would take its memory twice.
+/// Uploads the pool gathered by `references` in parts: a whole list beside the buffer would take its memory twice.
 template <typename Value>
 void upload_listed(Queue& queue, PagedBuffer& buffer, const std::vector<Value>& pool,
                    std::span<const std::uint32_t> references) {

@@ -14,7 +14,7 @@ namespace splatray {
 /// A place on a surface.
 struct SurfacePoint {
   glm::dvec3 place{0.0};  ///< world
-  /// Which way it moves where the surface is elsewhere, as long as the standard deviation of that; 0 = exact.
+  /// Standard deviation of the position, as a vector along which it would shift; 0 = exact.
   glm::dvec3 error{0.0};
   /// Which way it was moved along the surface from the place that was given, and how far: an error as the other is; 0 = not.
   glm::dvec3 sideways{0.0};
@@ -63,7 +63,7 @@ void add_point(std::vector<Measure>& measures, MeasureKind kind, const SurfacePo
 
 enum class MeasureUnit { length, area, degrees };
 
-/// A value, and half the width of the interval around it that holds the true one 95 times of 100, as errors of points propagate to
+/// A value, and the half-width of its 95 % confidence interval, as errors of points propagate to
 /// it (JCGM 100:2008, sec. 5): of the surface, as smooth_error has it, not of the scans' registration and scale.
 struct MeasureValue {
   std::string name;

@@ -1,5 +1,5 @@
-/// A ray's way through the wide tree. Plain data alone: it is compiled for several kinds of CPUs (wide_step.h), and a function of
-/// a library that one of these compiled first could be taken for all.
+/// A ray's way through the wide tree. Plain data alone and no inline library functions: it is compiled for several kinds of CPUs
+/// (wide_step.h), and the linker might keep the AVX-512 copy of such a function for all of them (ODR).
 #pragma once
 #include <array>
 #include <cstdint>
