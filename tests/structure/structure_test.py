@@ -42,6 +42,17 @@ MOST_FEATURES = 28
 # What knows how splats are stored, as of today: these numbers may only fall. Who reads splats does so by engine/scene/scene_splat.h.
 DECODING = re.compile(r"\bunpack_(?:splat|center|radius_squared|stored_normal)\(")
 WHOLE_POOL = re.compile(r"(?:\.|->|::)(?:node|slab|reference|data|color|field|clip)_pool\b")
+# Where what a request leaves open is chosen: who calls what chooses; CHOOSERS define it.
+CHOSEN = {"view": (r"\bchoose_viewpoint\(", {"app/library/shot/scene_facts.cpp"}),
+          "up direction": (r"\bupright\(scene\)|\bupright_model\(", {"app/library/shot/resolve.cpp", "preprocess/build.cpp"}),
+          "look": (r"\bresolve_look\(", {"app/library/shot/resolve.cpp", "app/library/shot/lights.cpp"}),
+          "colours": (r"\bresolve_(?:color_by|colors)\(", {"app/library/shot/resolve.cpp"}),
+          "exposure": (r"\bautomatic_exposure_ev\(", {"app/library/shot/picture_lights.cpp"}),
+          "noise": (r"\bresolve_denoise\(|\bremove_noise\(", {"app/library/shot/resolve.cpp", "app/library/picture/make_picture.cpp"}),
+          "lights": (r"\bdefault_lights\(|\bheadlight\(", {"app/library/shot/lights.cpp", "app/library/shot/picture_lights.cpp"}),
+          "a drawing's place": (r"\bmake_sheet\(", {"app/library/shot/resolve.cpp"})}
+CHOOSERS = {"app/library/display_image.cpp", "app/library/picture/denoise.cpp", "app/library/shot/sheet_placement.cpp",
+            "engine/image/framing.cpp", "engine/image/lights.cpp", "engine/image/upright.cpp"}
 MOST_DECODERS = 12
 MOST_POOL_HOLDERS = 22
 
@@ -197,6 +208,16 @@ def lines_of_code(text):
     return sum(1 for line in text.split("\n") if line.strip() and not line.strip().startswith("//"))
 
 
+def choosers(root, files):
+    """Calls of what chooses, elsewhere than CHOSEN has them; its rows that choose nowhere."""
+    for what, (names, places) in CHOSEN.items():
+        named = set(code_that_names(root, files, re.compile(names)))
+        for name in sorted(name for name in named - places - CHOOSERS if name.endswith(".cpp")):
+            yield f"{name}: chooses the {what}, expected that of {', '.join(sorted(places))} alone"
+        for name in sorted(place for place in places - named if place in files):
+            yield f"{name}: chooses no {what}, expected CHOSEN without it"
+
+
 def long_files(root, files):
     for name in files:
         if not name.endswith((".cpp", ".h", ".glsl")):
@@ -210,7 +231,7 @@ def findings(root):
     files = tracked(root)
     return [*includes_upwards(root, files), *unranked(files), *circles(root, files), *closed_circles(root, files), *closed_rooms(root, files),
             *full_folders(files), *long_files(root, files),
-            *torn_lines(root, files), *kernel_counts(root), *readers_of_words(root, files)]
+            *torn_lines(root, files), *kernel_counts(root), *readers_of_words(root, files), *choosers(root, files)]
 
 
 def prove():
@@ -233,6 +254,8 @@ def prove():
         "features": {"shaders/variants.cmake": "", "shaders/layout.h": "", "shaders/pools.glsl": "SPLATRAY_OPTIONAL_POOL(0u, A)\n" * (MOST_FEATURES + 1)},
         "decoders": {f"preprocess/read/{i}.cpp": "Splat splat = unpack_splat(words);\n" for i in range(MOST_DECODERS + 1)},
         "decoders of a part": {f"app/cli/{i}.h": "auto at = unpack_center(words);\n" for i in range(MOST_DECODERS + 1)},
+        "a second place that chooses": {"app/cli/a.cpp": "const Viewpoint view = choose_viewpoint(scene);\n"},
+        "a place that chooses no longer": {"app/library/shot/scene_facts.cpp": "int a();\n"},
         "pools": {f"app/cli/{i}.cpp": "f(scene.data_pool, scene->clip_pool);\n" for i in range(MOST_POOL_HOLDERS + 1)},
         "constants": {"shaders/variants.cmake": "", "shaders/layout.h": "SPLATRAY_CONST SPEC_A = 0u;\n" * (MOST_CONSTANTS + 1)},
     }
