@@ -372,7 +372,7 @@ struct Measuring {
   /// of three, the area of the polygon of three and more, the radius of a sphere or cylinder around one.
   std::string kind = "distance";
   std::vector<MeasurePlace> places{};
-  /// Of spheres and cylinders: they are fitted to what lies as near to the place, world units.
+  /// Spheres and cylinders are fitted to the surface within this distance of the place, world units.
   double reach = 0.0;
 };
 /// Measures what the request's region ("keep-box", "drop-box", "cut") holds, as splatray-measure does. Throws Error (usage)

@@ -34,7 +34,7 @@ class DeviceScene {
 
   /// Whether there is a scene.
   [[nodiscard]] bool uploaded() const { return bindings_ != nullptr; }
-  /// Of the scene uploaded; its own bindings are set by bind().
+  /// Bindings of the uploaded scene; its own are set by bind().
   [[nodiscard]] Bindings& bindings() { return *bindings_; }
   void bind();
   /// Binds what path tracing alone reads, where ray queries have their rays and hits.

@@ -32,7 +32,7 @@ static_assert(
     }(),
     "the places of shaders/pools.glsl do not count its rows");
 
-/// Of a pool's buffer.
+/// The kind of a pool's buffer.
 BufferKind buffer_kind(const PoolKind& kind, PoolAccess access) {
   if (access != PoolAccess::texel) return BufferKind::storage;
   return kind.element_bytes == sizeof(uvec4) ? BufferKind::texels : BufferKind::words;

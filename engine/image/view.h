@@ -81,7 +81,7 @@ struct Settings {
   std::optional<glm::vec3> background{};
   /// Nothing is seen there: black, for pictures with coverage.
   bool transparent = false;
-  // Of the other looks than LOOK_PAPER alone:
+  // For looks other than LOOK_PAPER alone:
   /// LOOK_LIT: most that a path's light after the first bounce adds to a channel; 0: any. Biased: pictures lose light.
   float clamp = 0.0F;
   /// LOOK_AO, LOOK_SCAN: how far away something darkens a point; 0 = a tenth of the scene's diagonal.

@@ -111,7 +111,7 @@ float light_share(Receiver receiver, INOUT(uint) leaf, INOUT(float) random) {
   return share;
 }
 
-/// Of a leaf that is known.
+/// The share of a leaf that is known.
 float light_share_of(Receiver receiver, uint leaf) {
   float random = 0.5f;
   return light_share(receiver, leaf, random);

@@ -53,6 +53,9 @@ CHOSEN = {"view": (r"\bchoose_viewpoint\(", {"app/library/shot/scene_facts.cpp"}
           "a drawing's place": (r"\bmake_sheet\(", {"app/library/shot/resolve.cpp"})}
 CHOOSERS = {"app/library/display_image.cpp", "app/library/picture/denoise.cpp", "app/library/shot/sheet_placement.cpp",
             "engine/image/framing.cpp", "engine/image/lights.cpp", "engine/image/upright.cpp"}
+# Comments that begin with "Of", of a thing that they leave unsaid: as of today, and fewer.
+OF_WHAT = re.compile(r"^\s*///? Of ", re.MULTILINE)
+MOST_OF_WHAT = 26
 MOST_DECODERS = 12
 MOST_POOL_HOLDERS = 22
 
@@ -218,6 +221,13 @@ def choosers(root, files):
             yield f"{name}: chooses no {what}, expected CHOSEN without it"
 
 
+def unsaid_subjects(root, files):
+    code = [name for name in files if name.endswith((".cpp", ".h", ".glsl")) and not name.startswith("tests/")]
+    count = sum(len(OF_WHAT.findall((root / name).read_text())) for name in code)
+    if count > MOST_OF_WHAT:
+        yield f"comments: found {count} that begin with 'Of', expected at most {MOST_OF_WHAT}: say of what is spoken"
+
+
 def long_files(root, files):
     for name in files:
         if not name.endswith((".cpp", ".h", ".glsl")):
@@ -231,7 +241,7 @@ def findings(root):
     files = tracked(root)
     return [*includes_upwards(root, files), *unranked(files), *circles(root, files), *closed_circles(root, files), *closed_rooms(root, files),
             *full_folders(files), *long_files(root, files),
-            *torn_lines(root, files), *kernel_counts(root), *readers_of_words(root, files), *choosers(root, files)]
+            *torn_lines(root, files), *kernel_counts(root), *readers_of_words(root, files), *choosers(root, files), *unsaid_subjects(root, files)]
 
 
 def prove():
@@ -254,6 +264,7 @@ def prove():
         "features": {"shaders/variants.cmake": "", "shaders/layout.h": "", "shaders/pools.glsl": "SPLATRAY_OPTIONAL_POOL(0u, A)\n" * (MOST_FEATURES + 1)},
         "decoders": {f"preprocess/read/{i}.cpp": "Splat splat = unpack_splat(words);\n" for i in range(MOST_DECODERS + 1)},
         "decoders of a part": {f"app/cli/{i}.h": "auto at = unpack_center(words);\n" for i in range(MOST_DECODERS + 1)},
+        "comments without a subject": {"engine/base/a.h": "/// Of a point.\n" * (MOST_OF_WHAT + 1)},
         "a second place that chooses": {"app/cli/a.cpp": "const Viewpoint view = choose_viewpoint(scene);\n"},
         "a place that chooses no longer": {"app/library/shot/scene_facts.cpp": "int a();\n"},
         "pools": {f"app/cli/{i}.cpp": "f(scene.data_pool, scene->clip_pool);\n" for i in range(MOST_POOL_HOLDERS + 1)},

@@ -54,11 +54,11 @@ void add_point(std::vector<Measure>& measures, MeasureKind kind, const SurfacePo
 
 /// Sum of the lengths from point to point.
 [[nodiscard]] double path_length(std::span<const glm::dvec3> points);
-/// Of b above a; `up` of any length > 0.
+/// Height of b above a; `up` of any length > 0.
 [[nodiscard]] double height_above(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& up);
-/// At b, degrees 0..180; 0 where points coincide.
+/// Angle at b, degrees 0..180; 0 where points coincide.
 [[nodiscard]] double angle_deg(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
-/// Of a polygon, whose corners need not lie in one plane exactly: half the length of its vector area (Newell).
+/// Area of a polygon whose corners need not lie in one plane exactly: half the length of its vector area (Newell).
 [[nodiscard]] double polygon_area(std::span<const glm::dvec3> points);
 
 enum class MeasureUnit { length, area, degrees };

@@ -61,7 +61,7 @@ struct alignas(64) WideWalk {
   std::uint32_t nodes = 0;      ///< looked at
   std::uint32_t leaves = 0;     ///< tested
   std::uint32_t leaf;           ///< that the last step went to
-  /// Of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64,
+  /// The hit of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64,
   /// bit for bit; of others anything.
   alignas(64) WideDoubles t;
   WideDoubles rho_squared, facing;

@@ -89,7 +89,7 @@ Field orbit_row() {
   return row;
 }
 
-/// Of a program's run, not of a picture.
+/// Rows that concern a program's run, not a picture.
 std::vector<Field> file_fields() {
   constexpr FieldGroup FILES = FieldGroup::files;
   std::vector<Field> rows = {

@@ -6,7 +6,7 @@ namespace {
 
 constexpr FieldGroup QUALITY = FieldGroup::quality;
 
-/// Of the picture's samples, of points sampled on meshes and of probe rays.
+/// Seeds the picture's samples, the points sampled on meshes and the probe rays.
 Field seed_row() {
   Field row = number_row("seed", QUALITY, MEMBER(settings.seed), 0, 4294967295.0,
                          "seed of samples and of points sampled on meshes; default 1");
