@@ -23,6 +23,8 @@ bool finite(Numbers... numbers) {
 bool finite(const glm::dvec3& v) { return finite(v.x, v.y, v.z); }
 bool finite(const glm::vec3& v) { return finite(v.x, v.y, v.z); }
 
+bool is_length(double value) { return finite(value) && value >= 0.0; }
+
 std::string at(const char* what, std::size_t index) { return what + (" " + std::to_string(index)); }
 
 Defect check_header(const Scene& scene) {
@@ -68,6 +70,9 @@ Defect check_sizes(const Scene& scene) {
   for (const Station& station : scene.stations)
     if (!finite(station.sensor_world.value_or(glm::dvec3(0.0))))
       return SceneDefect{"a station whose place is not finite", "finite numbers"};
+  for (const Station& station : scene.stations)
+    if (!is_length(station.noise_world) || !is_length(station.step_world))
+      return SceneDefect{"a station's noise or step that is no length", "finite numbers >= 0"};
   if (scene.materials.size() > OBJECT_MASK + 1 || scene.object_names.size() != scene.materials.size())
     return SceneDefect{std::to_string(scene.materials.size()) + " materials and " +
                            std::to_string(scene.object_names.size()) + " object names",
