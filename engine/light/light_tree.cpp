@@ -228,7 +228,7 @@ Item item_of(const Light& light, std::uint32_t index) {
   if (directional) {
     item.radius = light.size < 0.5 * pi ? std::sin(double(light.size)) : 1.0;
     item.content |= LIGHT_NODE_DISTANT;
-  } else if (light.kind == LIGHT_RECTANGLE) {
+  } else if (is_flat(light.kind)) {
     const dvec3 across = glm::cross(dvec3(light.edge_u), dvec3(light.edge_v));
     item.radius = std::hypot(glm::length(light.edge_u), glm::length(light.edge_v));
     item.cone = {glm::normalize(across), 0.0, 0.5 * pi};

@@ -28,9 +28,15 @@ struct SceneLight {
   bool operator==(const SceneLight&) const = default;
 };
 
+/// The last LIGHT_*. Flat lights, whose half edges span them, come last.
+inline constexpr std::uint32_t LIGHT_KIND_LAST = LIGHT_RECTANGLE;
+
+/// Whether lights of a kind are flat: they shine from within the rectangle of their edges towards cross(u, v).
+[[nodiscard]] constexpr bool is_flat(std::uint32_t kind) { return kind >= LIGHT_RECTANGLE; }
+
 /// Whether a light has a size.
 [[nodiscard]] inline bool is_sized(const SceneLight& light) {
-  return light.kind == LIGHT_RECTANGLE || light.size > 0.0;
+  return is_flat(light.kind) || light.size > 0.0;
 }
 
 /// Whether a light is a spot.

@@ -23,6 +23,8 @@ bool finite(Numbers... numbers) {
 bool finite(const glm::dvec3& v) { return finite(v.x, v.y, v.z); }
 bool finite(const glm::vec3& v) { return finite(v.x, v.y, v.z); }
 
+bool is_length(double value) { return finite(value) && value >= 0.0; }
+
 std::string at(const char* what, std::size_t index) { return what + (" " + std::to_string(index)); }
 
 Defect check_header(const Scene& scene) {
@@ -68,6 +70,9 @@ Defect check_sizes(const Scene& scene) {
   for (const Station& station : scene.stations)
     if (!finite(station.sensor_world.value_or(glm::dvec3(0.0))))
       return SceneDefect{"a station whose place is not finite", "finite numbers"};
+  for (const Station& station : scene.stations)
+    if (!is_length(station.noise_world) || !is_length(station.step_world))
+      return SceneDefect{"a station's noise or step that is no length", "finite numbers >= 0"};
   if (scene.materials.size() > OBJECT_MASK + 1 || scene.object_names.size() != scene.materials.size())
     return SceneDefect{std::to_string(scene.materials.size()) + " materials and " +
                            std::to_string(scene.object_names.size()) + " object names",
@@ -179,7 +184,7 @@ Defect check_surface(const Surface& surface) {
   return {};
 }
 
-/// Whether a rectangle's half edges make one: some length each, and perpendicular but for rounding.
+/// Whether half edges make a rectangle: some length each, and perpendicular but for rounding.
 bool are_edges(const glm::dvec3& u, const glm::dvec3& v) {
   const double u_squared = glm::dot(u, u), v_squared = glm::dot(v, v);
   return u_squared > 0.0 && v_squared > 0.0 && std::isfinite(u_squared * v_squared) &&
@@ -188,14 +193,13 @@ bool are_edges(const glm::dvec3& u, const glm::dvec3& v) {
 
 Defect check_light(const SceneLight& light) {
   constexpr double QUARTER_TURN = 1.571, LARGEST = 1e30;  // rounded up
-  if (light.kind > LIGHT_RECTANGLE)
-    return SceneDefect{"a kind", "a directional light, a point light or a rectangle"};
+  if (light.kind > LIGHT_KIND_LAST) return SceneDefect{"a kind", "0 to " + std::to_string(LIGHT_KIND_LAST)};
   const bool aimed = light.kind != LIGHT_DIRECTIONAL || glm::dot(light.position, light.position) > 0.0;
   if (!finite(light.position) || !aimed) return SceneDefect{"a position or direction", "finite numbers"};
   if (!(light.size >= 0.0 && light.size <= (light.kind == LIGHT_DIRECTIONAL ? QUARTER_TURN : LARGEST)))
     return SceneDefect{"a size", "0 or more, of directional ones at most a quarter turn"};
-  const bool rectangle = light.kind == LIGHT_RECTANGLE;
-  if (!finite(light.edge_u) || !finite(light.edge_v) || (rectangle && !are_edges(light.edge_u, light.edge_v)))
+  const bool flat = is_flat(light.kind);
+  if (!finite(light.edge_u) || !finite(light.edge_v) || (flat && !are_edges(light.edge_u, light.edge_v)))
     return SceneDefect{"edges", "two that are perpendicular and have a length"};
   if (!finite(light.power) || glm::any(glm::lessThan(light.power, glm::vec3(0.0F))))
     return SceneDefect{"a power", "finite numbers, 0 or more"};

@@ -4,8 +4,7 @@ import struct
 
 import numpy as np
 
-DATA_POOL = 4  # place in the section table
-TABLE, ENTRY = 288, 32
+HEADER, ENTRY = 48, 64
 OCT_SCALE = 32767
 CORNERS = 24
 
@@ -15,11 +14,13 @@ def read_discs(path):
 
     Returns centres (N, 3) in world units, unit normals (N, 3), radii (N,), world units, and objects (N,)."""
     data = open(path, "rb").read()
-    (splats,) = struct.unpack_from("<Q", data, 32)
-    origin = np.array(struct.unpack_from("<3d", data, 88))
-    (unit,) = struct.unpack_from("<d", data, 112)
-    (offset,) = struct.unpack_from("<Q", data, TABLE + DATA_POOL * ENTRY + 8)
-    x, y, z, w = np.frombuffer(data, "<u4", 4 * splats, offset).reshape(-1, 4).T
+    (sections,) = struct.unpack_from("<I", data, 32)
+    section = {}
+    for i in range(sections):
+        name, offset, size = struct.unpack_from("<24s16xQQ", data, HEADER + i * ENTRY)
+        section[name.rstrip(b"\0")] = data[offset:offset + size]
+    *origin, unit = struct.unpack_from("<4d", section[b"root"])
+    x, y, z, w = np.frombuffer(section[b"data_pool"], "<u4").reshape(-1, 4).T
     centres = np.stack([x >> 11, (x & 0x7FF) << 10 | y >> 22, y & 0x1FFFFF], 1) * unit + origin
     u = (z & 0xFFFF).astype(np.int64) - OCT_SCALE
     v = (z >> 16).astype(np.int64) - OCT_SCALE
