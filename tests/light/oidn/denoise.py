@@ -45,8 +45,8 @@ def distance(image, truth):
 
 
 write_scene(FOLDER / "ball.ply")
-truth, _ = picture(1024, 99)
-noise = distance(picture(16, 1)[0], truth)
+truth, _ = picture(1024, 99, ["--keep-noise"])
+noise = distance(picture(16, 1, ["--keep-noise"])[0], truth)
 library = str(next(Path(pyoidn.__file__).parent.rglob("libOpenImageDenoise.so.2")).parent)
 failed = False
 for name, where in (("Open Image Denoise 2", library), ("splatray's own filter", "")):
