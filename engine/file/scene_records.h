@@ -55,7 +55,7 @@ struct WorldRecord {
   double surface_area;
 };
 
-/// Of the records of layout.h: bytes that the first files had.
+/// Bytes that the first files had of the records of layout.h.
 inline constexpr std::uint32_t MATERIAL_LEAST_BYTES = 48, SURFACE_LEAST_BYTES = 80;
 
 static_assert(sizeof(LightRecord) == 152 && sizeof(CameraRecord) == 88 && sizeof(StationRecord) == 56 &&
@@ -71,7 +71,7 @@ static_assert(sizeof(LightRecord) == 152 && sizeof(CameraRecord) == 88 && sizeof
 [[nodiscard]] RootRecord record_of(const RootTransform& root);
 [[nodiscard]] RootTransform value_of(const RootRecord& record);
 [[nodiscard]] BuildRecord record_of(const BuildParams& build);
-/// Of a scene without normal fields.
+/// Without normal fields.
 [[nodiscard]] BuildParams value_of(const BuildRecord& record);
 
 }  // namespace splatray::scene_file
