@@ -18,7 +18,7 @@ struct BuildStats {
   std::uint64_t dropped_unsupported = 0;  ///< of noisy scans: fewer than 6 neighbours on their surface
   std::array<std::uint64_t, 3> kinds{};   ///< of scans without normals: points of each ScanKind
   std::uint64_t smoothed = 0;             ///< points of noisy scans, moved onto their surface
-  /// Of the noisiest scan without normals: heights off the surface over the distance to the 8th place.
+  /// Noise of the noisiest scan without normals: heights off the surface over the distance to the 8th place.
   double noise = 0.0;
   double moved_median_world = 0.0;          ///< how far smoothing moved points
   std::array<std::uint64_t, 5> sides_by{};  ///< scans without normals by what decided their sides (SideRung)

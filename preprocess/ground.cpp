@@ -14,7 +14,7 @@ constexpr int HALF_COUNT = 8;                              ///< discs along half
 constexpr double RADIUS = 0.75;  ///< of their distance: more than half a square's diagonal
 constexpr float GREY = 0.5F;
 
-/// Of all points along a unit direction.
+/// The lowest of all points along a unit direction.
 double lowest_along(const std::vector<Cloud>& clouds, const glm::dvec3& up) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Cloud& cloud : clouds)

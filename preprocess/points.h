@@ -69,7 +69,7 @@ struct Points {
   std::vector<TrackPlace> track;
   std::string crs;               ///< Scene::crs
   std::optional<glm::dvec3> up;  ///< Input::up, where a file says it beside points
-  /// Of points that were splats: the lattice that these were on, and their words of normal fields and clip lines (splat.h,
+  /// For points that were splats, the lattice that these were on, and their words of normal fields and clip lines (splat.h,
   /// clip.h), each empty = none (lattice.h).
   std::optional<RootTransform> lattice;
   std::vector<std::uint32_t> field_words, clip_words;
@@ -201,7 +201,7 @@ struct ReadOptions {
   /// Folders searched for models a scene names, after the scene's own folder.
   std::vector<std::filesystem::path> data_paths;
   bool keep_meshes = false;
-  /// Of scans whose head counts their points, which are not read then; those of other formats are.
+  /// For scans whose head counts their points, which are not read then; those of other formats are.
   bool heads_only = false;
   bool clip = true;  ///< points on meshes know where the surface ends or has a crease
   /// Edges that turn by more, and are not shaded smoothly, are creases.

@@ -353,7 +353,7 @@ SPLATRAY_CONST BIND_HITS = 8u;
 SPLATRAY_CONST BIND_GROUPS = 9u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
 SPLATRAY_CONST BIND_PATHS = 10u;  ///< of this stage
 SPLATRAY_CONST BIND_PATHS_QUEUED = 11u;  ///< of the next
-// Of path tracing, in the place of what it does not use:
+// For path tracing, in the place of what it does not use:
 SPLATRAY_CONST BIND_SURFACES = BIND_RAYS;
 // Read as the pools are:
 SPLATRAY_CONST BIND_LIGHT_TABLES = 12u;  ///< words: the albedo table, then the sky table
@@ -403,7 +403,7 @@ SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture 
 SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;
 SPLATRAY_CONST FEATURE_TEXTURE_COLOR = 4194304u;
 SPLATRAY_CONST FEATURE_TEXTURE_NORMAL = 8388608u;
-// Of LOOK_LIT and its like alone:
+// For LOOK_LIT and its like alone:
 SPLATRAY_CONST FEATURE_SKY = 512u;          ///< the environment is chosen among the lights, by the sky table
 SPLATRAY_CONST FEATURE_SIZES = 1024u;       ///< some light has a size, and can be met
 SPLATRAY_CONST FEATURE_DIFFUSE = 2048u;     ///< some surface scatters diffusely

@@ -59,7 +59,7 @@ class SPLATRAY_API Error : public std::runtime_error {
 };
 
 /// Called with the stage's name and the fraction of it done, 0..1, on the calling thread, some times a second; returns false to
-/// cancel. What it throws ends the call likewise and reaches the caller. It may make, use and end scenes; where it uses the one
+/// cancel. An exception it throws cancels the call and propagates. It may make, use and end scenes; where it uses the one
 /// whose picture or rays are being made, that is an Error (usage).
 using Progress = std::function<bool(const char* stage, double share)>;
 
@@ -74,7 +74,7 @@ struct Material {
   bool glass = false;                   ///< refracts; the object must be closed, its normals outwards
   bool two_sided = true;                ///< both faces are seen; glass is one-sided
   bool hidden = false;                  ///< not hit by any ray
-  // Of path tracing, in place of what follows from the above; unset = that.
+  // For path tracing only. Unset: derived from the fields above.
   std::optional<float> metallic{}, roughness{};  ///< 0..1 (glTF 2.0, "metallic-roughness")
   /// A clear layer's share and roughness, 0..1 (KHR_materials_clearcoat).
   std::optional<float> coat{}, coat_roughness{};
@@ -119,7 +119,7 @@ struct Mesh {
   std::span<const Float3> normals{};
   /// As of Points; interpolated.
   std::span<const Float3> colors{};
-  /// As of Points; interpolated, but of those whose values are all whole and at most 65535 a point has the nearest corner's.
+  /// As of Points; interpolated; attributes of integers up to 65535 are taken from the nearest corner.
   std::vector<Attribute> attributes{};
   std::string name = "mesh";
   /// Unset = light grey, white where there are colours. Closed glass is turned outwards.
@@ -203,7 +203,7 @@ class SPLATRAY_API Request {
   /// Adds an object's material; `object`: its name or index.
   Request& add_material(const std::string& object, const Material& material);
 
-  /// The texts of a field; none where it is not set and has no default in numbers.
+  /// The texts of a field; empty if it is unset and has no default in numbers.
   [[nodiscard]] std::vector<std::string> get(const std::string& name) const;
   /// All that is set, as splatray-render --request reads it.
   [[nodiscard]] std::string json() const;
@@ -225,7 +225,7 @@ class SPLATRAY_API Request {
 class Scene;
 /// Reads scenes, models and scans: .ply .obj .stl .vtk .vtp .vtu .pvtp .pvtu .gltf .glb .las .laz .e57 .pcd .ptx .pts .xyz .csv
 /// .txt .asc .bin, folders of scans, or one .soct alone. Of the request: how they are read and built, device, threads, colours,
-/// materials, up direction; what is left open about pictures is kept for those of this scene. Throws Error (input, usage,
+/// materials, up direction; automatic settings of pictures are chosen once and reused for this scene. Throws Error (input, usage,
 /// cancelled, out_of_memory).
 [[nodiscard]] SPLATRAY_API Scene open(std::span<const std::filesystem::path> files,
                                       const Request& request = {}, const Progress& progress = {});
@@ -354,7 +354,7 @@ struct MeasurePlace {
   Double3 at{};
   std::optional<Double3> direction{};  ///< of a ray; any length > 0
 };
-/// A value, and half the width of the interval around it that holds the true one 95 times of 100: from the scan's noise and
+/// A value, and the half-width of its 95 % confidence interval: from the scan's noise and
 /// how smooth its surface is there, not from the scans' registration and scale.
 struct MeasureValue {
   std::string name;  ///< such as "distance", "level", "area", "perimeter", "radius", "x"
@@ -372,7 +372,7 @@ struct Measuring {
   /// of three, the area of the polygon of three and more, the radius of a sphere or cylinder around one.
   std::string kind = "distance";
   std::vector<MeasurePlace> places{};
-  /// Of spheres and cylinders: they are fitted to what lies as near to the place, world units.
+  /// Spheres and cylinders are fitted to the surface within this distance of the place, world units.
   double reach = 0.0;
 };
 /// Measures what the request's region ("keep-box", "drop-box", "cut") holds, as splatray-measure does. Throws Error (usage)

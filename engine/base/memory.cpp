@@ -48,7 +48,7 @@ struct GroupFiles {
   const char *limit, *used, *inactive, *active;
 };
 
-/// Of a control group and those around it. In a container the group's own path may not be there: its root then is.
+/// Memory left to a control group by its own limit and those around it. In a container the group's own path may not be there: its root then is.
 std::uint64_t left_of_groups(const fs::path& top, std::string group, const GroupFiles& files) {
   std::uint64_t left = NO_LIMIT;
   for (;; group.resize(group.find_last_of('/') == std::string::npos ? 0 : group.find_last_of('/'))) {

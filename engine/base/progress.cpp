@@ -24,7 +24,7 @@ bool is_time_for_a_line() {
 
 int percent_of(double share) { return static_cast<int>(100.0 * share); }
 
-/// Of a whole per cent as JSON has a share: "0.40".
+/// A whole per cent as JSON writes a fraction: "0.40".
 std::string share_text(int percent) {
   return std::to_string(percent / 100) + (percent % 100 < 10 ? ".0" : ".") + std::to_string(percent % 100);
 }

@@ -8,8 +8,8 @@
 
 namespace splatray {
 
-/// Hears a stage's name and the share of it done, 0..1, at intervals far below half a second; returns false to stop the
-/// work, which then throws Error (interrupted).
+/// Called several times a second with a stage's name and the fraction of it done, 0..1; returns false to stop the work, which
+/// then throws Error (interrupted).
 using Progress = std::function<bool(const char* stage, double share)>;
 
 /// How progress is reported.

@@ -133,12 +133,12 @@ Found find_cluster(const Ray& ray, float kappa, Tally& tally, WideMeetings& all)
 }
 
 /// What blending adds up beside normals, depth and colours, one meeting after the other.
-void add_beside(const WideMeetings& all, [[maybe_unused]] const Ray& ray, uvec4 watched, Cluster& cluster) {
+void add_beside(const WideMeetings& all, [[maybe_unused]] const Ray& ray, uvec4 target, Cluster& cluster) {
   if (!WATCHES && !TEXTURE_LAYER && !TEXTURE_GLOW && !TEXTURE_COLOR && !TEXTURE_NORMAL) return;
   for (uint i = 0; i < all.count; ++i) {
     if (all.weight[i] == 0.0f) continue;
     const uvec4 words = splat_words(all.splat[i]);
-    if (WATCHES) cluster.watched += words == watched ? 1u : 0u;
+    if (WATCHES) cluster.target_members += words == target ? 1u : 0u;
 #ifdef LIT
     add_factors(cluster.factors, factors_at(all.splat[i]), all.weight[i]);
     if (TEXTURE_NORMAL)
@@ -148,7 +148,7 @@ void add_beside(const WideMeetings& all, [[maybe_unused]] const Ray& ray, uvec4 
   }
 }
 
-Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uvec4 watched) {
+Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uvec4 target) {
   const Window window = window_of(found.first, ray, found.depth);
   WideWindow wide;
   for (int axis = 0; axis < 3; ++axis) {
@@ -169,7 +169,7 @@ Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uv
   cluster.depth = sums.depth;
   cluster.color = {sums.color[0], sums.color[1], sums.color[2]};
   cluster.members = sums.members;
-  add_beside(all, ray, watched, cluster);
+  add_beside(all, ray, target, cluster);
   return cluster;
 }
 
@@ -184,10 +184,10 @@ Found count_hits(const Ray& ray, Tally& tally, Cluster& cluster) {
   return found;
 }
 
-Hit trace_watching(Ray ray, float kappa, uvec4 watched, Tally& tally) {
+Hit trace_watching(Ray ray, float kappa, uvec4 target, Tally& tally) {
   const bool wide =
       BLEND == BLEND_NEAREST || BLEND == BLEND_COUNT || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
-  if (!wide) return trace_octree(ray, kappa, watched, tally);
+  if (!wide) return trace_octree(ray, kappa, target, tally);
   const Ray given = ray;
   bool enters = true;
   float t_start = 0.0f;
@@ -200,8 +200,8 @@ Hit trace_watching(Ray ray, float kappa, uvec4 watched, Tally& tally) {
   } else if (enters) {
     WideMeetings all;
     found = find_cluster(ray, kappa, tally, all);
-    if (!found.all) return trace_octree(given, kappa, watched, tally);
-    if (all.count > 0) cluster = blend_meetings(all, found, ray, watched);
+    if (!found.all) return trace_octree(given, kappa, target, tally);
+    if (all.count > 0) cluster = blend_meetings(all, found, ray, target);
   }
-  return finish_hit(ray, found.first, cluster, found.depth, shift, watched);
+  return finish_hit(ray, found.first, cluster, found.depth, shift, target);
 }

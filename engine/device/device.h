@@ -54,7 +54,7 @@ class Device {
   [[nodiscard]] virtual DeviceProfile profile(Kernels requested = Kernels::automatic) const = 0;
   /// The device must outlive it. Throws as profile().
   [[nodiscard]] virtual std::unique_ptr<Queue> make_queue(const QueueOptions& options = {}) const = 0;
-  /// Of Vulkan's validation layers, so far; from any thread.
+  /// Messages of Vulkan's validation layers so far; from any thread.
   [[nodiscard]] virtual std::uint32_t validation_messages() const { return 0; }
 };
 

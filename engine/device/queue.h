@@ -108,7 +108,7 @@ class Queue {
   [[nodiscard]] virtual bool fuses() const { return false; }
   /// Throws Error (out_of_memory) naming the size.
   [[nodiscard]] virtual std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) = 0;
-  /// Of an environment that has texels, at most DeviceLimits::texture_size across and down.
+  /// The texture of an environment that has texels, at most DeviceLimits::texture_size across and down.
   [[nodiscard]] virtual std::unique_ptr<Texture> make_texture(const Environment& environment) = 0;
   [[nodiscard]] virtual std::unique_ptr<Bindings> make_bindings(const Paging& paging) = 0;
   /// Makes the tree over a data pool's splats, if the device has one of its own, and sets `order` to their indices in the order

@@ -71,7 +71,7 @@ static_assert(sizeof(LightRecord) == 152 && sizeof(CameraRecord) == 88 && sizeof
 [[nodiscard]] RootRecord record_of(const RootTransform& root);
 [[nodiscard]] RootTransform value_of(const RootRecord& record);
 [[nodiscard]] BuildRecord record_of(const BuildParams& build);
-/// Without normal fields.
+/// The build parameters of a scene without normal fields: whether there are any the pools say.
 [[nodiscard]] BuildParams value_of(const BuildRecord& record);
 
 }  // namespace splatray::scene_file

@@ -13,9 +13,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t REGION = 32;  ///< edge of a region, pixels
-/// Of each half, in every pixel; each later round doubles a region's.
+/// Samples of each half in every pixel of the first round; each later round doubles a region's.
 constexpr std::uint32_t FIRST_SAMPLES = 4;
-/// Of the picture's mean radiance: darker regions count as if they had it.
+/// Fraction of the picture's mean radiance: darker regions count as if they had it.
 constexpr double DARK_SHARE = 0.02;
 constexpr double NOISE = 1e-6;  ///< a relative error that is float32's
 constexpr std::uint32_t SEED_STEP = 0x9E3779B9U;
@@ -92,7 +92,7 @@ class AdaptiveTile {
     return std::size_t{y / REGION} * columns_ + x / REGION;
   }
 
-  /// Of a half in a region, about.
+  /// Most samples of a half in a region, about.
   [[nodiscard]] std::uint32_t most_samples() const { return dispatch_.frame.sample_end / 2; }
 
   /// Regions of a half that have `samples` and are worse than wanted, as what the other half says lets expect of that many: a

@@ -14,7 +14,7 @@
 namespace splatray {
 namespace {
 
-/// Of each object, whether light that it sends out leaves both of its faces.
+/// Whether light that each object sends out leaves both of its faces.
 std::vector<bool> two_sided_objects(std::span<const Material> materials) {
   std::vector<bool> two_sided;
   for (const Material& material : materials)

@@ -28,13 +28,13 @@ class DeviceScene {
   /// As the tracer's functions of these names.
   void upload(const Scene& scene) { upload(scene, nullptr); }
   void upload_and_free(Scene& scene) { upload(scene, &scene); }
-  /// Uploads what of a look is another than the one before; the scene's pools are there. Throws Error (failed) for one of other
-  /// objects, or with too many lights.
+  /// Uploads the parts of the look that changed; the scene's pools are there. Throws Error (failed) for a look of other objects, or
+  /// with too many lights.
   void show(const Look& look);
 
   /// Whether there is a scene.
   [[nodiscard]] bool uploaded() const { return bindings_ != nullptr; }
-  /// Of the scene uploaded; its own bindings are set by bind().
+  /// Bindings of the uploaded scene; its own are set by bind().
   [[nodiscard]] Bindings& bindings() { return *bindings_; }
   void bind();
   /// Binds what path tracing alone reads, where ray queries have their rays and hits.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t SHADING = FEATURE_MIRRORS | FEATURE_LIGHTS | FEATURE_SHADOWS | FEATURE_ENVIRONMENT;
 
-/// Whether light of lights that falls on the material comes back, other than mirrored or refracted.
+/// Whether the material reflects direct light other than as a mirror.
 bool scatters(const Material& material) {
   if ((material.flags & MATERIAL_DIELECTRIC) != 0) return material.specular > 0.0F;
   const bool colored = material.diffuse.x > 0.0F || material.diffuse.y > 0.0F || material.diffuse.z > 0.0F;

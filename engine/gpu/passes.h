@@ -24,7 +24,7 @@ class Passes {
   /// Error (failed) where the driver cuts a single ray's loops.
   void add(std::uint32_t end, const Advance& advance);
   [[nodiscard]] std::uint32_t samples() const { return before_.samples() + in_block_; }  ///< in each pixel
-  /// Of the tiles' pixels, one tile behind the other, of at least one sample.
+  /// Mean of each pixel of the tiles, one tile behind the other, of at least one sample.
   [[nodiscard]] std::vector<vec4> means() const;
   [[nodiscard]] double trace_ms() const { return trace_ms_; }  ///< of all dispatches
 

@@ -32,7 +32,7 @@ static_assert(
     }(),
     "the places of shaders/pools.glsl do not count its rows");
 
-/// Of a pool's buffer.
+/// The kind of a pool's buffer.
 BufferKind buffer_kind(const PoolKind& kind, PoolAccess access) {
   if (access != PoolAccess::texel) return BufferKind::storage;
   return kind.element_bytes == sizeof(uvec4) ? BufferKind::texels : BufferKind::words;
@@ -85,7 +85,7 @@ std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const Devi
   return first != nullptr && (!first->paged() || second->paged()) ? texel : storage;
 }
 
-/// What the references refer to, in parts: a whole list beside the buffer would take its memory twice.
+/// Uploads the pool gathered by `references` in parts: a whole list beside the buffer would take its memory twice.
 template <typename Value>
 void upload_listed(Queue& queue, PagedBuffer& buffer, const std::vector<Value>& pool,
                    std::span<const std::uint32_t> references) {

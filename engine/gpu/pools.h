@@ -34,7 +34,7 @@ struct PoolBytes {
   bool texel_buffers = false;  ///< pools are read through texel buffers
   std::uint32_t pages = 0;     ///< of the pool with most
 
-  /// Of the pool with this binding.
+  /// Bytes of the pool with this binding.
   [[nodiscard]] std::uint64_t& at(std::uint32_t binding) { return pools[binding - BIND_POOLS]; }
   [[nodiscard]] std::uint64_t at(std::uint32_t binding) const { return pools[binding - BIND_POOLS]; }
 };
@@ -47,7 +47,7 @@ struct PoolKind {
 };
 [[nodiscard]] const std::array<PoolKind, POOLS>& pool_kinds();
 
-/// Of all pools and the top table, without environment and frame.
+/// Sum over all pools and the top table, without environment and frame.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
 
 /// Whether the data pool of such a scene is read through references, `access`: how pools may be read.

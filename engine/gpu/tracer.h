@@ -96,7 +96,7 @@ class Tracer {
   [[nodiscard]] std::vector<RayHit> intersect(const Look& look, std::span<const RayQuery> rays,
                                               const Settings& settings);
 
-  /// Of the last call of begin and advance, render, trace_aov or intersect.
+  /// Counts and times of the last call of begin and advance, render, trace_aov or intersect.
   [[nodiscard]] const RenderStats& stats() const;
   [[nodiscard]] PoolBytes pool_bytes() const;           ///< device memory as of now
   [[nodiscard]] std::uint32_t pipelines_built() const;  ///< since construction

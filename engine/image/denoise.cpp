@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/vector_clones.h"
-#include "engine/image/sparks.h"
+#include "engine/image/fireflies.h"
 #include "engine/image/surface_likeness.h"
 
 namespace splatray {
@@ -114,7 +114,7 @@ class Filter {
         halves[1][i] = (all - share * part) / (1.0F - share);
       }
     });
-    limit_sparks(halves, image_.width);
+    limit_fireflies(halves, image_.width);
     Light light;
     for (std::size_t half = 0; half < 2; ++half)
       for (int channel = 0; channel < 3; ++channel) {

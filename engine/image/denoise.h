@@ -14,7 +14,7 @@ void make_finite(Image& image, std::span<vec4> base);
 
 /// The picture without its noise, as an edge-avoiding wavelet filter sees it (Dammertz et al. 2010, "Edge-Avoiding À-Trous
 /// Wavelet Transform for fast Global Illumination Filtering"), guided by normals, depths, and the noise that two independent
-/// pictures show (Image::part): what is averaged of one is what the other finds alike beyond its noise (Rousselle et al. 2012,
+/// pictures show (Image::part): each half is filtered with weights taken from the other (Rousselle et al. 2012,
 /// "Adaptive Rendering with Non-Local Means Filtering", sec. 4). What is bright by chance in one of the two alone loses light.
 /// Light is filtered, `base` (base colours of the same pixels, rgb linear) is not. Both go through make_finite
 /// first, and the picture stays finite. Asserts that the image has aov and part.

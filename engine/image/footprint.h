@@ -18,11 +18,11 @@ class Footprint {
  public:
   static constexpr std::uint32_t BLOCK = 8;  ///< pixels
 
-  /// Of nothing: no pixels.
+  /// Covers no pixels.
   Footprint() = default;
-  /// Of a whole picture.
+  /// Covers a whole picture.
   Footprint(std::uint32_t width, std::uint32_t height);
-  /// Of these cells. Blocks that a cell's bounding rectangle comes near are in it, all of them where a cell reaches behind
+  /// Covers these cells. Blocks that a cell's bounding rectangle comes near are in it, all of them where a cell reaches behind
   /// the eye's plane. The view must be one that make_frame_params accepts.
   Footprint(const std::vector<OctreeCell>& cells, const RootTransform& root, const View& view);
 

@@ -17,14 +17,14 @@ constexpr double DEG = std::numbers::pi / 180.0;
 constexpr double OBLIQUE_DEG = 35.0;   ///< elevation of a look at terrain
 constexpr double STEEPEST_DEG = 89.9;  ///< beyond it the scene's up does not define a picture's top
 constexpr double EYE_SHARE = 0.45;     ///< height of the eye inside, over the scan's height
-/// Of the diagonal: an eye that near the middle looks along the longer side.
+/// Fraction of the diagonal: an eye that near the middle looks along the longer side.
 constexpr double CENTRAL = 0.05;
 constexpr double OUTERMOST = 0.01;  ///< share of the points that a robust size leaves out at each end
 constexpr double MARGIN = 1.06;     ///< picture size / size of the scene in it
 /// Share of a site's or room's points that its frame leaves out at each end.
 constexpr double FRAME_OUTSIDE = 0.005;
 constexpr double BOX_SLACK = 0.01;  ///< of the size: walls are rough
-/// Of a sweep's, whose last points are far away and far apart.
+/// The same for sweeps, whose last points are far away and far apart.
 constexpr double SWEEP_OUTSIDE = 0.02;
 /// Where a doll's house is looked at from, degrees: from its front, left and above, as in a section of a building.
 constexpr double DOLL_AZIMUTH_DEG = -32.7, DOLL_ELEVATION_DEG = 42.0, DOLL_FOV_Y_DEG = 34.0;
@@ -173,7 +173,7 @@ Camera cropped_camera(const Scene& scene, double aspect, std::optional<double> f
   return camera;
 }
 
-/// Of Viewpoint::sensor.
+/// The camera of Viewpoint::sensor.
 Camera sensor_camera(const Scene& scene, double aspect, std::optional<double> fov_y_deg) {
   if (scene.camera) return cropped_camera(scene, aspect, fov_y_deg);
   const PointSample sample = sample_points(scene);

@@ -39,7 +39,7 @@ glm::dvec3 irradiance_of(const SceneLight& light, const glm::dvec3& position) {
   return glm::dvec3(light.power) * (4.0 * facing / distance_squared);
 }
 
-/// Of all lights together.
+/// Sum over all lights.
 glm::dvec3 irradiance_of(const std::vector<SceneLight>& lights, const glm::dvec3& position) {
   glm::dvec3 sum(0.0);
   for (const SceneLight& light : lights) sum += irradiance_of(light, position);

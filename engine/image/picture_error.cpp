@@ -22,7 +22,7 @@ void estimate_errors(std::vector<vec4> part, double part_samples, double samples
   image.error.assign(image.rgba.size(), INFINITY);
   if (!(samples > part_samples)) return;
   image.error = pixel_errors(image.rgba, image.part);
-  // Of independent samples of variance v the change has v (1 / part - 1 / all), the mean v / all.
+  // For independent samples of variance v the change has the variance v (1 / part - 1 / all), the mean v / all.
   const auto scale = static_cast<float>(std::sqrt(part_samples / (samples - part_samples)));
   for (float& error : image.error) error *= scale;
 }

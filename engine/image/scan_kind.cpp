@@ -28,7 +28,7 @@ constexpr double FACING_SHARE = 0.6;   ///< of a room's normals, which face in
 constexpr double SIZE_OUTSIDE = 0.01;  ///< share of the points at each end that the middle does not see
 constexpr double FLAT = 0.3;           ///< height over width
 constexpr double SWEEP_NEAR = 0.6, SWEEP_REACH = 0.9;
-/// Of the diagonal around a place; of the points there.
+/// A place is free if fewer than this fraction of the points lie within this fraction of the diagonal.
 constexpr double FREE_SHARE = 0.02, FREE_POINTS = 0.002;
 
 glm::dvec3 robust_middle(const PointSample& sample, const glm::dmat3& axes) {

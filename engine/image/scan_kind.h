@@ -36,7 +36,7 @@ enum class SceneKind {
 /// camera's frame, if 98 % of the points lie within 50 degrees of one direction, but not within 8, and three quarters
 /// have no other 10 % closer before them.
 [[nodiscard]] std::optional<glm::dvec3> seeing_place(const Scene& scene, const PointSample& sample);
-/// Whether points lie around a place and above it, as around someone in a room: in 12 of 12 sectors of azimuth some lie
+/// Whether points surround a place on all sides and above: in 12 of 12 sectors of azimuth some lie
 /// within 30 degrees of level, and in 18 of 24 parts of equal area of the sky above 45 degrees. Not by shares of all
 /// points: of a room that was thinned out evenly 2 % may lie that high, of the same as scanned 30 %. `axes` as
 /// upright_axes has them.

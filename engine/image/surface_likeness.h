@@ -28,7 +28,7 @@ class SurfaceLikeness {
   explicit SurfaceLikeness(const Image& image);
 
   [[nodiscard]] bool is_surface(std::size_t pixel) const { return object_[pixel] != NO_OBJECT; }
-  /// Of the pixels from `first` on.
+  /// Whether any of `count` pixels from `first` on shows a surface.
   [[nodiscard]] bool any_surface(std::size_t first, std::size_t count) const;
   /// 0 to 1 for each pixel with its neighbour, from like[taps.first] on: of the same object, by the angle between normals and by
   /// the step of depth beyond the surface's own slope. 1 of a pixel with itself. Without meaning where the pixel shows no surface.

@@ -20,7 +20,7 @@ constexpr double BASE_SHARE = 0.03, BASE_TIMES = 3.0, BASE_HEIGHT = 0.03, BASE_O
                  BASE_DEG = 15.0;
 constexpr double WALL = 0.3;  ///< height over width of what is too flat to stand
 
-/// Of the height; of the points at each end; of the outline; times the other axis's. Of 33 models with a known up these shares turn the
+/// Fractions of the height, of the points at each end and of the outline, and a multiple of the other axis's. Of 33 known models they turn the
 /// six that stand along z, statues and busts on 0.27 to 0.76 of their outline, and none of those along y, which stand on 0 to 0.27
 /// of it along z.
 constexpr double FOOT_HEIGHT = 0.05, FOOT_OUTSIDE = 0.0025, FOOT_SHARE = 0.25, FOOT_TIMES = 2.0;
@@ -67,7 +67,7 @@ std::optional<glm::dvec3> up_of_ring(const Scene& scene, const PointSample& samp
   return signed_axis(mean_normal(sample)[*axis] < 0.0 ? *axis + 3 : *axis);
 }
 
-/// Of a sweep without a known place.
+/// Up of a sweep without a known place.
 std::optional<glm::dvec3> up_of_sweep(const Scene& scene, const PointSample& sample) {
   if (first_sensor(scene)) return {};
   const glm::dvec3 size = robust_size(sample, glm::dmat3(1.0));
@@ -128,7 +128,7 @@ bool stands_better(const glm::dvec3& up, const glm::dvec3& own, const PointSampl
   return stands_on(sample, up) > std::max(FOOT_SHARE, FOOT_TIMES * stands_on(sample, own));
 }
 
-/// Of what stands on its end by the other of the two directions that programs take for up, y and z.
+/// Up of what stands on its end by the other of the two directions that programs take for up, y and z.
 std::optional<glm::dvec3> up_of_feet(const glm::dvec3& own, const PointSample& sample) {
   const glm::dvec3 y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
   if (own == y && stands_better(z, own, sample)) return z;
@@ -136,7 +136,7 @@ std::optional<glm::dvec3> up_of_feet(const glm::dvec3& own, const PointSample& s
   return {};
 }
 
-/// Of what is open below.
+/// Up of what is open below.
 std::optional<glm::dvec3> up_of_opening(const Scene& scene, const PointSample& sample) {
   const glm::dvec3 mean = mean_normal(sample);
   for (int axis = 0; axis < 3; ++axis) {
@@ -161,7 +161,7 @@ double base_share(const PointSample& sample, const glm::dvec3& up) {
   return share_of(base, sample.size());
 }
 
-/// Of what stands on something flat.
+/// Up of what stands on something flat.
 glm::dvec3 up_of_base(const Scene& scene, const PointSample& sample, bool room) {
   const glm::dvec3 own = glm::normalize(scene.up);
   glm::dvec3 best = scene.up;

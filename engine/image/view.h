@@ -57,8 +57,8 @@ struct Settings {
   std::uint32_t seed = 1;
   std::uint32_t max_bounces = 8;  ///< secondary rays in a path, 0..64
   bool shadows = true;
-  /// Leave out what faces away from the eye, for all rays: a room lies open to whoever looks into it. Of scenes whose objects are all
-  /// two-sided, as those of scans are.
+  /// Cull splats that face away from the camera, for all rays, so that rooms can be seen into. For scenes whose objects are all
+  /// two-sided, as scans are.
   bool cutaway = false;
   Region region{};  ///< what of the scene rays meet; as given, all
   std::uint32_t blend = BLEND_WINDOW;
@@ -77,11 +77,11 @@ struct Settings {
   bool estimate_error = false;
   bool aov = false;  ///< also trace the centre rays' normal, depth, object
   float environment_strength = 1.0F;
-  /// What is seen where nothing is met, radiance >= 0; unset: the environment.
+  /// Background radiance, >= 0; unset: the environment.
   std::optional<glm::vec3> background{};
   /// Nothing is seen there: black, for pictures with coverage.
   bool transparent = false;
-  // Of the other looks than LOOK_PAPER alone:
+  // For looks other than LOOK_PAPER alone:
   /// LOOK_LIT: most that a path's light after the first bounce adds to a channel; 0: any. Biased: pictures lose light.
   float clamp = 0.0F;
   /// LOOK_AO, LOOK_SCAN: how far away something darkens a point; 0 = a tenth of the scene's diagonal.

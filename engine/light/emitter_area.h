@@ -1,4 +1,4 @@
-/// How much of a surface each of the splats that stand for it has for itself.
+/// Area of the surface that each splat represents.
 #pragma once
 #include <span>
 #include <vector>

@@ -54,7 +54,7 @@ inline constexpr auto POOL_TABLE = std::tuple_cat(
 /// Rows of the table.
 inline constexpr std::size_t SCENE_POOLS = std::tuple_size_v<decltype(POOL_TABLE)>;
 
-/// Of a pool's elements.
+/// Size of a pool's elements.
 template <typename Value>
 [[nodiscard]] constexpr std::size_t element_bytes(const PoolRow<Value>&) {
   return sizeof(Value);

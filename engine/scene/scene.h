@@ -86,7 +86,7 @@ struct Scene {
   [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }
 };
 
-/// What the references refer to, one after the other; the pool as it is where there are none, nothing of an empty pool.
+/// The pool gathered by `references`; the pool itself if there are none, empty if the pool is.
 template <typename Value>
 [[nodiscard]] std::vector<Value> listed(const std::vector<Value>& pool,
                                         const std::vector<std::uint32_t>& references) {

@@ -19,18 +19,18 @@ struct SceneDefect {
 /// which depends on how the scene was built. Linear in the scene's size.
 [[nodiscard]] std::optional<SceneDefect> find_scene_defect(const Scene& scene);
 
-/// Of the octree: every node word is used once and stays inside the pool, the tree has at most MAX_DEPTH levels, each of the
+/// Checks the octree: every node word is used once and stays inside the pool, the tree has at most MAX_DEPTH levels, each of the
 /// filled leaves is named by one node, and the box of an empty leaf lies in the root and holds no filled leaf.
 [[nodiscard]] std::optional<SceneDefect> find_tree_defect(std::span<const std::uint32_t> nodes,
                                                           std::size_t filled_leaves);
 
-/// Of all else: root transform, up, bounds and build parameters are finite and in range; the pools' sizes agree; Begin-End
+/// Checks all else: root transform, up, bounds and build parameters are finite and in range; the pools' sizes agree; Begin-End
 /// ascends from 0 to the reference pool's size; references are of existing splats; slabs have an axis, and halves that leave
 /// out no splat; every splat has a valid normal, a finite radius no larger than the root and an existing object; materials,
 /// lights and camera are finite and in range.
 [[nodiscard]] std::optional<SceneDefect> find_content_defect(const Scene& scene);
 
-/// Of materials and lights alone. `objects` may be without surfaces.
+/// Checks materials and lights alone. `objects` may be without surfaces.
 [[nodiscard]] std::optional<SceneDefect> find_look_defect(const ObjectLooks& objects,
                                                           const std::vector<SceneLight>& lights);
 

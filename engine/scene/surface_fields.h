@@ -25,7 +25,7 @@ struct SurfaceField {
   [[nodiscard]] vec3 of(const Surface& surface) const {
     return number != nullptr ? vec3(surface.*number) : surface.*color;
   }
-  /// Of a number, its first channel is taken.
+  /// A field that is one number takes the value's first channel.
   void set(Surface& surface, const vec3& value) const {
     if (number != nullptr)
       surface.*number = value.x;

@@ -59,7 +59,7 @@ class SplatEmission {
  public:
   /// The scene must outlive it.
   explicit SplatEmission(const Scene& scene);
-  /// Of one splat, whose surface sends out `radiance`.
+  /// Radiance of one splat whose surface sends out `radiance`.
   [[nodiscard]] vec3 of(std::size_t splat, const vec3& radiance) const;
 
  private:

@@ -67,7 +67,7 @@ struct Facets {
   }
 };
 
-/// Of light mirrored by facets that the eye sees, the share that no others hide.
+/// The fraction of the light mirrored by facets that the eye sees which no others hide.
 float mirrored_share(const glm::vec3& to_eye, const glm::vec3& to_light, float alpha) {
   if (!(to_light.z > 0.0F)) return 0.0F;
   return 2.0F * to_light.z * (to_eye.z + glsl::ggx_stretch(to_eye.z, alpha)) *

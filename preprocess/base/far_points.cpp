@@ -88,7 +88,7 @@ std::size_t first_places(const Positions& positions, const std::vector<std::uint
   return end;
 }
 
-/// Of all points but these, ascending.
+/// The box of all points but these, ascending.
 Bounds box_without(const Positions& positions, const std::vector<std::uint32_t>& numbers) {
   Bounds box;
   auto next = numbers.begin();

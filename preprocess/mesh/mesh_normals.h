@@ -7,7 +7,7 @@
 
 namespace splatray {
 
-/// Of 30 degrees, BuildParams::crease_degrees.
+/// Cosine of 30 degrees, BuildParams::crease_degrees.
 inline constexpr double DEFAULT_CREASE_COSINE = 0.86602540378443865;
 
 /// For each position the index of the first position equal to it (-0 equals +0; NaN equals nothing).

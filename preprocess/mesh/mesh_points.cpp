@@ -151,7 +151,7 @@ void choose_samples(std::vector<MeshPart>& parts, Input& input, const ReadOption
   }
 }
 
-/// Of each part: its vertices where other parts have some too.
+/// Which vertices of each part lie where other parts have some too.
 std::vector<std::vector<bool>> shared_vertices(const std::vector<MeshPart>& parts) {
   using Place = std::tuple<double, double, double, std::size_t, std::size_t>;
   std::vector<Place> places;

@@ -42,7 +42,7 @@ std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const glm::uvec3& triangl
   return {positions[triangle.x], positions[triangle.y], positions[triangle.z]};
 }
 
-/// Of a piece of a triangle.
+/// Corners of a piece of a triangle.
 std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, const SamplePiece& piece) {
   const std::array<glm::dvec3, 3> whole = corners_of(mesh, mesh.triangles[piece.triangle]);
   std::array<glm::dvec3, 3> corners;

@@ -16,7 +16,7 @@ namespace splatray {
 /// Tessellation"; half is exact where the surface is a quadric's graph).
 struct SmoothTriangle {
   std::array<glm::dvec3, 3> corners;
-  /// Of each side, from a corner to the next: the middle lies an eighth of this off the chord.
+  /// How each side bends, from a corner to the next: its middle lies an eighth of this off the chord.
   std::array<glm::dvec3, 3> bow;
 
   /// The surface's point at these barycentric weights.
@@ -28,7 +28,7 @@ struct SmoothTriangle {
   /// Else `seen`: neighbouring discs are parts of one round surface. Slivers may be bent by more, and have no plane worth it.
   [[nodiscard]] glm::vec3 disc_normal(const glm::dvec3& weights, const glm::vec3& seen,
                                       double spacing_world) const;
-  /// Of the flat triangle.
+  /// The least height of the flat triangle.
   [[nodiscard]] double least_height() const;
 };
 

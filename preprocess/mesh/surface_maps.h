@@ -18,7 +18,7 @@ class MapSamples {
   /// The mesh must outlive it.
   explicit MapSamples(const Mesh& mesh);
 
-  /// Of the point of a triangle with these barycentric weights, and of a vertex; the surface's normal there, of any length.
+  /// Adds the point of a triangle with these barycentric weights, or a vertex, with the surface's normal there, of any length.
   void add(const glm::uvec3& triangle, const glm::vec3& weights, const glm::vec3& normal);
   void add(glm::uint vertex, const glm::vec3& normal);
 

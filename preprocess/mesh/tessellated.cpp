@@ -233,7 +233,7 @@ class LoneChords {
   std::vector<std::uint8_t> flat_;
 };
 
-/// Of each part whether it is a tessellated curve.
+/// Whether each part is a tessellated curve.
 std::vector<std::uint8_t> curved_parts(const MeshParts& parts, const Chords& chords,
                                        const std::vector<std::uint8_t>& chord) {
   std::vector<double> curved(parts.count, 0.0), agree(parts.count, 0.0);

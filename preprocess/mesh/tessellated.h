@@ -16,7 +16,7 @@ namespace splatray {
 /// as normals there are means of facets, or vertices lie beside the surface. An edge is bent only where all sides around its two
 /// triangles are chords: a flat between bevels looks like a dome by its own corners.
 ///
-/// Of each triangle's sides, one byte each: 1 where the edge is such a chord and normals turn by 3 degrees and more along it; the
+/// One byte for each of a triangle's sides: 1 where the edge is such a chord and normals turn by 3 degrees and more along it; the
 /// same from both triangles. Edges of more than two triangles are none, nor are borders whose vertices are `shared` with other
 /// meshes (null = none are), whose normals are not known. Empty where the mesh has no normals. `corners`: corner_normals.
 [[nodiscard]] std::vector<std::uint8_t> chord_sides(const Mesh& mesh, const std::vector<glm::uint>& weld,

@@ -14,13 +14,13 @@ namespace splatray {
 struct Format {
   std::string_view extensions;  ///< with their dots, in lower case, a blank between: ".gltf .glb"
   std::string_view contents;    ///< what is read, as the guide's table has it
-  /// Of a file that is one object; a mesh without triangles is a point set.
+  /// Reads a file that is one object; a mesh without triangles is a point set.
   Mesh (*read_mesh)(const std::filesystem::path& path, const ReadOptions& options,
                     const ReadListener& listener);
-  /// Of a file that is a scene.
+  /// Reads a file that is a scene.
   Input (*read_scene)(const std::filesystem::path& path, const ReadOptions& options,
                       const ReadListener& listener);
-  /// Of a file that is points alone: all such files make one object.
+  /// Reads a file that is points alone: all such files make one object.
   ScanFile (*read_scan)(const std::filesystem::path& path, const ReadOptions& options,
                         const ReadListener& listener);
 };

@@ -36,7 +36,7 @@ void require_one_unit(const std::vector<NamedScan>& scans) {
     refuse(*lengths, *degrees, "x and y in lengths in the one and in degrees in the other");
 }
 
-/// Of the points but those far from all others.
+/// The box of the points but those far from all others.
 Bounds box_of(const std::vector<glm::dvec3>& positions) {
   std::vector<glm::dvec3> finite;
   std::copy_if(positions.begin(), positions.end(), std::back_inserter(finite),

@@ -54,7 +54,7 @@ struct Cloud {
   bool on_facets = false;   ///< a mesh's: its points lie on flat facets
   bool oriented = false;    ///< normals point outwards: opposite normals are opposite sheets
   FarPoints far;            ///< as they were found; in the cloud only where it is not measured
-  /// Of these coordinates, all different and of surfaces; null = not looked for yet, or the points have changed since.
+  /// The search among these coordinates, all different and on surfaces; null = not looked for yet, or the points have changed since.
   std::shared_ptr<const NearPlaces> near;
 
   [[nodiscard]] std::size_t size() const { return coord.size(); }
@@ -67,7 +67,7 @@ struct Cloud {
   [[nodiscard]] std::size_t station_of(std::size_t i) const { return station.empty() ? 0 : station[i]; }
 };
 
-/// Of the places, world units.
+/// The box of the places, world units.
 [[nodiscard]] Bounds bounds_of(const Cloud& cloud);
 
 /// Takes an object's points: drops positions that are not finite (or beyond 1e100) and, of points that were measured, those

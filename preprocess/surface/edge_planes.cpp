@@ -82,7 +82,7 @@ struct Trials {
   }
 };
 
-/// Of each trial how well its plane fits the places; 0 of those through thin corners, and of what is parallel to a plane before.
+/// How well the plane of each trial fits the places; 0 of those through thin corners, and of what is parallel to a plane before.
 SPLATRAY_VECTOR_CLONES void score_trials(const Trials& trials, float* scores) {
   constexpr auto LEAST = static_cast<float>(LEAST_SINE * LEAST_SINE);
   constexpr auto MOST = static_cast<float>(PARALLEL_COSINE * PARALLEL_COSINE);

@@ -14,7 +14,7 @@ struct Around {
   std::array<glm::dvec3, MOST> offset;
   std::size_t count = 0;
 
-  /// Of the farthest neighbour.
+  /// Distance of the farthest neighbour.
   [[nodiscard]] double reach() const { return glm::length(offset[count - 1]); }
 };
 

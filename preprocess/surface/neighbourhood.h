@@ -53,7 +53,7 @@ struct Neighbourhood {
   bool oriented;      ///< Cloud::oriented
   bool on_facets;     ///< Cloud::on_facets
   bool ends_known;    ///< the surface ends, or has a crease, only where clip lines say so
-  /// Of this point: its clip lines were found among points, and neighbours suggest no others.
+  /// The point's clip lines were found among points, and neighbours suggest no others.
   bool creases_known;
   PointClip clip;         ///< of the point
   std::size_t found;      ///< sites looked at, also beyond the clip lines

@@ -36,7 +36,7 @@ constexpr double NOISE_REACH = 4.0;      // of a noisy sheet's disc, in standard
 constexpr double NOISE_LIMIT = 2.0;      // the same at most, in units of the disc that covers
 constexpr float STRAY = 4.0F;            // largest radius in units of the surroundings' median
 constexpr std::size_t SURROUNDING = 16;  // neighbours that show what distance is usual around a point
-// Of their squared distances over that of the EVEN_RING-th on a surface, with some room.
+// The ratio of their squared distances to that of the EVEN_RING-th on a surface, with some room.
 constexpr float SURROUNDING_OVER_RING = 1.3F * SURROUNDING / EVEN_RING;
 constexpr float CLOSED = 2.2F;  // radius of a closed cell, at most, in units of it: no even sample has more
 
@@ -143,7 +143,7 @@ SPLATRAY_VECTOR_CLONES std::optional<Covering> covering_radius(const Neighbourho
                   reach.open};
 }
 
-/// Of points whose radii follow their cells: the distance to the EVEN_RING-th neighbour, negative where the cell is open. Empty for
+/// For points whose radii follow their cells, the distance to the EVEN_RING-th neighbour, negative where the cell is open. Empty for
 /// points that were not measured: those are as even as they were made.
 using Rings = std::vector<float>;
 

@@ -106,7 +106,7 @@ LightSample light_sample(Receiver receiver, vec3 random) {
 
 /// The part of light that a ray met which counts, beside what vertices found by looking for it: the power heuristic (Veach 1997,
 /// "Robust Monte Carlo Methods for Light Transport Simulation", sec. 9.2.4). `pdf` as Path has it.
-float met_share(float pdf, float light_pdf) {
+float mis_weight(float pdf, float light_pdf) {
   if (pdf < 0.0f) return 0.0f;
   return pdf == 0.0f ? 1.0f : pdf * pdf / (pdf * pdf + light_pdf * light_pdf);
 }
@@ -201,7 +201,7 @@ vec3 met_light(Ray ray, float pdf, INOUT(float) t_max) {
       radiance *= light_falloff(light, to_light * inversesqrt(distance_squared), distance_squared) /
                   (PI * light.size * light.size);
     }
-    light_met = radiance * met_share(pdf, nearest_pdf * light_chosen(ray, pdf, light));
+    light_met = radiance * mis_weight(pdf, nearest_pdf * light_chosen(ray, pdf, light));
   }
   uint index = frame.lights_met;
   while (index < frame.lights_sized && ray.t_max == INFINITY_F) {
@@ -210,7 +210,7 @@ vec3 met_light(Ray ray, float pdf, INOUT(float) t_max) {
     float height = cone_height(sine * sine);
     vec3 apart = ray.dir - light.position;
     if (0.5f * dot(apart, apart) < height) {
-      float share = met_share(pdf, light_chosen(ray, pdf, light) / (TWO_PI * height));
+      float share = mis_weight(pdf, light_chosen(ray, pdf, light) / (TWO_PI * height));
       light_met += light.power / (PI * sine * sine) * share;
     }
     index += 1u;

@@ -64,8 +64,7 @@ float cosine_leaving(LightNode node, float ahead, float cosine, float sine) {
   return leaving >= node.cos_edge ? min(max(leaving, 0.0f), about) : 0.0f;
 }
 
-/// About what arrives of a node's light: not below what any of it could bring but for a common factor, and 0 only where none can
-/// (ibid., sec. 4).
+/// Importance of a node: an upper bound, up to a constant, of the light it can send; 0 only where it can send none (ibid., sec. 4).
 float node_importance(LightNode node, Receiver receiver) {
   bool distant = (node.content & LIGHT_NODE_DISTANT) != 0u;
   vec3 to_node = distant ? node.center : node.center - receiver.position;
@@ -112,7 +111,7 @@ float light_share(Receiver receiver, INOUT(uint) leaf, INOUT(float) random) {
   return share;
 }
 
-/// Of a leaf that is known.
+/// The share of a leaf that is known.
 float light_share_of(Receiver receiver, uint leaf) {
   float random = 0.5f;
   return light_share(receiver, leaf, random);

@@ -41,15 +41,15 @@ vec3 clamped(vec3 light, uint bounces) {
 bool through_plane(Hit hit, vec3 dir, float cosine) { return TEXTURE_NORMAL && dot(dir, hit.plane) * cosine <= 0.0f; }
 
 /// A ray that is worth tracing for the light it brings where nothing is in its way.
-struct Probe {
+struct EmissionSample {
   Ray ray;      ///< ends before it starts where it brings none
   vec3 light;   ///< sent on to the eye from a hit; of splats that send out light: where they send out 1
   uvec4 splat;  ///< words of one, which the ray looks for; else NO_SPLAT
   float pdf;    ///< how often the path would go on that way, per solid angle
 };
 
-Probe no_probe() {
-  Probe probe;
+EmissionSample no_emission_sample() {
+  EmissionSample probe;
   probe.ray = secondary_ray(vec3(0.0f), vec3(0.0f), 0u, vec3(0.0f), NO_OBJECT);
   probe.light = vec3(0.0f);
   probe.splat = NO_SPLAT;
@@ -58,14 +58,14 @@ Probe no_probe() {
 }
 
 /// Towards one of the lights, splats that send out light, or the environment.
-Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside) {
+EmissionSample sample_emitter(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside) {
   LightSample chosen = light_sample(receiver_at(hit.position, hit.plane, hit.object), random);
-  Probe probe;
+  EmissionSample probe;
   vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
   vec3 value = bsdf_value(bsdf, to_eye, to_light, probe.pdf);
   probe.splat = chosen.splat;
   bool emitter = EMISSION && probe.splat != NO_SPLAT;
-  float share = LOOK == LOOK_SCAN || emitter ? 1.0f : met_share(chosen.pdf, probe.pdf);
+  float share = LOOK == LOOK_SCAN || emitter ? 1.0f : mis_weight(chosen.pdf, probe.pdf);
   probe.light = value * chosen.radiance * share;
   if (through_plane(hit, chosen.dir, to_light.z)) probe.light = vec3(0.0f);
   uint object_bit = 0u;
@@ -81,12 +81,12 @@ Probe light_probe(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uin
 /// as often as its opacity says, by a hash of the ray and of the sheet's first splat (stochastic transparency: Enderton et al.
 /// 2010), which no order of splats changes, and of the sheets before: at a crease each of two sheets may be met again from the
 /// other, which would not end if a sheet were always passed by the rays that have passed it once. `of_ray` distinguishes rays.
-Hit trace_seen(Ray ray, uvec4 watched, uint of_ray, INOUT(Tally) tally) {
+Hit trace_seen(Ray ray, uvec4 target, uint of_ray, INOUT(Tally) tally) {
   float passed = 0.0f;
   bool passes = false;
   Hit hit;
   do {
-    hit = trace_watching(ray, frame.kappa, watched, tally);
+    hit = trace_watching(ray, frame.kappa, target, tally);
     passes = false;
     if (OPACITY) {
       // The mean of what is all opaque may be a rounding below 1.
@@ -120,7 +120,7 @@ uint hash_ray(Path path, bool to_light, uint pixel, uint sample_index) {
 float emitter_share(float pdf, Ray ray, vec3 sent) {
   float radiance = mean_of(sent);
   if (frame.emitters == 0u || radiance <= 0.0f) return 1.0f;
-  return met_share(pdf, emitters_pdf(receiver_left(ray), ray, radiance) * (1.0f - frame.sky_share));
+  return mis_weight(pdf, emitters_pdf(receiver_left(ray), ray, radiance) * (1.0f - frame.sky_share));
 }
 
 /// How much light that runs this far is left of it.
@@ -129,24 +129,23 @@ vec3 medium_left(uint inside, float t) {
   return exp(-(absorption_at(uint(findMSB(inside))) * t));
 }
 
-/// What of a probe for the light of a splat arrives: the splat's share in what its ray hits. What a path would have found that
-/// way itself is left to it.
-vec3 emitter_light(Probe probe, Hit hit) {
+/// Light of a sampled emissive splat, times its share of the cluster hit and the MIS weight of having sampled it.
+vec3 emitter_light(EmissionSample probe, Hit hit) {
   Ray ray = probe.ray;
   ray.t_max = hit.t;
-  bool seen = hit.found && hit.watched > 0.0f;
+  bool seen = hit.found && hit.target_fraction > 0.0f;
   if (SIZES && seen && light_hides(ray, NO_LIGHT)) seen = false;
   if (!seen) return vec3(0.0f);
   vec3 sent = textured(surface_at(hit.object), hit.factors).emission;
-  float share = hit.watched * (1.0f - emitter_share(max(probe.pdf, 1e-30f), ray, sent));
+  float share = hit.target_fraction * (1.0f - emitter_share(max(probe.pdf, 1e-30f), ray, sent));
   return probe.light * sent * medium_left(ray.inside, hit.t) * share;
 }
 
 /// Towards a white sky, whose light is weighted by cosine.
-Probe sky_probe(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
+EmissionSample sample_sky_light(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
   vec2 at = disc_sample(random);
   float height = sqrt(max(1.0f - dot(at, at), 0.0f));
-  Probe probe = no_probe();
+  EmissionSample probe = no_emission_sample();
   probe.light = bsdf.base * (LOOK == LOOK_SCAN ? SCAN_SKY : 1.0f);
   probe.ray = ray_from_hit(hit, basis.u * at.x + basis.v * at.y + hit.normal * height, inside);
   probe.ray.t_max = frame.reach;
@@ -155,17 +154,17 @@ Probe sky_probe(Hit hit, Bsdf bsdf, Basis basis, vec2 random, uint inside) {
 
 /// The light found from a hit by LOOK's rays: to a light, to the sky or both, one after the other, so that programs hold one walk
 /// for them. For the light of a splat, which a ray must hit as paths do, `emitter` is left.
-void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
-                INOUT(Probe) emitter, INOUT(Tally) tally) {
+void sample_lights(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
+                INOUT(EmissionSample) emitter, INOUT(Tally) tally) {
   bool sky = LOOK == LOOK_AO || LOOK == LOOK_SCAN;
   bool to_lights = LIGHTS || SKY || EMISSION;
   do {
-    Probe probe;
+    EmissionSample probe;
     if (sky) {
       vec4 random_sky = sobol_sample(pixel, sample_index, 2u, frame.seed);
-      probe = sky_probe(hit, bsdf, basis, vec2(random_sky), path.ray.inside);
+      probe = sample_sky_light(hit, bsdf, basis, vec2(random_sky), path.ray.inside);
     } else {
-      probe = light_probe(hit, bsdf, basis, to_eye, vec3(random), path.ray.inside);
+      probe = sample_emitter(hit, bsdf, basis, to_eye, vec3(random), path.ray.inside);
       to_lights = false;
     }
     if (EMISSION && probe.splat != NO_SPLAT && probe.ray.t_max >= 0.0f) {
@@ -185,7 +184,7 @@ void look_for_light(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_e
 }
 
 /// Has the path go on from a hit.
-void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
+void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
   BsdfSample chosen = bsdf_direction(bsdf, to_eye, vec3(random));
   bsdf_weigh(bsdf, to_eye, chosen);
   vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
@@ -222,7 +221,7 @@ void go_on(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 
 /// What a path finds where it meets nothing.
 void meet_environment(INOUT(Path) path) {
   float share = path.pdf < 0.0f ? 0.0f : 1.0f;
-  if (SKY) share = met_share(path.pdf, path.pdf > 0.0f ? sky_pdf(path.ray.dir) * frame.sky_share : 0.0f);
+  if (SKY) share = mis_weight(path.pdf, path.pdf > 0.0f ? sky_pdf(path.ray.dir) * frame.sky_share : 0.0f);
   if (path.bounce == 0u) {
     path.radiance += path.throughput * background_radiance(path.ray.dir);
   } else {
@@ -240,8 +239,8 @@ void show_seen(INOUT(Path) path, Hit hit, Bsdf bsdf, vec3 to_eye, uint pixel) {
   path.coverage = (hit.t + eye_distance) * frame.root_unit_world;
 }
 
-/// What a path finds at a hit, and whether and how it goes on. `emitter` as look_for_light has it.
-void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Probe) emitter, INOUT(Tally) tally) {
+/// What a path finds at a hit, and whether and how it goes on. `emitter` as sample_lights has it.
+void shade_hit(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(EmissionSample) emitter, INOUT(Tally) tally) {
   path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
   Surface surface = textured(surface_at(hit.object), hit.factors);
   float eta = 1.0f;
@@ -260,18 +259,18 @@ void meet_surface(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOU
   Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
   if (LIGHTS || SKY || EMISSION || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
-    look_for_light(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, emitter, tally);
+    sample_lights(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, emitter, tally);
   if (LOOK == LOOK_BASE) path.radiance = bsdf.base;
   if (LOOK == LOOK_SEEN) show_seen(path, hit, bsdf, to_eye, pixel);
   if (LOOK == LOOK_AO || LOOK == LOOK_SCAN || LOOK == LOOK_BASE || LOOK == LOOK_SEEN) {
     path.alive = false;
   } else {
-    go_on(path, hit, bsdf, basis, to_eye, sobol_sample(pixel, sample_index, 2u + 2u * path.bounce, frame.seed));
+    scatter(path, hit, bsdf, basis, to_eye, sobol_sample(pixel, sample_index, 2u + 2u * path.bounce, frame.seed));
   }
 }
 
 /// What a path's ray finds.
-void meet(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Probe) emitter, INOUT(Tally) tally) {
+void meet(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(EmissionSample) emitter, INOUT(Tally) tally) {
   bool light_first = false;
   if (SIZES && LOOK != LOOK_SCAN) {
     float t = hit.t;
@@ -282,7 +281,7 @@ void meet(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Probe)
     path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
     path.alive = false;
   } else if (hit.found) {
-    meet_surface(path, hit, pixel, sample_index, emitter, tally);
+    shade_hit(path, hit, pixel, sample_index, emitter, tally);
   } else {
     meet_environment(path);
   }
@@ -291,7 +290,7 @@ void meet(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(Probe)
 /// Follows a path: to its end or, in a stage, for one ray. `pixel` numbers the pixel in the whole picture. Rays that look for the
 /// light of splats take their turn between those of the path, so that programs hold one walk for both.
 void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) tally) {
-  Probe emitter = no_probe();
+  EmissionSample emitter = no_emission_sample();
   bool looks = false;
   do {
     Ray ray = path.ray;

@@ -31,7 +31,7 @@ vec3 splat_center(uvec4 words) {
   return vec3(float(words.x >> 11u), float(y), float(words.y & 0x1FFFFFu));
 }
 
-/// Of octahedral coordinates, |x| + |y| + |z| = scale; exact where all are integers.
+/// The direction of octahedral coordinates, |x| + |y| + |z| = scale; exact where all are integers.
 vec3 octahedral(float x, float y, float scale) {
   float z = scale - abs(x) - abs(y);
   float fold = max(-z, 0.0f);

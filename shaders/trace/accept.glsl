@@ -30,7 +30,7 @@ First no_first() {
 
 bool is_found(First first) { return first.t.x < INFINITY_F; }
 
-/// With a region all that is opaque is: whoever looks into a body that is cut open sees it from behind.
+/// With a region opaque objects are two-sided: a cut body is seen from inside.
 bool is_two_sided(uint object) {
   if (FACES == FACES_BOTH || FACES == FACES_CUT) return true;
   if (FACES == FACES_FRONT) return false;

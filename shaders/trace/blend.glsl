@@ -9,10 +9,10 @@
 
 /// What the ray sees first, and whether a splat is a member of it. HOST: engine/cpu/wide_trace.h, by the wide tree.
 #ifdef HOST
-Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally);
+Hit trace_watching(Ray ray, float kappa, uvec4 target, INOUT(Tally) tally);
 #else
-Hit trace_watching(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
-  return trace_octree(ray, kappa, watched, tally);
+Hit trace_watching(Ray ray, float kappa, uvec4 target, INOUT(Tally) tally) {
+  return trace_octree(ray, kappa, target, tally);
 }
 #endif
 

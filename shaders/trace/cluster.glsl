@@ -14,7 +14,7 @@ struct Cluster {
   int depth;
   ivec3 color;
   uint members;
-  uint watched;  ///< members with the words watched
+  uint target_members;  ///< members that are the target splat
 #ifdef LIT
   FactorSums factors;
   ivec3 tilt;
@@ -31,7 +31,7 @@ Cluster empty_cluster() {
   cluster.depth = 0;
   cluster.color = ivec3(0);
   cluster.members = 0u;
-  cluster.watched = 0u;
+  cluster.target_members = 0u;
 #ifdef LIT
   cluster.factors = no_factor_sums();
   cluster.tilt = ivec3(0);
@@ -119,7 +119,7 @@ bool is_member(uvec4 words, PlaneHit hit, Ray ray, Window window, Cluster cluste
 }
 
 /// Adds a splat where it is met to the cluster if it is a member, else nothing.
-void add_splat(uint splat, uvec4 words, PlaneHit hit, bool member, Ray ray, Window window, uvec4 watched,
+void add_splat(uint splat, uvec4 words, PlaneHit hit, bool member, Ray ray, Window window, uvec4 target,
                INOUT(Cluster) cluster) {
   float behind = df_add(hit.t, -window.t).x;
   float inverse_radius = inversesqrt(splat_radius_squared(words));
@@ -133,7 +133,7 @@ void add_splat(uint splat, uvec4 words, PlaneHit hit, bool member, Ray ray, Wind
   cluster.normal += ivec3(floor(normal + vec3(0.5f)));
   cluster.depth += int(floor(weight * share + 0.5f));
   if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
-  if (WATCHES) cluster.watched += member && words == watched ? 1u : 0u;
+  if (WATCHES) cluster.target_members += member && words == target ? 1u : 0u;
 #ifdef LIT
   add_factors(cluster.factors, factors_at(splat), weight);
   if (TEXTURE_NORMAL && member)
@@ -144,14 +144,14 @@ void add_splat(uint splat, uvec4 words, PlaneHit hit, bool member, Ray ray, Wind
 
 /// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds
 /// no member). `shift` is what clip_to_root took from t.
-Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, uvec4 watched) {
+Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, uvec4 target) {
   Hit hit;
   hit.found = is_found(first);
   hit.first = first.words;
   hit.object = hit.found ? splat_object(first.words) : NO_OBJECT;
   hit.front = first.front;
   hit.members = cluster.members;
-  hit.watched = WATCHES && hit.found && first.words == watched ? 1.0f : 0.0f;
+  hit.target_fraction = WATCHES && hit.found && first.words == target ? 1.0f : 0.0f;
   vec2 t = first.t;
   vec3 normal = normal_against(first.words, ray.dir);
   hit.color = vec3(1.0f);
@@ -164,7 +164,7 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, 
     t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
     normal = vec3(cluster.normal);
     normal *= inversesqrt(dot(normal, normal));
-    if (WATCHES) hit.watched = float(cluster.watched) / float(cluster.members);
+    if (WATCHES) hit.target_fraction = float(cluster.target_members) / float(cluster.members);
     if (COLORS) hit.color = vec3(cluster.color) * inverse;
 #ifdef LIT
     hit.factors = mean_factors(cluster.factors, inverse);

@@ -22,7 +22,7 @@ struct Hit {
   vec3 plane;       ///< blended unit normal without normal maps, which `normal` has
 #endif
   uvec4 first;      ///< words of the first splat (BLEND_PAPER, BLEND_LEAF: the reference splat)
-  float watched;    ///< share of the splat watched in its members, 0..1
+  float target_fraction;  ///< of its members that are the target splat, 0..1
 };
 
 /// Work done by this invocation; kept only with COUNTERS.

@@ -87,7 +87,7 @@ uint accept_candidates(uint chunk, uint candidates, Ray ray, Walk walk, bool fin
 /// Adds the candidates that are hits and belong to the first splat's cluster: bit i of x is splat chunk + i, of y splat
 /// chunk + CHUNK + i. Where each is met is computed anew in double-float, so that grazing rays and small discs far away have
 /// exact weights.
-void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, First first, float depth, uvec4 watched,
+void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, First first, float depth, uvec4 target,
                            INOUT(Cluster) cluster) {
   Window window = window_of(first, ray, depth);
   do {
@@ -101,7 +101,7 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
       PlaneHit hit = meet_splat(splat, words, ray);
       bool member = is_member(words, hit, ray, window, cluster) &&
                     hit_accepted(words, splat, hit, ray, walk.t_in, walk.t_out);
-      add_splat(splat, words, hit, member, ray, window, watched, cluster);
+      add_splat(splat, words, hit, member, ray, window, target, cluster);
     }
   } while ((candidates.x | candidates.y) != 0u);
 }
@@ -109,7 +109,7 @@ void accumulate_candidates(uint chunk, uvec2 candidates, Ray ray, Walk walk, Fir
 /// What the ray sees first, and whether a splat is a member of it, by the octree. The ray may start anywhere; one that ends
 /// before it starts is not traced. The leaf with the first hit is looked through to its end before any of its splats is
 /// accumulated; one of more than two CHUNKs is then gone through again.
-Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
+Hit trace_octree(Ray ray, float kappa, uvec4 target, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);
@@ -141,13 +141,13 @@ Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
     hits = again ? uvec2(0u, 0u) : hits;
     chunk = walk.begin;
     do {
-      accumulate_candidates(chunk, hits, ray, walk, first, depth, watched, cluster);
+      accumulate_candidates(chunk, hits, ray, walk, first, depth, target, cluster);
       bool last = walk.leaves >= last_leaf;
       walk.inside = walk.inside && (walk.next < walk.end || (!last && walk.t_out <= t_end));
       hits = uvec2(walk_candidates(walk, ray, t_end, last, chunk, tally), 0u);
     } while (hits.x != 0u);
   }
-  return finish_hit(ray, first, cluster, depth, shift, watched);
+  return finish_hit(ray, first, cluster, depth, shift, target);
 }
 
 #endif

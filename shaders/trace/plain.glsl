@@ -70,7 +70,7 @@ Finding nothing_found() {
 }
 
 /// Takes the candidates of a chunk that are hits: for the first splat or, once that is found, into its cluster.
-void take_hits(uint chunk, uint candidates, Ray ray, Walk walk, uvec4 watched, INOUT(Finding) finding) {
+void take_hits(uint chunk, uint candidates, Ray ray, Walk walk, uvec4 target, INOUT(Finding) finding) {
   uint hits = 0u;
   while (candidates != 0u) {
     uint bit = uint(findLSB(candidates));
@@ -84,7 +84,7 @@ void take_hits(uint chunk, uint candidates, Ray ray, Walk walk, uvec4 watched, I
         hits |= 1u << bit;
         if (BLEND == BLEND_COUNT) finding.cluster.members += 1u;
       } else if (is_member(words, hit, ray, finding.window, finding.cluster)) {
-        add_splat(splat, words, hit, true, ray, finding.window, watched, finding.cluster);
+        add_splat(splat, words, hit, true, ray, finding.window, target, finding.cluster);
       }
     }
   }
@@ -93,7 +93,7 @@ void take_hits(uint chunk, uint candidates, Ray ray, Walk walk, uvec4 watched, I
 
 /// Goes through the current leaf, and where that has the first hit once more, for its cluster. Returns whether it is a leaf behind
 /// that of the first hit, and has candidates.
-bool take_leaf(Walk walk, Ray ray, float kappa, uvec4 watched, INOUT(Finding) finding, INOUT(Tally) tally) {
+bool take_leaf(Walk walk, Ray ray, float kappa, uvec4 target, INOUT(Finding) finding, INOUT(Tally) tally) {
   uint passes = 1u;
   uint any = 0u;
   for (uint pass = 0u; pass < passes; pass += 1u) {
@@ -101,7 +101,7 @@ bool take_leaf(Walk walk, Ray ray, float kappa, uvec4 watched, INOUT(Finding) fi
       uint candidates = chunk == walk.begin ? finding.hits.x : finding.hits.y;
       if (pass == 0u || walk.end - walk.begin > 2u * CHUNK) candidates = test_chunk(chunk, walk, ray, tally);
       any |= candidates;
-      take_hits(chunk, candidates, ray, walk, watched, finding);
+      take_hits(chunk, candidates, ray, walk, target, finding);
     }
     if (BLEND != BLEND_COUNT && BLEND != BLEND_NEAREST && !finding.found && is_found(finding.first)) {
       finding.found = true;
@@ -115,7 +115,7 @@ bool take_leaf(Walk walk, Ray ray, float kappa, uvec4 watched, INOUT(Finding) fi
 
 /// What the ray sees first, and whether a splat is a member of it, by the octree. The ray may start anywhere; one that ends
 /// before it starts is not traced.
-Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
+Hit trace_octree(Ray ray, float kappa, uvec4 target, INOUT(Tally) tally) {
   bool enters = true;
   float t_start = 0.0f;
   float shift = clip_to_root(ray, enters, t_start);
@@ -124,13 +124,13 @@ Hit trace_octree(Ray ray, float kappa, uvec4 watched, INOUT(Tally) tally) {
   Finding finding = nothing_found();
   float t_end = ray.t_max;
   while (enters && walk_on(walk, ray, t_end, tally)) {
-    bool behind = take_leaf(walk, ray, kappa, watched, finding, tally);
+    bool behind = take_leaf(walk, ray, kappa, target, finding, tally);
     if (BLEND == BLEND_WINDOW && finding.found) t_end = min(window_end(finding.first, finding.depth), ray.t_max);
     if (BLEND == BLEND_NEAREST) enters = !is_found(finding.first);
     if (BLEND == BLEND_LEAF) enters = !finding.found;
     if (BLEND == BLEND_PAPER) enters = !behind;
   }
-  return finish_hit(ray, finding.first, finding.cluster, finding.depth, shift, watched);
+  return finish_hit(ray, finding.first, finding.cluster, finding.depth, shift, target);
 }
 
 #endif

@@ -1,5 +1,5 @@
-"""wheel_test.py SOURCE WORK: builds the wheel of the system's Python in WORK, checks what is in it, installs it where nothing else is and
-runs the tests beside this file there. With SPLATRAY_TEST_ALL set (tests/run --all) those of all Pythons on PATH, and Debian's package.
+"""wheel_test.py SOURCE WORK RENDER: builds the wheel of the system's Python in WORK, checks what is in it, installs it where nothing else is and
+runs the tests beside this file there, some beside the program RENDER. With SPLATRAY_TEST_ALL set (tests/run --all) those of all Pythons on PATH, and Debian's package.
 Exit 77 with a sentence where tools are missing."""
 
 import os
@@ -11,7 +11,7 @@ import sys
 import tempfile
 import zipfile
 
-SOURCE, WORK = map(pathlib.Path, sys.argv[1:3])
+SOURCE, WORK, RENDER = map(pathlib.Path, sys.argv[1:4])
 sys.path += [str(SOURCE / "tests/install"), str(SOURCE / "app/python")]
 from install_test import run  # noqa: E402  (lies in a folder just named)
 from make_wheels import WHEELS, build_requirements, interpreters  # noqa: E402
@@ -101,7 +101,8 @@ def check_wheel(wheel, tools):
 
 def run_cases(python, pattern, folder, **changes):
     """Runs tests beside this file; nothing of the sources or the sanitizers of this build is in the way."""
-    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "ASAN_OPTIONS", "LD_PRELOAD")} | changes
+    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "ASAN_OPTIONS", "LD_PRELOAD")}
+    environment |= {"SPLATRAY_RENDER": str(RENDER)} | changes
     print(run(python, "-m", "unittest", "discover", "-s", SOURCE / "tests/python", "-p", pattern, "-v", cwd=folder, env=environment))
 
 

@@ -21,7 +21,8 @@ ROOMS = ["shaders", "shaders/lang", "shaders/primitive", "shaders/scene", "shade
 ONLY_FOR = {"engine/gpu": ("engine/gpu", "app/library/shot", "app/library/picture", "tests"),
             # What decides what was not asked: in one place.
             "engine/image/scan_kind.h": ("engine/image", "app/library/shot", "tests"),
-            "engine/image/upright.h": ("engine/image", "app/library/shot", "tests"),
+            # A model says in its scene file which way it stands.
+            "engine/image/upright.h": ("engine/image", "preprocess/build.cpp", "app/library/shot", "tests"),
             "app/library/shot/sheet_placement.h": ("app/library/shot", "tests"),
             "engine/device/vulkan": ("engine/device/vulkan", "engine/device/open_device.cpp", "app/view/window", "tests"),
             "engine/device/host": ("engine/device/host", "engine/device/open_device.cpp", "tests"),
@@ -41,6 +42,20 @@ MOST_FEATURES = 28
 # What knows how splats are stored, as of today: these numbers may only fall. Who reads splats does so by engine/scene/scene_splat.h.
 DECODING = re.compile(r"\bunpack_(?:splat|center|radius_squared|stored_normal)\(")
 WHOLE_POOL = re.compile(r"(?:\.|->|::)(?:node|slab|reference|data|color|field|clip)_pool\b")
+# Where what a request leaves open is chosen: who calls what chooses; CHOOSERS define it.
+CHOSEN = {"view": (r"\bchoose_viewpoint\(", {"app/library/shot/scene_facts.cpp"}),
+          "up direction": (r"\bupright\(scene\)|\bupright_model\(", {"app/library/shot/resolve.cpp", "preprocess/build.cpp"}),
+          "look": (r"\bresolve_look\(", {"app/library/shot/resolve.cpp", "app/library/shot/lights.cpp"}),
+          "colours": (r"\bresolve_(?:color_by|colors)\(", {"app/library/shot/resolve.cpp"}),
+          "exposure": (r"\bautomatic_exposure_ev\(", {"app/library/shot/picture_lights.cpp"}),
+          "noise": (r"\bresolve_denoise\(|\bremove_noise\(", {"app/library/shot/resolve.cpp", "app/library/picture/make_picture.cpp"}),
+          "lights": (r"\bdefault_lights\(|\bheadlight\(", {"app/library/shot/lights.cpp", "app/library/shot/picture_lights.cpp"}),
+          "a drawing's place": (r"\bmake_sheet\(", {"app/library/shot/resolve.cpp"})}
+CHOOSERS = {"app/library/display_image.cpp", "app/library/picture/denoise.cpp", "app/library/shot/sheet_placement.cpp",
+            "engine/image/framing.cpp", "engine/image/lights.cpp", "engine/image/upright.cpp"}
+# Comments that begin with "Of", of a thing that they leave unsaid: as of today, and fewer.
+OF_WHAT = re.compile(r"^\s*///? Of ", re.MULTILINE)
+MOST_OF_WHAT = 26
 MOST_DECODERS = 12
 MOST_POOL_HOLDERS = 22
 
@@ -196,6 +211,23 @@ def lines_of_code(text):
     return sum(1 for line in text.split("\n") if line.strip() and not line.strip().startswith("//"))
 
 
+def choosers(root, files):
+    """Calls of what chooses, elsewhere than CHOSEN has them; its rows that choose nowhere."""
+    for what, (names, places) in CHOSEN.items():
+        named = set(code_that_names(root, files, re.compile(names)))
+        for name in sorted(name for name in named - places - CHOOSERS if name.endswith(".cpp")):
+            yield f"{name}: chooses the {what}, expected that of {', '.join(sorted(places))} alone"
+        for name in sorted(place for place in places - named if place in files):
+            yield f"{name}: chooses no {what}, expected CHOSEN without it"
+
+
+def unsaid_subjects(root, files):
+    code = [name for name in files if name.endswith((".cpp", ".h", ".glsl")) and not name.startswith("tests/")]
+    count = sum(len(OF_WHAT.findall((root / name).read_text())) for name in code)
+    if count > MOST_OF_WHAT:
+        yield f"comments: found {count} that begin with 'Of', expected at most {MOST_OF_WHAT}: say of what is spoken"
+
+
 def long_files(root, files):
     for name in files:
         if not name.endswith((".cpp", ".h", ".glsl")):
@@ -209,7 +241,7 @@ def findings(root):
     files = tracked(root)
     return [*includes_upwards(root, files), *unranked(files), *circles(root, files), *closed_circles(root, files), *closed_rooms(root, files),
             *full_folders(files), *long_files(root, files),
-            *torn_lines(root, files), *kernel_counts(root), *readers_of_words(root, files)]
+            *torn_lines(root, files), *kernel_counts(root), *readers_of_words(root, files), *choosers(root, files), *unsaid_subjects(root, files)]
 
 
 def prove():
@@ -232,6 +264,9 @@ def prove():
         "features": {"shaders/variants.cmake": "", "shaders/layout.h": "", "shaders/pools.glsl": "SPLATRAY_OPTIONAL_POOL(0u, A)\n" * (MOST_FEATURES + 1)},
         "decoders": {f"preprocess/read/{i}.cpp": "Splat splat = unpack_splat(words);\n" for i in range(MOST_DECODERS + 1)},
         "decoders of a part": {f"app/cli/{i}.h": "auto at = unpack_center(words);\n" for i in range(MOST_DECODERS + 1)},
+        "comments without a subject": {"engine/base/a.h": "/// Of a point.\n" * (MOST_OF_WHAT + 1)},
+        "a second place that chooses": {"app/cli/a.cpp": "const Viewpoint view = choose_viewpoint(scene);\n"},
+        "a place that chooses no longer": {"app/library/shot/scene_facts.cpp": "int a();\n"},
         "pools": {f"app/cli/{i}.cpp": "f(scene.data_pool, scene->clip_pool);\n" for i in range(MOST_POOL_HOLDERS + 1)},
         "constants": {"shaders/variants.cmake": "", "shaders/layout.h": "SPLATRAY_CONST SPEC_A = 0u;\n" * (MOST_CONSTANTS + 1)},
     }

@@ -45,7 +45,7 @@ void check_name(const std::string& what, const std::string& name) {
     refuse(what + " with a zero character in its name", "another name");
 }
 
-/// Of attributes whose values stand for themselves, such as classes.
+/// Checks attributes whose values stand for themselves, such as classes.
 void check_categories(const Attribute& attribute) {
   for (const double value : attribute.values)
     if (std::isfinite(value) &&

@@ -14,7 +14,7 @@ namespace splatray {
 /// A place on a surface.
 struct SurfacePoint {
   glm::dvec3 place{0.0};  ///< world
-  /// Which way it moves where the surface is elsewhere, as long as the standard deviation of that; 0 = exact.
+  /// Standard deviation of the position, as a vector along which it would shift; 0 = exact.
   glm::dvec3 error{0.0};
   /// Which way it was moved along the surface from the place that was given, and how far: an error as the other is; 0 = not.
   glm::dvec3 sideways{0.0};
@@ -54,16 +54,16 @@ void add_point(std::vector<Measure>& measures, MeasureKind kind, const SurfacePo
 
 /// Sum of the lengths from point to point.
 [[nodiscard]] double path_length(std::span<const glm::dvec3> points);
-/// Of b above a; `up` of any length > 0.
+/// Height of b above a; `up` of any length > 0.
 [[nodiscard]] double height_above(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& up);
-/// At b, degrees 0..180; 0 where points coincide.
+/// Angle at b, degrees 0..180; 0 where points coincide.
 [[nodiscard]] double angle_deg(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
-/// Of a polygon, whose corners need not lie in one plane exactly: half the length of its vector area (Newell).
+/// Area of a polygon whose corners need not lie in one plane exactly: half the length of its vector area (Newell).
 [[nodiscard]] double polygon_area(std::span<const glm::dvec3> points);
 
 enum class MeasureUnit { length, area, degrees };
 
-/// A value, and half the width of the interval around it that holds the true one 95 times of 100, as errors of points propagate to
+/// A value, and the half-width of its 95 % confidence interval, as errors of points propagate to
 /// it (JCGM 100:2008, sec. 5): of the surface, as smooth_error has it, not of the scans' registration and scale.
 struct MeasureValue {
   std::string name;

@@ -27,7 +27,7 @@ class Probe {
     for (Material& material : look_.objects.materials) material.flags |= MATERIAL_TWO_SIDED;
   }
 
-  /// Of the splats from `begin` on, along their normals (1) or against them (-1): how far the surface lies that way.
+  /// How far the surface lies from the splats from `begin` on, along their normals (1) or against them (-1).
   [[nodiscard]] std::vector<double> reach(std::size_t begin, std::size_t count, double way) {
     const double behind_world = BEHIND * earlier_.root.unit_world;
     std::vector<double> distances(count, INFINITY);

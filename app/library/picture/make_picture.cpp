@@ -10,7 +10,7 @@
 #include "app/library/shot/cut_lines.h"
 #include "app/library/shot/picture_lights.h"
 #include "engine/base/stopwatch.h"
-#include "engine/image/sparks.h"
+#include "engine/image/fireflies.h"
 
 namespace splatray {
 namespace {
@@ -60,7 +60,7 @@ MadePicture traced_picture(const Shot& shot, SceneOnDevice& shown, const Camera&
     render_samples(shot, shown, look, view, settings, progress, stopped, made);
   }
   if (made.samples_missing > 0) return made;
-  if (request.output.despeckle) made.image = without_sparks(std::move(made.image));
+  if (request.output.despeckle) made.image = without_fireflies(std::move(made.image));
   if (!shot.denoises()) return made;
   Stopwatch watch;
   made.denoiser = remove_noise(shown.tracer(), look, view, settings, made.image);

@@ -51,8 +51,8 @@ struct Field {
   std::vector<std::string> choices{};  ///< names of which it is one; empty for other fields
   /// Reads a value; throws Expected for another text, and Error of what a file in it says.
   std::function<void(Request&, const std::string&)> read;
-  /// The texts that read() makes the request's value of, nothing where it is unset; with the name of the field they are of, as
-  /// those of a family are written together. Empty function: it has no text of its own.
+  /// The value as texts that read() accepts, each with its field's name, as those of a family are written together; empty if unset.
+  /// Empty function: it has no text of its own.
   std::function<std::vector<FieldText>(const Request&)> write;
   FieldDoors doors = DOORS_OF_PICTURES;
   std::string why_not;  ///< why the other doors do not have it; empty where all that make pictures do

@@ -100,7 +100,7 @@ struct Request {
     bool mixed_devices = false;    ///< also of one that another device or driver made
     std::optional<bool> denoise;   ///< false: --keep-noise; unset: as suits the picture
     std::string chosen{};    ///< what a picture that is made again says was chosen for it; no field has it
-    bool despeckle = false;  ///< sparks.h
+    bool despeckle = false;  ///< fireflies.h
     AovSet aovs = 0;
     std::string title;                    ///< of a sheet's page; empty = the input's name
     std::filesystem::path measures;       ///< drawn on a sheet's page, measure_file.h; empty = none

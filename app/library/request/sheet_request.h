@@ -15,7 +15,7 @@ enum class SheetKind {
 
 struct SheetRequest {
   SheetKind kind = SheetKind::plan;
-  /// Of a section X0,Y0,X1,Y1, of an elevation the degrees of where one stands, clockwise from north (the plan's top), of an ortho
+  /// A section has X0,Y0,X1,Y1, an elevation the degrees of where one stands, clockwise from north (the plan's top), an ortho
   /// the direction DX,DY,DZ that one looks in; in the file's coordinates.
   std::vector<double> place;
   std::optional<double> height;  ///< of a plan's cut, along the up axis, world units

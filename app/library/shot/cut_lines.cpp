@@ -10,7 +10,7 @@ namespace {
 
 /// Sine of the least angle between a disc and the plane: what lies nearly in it has no line there.
 constexpr double LEAST_SINE = 0.26;
-/// Of a disc's radius: discs overlap, and reach beyond a surface's borders.
+/// The fraction of a disc's radius that is drawn: discs overlap, and reach beyond a surface's borders.
 constexpr double DRAWN = 0.9;
 
 /// The distance of a point from a line between two places.

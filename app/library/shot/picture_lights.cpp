@@ -36,7 +36,7 @@ std::vector<RayQuery> rays_around(const Scene& scene, const glm::dvec3& eye) {
 /// the directions from the eye lead out of the scene. As bright as makes irradiance pi at the median distance of what the eye
 /// sees around it. Nothing for looks that do not trace paths, eyes outside the scene's bounds, orthographic cameras, and scenes
 /// that have lights or objects that send out light.
-std::optional<SceneLight> eye_light(SceneOnDevice& shown, const Camera& camera, const Settings& settings) {
+std::optional<SceneLight> headlight(SceneOnDevice& shown, const Camera& camera, const Settings& settings) {
   const Scene& scene = shown.scene();
   const bool within = glm::all(glm::greaterThan(camera.eye, scene.bounds_min_world)) &&
                       glm::all(glm::lessThan(camera.eye, scene.bounds_max_world));
@@ -60,7 +60,7 @@ std::optional<SceneLight> eye_light(SceneOnDevice& shown, const Camera& camera, 
 LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
   LitLook lit{shown.look()};
   lit.look.lights = lights_of_look(shot.settings.look, resolve_lights(shown.scene(), shot.request, camera));
-  const auto at_eye = shot.request.look.lights ? std::nullopt : eye_light(shown, camera, shot.settings);
+  const auto at_eye = shot.request.look.lights ? std::nullopt : headlight(shown, camera, shot.settings);
   if (at_eye) {
     lit.look.lights = {*at_eye};
     lit.notes.emplace_back("no light enters where the camera is, one is put there; --light says others");

@@ -21,7 +21,7 @@ void note(Shot& shot, const std::string& field, const std::string& text) {
 }
 
 /// Where a scan is seen from. An orbit is from outside.
-void choose_view(const SceneFacts& facts, Shot& shot) {
+void resolve_view(const SceneFacts& facts, Shot& shot) {
   Request::View& view = shot.request.view;
   if (facts.kind == SceneKind::none || view.eye || view.sheet || view.viewpoint != Viewpoint::automatic)
     return;
@@ -35,7 +35,7 @@ bool is_inside(const SceneFacts& facts, const Request& request) {
   return facts.kind == SceneKind::room && request.view.viewpoint == Viewpoint::inside;
 }
 
-const char* suited_colors(const SceneFacts& facts, bool inside) {
+const char* resolve_colors(const SceneFacts& facts, bool inside) {
   if (facts.has_colors) return "rgb";
   const bool land = facts.kind == SceneKind::site || facts.kind == SceneKind::sweep ||
                     (facts.kind == SceneKind::room && !inside);
@@ -43,15 +43,15 @@ const char* suited_colors(const SceneFacts& facts, bool inside) {
   return land || facts.kind == SceneKind::room ? "height" : "plain";
 }
 
-void choose_colors(const SceneFacts& facts, Shot& shot) {
+void resolve_color_by(const SceneFacts& facts, Shot& shot) {
   std::string& color_by = shot.request.look.attributes.color_by;
   if (facts.kind == SceneKind::none || !color_by.empty()) return;
-  color_by = facts.color_by.empty() ? suited_colors(facts, is_inside(facts, shot.request)) : facts.color_by;
+  color_by = facts.color_by.empty() ? resolve_colors(facts, is_inside(facts, shot.request)) : facts.color_by;
   note(shot, "color-by", color_by);
 }
 
 /// A section lies in the shade of what is above it: the sky's light shows it, too.
-void choose_scan_look(const Scene& scene, const SceneFacts& facts, Shot& shot) {
+void resolve_scan_look(const Scene& scene, const SceneFacts& facts, Shot& shot) {
   Request& request = shot.request;
   if (facts.kind == SceneKind::none || request.look.style || resolve_look(scene, request) != LOOK_SCAN)
     return;
@@ -62,7 +62,7 @@ void choose_scan_look(const Scene& scene, const SceneFacts& facts, Shot& shot) {
 }
 
 /// Noise is taken out of whole pictures for looking at of which nothing decides that: what is measured or joined keeps it.
-void choose_noise(Shot& shot) {
+void resolve_denoise(Shot& shot) {
   const Request& request = shot.request;
   Request::Output& output = shot.request.output;
   const bool decided = output.denoise || output.despeckle || request.settings.has_goal() ||
@@ -75,7 +75,7 @@ void choose_noise(Shot& shot) {
 }
 
 /// Has occlusion reach as far as suits what a region holds. Throws Error (usage) where that is nothing.
-void suit_region(const Scene& scene, const Region& region, double& reach_world) {
+void resolve_reach(const Scene& scene, const Region& region, double& reach_world) {
   if (region.empty()) return;
   const PointSample kept = sample_points(scene, region);
   if (kept.size() == 0)
@@ -87,7 +87,7 @@ void suit_region(const Scene& scene, const Region& region, double& reach_world) 
 }
 
 /// What suits a drawing: light of what is kept, nothing in the background, for --xray no tone.
-void suit_sheet(Request& request) {
+void resolve_sheet(Request& request) {
   Request::View& view = request.view;
   view.region.light_kept = view.region.light_kept.value_or(true);
   if (!request.settings.background) request.settings.transparent = true;
@@ -176,8 +176,8 @@ glm::dvec3 resolve_up(const Scene& scene, const Request& asked) {
 AttributeOptions resolve_attributes(const Request& asked, const SceneFacts& facts) {
   Shot shot;
   shot.request = asked;
-  choose_view(facts, shot);
-  choose_colors(facts, shot);
+  resolve_view(facts, shot);
+  resolve_color_by(facts, shot);
   return shot.request.look.attributes;
 }
 
@@ -197,11 +197,11 @@ Shot draft(const Request& asked) {
 Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) {
   require_consistent(asked);
   Shot shot = draft(asked);
-  choose_view(facts, shot);
-  choose_colors(facts, shot);
-  choose_scan_look(scene, facts, shot);
+  resolve_view(facts, shot);
+  resolve_color_by(facts, shot);
+  resolve_scan_look(scene, facts, shot);
   Request& request = shot.request;
-  if (request.view.sheet) suit_sheet(request);
+  if (request.view.sheet) resolve_sheet(request);
   shot.settings = settings_of(scene, request);
   if (request.view.sheet) {
     Sheet sheet = drawn_sheet(scene, facts, request);
@@ -214,9 +214,9 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
     shot.view.camera =
         resolve_camera(scene, request, static_cast<double>(shot.view.width) / shot.view.height);
   }
-  suit_region(scene, shot.settings.region, request.settings.reach_world);
+  resolve_reach(scene, shot.settings.region, request.settings.reach_world);
   shot.settings.reach_world = request.settings.reach_world;
-  choose_noise(shot);
+  resolve_denoise(shot);
   shot.exposes = !request.look.exposure_ev && (request.look.exposure_auto || !scene.stations.empty());
   shot.environment = request.look.environment.empty() ? scene.environment_path : request.look.environment;
   shot.notes = ignored_options(asked, shot.settings.look);

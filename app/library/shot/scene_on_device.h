@@ -31,7 +31,7 @@ class SceneOnDevice {
   void show_lights(std::vector<SceneLight> lights) { look_.lights = std::move(lights); }
   void show_up(const glm::dvec3& up) { look_.up = up; }
 
-  /// Of it only what is small is there after open_and_free.
+  /// After open_and_free only its small parts are there.
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Look& look() const { return look_; }
   [[nodiscard]] Tracer& tracer() { return tracer_; }

@@ -95,7 +95,7 @@ class Request:
         return Request._of_core(self._core.copy())._set(fields)
 
     def get(self, name: str) -> List[str]:
-        """The texts of a field; none where it is not set and has no default in numbers."""
+        """The texts of a field; empty if it is unset and has no default in numbers."""
         return self._core.get(name)
 
     def json(self) -> str:

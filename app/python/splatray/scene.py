@@ -49,7 +49,7 @@ class Splats(NamedTuple):
 
 
 class MeasureValue(NamedTuple):
-    """A value; half the width of the interval around it that holds the true one 95 times of 100; "length", "area" or "degrees"."""
+    """A value; the half-width of its 95 % confidence interval; "length", "area" or "degrees"."""
 
     value: float
     within: float

@@ -10,7 +10,7 @@
 
 namespace splatray {
 
-/// A folder of scene files, shared with other windows. What goes wrong with it is no one's trouble: scenes are made again.
+/// A folder of scene files, shared with other windows. Its errors are ignored: scenes are made again.
 class SceneCache {
  public:
   /// Most that is kept, and the share of what the disk has free that it takes at most.

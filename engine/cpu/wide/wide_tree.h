@@ -16,7 +16,7 @@ namespace splatray {
 class WideTree {
  public:
   WideTree() = default;
-  /// Of a scene's data pool, on `threads` threads, 0 = one a core. Sets `order` to the indices that its splats have there, leaf
+  /// Builds the tree of a scene's data pool on `threads` threads, 0 = one a core. Sets `order` to the indices that its splats have there, leaf
   /// by leaf: so what is beside the data pool is to lie too. Takes 18 bytes a splat, their own words among them.
   WideTree(std::span<const uvec4> splats, unsigned threads, std::vector<std::uint32_t>& order);
 

@@ -1,5 +1,5 @@
-/// A ray's way through the wide tree. Plain data alone: it is compiled for several kinds of CPUs (wide_step.h), and a function of
-/// a library that one of these compiled first could be taken for all.
+/// A ray's way through the wide tree. Plain data alone and no inline library functions: it is compiled for several kinds of CPUs
+/// (wide_step.h), and the linker might keep the AVX-512 copy of such a function for all of them (ODR).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -61,7 +61,7 @@ struct alignas(64) WideWalk {
   std::uint32_t nodes = 0;      ///< looked at
   std::uint32_t leaves = 0;     ///< tested
   std::uint32_t leaf;           ///< that the last step went to
-  /// Of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64,
+  /// The hit of each of its splats that the step reports, as splat_plane_hit of shaders/primitive/disc.glsl computes them in float64,
   /// bit for bit; of others anything.
   alignas(64) WideDoubles t;
   WideDoubles rho_squared, facing;

@@ -19,7 +19,7 @@ class PipelineStore {
   PipelineStore& operator=(const PipelineStore&) = delete;
 
   [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
-  /// Of the driver's data that was kept; 0 = none was used.
+  /// Size of the driver's kept data; 0 = none was used.
   [[nodiscard]] std::size_t bytes_read() const { return bytes_read_; }
 
  private:

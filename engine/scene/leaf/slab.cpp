@@ -12,7 +12,7 @@ namespace {
 
 constexpr int AXIS_SCALE = static_cast<int>(SLAB_AXIS_SCALE);
 
-/// Of a slab's five bits, in units of the cell's half size.
+/// Thickness that a slab's five bits say, in units of the cell's half size.
 double slab_thickness(std::uint32_t bits) {
   return (1.0 + 0.25 * (bits & 3U)) * (1U << (bits >> 2)) / SLAB_THINNEST;
 }

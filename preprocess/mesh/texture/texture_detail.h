@@ -14,7 +14,7 @@ namespace splatray {
 /// Mean change from texel to texel, in a pyramid of means.
 class TextureDetail {
  public:
-  /// Of these channels, 0 red to 3 alpha. The texture must outlive it.
+  /// Measures these channels, 0 red to 3 alpha. The texture must outlive it.
   TextureDetail(const Texture& texture, std::span<const int> channels);
 
   /// Mean difference of neighbouring texels in the channel that differs most, 0..1 as stored, in the box around three texture

@@ -36,7 +36,7 @@ std::uint32_t index_of(double value) {
   return value >= 0.0 && value < double{NO_CELL} ? static_cast<std::uint32_t>(value) : NO_CELL;
 }
 
-/// Of range, azimuth about z from x, and elevation above the xy plane.
+/// The place of range, azimuth about z from x, and elevation above the xy plane.
 glm::dvec3 cartesian(const glm::dvec3& spherical) {
   const double across = spherical.x * std::cos(spherical.z);
   return {across * std::cos(spherical.y), across * std::sin(spherical.y),

@@ -11,7 +11,7 @@ std::uint64_t big_endian(std::span<const unsigned char> bytes) {
   return value;
 }
 
-/// Of the first frame header (SOF), which stands behind segments of any kind (ITU T.81, annex B).
+/// The size in the first frame header (SOF), which stands behind segments of any kind (ITU T.81, annex B).
 std::optional<std::uint64_t> jpeg_pixels(std::span<const unsigned char> bytes) {
   constexpr std::size_t FRAME_BYTES = 9;  // marker, length, precision, height, width
   for (std::size_t at = 2; at + FRAME_BYTES <= bytes.size();) {

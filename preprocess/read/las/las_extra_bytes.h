@@ -15,7 +15,7 @@ struct LasExtraBytes {
   double scale = 1.0;  ///< value = scale * number + offset
   double offset = 0.0;
 
-  /// Of the number.
+  /// Bytes of the number.
   [[nodiscard]] std::size_t bytes() const;
   /// Whether floats hold every value.
   [[nodiscard]] bool fits_float() const;

@@ -38,7 +38,7 @@ struct LasFields {
   std::size_t color;
 };
 
-/// Of a point format of 0 to 10.
+/// Where the fields of a record of point format 0 to 10 lie.
 [[nodiscard]] LasFields las_fields(unsigned point_format);
 
 /// Reads the header at the file's begin. Throws Error (input_unreadable) where it is none, of an unknown version or point

@@ -224,6 +224,7 @@ class RowTaker {
 
  private:
   void append_gathered(std::size_t count) {
+    if (count == 0) return;
     append_rows(reinterpret_cast<const unsigned char*>(gathered_.data()), count, layout_, columns_, points_,
                 values_);
     gathered_.clear();

@@ -205,7 +205,7 @@ class LegacyScan {
     line_ended_ = false;
   }
 
-  /// Of a cell in text: VTK's reader goes on without a file where it finds no int.
+  /// Checks a cell in text: VTK's reader goes on without a file where it finds no int.
   void check_vertex(const std::string& word) const {
     if (word.empty()) fail("found its end within the list of cells");
     if (number_of(word, "vertex") > std::numeric_limits<int>::max())

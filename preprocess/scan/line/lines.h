@@ -56,7 +56,7 @@ struct Sweep {
 [[nodiscard]] std::optional<Sweep> find_rings(const Cloud& cloud, const std::vector<std::uint32_t>& points,
                                               const glm::dvec3& sensor, std::vector<LinePlace>& places);
 
-/// Of a sweep's points that lie on no surface through lines: makes normals face the scanner that noise has put along the line of
+/// Settles a sweep's points that lie on no surface through lines: makes normals face the scanner that noise has put along the line of
 /// sight, and, where `bound`, bounds discs by the way to the next ring (Cloud::radius_most, which join_lines has made).
 void settle_rest(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points,
                  const Sweep& sweep, bool bound, std::vector<LinePlace>& places);

@@ -16,7 +16,7 @@ constexpr double FEW_LAYERED = 0.001;          // of them: chance and noise make
 constexpr std::size_t LEAST_SHEET_POINTS = 6;  // points of a sheet
 constexpr double PARTED = 4.5;                 // means' distance over the deviation
 constexpr double FAR_PARTED = 8.0;  // the same of sheets on the same side that are no noise of each other
-// Of the mean distance along the sheet: the means of what lies side by side are 1.3 apart, those of a few places all around 0.3.
+// Fraction of the mean distance along the sheet: the means of what lies side by side are 1.3 apart, those of a few places all around 0.3.
 constexpr float BESIDE = 0.65F;
 constexpr float NO_SHEET = std::numeric_limits<float>::infinity();
 

@@ -130,7 +130,7 @@ class Again {
     return sided(least_axis_of(spread, variances_of(spread)), normal);
   }
 
-  /// Of the listed neighbours; positive where there are any.
+  /// Squared distance of the farthest listed neighbour; positive where there are any.
   [[nodiscard]] float farthest_squared(std::size_t i) const {
     float squared = 0.0F;
     for (const std::uint32_t j : listed_[i]) {

@@ -19,7 +19,7 @@ struct SmoothParams {
   std::vector<float> sheet_end = {};     ///< part_layers; empty = there is one sheet everywhere
 };
 
-/// Of SmoothParams::moves: a point that stays as it is unless the places around it lie on their plane but for noise.
+/// A value of SmoothParams::moves: a point that stays as it is unless the places around it lie on their plane but for noise.
 constexpr std::uint8_t MOVES_WHERE_FLAT = 2;
 
 /// What smoothing did.

@@ -89,7 +89,7 @@ Field orbit_row() {
   return row;
 }
 
-/// Of a program's run, not of a picture.
+/// Rows that concern a program's run, not a picture.
 std::vector<Field> file_fields() {
   constexpr FieldGroup FILES = FieldGroup::files;
   std::vector<Field> rows = {
@@ -133,8 +133,7 @@ std::vector<Field> output_fields() {
              "the picture to write: .png, .jpg, .webp or .exr"),
       aov_row(),
       with(path_row("resume", OUTPUT, MEMBER(output.resume),
-                    "add samples to this EXR of the same command and fewer --samples, as one that was "
-                    "interrupted leaves it, until there are --samples"),
+                    "continue this EXR (same command, fewer --samples, or interrupted) up to --samples"),
            {.doors = DOOR_RENDER | DOOR_LIBRARY, .why_not = VIEWER_GOES_ON}),
       with(switch_row("mixed-devices", OUTPUT, MEMBER(output.mixed_devices),
                       "--resume also a picture of another device or driver, whose samples may differ"),

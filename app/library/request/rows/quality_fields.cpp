@@ -6,7 +6,7 @@ namespace {
 
 constexpr FieldGroup QUALITY = FieldGroup::quality;
 
-/// Of the picture's samples, of points sampled on meshes and of probe rays.
+/// Seeds the picture's samples, the points sampled on meshes and the probe rays.
 Field seed_row() {
   Field row = number_row("seed", QUALITY, MEMBER(settings.seed), 0, 4294967295.0,
                          "seed of samples and of points sampled on meshes; default 1");
@@ -44,10 +44,10 @@ std::vector<Field> quality_fields() {
       needed(
           number_row("samples", QUALITY, MEMBER(settings.samples), 1, 65536, "samples per pixel; default 16"),
           "samples a pixel: more for less noise"),
-      number_row(
-          "sample-offset", QUALITY, MEMBER(settings.sample_offset), 0, 65535,
-          "begin with this sample, not the first: splatray-merge adds up such parts of a picture, each of "
-          "64, 128, 256 ... samples, the last of any number, this being a multiple of them; default 0"),
+      number_row("sample-offset", QUALITY, MEMBER(settings.sample_offset), 0, 65535,
+                 "index of the first sample, a multiple of the part's length (64, 128, 256 ...): "
+                 "splatray-merge adds "
+                 "up such parts of a picture; default 0"),
       unset_number_row(
           "error", QUALITY, MEMBER(settings.error_goal), 1e-6, 1e3,
           "render until the estimated relative error is below X in every 32 x 32 pixels, e.g. 0.02; replaces "

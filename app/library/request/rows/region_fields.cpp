@@ -64,11 +64,12 @@ std::vector<Field> region_fields() {
           choice_row<std::optional<bool>>(
               "cut-light", REGION, MEMBER(view.region.light_kept),
               {{"auto", std::nullopt}, {"all", false}, {"kept", true}},
-              "whether all of the scene darkens and lights what is shown, or only what the region "
-              "keeps; default auto: all, of sheets kept"),
-          switch_row("look-in", REGION, MEMBER(view.look_in),
-                     "leave out what faces away from the eye, as --view dollhouse does: walls and ceilings "
-                     "before a room; of scenes whose objects are two-sided, as those of scans are")};
+              "whether what the region hides still casts light and shadow (all) or not (kept); default auto: "
+              "all, for sheets kept"),
+          switch_row(
+              "look-in", REGION, MEMBER(view.look_in),
+              "hide the near walls and ceilings of a room, as --view dollhouse does; for two-sided scenes, "
+              "such as scans")};
 }
 
 }  // namespace splatray

@@ -43,7 +43,7 @@ struct LayeredChunk {
 
 /// Bytes at the begin of a layered chunk that describe it: a record, a count and the layers' sizes.
 [[nodiscard]] std::size_t layered_head_bytes(const LazLayout& layout);
-/// Of a layered chunk's first layered_head_bytes().
+/// Sizes in a layered chunk's first layered_head_bytes().
 [[nodiscard]] LayeredChunk layered_chunk(const LazLayout& layout, const unsigned char* head);
 
 }  // namespace splatray

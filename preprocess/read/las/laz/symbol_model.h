@@ -14,7 +14,7 @@ namespace splatray {
 /// How probabilities are scaled: 2^15 is certain (A. Said, Introduction to Arithmetic Coding, HPL-2004-76, 2004).
 inline constexpr unsigned SYMBOL_BITS = 15;
 
-/// Of a bit: A. Said's adaptive binary model with LASzip's constants (M. Isenburg, LASzip, 2013).
+/// Model of a bit: A. Said's adaptive binary model with LASzip's constants (M. Isenburg, LASzip, 2013).
 struct BitModel {
   static constexpr unsigned BITS = 13;  ///< probabilities are of 2^13
 
@@ -43,7 +43,7 @@ struct BitModel {
 #endif
 }
 
-/// Of up to N symbols: A. Said's adaptive model. Its search compares 16 symbols at once, as branches on what symbols are
+/// Model of up to N symbols: A. Said's adaptive model. Its search compares 16 symbols at once, as branches on what symbols are
 /// cannot be predicted: all of few symbols, of many those from where a table says.
 template <unsigned N>
 class SymbolModel {

@@ -1,4 +1,4 @@
-#include "engine/image/sparks.h"
+#include "engine/image/fireflies.h"
 
 #include <algorithm>
 #include <cassert>
@@ -26,7 +26,7 @@ std::vector<float> greatest_around(const std::vector<float>& values, std::size_t
 
 }  // namespace
 
-void limit_sparks(Halves& halves, std::uint32_t width) {
+void limit_fireflies(Halves& halves, std::uint32_t width) {
   std::array<std::vector<float>, 2> bright;
   for (std::size_t half = 0; half < 2; ++half)
     for (const vec3& color : halves[half])
@@ -38,7 +38,7 @@ void limit_sparks(Halves& halves, std::uint32_t width) {
   }
 }
 
-Image without_sparks(Image image) {
+Image without_fireflies(Image image) {
   assert(image.part.size() == image.rgba.size());
   const float share = image.part_share;
   Halves halves;
@@ -47,7 +47,7 @@ Image without_sparks(Image image) {
     halves[1].emplace_back((vec3(image.rgba[i]) - share * halves[0][i]) / (1.0F - share));
   }
   const Halves before = halves;
-  limit_sparks(halves, image.width);
+  limit_fireflies(halves, image.width);
   for (std::size_t i = 0; i < image.rgba.size(); ++i) {
     if (halves[0][i] == before[0][i] && halves[1][i] == before[1][i]) continue;
     image.rgba[i] = vec4(glm::mix(halves[1][i], halves[0][i], share), image.rgba[i].w);
