@@ -28,7 +28,7 @@ namespace {
 
 std::string column_section(std::size_t i) { return "column." + std::to_string(i); }
 
-/// As records, or out of them.
+/// Each value as its record.
 template <typename Value>
 auto records_of(const std::vector<Value>& values) {
   std::vector<decltype(record_of(values.front()))> records;
@@ -36,7 +36,7 @@ auto records_of(const std::vector<Value>& values) {
   return records;
 }
 
-/// What has a name, by name; nothing where there is nothing.
+/// Adds a section of names, where there are any.
 template <typename Named>
 void keep_names(SectionWriter& file, const std::string& section, const std::vector<Named>& named) {
   std::vector<std::string> names;
@@ -113,7 +113,7 @@ Sections read_sections(SceneInput& input) {
   return {std::move(old.table), old.ellipses};
 }
 
-/// The records of a section, those of which there may be none.
+/// The records of a section, none where the file has no such section.
 template <typename Record>
 std::vector<Record> records_if_any(SectionReader& sections, const std::string& name) {
   return sections.has(name) ? sections.records<Record>(name, Record::LEAST_BYTES) : std::vector<Record>{};
@@ -128,7 +128,7 @@ Record only_record(SceneInput& input, SectionReader& sections, const std::string
   return records.front();
 }
 
-/// The names of as many, where there are some.
+/// The strings of a section that must be there for any.
 std::vector<std::string> names_of(SectionReader& sections, const std::string& section, std::size_t count) {
   if (count == 0 && !sections.has(section)) return {};
   std::vector<std::string> names = sections.strings(section, count);

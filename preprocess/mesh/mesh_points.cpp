@@ -6,8 +6,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "preprocess/base/append.h"
 #include "preprocess/base/parallel.h"
+#include "preprocess/base/point_arrays.h"
 #include "preprocess/base/usable_position.h"
 #include "preprocess/mesh/mesh_normals.h"
 #include "preprocess/mesh/mesh_orientation.h"
@@ -85,29 +85,12 @@ std::vector<MeshPart*> sampled_parts(std::vector<MeshPart>& parts, const Conditi
   return chosen;
 }
 
-/// Appends; what only one side has is filled: white, no normal, no radius, attributes of 0.
+/// Appends; of no points, all else that is known of `more` comes with them.
 void append_objects_points(Points& to, Points&& more) {
-  if (to.size() == 0) {
+  if (to.size() == 0)
     to = std::move(more);
-    return;
-  }
-  const std::size_t before = to.size();
-  const std::size_t after = before + more.size();
-  append_columns(to.columns, before, std::move(more.columns), more.size());
-  to.position.insert(to.position.end(), more.position.begin(), more.position.end());
-  const auto append = [&](auto& mine, auto& theirs, auto fill) {
-    if (mine.empty() && theirs.empty()) {
-      return;
-    }
-    mine.resize(before, fill);
-    mine.insert(mine.end(), theirs.begin(), theirs.end());
-    mine.resize(after, fill);
-  };
-  append(to.normal, more.normal, glm::vec3(0.0F));
-  append(to.shading, more.shading, glm::vec3(0.0F));
-  append(to.color, more.color, glm::vec3(1.0F));
-  append(to.radius, more.radius, 0.0F);
-  append(to.clip, more.clip, PointClip{});
+  else
+    append_points(to, std::move(more));
 }
 
 std::vector<MeshPart> list_parts(Input& input, const ReadOptions& options) {
@@ -130,11 +113,7 @@ std::vector<MeshPart> list_parts(Input& input, const ReadOptions& options) {
 void move_out_points(InputObject& object) {
   for (Mesh& mesh : object.meshes) {
     if (!mesh.triangles.empty()) continue;
-    if (object.points.size() == 0) {
-      object.points = std::move(mesh.vertices);
-    } else {
-      append_objects_points(object.points, std::move(mesh.vertices));
-    }
+    append_objects_points(object.points, std::move(mesh.vertices));
   }
   std::erase_if(object.meshes, [](const Mesh& mesh) { return mesh.triangles.empty(); });
 }

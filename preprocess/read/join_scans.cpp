@@ -11,7 +11,7 @@
 #include "engine/base/release.h"
 #include "engine/base/srgb.h"
 #include "engine/base/utf8.h"
-#include "preprocess/base/append.h"
+#include "preprocess/base/point_arrays.h"
 #include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
@@ -66,20 +66,12 @@ void name_stations(NamedScan& scan) {
 }
 
 void append_scans_points(Points& to, Points&& more) {
-  const std::size_t to_size = to.size();
-  const std::size_t size = more.size();
-  append_columns(to.columns, to_size, std::move(more.columns), size);
-  if (!to.stations.empty() && more.station.empty()) more.station.resize(size, 0);
+  if (!to.stations.empty() && more.station.empty()) more.station.resize(more.size(), 0);
   for (std::uint16_t& station : more.station)
     station = static_cast<std::uint16_t>(station + to.stations.size());
-  append(to.station, to_size, std::move(more.station), size, std::uint16_t{0});
-  append(to.grid_cell, to_size, std::move(more.grid_cell), size, NO_CELL);
-  append(to.normal, to_size, std::move(more.normal), size, glm::vec3(0.0F));
-  append(to.color, to_size, std::move(more.color), size, glm::vec3(1.0F));
-  append(to.radius, to_size, std::move(more.radius), size, 0.0F);
   to.stations.insert(to.stations.end(), std::make_move_iterator(more.stations.begin()),
                      std::make_move_iterator(more.stations.end()));
-  append(to.position, to_size, std::move(more.position), size, glm::dvec3(0.0));
+  append_points(to, std::move(more));
 }
 
 bool is_constant_zero(const Column& column) {

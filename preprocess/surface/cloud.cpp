@@ -7,6 +7,7 @@
 #include <compare>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "engine/base/release.h"
 #include "engine/scene/splat.h"
@@ -18,6 +19,17 @@
 
 namespace splatray {
 namespace {
+
+/// The arrays that a cloud takes of its points as they are.
+constexpr std::tuple TAKEN{std::pair{&Points::position, &Cloud::position},
+                           std::pair{&Points::normal, &Cloud::normal},
+                           std::pair{&Points::shading, &Cloud::shading},
+                           std::pair{&Points::station, &Cloud::station},
+                           std::pair{&Points::grid_cell, &Cloud::grid_cell},
+                           std::pair{&Points::radius, &Cloud::radius},
+                           std::pair{&Points::clip, &Cloud::clip},
+                           std::pair{&Points::field_words, &Cloud::field_words},
+                           std::pair{&Points::clip_words, &Cloud::clip_words}};
 
 std::vector<std::uint32_t> usable_points(const Points& points) {
   return numbers_where(points.size(), [&](std::size_t i) { return is_usable_position(points.position[i]); });
@@ -31,23 +43,15 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
     return taken;
   };
   Cloud cloud;
-  cloud.position = take(points.position);
-  cloud.normal = take(points.normal);
+  std::apply([&](const auto&... of) { ((cloud.*of.second = take(points.*of.first)), ...); }, TAKEN);
   cloud.normal.resize(usable.size(), glm::vec3(0.0F));
-  cloud.shading = take(points.shading);
   const std::vector<glm::vec3> color = take(points.color);
   cloud.color.resize(color.size());
   for (Column& column : points.columns)
     std::visit([&](auto& values) { cloud.columns.push_back({column.name, take(values)}); }, column.values);
   cloud.stations = std::move(points.stations);
   cloud.track = std::move(points.track);
-  cloud.station = take(points.station);
-  cloud.grid_cell = take(points.grid_cell);
-  cloud.radius = take(points.radius);
-  cloud.clip = take(points.clip);
   cloud.lattice = points.lattice;
-  cloud.field_words = take(points.field_words);
-  cloud.clip_words = take(points.clip_words);
   cloud.ends_known = !cloud.clip.empty();
   tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t i) {
     cloud.normal[i] = glm::vec3(unit_or_zero(glm::dvec3(cloud.normal[i])));
@@ -132,20 +136,12 @@ void count_given(const Cloud& cloud, BuildStats& stats) {
 template <typename Change>
 void change_all(Cloud& cloud, const Change& change) {
   cloud.near = {};
-  change(cloud.position);
+  std::apply([&](const auto&... of) { (change(cloud.*of.second), ...); }, TAKEN);
   change(cloud.coord);
-  change(cloud.normal);
-  change(cloud.shading);
   change(cloud.color);
-  change(cloud.radius);
-  change(cloud.clip);
   change(cloud.line);
-  change(cloud.field_words);
-  change(cloud.clip_words);
   change(cloud.kind);
   change(cloud.radius_most);
-  change(cloud.station);
-  change(cloud.grid_cell);
   for (Column& column : cloud.columns) std::visit(change, column.values);
 }
 

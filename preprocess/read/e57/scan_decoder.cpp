@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "engine/base/release.h"
+#include "preprocess/base/point_arrays.h"
 
 namespace splatray {
 namespace {
@@ -261,15 +262,10 @@ void ScanDecoder::drop_origins() {
   Points& points = file_.points;
   std::vector<bool> marks(points.size() - first_);
   for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = points.position[first_ + i] == scan_.translation;
-  erase_marked(points.stored_color, first_, marks);
-  erase_marked(colors_.stored(), first_, marks);
-  erase_marked(points.normal, first_, marks);
-  erase_marked(points.grid_cell, first_, marks);
-  erase_marked(column_, 0, marks);
-  for (const std::size_t column : columns_)
-    std::visit([&](auto& list) { erase_marked(list, first_, marks); }, points.columns[column].values);
   const std::size_t before = points.size();
-  erase_marked(points.position, first_, marks);
+  erase_marked(colors_.stored(), first_, marks);
+  erase_marked(column_, 0, marks);
+  for_each_array(points, [&](auto& values) { erase_marked(values, first_, marks); });
   file_.counts.no_return += before - points.size();
 }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "engine/base/number_text.h"
+#include "preprocess/base/point_arrays.h"
 
 namespace splatray {
 namespace {
@@ -106,17 +106,6 @@ void keep(std::vector<Value>& list, const std::vector<bool>& kept) {
   list.resize(to);
 }
 
-void keep(Points& points, const std::vector<bool>& kept) {
-  keep(points.normal, kept);
-  keep(points.color, kept);
-  keep(points.radius, kept);
-  keep(points.stored_color, kept);
-  keep(points.station, kept);
-  keep(points.grid_cell, kept);
-  for (Column& column : points.columns) std::visit([&](auto& list) { keep(list, kept); }, column.values);
-  keep(points.position, kept);
-}
-
 }  // namespace
 
 void remove_no_data(const std::filesystem::path& path, Points& points, ScanCounts& counts,
@@ -130,7 +119,7 @@ void remove_no_data(const std::filesystem::path& path, Points& points, ScanCount
     std::vector<bool> kept(points.size());
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = points.position[i][found->axis] != found->value;
     const std::size_t before = points.size();
-    keep(points, kept);
+    for_each_array(points, [&](auto& values) { keep(values, kept); });
     counts.no_return += before - points.size();
     listener.note(path, std::to_string(before - points.size()) + " points whose " + AXES[found->axis] +
                             " is " + number_text(found->value) +
