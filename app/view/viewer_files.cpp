@@ -94,7 +94,7 @@ void Viewer::show(OpenedScene opened) {
   opened.document.point_size = document_.point_size;
   document_ = std::move(opened.document);
   if (!scene_) {
-    for (Request* asked : {&panels_.save, &panels_.record}) {
+    for (Request* asked : {&panels_.save, &panels_.sheet, &panels_.record}) {
       asked->view.width = std::max(picture_px().x, 1U);
       asked->view.height = std::max(picture_px().y, 1U);
       asked->settings.samples = document_.settings.samples;

@@ -8,6 +8,7 @@
 #include "app/view/model/history.h"
 #include "app/view/model/navigation.h"
 #include "app/view/model/region_edit.h"
+#include "app/view/model/section_sheet.h"
 #include "tests/temp_folder.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"
@@ -128,6 +129,62 @@ INSTANTIATE_TEST_SUITE_P(Documents, RegionEdit, ::testing::ValuesIn([] {
                                          [](const NamedDocument& one) { return one.name == "one point"; });
                            return documents;
                          }()));
+
+/// A box of 2 about (1, 2, 3), y up, whose plan's north is -z.
+class SectionSheet : public ::testing::Test {
+ protected:
+  std::string sheet() { return sheet_text(section_sheet(document, {})); }
+
+  Document document = box_document({1.0, 2.0, 3.0}, 2.0);
+};
+
+TEST_F(SectionSheet, FromAboveItIsAPlanAtTheLowestCut) {
+  set_axis_view(document, AxisView::top);
+  EXPECT_EQ(sheet(), "plan");
+  set_slice(document.region, {{0.0, 2.5, 0.0}, {0.0, 1.0, 0.0}, 0.5});
+  EXPECT_EQ(sheet(), "plan:z=2.75");
+  document.region.keep_box = TurnedBox{{0.0, 0.0, 0.0}, {9.0, 2.25, 9.0}, 30.0};
+  EXPECT_EQ(sheet(), "plan:z=2.25");
+  document.region.keep_box->high.y = 99.0;                      // above all there is
+  document.region.cuts = {{{0.0, 1.5, 0.0}, {0.0, 1.0, 0.0}}};  // from below
+  EXPECT_EQ(sheet(), "plan");
+  set_axis_view(document, AxisView::bottom);
+  EXPECT_EQ(sheet(), "ortho:0,1,0");
+}
+
+TEST_F(SectionSheet, LevelItIsASectionAlongTheCutThatIsSeen) {
+  set_axis_view(document, AxisView::front);
+  EXPECT_EQ(sheet(), "elevation:180") << "from the south";
+  set_slice(document.region, {{0.0, 2.0, 0.0}, {0.0, 1.0, 0.0}, 0.5});
+  EXPECT_EQ(sheet(), "elevation:180") << "a level slice is none";
+  set_slice(document.region, {{0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 0.5});
+  const SheetRequest section = section_sheet(document, {});
+  ASSERT_EQ(section.kind, SheetKind::section);
+  // Looking along -z to the left of a line that goes along x: at the slice's near side, z = 3.25.
+  EXPECT_NEAR(section.place[1], -3.25, 1e-9);
+  EXPECT_NEAR(section.place[3], -3.25, 1e-9);
+  EXPECT_LT(section.place[0], 0.0);
+  EXPECT_GT(section.place[2], 2.0);
+  document.region.keep_box = TurnedBox{{0.5, 0.0, 0.0}, {1.5, 9.0, 9.0}};
+  const SheetRequest boxed = section_sheet(document, {});
+  EXPECT_NEAR(boxed.place[0], 0.5, 1e-9);
+  EXPECT_NEAR(boxed.place[2], 1.5, 1e-9);
+  set_axis_view(document, AxisView::back);
+  EXPECT_NEAR(section_sheet(document, {}).place[1], -2.75, 1e-9) << "the slice's other side";
+  document.region = {};
+  set_axis_view(document, AxisView::right);
+  EXPECT_EQ(sheet(), "elevation:90");
+  orbit(document, {40.0, 0.0}, PICTURE);
+  EXPECT_EQ(sheet(), "elevation:90") << "the nearest side";
+}
+
+TEST_F(SectionSheet, KeepsScaleDpiWeightAndUnit) {
+  const SheetRequest like = read_sheet("section:0,0,1,0,scale=20,dpi=100,weight=0.5,unit=mm,depth=2");
+  set_axis_view(document, AxisView::top);
+  EXPECT_EQ(sheet_text(section_sheet(document, like)), "plan:depth=2,scale=20,dpi=100,weight=0.5,unit=0.001");
+  EXPECT_EQ(sheet_sentence(read_sheet("plan:z=1.25")), "A plan, cut at the height 1.25.");
+  EXPECT_EQ(sheet_sentence(read_sheet("elevation:west")), "An elevation, seen from the west.");
+}
 
 TEST(HistoryTest, StepsBackAndForthWithoutTheCamera) {
   Document document = box_document({0, 0, 0}, 2.0);

@@ -94,8 +94,9 @@ TEST(ViewFields, WhatIsAskedForIsWhatIsShownAndSaved) {
     if (of_camera) values.push_back({"eye", "1,2,3"});
     if (field.name == "inputs") values.erase(values.begin());
     assign(asked, values, DOOR_VIEW);
-    const Request made = is_of_files(field) ? save_job(loaded(scene), asked).request
-                                            : request_of(first_document(scene, facts_of(scene), asked), 320, 200);
+    const Request made = is_of_files(field)
+                             ? save_job(loaded(scene), asked).request
+                             : request_of(first_document(scene, facts_of(scene), asked), 320, 200);
     EXPECT_EQ(texts_of(field, made), std::vector{text}) << field.name;
   }
 }

@@ -9,6 +9,7 @@
 #include "app/library/camera_file.h"
 #include "app/library/materials.h"
 #include "app/view/model/attempt.h"
+#include "app/view/model/document_request.h"
 #include "app/view/thread/live_scene.h"
 #include "app/view/ui/panel_parts.h"
 #include "engine/gpu/pools.h"
@@ -90,13 +91,15 @@ TEST(PanelsTest, AllPanelsRunOverAnyDocumentAndChangeNothing) {
 }
 
 TEST(PanelsTest, DialogsRunAndCanBeCancelled) {
-  for (bool PanelState::*open : {&PanelState::show_open, &PanelState::show_save, &PanelState::show_record}) {
+  for (bool PanelState::*open :
+       {&PanelState::show_open, &PanelState::show_save, &PanelState::show_sheet, &PanelState::show_record}) {
     GuiDriver gui(1280, 720);
     gui.document = document_of(1);
     gui.state.*open = true;
-    const char* title = open == &PanelState::show_open   ? "Open"
-                        : open == &PanelState::show_save ? "Save the picture"
-                                                         : "Record";
+    const char* title = open == &PanelState::show_open    ? "Open"
+                        : open == &PanelState::show_save  ? "Save the picture"
+                        : open == &PanelState::show_sheet ? "Save a drawing to scale"
+                                                          : "Record";
     const Requests requests = gui.click(title, {"cancel"});
     EXPECT_FALSE(gui.state.*open);
     EXPECT_FALSE(requests.save || requests.open);
@@ -280,6 +283,26 @@ TEST(PanelsTest, TheSaveDialogAsksForThePicture) {
   EXPECT_EQ(requests.save->view.width, 3840U);
   EXPECT_TRUE(requests.save->output.denoise.value_or(false));
   EXPECT_FALSE(gui.state.show_save);
+}
+
+TEST(PanelsTest, TheSheetDialogAsksForADrawing) {
+  GuiDriver gui(1280, 1000);
+  gui.document = document_of(1);
+  for (const char* button : {"open", "save", "sheet", "record", "copy", "keys"})
+    EXPECT_TRUE(gui.can_click("##column", {button})) << button;
+  EXPECT_EQ(gui.click("##column", {"sheet"}).commands.front().action, Action::sheet);
+  EXPECT_TRUE(apply({Action::sheet}, 1.5, gui.document, gui.state));
+  gui.state.sheet.output.path = "sheet.jpg";
+  EXPECT_FALSE(gui.can_click("Save a drawing to scale", {"save"})) << "the format cannot hold one";
+  gui.state.sheet.output.path = "sheet.pdf";
+  gui.click("Save a drawing to scale", {"ink"});
+  const Requests requests = gui.click("Save a drawing to scale", {"save"});
+  ASSERT_TRUE(requests.save.has_value());
+  EXPECT_TRUE(requests.save->view.ink);
+  const Request saved = saved_request(gui.document, *requests.save);
+  EXPECT_EQ(saved.view.sheet, requests.save->view.sheet);
+  EXPECT_FALSE(saved.view.eye) << "a drawing has its own camera";
+  EXPECT_FALSE(gui.state.show_sheet);
 }
 
 TEST(PanelsTest, CamerasAndBookmarksAreSavedAsFiles) {

@@ -6,6 +6,7 @@
 #include "app/view/model/navigation.h"
 #include "app/view/model/panel_state.h"
 #include "app/view/model/region_edit.h"
+#include "app/view/model/section_sheet.h"
 
 namespace splatray {
 namespace {
@@ -16,7 +17,8 @@ bool close_topmost(PanelState& state) {
     state.error.clear();
     return true;
   }
-  for (bool* open : {&state.show_open, &state.show_save, &state.show_record, &state.show_help}) {
+  for (bool* open :
+       {&state.show_open, &state.show_save, &state.show_sheet, &state.show_record, &state.show_help}) {
     if (!*open) continue;
     *open = false;
     return true;
@@ -180,6 +182,10 @@ bool apply(const Command& command, double aspect, Document& document, PanelState
       return true;
     case Action::save:
       state.show_save = true;
+      return true;
+    case Action::sheet:
+      state.sheet.view.sheet = section_sheet(document, *state.sheet.view.sheet);
+      state.show_sheet = true;
       return true;
     case Action::record:
       state.show_record = true;

@@ -16,6 +16,18 @@ Request::Source plain(Request::Source source) {
   return source;
 }
 
+/// What a drawing, which places its camera by itself, has of the view shown and of the sheet asked for.
+Request::View drawn_view(const Request::View& shown, const Request::View& asked) {
+  Request::View drawn;
+  drawn.look_in = shown.look_in;
+  drawn.region = shown.region;
+  drawn.aperture_world = shown.aperture_world;
+  drawn.sheet = asked.sheet;
+  drawn.ink = asked.ink;
+  drawn.xray = asked.xray;
+  return drawn;
+}
+
 /// The document of the scene as a shot shows it.
 Document shown_in(const Scene& scene, const Document& document, const Shot& shot) {
   const Request& request = shot.request;
@@ -63,6 +75,23 @@ Request request_of(const Document& document, std::uint32_t width, std::uint32_t 
   std::vector<LightRequest>& lights = look.lights.emplace();
   for (const SceneLight& light : document.lights) lights.push_back({light, {}, /*has_power=*/true});
   return request;
+}
+
+Request saved_request(const Document& document, const Request& asked) {
+  Request saved = request_of(document, asked.view.width, asked.view.height);
+  saved.output = asked.output;
+  if (asked.view.sheet) saved.view = drawn_view(saved.view, asked.view);
+  saved.view.crop = asked.view.crop;
+  saved.view.tile = asked.view.tile;
+  saved.view.tiles = asked.view.tiles;
+  Request::Settings& settings = saved.settings;
+  settings.samples = asked.settings.samples;
+  settings.sample_offset = asked.settings.sample_offset;
+  settings.error_goal = asked.settings.error_goal;
+  settings.seconds_goal = asked.settings.seconds_goal;
+  settings.aov = asked.settings.aov;
+  settings.estimate_error = asked.settings.estimate_error;
+  return saved;
 }
 
 Document first_document(const Scene& scene, const SceneFacts& facts, const Request& asked) {

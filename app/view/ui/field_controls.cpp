@@ -15,7 +15,7 @@ namespace {
 bool set(Request& request, const std::vector<FieldText>& values, std::string& error) {
   try {
     Request changed = request;
-    assign(changed, values, DOOR_VIEW);
+    assign(changed, values, DOORS_OF_PICTURES);
     request = std::move(changed);
     return true;
   } catch (const Error& refusal) {
