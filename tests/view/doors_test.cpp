@@ -180,7 +180,7 @@ class ViewerDoor : public Doors {
     const SharedScene shared = std::make_shared<const Scene>(std::move(loaded.scene));
     Document document = first_document(*shared, loaded.facts, asked);
     LiveScene live(*device);
-    live.open(shared, document.attributes);
+    live.open(shared, document.request.look.attributes);
     Request save = asked;
     save.output.path = file("saved" + std::to_string(++saves) + ".png");
     if (change) change(document, save);
@@ -188,7 +188,7 @@ class ViewerDoor : public Doors {
         resolve(request_of(document, asked.view.width, asked.view.height), *shared, document.loaded->facts);
     if (document.loaded->is_scan && !asked.look.exposure_ev) {
       live.match(document, ViewMode::shaded);
-      document.exposure_ev = preview_exposure_ev(shot, live.shown(), document.camera);
+      document.request.look.exposure_ev = preview_exposure_ev(shot, live.shown(), document.camera);
     }
     const SaveJob job = save_job(document, save);
     command = command_line(job.request);
@@ -219,7 +219,7 @@ TEST_F(ViewerDoor, SavesTheProgramsPicture) {
   // An area light stays one when the paper's look, which has none, is left.
   const std::string lamp = small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=";
   const std::string lit = saved("cube.obj", lamp + "paper",
-                                [](Document& document, Request&) { document.settings.look = LOOK_LIT; });
+                                [](Document& document, Request&) { document.request.look.style = LOOK_LIT; });
   const std::string made = by_program("cube.obj", lamp + "lit --tone=soft", "program.png");
   EXPECT_TRUE(read_display_image(made, {}).rgb == read_display_image(lit, {}).rgb);
 }
@@ -233,11 +233,12 @@ TEST_F(ViewerDoor, DrawsTheProgramsSheet) {
     const char* extension = ".png";
   };
   const auto slice = [](int axis) {
-    return [axis](Document& document) { set_slice(document.region, first_slice(document, axis)); };
+    return
+        [axis](Document& document) { set_slice(document.request.view.region, first_slice(document, axis)); };
   };
   const auto along_x = [](Document& document) { set_up_axis(document, {1.0, 0.0, 0.0}); };
   const auto box = [](Document& document) {
-    document.region.keep_box = TurnedBox{{-1, -1, -2}, {1, 3, 1}, 20};
+    document.request.view.region.keep_box = TurnedBox{{-1, -1, -2}, {1, 3, 1}, 20};
   };
   for (const Shown& shown :
        {Shown{SheetKind::plan, AxisView::top, slice(1)}, Shown{SheetKind::plan, AxisView::top, {}},
@@ -257,6 +258,9 @@ TEST_F(ViewerDoor, DrawsTheProgramsSheet) {
       save.view.ink = shown.kind == SheetKind::section;
       save.output.path.replace_extension(shown.extension);
       EXPECT_EQ(save.view.sheet->kind, shown.kind);
+      const bool turned = document.request.look.up != document.loaded->first.look.up;
+      EXPECT_EQ(saved_request(document, save).look.lights.has_value(), turned)
+          << "the light is over the shoulder of who looks at the sheet";
     });
     std::vector<std::string> words = shell_words(command);
     words.front() = RENDER;

@@ -52,6 +52,7 @@ const std::map<std::string, std::string> TEXTS = {{"inputs", "other.ply"},
                                                   {"aov", "depth"},
                                                   {"camera-path", "path.json"},
                                                   {"frames", "0-3"},
+                                                  {"exposure", "-0.75"},
                                                   {"delta", "0.25"}};
 
 /// Fields that become others when a scene is shown, and why.
@@ -60,10 +61,8 @@ const std::map<std::string, std::string> RESOLVED = {
     {"view", "becomes a camera"},
     {"object", "becomes all changes of its object, by its name"},
     {"area-light", "becomes a --light of the kind rectangle"},
-    {"exposure", "is the window's, which knows what it chose"},
     {"device", "is the program's: the window has one"},
     {"stats-json", "is the program's"},
-    {"delta", "stands only beside side=delta"},
 };
 
 /// A text of the field that is not its default.

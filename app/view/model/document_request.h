@@ -6,6 +6,9 @@
 
 namespace splatray {
 
+/// Lights that have all that they need, as requests for them.
+[[nodiscard]] std::vector<LightRequest> requested_lights(const std::vector<SceneLight>& lights);
+
 /// The request of this picture, `width` x `height` pixels, in ViewMode::shaded; without an output.
 [[nodiscard]] Request request_of(const Document& document, std::uint32_t width, std::uint32_t height);
 

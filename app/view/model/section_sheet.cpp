@@ -33,13 +33,14 @@ Range range_of(const TurnedBox& box, const glm::dvec3& up, const glm::dvec3& alo
 
 /// The planes of the region that cut the scene; unit normals into what is kept.
 std::vector<HalfSpace> cutting_faces(const Document& document) {
-  std::vector<HalfSpace> faces = document.region.cuts;
-  if (document.region.keep_box)
-    for (const HalfSpace& face : half_spaces(*document.region.keep_box, document.up)) faces.push_back(face);
+  std::vector<HalfSpace> faces = document.request.view.region.cuts;
+  if (document.request.view.region.keep_box)
+    for (const HalfSpace& face : half_spaces(*document.request.view.region.keep_box, up_of(document)))
+      faces.push_back(face);
   for (HalfSpace& face : faces) face.normal = glm::normalize(face.normal);
   const TurnedBox all{document.bounds_min_world, document.bounds_max_world};
   std::erase_if(faces, [&](const HalfSpace& face) {
-    const Range range = range_of(all, document.up, face.normal);
+    const Range range = range_of(all, up_of(document), face.normal);
     const double place = glm::dot(face.point, face.normal);
     return !(range.low < place && place < range.high);
   });
@@ -71,9 +72,9 @@ std::optional<HalfSpace> seen_cut(const Document& document, const glm::dvec3& up
 /// The line in plan along which a cut is drawn: of all there is, or that a box keeps.
 std::vector<double> line_along(const Document& document, const glm::dmat3& axes, const HalfSpace& cut) {
   const glm::dvec3 right = glm::cross(cut.normal, axes[1]);
-  Range range = range_of(box_of_all(document), document.up, right);
-  if (document.region.keep_box) {
-    const Range kept = range_of(*document.region.keep_box, document.up, right);
+  Range range = range_of(box_of_all(document), up_of(document), right);
+  if (document.request.view.region.keep_box) {
+    const Range kept = range_of(*document.request.view.region.keep_box, up_of(document), right);
     range = {std::max(range.low, kept.low), std::min(range.high, kept.high)};
   }
   std::vector<double> line;
@@ -116,7 +117,7 @@ std::string side_text(double degrees) {
 }  // namespace
 
 SheetRequest section_sheet(const Document& document, const SheetRequest& like) {
-  const glm::dmat3 axes = upright_axes(document.up);
+  const glm::dmat3 axes = upright_axes(up_of(document));
   const glm::dvec3 ahead = glm::normalize(document.camera.target - document.camera.eye);
   const double rise = glm::dot(ahead, axes[1]);
   const glm::dvec3 level = glm::normalize(ahead - rise * axes[1]);

@@ -29,11 +29,12 @@ void LiveScene::open(SharedScene scene, const AttributeOptions& attributes) {
 }
 
 void LiveScene::match(const Document& document, ViewMode mode) {
-  match_attributes(document.attributes, document.up);
+  match_attributes(document.request.look.attributes, up_of(document));
   shown_.show_objects(mode == ViewMode::facing ? two_sided(document.looks) : document.looks);
-  shown_.show_lights(lights_of_look(document.settings.look, document.lights));
-  shown_.show_up(document.up);
-  shown_.show_environment(document.environment);
+  shown_.show_lights(
+      lights_of_look(look_of(document), resolve_lights(*scene_, document.request, document.camera)));
+  shown_.show_up(up_of(document));
+  shown_.show_environment(document.request.look.environment);
 }
 
 /// The scene is uploaded again with other colours and radii: those of a copy that lives as long as that takes.
