@@ -13,7 +13,7 @@ namespace splatray {
 [[nodiscard]] Request request_of(const Document& document, std::uint32_t width, std::uint32_t height);
 
 /// The request of a picture or pictures of the document that are saved. Of `asked` count size, part, samples or goal, denoising and
-/// output (is_of_files), or the sheet, of which the document gives all but the camera.
+/// output (OF_FILES), or the sheet, of which the document gives all but the camera.
 [[nodiscard]] Request saved_request(const Document& document, const Request& asked);
 
 /// The document of a scene that load_scene read without the objects and attributes of the look: the shot of the request, whose camera,

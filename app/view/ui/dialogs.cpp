@@ -39,14 +39,9 @@ void path_input(const char* label, std::filesystem::path& path, const char* hint
 
 /// Fields of a saved picture that have no control of their own in a dialog, in the order of the help.
 void file_fields(Request& request, std::string& error, bool of_sequence) {
-  constexpr std::array OWN = {"output", "resolution", "samples", "turntable", "camera-path"};
-  constexpr std::array OF_SEQUENCES = {"frames", "skip-existing"};
-  const auto is_in = [](const auto& names, const Field& field) {
-    return std::find(names.begin(), names.end(), field.name) != names.end();
-  };
   for (const Field& field : fields())
-    if (field.in(DOOR_VIEW) && field.group != FieldGroup::files && is_of_files(field) && !is_in(OWN, field) &&
-        (of_sequence || !is_in(OF_SEQUENCES, field)))
+    if (field.in(DOOR_VIEW) && field.group != FieldGroup::files && field.is(OF_FILES) &&
+        !field.is(HAS_OWN_CONTROL) && (of_sequence || !field.is(OF_SEQUENCES)))
       field_control(field, request, error);
 }
 
