@@ -178,6 +178,8 @@ struct FieldInfo {
   std::string help;    ///< what it is, its unit, range and default
   bool repeated;       ///< several values count
   double least, most;  ///< of numbers
+  bool opens;          ///< open() takes it: how a scene is read, made and first shown
+  bool renders;        ///< render() takes it; of what is neither make() does
 };
 
 /// What is asked for of a scene and its picture: values of named fields, the same as the options of splatray-render, whose help

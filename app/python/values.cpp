@@ -52,7 +52,9 @@ void add_request(nb::module_& module) {
       .def_ro("help", &api::FieldInfo::help)
       .def_ro("repeated", &api::FieldInfo::repeated)
       .def_ro("least", &api::FieldInfo::least)
-      .def_ro("most", &api::FieldInfo::most);
+      .def_ro("most", &api::FieldInfo::most)
+      .def_ro("opens", &api::FieldInfo::opens)
+      .def_ro("renders", &api::FieldInfo::renders);
   nb::class_<api::Request>(module, "Request")
       .def(nb::init<>())
       .def("set", [](api::Request& request, const std::string& name,

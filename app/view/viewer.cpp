@@ -136,7 +136,7 @@ void Viewer::take_render_news() {
   if (news.saving) work_ = news.saving;
   if (news.exposure_ev) {
     found_exposure_ev_ = news.exposure_ev;
-    document_.exposure_ev = *news.exposure_ev;
+    document_.request.look.exposure_ev = *news.exposure_ev;
     if (scene_ && !of_points_) history_.start(document_);
   }
   if (!news.notice.empty()) panels_.notice = news.notice;
@@ -165,7 +165,7 @@ void Viewer::measure_at(const Inspected& picked, const SurfacePoint& point, Meas
           ? camera.ortho_height
           : 2.0 * std::tan(glm::radians(0.5 * camera.fov_y_deg)) * picked.distance_world;
   const double reach = AROUND_PX * height_world / std::max(picture_px().y, 1U);
-  const auto fit = radius_near(*scene_, document_.settings.region, picked.hit_world, reach, kind);
+  const auto fit = radius_near(*scene_, shown_region(), picked.hit_world, reach, kind);
   if (!fit)
     return void(panels_.notice = std::string("found no ") + measure_name(kind) + " around the cursor");
   add_point(document_.measures, kind, point);
@@ -234,8 +234,8 @@ void Viewer::handle(const Gesture& gesture) {
       if (panels_.walks) return change_walk_speed(gesture.notches);
       return zoom(document_, gesture.notches, gesture.to_px, size);
     case Action::drag_light:
-      if (panels_.light < document_.lights.size())
-        drag_light(document_, gesture.to_px, size, document_.lights[panels_.light]);
+      if (std::vector<LightRequest>& lights = lights_of(document_); panels_.light < lights.size())
+        drag_light(document_, gesture.to_px, size, lights[panels_.light].light);
       return;
     case Action::pivot:
       return renderer_.pick({gesture.to_px, picture_px(), PickFor::pivot});
@@ -317,9 +317,8 @@ void Viewer::go_back(bool undo) {
 void Viewer::look_from(Viewpoint viewpoint) {
   if (!scene_ || of_points_) return;
   viewpoint_ = viewpoint;
-  document_.camera =
-      viewpoint_camera(*scene_, viewpoint_, aspect(), {}, region_of(document_.region, document_.up));
-  document_.settings.cutaway = viewpoint_ == Viewpoint::dollhouse;
+  document_.camera = viewpoint_camera(*scene_, viewpoint_, aspect(), {}, shown_region());
+  document_.request.view.look_in = viewpoint_ == Viewpoint::dollhouse;
   panels_.notice = std::string("view: ") + viewpoint_name(viewpoint_);
 }
 
@@ -360,10 +359,11 @@ void Viewer::copy() {
   panels_.notice = "copied a splatray-render command";
 }
 
+Region Viewer::shown_region() const { return region_of(document_.request.view.region, up_of(document_)); }
+
 /// Hands the document over; the render thread finds out whether anything has changed.
 void Viewer::submit() {
   const glm::uvec2 size = picture_px();
-  document_.settings.region = region_of(document_.region, document_.up);
   if (scene_ && !of_points_)
     history_.see(document_, mouse_.is_held() || handle_ || presenter_.gui().is_editing());
   if (has_view() && size.x > 0 && size.y > 0) renderer_.show(document_, size);

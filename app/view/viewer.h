@@ -67,6 +67,7 @@ class Viewer {
   void remember_bookmarks();
   void remember_window();
   void write_stats();
+  [[nodiscard]] Region shown_region() const;
   [[nodiscard]] glm::uvec2 picture_px() const;
   [[nodiscard]] double aspect() const;
   /// Whether there is something to look at and move about.

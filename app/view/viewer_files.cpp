@@ -51,7 +51,7 @@ void Viewer::open(Request request) {
     load(request);
   }
   asked_exposure_ev_ = request.look.exposure_ev;
-  document_.exposure_ev = request.look.exposure_ev.value_or(0.0);
+  document_.request.look.exposure_ev = request.look.exposure_ev;
 }
 
 /// Points of the scene that is being made, more each time: where the camera was moved it stays.
@@ -64,7 +64,7 @@ void Viewer::show(OpenedPoints opened) {
   panels_.home = opened.document.camera;
   if (moved) {
     opened.document.camera = document_.camera;
-    opened.document.settings.cutaway = document_.settings.cutaway;
+    opened.document.request.view.look_in = document_.request.view.look_in;
   }
   document_ = std::move(opened.document);
   renderer_.open_points(std::move(opened.points), document_, picture_px());
@@ -82,22 +82,22 @@ void Viewer::show(OpenedScene opened) {
   panels_.home = opened.document.camera;
   if (of_points_) {  // the view stays as it is
     opened.document.camera = document_.camera;
-    opened.document.settings.cutaway = document_.settings.cutaway;
+    opened.document.request.view.look_in = document_.request.view.look_in;
     document_ = std::move(before_);
     of_points_ = false;
   }
   const bool exposes = !asked_exposure_ev_ && !opened.scene->stations.empty();
-  const bool kept = document_.exposure_ev != found_exposure_ev_;
-  opened.document.exposure_ev = asked_exposure_ev_.value_or(kept ? document_.exposure_ev : 0.0);
+  const bool kept = exposure_of(document_) != found_exposure_ev_;
+  opened.document.request.look.exposure_ev = asked_exposure_ev_.value_or(kept ? exposure_of(document_) : 0.0);
   opened.document.mode = document_.mode;
   opened.document.eye_dome = document_.eye_dome;
   opened.document.point_size = document_.point_size;
   document_ = std::move(opened.document);
   if (!scene_) {
-    for (Request* asked : {&panels_.save, &panels_.record}) {
+    for (Request* asked : {&panels_.save, &panels_.sheet, &panels_.record}) {
       asked->view.width = std::max(picture_px().x, 1U);
       asked->view.height = std::max(picture_px().y, 1U);
-      asked->settings.samples = document_.settings.samples;
+      asked->settings.samples = document_.request.settings.samples;
     }
   }
   scene_ = std::move(opened.scene);
@@ -138,7 +138,7 @@ void Viewer::take_file(const std::filesystem::path& file) {
       return open(read_picture_request(file));
     case DropKind::environment:
       require_scene(file, "an environment");
-      document_.environment = file.string();
+      document_.request.look.environment = file.string();
       return;
     case DropKind::camera:
       require_scene(file, "a camera");

@@ -37,6 +37,10 @@ TEST(PictureNotes, OptionsThatALookDoesNotUse) {
     EXPECT_EQ(count(bounces, look), look == LOOK_AO || look == LOOK_SCAN ? 1U : 0U);
   }
   EXPECT_EQ(count({{"focus", "2"}}, LOOK_LIT), 1U) << "without an aperture";
+  EXPECT_EQ(count({{"object", "0:hidden=on"}}, LOOK_AO), 0U) << "no material";
+  EXPECT_EQ(ignored_options(asked({{"clamp", "10"}, {"sun", "0,0,1"}}), LOOK_AO),
+            (std::vector<std::string>{"this --look does not use --sun, --look lit, clay, scan and paper do",
+                                      "this --look does not use --clamp, --look lit and clay do"}));
 }
 
 TEST(PictureNotes, LightThatIsNotThere) {

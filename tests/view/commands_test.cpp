@@ -65,7 +65,7 @@ TEST_F(CommandsTest, ModesAndUpAxesGoRound) {
   EXPECT_EQ(document.mode, ViewMode::steps);
   for (const glm::dvec3& up : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)}) {
     EXPECT_TRUE(act(Action::up_axis));
-    EXPECT_EQ(document.up, up);
+    EXPECT_EQ(up_of(document), up);
   }
 }
 

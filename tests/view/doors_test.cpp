@@ -9,6 +9,9 @@
 #include "app/library/shot/scene_source.h"
 #include "app/library/splatray.h"
 #include "app/view/model/document_request.h"
+#include "app/view/model/navigation.h"
+#include "app/view/model/region_edit.h"
+#include "app/view/model/section_sheet.h"
 #include "app/view/thread/save.h"
 #include "engine/device/device.h"
 #include "preprocess/base/file_extension.h"
@@ -160,12 +163,13 @@ TEST_F(Doors, InputsAreNotReplaced) {
   EXPECT_GT(bytes_of(file("grid.ply")).size(), 100U);
 }
 
-/// The viewer: its document of a request is saved as the program's picture, though all that was chosen is said by then.
-TEST_F(Doors, TheViewerSavesTheProgramsPicture) {
-  const std::unique_ptr<Device> device = open_device(HOST_DEVICE);
-  int saves = 0;
-  const auto saved = [&](const std::string& scene, const std::string& options,
-                         const std::function<void(Document&)>& change) {
+/// The viewer, without its window.
+class ViewerDoor : public Doors {
+ protected:
+  using Change = std::function<void(Document&, Request& save)>;
+
+  /// The file that it saves of a scene opened with options, once `change` has changed what is shown and what is saved.
+  std::string saved(const std::string& scene, const std::string& options, const Change& change = {}) {
     Request asked = parse_command_line("splatray-render x --device=cpu " + options);
     asked.source.inputs = {file(scene)};
     Request loading = asked;  // as the viewer loads: the document has materials and colours
@@ -176,19 +180,29 @@ TEST_F(Doors, TheViewerSavesTheProgramsPicture) {
     const SharedScene shared = std::make_shared<const Scene>(std::move(loaded.scene));
     Document document = first_document(*shared, loaded.facts, asked);
     LiveScene live(*device);
-    live.open(shared, document.attributes);
-    if (change) change(document);
+    live.open(shared, document.request.look.attributes);
+    Request save = asked;
+    save.output.path = file("saved" + std::to_string(++saves) + ".png");
+    if (change) change(document, save);
     const Shot shot =
         resolve(request_of(document, asked.view.width, asked.view.height), *shared, document.loaded->facts);
     if (document.loaded->is_scan && !asked.look.exposure_ev) {
       live.match(document, ViewMode::shaded);
-      document.exposure_ev = preview_exposure_ev(shot, live.shown(), document.camera);
+      document.request.look.exposure_ev = preview_exposure_ev(shot, live.shown(), document.camera);
     }
-    Request save = asked;
-    save.output.path = file("saved" + std::to_string(++saves) + ".png");
-    (void)save_pictures(save_job(document, save), live, [](const Work&) { return true; });
+    const SaveJob job = save_job(document, save);
+    command = command_line(job.request);
+    (void)save_pictures(job, live, [](const Work&) { return true; });
     return save.output.path.string();
-  };
+  }
+
+  const std::unique_ptr<Device> device = open_device(HOST_DEVICE);
+  int saves = 0;
+  std::string command;  ///< of splatray-render, for the file saved last
+};
+
+/// Its document of a request is saved as the program's picture, though all that was chosen is said by then.
+TEST_F(ViewerDoor, SavesTheProgramsPicture) {
   const std::string small = "--resolution=24x16 --samples=4 ";
   for (const auto& [scene, options] : std::vector<std::pair<std::string, std::string>>{
            {"room.pcd", small},
@@ -197,17 +211,67 @@ TEST_F(Doors, TheViewerSavesTheProgramsPicture) {
            {"cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9"},
            {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1"},
            {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=paper"}}) {
-    const std::string made = by_program(scene, options, "program.png"), other = saved(scene, options, {});
+    const std::string made = by_program(scene, options, "program.png"), other = saved(scene, options);
     EXPECT_TRUE(read_display_image(made, {}).rgb == read_display_image(other, {}).rgb)
         << scene << " " << options;
     EXPECT_EQ(said_in(made, false), said_in(other, false)) << scene << " " << options;
   }
   // An area light stays one when the paper's look, which has none, is left.
   const std::string lamp = small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=";
-  const std::string lit =
-      saved("cube.obj", lamp + "paper", [](Document& document) { document.settings.look = LOOK_LIT; });
+  const std::string lit = saved("cube.obj", lamp + "paper",
+                                [](Document& document, Request&) { document.request.look.style = LOOK_LIT; });
   const std::string made = by_program("cube.obj", lamp + "lit --tone=soft", "program.png");
   EXPECT_TRUE(read_display_image(made, {}).rgb == read_display_image(lit, {}).rgb);
+}
+
+/// A drawing of the section shown: the program's of the same request, pixel for pixel.
+TEST_F(ViewerDoor, DrawsTheProgramsSheet) {
+  struct Shown {
+    SheetKind kind;
+    AxisView view;
+    std::function<void(Document&)> change;
+    const char* extension = ".png";
+  };
+  const auto slice = [](int axis) {
+    return
+        [axis](Document& document) { set_slice(document.request.view.region, first_slice(document, axis)); };
+  };
+  const auto along_x = [](Document& document) { set_up_axis(document, {1.0, 0.0, 0.0}); };
+  const auto box = [](Document& document) {
+    document.request.view.region.keep_box = TurnedBox{{-1, -1, -2}, {1, 3, 1}, 20};
+  };
+  for (const Shown& shown :
+       {Shown{SheetKind::plan, AxisView::top, slice(1)}, Shown{SheetKind::plan, AxisView::top, {}},
+        Shown{SheetKind::plan, AxisView::top, box, ".exr"}, Shown{SheetKind::plan, AxisView::top, along_x},
+        Shown{SheetKind::section, AxisView::front, slice(2)},
+        Shown{SheetKind::section, AxisView::left, slice(0), ".exr"},
+        Shown{SheetKind::section, AxisView::front, box},
+        Shown{SheetKind::elevation, AxisView::right, slice(1)},
+        Shown{SheetKind::ortho, AxisView::bottom, {}}}) {
+    const std::string drawn = saved("room.pcd", "--samples=2", [&](Document& document, Request& save) {
+      if (shown.change) shown.change(document);
+      set_axis_view(document, shown.view);
+      SheetRequest like;
+      like.scale = 100.0;
+      like.dpi = 40.0;
+      save.view.sheet = section_sheet(document, like);
+      save.view.ink = shown.kind == SheetKind::section;
+      save.output.path.replace_extension(shown.extension);
+      EXPECT_EQ(save.view.sheet->kind, shown.kind);
+      const bool turned = document.request.look.up != document.loaded->first.look.up;
+      EXPECT_EQ(saved_request(document, save).look.lights.has_value(), turned)
+          << "the light is over the shoulder of who looks at the sheet";
+    });
+    std::vector<std::string> words = shell_words(command);
+    words.front() = RENDER;
+    const std::string made = file(std::string("drawn") + shown.extension);
+    words.insert(words.end(), {"--quiet", "--device=cpu", "-o", made});
+    const ChildResult result = run_program(words);
+    ASSERT_EQ(result.code, 0) << command << ": " << result.err;
+    expect_equal(made, drawn, command);
+    EXPECT_GT(std::filesystem::file_size(made + ".sheet.json"), 0U);
+    EXPECT_TRUE(bytes_of(made + ".sheet.json").size() == bytes_of(drawn + ".sheet.json").size()) << command;
+  }
 }
 
 /// Pictures of before did not keep what was chosen, and none of a named look went through a denoiser.

@@ -8,6 +8,7 @@
 #include "app/view/model/history.h"
 #include "app/view/model/navigation.h"
 #include "app/view/model/region_edit.h"
+#include "app/view/model/section_sheet.h"
 #include "tests/temp_folder.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"
@@ -30,8 +31,8 @@ TEST_P(RegionEdit, AFaceFollowsTheCursorAndTheOthersStay) {
       for (const bool ortho : {false, true}) {
         document = GetParam().document;
         if (ortho) toggle_orthographic(document);
-        document.region.keep_box = box_of_all(document);
-        document.region.keep_box->turn_deg = turn;
+        document.request.view.region.keep_box = box_of_all(document);
+        document.request.view.region.keep_box->turn_deg = turn;
         const std::vector<Grip> before = handles_of(document);
         const Grip& grip = before[number];
         const glm::dvec3 wanted = grip.place_world + 0.1 * size * grip.normal;
@@ -52,32 +53,33 @@ TEST_P(RegionEdit, AFaceFollowsTheCursorAndTheOthersStay) {
 }
 
 TEST_P(RegionEdit, ABoxIsNeverTurnedInsideOut) {
-  document.region.keep_box = box_of_all(document);
+  document.request.view.region.keep_box = box_of_all(document);
   for (std::size_t number = 0; number < 6; ++number) {
     Grip grip = handles_of(document)[number];
     for (const double far : {-1e3, 1e3})
       drag_handle(document, grip, {400, 300}, {400 + far, 300 - far}, PICTURE);
   }
-  EXPECT_TRUE(glm::all(glm::lessThan(document.region.keep_box->low, document.region.keep_box->high)));
+  EXPECT_TRUE(glm::all(glm::lessThan(document.request.view.region.keep_box->low,
+                                     document.request.view.region.keep_box->high)));
 }
 
 TEST_P(RegionEdit, ASliceMovesAndKeepsItsThickness) {
-  document.region.cuts = {{document.bounds_min_world, {1.0, 1.0, 0.0}}};
-  EXPECT_FALSE(slice_of(document.region));
+  document.request.view.region.cuts = {{document.bounds_min_world, {1.0, 1.0, 0.0}}};
+  EXPECT_FALSE(slice_of(document.request.view.region));
   for (int axis = 0; axis < 3; ++axis) {
     const Slice first = first_slice(document, axis);
-    set_slice(document.region, first);
-    ASSERT_EQ(document.region.cuts.size(), 3U) << "one slice, beside the plane";
-    const Slice slice = slice_of(document.region).value();
+    set_slice(document.request.view.region, first);
+    ASSERT_EQ(document.request.view.region.cuts.size(), 3U) << "one slice, beside the plane";
+    const Slice slice = slice_of(document.request.view.region).value();
     EXPECT_NEAR(slice.thickness, first.thickness, 1e-6 * size);
     for (int i = 0; i < 7; ++i) EXPECT_TRUE(move_slice(document, 1.0));
-    const Slice moved = slice_of(document.region).value();
+    const Slice moved = slice_of(document.request.view.region).value();
     EXPECT_NEAR(glm::dot(moved.point - slice.point, slice.normal), 0.035 * size, 1e-6 * size);
     EXPECT_NEAR(moved.thickness, first.thickness, 1e-6 * size);
   }
-  remove_slice(document.region);
-  remove_slice(document.region);
-  EXPECT_EQ(document.region.cuts.size(), 1U);
+  remove_slice(document.request.view.region);
+  remove_slice(document.request.view.region);
+  EXPECT_EQ(document.request.view.region.cuts.size(), 1U);
   EXPECT_FALSE(move_slice(document, 1.0));
 }
 
@@ -113,7 +115,7 @@ TEST_P(RegionEdit, PlacesInThePictureAreWhereTheyAreSeen) {
 
 TEST_P(RegionEdit, WalkingStaysLevelWhereverOneLooks) {
   orbit(document, {0.0, 120.0}, PICTURE);  // looks down
-  const glm::dvec3 up = glm::normalize(document.up), eye = document.camera.eye;
+  const glm::dvec3 up = glm::normalize(up_of(document)), eye = document.camera.eye;
   walk(document, {0.0, 0.0, 1.0}, 0.2, 2.0);
   EXPECT_NEAR(glm::dot(document.camera.eye - eye, up), 0.0, 1e-6 * size);
   EXPECT_NEAR(glm::distance(document.camera.eye, eye), 0.02 * size, 1e-6 * size)
@@ -129,14 +131,70 @@ INSTANTIATE_TEST_SUITE_P(Documents, RegionEdit, ::testing::ValuesIn([] {
                            return documents;
                          }()));
 
+/// A box of 2 about (1, 2, 3), y up, whose plan's north is -z.
+class SectionSheet : public ::testing::Test {
+ protected:
+  std::string sheet() { return sheet_text(section_sheet(document, {})); }
+
+  Document document = box_document({1.0, 2.0, 3.0}, 2.0);
+};
+
+TEST_F(SectionSheet, FromAboveItIsAPlanAtTheLowestCut) {
+  set_axis_view(document, AxisView::top);
+  EXPECT_EQ(sheet(), "plan");
+  set_slice(document.request.view.region, {{0.0, 2.5, 0.0}, {0.0, 1.0, 0.0}, 0.5});
+  EXPECT_EQ(sheet(), "plan:z=2.75");
+  document.request.view.region.keep_box = TurnedBox{{0.0, 0.0, 0.0}, {9.0, 2.25, 9.0}, 30.0};
+  EXPECT_EQ(sheet(), "plan:z=2.25");
+  document.request.view.region.keep_box->high.y = 99.0;                      // above all there is
+  document.request.view.region.cuts = {{{0.0, 1.5, 0.0}, {0.0, 1.0, 0.0}}};  // from below
+  EXPECT_EQ(sheet(), "plan");
+  set_axis_view(document, AxisView::bottom);
+  EXPECT_EQ(sheet(), "ortho:0,1,0");
+}
+
+TEST_F(SectionSheet, LevelItIsASectionAlongTheCutThatIsSeen) {
+  set_axis_view(document, AxisView::front);
+  EXPECT_EQ(sheet(), "elevation:180") << "from the south";
+  set_slice(document.request.view.region, {{0.0, 2.0, 0.0}, {0.0, 1.0, 0.0}, 0.5});
+  EXPECT_EQ(sheet(), "elevation:180") << "a level slice is none";
+  set_slice(document.request.view.region, {{0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 0.5});
+  const SheetRequest section = section_sheet(document, {});
+  ASSERT_EQ(section.kind, SheetKind::section);
+  // Looking along -z to the left of a line that goes along x: at the slice's near side, z = 3.25.
+  EXPECT_NEAR(section.place[1], -3.25, 1e-9);
+  EXPECT_NEAR(section.place[3], -3.25, 1e-9);
+  EXPECT_LT(section.place[0], 0.0);
+  EXPECT_GT(section.place[2], 2.0);
+  document.request.view.region.keep_box = TurnedBox{{0.5, 0.0, 0.0}, {1.5, 9.0, 9.0}};
+  const SheetRequest boxed = section_sheet(document, {});
+  EXPECT_NEAR(boxed.place[0], 0.5, 1e-9);
+  EXPECT_NEAR(boxed.place[2], 1.5, 1e-9);
+  set_axis_view(document, AxisView::back);
+  EXPECT_NEAR(section_sheet(document, {}).place[1], -2.75, 1e-9) << "the slice's other side";
+  document.request.view.region = {};
+  set_axis_view(document, AxisView::right);
+  EXPECT_EQ(sheet(), "elevation:90");
+  orbit(document, {40.0, 0.0}, PICTURE);
+  EXPECT_EQ(sheet(), "elevation:90") << "the nearest side";
+}
+
+TEST_F(SectionSheet, KeepsScaleDpiWeightAndUnit) {
+  const SheetRequest like = read_sheet("section:0,0,1,0,scale=20,dpi=100,weight=0.5,unit=mm,depth=2");
+  set_axis_view(document, AxisView::top);
+  EXPECT_EQ(sheet_text(section_sheet(document, like)), "plan:depth=2,scale=20,dpi=100,weight=0.5,unit=0.001");
+  EXPECT_EQ(sheet_sentence(read_sheet("plan:z=1.25")), "A plan, cut at the height 1.25.");
+  EXPECT_EQ(sheet_sentence(read_sheet("elevation:west")), "An elevation, seen from the west.");
+}
+
 TEST(HistoryTest, StepsBackAndForthWithoutTheCamera) {
   Document document = box_document({0, 0, 0}, 2.0);
   History history;
   history.start(document);
   EXPECT_FALSE(history.undo(document));
-  document.exposure_ev = 1.0;
+  document.request.look.exposure_ev = 1.0;
   history.see(document, true);
-  document.exposure_ev = 2.0;
+  document.request.look.exposure_ev = 2.0;
   history.see(document, false);  // a drag is one step
   document.camera.eye.x += 1.0;
   history.see(document, false);
@@ -145,10 +203,10 @@ TEST(HistoryTest, StepsBackAndForthWithoutTheCamera) {
   const Camera camera = document.camera;
   EXPECT_TRUE(history.undo(document));
   EXPECT_TRUE(document.measures.empty());
-  EXPECT_EQ(document.exposure_ev, 2.0);
+  EXPECT_EQ(exposure_of(document), 2.0);
   history.see(document, false);  // as each frame does
   EXPECT_TRUE(history.undo(document));
-  EXPECT_EQ(document.exposure_ev, 0.0);
+  EXPECT_EQ(exposure_of(document), 0.0);
   EXPECT_EQ(document.camera, camera) << "it is not moved";
   EXPECT_FALSE(history.undo(document));
   EXPECT_TRUE(history.redo(document));
@@ -156,11 +214,11 @@ TEST(HistoryTest, StepsBackAndForthWithoutTheCamera) {
   EXPECT_FALSE(history.redo(document));
   EXPECT_EQ(document.measures.size(), 1U);
   EXPECT_TRUE(history.undo(document));
-  document.region.light_kept = true;
+  document.request.view.region.light_kept = true;
   history.see(document, false);
   EXPECT_FALSE(history.redo(document)) << "another way was taken";
   for (std::size_t i = 0; i < 2 * History::MOST; ++i) {
-    document.exposure_ev += 1.0;
+    document.request.look.exposure_ev = exposure_of(document) + 1.0;
     history.see(document, false);
   }
   std::size_t steps = 0;
@@ -203,25 +261,25 @@ class EditPanels : public ::testing::Test {
 
 TEST_F(EditPanels, RegionsAreSwitchedOnAndOff) {
   gui.click("##column", {"look in"});
-  EXPECT_TRUE(gui.document.settings.cutaway);
+  EXPECT_TRUE(gui.document.request.view.look_in);
   gui.click("##column", {"keep a box", "keep a box"});
-  ASSERT_TRUE(gui.document.region.keep_box);
+  ASSERT_TRUE(gui.document.request.view.region.keep_box);
   gui.click("##column", {"level"});
-  ASSERT_TRUE(slice_of(gui.document.region));
-  EXPECT_EQ(slice_of(gui.document.region)->normal, glm::dvec3(0.0, 1.0, 0.0));
+  ASSERT_TRUE(slice_of(gui.document.request.view.region));
+  EXPECT_EQ(slice_of(gui.document.request.view.region)->normal, glm::dvec3(0.0, 1.0, 0.0));
   gui.click("##column", {"plane across the view"});
-  ASSERT_EQ(gui.document.region.cuts.size(), 3U);
-  EXPECT_TRUE(slice_of(gui.document.region)) << "the slice stays the last";
-  const glm::dvec3 normal = gui.document.region.cuts[0].normal;
+  ASSERT_EQ(gui.document.request.view.region.cuts.size(), 3U);
+  EXPECT_TRUE(slice_of(gui.document.request.view.region)) << "the slice stays the last";
+  const glm::dvec3 normal = gui.document.request.view.region.cuts[0].normal;
   gui.click("##column", {0, "flip"});
-  EXPECT_EQ(gui.document.region.cuts[0].normal, -normal);
+  EXPECT_EQ(gui.document.request.view.region.cuts[0].normal, -normal);
   gui.click("##column", {0, "remove"});
-  EXPECT_EQ(gui.document.region.cuts.size(), 2U);
+  EXPECT_EQ(gui.document.request.view.region.cuts.size(), 2U);
   gui.click("##column", {"none"});
-  EXPECT_TRUE(gui.document.region.cuts.empty());
+  EXPECT_TRUE(gui.document.request.view.region.cuts.empty());
   gui.click("##column", {"light of what is kept alone"});
   gui.click("##column", {"show all of it"});
-  EXPECT_EQ(gui.document.region, RegionRequest{});
+  EXPECT_EQ(gui.document.request.view.region, RegionRequest{});
 }
 
 TEST_F(EditPanels, MeasuresAreListedAndCopied) {
@@ -240,9 +298,9 @@ TEST_F(EditPanels, MeasuresAreListedAndCopied) {
 }
 
 TEST_F(EditPanels, MarksAreDrawnWhateverIsThere) {
-  gui.document.region.keep_box = box_of_all(gui.document);
-  gui.document.region.drop_box = gui.document.region.keep_box;
-  set_slice(gui.document.region, first_slice(gui.document, 1));
+  gui.document.request.view.region.keep_box = box_of_all(gui.document);
+  gui.document.request.view.region.drop_box = gui.document.request.view.region.keep_box;
+  set_slice(gui.document.request.view.region, first_slice(gui.document, 1));
   gui.document.measures = {{MeasureKind::area, {{{1, 2, 3}}, {{1, 2, 4}}, {{2, 2, 3}}}},
                            {MeasureKind::angle, {}}};
   gui.view.about_world = gui.document.camera.target;

@@ -52,6 +52,7 @@ const std::map<std::string, std::string> TEXTS = {{"inputs", "other.ply"},
                                                   {"aov", "depth"},
                                                   {"camera-path", "path.json"},
                                                   {"frames", "0-3"},
+                                                  {"exposure", "-0.75"},
                                                   {"delta", "0.25"}};
 
 /// Fields that become others when a scene is shown, and why.
@@ -60,10 +61,8 @@ const std::map<std::string, std::string> RESOLVED = {
     {"view", "becomes a camera"},
     {"object", "becomes all changes of its object, by its name"},
     {"area-light", "becomes a --light of the kind rectangle"},
-    {"exposure", "is the window's, which knows what it chose"},
     {"device", "is the program's: the window has one"},
     {"stats-json", "is the program's"},
-    {"delta", "stands only beside side=delta"},
 };
 
 /// A text of the field that is not its default.
@@ -94,8 +93,9 @@ TEST(ViewFields, WhatIsAskedForIsWhatIsShownAndSaved) {
     if (of_camera) values.push_back({"eye", "1,2,3"});
     if (field.name == "inputs") values.erase(values.begin());
     assign(asked, values, DOOR_VIEW);
-    const Request made = is_of_files(field) ? save_job(loaded(scene), asked).request
-                                            : request_of(first_document(scene, facts_of(scene), asked), 320, 200);
+    const Request made = field.is(OF_FILES)
+                             ? save_job(loaded(scene), asked).request
+                             : request_of(first_document(scene, facts_of(scene), asked), 320, 200);
     EXPECT_EQ(texts_of(field, made), std::vector{text}) << field.name;
   }
 }
@@ -127,11 +127,8 @@ TEST(ViewFields, EachHasAControl) {
   std::set<FieldGroup> opened;
   for (const Field& field : fields()) {
     if (!field.in(DOOR_VIEW) || field.group == FieldGroup::files) continue;
-    if (is_of_files(field)) {
-      // Those with a control of their own in the dialogs.
-      if (field.name == "output" || field.name == "resolution" || field.name == "turntable" ||
-          field.name == "camera-path")
-        continue;
+    if (field.is(OF_FILES)) {
+      if (field.is(HAS_OWN_CONTROL)) continue;
       saved.push_back({field.name});
       continue;
     }

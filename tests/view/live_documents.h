@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 
-#include "app/view/model/document.h"
+#include "app/view/model/document_request.h"
 #include "app/view/thread/live_scene.h"
 #include "engine/scene/surface.h"
 #include "tests/gpu/small_scene.h"
@@ -18,13 +18,15 @@ inline SharedScene shared_discs(std::uint32_t count = 2) {
 inline Document disc_document(const Scene& scene) {
   Document document;
   document.loaded = std::make_shared<const LoadedPart>(
-      LoadedPart{{}, {}, LOOK_LIT, scene.object_names, {scene.materials, surfaces_of(scene)}});
+      LoadedPart{{}, {}, {}, scene.object_names, {scene.materials, surfaces_of(scene)}});
   document.looks = document.loaded->looks;
-  document.lights = scene.lights;
-  document.environment = "white";
+  document.request.look.style = LOOK_PAPER;
+  document.request.look.tone = Tone::neutral;
+  document.request.look.lights = requested_lights(scene.lights);
+  document.request.look.environment = "white";
   document.camera = disc_view(1, 1).camera;
-  document.settings.samples = 3;
-  document.up = scene.up;
+  document.request.settings.samples = 3;
+  document.request.look.up = scene.up;
   document.bounds_min_world = scene.bounds_min_world;
   document.bounds_max_world = scene.bounds_max_world;
   return document;

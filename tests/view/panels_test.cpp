@@ -9,6 +9,7 @@
 #include "app/library/camera_file.h"
 #include "app/library/materials.h"
 #include "app/view/model/attempt.h"
+#include "app/view/model/document_request.h"
 #include "app/view/thread/live_scene.h"
 #include "app/view/ui/panel_parts.h"
 #include "engine/gpu/pools.h"
@@ -30,7 +31,8 @@ Document document_of(std::size_t objects) {
   loaded.looks.surfaces = std::vector<Surface>(objects, surface_of(named_material("matte")));
   document.looks = loaded.looks;
   document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
-  if (objects > 0) document.lights.resize(2);
+  document.request.look.style = LOOK_PAPER;
+  if (objects > 0) lights_of(document).resize(2);
   return document;
 }
 
@@ -55,11 +57,10 @@ bool hidden(const Document& document, std::size_t object) {
 /// All members of a document: whoever adds one must name it here.
 bool same(const Document& a, const Document& b) {
   const auto members = [](const Document& document) {
-    const auto& [loaded, looks, lights, environment, camera, settings, region, exposure_ev, tone, mode,
-                 eye_dome, point_size, measures, attributes, up, bounds_min_world, bounds_max_world] =
-        document;
-    return std::tie(loaded, lights, environment, camera, settings, region, exposure_ev, tone, mode, eye_dome,
-                    point_size, measures, attributes, up, bounds_min_world, bounds_max_world);
+    const auto& [loaded, request, camera, looks, mode, eye_dome, point_size, measures, bounds_min_world,
+                 bounds_max_world] = document;
+    return std::tie(loaded, request, camera, mode, eye_dome, point_size, measures, bounds_min_world,
+                    bounds_max_world);
   };
   return same_looks(a.looks, b.looks) && members(a) == members(b);
 }
@@ -90,13 +91,15 @@ TEST(PanelsTest, AllPanelsRunOverAnyDocumentAndChangeNothing) {
 }
 
 TEST(PanelsTest, DialogsRunAndCanBeCancelled) {
-  for (bool PanelState::*open : {&PanelState::show_open, &PanelState::show_save, &PanelState::show_record}) {
+  for (bool PanelState::*open :
+       {&PanelState::show_open, &PanelState::show_save, &PanelState::show_sheet, &PanelState::show_record}) {
     GuiDriver gui(1280, 720);
     gui.document = document_of(1);
     gui.state.*open = true;
-    const char* title = open == &PanelState::show_open   ? "Open"
-                        : open == &PanelState::show_save ? "Save the picture"
-                                                         : "Record";
+    const char* title = open == &PanelState::show_open    ? "Open"
+                        : open == &PanelState::show_save  ? "Save the picture"
+                        : open == &PanelState::show_sheet ? "Save a drawing to scale"
+                                                          : "Record";
     const Requests requests = gui.click(title, {"cancel"});
     EXPECT_FALSE(gui.state.*open);
     EXPECT_FALSE(requests.save || requests.open);
@@ -140,13 +143,13 @@ TEST(PanelsTest, ALookWithoutMaterialsSaysSoAndOffersOneThatHasThem) {
   for (const std::uint32_t look : {LOOK_SCAN, LOOK_CLAY, LOOK_AO, LOOK_LIT, LOOK_PAPER}) {
     GuiDriver gui(1280, 720);
     gui.document = document_of(1);
-    gui.document.settings.look = look;
+    gui.document.request.look.style = look;
     if (look == LOOK_LIT || look == LOOK_PAPER) {
       EXPECT_FALSE(gui.can_click("##column", {0, "look lit"})) << look;
       continue;
     }
     gui.click("##column", {0, "look lit"});
-    EXPECT_EQ(gui.document.settings.look, LOOK_LIT) << look;
+    EXPECT_EQ(look_of(gui.document), LOOK_LIT) << look;
   }
 }
 
@@ -162,7 +165,7 @@ TEST(PanelsTest, OnlyColoursThatThereAreAreOffered) {
     gui.click("##column", {"colours"});
     EXPECT_EQ(gui.can_click("##Combo", {"rgb"}), sources.front() == "rgb");
     gui.click("##Combo", {"height"});
-    EXPECT_EQ(gui.document.attributes.color_by, "height");
+    EXPECT_EQ(gui.document.request.look.attributes.color_by, "height");
   }
 }
 
@@ -224,15 +227,15 @@ TEST(PanelsTest, LightsAreAddedAndRemoved) {
   gui.document = document_of(1);
   gui.click("##column", {"Lights"});
   gui.click("##column", {"add point light"});
-  ASSERT_EQ(gui.document.lights.size(), 3U);
-  EXPECT_EQ(gui.document.lights[2].kind, LIGHT_POINT);
+  ASSERT_EQ(lights_of(gui.document).size(), 3U);
+  EXPECT_EQ(lights_of(gui.document)[2].light.kind, LIGHT_POINT);
   EXPECT_EQ(gui.state.light, 2U);
   gui.click("##column", {2, "remove"});
-  EXPECT_EQ(gui.document.lights.size(), 2U);
+  EXPECT_EQ(lights_of(gui.document).size(), 2U);
   for (const int light : {1, 0}) gui.click("##column", {light, "remove"});
-  EXPECT_TRUE(gui.document.lights.empty());
+  EXPECT_TRUE(lights_of(gui.document).empty());
   gui.click("##column", {"add sun"});
-  EXPECT_NEAR(glm::length(gui.document.lights[0].position), 1.0, 1e-9);
+  EXPECT_NEAR(glm::length(lights_of(gui.document)[0].light.position), 1.0, 1e-9);
 }
 
 TEST(PanelsTest, QualityAndEnvironmentChangeTheSettings) {
@@ -240,12 +243,12 @@ TEST(PanelsTest, QualityAndEnvironmentChangeTheSettings) {
   gui.document = document_of(1);
   for (const char* section : {"Quality", "Environment", "Statistics"}) gui.click("##column", {section});
   gui.click("##column", {"shadows"});
-  EXPECT_FALSE(gui.document.settings.shadows);
+  EXPECT_FALSE(gui.document.request.settings.shadows);
   gui.click("##column", {"black"});
-  EXPECT_EQ(gui.document.environment, "black");
+  EXPECT_EQ(gui.document.request.look.environment, "black");
   gui.click("##column", {"blend"});
   gui.click("##Combo", {"nearest"});
-  EXPECT_EQ(gui.document.settings.blend, BLEND_NEAREST);
+  EXPECT_EQ(gui.document.request.settings.blend, BLEND_NEAREST);
   gui.click("##column", {"view"});
   gui.click("##Combo", {"facing"});
   EXPECT_EQ(gui.document.mode, ViewMode::facing);
@@ -280,6 +283,26 @@ TEST(PanelsTest, TheSaveDialogAsksForThePicture) {
   EXPECT_EQ(requests.save->view.width, 3840U);
   EXPECT_TRUE(requests.save->output.denoise.value_or(false));
   EXPECT_FALSE(gui.state.show_save);
+}
+
+TEST(PanelsTest, TheSheetDialogAsksForADrawing) {
+  GuiDriver gui(1280, 1000);
+  gui.document = document_of(1);
+  for (const char* button : {"open", "save", "sheet", "record", "copy", "keys"})
+    EXPECT_TRUE(gui.can_click("##column", {button})) << button;
+  EXPECT_EQ(gui.click("##column", {"sheet"}).commands.front().action, Action::sheet);
+  EXPECT_TRUE(apply({Action::sheet}, 1.5, gui.document, gui.state));
+  gui.state.sheet.output.path = "sheet.jpg";
+  EXPECT_FALSE(gui.can_click("Save a drawing to scale", {"save"})) << "the format cannot hold one";
+  gui.state.sheet.output.path = "sheet.pdf";
+  gui.click("Save a drawing to scale", {"ink"});
+  const Requests requests = gui.click("Save a drawing to scale", {"save"});
+  ASSERT_TRUE(requests.save.has_value());
+  EXPECT_TRUE(requests.save->view.ink);
+  const Request saved = saved_request(gui.document, *requests.save);
+  EXPECT_EQ(saved.view.sheet, requests.save->view.sheet);
+  EXPECT_FALSE(saved.view.eye) << "a drawing has its own camera";
+  EXPECT_FALSE(gui.state.show_sheet);
 }
 
 TEST(PanelsTest, CamerasAndBookmarksAreSavedAsFiles) {

@@ -180,13 +180,13 @@ TEST(PointSampler, ShowsARoomAsItsSceneIsShown) {
   input.up = glm::dvec3(0.0, 0.0, 1.0);
   const LoadedScene loaded = load_objects(std::move(input), asked(), {});
   const Document document = first_document(loaded.scene, loaded.facts, asked());
-  EXPECT_EQ(opened.document.up, document.up);
-  EXPECT_EQ(opened.document.settings.cutaway, document.settings.cutaway);
+  EXPECT_EQ(up_of(opened.document), up_of(document));
+  EXPECT_EQ(opened.document.request.view.look_in, document.request.view.look_in);
   EXPECT_LT(glm::length(opened.document.camera.eye - document.camera.eye), 0.1);
   EXPECT_LT(glm::length(opened.document.camera.target - document.camera.target), 0.1);
   EXPECT_NEAR(opened.points->spacing_world, 0.1, 0.04);
   EXPECT_TRUE(opened.document.looks.materials.empty());
-  EXPECT_EQ(opened.document.settings.cutaway, !opened.points->normal.empty());
+  EXPECT_EQ(opened.document.request.view.look_in, !opened.points->normal.empty());
 }
 
 TEST(PointSampler, ColoursAreThePointsOwnElseTheirHeights) {

@@ -4,6 +4,8 @@
 #include <thread>
 
 #include "app/library/shot/environment.h"
+#include "app/library/shot/lights.h"
+#include "app/library/shot/resolve.h"
 #include "engine/base/error.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/view/live_documents.h"
@@ -37,11 +39,11 @@ class ProgressiveTest : public DeviceTest {
     Scene shown = *scene;
     shown.materials = document.looks.materials;
     shown.surfaces = document.looks.surfaces;
-    shown.lights = document.lights;
-    shown.up = document.up;
+    shown.lights = resolve_lights(shown, document.request, document.camera);
+    shown.up = up_of(document);
     tracer.upload(shown);
-    tracer.set_environment(load_environment(document.environment));
-    return tracer.render({document.camera, SIZE.x, SIZE.y}, document.settings);
+    tracer.set_environment(load_environment(document.request.look.environment));
+    return tracer.render({document.camera, SIZE.x, SIZE.y}, resolve_settings(shown, document.request));
   }
 
   /// The document, changed, ends in the headless picture, without another upload of the pools.
@@ -50,7 +52,7 @@ class ProgressiveTest : public DeviceTest {
     ASSERT_GE(frames.size(), 2U);
     EXPECT_TRUE(frames.front()->moving);
     EXPECT_FALSE(frames.back()->moving);
-    EXPECT_EQ(frames.back()->samples, document.settings.samples);
+    EXPECT_EQ(frames.back()->samples, document.request.settings.samples);
     EXPECT_EQ(frames.back()->pools_uploaded, 1U);
     EXPECT_TRUE(frames.back()->image.rgba == headless().rgba);
     EXPECT_FALSE(frames.back()->image.rgba == first);
@@ -84,20 +86,20 @@ TEST_F(ProgressiveTest, HiddenObject) {
 }
 
 TEST_F(ProgressiveTest, Lights) {
-  document.lights.push_back({LIGHT_POINT, {0.0, 0.5, 1.0}, vec3(0.5F)});
+  lights_of(document).push_back({{LIGHT_POINT, {0.0, 0.5, 1.0}, vec3(0.5F)}, {}, true});
   expect_live_change();
 }
 
 TEST_F(ProgressiveTest, EnvironmentAndUp) {
-  document.environment = "studio";
-  document.up = {0.0, 0.0, 1.0};
-  document.settings.environment_turn = 0.25F;
+  document.request.look.environment = "studio";
+  document.request.look.up = {0.0, 0.0, 1.0};
+  document.request.settings.environment_turn = 0.25F;
   expect_live_change();
 }
 
 /// Colours and distances of LOOK_SEEN: the brute truth of an orthographic view of two discs.
 TEST_F(ProgressiveTest, WhatMovesIsSeenWithoutNoise) {
-  document.settings.look = LOOK_LIT;
+  document.request.look.style = LOOK_LIT;
   document.camera.eye.x = document.camera.target.x = 0.1;
   const std::vector<SharedFrame> once = finish();
   document.camera.eye.x = document.camera.target.x = 0.0;
@@ -122,7 +124,7 @@ TEST_F(ProgressiveTest, WhatMovesIsSeenWithoutNoise) {
 }
 
 TEST_F(ProgressiveTest, WhatMovesIsAsBrightAsThePictureAtRest) {
-  document.settings.look = LOOK_LIT;
+  document.request.look.style = LOOK_LIT;
   const auto mean = [](const Frame& frame) {
     double sum = 0.0;
     std::size_t count = 0;
@@ -130,7 +132,7 @@ TEST_F(ProgressiveTest, WhatMovesIsAsBrightAsThePictureAtRest) {
       if (frame.image.rgba[i].w > 0.0F) sum += frame.display[4 * i], ++count;
     return sum / double(count);
   };
-  document.exposure_ev = -1.5;
+  document.request.look.exposure_ev = -1.5;
   const double rest = mean(*finish().back());
   document.camera.eye.x = document.camera.target.x = 0.05;
   EXPECT_NEAR(mean(*finish().front()), rest, 0.05 * rest);
@@ -147,12 +149,12 @@ TEST_F(ProgressiveTest, EveryPictureIsWhole) {
 }
 
 TEST_F(ProgressiveTest, ExposureOnlyColours) {
-  document.exposure_ev = -2.0;
-  document.tone = Tone::none;
+  document.request.look.exposure_ev = -2.0;
+  document.request.look.tone = Tone::none;
   const std::vector<SharedFrame> frames = finish();
   ASSERT_EQ(frames.size(), 1U);
   EXPECT_FALSE(frames[0]->moving);
-  EXPECT_EQ(frames[0]->samples, document.settings.samples);
+  EXPECT_EQ(frames[0]->samples, document.request.settings.samples);
   EXPECT_NEAR(frames[0]->display.front(), 137, 1) << "sRGB of 1/4";
 }
 
@@ -189,7 +191,7 @@ TEST_F(ProgressiveTest, StoppedWorkGoesOn) {
 }
 
 TEST_F(ProgressiveTest, EnvironmentThatCannotBeReadIsReportedOnce) {
-  document.environment = "/missing.hdr";
+  document.request.look.environment = "/missing.hdr";
   EXPECT_THROW((void)finish(), Error);
   EXPECT_FALSE(progressive.next_work());
   document.camera.eye.x = document.camera.target.x = 0.1;

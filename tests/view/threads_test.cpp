@@ -67,8 +67,9 @@ class RenderThreadTest : public CliTest {
 
 TEST_F(RenderThreadTest, FinishesThePicture) {
   thread.open(scene, document, SHOWN_SIZE);
-  await(
-      [&](const RenderNews& news) { return news.frame && news.frame->samples == document.settings.samples; });
+  await([&](const RenderNews& news) {
+    return news.frame && news.frame->samples == document.request.settings.samples;
+  });
 }
 
 TEST_F(RenderThreadTest, AnswersWhatIsUnderTheCursor) {
@@ -97,8 +98,8 @@ TEST_F(RenderThreadTest, SavesWhatTheHeadlessTracerMakes) {
   ShownTracer tracer(device);
   tracer.upload(*scene);
   tracer.set_environment({0, 0, {}, vec3(1.0F)});
-  document.settings.samples = 5;
-  const Image image = tracer.render({document.camera, 31, 17}, document.settings);
+  document.request.settings.samples = 5;
+  const Image image = tracer.render({document.camera, 31, 17}, document.request.settings);
   EXPECT_TRUE(display_image(image, 0.0).rgb == read_display_image(request.output.path, 0.0).rgb);
 }
 
@@ -145,7 +146,7 @@ TEST_F(RenderThreadTest, FailuresAreSentencesAndItGoesOn) {
   thread.save(save_job(document, request));
   await([](const RenderNews& news) { return news.error.find("missing") != std::string::npos; });
   await([](const RenderNews& news) { return !news.saving; });
-  document.environment = file("missing.hdr");
+  document.request.look.environment = file("missing.hdr");
   thread.show(document, SHOWN_SIZE);
   await([](const RenderNews& news) { return news.error.find("missing.hdr") != std::string::npos; });
   document.camera.eye.x = document.camera.target.x = 0.1;
@@ -188,7 +189,7 @@ TEST_F(LoadThreadTest, OpensWithADocumentThatShowsIt) {
     if (!news.opened) return false;
     EXPECT_EQ(news.opened->scene->data_pool.size(), 144U);
     EXPECT_EQ(news.opened->document.loaded->object_names, std::vector<std::string>{"grid"});
-    EXPECT_FALSE(news.opened->document.lights.empty());
+    EXPECT_FALSE(news.opened->document.request.look.lights->empty());
     return true;
   });
 }

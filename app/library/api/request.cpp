@@ -11,6 +11,13 @@
 namespace splatray::api {
 namespace {
 
+/// Whether render() takes it.
+bool renders(const Field& field) {
+  const bool of_files = field.group == FieldGroup::input || field.group == FieldGroup::output ||
+                        field.group == FieldGroup::files;
+  return field.is(OF_PICTURES) || !(of_files || field.is(OF_SCENES));
+}
+
 /// The field of a name, in which _ stands for -.
 const Field& field_of(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
@@ -139,7 +146,7 @@ std::vector<FieldInfo> Request::fields() {
   for (const Field& field : splatray::fields())
     if (field.in(DOOR_LIBRARY))
       infos.push_back({field.name, group_title(field.group), kind_name(field.kind), field.value, field.help,
-                       field.repeated, field.least, field.most});
+                       field.repeated, field.least, field.most, field.is(OF_SCENES), renders(field)});
   return infos;
 }
 

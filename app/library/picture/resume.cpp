@@ -1,7 +1,6 @@
 #include "app/library/picture/resume.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "app/library/image_file.h"
@@ -15,10 +14,6 @@
 
 namespace splatray {
 namespace {
-
-/// Fields that decide neither a sample's light nor which scene and pixels it is of.
-constexpr std::array NOT_OF_LIGHT = {"samples",    "tone",   "exposure", "aov",   "denoise",
-                                     "keep-noise", "device", "threads",  "cache", "counters"};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& found,
                          const std::string& expected) {
@@ -39,12 +34,9 @@ std::string option_text(const Field& field, const Request& request, const Reques
 void require_same_light(const std::filesystem::path& file, const Request& kept, const Request& asked) {
   if (kept.output.denoise.value_or(false) || kept.output.despeckle)
     refuse(file, "a picture without its noise", "one without --denoise and --despeckle");
-  for (const Field& field : fields()) {
-    const bool decides =
-        std::find(NOT_OF_LIGHT.begin(), NOT_OF_LIGHT.end(), field.name) == NOT_OF_LIGHT.end();
-    if (decides && field.write && field.write(kept) != field.write(asked))
+  for (const Field& field : fields())
+    if (!field.is(NOT_OF_LIGHT) && field.write && field.write(kept) != field.write(asked))
       refuse(file, "a picture with " + option_text(field, kept, asked), option_text(field, asked, kept));
-  }
 }
 
 std::string kept_value(const Metadata& metadata, const char* name) {

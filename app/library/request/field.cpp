@@ -25,6 +25,19 @@ Field needed(Field field, std::string brief) {
   return field;
 }
 
+Field Field::marked(FieldTraits more) const {
+  Field field = *this;
+  field.traits |= more;
+  return field;
+}
+
+Field Field::of_looks(std::initializer_list<std::uint32_t> users) const {
+  Field field = *this;
+  field.looks = 0;
+  for (const std::uint32_t look : users) field.looks |= 1U << look;
+  return field;
+}
+
 std::string text_of(double value) { return number_text(value); }
 std::string text_of(float value) { return number_text(value); }
 std::string text_of(std::uint64_t value) { return std::to_string(value); }

@@ -35,6 +35,19 @@ inline constexpr FieldDoors DOOR_LIBRARY = 8;     ///< C++ and Python
 inline constexpr FieldDoors DOORS_OF_PICTURES = DOOR_RENDER | DOOR_VIEW | DOOR_LIBRARY;
 inline constexpr FieldDoors DOORS_ALL = DOORS_OF_PICTURES | DOOR_PREPROCESS;
 
+/// What a field is beside a part of the help, a bit each.
+using FieldTraits = unsigned;
+inline constexpr FieldTraits OF_FILES = 1;      ///< how pictures are made for their files, not what is seen
+inline constexpr FieldTraits OF_SEQUENCES = 2;  ///< of several pictures alone
+/// The viewer's dialogs have a control of their own for it.
+inline constexpr FieldTraits HAS_OWN_CONTROL = 4;
+/// Decides neither a sample's light nor which scene and pixels it is of.
+inline constexpr FieldTraits NOT_OF_LIGHT = 8;
+/// How a scene is read, made and first shown: the library's open() takes it.
+inline constexpr FieldTraits OF_SCENES = 16;
+/// The library's render() takes it, too: as it does all that is of the groups from look to research and not OF_SCENES.
+inline constexpr FieldTraits OF_PICTURES = 32;
+
 /// A field's name and a value of it, as text.
 struct FieldText {
   std::string name, text;
@@ -66,9 +79,17 @@ struct Field {
   std::string brief{};  ///< what it is, in a few words, where most people need it: the short help shows it
   std::string extensions{};  ///< of files that are read: with dots, a blank between; empty: any
   char between = ',';        ///< what stands between the parts of a value, which JSON may have as an array
+  FieldTraits traits = 0;
+  unsigned looks = ~0U;  ///< that use it: a bit for each LOOK_*
 
   [[nodiscard]] const std::string& family_name() const { return family.empty() ? name : family; }
+  /// The field with traits beside those that it has.
+  [[nodiscard]] Field marked(FieldTraits more) const;
+  /// The field as one that only these looks (LOOK_*) use.
+  [[nodiscard]] Field of_looks(std::initializer_list<std::uint32_t> users) const;
   [[nodiscard]] bool in(FieldDoors door) const { return (doors & door) != 0; }
+  [[nodiscard]] bool is(FieldTraits trait) const { return (traits & trait) != 0; }
+  [[nodiscard]] bool used_by(std::uint32_t look) const { return (looks >> look & 1U) != 0; }
 };
 
 /// Another name, old ones, other doors: what a row says beside its kind.

@@ -56,15 +56,15 @@ double unit_of(const std::string& text) {
 }
 
 void read_key(const std::string& key, const std::string& text, SheetRequest& sheet) {
-  constexpr double MOST_SCALE = 1e7, MOST_DPI = 2400.0, MOST_WEIGHT = 20.0, MOST_LENGTH = 1e30;
+  constexpr double MOST_WEIGHT = 20.0, MOST_LENGTH = 1e30;
   if (key == "z" && sheet.kind == SheetKind::plan) {
     sheet.height = any_number(key, text);
   } else if (key == "depth") {
     sheet.depth = positive(key, text, MOST_LENGTH);
   } else if (key == "scale") {
-    sheet.scale = positive(key, text, MOST_SCALE);
+    sheet.scale = positive(key, text, MOST_SHEET_SCALE);
   } else if (key == "dpi") {
-    sheet.dpi = positive(key, text, MOST_DPI);
+    sheet.dpi = positive(key, text, MOST_SHEET_DPI);
   } else if (key == "weight") {
     sheet.weight_mm = text == "0" ? 0.0 : positive(key, text, MOST_WEIGHT);
   } else if (key == "unit") {

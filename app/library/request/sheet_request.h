@@ -1,4 +1,4 @@
-/// A drawing to scale: from where, how large, how fine. What it comes to for a scene is in app/library/sheet.
+/// A drawing to scale: from where, how large, how fine. What it comes to for a scene is in app/library/shot/sheet.h.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,6 +12,9 @@ enum class SheetKind {
   elevation,  ///< level, from one side
   ortho,      ///< along any direction
 };
+
+/// The smallest scale and the most dots that --sheet takes.
+inline constexpr double MOST_SHEET_SCALE = 1e7, MOST_SHEET_DPI = 2400.0;
 
 struct SheetRequest {
   SheetKind kind = SheetKind::plan;

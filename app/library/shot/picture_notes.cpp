@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/library/request/fields.h"
 #include "engine/scene/look_style.h"
 
 namespace splatray {
@@ -15,27 +16,35 @@ bool is_black(const Environment& environment) {
                                                   [](const vec3& texel) { return is_black(texel); });
 }
 
+/// "--look lit, clay and paper do": the looks that use a field.
+std::string users_of(const Field& field) {
+  const Field& look = *find_field("look", DOOR_RENDER);
+  std::vector<std::string> names;
+  for (const std::string& name : look.choices) {
+    Request request;
+    look.read(request, name);
+    if (request.look.style && field.used_by(*request.look.style)) names.push_back(name);
+  }
+  std::string text = "--look ";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : (i + 1 == names.size() ? " and " : ", ")) + names[i];
+  return text + (names.size() == 1 ? " does" : " do");
+}
+
 }  // namespace
 
 std::vector<std::string> ignored_options(const Request& request, std::uint32_t look) {
-  const LookStyle style = look_style(look);
-  const Settings plain;
   std::vector<std::string> notes;
-  const auto note = [&](bool asked, bool used, const std::string& option, const std::string& instead) {
-    if (asked && !used) notes.push_back("this --look does not use " + option + ", " + instead);
-  };
-  const bool reach = look == LOOK_AO || look == LOOK_SCAN;
-  note(asks_for_materials(request.look), style.surfaces, "materials", "--look lit does");
-  note(request.look.lights && !request.look.lights->empty(), style.lights, "lights", "--look lit does");
-  note(!request.settings.shadows, style.lights, "--shadows", "--look lit does");
-  note(request.settings.reach_world > 0.0, reach, "--ao-radius", "--look ao and scan do");
-  note(request.settings.straight_shadows, look == LOOK_LIT, "--glass-shadows", "--look lit does");
-  note(request.view.aperture_world > 0.0, look != LOOK_PAPER, "--aperture", "the others do");
-  note(request.settings.focus_world > 0.0, look != LOOK_PAPER && request.view.aperture_world > 0.0, "--focus",
-       "the others do, beside --aperture");
-  note(request.settings.max_bounces != plain.max_bounces, style.paths || look == LOOK_PAPER, "--bounces",
-       "--look lit, clay and paper do");
-  note(request.settings.clamp > 0.0F, style.paths, "--clamp", "--look lit and clay do");
+  if (asks_for_materials(request.look) && !look_style(look).surfaces)
+    notes.emplace_back("this --look does not use materials, --look lit does");
+  for (const Field& field : fields()) {
+    if (field.used_by(look) || !field.write) continue;
+    const std::vector<FieldText> values = field.write(request);
+    if (!values.empty() && values != field.write(Request{}))
+      notes.push_back("this --look does not use --" + values.front().name + ", " + users_of(field));
+  }
+  if (request.settings.focus_world > 0.0 && request.view.aperture_world == 0.0 && look != LOOK_PAPER)
+    notes.emplace_back("--focus does nothing without --aperture");
   return notes;
 }
 

@@ -104,16 +104,6 @@ Sheet drawn_sheet(const Scene& scene, const SceneFacts& facts, const Request& re
   return sheet;
 }
 
-Settings settings_of(const Scene& scene, const Request& request) {
-  Settings settings = request.settings;
-  settings.region = region_of(request.view.region, request.look.up.value_or(scene.up));
-  settings.look = resolve_look(scene, request);
-  settings.cutaway = request.view.look_in || request.view.viewpoint == Viewpoint::dollhouse;
-  settings.lens_radius_world = 0.5 * request.view.aperture_world;
-  settings.delta_world = request.settings.asked_delta_world.value_or(1e-3 * scene.diagonal_world());
-  return settings;
-}
-
 void set_pixels(std::uint32_t width, std::uint32_t height, Shot& shot) {
   shot.view.width = width;
   shot.view.height = height;
@@ -156,6 +146,16 @@ std::uint32_t resolve_look(const Scene& scene, const Request& request) {
   const bool materials = asks_for_materials(request.look) ||
                          std::any_of(scene.materials.begin(), scene.materials.end(), is_chosen);
   return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;
+}
+
+Settings resolve_settings(const Scene& scene, const Request& request) {
+  Settings settings = request.settings;
+  settings.region = region_of(request.view.region, request.look.up.value_or(scene.up));
+  settings.look = resolve_look(scene, request);
+  settings.cutaway = request.view.look_in || request.view.viewpoint == Viewpoint::dollhouse;
+  settings.lens_radius_world = 0.5 * request.view.aperture_world;
+  settings.delta_world = request.settings.asked_delta_world.value_or(1e-3 * scene.diagonal_world());
+  return settings;
 }
 
 Tone resolve_tone(const Request& request) {
@@ -202,7 +202,7 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
   resolve_scan_look(scene, facts, shot);
   Request& request = shot.request;
   if (request.view.sheet) resolve_sheet(request);
-  shot.settings = settings_of(scene, request);
+  shot.settings = resolve_settings(scene, request);
   if (request.view.sheet) {
     Sheet sheet = drawn_sheet(scene, facts, request);
     require_part_of(request.view, sheet.width, sheet.height);

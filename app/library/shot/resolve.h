@@ -29,6 +29,9 @@ namespace splatray {
 /// materials of either, else LOOK_LIT.
 [[nodiscard]] std::uint32_t resolve_look(const Scene& scene, const Request& request);
 
+/// The tracer's settings for a request whose look is that of resolve_look, but for what a drawing and a region add.
+[[nodiscard]] Settings resolve_settings(const Scene& scene, const Request& request);
+
 /// The tone curve: that of --tone, else Tone::soft with --look paper and Tone::neutral otherwise.
 [[nodiscard]] Tone resolve_tone(const Request& request);
 

@@ -150,11 +150,11 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
   Sheet sheet;
   sheet.asked = *request.view.sheet;
   sheet.crs = scene.crs;
-  sheet.up = scene.up;
-  const PlanAxes plan(scene.up);
+  sheet.up = request.look.up.value_or(scene.up);
+  const PlanAxes plan(sheet.up);
   set_axes(plan, sheet);
   set_unit(sheet);
-  Region region = region_of(request.view.region, scene.up);
+  Region region = region_of(request.view.region, sheet.up);
   const PointSample all = main_parts(sample_points(scene, region));
   set_depths(plan, all, sheet);
   for (const HalfSpace& plane : sheet.planes()) region.kept.push_back(plane);

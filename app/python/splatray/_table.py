@@ -9,12 +9,9 @@ from . import _core
 FIELDS: Dict[str, _core.FieldInfo] = {field.name.replace("-", "_"): field for field in _core.fields()}
 LIGHTS = ("light", "sun", "area_light", "lights")  #: that the argument lights stands for
 #: Fields of how a scene is read and made.
-OPENING: List[str] = [name for name, field in FIELDS.items() if field.group == "Input" and name != "inputs"] + [
-    "color_by", "color_range", "hide_class", "hide_scan", "material", "object", "up", "seed", "device", "cache", "leaf_size", "insertion",
-    "probes", "radius_rule", "normal_fields", "clip"]
+OPENING: List[str] = [name for name, field in FIELDS.items() if field.opens]
 #: Fields of a picture of it.
-PICTURES: List[str] = [name for name, field in FIELDS.items() if field.group not in ("Input", "Output") and name not in LIGHTS
-                       and (name not in OPENING or name in ("material", "object", "seed"))] + ["aov"]
+PICTURES: List[str] = [name for name, field in FIELDS.items() if field.renders and name not in LIGHTS]
 
 #: Fields of files that are made of it.
 FILES: List[str] = PICTURES + [name for name, field in FIELDS.items() if field.group == "Output" and name not in ("output", "aov")]

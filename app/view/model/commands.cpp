@@ -6,6 +6,7 @@
 #include "app/view/model/navigation.h"
 #include "app/view/model/panel_state.h"
 #include "app/view/model/region_edit.h"
+#include "app/view/model/section_sheet.h"
 
 namespace splatray {
 namespace {
@@ -16,7 +17,8 @@ bool close_topmost(PanelState& state) {
     state.error.clear();
     return true;
   }
-  for (bool* open : {&state.show_open, &state.show_save, &state.show_record, &state.show_help}) {
+  for (bool* open :
+       {&state.show_open, &state.show_save, &state.show_sheet, &state.show_record, &state.show_help}) {
     if (!*open) continue;
     *open = false;
     return true;
@@ -28,7 +30,7 @@ bool close_topmost(PanelState& state) {
 }
 
 void toggle_box(Document& document, PanelState& state) {
-  std::optional<TurnedBox>& box = document.region.keep_box;
+  std::optional<TurnedBox>& box = document.request.view.region.keep_box;
   box = box ? std::nullopt : std::optional(box_of_all(document));
   state.shows_handles = true;
 }
@@ -36,15 +38,15 @@ void toggle_box(Document& document, PanelState& state) {
 /// Level, along the scene, across it, none.
 void next_section(Document& document, PanelState& state) {
   constexpr std::array ORDER = {1, 2, 0};
-  const std::optional<Slice> slice = slice_of(document.region);
+  const std::optional<Slice> slice = slice_of(document.request.view.region);
   std::size_t next = 0;
-  const glm::dmat3 axes = upright_axes(document.up);
+  const glm::dmat3 axes = upright_axes(up_of(document));
   for (std::size_t i = 0; slice && i < ORDER.size(); ++i)
     if (std::abs(glm::dot(slice->normal, axes[ORDER[i]])) > 0.5) next = i + 1;
   if (next < ORDER.size())
-    set_slice(document.region, first_slice(document, ORDER[next]));
+    set_slice(document.request.view.region, first_slice(document, ORDER[next]));
   else
-    remove_slice(document.region);
+    remove_slice(document.request.view.region);
   state.shows_handles = true;
 }
 
@@ -66,7 +68,7 @@ void take_back_point(Document& document) {
 bool apply_to_edit(Action action, Document& document, PanelState& state) {
   switch (action) {
     case Action::look_in:
-      document.settings.cutaway = !document.settings.cutaway;
+      document.request.view.look_in = !document.request.view.look_in;
       return true;
     case Action::walk:
       state.walks = !state.walks;
@@ -94,7 +96,7 @@ bool apply_to_edit(Action action, Document& document, PanelState& state) {
 void next_up_axis(Document& document) {
   int axis = 0;
   for (int i = 1; i < 3; ++i)
-    if (std::abs(document.up[i]) > std::abs(document.up[axis])) axis = i;
+    if (std::abs(up_of(document)[i]) > std::abs(up_of(document)[axis])) axis = i;
   glm::dvec3 up(0.0);
   up[(axis + 1) % 3] = 1.0;
   set_up_axis(document, up);
@@ -180,6 +182,10 @@ bool apply(const Command& command, double aspect, Document& document, PanelState
       return true;
     case Action::save:
       state.show_save = true;
+      return true;
+    case Action::sheet:
+      state.sheet.view.sheet = section_sheet(document, *state.sheet.view.sheet);
+      state.show_sheet = true;
       return true;
     case Action::record:
       state.show_record = true;

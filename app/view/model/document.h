@@ -28,8 +28,8 @@ enum class ViewMode {
 /// What stays as it was loaded.
 struct LoadedPart {
   Request asked;                             ///< files, how points are made of them, and how they are shown
+  Request first;                             ///< what was shown of it first, as Document::request
   SceneFacts facts{};                        ///< of the scene in its own colours
-  std::uint32_t look = LOOK_LIT;             ///< as first shown
   std::vector<std::string> object_names;     ///< one per object
   ObjectLooks looks{};                       ///< one per object, as the scene has them
   std::vector<std::string> color_sources{};  ///< attributes that colours may show (attributes.h)
@@ -38,24 +38,38 @@ struct LoadedPart {
   bool is_scan = false;                      ///< its exposure is automatic where nothing is said of it
 };
 
+/// A request without what is left open about it for a scene, and what no request has: how one looks at it.
 struct Document {
   std::shared_ptr<const LoadedPart> loaded = std::make_shared<const LoadedPart>();  ///< shared by all copies
-  ObjectLooks looks;  ///< as shown; hidden objects have MATERIAL_HIDDEN
-  std::vector<SceneLight> lights;
-  std::string environment;  ///< as --environment has it
+  /// What is shown, but for camera and changes of objects, and nothing of files; samples: where a still picture stops. What the
+  /// tracer needs follows from it (resolve_settings, resolve_lights).
+  Request request;
   Camera camera;
-  Settings settings;     ///< samples: where a still picture stops
-  RegionRequest region;  ///< what of the scene is shown; Settings::region is made of it
-  double exposure_ev = 0.0;
-  Tone tone = Tone::neutral;
+  ObjectLooks looks;  ///< as shown; hidden objects have MATERIAL_HIDDEN
   ViewMode mode = ViewMode::shaded;
   double eye_dome = 1.0;          ///< strength of the shading of what moves and of points, as eye_dome has it
   double point_size = 1.0;        ///< of points, in their spacings
   std::vector<Measure> measures;  ///< in the order they were made
-  AttributeOptions attributes;    ///< what is shown of the points' attributes
-  glm::dvec3 up{0.0, 1.0, 0.0};   ///< the scene's up axis: of orbits, framing and the environment
   glm::dvec3 bounds_min_world{0.0};  ///< of the scene's splat centres
   glm::dvec3 bounds_max_world{0.0};
 };
+
+/// The scene's up axis: of orbits, framing and the environment.
+[[nodiscard]] inline glm::dvec3 up_of(const Document& document) {
+  return document.request.look.up.value_or(glm::dvec3(0.0, 1.0, 0.0));
+}
+/// LOOK_*.
+[[nodiscard]] inline std::uint32_t look_of(const Document& document) {
+  return document.request.look.style.value_or(document.loaded->first.look.style.value_or(LOOK_LIT));
+}
+/// Stops.
+[[nodiscard]] inline double exposure_of(const Document& document) {
+  return document.request.look.exposure_ev.value_or(0.0);
+}
+/// To be changed; all of them have their power.
+[[nodiscard]] inline std::vector<LightRequest>& lights_of(Document& document) {
+  std::optional<std::vector<LightRequest>>& lights = document.request.look.lights;
+  return lights ? *lights : lights.emplace();
+}
 
 }  // namespace splatray

@@ -16,21 +16,37 @@ Request::Source plain(Request::Source source) {
   return source;
 }
 
+/// What a shot shows of the scene of `loaded`, but for the camera, the objects and what is of files.
+Request shown_request(const Scene& scene, const Request& loaded, const Shot& shot) {
+  const Request& asked = shot.request;
+  Request shown{loaded.source, asked.look, {}, asked.settings, {}};
+  shown.view.look_in = shot.settings.cutaway;
+  shown.view.region = asked.view.region;
+  shown.view.aperture_world = asked.view.aperture_world;
+  shown.settings.error_goal = shown.settings.seconds_goal = 0.0;
+  shown.settings.device.clear();
+  shown.settings.cache.clear();
+  Request::Look& look = shown.look;
+  look.style = shot.settings.look;
+  look.material = loaded.look.material;
+  look.objects.clear();
+  look.lights = requested_lights(resolve_lights(scene, asked, shot.view.camera));
+  look.environment = shot.environment;
+  look.up = asked.look.up.value_or(scene.up);
+  look.tone = resolve_tone(asked);
+  look.exposure_auto = false;
+  return shown;
+}
+
 /// The document of the scene as a shot shows it.
 Document shown_in(const Scene& scene, const Document& document, const Shot& shot) {
-  const Request& request = shot.request;
+  const Request::Look& look = shot.request.look;
+  static_cast<void>(color_by(scene, look.attributes));  // throws where the scene does not have it
   Document shown = document;
-  shown.looks = document.loaded->looks;
-  apply_object_changes(request.look.objects, scene.object_names, shown.looks);
+  shown.request = shown_request(scene, document.loaded->asked, shot);
   shown.camera = shot.view.camera;
-  shown.lights = resolve_lights(scene, request, shot.view.camera);
-  shown.environment = shot.environment;
-  shown.settings = shot.settings;
-  shown.region = request.view.region;
-  shown.tone = resolve_tone(request);
-  static_cast<void>(color_by(scene, request.look.attributes));  // throws where the scene does not have it
-  shown.attributes = request.look.attributes;
-  shown.up = request.look.up.value_or(scene.up);
+  shown.looks = document.loaded->looks;
+  apply_object_changes(look.objects, scene.object_names, shown.looks);
   shown.bounds_min_world = scene.bounds_min_world;
   shown.bounds_max_world = scene.bounds_max_world;
   return shown;
@@ -38,31 +54,49 @@ Document shown_in(const Scene& scene, const Document& document, const Shot& shot
 
 }  // namespace
 
+std::vector<LightRequest> requested_lights(const std::vector<SceneLight>& lights) {
+  std::vector<LightRequest> asked;
+  for (const SceneLight& light : lights) asked.push_back({light, {}, /*has_power=*/true});
+  return asked;
+}
+
 Request request_of(const Document& document, std::uint32_t width, std::uint32_t height) {
-  Request request;
-  request.source = document.loaded->asked.source;
+  Request request = document.request;
   request.view.width = width;
   request.view.height = height;
   set_camera(request.view, document.camera);
-  request.view.look_in = document.settings.cutaway;
-  request.view.region = document.region;
-  request.view.aperture_world = 2.0 * document.settings.lens_radius_world;
-  static_cast<Settings&>(request.settings) = document.settings;
-  if (document.settings.side == SIDE_DELTA)
-    request.settings.asked_delta_world = document.settings.delta_world;
-  Request::Look& look = request.look;
-  look.style = document.settings.look;
-  look.material = document.loaded->asked.look.material;
-  if (document.loaded->is_scan || document.exposure_ev != 0.0) look.exposure_ev = document.exposure_ev;
-  look.tone = document.tone;
-  look.up = document.up;
-  look.environment = document.environment;
-  look.attributes = document.attributes;
-  look.objects =
+  request.look.objects =
       object_changes_between(document.loaded->looks, document.looks, document.loaded->object_names);
-  std::vector<LightRequest>& lights = look.lights.emplace();
-  for (const SceneLight& light : document.lights) lights.push_back({light, {}, /*has_power=*/true});
+  request.look.exposure_ev.reset();
+  if (document.loaded->is_scan || exposure_of(document) != 0.0)
+    request.look.exposure_ev = exposure_of(document);
   return request;
+}
+
+Request saved_request(const Document& document, const Request& asked) {
+  Request saved = request_of(document, asked.view.width, asked.view.height);
+  saved.output = asked.output;
+  if (asked.view.sheet) {
+    saved.view = document.request.view;  // a drawing places its camera by itself
+    saved.view.sheet = asked.view.sheet;
+    saved.view.ink = asked.view.ink;
+    saved.view.xray = asked.view.xray;
+    // The light over the shoulder of who looked at the scene first is not that of who looks at the sheet.
+    const Request::Look& first = document.loaded->first.look;
+    if (!document.loaded->asked.look.lights && saved.look.lights == first.lights && saved.look.up == first.up)
+      saved.look.lights.reset();
+  }
+  saved.view.crop = asked.view.crop;
+  saved.view.tile = asked.view.tile;
+  saved.view.tiles = asked.view.tiles;
+  Request::Settings& settings = saved.settings;
+  settings.samples = asked.settings.samples;
+  settings.sample_offset = asked.settings.sample_offset;
+  settings.error_goal = asked.settings.error_goal;
+  settings.seconds_goal = asked.settings.seconds_goal;
+  settings.aov = asked.settings.aov;
+  settings.estimate_error = asked.settings.estimate_error;
+  return saved;
 }
 
 Document first_document(const Scene& scene, const SceneFacts& facts, const Request& asked) {
@@ -72,8 +106,8 @@ Document first_document(const Scene& scene, const SceneFacts& facts, const Reque
 Document first_document(const Scene& scene, const SceneFacts& facts, const Request& asked, const Shot& shot) {
   Document document;
   document.loaded = std::make_shared<const LoadedPart>(LoadedPart{asked,
+                                                                  shown_request(scene, asked, shot),
                                                                   facts,
-                                                                  shot.settings.look,
                                                                   scene.object_names,
                                                                   {scene.materials, surfaces_of(scene)},
                                                                   color_sources(scene),
@@ -99,12 +133,11 @@ Document shown_as(const Scene& scene, const Document& document, const Request& a
 Request kept_request(const Document& document) {
   const LoadedPart& loaded = *document.loaded;
   Request kept;
-  static_cast<Settings&>(kept.settings) = document.settings;
-  kept.settings.cutaway = false;
-  kept.settings.region = {};
-  if (loaded.asked.look.style || document.settings.look != loaded.look)
-    kept.look.style = document.settings.look;
-  if (loaded.asked.look.tone || document.tone != resolve_tone(loaded.asked)) kept.look.tone = document.tone;
+  kept.settings = document.request.settings;
+  kept.settings.asked_delta_world.reset();
+  const Request::Look &look = document.request.look, &first = loaded.first.look;
+  if (loaded.asked.look.style || look.style != first.style) kept.look.style = look.style;
+  if (loaded.asked.look.tone || look.tone != first.tone) kept.look.tone = look.tone;
   return kept;
 }
 

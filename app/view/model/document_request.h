@@ -6,8 +6,15 @@
 
 namespace splatray {
 
+/// Lights that have all that they need, as requests for them.
+[[nodiscard]] std::vector<LightRequest> requested_lights(const std::vector<SceneLight>& lights);
+
 /// The request of this picture, `width` x `height` pixels, in ViewMode::shaded; without an output.
 [[nodiscard]] Request request_of(const Document& document, std::uint32_t width, std::uint32_t height);
+
+/// The request of a picture or pictures of the document that are saved. Of `asked` count size, part, samples or goal, denoising and
+/// output (OF_FILES), or the sheet, of which the document gives all but the camera.
+[[nodiscard]] Request saved_request(const Document& document, const Request& asked);
 
 /// The document of a scene that load_scene read without the objects and attributes of the look: the shot of the request, whose camera,
 /// lights, materials and settings it has. `facts`: of the scene. Throws Error (usage) for objects that the scene does not have.

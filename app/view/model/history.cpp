@@ -3,13 +3,9 @@
 namespace splatray {
 namespace {
 
-/// But for the camera, and what follows from other members.
+/// But for the camera.
 bool same(const Document& a, const Document& b) {
-  Settings settings = a.settings;
-  settings.region = b.settings.region;
-  return settings == b.settings && a.region == b.region && a.lights == b.lights &&
-         a.environment == b.environment && a.exposure_ev == b.exposure_ev && a.tone == b.tone &&
-         a.mode == b.mode && a.attributes == b.attributes && a.up == b.up && a.measures == b.measures &&
+  return a.request == b.request && a.mode == b.mode && a.measures == b.measures &&
          same_looks(a.looks, b.looks);
 }
 

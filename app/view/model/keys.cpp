@@ -87,6 +87,7 @@ constexpr std::array KEY_BINDINGS = {
         "open files and folders; or drop them on the window, with Shift beside what is shown"),
     key(Action::save, GLFW_KEY_S, 0, "save the picture, at any size and number of samples"),
     key(Action::save, GLFW_KEY_S, CTRL, ""),
+    key(Action::sheet, GLFW_KEY_P, 0, "save a plan, section or elevation to scale of what is shown"),
     key(Action::record, GLFW_KEY_R, 0, "record a turntable or a camera path"),
     key(Action::copy_command, GLFW_KEY_C, CTRL, "copy the view as a command line of splatray-render"),
     key(Action::paste_command, GLFW_KEY_V, CTRL, "take the view from a command line that was copied"),

@@ -17,6 +17,7 @@ enum class Action {
   panels,         ///< shows or hides the panels
   open,           ///< asks for a file
   save,           ///< opens the dialog that saves the picture
+  sheet,          ///< opens the dialog that saves a drawing of the section shown
   record,         ///< opens the dialog that records a turntable or camera path
   copy_command,   ///< the view as a command line, to the clipboard
   paste_command,  ///< a command line from the clipboard, to the view

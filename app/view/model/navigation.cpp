@@ -104,7 +104,7 @@ bool sees(const Camera& camera) {
 Camera start_of(const Document& document) {
   Camera camera = document.camera;
   if (sees(camera)) return camera;
-  const glm::dmat3 axes = upright_axes(document.up);
+  const glm::dmat3 axes = upright_axes(up_of(document));
   camera = Camera{};
   camera.target = finite(document.camera.target) ? document.camera.target : center_of(document);
   camera.eye = camera.target + 2.0 * scene_radius_world(document) * axes[2];
@@ -158,7 +158,7 @@ void move(Camera& camera, const glm::dvec3& shift) {
 /// What framing_camera looks at of a scene.
 Scene framed_scene(const Document& document) {
   Scene scene;
-  scene.up = document.up;
+  scene.up = up_of(document);
   scene.bounds_min_world = document.bounds_min_world;
   scene.bounds_max_world = document.bounds_max_world;
   scene.root.unit_world = NEAREST_RADII * scene_radius_world(document);
@@ -197,7 +197,7 @@ void orbit(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px,
   const glm::dvec3 about = about_world && finite(*about_world) ? *about_world : camera.target;
   const PictureAxes before = picture_axes(camera);
   const PictureAxes after =
-      picture_axes(turned(stand_of(camera, document.up), drag_px, size_px, 1.0), document.up);
+      picture_axes(turned(stand_of(camera, up_of(document)), drag_px, size_px, 1.0), up_of(document));
   const auto turned_about = [&](const glm::dvec3& point) {
     const glm::dvec3 v = point - about;
     return about + glm::dot(v, before.right) * after.right + glm::dot(v, before.top) * after.top +
@@ -238,7 +238,8 @@ void look(Document& document, glm::dvec2 drag_px, glm::dvec2 size_px) {
   if (!finite(drag_px)) return;
   Camera camera = start_of(document);
   const glm::dvec3 eye = camera.eye;
-  stand_about(camera, turned(stand_of(camera, document.up), drag_px, size_px, LOOK_SHARE), document.up);
+  stand_about(camera, turned(stand_of(camera, up_of(document)), drag_px, size_px, LOOK_SHARE),
+              up_of(document));
   move(camera, eye - camera.eye);
   finish(document, camera);
 }
@@ -262,7 +263,7 @@ void fly(Document& document, glm::dvec3 direction, double seconds, bool fast) {
 void walk(Document& document, glm::dvec3 direction, double seconds, double speed) {
   if (!finite(direction) || !std::isfinite(seconds) || !std::isfinite(speed)) return;
   Camera camera = start_of(document);
-  const glm::dvec3 up = upright_axes(document.up)[1];
+  const glm::dvec3 up = upright_axes(up_of(document))[1];
   const glm::dvec3 right = picture_axes(camera).right, ahead = glm::cross(up, right);
   const double way =
       WALK_RADII_A_SECOND * speed * std::clamp(seconds, 0.0, LONGEST_FLIGHT_S) * scene_radius_world(document);
@@ -319,7 +320,7 @@ void set_axis_view(Document& document, AxisView view) {
       stand.elevation = -0.5 * pi;
       break;
   }
-  stand_about(camera, stand, document.up);
+  stand_about(camera, stand, up_of(document));
   finish(document, camera);
 }
 
@@ -339,9 +340,9 @@ void toggle_orthographic(Document& document) {
 
 void set_up_axis(Document& document, const glm::dvec3& up) {
   if (!finite(up) || !(glm::length(up) > 0.0)) return;
-  document.up = glm::normalize(up);
+  document.request.look.up = glm::normalize(up);
   Camera camera = start_of(document);
-  stand_about(camera, stand_of(camera, document.up), document.up);
+  stand_about(camera, stand_of(camera, up_of(document)), up_of(document));
   finish(document, camera);
 }
 

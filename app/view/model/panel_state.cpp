@@ -8,6 +8,13 @@ Request first_save() {
   return save;
 }
 
+Request first_sheet() {
+  Request sheet;
+  sheet.output.path = "sheet.pdf";
+  sheet.view.sheet.emplace();
+  return sheet;
+}
+
 Request first_record() {
   constexpr std::uint32_t FRAMES = 120;
   Request record;
@@ -17,7 +24,7 @@ Request first_record() {
 }
 
 bool dialog_is_open(const PanelState& state) {
-  return state.show_open || state.show_save || state.show_record || !state.error.empty();
+  return state.show_open || state.show_save || state.show_sheet || state.show_record || !state.error.empty();
 }
 
 }  // namespace splatray

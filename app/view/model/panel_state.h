@@ -16,6 +16,8 @@ namespace splatray {
 
 /// A picture that the save dialog first asks for: its size, samples, file and channels.
 [[nodiscard]] Request first_save();
+/// A drawing that the sheet dialog first asks for: of a section that is shown then.
+[[nodiscard]] Request first_sheet();
 /// Pictures that the record dialog first asks for: a turn about the pivot.
 [[nodiscard]] Request first_record();
 
@@ -31,7 +33,8 @@ inline constexpr double NOTICE_SECONDS = 10.0;  ///< after the work that they re
 /// What the panels remember, and what is open.
 struct PanelState {
   double ui_scale = 1.0;  ///< of fonts and sizes; 1 at 96 dots per inch
-  bool show_panels = true, show_help = false, show_save = false, show_record = false, show_open = false;
+  bool show_panels = true, show_help = false, show_save = false, show_sheet = false, show_record = false,
+       show_open = false;
   std::uint32_t object = 0;   ///< selected in the material panel
   std::uint32_t light = 0;    ///< selected in the light panel; what Action::drag_light drags
   std::string object_filter;  ///< part of the names listed
@@ -49,6 +52,7 @@ struct PanelState {
   bool add = false;                           ///< of the open dialog: beside what is shown
   bool can_add = false;                       ///< something is shown
   Request save = first_save();
+  Request sheet = first_sheet();
   Request record = first_record();
   std::string error;         ///< a sentence in a pop-up until closed; empty = none
   std::string notice;        ///< sentences in the status line, one a line, for NOTICE_SECONDS; empty = none
@@ -56,7 +60,7 @@ struct PanelState {
   double notice_end = 0.0;   ///< when it ends, by Dear ImGui's clock
 };
 
-/// Whether one of the dialogs is open: open, save, record, or the sentence of an error.
+/// Whether one of the dialogs is open: open, save, sheet, record, or the sentence of an error.
 [[nodiscard]] bool dialog_is_open(const PanelState& state);
 
 /// Does what needs neither window nor threads: camera, view mode, bookmarks, which panels are open. `aspect` of the

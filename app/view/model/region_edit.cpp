@@ -25,7 +25,7 @@ void add_box(const std::optional<TurnedBox>& box, GripOf of, const Document& doc
              std::vector<Grip>& handles) {
   if (!box) return;
   std::size_t number = 0;
-  for (const HalfSpace& half : half_spaces(*box, document.up))
+  for (const HalfSpace& half : half_spaces(*box, up_of(document)))
     handles.push_back({of, number++, half.point, -glm::normalize(half.normal)});
 }
 
@@ -61,11 +61,11 @@ void move_face(TurnedBox& box, std::size_t number, double distance, double least
 
 std::vector<Grip> handles_of(const Document& document) {
   std::vector<Grip> handles;
-  add_box(document.region.keep_box, GripOf::keep_box, document, handles);
-  add_box(document.region.drop_box, GripOf::drop_box, document, handles);
+  add_box(document.request.view.region.keep_box, GripOf::keep_box, document, handles);
+  add_box(document.request.view.region.drop_box, GripOf::drop_box, document, handles);
   const double apart = HANDLES_APART * scene_radius_world(document);
-  for (std::size_t i = 0; i < document.region.cuts.size(); ++i) {
-    const HalfSpace& cut = document.region.cuts[i];
+  for (std::size_t i = 0; i < document.request.view.region.cuts.size(); ++i) {
+    const HalfSpace& cut = document.request.view.region.cuts[i];
     const glm::dvec3 normal = glm::normalize(cut.normal);
     // Side by side: those of a thin slice are not one above the other.
     const glm::dvec3 middle = middle_of(document) + static_cast<double>(i) * apart * TangentFrame(normal).u;
@@ -92,13 +92,13 @@ void drag_handle(Document& document, const Grip& handle, glm::dvec2 from_px, glm
       travel(document, handle, to_px, size_px) - travel(document, handle, from_px, size_px);
   if (!std::isfinite(distance)) return;
   const double least = LEAST_EDGE * scene_radius_world(document);
-  RegionRequest& region = document.region;
+  RegionRequest& region = document.request.view.region;
   if (handle.of == GripOf::cut) {
     if (handle.number < region.cuts.size()) region.cuts[handle.number].point += distance * handle.normal;
     return;
   }
   std::optional<TurnedBox>& box = handle.of == GripOf::keep_box ? region.keep_box : region.drop_box;
-  if (box) move_face(*box, handle.number, distance, least, document.up);
+  if (box) move_face(*box, handle.number, distance, least, up_of(document));
 }
 
 std::array<glm::dvec3, 8> corners_of(const TurnedBox& box, const glm::dvec3& up) {
@@ -140,18 +140,18 @@ void remove_slice(RegionRequest& region) {
 }
 
 Slice first_slice(const Document& document, int axis) {
-  const glm::dvec3 normal = upright_axes(document.up)[axis];
+  const glm::dvec3 normal = upright_axes(up_of(document))[axis];
   const double size = glm::dot(glm::abs(normal), document.bounds_max_world - document.bounds_min_world);
   const double least = LEAST_EDGE * scene_radius_world(document);
   return {middle_of(document), normal, std::max(THICKNESS * size, least)};
 }
 
 bool move_slice(Document& document, double notches) {
-  std::optional<Slice> slice = slice_of(document.region);
+  std::optional<Slice> slice = slice_of(document.request.view.region);
   if (!slice || !std::isfinite(notches)) return slice.has_value();
   const glm::dvec3 moved = slice->point + notches * NOTCH * scene_radius_world(document) * slice->normal;
   slice->point = moved;
-  set_slice(document.region, *slice);
+  set_slice(document.request.view.region, *slice);
   return true;
 }
 

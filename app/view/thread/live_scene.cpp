@@ -17,6 +17,7 @@ ObjectLooks two_sided(ObjectLooks looks) {
 void LiveScene::open(SharedScene scene, const AttributeOptions& attributes) {
   scene_.reset();
   attributes_ = {};
+  up_ = scene->up;
   legend_ = {};
   if (attributes == AttributeOptions{}) {
     shown_.open(*scene);
@@ -28,22 +29,26 @@ void LiveScene::open(SharedScene scene, const AttributeOptions& attributes) {
 }
 
 void LiveScene::match(const Document& document, ViewMode mode) {
-  match_attributes(document.attributes);
+  match_attributes(document.request.look.attributes, up_of(document));
   shown_.show_objects(mode == ViewMode::facing ? two_sided(document.looks) : document.looks);
-  shown_.show_lights(lights_of_look(document.settings.look, document.lights));
-  shown_.show_up(document.up);
-  shown_.show_environment(document.environment);
+  shown_.show_lights(
+      lights_of_look(look_of(document), resolve_lights(*scene_, document.request, document.camera)));
+  shown_.show_up(up_of(document));
+  shown_.show_environment(document.request.look.environment);
 }
 
 /// The scene is uploaded again with other colours and radii: those of a copy that lives as long as that takes.
-void LiveScene::match_attributes(const AttributeOptions& attributes) {
-  if (attributes == attributes_) return;
+void LiveScene::match_attributes(const AttributeOptions& attributes, const glm::dvec3& up) {
+  const bool higher = up != up_ && attributes.color_by.starts_with("height");
+  if (attributes == attributes_ && !higher) return;
+  up_ = up;
   Scene copy = shown_with(*scene_, attributes);
   shown_.replace_pools(copy);
 }
 
 Scene LiveScene::shown_with(const Scene& scene, const AttributeOptions& attributes) {
   Scene copy = scene;
+  copy.up = up_;
   legend_ = show_attributes(copy, attributes);
   attributes_ = attributes;
   return copy;

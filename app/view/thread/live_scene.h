@@ -32,13 +32,14 @@ class LiveScene {
   [[nodiscard]] Tracer& tracer() { return shown_.tracer(); }
 
  private:
-  void match_attributes(const AttributeOptions& attributes);
+  void match_attributes(const AttributeOptions& attributes, const glm::dvec3& up);
   /// A copy of the scene as the attributes are shown, which are then what is shown.
   Scene shown_with(const Scene& scene, const AttributeOptions& attributes);
 
   SceneOnDevice shown_;
   SharedScene scene_;
   AttributeOptions attributes_;  ///< as uploaded
+  glm::dvec3 up_{0.0};           ///< of their heights
   ColorLegend legend_;
 };
 

@@ -121,8 +121,8 @@ void keep_region(const Region& region, PointCloud& cloud) {
 
 PointCloud points_of(const Scene& scene, const Document& document) {
   const std::size_t stride = splat_count(scene) / FEW_HUNDRED_THOUSAND + 1;
-  const Region region = region_of(document.region, document.up);
-  const std::string& color_by = document.attributes.color_by;
+  const Region region = region_of(document.request.view.region, up_of(document));
+  const std::string& color_by = document.request.look.attributes.color_by;
   const bool own = !scene.color_pool.empty() && (color_by.empty() || color_by == "rgb");
   PointCloud cloud;
   cloud.origin_world = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
@@ -136,7 +136,7 @@ PointCloud points_of(const Scene& scene, const Document& document) {
                               : PLAIN);
   };
   for_each_splat(scene, add, stride);
-  if (color_by.starts_with("height")) cloud.color = height_colors(position, document.up);
+  if (color_by.starts_with("height")) cloud.color = height_colors(position, up_of(document));
   for (const glm::dvec3& place : position) cloud.position.emplace_back(place - cloud.origin_world);
   keep_region(region, cloud);
   return cloud;
@@ -259,7 +259,7 @@ OpenedPoints PointSampler::make() const {
   cloud.position.reserve(size());
   for (const glm::dvec3& position : kept_.position)
     cloud.position.emplace_back(position - cloud.origin_world);
-  if (opened.document.settings.cutaway)
+  if (opened.document.request.view.look_in)
     cloud.normal = normals_near(kept_.position, scene, CELLS_OF_SPACING * spacing_of(scene));
   keep_region(region_of(asked_.view.region, scene.up), cloud);
   opened.document.looks = {};

@@ -1,5 +1,6 @@
 #include "app/view/thread/progressive.h"
 
+#include "app/library/shot/resolve.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 
@@ -14,14 +15,18 @@ constexpr std::chrono::milliseconds SETTLING{150};
 /// Of trace_samples, so that reading back costs little.
 constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
 
-/// Whether a picture of one is a picture of the other, but for the exposure.
+/// Whether a picture of one is a picture of the other, but for how it is displayed.
 bool same_picture(const Document& a, const Document& b) {
-  return a.camera == b.camera && a.settings == b.settings && a.mode == b.mode && a.lights == b.lights &&
-         a.up == b.up && a.eye_dome == b.eye_dome && a.attributes == b.attributes &&
-         a.environment == b.environment && same_looks(a.looks, b.looks);
+  Request request = a.request;
+  request.look.exposure_ev = b.request.look.exposure_ev;
+  request.look.tone = b.request.look.tone;
+  return request == b.request && a.camera == b.camera && a.mode == b.mode && a.eye_dome == b.eye_dome &&
+         same_looks(a.looks, b.looks);
 }
 
-Display display_of(const Document& document) { return {document.exposure_ev, document.tone}; }
+Display display_of(const Document& document) {
+  return {exposure_of(document), resolve_tone(document.request)};
+}
 
 }  // namespace
 
@@ -136,7 +141,7 @@ void Progressive::trace_aovs(Frame& frame, const Settings& settings, const std::
 }
 
 Settings Progressive::settings() const {
-  Settings settings = document_.settings;
+  Settings settings = resolve_settings(live_.scene(), document_.request);
   settings.aov = false;
   settings.counters = document_.mode == ViewMode::tests || document_.mode == ViewMode::steps;
   return settings;

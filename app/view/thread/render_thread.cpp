@@ -131,7 +131,7 @@ void RenderThread::open_now(const Pending& pending) {
     show_points(true, pending.window_px);
   }
   points_.reset();
-  live_.open(pending.scene, pending.document ? pending.document->attributes : AttributeOptions{});
+  live_.open(pending.scene, pending.document ? pending.document->request.look.attributes : AttributeOptions{});
 }
 
 /// Draws the points where they, or how they are seen, are new.
@@ -147,7 +147,7 @@ void RenderThread::show_points(bool others, glm::uvec2 window_px) {
   frame.of_points = true;
   frame.device = device_->info().name;
   PointStyle style;
-  style.cutaway = shown_.settings.cutaway;
+  style.cutaway = shown_.request.view.look_in;
   style.eye_dome = shown_.eye_dome;
   style.size = shown_.point_size;
   const auto start = std::chrono::steady_clock::now();
@@ -169,7 +169,8 @@ void RenderThread::answer(const PickRequest& request) {
   const View view{shown_.camera, request.size_px.x, request.size_px.y};
   live_.match(shown_, shown_.mode);
   const RayQuery query = cursor_query(live_.scene(), view, request.position_px);
-  const RayHit hit = live_.tracer().intersect(live_.look(), {&query, 1}, shown_.settings).front();
+  const Settings settings = resolve_settings(live_.scene(), shown_.request);
+  const RayHit hit = live_.tracer().intersect(live_.look(), {&query, 1}, settings).front();
   Pick pick{inspect(live_.scene(), shown_.camera, query, hit), request.purpose};
   if (pick.inspected && request.purpose == PickFor::measure)
     pick.point = point_on_ray(live_.scene(), {pick.inspected->hit_world, glm::dvec3(hit.normal)},

@@ -10,19 +10,7 @@
 namespace splatray {
 
 SaveJob save_job(const Document& document, const Request& asked) {
-  SaveJob job{document, request_of(document, asked.view.width, asked.view.height)};
-  job.request.output = asked.output;
-  job.request.view.crop = asked.view.crop;
-  job.request.view.tile = asked.view.tile;
-  job.request.view.tiles = asked.view.tiles;
-  Request::Settings& settings = job.request.settings;
-  settings.samples = asked.settings.samples;
-  settings.sample_offset = asked.settings.sample_offset;
-  settings.error_goal = asked.settings.error_goal;
-  settings.seconds_goal = asked.settings.seconds_goal;
-  settings.aov = asked.settings.aov;
-  settings.estimate_error = asked.settings.estimate_error;
-  return job;
+  return {document, saved_request(document, asked)};
 }
 
 std::string save_pictures(const SaveJob& job, LiveScene& live, const SaveProgress& progress) {

@@ -12,10 +12,10 @@ namespace splatray {
 /// Pictures that are to be made.
 struct SaveJob {
   Document document;
-  Request request;  ///< of the document; with output, size, samples, AOVs and sequence
+  Request request;  ///< of the document; with output, size, samples, AOVs, and sequence or sheet
 };
 
-/// The document's pictures; of `asked` only what is_of_files (field_controls.h): size, part, samples or goal, denoising and output.
+/// The document's pictures, as saved_request has them.
 [[nodiscard]] SaveJob save_job(const Document& document, const Request& asked);
 
 /// Called with what is being made and the share of the job done, 0..1; returns false to stop.

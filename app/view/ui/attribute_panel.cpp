@@ -13,12 +13,13 @@ constexpr float CLASS_LIST_EM = 8.0F;  ///< height of the list of classes, or of
 
 void source_combo(Document& document) {
   const std::vector<std::string>& sources = document.loaded->color_sources;
-  std::string& shown = document.attributes.color_by;
+  AttributeOptions& attributes = document.request.look.attributes;
+  std::string& shown = attributes.color_by;
   if (!ImGui::BeginCombo("colours", shown.empty() ? sources.front().c_str() : shown.c_str())) return;
   for (const std::string& source : sources) {
     if (!ImGui::Selectable(source.c_str(), source == (shown.empty() ? sources.front() : shown))) continue;
     shown = source;
-    document.attributes.color_range.reset();
+    attributes.color_range.reset();
   }
   ImGui::EndCombo();
 }
@@ -27,15 +28,15 @@ void source_combo(Document& document) {
 void range_edit(Document& document, const PanelView& view) {
   if (view.frame == nullptr || view.frame->legend.ramp.empty()) return;
   const ColorLegend& legend = view.frame->legend;
-  std::array<double, 2> range = document.attributes.color_range.value_or(std::array{legend.low, legend.high});
+  std::optional<std::array<double, 2>>& shown = document.request.look.attributes.color_range;
+  std::array<double, 2> range = shown.value_or(std::array{legend.low, legend.high});
   const float speed = static_cast<float>(std::max(legend.high - legend.low, 1e-6) / 200.0);
   const bool low =
       ImGui::DragScalar("low", ImGuiDataType_Double, range.data(), speed, nullptr, nullptr, "%.6g");
   const bool high =
       ImGui::DragScalar("high", ImGuiDataType_Double, &range[1], speed, nullptr, nullptr, "%.6g");
-  if ((low || high) && range[0] < range[1]) document.attributes.color_range = range;
-  if (document.attributes.color_range && ImGui::SmallButton("automatic range"))
-    document.attributes.color_range.reset();
+  if ((low || high) && range[0] < range[1]) shown = range;
+  if (shown && ImGui::SmallButton("automatic range")) shown.reset();
 }
 
 /// Switches for what is hidden.
@@ -87,8 +88,9 @@ void drawing_controls(Document& document) {
 void attribute_panel(Document& document, const PanelView& view) {
   source_combo(document);
   range_edit(document, view);
-  category_list("classes", document.loaded->classes, document.attributes.hidden_classes);
-  category_list("scans", document.loaded->scans, document.attributes.hidden_scans);
+  AttributeOptions& attributes = document.request.look.attributes;
+  category_list("classes", document.loaded->classes, attributes.hidden_classes);
+  category_list("scans", document.loaded->scans, attributes.hidden_scans);
 }
 
 }  // namespace splatray

@@ -46,7 +46,7 @@ void up_axis_buttons(Document& document) {
     glm::dvec3 up(0.0);
     up[axis] = 1.0;
     ImGui::SameLine();
-    if (ImGui::RadioButton(NAMES[static_cast<std::size_t>(axis)], document.up == up))
+    if (ImGui::RadioButton(NAMES[static_cast<std::size_t>(axis)], up_of(document) == up))
       set_up_axis(document, up);
   }
 }

@@ -7,7 +7,10 @@
 
 #include "app/library/camera_file.h"
 #include "app/library/codec/picture_format.h"
+#include "app/library/request/consistent.h"
 #include "app/view/model/attempt.h"
+#include "app/view/model/document_request.h"
+#include "app/view/model/section_sheet.h"
 #include "app/view/ui/dialog.h"
 #include "app/view/ui/field_controls.h"
 #include "app/view/ui/panel_parts.h"
@@ -22,6 +25,13 @@ void edge_input(const char* label, std::uint32_t& value, std::uint32_t most) {
   value = std::clamp(value, LEAST, most);
 }
 
+/// A number above 0.
+void number_input(const char* label, double& value, double most) {
+  double typed = value;
+  if (ImGui::InputScalar(label, ImGuiDataType_Double, &typed, nullptr, nullptr, "%.9g") && typed > 0.0)
+    value = std::min(typed, most);
+}
+
 void path_input(const char* label, std::filesystem::path& path, const char* hint = "") {
   std::string text = path.string();
   if (ImGui::InputTextWithHint(label, hint, &text)) path = text;
@@ -29,14 +39,9 @@ void path_input(const char* label, std::filesystem::path& path, const char* hint
 
 /// Fields of a saved picture that have no control of their own in a dialog, in the order of the help.
 void file_fields(Request& request, std::string& error, bool of_sequence) {
-  constexpr std::array OWN = {"output", "resolution", "samples", "turntable", "camera-path"};
-  constexpr std::array OF_SEQUENCES = {"frames", "skip-existing"};
-  const auto is_in = [](const auto& names, const Field& field) {
-    return std::find(names.begin(), names.end(), field.name) != names.end();
-  };
   for (const Field& field : fields())
-    if (field.in(DOOR_VIEW) && field.group != FieldGroup::files && is_of_files(field) && !is_in(OWN, field) &&
-        (of_sequence || !is_in(OF_SEQUENCES, field)))
+    if (field.in(DOOR_VIEW) && field.group != FieldGroup::files && field.is(OF_FILES) &&
+        !field.is(HAS_OWN_CONTROL) && (of_sequence || !field.is(OF_SEQUENCES)))
       field_control(field, request, error);
 }
 
@@ -66,6 +71,11 @@ bool ends_in(const std::filesystem::path& path, const char* extension) {
 std::string refusal_of_save(const Request& save) {
   if (is_picture_format(save.output.path) || ends_in(save.output.path, ".json")) return "";
   return std::string("The file's name must end in ") + PICTURE_NAMES + ", or in .json for the camera alone.";
+}
+
+std::string refusal_of_sheet(const Document& document, const Request& sheet) {
+  const auto refusal = attempt("drawing", [&] { require_consistent(saved_request(document, sheet)); });
+  return refusal ? refusal->sentence : "";
 }
 
 std::string refusal_of_record(const Request& record) {
@@ -128,6 +138,22 @@ void save_dialog(const Document& document, PanelState& state, Requests& requests
     requests.save = save;
   else
     write_file(state, save.output.path, [&] { write_camera(document.camera, save.output.path); });
+}
+
+void sheet_dialog(const Document& document, PanelState& state, Requests& requests) {
+  if (!state.show_sheet) return;
+  Dialog dialog("Save a drawing to scale", state.show_sheet);
+  if (!dialog) return;
+  Request& asked = state.sheet;
+  SheetRequest& sheet = *asked.view.sheet;
+  ImGui::TextWrapped("%s", sheet_sentence(sheet).c_str());
+  path_input("file", asked.output.path, "sheet.pdf, .svg, .tif, .png or .exr");
+  number_input("scale 1:", sheet.scale, MOST_SHEET_SCALE);
+  number_input("dpi", sheet.dpi, MOST_SHEET_DPI);
+  edge_input("samples", asked.settings.samples, MOST_SAMPLES);
+  for (const Field& field : fields())
+    if (field.group == FieldGroup::sheet) field_control(field, asked, state.error);
+  if (dialog.done_or_cancelled("save", refusal_of_sheet(document, asked))) requests.save = asked;
 }
 
 void record_dialog(PanelState& state, Requests& requests) {

@@ -15,7 +15,7 @@ namespace {
 bool set(Request& request, const std::vector<FieldText>& values, std::string& error) {
   try {
     Request changed = request;
-    assign(changed, values, DOOR_VIEW);
+    assign(changed, values, DOORS_OF_PICTURES);
     request = std::move(changed);
     return true;
   } catch (const Error& refusal) {
@@ -75,14 +75,6 @@ bool repeated_control(const Field& field, Request& request, std::string& error) 
 
 }  // namespace
 
-bool is_of_files(const Field& field) {
-  constexpr std::array NAMES = {"resolution", "camera-path",   "crop",      "tile",
-                                "samples",    "sample-offset", "error",     "time",
-                                "denoise",    "despeckle",     "keep-noise"};
-  return field.group == FieldGroup::output || field.group == FieldGroup::files ||
-         std::find(NAMES.begin(), NAMES.end(), field.name) != NAMES.end();
-}
-
 bool field_control(const Field& field, Request& request, std::string& error) {
   return field.repeated ? repeated_control(field, request, error) : single_control(field, request, error);
 }
@@ -91,12 +83,13 @@ void all_fields(const Document& document, PanelState& state, Requests& requests)
   Request request = request_of(document, 1, 1);
   bool changed = false;
   for (int group = 0; group <= static_cast<int>(FieldGroup::research); ++group) {
-    if (group == static_cast<int>(FieldGroup::output) || group == static_cast<int>(FieldGroup::files))
-      continue;
+    const auto is_shown = [group](const Field& field) {
+      return static_cast<int>(field.group) == group && field.in(DOOR_VIEW) && !field.is(OF_FILES);
+    };
+    if (std::none_of(fields().begin(), fields().end(), is_shown)) continue;
     if (!ImGui::TreeNode(group_title(static_cast<FieldGroup>(group)))) continue;
     for (const Field& field : fields())
-      if (static_cast<int>(field.group) == group && field.in(DOOR_VIEW) && !is_of_files(field))
-        changed |= field_control(field, request, state.error);
+      if (is_shown(field)) changed |= field_control(field, request, state.error);
     ImGui::TreePop();
   }
   if (changed) requests.change = request;

@@ -7,10 +7,6 @@
 
 namespace splatray {
 
-/// Whether a field says how pictures are made for their files: the dialogs of saving and recording have it. All others are of what is
-/// seen, and in the column.
-[[nodiscard]] bool is_of_files(const Field& field);
-
 /// A control for one field of a request, by the field's kind, with the help's words as its tip; of a repeated field one for each value
 /// and one more. Returns whether it changed the request; a value that is refused becomes a sentence in `error`.
 bool field_control(const Field& field, Request& request, std::string& error);

@@ -24,7 +24,7 @@ constexpr double NEW_CONE = pi / 6.0;                                  ///< of a
 glm::dvec3 shoulder(const Document& document) {
   const glm::dvec3 back = document.camera.eye - document.camera.target;
   const double distance = glm::length(back);
-  const glm::dvec3 up = glm::normalize(document.up);
+  const glm::dvec3 up = glm::normalize(up_of(document));
   return distance > 0.0 ? glm::normalize(back / distance + up) : up;
 }
 
@@ -44,17 +44,18 @@ SceneLight new_light(const Document& document, std::uint32_t kind) {
 }
 
 void add_button(const char* label, std::uint32_t kind, Document& document, PanelState& state) {
-  if (!ImGui::Button(label) || document.lights.size() >= MOST_LIGHTS) return;
-  document.lights.push_back(new_light(document, kind));
-  state.light = static_cast<std::uint32_t>(document.lights.size() - 1);
+  std::vector<LightRequest>& lights = lights_of(document);
+  if (!ImGui::Button(label) || lights.size() >= MOST_LIGHTS) return;
+  lights.push_back({new_light(document, kind), {}, /*has_power=*/true});
+  state.light = static_cast<std::uint32_t>(lights.size() - 1);
 }
 
 /// It shines at the scene's centre.
 void add_spot_button(Document& document, PanelState& state) {
-  const std::size_t before = document.lights.size();
+  const std::size_t before = lights_of(document).size();
   add_button("add spot", LIGHT_POINT, document, state);
-  if (document.lights.size() == before) return;
-  SceneLight& light = document.lights.back();
+  if (lights_of(document).size() == before) return;
+  SceneLight& light = lights_of(document).back().light;
   light.spot_axis =
       glm::normalize(0.5 * (document.bounds_min_world + document.bounds_max_world) - light.position);
   light.spot_outer = NEW_CONE;
@@ -85,9 +86,9 @@ void reach_controls(const Document& document, SceneLight& light) {
     light.spot_axis = glm::normalize(target - light.position);
 }
 
-void light_list(const Document& document, PanelState& state) {
-  for (std::size_t i = 0; i < document.lights.size(); ++i) {
-    const SceneLight& light = document.lights[i];
+void light_list(const std::vector<LightRequest>& lights, PanelState& state) {
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const SceneLight& light = lights[i].light;
     const std::string name = (is_spot(light) ? "spot " : KINDS[light.kind]) + std::to_string(i + 1);
     if (ImGui::Selectable(name.c_str(), state.light == i)) state.light = static_cast<std::uint32_t>(i);
   }
@@ -99,7 +100,7 @@ void point_controls(const Document& document, SceneLight& light) {
 }
 
 void sun_controls(const Document& document, SceneLight& light) {
-  const glm::dmat3 axes = upright_axes(document.up);
+  const glm::dmat3 axes = upright_axes(up_of(document));
   const glm::dvec3 local = glm::transpose(axes) * glm::normalize(light.position);
   float azimuth = static_cast<float>(std::atan2(local.x, local.z));
   float elevation = static_cast<float>(std::asin(std::clamp(local.y, -1.0, 1.0)));
@@ -146,16 +147,17 @@ void light_panel(Document& document, PanelState& state) {
   add_button("add point light", LIGHT_POINT, document, state);
   ImGui::SameLine();
   add_spot_button(document, state);
-  light_list(document, state);
-  if (document.lights.empty()) return;
-  state.light = std::min(state.light, static_cast<std::uint32_t>(document.lights.size() - 1));
-  SceneLight& light = document.lights[state.light];
+  std::vector<LightRequest>& lights = lights_of(document);
+  light_list(lights, state);
+  if (lights.empty()) return;
+  state.light = std::min(state.light, static_cast<std::uint32_t>(lights.size() - 1));
+  SceneLight& light = lights[state.light].light;
   ImGui::PushID(static_cast<int>(state.light));
   light.kind == LIGHT_DIRECTIONAL ? sun_controls(document, light) : point_controls(document, light);
   if (light.kind == LIGHT_POINT) reach_controls(document, light);
-  if (document.settings.look != LOOK_PAPER) size_controls(document, light);
+  if (look_of(document) != LOOK_PAPER) size_controls(document, light);
   power_controls(light);
-  if (ImGui::Button("remove")) document.lights.erase(document.lights.begin() + state.light);
+  if (ImGui::Button("remove")) lights.erase(lights.begin() + state.light);
   ImGui::PopID();
 }
 

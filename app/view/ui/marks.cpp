@@ -88,8 +88,8 @@ void box_edges(const std::optional<TurnedBox>& box, const glm::dvec3& up, ImU32 
 }
 
 void region_marks(const Document& document, const Grip* held, Marks& marks) {
-  box_edges(document.region.keep_box, document.up, BOX, marks);
-  box_edges(document.region.drop_box, document.up, DROPPED, marks);
+  box_edges(document.request.view.region.keep_box, up_of(document), BOX, marks);
+  box_edges(document.request.view.region.drop_box, up_of(document), DROPPED, marks);
   for (const Grip& handle : handles_of(document)) {
     const bool is_held = held != nullptr && held->of == handle.of && held->number == handle.number;
     marks.handle(handle,
@@ -108,7 +108,7 @@ void measure_marks(const Document& document, Marks& marks) {
       marks.line(places.back(), places.front(), MEASURE);
     for (const glm::dvec3& place : places) marks.dot(place, MEASURE, 0.9F * DOT_EM);
     const bool at_corner = measure.kind == MeasureKind::angle;
-    marks.text(at_corner ? places[places.size() / 2] : places.back(), short_text(measure, document.up));
+    marks.text(at_corner ? places[places.size() / 2] : places.back(), short_text(measure, up_of(document)));
   }
 }
 

@@ -25,7 +25,7 @@ void save_control(const Document& document, PanelState& state) {
   ImGui::InputText("file##measures", &state.measures_path);
   tip(".geojson, .dxf or .csv");
   if (!ImGui::SmallButton("save all")) return;
-  const MeasureFrame frame{document.up, document.loaded->crs};
+  const MeasureFrame frame{up_of(document), document.loaded->crs};
   const auto write = [&] { write_measures(document.measures, frame, state.measures_path); };
   if (const std::optional<Failure> failure = attempt("writing " + state.measures_path, write))
     state.error = failure->sentence;
@@ -49,7 +49,7 @@ void measure_panel(Document& document, PanelState& state) {
   kind_buttons(state);
   if (document.measures.empty()) return;
   if (ImGui::SmallButton("copy all")) {
-    ImGui::SetClipboardText(table_of(document.measures, document.up).c_str());
+    ImGui::SetClipboardText(table_of(document.measures, up_of(document)).c_str());
     state.notice = "copied the measures: values and points, with tabs between";
   }
   ImGui::SameLine();
@@ -58,7 +58,7 @@ void measure_panel(Document& document, PanelState& state) {
   for (std::size_t i = 0; i < document.measures.size(); ++i) {
     ImGui::Separator();
     ImGui::PushID(static_cast<int>(i));
-    const bool gone = measure_facts(document.measures[i], document.up);
+    const bool gone = measure_facts(document.measures[i], up_of(document));
     ImGui::PopID();
     if (!gone) continue;
     document.measures.erase(document.measures.begin() + static_cast<std::ptrdiff_t>(i));

@@ -131,10 +131,10 @@ void material_controls(Material& material) {
 }
 
 /// Says where a look shows no materials, and offers one that does.
-void look_note(Settings& settings) {
-  if (look_style(settings.look).surfaces) return;
+void look_note(Document& document) {
+  if (look_style(look_of(document)).surfaces) return;
   ImGui::TextWrapped("This look shows no materials.");
-  if (ImGui::SmallButton("look lit")) settings.look = LOOK_LIT;
+  if (ImGui::SmallButton("look lit")) document.request.look.style = LOOK_LIT;
 }
 
 }  // namespace
@@ -168,8 +168,8 @@ void material_panel(Document& document, PanelState& state) {
   const Material before = material;
   material_controls(material);
   surface = surface_after(before, surface, material);
-  look_note(document.settings);
-  if (document.settings.look == LOOK_LIT) light_controls(surface);
+  look_note(document);
+  if (look_of(document) == LOOK_LIT) light_controls(surface);
   if (ImGui::Button("as loaded")) {
     material = document.loaded->looks.materials[state.object];
     surface = document.loaded->looks.surfaces[state.object];

@@ -21,9 +21,10 @@ void cache_panel(const PanelView& view, Requests& requests);
 void statistics_panel(const PanelView& view);
 void inspector_panel(const PanelView& view);
 
-/// Dialogs that are open in `state`: open, save, record, or the sentence of an error.
+/// Dialogs that are open in `state`: open, save, sheet, record, or the sentence of an error.
 void open_dialog(PanelState& state, Requests& requests);
 void save_dialog(const Document& document, PanelState& state, Requests& requests);
+void sheet_dialog(const Document& document, PanelState& state, Requests& requests);
 void record_dialog(PanelState& state, Requests& requests);
 void error_dialog(PanelState& state);
 

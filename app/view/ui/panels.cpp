@@ -26,6 +26,8 @@ void toolbar(Requests& requests) {
   ImGui::SameLine();
   command_button("save", Action::save, requests);
   ImGui::SameLine();
+  command_button("sheet", Action::sheet, requests);
+  ImGui::SameLine();
   command_button("record", Action::record, requests);
   ImGui::SameLine();
   command_button("copy", Action::copy_command, requests);
@@ -104,6 +106,7 @@ Requests draw_panels(Document& document, PanelState& state, const PanelView& vie
   if (state.error.empty()) {
     open_dialog(state, requests);
     save_dialog(document, state, requests);
+    sheet_dialog(document, state, requests);
     record_dialog(state, requests);
   }
   error_dialog(state);

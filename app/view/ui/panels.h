@@ -19,7 +19,7 @@ struct Requests {
   std::vector<Command> commands;   ///< buttons that do what a key does
   std::optional<SceneFiles> open;  ///< a scene
   bool add = false;                ///< `open` goes beside what is shown
-  std::optional<Request> save;     ///< a picture or several; only what is_of_files() is looked at
+  std::optional<Request> save;     ///< a picture, several or a drawing: what saved_request() takes of it
   std::optional<Request> change;   ///< the document becomes what this asks for
   bool cancel = false;             ///< stop the work that PanelView::work shows
 };

@@ -15,18 +15,14 @@ constexpr double LEAST_EXPOSURE_EV = -10.0, MOST_EXPOSURE_EV = 10.0;
 
 constexpr std::array ENVIRONMENTS = {"studio", "white", "black", "sky:40,135"};
 
-/// The controls of some fields that documents have.
+/// The controls of some fields; what is left open by one, the scene or the look decides at once.
 void choices(Document& document, std::initializer_list<const char*> names, std::string& error) {
-  Request request;
-  static_cast<Settings&>(request.settings) = document.settings;
-  request.look.style = document.settings.look;
-  request.look.tone = document.tone;
+  Request& request = document.request;
   bool changed = false;
   for (const char* name : names) changed |= field_control(*find_field(name, DOOR_VIEW), request, error);
   if (!changed) return;
-  document.settings = request.settings;
-  document.settings.look = request.look.style.value_or(document.loaded->look);
-  document.tone = resolve_tone(request);
+  request.look.style = look_of(document);
+  request.look.tone = resolve_tone(request);
 }
 
 /// The text of --environment, taken over when it is complete.
@@ -48,22 +44,24 @@ void background_controls(Settings& settings) {
 }  // namespace
 
 void environment_panel(Document& document) {
-  environment_text(document.environment);
+  std::string& environment = document.request.look.environment;
+  environment_text(environment);
   for (const char* name : ENVIRONMENTS) {
-    if (ImGui::SmallButton(name)) document.environment = name;
+    if (ImGui::SmallButton(name)) environment = name;
     ImGui::SameLine();
   }
   ImGui::NewLine();
-  ImGui::DragFloat("strength", &document.settings.environment_strength, 0.01F, 0.0F, 1e6F, "%.3g",
+  Settings& settings = document.request.settings;
+  ImGui::DragFloat("strength", &settings.environment_strength, 0.01F, 0.0F, 1e6F, "%.3g",
                    ImGuiSliderFlags_AlwaysClamp);
-  float degrees = 360.0F * document.settings.environment_turn;
-  background_controls(document.settings);
+  float degrees = 360.0F * settings.environment_turn;
+  background_controls(settings);
   if (ImGui::SliderFloat("turn", &degrees, 0.0F, 360.0F, "%.0f\u00B0", ImGuiSliderFlags_AlwaysClamp))
-    document.settings.environment_turn = degrees / 360.0F;
+    settings.environment_turn = degrees / 360.0F;
 }
 
 void quality_panel(Document& document, PanelState& state) {
-  Settings& settings = document.settings;
+  Settings& settings = document.request.settings;
   choices(document, {"look"}, state.error);
   ImGui::SliderScalar("samples", ImGuiDataType_U32, &settings.samples, &LEAST_SAMPLES, &MOST_SAMPLES, "%u",
                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
@@ -71,8 +69,10 @@ void quality_panel(Document& document, PanelState& state) {
   ImGui::SliderScalar("bounces", ImGuiDataType_U32, &settings.max_bounces, &LEAST_BOUNCES, &MOST_BOUNCES,
                       "%u", ImGuiSliderFlags_AlwaysClamp);
   ImGui::Checkbox("shadows", &settings.shadows);
-  ImGui::SliderScalar("exposure", ImGuiDataType_Double, &document.exposure_ev, &LEAST_EXPOSURE_EV,
-                      &MOST_EXPOSURE_EV, "%+.2f EV", ImGuiSliderFlags_AlwaysClamp);
+  double exposure_ev = exposure_of(document);
+  if (ImGui::SliderScalar("exposure", ImGuiDataType_Double, &exposure_ev, &LEAST_EXPOSURE_EV,
+                          &MOST_EXPOSURE_EV, "%+.2f EV", ImGuiSliderFlags_AlwaysClamp))
+    document.request.look.exposure_ev = exposure_ev;
   choices(document, {"tone", "blend", "kernel"}, state.error);
   ImGui::SliderFloat("kappa", &settings.kappa, 0.05F, 4.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
   tip("depth of the blending window, in radii of the first splat");

@@ -32,7 +32,8 @@ TurnedBox middle_box(const Document& document) {
 }
 
 void slice_controls(Document& document) {
-  std::optional<Slice> slice = slice_of(document.region);
+  RegionRequest& region = document.request.view.region;
+  std::optional<Slice> slice = slice_of(region);
   struct Across {
     const char* label;
     int axis;
@@ -40,11 +41,11 @@ void slice_controls(Document& document) {
   ImGui::TextUnformatted("section");
   for (const Across& across : {Across{"level", 1}, Across{"along", 2}, Across{"across", 0}}) {
     ImGui::SameLine();
-    if (ImGui::SmallButton(across.label)) set_slice(document.region, first_slice(document, across.axis));
+    if (ImGui::SmallButton(across.label)) set_slice(region, first_slice(document, across.axis));
   }
   if (!slice) return;
   ImGui::SameLine();
-  if (ImGui::SmallButton("none")) return remove_slice(document.region);
+  if (ImGui::SmallButton("none")) return remove_slice(region);
   const double radius = scene_radius_world(document);
   const glm::dvec3 middle = 0.5 * (document.bounds_min_world + document.bounds_max_world);
   double place = glm::dot(slice->point - middle, slice->normal);
@@ -56,20 +57,21 @@ void slice_controls(Document& document) {
                                  "%.4g", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
   if (!changed) return;
   slice->point += (place - glm::dot(slice->point - middle, slice->normal)) * slice->normal;
-  set_slice(document.region, *slice);
+  set_slice(region, *slice);
 }
 
 /// A plane for each cut, and one more across the view.
 void cut_controls(Document& document) {
-  std::vector<HalfSpace>& cuts = document.region.cuts;
-  const std::size_t boxed = document.region.keep_box ? REGION_BOX_PLANES : 0;
+  RegionRequest& region = document.request.view.region;
+  std::vector<HalfSpace>& cuts = region.cuts;
+  const std::size_t boxed = region.keep_box ? REGION_BOX_PLANES : 0;
   ImGui::BeginDisabled(cuts.size() + boxed >= REGION_PLANES_MOST);
   if (ImGui::SmallButton("plane across the view"))
     cuts.insert(cuts.begin(), {0.5 * (document.bounds_min_world + document.bounds_max_world),
                                glm::normalize(document.camera.target - document.camera.eye)});
   tip("what lies before it, as seen now, is cut away");
   ImGui::EndDisabled();
-  std::size_t planes = cuts.size() - (slice_of(document.region) ? 2 : 0);
+  std::size_t planes = cuts.size() - (slice_of(region) ? 2 : 0);
   for (std::size_t i = 0; i < planes; ++i) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::Text("plane %zu", i + 1);
@@ -87,20 +89,20 @@ void cut_controls(Document& document) {
 }  // namespace
 
 void region_panel(Document& document, PanelState& state) {
-  ImGui::Checkbox("look in", &document.settings.cutaway);
+  RegionRequest& region = document.request.view.region;
+  ImGui::Checkbox("look in", &document.request.view.look_in);
   tip("leave out what faces away from the eye, such as walls and ceilings before a room");
-  box_controls("keep a box", document.region.keep_box, box_of_all(document),
+  box_controls("keep a box", region.keep_box, box_of_all(document),
                "only what is in it is shown; drag its faces in the picture");
-  box_controls("drop a box", document.region.drop_box, middle_box(document),
-               "all but what is in it is shown");
+  box_controls("drop a box", region.drop_box, middle_box(document), "all but what is in it is shown");
   slice_controls(document);
   cut_controls(document);
-  bool kept_alone = document.region.light_kept.value_or(false);
-  if (ImGui::Checkbox("light of what is kept alone", &kept_alone)) document.region.light_kept = kept_alone;
+  bool kept_alone = region.light_kept.value_or(false);
+  if (ImGui::Checkbox("light of what is kept alone", &kept_alone)) region.light_kept = kept_alone;
   tip("else what is cut away still shades and lights what is shown");
   ImGui::Checkbox("handles", &state.shows_handles);
   ImGui::SameLine();
-  if (ImGui::SmallButton("show all of it")) document.region = {};
+  if (ImGui::SmallButton("show all of it")) region = {};
 }
 
 }  // namespace splatray

@@ -98,8 +98,7 @@ Field lens_shift_row() {
   return value_row(
       "lens-shift", CAMERA, "X,Y",
       "where the point straight ahead lies, to the right of the picture's middle and below it, in widths and "
-      "heights of the picture; "
-      "default 0,0",
+      "heights of the picture; default 0,0",
       [](Request& request, const std::string& text) {
         const auto numbers = split_numbers(text, ',', 2);
         if (numbers.empty() || !(std::hypot(numbers[0], numbers[1]) <= MOST_LENS_SHIFT))
@@ -152,15 +151,16 @@ Field tile_row() {
 }  // namespace
 
 std::vector<Field> camera_fields() {
-  return {needed(resolution_row(), "size of the picture in pixels, such as 1920x1080"),
-          camera_path_row(),
+  return {needed(resolution_row(), "size of the picture in pixels, such as 1920x1080")
+              .marked(OF_FILES | HAS_OWN_CONTROL),
+          camera_path_row().marked(OF_FILES | HAS_OWN_CONTROL),
           camera_row(),
           needed(view_row(), "front, oblique, top, inside, dollhouse or sensor"),
           vector_row("eye", CAMERA, MEMBER(view.eye),
                      "camera position; default: the scene's camera, else a view of the whole scene"),
           vector_row("target", CAMERA, MEMBER(view.target),
                      "point looked at; default the scene's centre; needs --eye"),
-          up_row(),
+          up_row().marked(OF_SCENES),
           vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
                      "up direction of the camera alone; needs --eye"),
           fov_row(),
@@ -171,12 +171,14 @@ std::vector<Field> camera_fields() {
           number_row("pixel-aspect", CAMERA, MEMBER(view.pixel_aspect), 1.0 / MOST_PIXEL_ASPECT,
                      MOST_PIXEL_ASPECT, "width of a pixel over its height; default 1"),
           number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
-                     "diameter of the lens, world units; default 0: all is sharp; not with --look paper"),
+                     "diameter of the lens, world units; default 0: all is sharp; not with --look paper")
+              .of_looks({LOOK_LIT, LOOK_CLAY, LOOK_AO, LOOK_SCAN}),
           unset_number_row(
               "focus", CAMERA, MEMBER(settings.focus_world), 1e-30, 1e30,
-              "distance from the eye at which all is sharp, world units; default the camera's target"),
-          crop_row(),
-          tile_row()};
+              "distance from the eye at which all is sharp, world units; default the camera's target")
+              .of_looks({LOOK_LIT, LOOK_CLAY, LOOK_AO, LOOK_SCAN}),
+          crop_row().marked(OF_FILES),
+          tile_row().marked(OF_FILES)};
 }
 
 }  // namespace splatray

@@ -100,7 +100,12 @@ std::vector<Field> input_fields() {
           "that of --up; the camera is placed as without it"),
       number_row("threads", INPUT, MEMBER(source.threads), 0, 4096,
                  "threads of reading, preprocess and the device cpu; default 0 = all cores")};
-  for (Field& row : rows) row.doors |= DOOR_PREPROCESS;
+  for (Field& row : rows) {
+    row.doors |= DOOR_PREPROCESS;
+    row.traits |= OF_SCENES;
+  }
+  rows.front().traits = 0;  // what is opened, not how
+  rows.back().traits |= NOT_OF_LIGHT;
   rows[2].old_names = {"points", "samples"};
   return rows;
 }

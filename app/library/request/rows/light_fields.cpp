@@ -111,17 +111,15 @@ Field lights_row() {
 }
 
 Field environment_row() {
-  return with(
-      value_row(
-          "environment", LIGHT, "FILE|NAME",
-          "an HDR or EXR file (latitude-longitude), white, black, studio, sky:ELEVATION,AZIMUTH[,TURBIDITY] "
-          "(daylight: where the sun stands, degrees above the horizon and clockwise from north, and how hazy "
-          "it is, 2 to 10, default 3) or a radiance r,g,b; default: the scene's, else studio with a key "
-          "light "
-          "over the viewer's left shoulder",
-          [](Request& request, const std::string& text) { request.look.environment = text; },
-          [](const Request& request) { return request.look.environment; }),
-      {.old_names = {"env"}});
+  return with(value_row(
+                  "environment", LIGHT, "FILE|NAME",
+                  "an HDR or EXR file (latitude-longitude), white, black, studio, "
+                  "sky:ELEVATION,AZIMUTH[,TURBIDITY] (daylight: where the sun stands, degrees above the "
+                  "horizon and clockwise from north, and how hazy it is, 2 to 10, default 3) or a radiance "
+                  "r,g,b; default: the scene's, else studio with a key light over the viewer's left shoulder",
+                  [](Request& request, const std::string& text) { request.look.environment = text; },
+                  [](const Request& request) { return request.look.environment; }),
+              {.old_names = {"env"}});
 }
 
 Field background_row() {
@@ -159,14 +157,12 @@ std::vector<Field> light_fields() {
                     "; or by places a point: where it is, its intensity and radius; repeatable"),
       needed(light_row("sun", LIGHT_DIRECTIONAL, "X,Y,Z[,R,G,B[,SIZE]]",
                        "a directional light from X,Y,Z instead of the scene's lights; R,G,B: its irradiance, "
-                       "default pi; "
-                       "SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable"),
+                       "default pi; SIZE: the angle it seems to have, degrees (our sun's: 0.53); repeatable"),
              "a sun in this direction"),
-      light_row(
-          "area-light", LIGHT_RECTANGLE, "X,Y,Z,TX,TY,TZ,W,H[,R,G,B]",
-          "a rectangle of W x H here that shines towards TX,TY,TZ, instead of the scene's lights; R,G,B: its "
-          "radiance, default irradiance pi there; with --look paper a point; repeatable"),
-      lights_row(),
+      light_row("area-light", LIGHT_RECTANGLE, "X,Y,Z,TX,TY,TZ,W,H[,R,G,B]",
+                "a rectangle of W x H here that shines towards TX,TY,TZ, instead of the scene's lights; "
+                "R,G,B: its radiance, default irradiance pi there; with --look paper a point; repeatable"),
+      lights_row().of_looks({LOOK_PAPER, LOOK_LIT, LOOK_CLAY, LOOK_SCAN}),
       needed(environment_row(), "an HDR or EXR, white, studio, sky:ELEVATION,AZIMUTH"),
       background_row(),
       with(number_row("environment-strength", LIGHT, MEMBER(settings.environment_strength), 0.0, 1e6,

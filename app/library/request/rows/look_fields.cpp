@@ -11,18 +11,17 @@ namespace {
 constexpr FieldGroup LOOK = FieldGroup::look;
 
 Field look_row() {
-  return choice_row<std::optional<std::uint32_t>>("look", LOOK, MEMBER(look.style),
-                                                  {{"auto", std::nullopt},
-                                                   {"lit", LOOK_LIT},
-                                                   {"clay", LOOK_CLAY},
-                                                   {"ao", LOOK_AO},
-                                                   {"scan", LOOK_SCAN},
-                                                   {"paper", LOOK_PAPER}},
-                                                  "lit: path tracing; clay: the same, all of it white clay; "
-                                                  "ao: ambient occlusion; scan: the points' colours "
-                                                  "under occlusion and a soft light; paper: Phong, hard "
-                                                  "shadows, mirrors and glass; default auto: scan for "
-                                                  "points with colours and without materials, else lit");
+  return choice_row<std::optional<std::uint32_t>>(
+      "look", LOOK, MEMBER(look.style),
+      {{"auto", std::nullopt},
+       {"lit", LOOK_LIT},
+       {"clay", LOOK_CLAY},
+       {"ao", LOOK_AO},
+       {"scan", LOOK_SCAN},
+       {"paper", LOOK_PAPER}},
+      "lit: path tracing; clay: the same, all of it white clay; ao: ambient occlusion; scan: the points' "
+      "colours under occlusion and a soft light; paper: Phong, hard shadows, mirrors and glass; default "
+      "auto: scan for points with colours and without materials, else lit");
 }
 
 Field material_row() {
@@ -90,16 +89,15 @@ Field tone_row() {
   for (std::size_t i = 0; i < TONE_NAMES.size(); ++i) tones.push_back({TONE_NAMES[i], Tone(i)});
   return choice_row(
       "tone", LOOK, MEMBER(look.tone), tones,
-      "how a PNG shows what is brighter than white: neutral (colours stay), agx (like film), soft "
-      "(each channel alone), none (cut off); default auto: soft with --look paper, else neutral");
+      "how a PNG shows what is brighter than white: neutral (colours stay), agx (like film), soft (each "
+      "channel alone), none (cut off); default auto: soft with --look paper, else neutral");
 }
 
 Field exposure_row() {
   return value_row(
       "exposure", LOOK, "EV|auto",
       "brightness of a PNG in stops, or auto: what is seen becomes middle grey on the mean, less where it "
-      "would be "
-      "too bright, as measured on a small picture of the same view; default auto for scans, else 0",
+      "would be too bright, as measured on a small picture of the same view; default auto for scans, else 0",
       [](Request& request, const std::string& text) {
         request.look.exposure_ev.reset();
         request.look.exposure_auto = text == "auto";
@@ -116,33 +114,34 @@ Field exposure_row() {
 std::vector<Field> look_fields() {
   return {
       needed(look_row(), "lit, clay, ao, scan or paper"),
-      needed(
-          text_row(
-              "color-by", LOOK, MEMBER(look.attributes.color_by),
-              "colours of points: rgb (their own), plain (none), height (low to high: blue-green, green, "
-              "ochre, "
-              "rose), height+intensity (darker where that is low), normal, distance (from the scanner), or "
-              "an "
-              "attribute they have, such as intensity, class, return, source, scan, kind (surface, line or "
-              "scatter); default rgb, of scans without colours intensity, of sites and rooms height with it",
-              "NAME"),
-          "rgb, height, intensity, class, normal, ..."),
-      color_range_row(),
+      needed(text_row("color-by", LOOK, MEMBER(look.attributes.color_by),
+                      "colours of points: rgb (their own), plain (none), height (low to high: blue-green, "
+                      "green, ochre, rose), height+intensity (darker where that is low), normal, distance "
+                      "(from the scanner), or an attribute they have, such as intensity, class, return, "
+                      "source, scan, kind (surface, line or scatter); default rgb, of scans without colours "
+                      "intensity, of sites and rooms height with it",
+                      "NAME"),
+             "rgb, height, intensity, class, normal, ...")
+          .marked(OF_SCENES),
+      color_range_row().marked(OF_SCENES),
       number_list_row("hide-class", MEMBER(look.attributes.hidden_classes),
-                      "classes that are not shown, such as 7,18"),
-      number_list_row("hide-scan", MEMBER(look.attributes.hidden_scans), "scans that are not shown, from 0"),
-      needed(material_row(), "what a scene of one object is made of"),
-      object_row(),
-      needed(exposure_row(), "brightness in stops, or auto"),
-      tone_row(),
-      unset_number_row(
-          "ao-radius", LOOK, MEMBER(settings.reach_world), 1e-30, 1e30,
-          "ao and scan: how far away something darkens a point, world units; default a tenth of the "
-          "scene's diagonal"),
+                      "classes that are not shown, such as 7,18")
+          .marked(OF_SCENES),
+      number_list_row("hide-scan", MEMBER(look.attributes.hidden_scans), "scans that are not shown, from 0")
+          .marked(OF_SCENES),
+      needed(material_row(), "what a scene of one object is made of").marked(OF_SCENES | OF_PICTURES),
+      object_row().marked(OF_SCENES | OF_PICTURES),
+      needed(exposure_row(), "brightness in stops, or auto").marked(NOT_OF_LIGHT),
+      tone_row().marked(NOT_OF_LIGHT),
+      unset_number_row("ao-radius", LOOK, MEMBER(settings.reach_world), 1e-30, 1e30,
+                       "ao and scan: how far away something darkens a point, world units; default a tenth of "
+                       "the scene's diagonal")
+          .of_looks({LOOK_AO, LOOK_SCAN}),
       choice_row<bool>("glass-shadows", LOOK, MEMBER(settings.straight_shadows),
                        {{"paths", false}, {"straight", true}},
                        "lit: what glass leaves of the light of lights: what paths find, or tinted shadows, "
-                       "without refraction; default paths")};
+                       "without refraction; default paths")
+          .of_looks({LOOK_LIT})};
 }
 
 }  // namespace splatray

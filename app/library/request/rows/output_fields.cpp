@@ -67,8 +67,7 @@ Field orbit_row() {
   Field row = value_row(
       "orbit", OUTPUT, "N[xHEIGHTS]",
       "a page (-o FILE.html) of N pictures all around, from this many heights, in which one turns, zooms and "
-      "measures "
-      "without anything else, such as 36x3; default 0 = none",
+      "measures without anything else, such as 36x3; default 0 = none",
       [](Request& request, const std::string& text) {
         constexpr std::uint32_t MOST = 360, MOST_ROWS = 16;
         auto numbers = split_whole_numbers(text, 'x', 2);
@@ -110,8 +109,7 @@ std::vector<Field> file_fields() {
                                  {"json", ProgressStyle::json},
                                  {"openjd", ProgressStyle::openjd}},
                                 "how progress is reported: a line on a terminal; lines; a JSON object a "
-                                "line; as Open Job Description has "
-                                "it; default line")};
+                                "line; as Open Job Description has it; default line")};
   for (Field& row : rows) {
     row.doors = DOOR_RENDER;
     row.why_not = "of a run of the program, not of a picture";
@@ -127,11 +125,11 @@ std::vector<Field> output_fields() {
       needed(with(path_row("output", OUTPUT, MEMBER(output.path),
                            "the picture: .png, .jpg or .webp (sRGB; the last two of quality 95, .jpg without "
                            "transparency) or .exr (linear float); of a sequence with a run of # for the "
-                           "frame's "
-                           "digits such as out.####.png"),
+                           "frame's digits such as out.####.png"),
                   {.letter = "-o"}),
-             "the picture to write: .png, .jpg, .webp or .exr"),
-      aov_row(),
+             "the picture to write: .png, .jpg, .webp or .exr")
+          .marked(HAS_OWN_CONTROL),
+      aov_row().marked(NOT_OF_LIGHT | OF_PICTURES),
       with(path_row("resume", OUTPUT, MEMBER(output.resume),
                     "continue this EXR (same command, fewer --samples, or interrupted) up to --samples"),
            {.doors = DOOR_RENDER | DOOR_LIBRARY, .why_not = VIEWER_GOES_ON}),
@@ -141,12 +139,15 @@ std::vector<Field> output_fields() {
       needed(number_row("turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
                         "this many pictures of a full turn about the scene's up axis through the target; "
                         "default 0 = none"),
-             "so many pictures of a full turn, -o out.####.png"),
+             "so many pictures of a full turn, -o out.####.png")
+          .marked(HAS_OWN_CONTROL),
       orbit_row(),
-      frames_row(),
+      frames_row().marked(OF_SEQUENCES),
       switch_row("skip-existing", OUTPUT, MEMBER(output.skip_existing),
-                 "leave out pictures whose file is whole and was made by the same command")};
+                 "leave out pictures whose file is whole and was made by the same command")
+          .marked(OF_SEQUENCES)};
   for (Field& row : file_fields()) rows.push_back(std::move(row));
+  for (Field& row : rows) row.traits |= OF_FILES;
   return rows;
 }
 

@@ -11,8 +11,7 @@ std::vector<Field> build_fields() {
   std::vector<Field> rows = {
       number_row("leaf-size", RESEARCH, MEMBER(source.params.leaf_size), 0, 65536,
                  "octree cells of more splat centres are divided; default 0 = 16, or 24 or 8 where that "
-                 "would take more "
-                 "than 64 bytes of GPU memory a splat"),
+                 "would take more than 64 bytes of GPU memory a splat"),
       choice_row<Insertion>(
           "insertion", RESEARCH, MEMBER(source.params.insertion),
           {{"overlap", Insertion::overlap}, {"probe", Insertion::probe}, {"centre", Insertion::centre}},
@@ -26,7 +25,10 @@ std::vector<Field> build_fields() {
                  "how normals change across each disc, where the scene curves; default on"),
       on_off_row("clip", RESEARCH, MEMBER(source.params.clip),
                  "discs end at borders and creases, of points alone where those are clear; default on")};
-  for (Field& row : rows) row.doors = DOORS_ALL;
+  for (Field& row : rows) {
+    row.doors = DOORS_ALL;
+    row.traits = OF_SCENES;
+  }
   return rows;
 }
 
@@ -67,7 +69,8 @@ std::vector<Field> research_fields() {
                                      {{"z", ORDER_Z}, {"linear", ORDER_LINEAR}},
                                      "order of threads over pixels; default z"),
            switch_row("counters", RESEARCH, MEMBER(settings.counters),
-                      "count rays, steps and tests (slower) for --stats-json")})
+                      "count rays, steps and tests (slower) for --stats-json")
+               .marked(NOT_OF_LIGHT)})
     rows.push_back(std::move(row));
   return rows;
 }

@@ -5,7 +5,7 @@ namespace splatray {
 namespace {
 
 constexpr FieldGroup SHEET = FieldGroup::sheet;
-constexpr const char* OF_SECTIONS = "the window saves the sheet of the section that it shows";
+constexpr const char* OF_SECTIONS = "the viewer draws the section that it shows, by a dialog";
 
 Field not_in_panels(Field row) {
   row.doors = DOOR_RENDER | DOOR_LIBRARY;
