@@ -1,13 +1,11 @@
 #include "engine/file/old_scene_sections.h"
+#include "engine/file/checksum.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
 #include <iterator>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 namespace splatray::scene_file {
 namespace {
@@ -113,7 +111,7 @@ void require_table(SceneInput& input, const OldHeader& header, const std::vector
 /// A section within bytes that have been checked.
 Section part(const std::vector<char>& bytes, std::uint64_t begin, std::uint64_t size,
              std::uint64_t file_offset, ElementType type, std::uint32_t element_bytes) {
-  return {type, element_bytes, false, file_offset + begin, size, XXH3_64bits(bytes.data() + begin, size)};
+  return {type, element_bytes, false, file_offset + begin, size, checksum_of(bytes.data() + begin, size)};
 }
 
 /// The strings as sections of their own.
@@ -121,7 +119,7 @@ void divide_strings(SceneInput& input, const OldHeader& header, std::size_t colu
   const OldEntry& entry = header.sections[STRINGS];
   std::vector<char> bytes(entry.bytes);
   input.read(entry.offset, bytes.data(), bytes.size());
-  if (XXH3_64bits(bytes.data(), bytes.size()) != entry.checksum)
+  if (checksum_of(bytes.data(), bytes.size()) != entry.checksum)
     input.refuse("strings with another checksum", "the one in the header (file damaged)");
   const bool has_crs = header.start.version >= 14;
   const std::uint64_t expected = header.objects + 1ULL + header.stations + columns + (has_crs ? 1 : 0);

@@ -8,11 +8,9 @@
 #include <type_traits>
 #include <utility>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include "engine/base/memory.h"
 #include "engine/base/utf8.h"
+#include "engine/file/checksum.h"
 #include "engine/file/old_scene_sections.h"
 #include "engine/file/scene_records.h"
 #include "engine/file/section_writer.h"
@@ -92,7 +90,7 @@ std::vector<char> read_head(SceneInput& input) {
   std::vector<char> head(start.head_bytes);
   input.read(0, head.data(), head.size());
   std::memset(head.data() + offsetof(HeaderStart, checksum), 0, sizeof start.checksum);
-  if (XXH3_64bits(head.data(), head.size()) != start.checksum)
+  if (checksum_of(head.data(), head.size()) != start.checksum)
     input.refuse("another header checksum", "the stored one (file damaged)");
   return head;
 }

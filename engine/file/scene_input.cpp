@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include "engine/base/error.h"
+#include "engine/file/checksum.h"
 #include "engine/file/file_roles.h"
 
 namespace splatray::scene_file {
@@ -42,14 +40,13 @@ void SceneInput::read(std::uint64_t offset, void* target, std::uint64_t bytes) {
 
 std::uint64_t SceneInput::checksum(std::uint64_t offset, std::uint64_t bytes) {
   std::vector<char> piece(std::min(bytes, PIECE_BYTES));
-  XXH3_state_t state;
-  XXH3_64bits_reset(&state);
+  Checksum checksum;
   for (std::uint64_t done = 0; done < bytes; done += piece.size()) {
     piece.resize(std::min(bytes - done, PIECE_BYTES));
     read(offset + done, piece.data(), piece.size());
-    XXH3_64bits_update(&state, piece.data(), piece.size());
+    checksum.add(piece.data(), piece.size());
   }
-  return XXH3_64bits_digest(&state);
+  return checksum.value();
 }
 
 void SceneInput::refuse(const std::string& found, const std::string& expected) const {

@@ -1,13 +1,11 @@
 #include "engine/file/scene_sections.h"
+#include "engine/file/checksum.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <iterator>
 #include <span>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 namespace splatray::scene_file {
 namespace {
@@ -141,7 +139,7 @@ void SectionReader::require_record(const std::string& name, std::uint32_t least_
 void SectionReader::take(const std::string& name, void* target) {
   const Section& section = find(name);
   input_.read(section.offset, target, section.bytes);
-  require_checksum(name, XXH3_64bits(target, section.bytes), section.checksum);
+  require_checksum(name, checksum_of(target, section.bytes), section.checksum);
   table_.erase(name);
 }
 

@@ -4,10 +4,8 @@
 #include <cassert>
 #include <cstring>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include "engine/file/atomic_file.h"
+#include "engine/file/checksum.h"
 
 namespace splatray::scene_file {
 namespace {
@@ -33,7 +31,7 @@ void SectionWriter::keep_strings(const std::string& name, const std::vector<std:
 
 void SectionWriter::add(const std::string& name, ElementType type, std::uint32_t element_bytes,
                         const void* content, std::uint64_t bytes) {
-  SectionEntry entry{{}, type, element_bytes, 0, 0, 0, bytes, XXH3_64bits(content, bytes)};
+  SectionEntry entry{{}, type, element_bytes, 0, 0, 0, bytes, checksum_of(content, bytes)};
   assert(name.size() <= sizeof entry.name);
   name.copy(entry.name, sizeof entry.name);
   entries_.push_back(entry);
@@ -72,11 +70,10 @@ Header SectionWriter::sealed_header(std::uint32_t version, std::uint64_t file_by
                 sizeof(SectionEntry),
                 0};
   std::memcpy(header.start.magic, MAGIC, sizeof MAGIC);
-  XXH3_state_t state;
-  XXH3_64bits_reset(&state);
-  XXH3_64bits_update(&state, &header, sizeof header);
-  XXH3_64bits_update(&state, entries_.data(), table_end() - sizeof header);
-  header.start.checksum = XXH3_64bits_digest(&state);
+  Checksum checksum;
+  checksum.add(&header, sizeof header);
+  checksum.add(entries_.data(), table_end() - sizeof header);
+  header.start.checksum = checksum.value();
   return header;
 }
 

@@ -25,8 +25,8 @@ MOST_LINES, MOST_COLUMNS = 80, 130  # of README.md
 INPUT_UNREADABLE = 3
 # Options behind a command's own, of which the last one holds; and behind those that name one of these.
 SMALLER = {"splatray-render": "--resolution=16x16 --samples=2", "splatray-preprocess": ""}
-# Vulkan takes seconds to start with sanitizers, the CPU device a fifth of that: Vulkan for each command with tests/run --all.
-DEVICE = "" if "SPLATRAY_TEST_ALL" in os.environ else " --device=cpu"
+# Vulkan takes seconds to start with sanitizers, the CPU device a fifth of that.
+DEVICE = " --device=cpu"
 SMALLER_IF = {"splatray-render": {"--mesh-points": "--mesh-points=2000", "--error": "--time=0.2", "--time": "--time=0.2", "--turntable": "--frames=0-1",
                                   "vase.ply": "--mesh-points=2000", "bunny.ply": "--mesh-points=2000"},
               "splatray-preprocess": {"--mesh-points": "--mesh-points=2000"}}

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "app/library/image_file.h"
+#include "tests/all_tests.h"
 #include "tests/cli/child_process.h"
 #include "tests/view/desktop.h"
 #include "tests/view/foreign_load.h"
@@ -167,7 +168,9 @@ TEST_F(ViewSession, OrbitMaterialSaveDropResizeClose) {
   EXPECT_TRUE(content(file("splatray.png")) == content(file("again.png")));
 }
 
+/// The window's own way to what Doors.TheViewerSavesTheProgramsPicture compares without one.
 TEST_F(ViewSession, SavedPictureIsTheHeadlessOne) {
+  if (!testing::all_tests()) GTEST_SKIP() << "long: with tests/run --all";
   const std::vector<std::string> options = {first, "--eye=0.9,1.3,2.2", "--fov=35", "--bounces=3",
                                             "--exposure=0.5"};
   start(options);

@@ -77,7 +77,7 @@ std::vector<SceneLight> resolve_lights(const Scene& scene, const Request& reques
 
 std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLight> lights) {
   for (SceneLight& light : lights) {
-    if (look != LOOK_PAPER || light.kind != LIGHT_RECTANGLE) continue;
+    if (look != LOOK_PAPER || !is_flat(light.kind)) continue;
     light.kind = LIGHT_POINT;
     light.power *= static_cast<float>(4.0 * glm::length(glm::cross(light.edge_u, light.edge_v)));
   }

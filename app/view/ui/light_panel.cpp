@@ -114,7 +114,7 @@ void sun_controls(const Document& document, SceneLight& light) {
 
 /// Of what path tracing sees.
 void size_controls(const Document& document, SceneLight& light) {
-  if (light.kind == LIGHT_RECTANGLE) return;
+  if (is_flat(light.kind)) return;
   if (light.kind == LIGHT_POINT) {
     const double least = 0.0, most = scene_radius_world(document);
     ImGui::SliderScalar("radius", ImGuiDataType_Double, &light.size, &least, &most, "%.4g",

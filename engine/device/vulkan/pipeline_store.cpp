@@ -1,8 +1,5 @@
 #include "engine/device/vulkan/pipeline_store.h"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -11,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/file/atomic_file.h"
+#include "engine/file/checksum.h"
 
 namespace splatray {
 namespace {
@@ -52,7 +50,7 @@ std::vector<char> read_kept(const std::filesystem::path& file, const VkPhysicalD
   std::uint64_t checksum = 0;
   std::memcpy(&checksum, bytes.data() + MAGIC.size(), sizeof checksum);
   const std::vector<char> kept(bytes.begin() + BEGIN_BYTES, bytes.end());
-  return checksum == XXH3_64bits(kept.data(), kept.size()) && is_of_device(kept, properties)
+  return checksum == checksum_of(kept.data(), kept.size()) && is_of_device(kept, properties)
              ? kept
              : std::vector<char>{};
 }
@@ -61,7 +59,7 @@ std::vector<char> read_kept(const std::filesystem::path& file, const VkPhysicalD
 void keep(const std::string& data, const std::filesystem::path& file) {
   std::error_code none;
   if (std::filesystem::exists(file, none) && !read_bytes(file).starts_with(MAGIC)) return;
-  const std::uint64_t checksum = XXH3_64bits(data.data(), data.size());
+  const std::uint64_t checksum = checksum_of(data.data(), data.size());
   std::string bytes(MAGIC);
   bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
   std::filesystem::create_directories(file.parent_path());
