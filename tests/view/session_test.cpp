@@ -170,7 +170,7 @@ TEST_F(ViewSession, OrbitMaterialSaveDropResizeClose) {
 
 /// The window's own way to what Doors.TheViewerSavesTheProgramsPicture compares without one.
 TEST_F(ViewSession, SavedPictureIsTheHeadlessOne) {
-  if (!testing::all_tests()) GTEST_SKIP() << "long: with tests/run --all";
+  SPLATRAY_NIGHTLY();
   const std::vector<std::string> options = {first, "--eye=0.9,1.3,2.2", "--fov=35", "--bounces=3",
                                             "--exposure=0.5"};
   start(options);
