@@ -35,12 +35,24 @@ inline std::size_t edits_between(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
-/// The one of the names that a word most likely stands for: the nearest by edits (upper and lower case and British spelling count
+/// What other renderers and viewers call our options.
+inline std::string our_word(const std::string& word) {
+  for (const auto& [theirs, ours] :
+       {std::pair("size", "resolution"), std::pair("width", "resolution"), std::pair("height", "resolution"),
+        std::pair("res", "resolution"), std::pair("spp", "samples"), std::pair("out", "output"),
+        std::pair("hdri", "environment"), std::pair("envmap", "environment"), std::pair("depth", "bounces")})
+    if (word == theirs) return ours;
+  return {};
+}
+
+/// The one of the names that a word most likely stands for: the one that other programs have that word for, else the nearest by edits (upper and lower case and British spelling count
 /// nothing), up to a third of the word's letters; else the first that begins with the word. Empty where there is none.
 [[nodiscard]] inline std::string nearest_name(const std::string& word,
                                               const std::vector<std::string>& names) {
   const std::string meant = plain_spelling(word);
   if (meant.empty()) return {};
+  if (const std::string ours = our_word(meant); std::find(names.begin(), names.end(), ours) != names.end())
+    return ours;
   // More edits than a third of the letters make another word of most.
   std::size_t least = std::max<std::size_t>(meant.size() / 3, 1) + 1;
   std::string nearest, longer;

@@ -163,6 +163,8 @@ TEST(NearestName, IsTheOneMeant) {
         std::pair("output-file", ""), std::pair("zz", "")})
     EXPECT_EQ(nearest_name(word, names), meant) << word;
   EXPECT_EQ(nearest_name("grey", {"gray", "great"}), "gray");
+  EXPECT_EQ(nearest_name("size", {"side", "resolution"}), "resolution") << "as other programs call it";
+  EXPECT_EQ(nearest_name("size", {"side"}), "side") << "a program without a resolution";
   EXPECT_EQ(nearest_name("", {"a"}), "");
   EXPECT_EQ(did_you_mean("plna", {"plan"}, "--"), "; did you mean --plan?");
 }
