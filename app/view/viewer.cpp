@@ -74,7 +74,7 @@ void Viewer::run() {
       remember_window(), remember_choices();
     if (frames_left == 0 && !presenter_.gui().wants_keyboard() && panels_.notice.empty()) continue;
     frames_left = std::max(frames_left - 1, 0);
-    take_news();
+    poll();
     presenter_.gui().begin();
     handle_inputs();
     draw_controls();
@@ -107,7 +107,7 @@ bool Viewer::is_worth_drawing() {
 /// How long nothing needs to be drawn, seconds.
 double Viewer::patience() const { return presenter_.gui().wants_keyboard() ? CARET_SECONDS : SIGNAL_SECONDS; }
 
-void Viewer::take_news() {
+void Viewer::poll() {
   take_load_news();
   take_render_news();
   const SceneFiles dropped = window_.take_dropped();
@@ -115,7 +115,7 @@ void Viewer::take_news() {
 }
 
 void Viewer::take_load_news() {
-  LoadNews news = loader_.take_news();
+  LoadNews news = loader_.poll();
   work_.reset();
   if (news.progress) work_ = {news.progress->stage, news.progress->share};
   if (!news.notice.empty()) add_line(panels_.notice, news.notice);
@@ -126,7 +126,7 @@ void Viewer::take_load_news() {
 }
 
 void Viewer::take_render_news() {
-  RenderNews news = renderer_.take_news();
+  RenderNews news = renderer_.poll();
   if (news.frame) {
     frame_ = news.frame;
     has_new_frame_ = true;

@@ -29,7 +29,7 @@ class Viewer {
   void run();
 
  private:
-  void take_news();
+  void poll();
   void take_load_news();
   void take_render_news();
   void attempt_to(const std::string& doing, const std::function<void()>& step);

@@ -1,11 +1,12 @@
 #include "engine/file/old_scene_sections.h"
-#include "engine/file/checksum.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
 #include <iterator>
+
+#include "engine/file/checksum.h"
 
 namespace splatray::scene_file {
 namespace {

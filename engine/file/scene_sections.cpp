@@ -1,11 +1,12 @@
 #include "engine/file/scene_sections.h"
-#include "engine/file/checksum.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <iterator>
 #include <span>
+
+#include "engine/file/checksum.h"
 
 namespace splatray::scene_file {
 namespace {

@@ -56,7 +56,7 @@ class RenderThreadTest : public CliTest {
 
   /// Waits for news that `wanted` takes.
   void await(const std::function<bool(const RenderNews&)>& wanted) {
-    EXPECT_TRUE(alarm.until([&] { return wanted(thread.take_news()); }));
+    EXPECT_TRUE(alarm.until([&] { return wanted(thread.poll()); }));
   }
 
   SharedScene scene = shared_discs();
@@ -176,7 +176,7 @@ class LoadThreadTest : public CliTest {
     thread.load(request);
   }
   void await(const std::function<bool(const LoadNews&)>& wanted) {
-    EXPECT_TRUE(alarm.until([&] { return wanted(thread.take_news()); }));
+    EXPECT_TRUE(alarm.until([&] { return wanted(thread.poll()); }));
   }
 
   Alarm alarm;

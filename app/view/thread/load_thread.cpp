@@ -51,7 +51,7 @@ void LoadThread::cancel() {
   if (std::exchange(waiting_, {})) news_.progress.reset();
 }
 
-LoadNews LoadThread::take_news() {
+LoadNews LoadThread::poll() {
   const std::lock_guard lock(mutex_);
   LoadNews news = std::exchange(news_, {});
   news_.progress = news.progress;

@@ -51,7 +51,7 @@ class LoadThread {
   void load(const Request& request);
   void cancel();
   /// What is new; `progress` as it is now.
-  [[nodiscard]] LoadNews take_news();
+  [[nodiscard]] LoadNews poll();
 
  private:
   void run();

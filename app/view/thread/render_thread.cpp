@@ -75,7 +75,7 @@ void RenderThread::cancel_save() {
   cancelled_ = true;
 }
 
-RenderNews RenderThread::take_news() {
+RenderNews RenderThread::poll() {
   const std::lock_guard lock(mutex_);
   RenderNews news = std::exchange(news_, {});
   news_.saving = news.saving;
@@ -131,7 +131,8 @@ void RenderThread::open_now(const Pending& pending) {
     show_points(true, pending.window_px);
   }
   points_.reset();
-  live_.open(pending.scene, pending.document ? pending.document->request.look.attributes : AttributeOptions{});
+  live_.open(pending.scene,
+             pending.document ? pending.document->request.look.attributes : AttributeOptions{});
 }
 
 /// Draws the points where they, or how they are seen, are new.

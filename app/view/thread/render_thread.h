@@ -70,7 +70,7 @@ class RenderThread {
   void cancel_save();
 
   /// What is new; `saving` as it is now.
-  [[nodiscard]] RenderNews take_news();
+  [[nodiscard]] RenderNews poll();
   [[nodiscard]] std::uint32_t validation_messages() const { return device_->validation_messages(); }
 
  private:
