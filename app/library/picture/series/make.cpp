@@ -61,11 +61,13 @@ void write_picture(const Run& run, const Camera& camera, const SequenceFrame& fr
   const Stopped stopped = run.shot.is_sequence() ? Stopped::dropped : run.listener.stopped;
   bool told = stopped == Stopped::dropped || run.shot.request.settings.has_goal();
   const auto progress = [&](double share) {
-    if (interrupted() && !std::exchange(told, true))
+    const bool goes_on = run.listener.progress(frame, before, share);
+    const bool signalled = interrupted();  // asked once and last: a signal that stops this is told
+    if (signalled && !std::exchange(told, true))
       run.listener.note(
           "a signal came: all pixels get their first sample and what they have is written; a second signal "
           "ends this at once");
-    return run.listener.progress(frame, before, share) && !interrupted();
+    return goes_on && !signalled;
   };
   if (stopped == Stopped::kept) take_time_to_end();
   MadePicture made = make_picture(run.shot, run.shown, camera, progress, stopped);
