@@ -48,7 +48,8 @@ CHOSEN = {"view": (r"\bchoose_viewpoint\(", {"app/library/shot/scene_facts.cpp"}
           "look": (r"\bresolve_look\(", {"app/library/shot/resolve.cpp", "app/library/shot/lights.cpp"}),
           "colours": (r"\bresolve_(?:color_by|colors)\(", {"app/library/shot/resolve.cpp"}),
           "exposure": (r"\bautomatic_exposure_ev\(", {"app/library/shot/picture_lights.cpp"}),
-          "noise": (r"\bresolve_denoise\(|\bremove_noise\(", {"app/library/shot/resolve.cpp", "app/library/picture/make_picture.cpp"}),
+          "noise": (r"\bresolve_denoise\(|\bremove_noise\(", {"app/library/shot/resolve.cpp", "app/library/picture/make_picture.cpp",
+                                                                       "app/view/thread/progressive.cpp"}),
           "lights": (r"\bdefault_lights\(|\bheadlight\(", {"app/library/shot/lights.cpp", "app/library/shot/picture_lights.cpp"}),
           "a drawing's place": (r"\bmake_sheet\(", {"app/library/shot/resolve.cpp"})}
 CHOOSERS = {"app/library/display_image.cpp", "app/library/picture/denoise.cpp", "app/library/shot/sheet_placement.cpp",

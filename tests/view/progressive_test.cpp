@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "app/library/picture/denoise.h"
 #include "app/library/shot/environment.h"
 #include "app/library/shot/lights.h"
 #include "app/library/shot/resolve.h"
@@ -33,8 +34,8 @@ class ProgressiveTest : public DeviceTest {
     return frames;
   }
 
-  /// The picture that the headless program makes of the document.
-  Image headless() {
+  /// The picture that the headless program makes of the document, with or without its noise.
+  Image headless(bool denoises = false) {
     ShownTracer tracer(device);
     Scene shown = *scene;
     shown.materials = document.looks.materials;
@@ -43,7 +44,12 @@ class ProgressiveTest : public DeviceTest {
     shown.up = up_of(document);
     tracer.upload(shown);
     tracer.set_environment(load_environment(document.request.look.environment));
-    return tracer.render({document.camera, SIZE.x, SIZE.y}, resolve_settings(shown, document.request));
+    const View view{document.camera, SIZE.x, SIZE.y};
+    Settings settings = resolve_settings(shown, document.request);
+    settings.aov = settings.estimate_error = denoises;
+    Image image = tracer.render(view, settings);
+    if (denoises) (void)remove_noise(image, base_colors(tracer, tracer.look, view, settings));
+    return image;
   }
 
   /// The document, changed, ends in the headless picture, without another upload of the pools.
@@ -136,6 +142,44 @@ TEST_F(ProgressiveTest, WhatMovesIsAsBrightAsThePictureAtRest) {
   const double rest = mean(*finish().back());
   document.camera.eye.x = document.camera.target.x = 0.05;
   EXPECT_NEAR(mean(*finish().front()), rest, 0.05 * rest);
+}
+
+TEST_F(ProgressiveTest, EndsWithoutNoiseAsASavedPictureDoes) {
+  document.request.look.style = LOOK_LIT;
+  document.request.settings.samples = 7;
+  const std::vector<SharedFrame> frames = finish();
+  ASSERT_GE(frames.size(), 3U);
+  const Frame &traced = **(frames.end() - 2), &end = *frames.back();
+  EXPECT_TRUE(end.denoised && !traced.denoised);
+  EXPECT_EQ(end.samples, 7U);
+  EXPECT_TRUE(traced.image.rgba == headless().rgba);
+  EXPECT_TRUE(end.image.rgba == headless(true).rgba);
+  EXPECT_FALSE(end.image.rgba == traced.image.rgba);
+
+  LoadedPart loaded = *document.loaded;
+  loaded.asked.output.denoise = false;
+  document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
+  document.request.settings.samples = 6;
+  EXPECT_FALSE(finish().back()->denoised) << "--keep-noise";
+}
+
+TEST_F(ProgressiveTest, AChangeDropsTheFilteredPicture) {
+  document.request.look.style = LOOK_LIT;
+  document.request.settings.samples = 4;
+  progressive.show(document, SIZE);
+  SharedFrame frame;
+  const auto work = [&] {
+    std::this_thread::sleep_until(progressive.next_work().value());
+    if (SharedFrame next = progressive.work([] { return false; })) frame = next;
+  };
+  while (!frame || frame->samples < 4) work();
+  EXPECT_FALSE(progressive.work([] { return true; }))
+      << "who waits is not kept waiting by what guides the filter";
+  work();  // the filter has begun
+  document.camera.eye.x = document.camera.target.x = 0.2;
+  const SharedFrame end = finish().back();
+  EXPECT_TRUE(end->denoised);
+  EXPECT_TRUE(end->image.rgba == headless(true).rgba);
 }
 
 TEST_F(ProgressiveTest, EveryPictureIsWhole) {

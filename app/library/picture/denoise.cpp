@@ -16,18 +16,6 @@ namespace {
 
 constexpr std::uint32_t BASE_SAMPLES = 16;  ///< enough for what base colours do within a pixel
 
-/// Base colours of a picture's pixels; of looks that have one for all, white.
-std::vector<vec4> base_colors(Tracer& tracer, const Look& look, const View& view, const Settings& settings) {
-  const PixelWindow made = view.made();
-  if (!look_style(settings.look).colors)
-    return std::vector<vec4>(std::size_t{made.width} * made.height, vec4(1.0F));
-  Settings plain = settings;
-  plain.look = LOOK_BASE;
-  plain.samples = std::min(settings.samples, BASE_SAMPLES);
-  plain.aov = plain.estimate_error = plain.counters = false;
-  return tracer.render(look, view, plain).rgba;
-}
-
 /// Open Image Denoise 2, by its C interface, which is stable within a major version.
 class OpenImageDenoise {
  public:
@@ -111,9 +99,19 @@ class OpenImageDenoise {
 
 }  // namespace
 
-std::string remove_noise(Tracer& tracer, const Look& look, const View& view, const Settings& settings,
-                         Image& image) {
-  std::vector<vec4> base = base_colors(tracer, look, view, settings);
+std::vector<vec4> base_colors(Tracer& tracer, const Look& look, const View& view, const Settings& settings,
+                              const Tracer::Progress& progress) {
+  const PixelWindow made = view.made();
+  if (!look_style(settings.look).colors)
+    return std::vector<vec4>(std::size_t{made.width} * made.height, vec4(1.0F));
+  Settings plain = settings;
+  plain.look = LOOK_BASE;
+  plain.samples = std::min(settings.samples, BASE_SAMPLES);
+  plain.aov = plain.estimate_error = plain.counters = false;
+  return tracer.render(look, view, plain, progress).rgba;
+}
+
+std::string remove_noise(Image& image, std::vector<vec4> base) {
   static const std::optional<OpenImageDenoise> library = OpenImageDenoise::find();
   if (library) {
     make_finite(image, base);

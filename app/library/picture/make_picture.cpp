@@ -63,7 +63,7 @@ MadePicture traced_picture(const Shot& shot, SceneOnDevice& shown, const Camera&
   if (request.output.despeckle) made.image = without_fireflies(std::move(made.image));
   if (!shot.denoises()) return made;
   Stopwatch watch;
-  made.denoiser = remove_noise(shown.tracer(), look, view, settings, made.image);
+  made.denoiser = remove_noise(made.image, base_colors(shown.tracer(), look, view, settings));
   made.denoise_ms = watch.lap_ms();
   return made;
 }

@@ -61,16 +61,10 @@ void resolve_scan_look(const Scene& scene, const SceneFacts& facts, Shot& shot) 
   note(shot, "look", all_lit ? "scan" : "lit");
 }
 
-/// Noise is taken out of whole pictures for looking at of which nothing decides that: what is measured or joined keeps it.
-void resolve_denoise(Shot& shot) {
-  const Request& request = shot.request;
-  Request::Output& output = shot.request.output;
-  const bool decided = output.denoise || output.despeckle || request.settings.has_goal() ||
-                       !output.reference.empty() || request.settings.samples < 2;
-  const bool is_part = shot.view.window.width > 0 || request.settings.sample_offset > 0;
-  const bool shows = lower_extension(output.path) != ".exr" && !request.view.xray;
-  if (decided || is_part || !shows || shot.settings.look == LOOK_PAPER) return;
-  output.denoise = true;
+void choose_denoise(Shot& shot) {
+  std::optional<bool>& denoise = shot.request.output.denoise;
+  if (denoise || !resolve_denoise(shot.request, shot.settings.look)) return;
+  denoise = true;
   note(shot, "denoise", "on");
 }
 
@@ -158,6 +152,16 @@ Settings resolve_settings(const Scene& scene, const Request& request) {
   return settings;
 }
 
+bool resolve_denoise(const Request& request, std::uint32_t look) {
+  if (look == LOOK_PAPER || request.settings.samples < 2) return false;
+  const Request::Output& output = request.output;
+  if (output.denoise) return *output.denoise;
+  const bool decided = output.despeckle || request.settings.has_goal() || !output.reference.empty();
+  const bool is_part =
+      request.view.crop.width > 0 || request.view.tiles > 0 || request.settings.sample_offset > 0;
+  return !decided && !is_part && !request.view.xray && lower_extension(output.path) != ".exr";
+}
+
 Tone resolve_tone(const Request& request) {
   return request.look.tone.value_or(request.look.style == LOOK_PAPER ? Tone::soft : Tone::neutral);
 }
@@ -216,7 +220,7 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
   }
   resolve_reach(scene, shot.settings.region, request.settings.reach_world);
   shot.settings.reach_world = request.settings.reach_world;
-  resolve_denoise(shot);
+  choose_denoise(shot);
   shot.exposes = !request.look.exposure_ev && (request.look.exposure_auto || !scene.stations.empty());
   shot.environment = request.look.environment.empty() ? scene.environment_path : request.look.environment;
   shot.notes = ignored_options(asked, shot.settings.look);

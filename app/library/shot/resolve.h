@@ -32,6 +32,10 @@ namespace splatray {
 /// The tracer's settings for a request whose look is that of resolve_look, but for what a drawing and a region add.
 [[nodiscard]] Settings resolve_settings(const Scene& scene, const Request& request);
 
+/// Whether the noise of a picture in this look is taken out: as the request says, else of whole pictures for looking at of which
+/// nothing decides that: what is measured or joined keeps it. A picture of the paper's look or of one sample goes through no denoiser.
+[[nodiscard]] bool resolve_denoise(const Request& request, std::uint32_t look);
+
 /// The tone curve: that of --tone, else Tone::soft with --look paper and Tone::neutral otherwise.
 [[nodiscard]] Tone resolve_tone(const Request& request);
 

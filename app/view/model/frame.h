@@ -23,6 +23,7 @@ struct Frame {
   ColorRange range;                   ///< of the colours of `mode`
   bool of_points = false;  ///< points stand in for the scene, which is not there yet: `image` is empty
   bool is_seen = false;    ///< `image` is of LOOK_SEEN
+  bool denoised = false;   ///< all samples are in, and their noise is out
   bool moving = false;     ///< coarse: what is shown changes
   double scale = 1.0;      ///< traced pixels / window pixels, along an edge; below 1 while moving
   double ms = 0.0;         ///< wall time of the last whole pass over the picture

@@ -1,8 +1,10 @@
 #include "app/view/thread/progressive.h"
 
+#include "app/library/picture/denoise.h"
 #include "app/library/shot/resolve.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
+#include "engine/image/picture_error.h"
 
 namespace splatray {
 namespace {
@@ -14,6 +16,7 @@ constexpr double BAND_MS = 30.0;  ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
 /// Of trace_samples, so that reading back costs little.
 constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
+constexpr std::chrono::milliseconds BETWEEN_LOOKS{20};  ///< at a filter that works
 
 /// Whether a picture of one is a picture of the other, but for how it is displayed.
 bool same_picture(const Document& a, const Document& b) {
@@ -48,7 +51,7 @@ void Progressive::restart_with_scene() {
 std::optional<Progressive::Clock::time_point> Progressive::next_work() const {
   if (recolour_) return Clock::time_point{};
   if (stage_ == Stage::finished || !live_.is_open()) return {};
-  return stage_ == Stage::settling ? settled_ : Clock::time_point{};
+  return stage_ == Stage::settling || stage_ == Stage::filtered ? due_ : Clock::time_point{};
 }
 
 SharedFrame Progressive::work(const std::function<bool()>& stop) {
@@ -58,13 +61,16 @@ SharedFrame Progressive::work(const std::function<bool()>& stop) {
   live_.match(document_, document_.mode);
   if (stage == Stage::coarse) {
     SharedFrame frame = trace_coarse();
-    settled_ = Clock::now() + SETTLING;
+    due_ = Clock::now() + SETTLING;
     stage_ = Stage::settling;
     return frame;
   }
+  if (stage == Stage::guided) return begin_filter(stop);
+  if (stage == Stage::filtered) return filtered();
   if (stage == Stage::settling && document_.mode == ViewMode::shaded) {
     live_.tracer().begin(live_.look(), {document_.camera, window_px_.x, window_px_.y}, settings());
     pass_start_ = Clock::now();
+    half_.clear();
   }
   stage_ = Stage::fine;
   return trace_fine(stop);
@@ -116,8 +122,9 @@ SharedFrame Progressive::trace_samples() {
   Tracer& tracer = live_.tracer();
   const std::uint32_t before = tracer.samples();
   const bool finished = tracer.advance(BAND_MS);
-  if (finished) stage_ = Stage::finished;
+  if (finished) stage_ = denoises() ? Stage::guided : Stage::finished;
   if (tracer.samples() == before) return {};
+  if (tracer.samples() == settings().samples / 2 && denoises()) half_ = tracer.picture().rgba;
   const double ms = milliseconds_since(pass_start_);
   pass_start_ = Clock::now();
   if (!finished && pass_start_ - published_ < BETWEEN_PICTURES) return {};
@@ -130,6 +137,51 @@ SharedFrame Progressive::trace_samples() {
   SharedFrame shown = coloured(std::move(frame));
   pass_start_ = Clock::now();
   return shown;
+}
+
+bool Progressive::denoises() const {
+  Request request = document_.request;
+  request.output = document_.loaded->asked.output;
+  request.output.path.clear();
+  return document_.mode == ViewMode::shaded && resolve_denoise(request, settings().look);
+}
+
+/// Traces what a filter is guided by, and has a thread filter the last picture.
+SharedFrame Progressive::begin_filter(const std::function<bool()>& stop) {
+  stage_ = Stage::guided;
+  due_ = Clock::now() + BETWEEN_LOOKS;
+  if (filter_.valid() && filter_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return {};  // that of a picture that is no longer shown
+  const Settings settings = this->settings();
+  Image image = last_->image;
+  const Tracer::Progress progress = [&stop](double) { return !stop(); };
+  std::vector<vec4> base;
+  try {
+    image.aov = live_.tracer().trace_aov(live_.look(), last_->view, settings, progress);
+    base = base_colors(live_.tracer(), live_.look(), last_->view, settings, progress);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::interrupted) throw;
+    return {};
+  }
+  estimate_errors(half_, settings.samples / 2, settings.samples, image);
+  filter_ = std::async(std::launch::async, [image = std::move(image), base = std::move(base)]() mutable {
+    static_cast<void>(remove_noise(image, std::move(base)));
+    return std::move(image.rgba);
+  });
+  stage_ = Stage::filtered;
+  return {};
+}
+
+/// The last picture as it was filtered, once it was.
+SharedFrame Progressive::filtered() {
+  stage_ = Stage::filtered;
+  due_ = Clock::now() + BETWEEN_LOOKS;
+  if (filter_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+  stage_ = Stage::finished;
+  Frame frame = *last_;
+  frame.image.rgba = filter_.get();
+  frame.denoised = true;
+  return coloured(std::move(frame));
 }
 
 void Progressive::trace_aovs(Frame& frame, const Settings& settings, const std::function<bool()>& stop) {

@@ -1,7 +1,8 @@
-/// The picture of a document: coarse while it changes, then ever finer.
+/// The picture of a document: coarse while it changes, then ever finer, at its end without noise as a saved one is.
 #pragma once
 #include <chrono>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -39,11 +40,15 @@ class Progressive {
   [[nodiscard]] SharedFrame work(const std::function<bool()>& stop);
 
  private:
-  enum class Stage { coarse, settling, fine, finished };
+  /// `guided`: all samples are in, what guides the filter is traced; `filtered`: a thread of its own filters.
+  enum class Stage { coarse, settling, fine, guided, filtered, finished };
 
   [[nodiscard]] SharedFrame trace_coarse();
   [[nodiscard]] SharedFrame trace_fine(const std::function<bool()>& stop);
   [[nodiscard]] SharedFrame trace_samples();
+  [[nodiscard]] bool denoises() const;
+  [[nodiscard]] SharedFrame begin_filter(const std::function<bool()>& stop);
+  [[nodiscard]] SharedFrame filtered();
   void trace_aovs(Frame& frame, const Settings& settings, const std::function<bool()>& stop);
   [[nodiscard]] Settings settings() const;
   [[nodiscard]] Frame new_frame(glm::uvec2 size_px, double scale) const;
@@ -54,13 +59,16 @@ class Progressive {
   Document document_;
   glm::uvec2 window_px_{0};
   Stage stage_ = Stage::finished;
-  Clock::time_point settled_{};     ///< when settling ends
+  Clock::time_point due_{};         ///< when settling ends, or the filter is looked at next
   Clock::time_point pass_start_{};  ///< of the pass over the picture under way
   Clock::time_point published_{};   ///< last time that trace_samples gave a picture
   MovingResolution resolution_;
   std::optional<DisplayTable> table_;
   MovingPicture moving_;
   SharedFrame last_;
+  std::vector<vec4> half_;  ///< means of the first half of the samples
+  /// The picture's pixels without noise; those of a picture that is no longer shown are not used.
+  std::future<std::vector<vec4>> filter_;
   bool recolour_ = false;  ///< last_ has another exposure
 };
 

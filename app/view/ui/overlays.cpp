@@ -38,7 +38,8 @@ bool begin_overlay(const char* name, float width_px, ImVec2 share, ImGuiWindowFl
 std::string samples_text(const Document& document, const Frame& frame) {
   if (document.mode != ViewMode::shaded) return "";
   return "  \u00B7  " + std::to_string(frame.samples) + " of " +
-         std::to_string(document.request.settings.samples) + " samples";
+         std::to_string(document.request.settings.samples) + " samples" +
+         (frame.denoised ? ", without noise" : "");
 }
 
 std::string status_text(const Document& document, const Frame& frame, double frames_per_second) {
