@@ -14,7 +14,7 @@ namespace splatray::testing {
 /// The device of all hard cases, made at the first call.
 [[nodiscard]] const Device& shared_device();
 
-/// How many rays the big counts take: the variable SPLATRAY_HARD_RAYS, or a million with SPLATRAY_TEST_ALL, else 30 000.
+/// How many rays the big counts take: the variable SPLATRAY_HARD_RAYS, or a million with SPLATRAY_TEST_ALL, else 20 000.
 [[nodiscard]] std::size_t hard_rays();
 
 /// The number of exceptions measured with the default number of rays, or with more of them, up to 10^7.
