@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/number_text.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/ply/ply_scan.h"
 #include "preprocess/read/ply/ply_splats.h"
@@ -39,7 +40,7 @@ class FaceReader {
   glm::uint index(PlyType type) {
     const double value = in_.number(type);
     if (!(value >= 0.0 && value < static_cast<double>(vertex_count_))) {
-      in_.fail("a face uses vertex " + std::to_string(value) + ", expected less than " +
+      in_.fail("found a face that uses vertex " + number_text(value) + ", expected less than " +
                std::to_string(vertex_count_));
     }
     return static_cast<glm::uint>(value);
