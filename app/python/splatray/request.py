@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import inspect
 import os
 from collections.abc import Iterable, Mapping
@@ -153,6 +154,8 @@ def checked(function: str, fields: Mapping[str, Any], names: Iterable[str]) -> M
     """The fields, all of which must be among `names`."""
     for name in fields:
         if name not in names:
-            raise TypeError(f"{function}() found the argument {name!r}, expected one of {', '.join(names)}")
+            near = difflib.get_close_matches(name, names, 1)
+            meant = f"; did you mean {near[0]!r}?" if near else f", expected one of {', '.join(names)}"
+            raise TypeError(f"{function}() found the argument {name!r}{meant}")
     return fields
 
