@@ -94,6 +94,8 @@ class Misuse(unittest.TestCase):
             self.refused(TypeError, render, **({"size": (8, 8)} | names))
         with self.assertRaisesRegex(TypeError, "'sample'; did you mean 'samples'"):
             render(size=(8, 8), sample=4)
+        with self.assertRaisesRegex(TypeError, "found a field 'sample'; did you mean 'samples'"):
+            sr.Request(sample=4)
         with self.assertRaisesRegex(TypeError, "'qqq', expected one of look,"):
             render(size=(8, 8), qqq=4)
         for camera in (sr.Camera((0, 0, 1), (0, 0, 1)), sr.Camera((0, 0, 1), (0, 0, 0)), sr.Camera((1, 0, 1), (0, 0, 0), fov=180),
