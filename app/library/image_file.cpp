@@ -70,6 +70,7 @@ PictureHeader read_header(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) refuse(path, "no such file", EXPECTED);
   if (!std::filesystem::is_regular_file(path, error)) refuse(path, "a folder or device", EXPECTED);
+  if (std::filesystem::file_size(path, error) == 0) refuse(path, "an empty file", EXPECTED);
   if (const auto defect = find_exr_defect(path))
     refuse(path, *defect,
            "what fits the file's " + std::to_string(std::filesystem::file_size(path)) + " bytes");

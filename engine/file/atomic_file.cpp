@@ -31,6 +31,16 @@ namespace fs = std::filesystem;
 
 std::string error_text() { return std::generic_category().message(errno); }
 
+/// Why a file cannot be made: errno's reason, in a user's words where the folder is missing.
+std::string why_not_made(const fs::path& file) {
+  const int reason = errno;
+  const fs::path folder = file.parent_path();
+  std::error_code unknown;
+  if (reason == ENOENT && !folder.empty() && !fs::exists(folder, unknown))
+    return "found no folder '" + folder.string() + "', expected one that is there";
+  return std::generic_category().message(reason);
+}
+
 constexpr std::string_view LETTERS = "0123456789abcdefghijklmnopqrstuvwxyz";
 constexpr std::string_view NAME_BEGIN = ".splatray-", NAME_END = ".tmp";
 constexpr std::size_t NAME_LETTERS = 16;
@@ -138,7 +148,7 @@ AtomicFile::AtomicFile(const fs::path& target, Links links) {
     if (descriptor_ >= 0) close(descriptor_);
     temporary_ = fs::path(target_).replace_filename(temporary_name());
     descriptor_ = open_locked(temporary_);
-    if (descriptor_ < 0) refuse(target, error_text());
+    if (descriptor_ < 0) refuse(target, why_not_made(target));
   } while (is_removed(descriptor_));
   remember(temporary_);
 }

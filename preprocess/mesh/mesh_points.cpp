@@ -129,10 +129,14 @@ void sample_coarse_parts(const std::vector<MeshPart*>& coarse, std::vector<std::
   for (MeshPart* part : coarse) {
     part->samples = std::max({part->samples, FEWEST, std::uint64_t{part->mesh->vertices.size()}});
   }
-  notes.push_back(std::to_string(coarse.size()) +
-                  " meshes are too coarse, or their textures too fine, for splats at their vertices and were "
-                  "sampled by area, about " +
-                  std::to_string(AUTOMATIC_SAMPLES) + " points in all; a number of samples can be asked for");
+  const std::string which = coarse.size() == 1
+                                ? "a mesh is too coarse, or its texture too fine, for splats at "
+                                  "its vertices and was"
+                                : std::to_string(coarse.size()) +
+                                      " meshes are too coarse, or their textures too fine, for "
+                                      "splats at their vertices and were";
+  notes.push_back(which + " sampled by area, about " + std::to_string(AUTOMATIC_SAMPLES) +
+                  " points in all; --mesh-points asks for another number");
 }
 
 /// How many points each part gets: options.samples over all, else what the scene asks for object by object.

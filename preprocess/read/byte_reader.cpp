@@ -25,7 +25,8 @@ void refuse_archive(const std::filesystem::path& path, std::FILE* file) {
   };
   constexpr Start STARTS[] = {
       {"\x1F\x8B\x08"sv, "a file packed by gzip", "what is in it: unpack it with gunzip"},
-      {"PK\x03\x04"sv, "a ZIP archive", "what is in it: unpack it"},
+      {"PK\x03\x04"sv, "a ZIP archive or an office document",
+       "points: unpack the archive, or save the document's table as CSV"},
       {"7z\xBC\xAF\x27\x1C"sv, "a 7-Zip archive", "what is in it: unpack it"},
       {"\xFD"
        "7zXZ\0"sv,

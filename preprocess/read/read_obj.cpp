@@ -81,7 +81,8 @@ class ObjReader {
 
   [[noreturn]] void fail_index(std::size_t kind, const std::string& found) const {
     static const std::array<const char*, KINDS> NAMES{"vertices", "texture coordinates", "normals"};
-    fail("found index " + found + ", the file has " + std::to_string(counts_[kind]) + " " + NAMES[kind]);
+    fail("found index " + found + ", expected at most the file's " + std::to_string(counts_[kind]) + " " +
+         NAMES[kind]);
   }
 
   void count(CornerPart kind) {

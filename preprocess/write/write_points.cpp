@@ -2,7 +2,6 @@
 
 #include "engine/base/error.h"
 #include "preprocess/base/file_extension.h"
-#include "preprocess/read/formats.h"
 #include "preprocess/write/point_output.h"
 
 namespace splatray {
@@ -32,7 +31,7 @@ void PointOutput::report(double share) const {
 
 bool is_point_output(const std::filesystem::path& path) {
   if (point_format(path) != nullptr) return true;
-  if (find_format(path) != nullptr)
+  if (lower_extension(path) != ".soct")
     throw Error(ExitCode::usage, "found output '" + path.string() +
                                      "', expected .soct, or .ply, .las, .csv or .vtp for the points");
   return false;

@@ -52,7 +52,8 @@ TEST_F(CliExport, NothingIsLeftHalfWritten) {
 }
 
 TEST_F(CliExport, WhatCannotBeIsRefused) {
-  expect_refused([&] { return to(file("a.laz")); }, 2, "expected .soct, or .ply, .las, .csv or .vtp");
+  for (const char* name : {"a.laz", "a.geojson", "a.dxf", "a"})
+    expect_refused([&] { return to(file(name)); }, 2, "expected .soct, or .ply, .las, .csv or .vtp");
   expect_refused([&] { return to(file("a.soct"), {"--keep-dropped"}); }, 2, "found --keep-dropped");
   EXPECT_EQ(to(file("kept.las"), {"--keep-dropped"}).code, 0);
 }

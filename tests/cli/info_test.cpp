@@ -109,6 +109,12 @@ TEST_F(CliInfo, KeepsWhatTheSceneKnows) {
   EXPECT_EQ(json["scans"][0]["points"], 3);
 }
 
+TEST_F(CliInfo, ColumnsAreWhatTheMessageAsksFor) {
+  const std::string points = write("a.txt", "Rechts;Hoch;Lage\n1,5;2;3\n1,5;2;4\n");
+  expect_refused([&] { return info({points}); }, 3, "--columns gives names");
+  EXPECT_EQ(described(points, {"--columns", "x,y,z"})["points"], 2);
+}
+
 TEST_F(CliInfo, AFolderIsItsScans) {
   const std::string tiles = file("tiles");
   expect_refused([&] { return info({tiles}); }, 3, "tiles: no such file");

@@ -22,7 +22,11 @@ TEST_F(CliOutputs, UnwritableOutput) {
   const auto refuse = [&](const std::string& output) {
     expect_refused([&] { return run_program({RENDER, grid, "-o", output}); }, 1, "cannot write");
   };
-  refuse(file("missing/out.png"));
+  expect_refused(
+      [&] {
+        return run_program({RENDER, grid, "-o", file("missing/out.png")});
+      },
+      1, "found no folder '" + file("missing") + "'");
   refuse("/proc/out.png");
   std::filesystem::create_directory(file("folder.png"));
   refuse(file("folder.png"));

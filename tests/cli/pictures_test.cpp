@@ -157,6 +157,20 @@ TEST(ImageFile, HeadersThatAskForMoreThanTheFileHoldsAreRefused) {
   }
 }
 
+TEST(ImageFile, AnEmptyFileIsSaidToBeEmpty) {
+  for (const char* name : {"empty.png", "empty.hdr", "empty.exr"}) {
+    const std::string path = temporary(name);
+    std::ofstream(path, std::ios::trunc).close();
+    try {
+      (void)read_environment(path);
+      FAIL() << "read " << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+      EXPECT_NE(std::string(error.what()).find("found an empty file"), std::string::npos) << error.what();
+    }
+  }
+}
+
 /// An OpenEXR header of these attributes, each a name, a type and a value; `bytes` is what they say their values have.
 std::string exr_header(const std::string& name, const std::string& type, std::uint32_t bytes,
                        const std::string& value) {

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "engine/base/error.h"
 #include "engine/file/scene_file.h"
 #include "engine/scene/splat.h"
 
@@ -48,6 +49,45 @@ TEST(LoadScene, GlassOfAMeshWoundInwardsIsTurnedOutwards) {
   EXPECT_EQ(outward_share("glass"), 1.0);
   EXPECT_EQ(outward_share("gold"), 0.0);  // all else stays as it was made
   EXPECT_EQ(outward_share(""), 0.0);
+}
+
+/// A pyramid whose format has y up and that stands along z on a base of 2 x 2.
+std::string standing_along_z() {
+  const std::string path = ::testing::TempDir() + "stands.obj";
+  std::ofstream file(path);
+  file << "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 4\nf 1 4 3 2\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+  return path;
+}
+
+TEST(LoadScene, TheUpThatIsAskedForNeedsNoNote) {
+  Request request;
+  request.source.inputs = {standing_along_z()};
+  request.source.params.samples = 4000;
+  std::string notes;
+  const LoadListener listener{{}, [&](const std::string& note) { notes += note; }};
+  (void)load_scene(request, listener);
+  EXPECT_NE(notes.find("up is 0,0,1"), std::string::npos) << notes;
+  notes.clear();
+  request.look.up = glm::dvec3(1.0, 0.0, 0.0);
+  EXPECT_EQ(load_scene(request, listener).scene.up, glm::dvec3(1.0, 0.0, 0.0));
+  EXPECT_EQ(notes.find("up is"), std::string::npos) << notes;
+}
+
+TEST(LoadScene, OneMaterialForSeveralObjectsNamesThem) {
+  const std::string path = ::testing::TempDir() + "second.obj";
+  std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  Request request;
+  request.source.inputs = {standing_along_z(), path};
+  request.source.params.samples = 400;
+  request.look.material = "gold";
+  try {
+    (void)load_scene(request, {});
+    FAIL() << "one material for two objects";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--object for one of these: 'stands', 'second'"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -94,6 +94,11 @@ TEST(MeasureText, TakesPointsAndRays) {
   for (const char* text : {"", "1,2,3", "1,2;3,4", "1,2,3>0,0,0;1,2,3", "1,2,3;1,2,nan"})
     EXPECT_THROW((void)read_measure(MeasureKind::distance, text), Expected) << text;
   EXPECT_THROW((void)read_measure(MeasureKind::height, "0,0,0;1,1,1;2,2,2"), Expected);
+  try {
+    (void)read_measure(MeasureKind::distance, "1,2;3,4");
+  } catch (const Expected& expected) {
+    EXPECT_NE(expected.what.find("X,Y,Z>DX,DY,DZ with ; between them"), std::string::npos) << expected.what;
+  }
   EXPECT_THROW((void)read_measure(MeasureKind::cylinder, "0,0,0;0"), Expected);
 }
 

@@ -92,6 +92,12 @@ class Misuse(unittest.TestCase):
         for names in ({"size": 5}, {"size": (5, 5.5)}, {"samples": "3"}, {"camera": (1, 2, 3)}, {"lights": [3]}, {"materials": [1]},
                       {"environment": 4}, {"progress": "x"}, {"materials": {"points": "gold"}}):
             self.refused(TypeError, render, **({"size": (8, 8)} | names))
+        with self.assertRaisesRegex(TypeError, "'sample'; did you mean 'samples'"):
+            render(size=(8, 8), sample=4)
+        with self.assertRaisesRegex(TypeError, "found a field 'sample'; did you mean 'samples'"):
+            sr.Request(sample=4)
+        with self.assertRaisesRegex(TypeError, "'qqq', expected one of look,"):
+            render(size=(8, 8), qqq=4)
         for camera in (sr.Camera((0, 0, 1), (0, 0, 1)), sr.Camera((0, 0, 1), (0, 0, 0)), sr.Camera((1, 0, 1), (0, 0, 0), fov=180),
                        sr.Camera((1, 0, 1), (0, 0, 0), ortho_height=-1), sr.Camera((1, 0, 1), (0, 0, 0), pixel_aspect=0),
                        sr.Camera((1, 0, 1), (0, 0, 0), lens_shift=(1000, 0))):

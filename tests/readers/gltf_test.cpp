@@ -353,6 +353,14 @@ TEST(Gltf, AccessorsBeyondTheirBufferAreErrors) {
   EXPECT_NE(edited(R"("nodes":[0])", R"("nodes":[3])").find("node 3"), std::string::npos);
 }
 
+TEST(Gltf, AMissingBufferIsNamed) {
+  const TempFolder folder;
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"parts/a b.bin"}]})";
+  EXPECT_NE(read_error(folder.write("m.gltf", text)).find("found no file 'parts/a b.bin'"),
+            std::string::npos);
+}
+
 TEST(Gltf, RequiredExtensionsThatAreUnknownAreErrorsUsedOnesNotes) {
   const TempFolder folder;
   const auto scene = [&](const std::string& more) {
@@ -380,7 +388,7 @@ TEST(Gltf, WhatTheFileSaysDoesNotBreakTheLine) {
 TEST(Gltf, ABufferThatIsAFolderIsAnError) {
   const TempFolder folder;
   const std::string text = scene_json(R"({"mesh":0})", "", "", R"(,"uri":".")");
-  EXPECT_NE(read_error(folder.write("d.gltf", text)).find("File not found"), std::string::npos);
+  EXPECT_NE(read_error(folder.write("d.gltf", text)).find("found no file '"), std::string::npos);
 }
 
 TEST(Gltf, CyclesOfNodesAreErrors) {

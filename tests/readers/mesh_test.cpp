@@ -20,7 +20,8 @@ TEST(Obj, ACubeIsSampledAndItsNormalsAreSharp) {
   const Input input = read_input({folder.write("cube.obj", CUBE_OBJ)}, {});
   const InputObject& cube = input.objects[0];
   EXPECT_GE(cube.points.size(), 100000U);
-  EXPECT_TRUE(has_note(input, "too coarse"));
+  EXPECT_TRUE(has_note(input, "a mesh is too coarse"));
+  EXPECT_TRUE(has_note(input, "--mesh-points asks for another number"));
   EXPECT_TRUE(cube.oriented);
   EXPECT_NEAR(cube.surface_area, 6.0, 1e-6);
   for (std::size_t i = 0; i < cube.points.size(); ++i) {

@@ -166,7 +166,9 @@ TEST(Ply, ErrorsNameTheLine) {
   const TempFolder folder;
   std::string bad = ASCII_MESH;
   bad.replace(bad.find("4 0 1 2 3"), 9, "4 0 1 2 7");
-  EXPECT_NE(read_error(folder.write("i.ply", bad)).find("line 16: a face uses vertex 7"), std::string::npos);
+  EXPECT_NE(read_error(folder.write("i.ply", bad))
+                .find("line 16: found a face that uses vertex 7, expected less than 5"),
+            std::string::npos);
   bad = ASCII_MESH;
   bad.replace(bad.find("1 1 0\n"), 6, "1 x 0\n");
   EXPECT_NE(read_error(folder.write("x.ply", bad)).find("line 13: found 'x', expected a number"),

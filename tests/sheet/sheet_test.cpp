@@ -146,6 +146,20 @@ TEST(Sheet, MayHaveManyPixelsWhereThereAreManyPoints) {
       << "28900 splats, which are 46 pixels apart";
 }
 
+TEST(Sheet, APlanShowsARoofThatHangsOverTheGround) {
+  testing::TestObject object{OrientedPoints{}, testing::test_material(MATERIAL_TWO_SIDED)};
+  const auto add = [&](double x, double y, double z) {
+    object.points.position.emplace_back(x, y, z);
+    object.points.normal.emplace_back(0.0F, 0.0F, 1.0F);
+  };
+  for (int i = 0; i < 100 * 100; ++i) add(i % 100, i / 100, 0.0);
+  for (int i = 0; i < 10 * 10; ++i) add(40 + i % 10, 40 + i / 10, 12.0);
+  Scene scene = testing::scene_of({object});
+  scene.up = {0.0, 0.0, 1.0};
+  EXPECT_GT(make_sheet(scene, with_sheet("plan:scale=500")).near, 12.0);
+  EXPECT_LT(make_sheet(scene, with_sheet("elevation:south,scale=500")).near, 2.0) << "from a side, as before";
+}
+
 TEST(Sheet, OfCoordinatesThatHaveNoPixelsIsRefused) {
   Scene scene = ball();
   scene.root.origin_world.x = scene.bounds_max_world.x = 1e17;

@@ -109,7 +109,11 @@ def make_inputs(folder):
     (folder / "rooms").mkdir()
     for name, place in (("hall", (-0.8, 0.3, 0.2)), ("kitchen", (1.0, -0.4, 0.2))):
         (folder / "rooms" / f"{name}.e57").write_bytes(room(place))
-    (folder / "room.e57").write_bytes(room((-0.8, 0.3, 0.2)))
+    scan = room((-0.8, 0.3, 0.2))
+    (folder / "room.e57").write_bytes(scan)
+    (folder / "cut.e57").write_bytes(scan[:len(scan) // 2])
+    (folder / "points.txt").write_text("".join(["Rechtswert;Hochwert;Lage;Intensität\n"] + [
+        f"{500000 + i % 40}.5;{4000000 + i // 40}.5;{300 + math.sin(i % 40 / 9):.3f};{i % 200}\n".replace(".", ",") for i in range(1600)]), encoding="utf-8")
     (folder / "sky.hdr").write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n" + bytes([128, 128, 128, 129]) * (16 * 8))
     keys = ",".join(f'{{"eye": [{x}, 1, 4], "target": [0, 0, 0], "up": [0, 1, 0], "fov_y_deg": 30}}' for x in range(3))
     (folder / "fly.json").write_text(f'{{"keys": [{keys}]}}')

@@ -153,6 +153,19 @@ TEST_F(Doors, MakeOneDrawingOfARequest) {
   expect_same("room.pcd", "--resolution=21x15 --samples=2 --orbit=3", ".html");
 }
 
+TEST(RequestDoor, AWrongNameHasTheNearestOne) {
+  for (const auto& [wrong, right] :
+       {std::pair("sample", "samples"), {"color_byy", "color-by"}, {"size", "resolution"}}) {
+    try {
+      (void)api::Request().set(wrong, 4);
+      FAIL() << wrong;
+    } catch (const api::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("did you mean ") + right + "?"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST_F(Doors, InputsAreNotReplaced) {
   const api::Scene scene = api::open(std::filesystem::path(file("grid.ply")));
   write("grid.png", "");

@@ -46,9 +46,14 @@ struct FileInfo {
   std::vector<std::string> notes;  ///< what is odd about the file, a sentence each
 };
 
-/// Reads a file of any format that splatray reads, a .soct among them; with `heads_only` as ReadOptions has it. Throws Error
-/// (input_unreadable).
-[[nodiscard]] FileInfo read_info(const std::filesystem::path& path, bool heads_only,
+/// How files are looked at.
+struct InfoOptions {
+  bool heads_only = false;  ///< as ReadOptions has it
+  std::string columns;      ///< as ScanOptions has them
+};
+
+/// Reads a file of any format that splatray reads, a .soct among them. Throws Error (input_unreadable).
+[[nodiscard]] FileInfo read_info(const std::filesystem::path& path, const InfoOptions& asked,
                                  const Progress& progress);
 
 /// The same for people, some lines, and as JSON, a list of all files.

@@ -4,6 +4,7 @@
 
 #include "app/cli/info/file_info.h"
 #include "app/cli/option_list.h"
+#include "app/library/request/fields.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/memory.h"
@@ -17,7 +18,7 @@ using namespace splatray;
 
 struct Options {
   std::vector<std::filesystem::path> files;
-  bool heads_only = false;
+  InfoOptions asked;
   bool json = false;
 };
 
@@ -30,9 +31,14 @@ bool parse(int argc, char** argv, Options& options) {
   list.require("INPUT");
   list.set_extensions("INPUT", ".soct " + format_extensions());
   list.set_brief("INPUT", "scenes, points, meshes, or folders of scans");
-  list.add_switch("--head", options.heads_only,
+  list.add_switch("--head", options.asked.heads_only,
                   "of .las, .laz and .e57 only what their heads say, without reading the points");
   list.add_switch("--json", options.json, "a list of all files as JSON");
+  const Field& columns = *find_field("columns", DOOR_PREPROCESS);
+  list.add_value(
+      "--columns", [&options](const std::string& names) { options.asked.columns = names; }, columns.help,
+      columns.value);
+  list.set_brief("--columns", columns.brief);
   list.set_brief("--head", "what the heads of .las, .laz and .e57 say, at once");
   list.set_brief("--json", "a list of all files as JSON");
   list.set_examples(
@@ -56,7 +62,7 @@ int run(int argc, char** argv) {
   std::vector<Error> left_out;  // of a folder's files those that are something else
   for (const InputFile& file : input_files(options.files)) {
     try {
-      infos.push_back(read_info(file.path, options.heads_only, progress));
+      infos.push_back(read_info(file.path, options.asked, progress));
     } catch (const Error& error) {
       if (!file.may_be_left_out || error.code() != ExitCode::input_unreadable) throw;
       left_out.push_back(error);

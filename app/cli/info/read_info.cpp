@@ -132,19 +132,20 @@ void add_scene(FileInfo& info, const Scene& scene) {
 
 }  // namespace
 
-FileInfo read_info(const std::filesystem::path& path, bool heads_only, const Progress& progress) {
+FileInfo read_info(const std::filesystem::path& path, const InfoOptions& asked, const Progress& progress) {
   FileInfo info;
   info.path = path;
   ReadOptions options;
   options.data_paths = model_folders({});
-  options.heads_only = heads_only;
+  options.heads_only = asked.heads_only;
+  options.scans.columns = asked.columns;
   options.progress = progress;
   const ReadListener listener{info.notes, options.progress};
   const Format* format = find_format(path);
   if (is_scene_file(path)) {
     add_scene(info, read_scene(path, progress));
   } else if (format != nullptr && format->read_scan != nullptr) {
-    add_scan_file(info, format->read_scan(path, options, listener), heads_only);
+    add_scan_file(info, format->read_scan(path, options, listener), asked.heads_only);
   } else if (format != nullptr && format->read_scene != nullptr) {
     add_input(info, format->read_scene(path, options, listener));
   } else {

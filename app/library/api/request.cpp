@@ -6,6 +6,7 @@
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/fields.h"
 #include "app/library/request/request_json.h"
+#include "engine/base/nearest_name.h"
 #include "engine/base/number_text.h"
 
 namespace splatray::api {
@@ -23,7 +24,8 @@ const Field& field_of(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
   const Field* field = find_field(name, DOOR_LIBRARY);
   if (field == nullptr || field->name != name)
-    refuse("'" + name + "'", "the name of a field (Request::fields)");
+    refuse("'" + name + "'",
+           "the name of a field (Request::fields)" + did_you_mean(name, names_of(DOOR_LIBRARY)));
   return *field;
 }
 

@@ -6,12 +6,20 @@
 namespace splatray {
 namespace {
 
+const std::string PLACES = "places X,Y,Z or rays X,Y,Z>DX,DY,DZ with ; between them";
+
+glm::dvec3 read_triple(const std::string& text) {
+  const auto numbers = split_numbers(text, ',', 3);
+  if (numbers.empty()) throw Expected{PLACES};
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
 GivenPlace read_place(const std::string& text) {
   const std::size_t arrow = text.find('>');
   GivenPlace place;
-  place.place = read_vector(text.substr(0, arrow));
+  place.place = read_triple(text.substr(0, arrow));
   if (arrow == std::string::npos) return place;
-  place.direction = read_vector(text.substr(arrow + 1));
+  place.direction = read_triple(text.substr(arrow + 1));
   if (*place.direction == glm::dvec3(0.0)) throw Expected{"a direction DX,DY,DZ other than 0,0,0"};
   return place;
 }
@@ -50,7 +58,7 @@ GivenMeasure read_measure(MeasureKind kind, const std::string& text) {
   try {
     require_places(given);
   } catch (const Expected& expected) {
-    throw Expected{expected.what + " X,Y,Z or X,Y,Z>DX,DY,DZ with ; between them"};
+    throw Expected{expected.what + ": " + PLACES};
   }
   return given;
 }

@@ -11,6 +11,7 @@
 #include "engine/file/scene_file.h"
 #include "engine/scene/surface.h"
 #include "preprocess/base/file_extension.h"
+#include "preprocess/base/quoted_list.h"
 #include "preprocess/read/scan/missing_attributes.h"
 
 namespace splatray {
@@ -39,6 +40,7 @@ void build(Input input, const Request& request, const LoadListener& listener, co
   BuildStats& stats = loaded.build.emplace();
   loaded.scene =
       build_scene(std::move(input), request.source.params, request.source.threads, stats, progress);
+  if (request.look.up) std::erase(stats.notes, up_note(loaded.scene.up));  // the request says otherwise
   report_notes(stats.notes);
 }
 
@@ -102,7 +104,8 @@ ObjectLooks choose_objects(const Scene& scene, const Request& request) {
     const std::size_t shown = scene.materials.size() - (scene.build.ground ? 1 : 0);
     if (shown != 1)
       throw Error(ExitCode::usage, "found --material with a scene of " + std::to_string(shown) +
-                                       " objects, expected one object");
+                                       " objects, expected one object, or --object for one of these: " +
+                                       quoted_list(scene.object_names));
     changes.push_back(read_object_change("0:preset=" + request.look.material));
   }
   changes.insert(changes.end(), request.look.objects.begin(), request.look.objects.end());

@@ -79,9 +79,23 @@ void set_unit(Sheet& sheet) {
   sheet.pixel_world = sheet.pixel_mm() * sheet.asked.scale / METRE_MM / sheet.unit_metres;
 }
 
+/// How far what the sheet shows reaches along `toward`. From above that is all of the scene: the roof of a house that was flown over
+/// hangs above the ground without walls. From a side it is what hangs together: what was seen through a window would hide the rest.
+std::array<double, 2> shown_depths(const Scene& scene, const PointSample& all, const Sheet& sheet) {
+  if (sheet.asked.kind != SheetKind::plan) return range_along(all.position, sheet.toward, 0.0);
+  const glm::dvec3 low = scene.bounds_min_world, high = scene.bounds_max_world;
+  std::array<double, 2> range{0.0, 0.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = low[axis] * sheet.toward[axis], to = high[axis] * sheet.toward[axis];
+    range[0] += std::min(from, to);
+    range[1] += std::max(from, to);
+  }
+  return range;
+}
+
 /// Where the sheet begins and ends along `toward`; a section's also where it begins and ends along its line.
-void set_depths(const PlanAxes& plan, const PointSample& all, Sheet& sheet) {
-  const auto [low, high] = range_along(all.position, sheet.toward, 0.0);
+void set_depths(const PlanAxes& plan, const std::array<double, 2>& shown, Sheet& sheet) {
+  const auto [low, high] = shown;
   const double slack = 1e-3 * (high - low) + sheet.pixel_world;
   sheet.near = high + slack;
   const std::vector<double>& place = sheet.asked.place;
@@ -156,7 +170,7 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
   set_unit(sheet);
   Region region = region_of(request.view.region, sheet.up);
   const PointSample all = main_parts(sample_points(scene, region));
-  set_depths(plan, all, sheet);
+  set_depths(plan, shown_depths(scene, all, sheet), sheet);
   for (const HalfSpace& plane : sheet.planes()) region.kept.push_back(plane);
   const PointSample shown = main_parts(sample_points(scene, region));
   if (shown.size() == 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import inspect
 import os
 from collections.abc import Iterable, Mapping
@@ -64,7 +65,7 @@ class Request:
             elif name == "materials":
                 self._add_materials(value)
             elif name not in FIELDS:
-                raise TypeError(f"found a field {name!r}, expected one of {', '.join(FIELDS)}, camera, lights, materials")
+                raise TypeError(f"found a field {name!r}{meant(name, [*FIELDS, 'camera', 'lights', 'materials'])}")
             elif FIELDS[name].repeated:
                 self._set_values(name, value)
             else:
@@ -149,10 +150,16 @@ def takes_fields(names: List[str]) -> Callable[[Function], Function]:
     return decorate
 
 
+def meant(name: str, names: Iterable[str]) -> str:
+    """The end of a sentence about a name that is none of `names`: the nearest of them, or all where none is near."""
+    near = difflib.get_close_matches(name, names, 1)
+    return f"; did you mean {near[0]!r}?" if near else f", expected one of {', '.join(names)}"
+
+
 def checked(function: str, fields: Mapping[str, Any], names: Iterable[str]) -> Mapping[str, Any]:
     """The fields, all of which must be among `names`."""
     for name in fields:
         if name not in names:
-            raise TypeError(f"{function}() found the argument {name!r}, expected one of {', '.join(names)}")
+            raise TypeError(f"{function}() found the argument {name!r}{meant(name, names)}")
     return fields
 

@@ -55,7 +55,8 @@ bool keep_image_bytes(tinygltf::Image* image, const int, std::string*, std::stri
 struct SceneFolder {
   std::string path;  ///< absolute
   const ReadListener& listener;
-  std::string escape;  ///< a uri that leaves the folder; empty = none
+  std::string escape;   ///< a uri that leaves the folder; empty = none
+  std::string missing;  ///< the last uri of which there is no file; empty = none
 };
 
 std::vector<unsigned char> read_whole_file(const std::filesystem::path& path, const ReadListener& listener) {
@@ -82,7 +83,9 @@ bool is_in_folder(const std::string& file, void* user_data) {
     return false;
   }
   std::error_code unknown;
-  return std::filesystem::is_regular_file(file, unknown);
+  if (std::filesystem::is_regular_file(file, unknown)) return true;
+  folder.missing = uri.string();
+  return false;
 }
 
 bool read_in_folder(std::vector<unsigned char>* bytes, std::string*, const std::string& file,
@@ -219,7 +222,7 @@ void parse(GltfFile& file, bool binary, const ReadListener& listener) {
     file.fail("its JSON nests more than " + std::to_string(MOST_JSON_DEPTH) + " deep");
   }
   mend_json(bytes, binary);
-  SceneFolder folder{std::filesystem::absolute(file.path).parent_path().string(), listener, ""};
+  SceneFolder folder{std::filesystem::absolute(file.path).parent_path().string(), listener, "", ""};
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(keep_image_bytes, nullptr);
   parser.SetFsCallbacks({is_in_folder, [](const std::string& path, void*) { return path; }, read_in_folder,
@@ -249,6 +252,8 @@ void parse(GltfFile& file, bool binary, const ReadListener& listener) {
   if (good) return;
   if (const auto fault = json_fault<nlohmann::json>(json_of(bytes, binary)))
     file.fail("found " + *fault + ", expected the JSON of a glTF");
+  if (!folder.missing.empty() && error.find("File not found") != std::string::npos)
+    file.fail("found no file '" + folder.missing + "', which it names, expected it beside it");
   file.fail("not a readable glTF 2.0: " + first_line(error));
 }
 

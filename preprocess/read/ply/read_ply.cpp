@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/number_text.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/ply/ply_scan.h"
 #include "preprocess/read/ply/ply_splats.h"
@@ -39,7 +40,7 @@ class FaceReader {
   glm::uint index(PlyType type) {
     const double value = in_.number(type);
     if (!(value >= 0.0 && value < static_cast<double>(vertex_count_))) {
-      in_.fail("a face uses vertex " + std::to_string(value) + ", expected less than " +
+      in_.fail("found a face that uses vertex " + number_text(value) + ", expected less than " +
                std::to_string(vertex_count_));
     }
     return static_cast<glm::uint>(value);
@@ -152,9 +153,14 @@ std::uint64_t append_faces(PlyBody& in, const PlyElement& element, std::uint64_t
 struct Cut {
   const PlyElement* element = nullptr;
   std::uint64_t rows = 0;
+  std::vector<std::string> lost{};  ///< those behind it
 
   void note(const PlyElement& one, std::uint64_t found) {
-    if (element == nullptr && found < one.count) *this = {&one, found};
+    if (found >= one.count) return;
+    if (element == nullptr)
+      *this = {&one, found};
+    else
+      lost.push_back(one.name);
   }
 
   void report(const std::filesystem::path& path, const ScanOptions& options,
@@ -163,7 +169,11 @@ struct Cut {
     const std::string found = "found " + std::to_string(rows) + " rows of element '" + element->name +
                               "', expected " + std::to_string(element->count) + " as the header says";
     if (options.strict) throw_unreadable(path, found);
-    listener.note(path, found + "; those there are were read");
+    // Where a count is too high, what should have been the next element was read as this one.
+    const std::string behind = lost.empty() ? ""
+                                            : ", and nothing of " + quoted_list(lost) +
+                                                  ": the file was cut off or the count is wrong";
+    listener.note(path, found + "; those there are were read" + behind);
   }
 };
 

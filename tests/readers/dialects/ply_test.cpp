@@ -103,6 +103,12 @@ TEST_F(PlyDialects, WhatACutHasLeftIsRead) {
   const Input cut = read(faces, keeping_meshes());
   EXPECT_EQ(cut.objects.at(0).meshes.at(0).triangles.size(), 1U);
   EXPECT_TRUE(has_note(cut, "found 1 rows of element 'face', expected 3"));
+  EXPECT_FALSE(has_note(cut, "nothing of"));
+  const std::string too_many =
+      head("ascii", "9", "element face 1\nproperty list uchar int vertex_indices\nend_header\n") +
+      "0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n";
+  EXPECT_TRUE(has_note(read(too_many, keeping_meshes()),
+                       "nothing of 'face': the file was cut off or the count is wrong"));
 }
 
 }  // namespace

@@ -125,7 +125,8 @@ Field environment_row() {
 Field background_row() {
   return value_row(
       "background", LIGHT, "environment|transparent|R,G,B",
-      "what is seen where nothing is met: the environment, nothing (a PNG gets an alpha channel), or a "
+      "what is seen where nothing is met: the environment, nothing (a PNG or WebP gets an alpha channel), or "
+      "a "
       "radiance; light comes from the environment all the same; default environment",
       [](Request& request, const std::string& text) {
         Request::Settings& settings = request.settings;
