@@ -19,7 +19,6 @@
 #include "engine/scene/clip.h"
 #include "engine/scene/scene_check.h"
 #include "engine/scene/scene_splat.h"
-#include "engine/scene/surface.h"
 #include "preprocess/base/append.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
@@ -64,17 +63,6 @@ void check_counts(const Input& input) {
   }
 }
 
-/// One for each object where some have their own, else none.
-std::vector<Surface> input_surfaces(const Input& input) {
-  std::vector<Surface> surfaces;
-  if (std::none_of(input.objects.begin(), input.objects.end(),
-                   [](const InputObject& object) { return object.surface.has_value(); }))
-    return surfaces;
-  for (const InputObject& object : input.objects)
-    surfaces.push_back(object.surface ? *object.surface : surface_of(object.material));
-  return surfaces;
-}
-
 /// Everything of the scene that is not splats. Throws Error where the input asks for what scene files do not hold.
 Scene describe_scene(Input& input, const BuildParams& params) {
   Scene scene;
@@ -93,8 +81,7 @@ Scene describe_scene(Input& input, const BuildParams& params) {
     area_known = area_known && (object.surface_area > 0.0 || object.points.size() == 0);
   }
   if (!area_known) scene.surface_area_world = 0.0;
-  scene.surfaces = input_surfaces(input);
-  if (const auto defect = find_look_defect({scene.materials, scene.surfaces}, scene.lights))
+  if (const auto defect = find_look_defect(scene.materials, scene.lights))
     throw Error(ExitCode::input_unreadable,
                 "the input has " + defect->found + ", expected " + defect->expected);
   return scene;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "engine/image/view.h"
-#include "engine/scene/surface.h"
+#include "engine/scene/phong.h"
 
 namespace splatray {
 namespace {
@@ -25,8 +25,8 @@ double lowest_along(const std::vector<Cloud>& clouds, const glm::dvec3& up) {
 
 Material ground_material() {
   Material material = default_material();
-  material.diffuse = glm::vec3(GREY);
-  material.flags |= MATERIAL_TWO_SIDED;
+  material.phong.diffuse = glm::vec3(GREY);
+  follow_phong(material);
   return material;
 }
 
@@ -49,7 +49,6 @@ void add_ground(std::vector<Cloud>& clouds, Scene& scene) {
   BuildStats of_ground;  // its points are not the input's
   clouds.push_back(make_cloud(std::move(points), /*oriented=*/true, /*measured=*/false, of_ground));
   scene.materials.push_back(ground_material());
-  if (!scene.surfaces.empty()) scene.surfaces.push_back(surface_of(scene.materials.back()));
   scene.object_names.emplace_back("ground");
   scene.surface_area_world = 0.0;  // unknown: what was measured is of the other objects
 }

@@ -94,10 +94,10 @@ struct SurfaceMap {
 
 /// Triangles over points (attributes per vertex). Also the truth that pictures are measured against.
 struct Mesh {
-  Points vertices;                         ///< position, maybe normal and colour
-  std::vector<glm::vec2> texcoord;         ///< beside vertices, or empty
-  std::vector<glm::uvec3> triangles;       ///< indices < vertices.size()
-  std::vector<float> alpha;                ///< multiplies the texture's, beside vertices; empty = 1 everywhere
+  Points vertices;                    ///< position, maybe normal and colour
+  std::vector<glm::vec2> texcoord;    ///< beside vertices, or empty
+  std::vector<glm::uvec3> triangles;  ///< indices < vertices.size()
+  std::vector<float> alpha;           ///< multiplies the texture's, beside vertices; empty = 1 everywhere
   std::shared_ptr<const Texture> texture;  ///< base colour by texcoord, times the vertex colour; null = none
   std::vector<SurfaceMap> maps;            ///< further textures (mesh/surface_maps.h); empty = none
 };
@@ -137,12 +137,15 @@ struct ScanFile {
   std::optional<std::array<glm::dvec3, 2>> said_box{};
 };
 
+/// The material of an object whose file says nothing: light grey, a soft highlight, two-sided. `colored`: points have colours, of
+/// which it keeps white below the display's white.
+[[nodiscard]] Material default_material(bool colored = false);
+
 /// One object of the input: points, and what they are made of.
 struct InputObject {
   std::string name;
   Points points;
-  Material material{vec3(0.0F), 0.0F, vec3(0.0F), 1.0F, 0.0F, 1.0F, 0, 0};  ///< black
-  std::optional<Surface> surface{};  ///< what path tracing sees; unset: surface_of(material)
+  Material material = default_material();
   /// Normals are known to point outwards (closed mesh); else they may be turned either way.
   bool oriented = false;
   bool measured = true;  ///< points without a surface and sides known are a scanner's, with strays and noise
@@ -223,11 +226,5 @@ struct ReadOptions {
 /// What read_input does with objects once they are read: points with times get the options' trajectory, heights and scanners are
 /// adjusted, meshes become points (mesh/mesh_points.h). Throws Error as read_input does.
 void finish_objects(Input& input, const ReadOptions& options);
-
-/// The material of an object whose file says nothing: light grey, a soft highlight, two-sided.
-[[nodiscard]] Material default_material();
-
-/// Its diffuse part where points have colours: white stays below the display's white.
-inline const glm::vec3 COLORED_DIFFUSE(0.9F);
 
 }  // namespace splatray

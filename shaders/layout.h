@@ -126,28 +126,24 @@ SPLATRAY_CONST SLAB_THINNEST = 112u;   ///< thinnest slabs in a cell's half size
 SPLATRAY_CONST SLAB_SHARES = 16u;      ///< the split of a leaf's list is stored in sixteenths
 
 /// Material flags.
-SPLATRAY_CONST MATERIAL_DIELECTRIC = 1u;  ///< refracts and reflects by Fresnel; `tint` on each crossing
+SPLATRAY_CONST MATERIAL_DIELECTRIC = 1u;  ///< refracts and reflects by Fresnel
 SPLATRAY_CONST MATERIAL_TWO_SIDED = 2u;   ///< both faces are hit; the normal is turned to the ray
 SPLATRAY_CONST MATERIAL_HIDDEN = 4u;      ///< the object is not hit at all
 
-/// One per object; index = the splat's object index. Colours are linear, 0..1.
-struct Material {
+/// What LOOK_PAPER sees of an object in place of Material's numbers, but for `ior` (Goradia et al. 2010). Colours are linear, 0..1.
+struct Phong {
   vec3 diffuse;     ///< diffuse reflectance; multiplied by the splat's colour where the scene has colours
   float specular;   ///< Phong specular reflectance, 0..1 (energy-normalised lobe)
   vec3 tint;        ///< mirror: reflectance; dielectric: transmittance of each crossing
   float shininess;  ///< Phong exponent, >= 1
   float mirror;     ///< share of light mirrored, 0..1; the rest is shaded
-  float ior;        ///< index of refraction inside, > 0; dielectrics only
-  uint flags;       ///< MATERIAL_*
-  /// The object's bit, 0..31, in a ray's mask of the dielectrics it is inside of; where they overlap, light runs in the one with
-  /// the highest bit.
-  uint mask_bit;
+  float unused_0, unused_1, unused_2;  ///< zero
 };
 
-/// What LOOK_LIT and its like see of an object, beside its Material: glTF 2.0's metallic-roughness material with the extensions
-/// KHR_materials_ior, _specular, _clearcoat, _transmission, _volume and _emissive_strength. Colours are linear, 0..1. Dielectrics
-/// (MATERIAL_DIELECTRIC) transmit; the index of refraction inside is then the Material's.
-struct Surface {
+/// One per object; index = the splat's object index. glTF 2.0's metallic-roughness material with the extensions KHR_materials_ior,
+/// _specular, _clearcoat, _transmission, _volume and _emissive_strength. Colours are linear, 0..1. Dielectrics
+/// (MATERIAL_DIELECTRIC) transmit.
+struct Material {
   /// Base colour, times the splat's colour where the scene has colours. Light that goes into a dielectric and out again is tinted
   /// by it once.
   vec3 base;
@@ -160,8 +156,14 @@ struct Surface {
   float transmission;   ///< of dielectrics: share of light not mirrored that goes through, 0..1
   float coat;           ///< clearcoat, 0..1
   float coat_roughness;
-  float ior;     ///< of what is no dielectric, >= 1
-  float unused;  ///< zero
+  float layer_ior;  ///< index of refraction where nothing is transmitted, >= 1
+  float ior;        ///< inside dielectrics, > 0; 1 in thin panes, whatever their layer_ior
+  uint flags;       ///< MATERIAL_*
+  /// The object's bit, 0..31, in a ray's mask of the dielectrics it is inside of; where they overlap, light runs in the one with
+  /// the highest bit.
+  uint mask_bit;
+  uint unused_0, unused_1;  ///< zero
+  Phong phong;
 };
 
 SPLATRAY_CONST LIGHT_DIRECTIONAL = 0u;
@@ -353,8 +355,6 @@ SPLATRAY_CONST BIND_HITS = 8u;
 SPLATRAY_CONST BIND_GROUPS = 9u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
 SPLATRAY_CONST BIND_PATHS = 10u;  ///< of this stage
 SPLATRAY_CONST BIND_PATHS_QUEUED = 11u;  ///< of the next
-// For path tracing, in the place of what it does not use:
-SPLATRAY_CONST BIND_SURFACES = BIND_RAYS;
 // Read as the pools are:
 SPLATRAY_CONST BIND_LIGHT_TABLES = 12u;  ///< words: the albedo table, then the sky table
 SPLATRAY_CONST BIND_LIGHT_TREE = 13u;    ///< texels: the light tree, then the words of the splats that send out light
@@ -406,11 +406,11 @@ SPLATRAY_CONST FEATURE_TEXTURE_NORMAL = 8388608u;
 // For LOOK_LIT and its like alone:
 SPLATRAY_CONST FEATURE_SKY = 512u;          ///< the environment is chosen among the lights, by the sky table
 SPLATRAY_CONST FEATURE_SIZES = 1024u;       ///< some light has a size, and can be met
-SPLATRAY_CONST FEATURE_DIFFUSE = 2048u;     ///< some surface scatters diffusely
-SPLATRAY_CONST FEATURE_SPECULAR = 4096u;    ///< some surface that is no metal has highlights
-SPLATRAY_CONST FEATURE_METAL = 8192u;       ///< some surface is a metal
-SPLATRAY_CONST FEATURE_COAT = 16384u;       ///< some surface has a clearcoat
-SPLATRAY_CONST FEATURE_EMISSION = 32768u;   ///< some surface sends out light
+SPLATRAY_CONST FEATURE_DIFFUSE = 2048u;     ///< some material scatters diffusely
+SPLATRAY_CONST FEATURE_SPECULAR = 4096u;    ///< some material that is no metal has highlights
+SPLATRAY_CONST FEATURE_METAL = 8192u;       ///< some material is a metal
+SPLATRAY_CONST FEATURE_COAT = 16384u;       ///< some material has a clearcoat
+SPLATRAY_CONST FEATURE_EMISSION = 32768u;   ///< some material sends out light
 SPLATRAY_CONST FEATURE_LENS = 65536u;       ///< the lens has a size
 SPLATRAY_CONST FEATURE_STRAIGHT = 131072u;  ///< light of lights passes dielectrics unbent, tinted
 
@@ -460,7 +460,7 @@ SPLATRAY_CONST ORDER_LINEAR = 1u;  ///< pixels of a group in a row
 SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixels
 
 #ifdef __cplusplus
-static_assert(sizeof(Material) == 48 && sizeof(Surface) == 80 && sizeof(Light) == 96 &&
+static_assert(sizeof(Material) == 144 && sizeof(Light) == 96 &&
               sizeof(LightNode) == 16 * LIGHT_NODE_TEXELS &&
               sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
               sizeof(FrameParams) == 1456 && sizeof(PathState) == 16 * PATH_TEXELS);

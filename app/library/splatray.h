@@ -63,7 +63,7 @@ class SPLATRAY_API Error : public std::runtime_error {
 /// whose picture or rays are being made, that is an Error (usage).
 using Progress = std::function<bool(const char* stage, double share)>;
 
-/// What an object is made of.
+/// What an object is made of: the numbers of the look "paper", from which those of path tracing follow.
 struct Material {
   Float3 diffuse{0.64F, 0.61F, 0.57F};  ///< reflectance, 0..1; times the points' colours where they have some
   float specular = 0.05F;               ///< share of light in a highlight (Phong), 0..1

@@ -50,7 +50,6 @@ constexpr Bound<Material, BIND_MATERIALS> materials;
 constexpr Bound<Light, BIND_LIGHTS> lights;
 constexpr Bound<vec4, BIND_ENVIRONMENT> environment_texels;
 #ifdef LIT
-constexpr Bound<Surface, BIND_SURFACES> surfaces;
 constexpr Bound<uint, BIND_LIGHT_TABLES> light_tables;
 constexpr Bound<uvec4, BIND_LIGHT_TREE> light_tree;
 #else
@@ -85,7 +84,6 @@ Material material_at(uint object) { return materials[object]; }
 Light light_at(uint index) { return lights[index]; }
 vec3 color_at(uint index) { return unpack_color(color_word(index)); }
 #ifdef LIT
-Surface surface_at(uint object) { return surfaces[object]; }
 float albedo_at(uint index) { return uintBitsToFloat(light_tables[index]); }
 uint sky_word(uint index) { return light_tables[ALBEDO_WORDS + index]; }
 uvec4 light_texel(uint index) { return light_tree[index]; }

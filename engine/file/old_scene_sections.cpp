@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/file/checksum.h"
+#include "engine/scene/phong.h"
 
 namespace splatray::scene_file {
 namespace {
@@ -145,6 +146,27 @@ void divide_strings(SceneInput& input, const OldHeader& header, std::size_t colu
 }
 
 }  // namespace
+
+std::vector<Material> read_old_materials(SceneInput& input, SectionReader& sections) {
+  const auto records = sections.records<OldMaterialRecord>("materials", OldMaterialRecord::LEAST_BYTES);
+  std::vector<Material> materials;
+  if (sections.has("surfaces")) materials = sections.records<Material>("surfaces", 80);
+  const bool follow = materials.empty();
+  if (follow) materials.resize(records.size());
+  if (materials.size() != records.size())
+    input.refuse(std::to_string(materials.size()) + " surfaces",
+                 "none or the " + std::to_string(records.size()) + " of the objects");
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const OldMaterialRecord& record = records[i];
+    materials[i].ior = record.ior;
+    materials[i].flags = record.flags;
+    materials[i].mask_bit = record.mask_bit;
+    materials[i].phong = {
+        record.diffuse, record.specular, record.tint, record.shininess, record.mirror, 0, 0, 0};
+    if (follow) follow_phong(materials[i]);
+  }
+  return materials;
+}
 
 OldScene read_old_table(SceneInput& input, const std::vector<char>& head) {
   OldHeader header;

@@ -26,13 +26,14 @@
 /// follows from the header's counts.
 ///    id    | section
 ///   1 - 8  | the pools, in the order of scene_file.h
-///    9     | "materials"
+///    9     | "materials", OldMaterialRecord
 ///   10     | "lights", of version 10 the first 48 bytes of a record, of 11 the first 104, then all 152
 ///   11     | "camera"
 ///   12     | "stations", before version 14 the first 40 bytes of a record
 ///   13     | strings, each ended by a zero byte: objects' names, the environment, stations' names, columns' names; of version 14
 ///          | also the coordinate system
-///   14     | "surfaces"
+///   14     | "surfaces", the first 80 bytes of layout.h's Material but for the last 4, which are zero; none: those that follow from the
+///          | materials
 ///  15 - 46 | columns
 #pragma once
 #include "engine/file/scene_sections.h"
@@ -46,6 +47,19 @@ struct OldScene {
   SectionTable table;
   bool ellipses;  ///< the header says that some clip lines are ellipses
 };
+
+/// What LOOK_PAPER sees of an object, and what all looks do.
+struct OldMaterialRecord {
+  static constexpr std::uint32_t LEAST_BYTES = 48;
+  vec3 diffuse;
+  float specular;
+  vec3 tint;
+  float shininess, mirror, ior;
+  std::uint32_t flags, mask_bit;
+};
+
+/// The materials of a file whose "materials" are such records. Refuses another number of surfaces.
+[[nodiscard]] std::vector<Material> read_old_materials(SceneInput& input, SectionReader& sections);
 
 /// `head`: header and table, whose checksum is right. Refuses what contradicts itself, and strings with another checksum.
 [[nodiscard]] OldScene read_old_table(SceneInput& input, const std::vector<char>& head);

@@ -45,7 +45,6 @@ void keep_names(SectionWriter& file, const std::string& section, const std::vect
 void add_objects(SectionWriter& file, const Scene& scene) {
   file.add("materials", scene.materials);
   file.keep_strings("object_names", scene.object_names);
-  if (!scene.surfaces.empty()) file.add("surfaces", scene.surfaces);
 }
 
 void add_world(SectionWriter& file, const Scene& scene) {
@@ -134,10 +133,11 @@ std::vector<std::string> names_of(SectionReader& sections, const std::string& se
   return names;
 }
 
-void read_objects(SectionReader& sections, Scene& scene) {
-  scene.materials = sections.records<Material>("materials", MATERIAL_LEAST_BYTES);
+void read_objects(SceneInput& input, SectionReader& sections, Scene& scene) {
+  const bool old = sections.find("materials").element_bytes == OldMaterialRecord::LEAST_BYTES;
+  scene.materials = old ? read_old_materials(input, sections)
+                        : sections.records<Material>("materials", MATERIAL_LEAST_BYTES);
   scene.object_names = names_of(sections, "object_names", scene.materials.size());
-  if (sections.has("surfaces")) scene.surfaces = sections.records<Surface>("surfaces", SURFACE_LEAST_BYTES);
 }
 
 void read_world(SceneInput& input, SectionReader& sections, Scene& scene) {
@@ -216,7 +216,7 @@ Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
       tree_defect = std::async(std::launch::async, find_tree_defect,
                                std::span<const std::uint32_t>(scene.node_pool), leaves);
   });
-  read_objects(sections, scene);
+  read_objects(input, sections, scene);
   read_world(input, sections, scene);
   read_stations(input, sections, scene);
   read_columns(input, sections, scene);

@@ -38,7 +38,6 @@
 ///   clip_pool        | uint32  | clip lines and ellipses, beside the splats
 ///   materials *      | record  | Material of layout.h, one per object
 ///   object_names *   | text    | beside the materials
-///   surfaces         | record  | Surface of layout.h, beside the materials
 ///   root *           | record  | float64[3] lowest corner of the root, world; float64 world length of a lattice unit
 ///   build *          | record  | uint32 leaf size k, insertion (enum Insertion), probes per leaf, radius rule (enum RadiusRule);
 ///                    |         | float64 radius scale; uint64 samples taken on meshes, seed

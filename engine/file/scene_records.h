@@ -55,8 +55,8 @@ struct WorldRecord {
   double surface_area;
 };
 
-/// Bytes that the first files had of the records of layout.h.
-inline constexpr std::uint32_t MATERIAL_LEAST_BYTES = 48, SURFACE_LEAST_BYTES = 80;
+/// Bytes that the first files of version 15 had of layout.h's Material.
+inline constexpr std::uint32_t MATERIAL_LEAST_BYTES = 144;
 
 static_assert(sizeof(LightRecord) == 152 && sizeof(CameraRecord) == 88 && sizeof(StationRecord) == 56 &&
               sizeof(RootRecord) == 32 && sizeof(BuildRecord) == 40 && sizeof(WorldRecord) == 80);

@@ -60,9 +60,9 @@ void DeviceScene::show(const Look& look) {
   const bool all = !shows_look_;
   shows_look_ = false;  // should an Error fly
   bool other_light = all || look.lights != shown_.lights || look.emitters != shown_.emitters;
-  if (all || !same_looks(look.objects, shown_.objects)) {
-    show_objects(look.objects);
-    std::vector<bool> two_sided = two_sided_objects(look.objects.materials);
+  if (all || !same_bytes(look.materials, shown_.materials)) {
+    show_materials(look.materials);
+    std::vector<bool> two_sided = two_sided_objects(look.materials);
     other_light = other_light || two_sided != two_sided_;
     two_sided_ = std::move(two_sided);
   }
@@ -74,19 +74,13 @@ void DeviceScene::show(const Look& look) {
   shows_look_ = true;
 }
 
-void DeviceScene::show_objects(const ObjectLooks& objects) {
-  for (const std::size_t count : {objects.materials.size(), objects.surfaces.size()})
-    if (count != object_count_)
-      throw Error(ExitCode::failed, "found a look of " + std::to_string(count) +
-                                        " objects, expected the scene's " + std::to_string(object_count_));
-  material_content_ = material_content(objects.materials);
-  surface_features_ = surface_features(objects.surfaces, objects.materials, pools_.texture_features);
-  const auto upload_table = [&](std::unique_ptr<Buffer>& buffer, std::span<const std::byte> bytes) {
-    queue_.reserve(buffer, bytes.size());
-    queue_.upload(*buffer, bytes);
-  };
-  upload_table(material_buffer_, std::as_bytes(std::span(objects.materials)));
-  upload_table(surface_buffer_, std::as_bytes(std::span(objects.surfaces)));
+void DeviceScene::show_materials(const std::vector<Material>& materials) {
+  if (materials.size() != object_count_)
+    throw Error(ExitCode::failed, "found a look of " + std::to_string(materials.size()) +
+                                      " objects, expected the scene's " + std::to_string(object_count_));
+  material_content_ = material_content(materials, pools_.texture_features);
+  queue_.reserve(material_buffer_, std::span(materials).size_bytes());
+  queue_.upload(*material_buffer_, std::as_bytes(std::span(materials)));
 }
 
 void DeviceScene::show_lights(const Look& look) {
@@ -162,8 +156,6 @@ void DeviceScene::bind() {
   bindings_->bind(*environment_);
 }
 
-void DeviceScene::bind_light() { bindings_->bind(BIND_SURFACES, *surface_buffer_); }
-
 PoolBytes DeviceScene::bytes() const {
   PoolBytes bytes = pools_.bytes;
   bytes.environment = environment_->size();
@@ -180,7 +172,6 @@ SceneContent DeviceScene::content() const {
           .top_levels = pools_.top_levels,
           .pages = pools_.paging.pages,
           .page_shift = pools_.paging.page_shift,
-          .surfaces = surface_features_,
           .textures = pools_.texture_features,
           .lights = lights_ > 0,
           .sized_lights = lights_sized_ > 0,
@@ -196,7 +187,7 @@ FrameParams DeviceScene::picture_params(const View& view, const Settings& settin
   if (!traces && !mirrors) frame.max_bounces = 0;
   frame.light_end = lights_;
   frame.loop_probe = LOOP_PROBE;
-  set_media(frame, shown_.objects.materials, shown_.objects.surfaces);
+  set_media(frame, shown_.materials);
   frame.lights_sized = lights_sized_;
   frame.lights_met = lights_met_;
   frame.light_nodes = tree_nodes_;

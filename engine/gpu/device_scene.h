@@ -37,8 +37,6 @@ class DeviceScene {
   /// Bindings of the uploaded scene; its own are set by bind().
   [[nodiscard]] Bindings& bindings() { return *bindings_; }
   void bind();
-  /// Binds what path tracing alone reads, where ray queries have their rays and hits.
-  void bind_light();
 
   [[nodiscard]] PoolBytes bytes() const;
   /// What the features of a pipeline depend on.
@@ -54,7 +52,7 @@ class DeviceScene {
   void upload(const Scene& scene, Scene* spent);
   void reserve_read(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind);
   void upload_tables(const SkyTable& sky);
-  void show_objects(const ObjectLooks& objects);
+  void show_materials(const std::vector<Material>& materials);
   void show_lights(const Look& look);
   void upload_tree(const Emitters& emitters);
   void show_environment(const Environment& environment);
@@ -75,9 +73,8 @@ class DeviceScene {
   std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
   Look shown_;                     ///< as uploaded
   bool shows_look_ = false;        ///< else the pools are another scene's
-  std::uint32_t surface_features_ = 0;
   MaterialContent material_content_;
-  std::unique_ptr<Buffer> material_buffer_, surface_buffer_, light_buffer_, table_buffer_, tree_buffer_;
+  std::unique_ptr<Buffer> material_buffer_, light_buffer_, table_buffer_, tree_buffer_;
   std::uint32_t lights_ = 0;
   std::uint32_t lights_sized_ = 0, lights_met_ = 0;
   LightTree tree_;  ///< without its arrays

@@ -3,23 +3,39 @@
 #include <algorithm>
 
 #include "engine/scene/look_style.h"
-#include "engine/scene/surface_fields.h"
+#include "engine/scene/material_fields.h"
 
 namespace splatray {
 namespace {
 
 constexpr std::uint32_t SHADING = FEATURE_MIRRORS | FEATURE_LIGHTS | FEATURE_SHADOWS | FEATURE_ENVIRONMENT;
 
-/// Whether the material reflects direct light other than as a mirror.
+/// Whether the material reflects direct light other than as a mirror, as LOOK_PAPER shows it.
 bool scatters(const Material& material) {
-  if ((material.flags & MATERIAL_DIELECTRIC) != 0) return material.specular > 0.0F;
-  const bool colored = material.diffuse.x > 0.0F || material.diffuse.y > 0.0F || material.diffuse.z > 0.0F;
-  return material.mirror < 1.0F && (colored || material.specular > 0.0F);
+  const Phong& phong = material.phong;
+  if ((material.flags & MATERIAL_DIELECTRIC) != 0) return phong.specular > 0.0F;
+  const bool colored = phong.diffuse.x > 0.0F || phong.diffuse.y > 0.0F || phong.diffuse.z > 0.0F;
+  return phong.mirror < 1.0F && (colored || phong.specular > 0.0F);
+}
+
+/// FEATURE_* of a material's lobes and emission.
+std::uint32_t lobes_of(const Material& material, std::uint32_t textures) {
+  const bool varies = (textures & FEATURE_TEXTURE_LAYER) != 0;
+  const bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0;
+  const bool all_metal = material.metallic >= 1.0F && !varies,
+             all_clear = glass && material.transmission >= 1.0F && !varies;
+  std::uint32_t features = 0;
+  const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
+  add(!all_metal && !all_clear, FEATURE_DIFFUSE);
+  add(!all_metal && material.specular > 0.0F, FEATURE_SPECULAR);
+  for (const MaterialField& field : material_fields())
+    add(glm::any(glm::greaterThan(field.of(material), vec3(0.0F))), field.feature);
+  return features;
 }
 
 }  // namespace
 
-MaterialContent material_content(std::span<const Material> materials) {
+MaterialContent material_content(std::span<const Material> materials, std::uint32_t textures) {
   MaterialContent content;
   content.open = true;
   bool all_two_sided = true, all_one_sided = true;
@@ -27,30 +43,13 @@ MaterialContent material_content(std::span<const Material> materials) {
     all_two_sided = all_two_sided && material.flags == MATERIAL_TWO_SIDED;
     all_one_sided = all_one_sided && material.flags == 0;
     content.open = content.open && material.flags != 0 && (material.flags & MATERIAL_HIDDEN) == 0;
-    content.mirrors = content.mirrors || material.mirror > 0.0F;
+    content.mirrors = content.mirrors || material.phong.mirror > 0.0F;
     content.glass = content.glass || (material.flags & MATERIAL_DIELECTRIC) != 0;
     content.scatters = content.scatters || scatters(material);
+    content.lobes |= lobes_of(material, textures);
   }
   content.faces = all_two_sided ? FACES_BOTH : (all_one_sided ? FACES_FRONT : FACES_MIXED);
   return content;
-}
-
-std::uint32_t surface_features(std::span<const Surface> surfaces, std::span<const Material> materials,
-                               std::uint32_t textures) {
-  const bool varies = (textures & FEATURE_TEXTURE_LAYER) != 0;
-  std::uint32_t features = 0;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const Surface& surface = surfaces[i];
-    const bool glass = (materials[i].flags & MATERIAL_DIELECTRIC) != 0;
-    const bool all_metal = surface.metallic >= 1.0F && !varies,
-               all_clear = glass && surface.transmission >= 1.0F && !varies;
-    const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
-    add(!all_metal && !all_clear, FEATURE_DIFFUSE);
-    add(!all_metal && surface.specular > 0.0F, FEATURE_SPECULAR);
-    for (const SurfaceField& field : surface_fields())
-      add(glm::any(glm::greaterThan(field.of(surface), vec3(0.0F))), field.feature);
-  }
-  return features;
 }
 
 namespace {
@@ -58,8 +57,8 @@ namespace {
 /// FEATURE_* of a look other than LOOK_PAPER.
 std::uint32_t light_features(const SceneContent& content, const Settings& settings) {
   const LookStyle style = look_style(settings.look);
-  const bool all = style.surfaces, lights = content.lights && style.lights, sky = content.sky && style.paths;
-  std::uint32_t features = all ? content.surfaces : FEATURE_DIFFUSE;
+  const bool all = style.materials, lights = content.lights && style.lights, sky = content.sky && style.paths;
+  std::uint32_t features = all ? content.materials.lobes : FEATURE_DIFFUSE;
   const auto add = [&](bool needed, std::uint32_t feature) { features |= needed ? feature : 0; };
   add(all && content.materials.glass, FEATURE_GLASS);
   add(lights, FEATURE_LIGHTS);
@@ -98,7 +97,7 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   constants[SPEC_FEATURES] |= content.pools & ~unseen;
   add(content.ellipses, FEATURE_ELLIPSES);
   add(content.leans && !flat_blend, FEATURE_LEANS);
-  const bool textured = settings.look != LOOK_PAPER && look_style(settings.look).surfaces;
+  const bool textured = settings.look != LOOK_PAPER && look_style(settings.look).materials;
   add(textured || (content.textures & FEATURE_OPACITY) != 0, content.textures);
   add(content.references, FEATURE_REFERENCES);
   add(content.environment_texture, FEATURE_ENVIRONMENT);

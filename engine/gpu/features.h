@@ -14,15 +14,14 @@ namespace splatray {
 struct MaterialContent {
   std::uint32_t faces = FACES_MIXED;  ///< FACES_*: the cheapest that is right for all
   bool open = false;                  ///< every object is two-sided or a dielectric, none is hidden
-  bool mirrors = false;               ///< some mirror
+  bool mirrors = false;               ///< some mirror; Phong
   bool glass = false;                 ///< some are dielectrics
-  bool scatters = false;              ///< some send light of lights back, diffusely or as a highlight
+  bool scatters = false;              ///< some send light of lights back, diffusely or as a highlight; Phong
+  std::uint32_t lobes = 0;            ///< FEATURE_* of the lobes that they have, and of their emission
 };
-/// FEATURE_* of the lobes that surfaces have, and of their emission. `textures`: FEATURE_TEXTURE_* of the scene, which may make
-/// less of a surface's values.
-[[nodiscard]] std::uint32_t surface_features(std::span<const Surface> surfaces,
-                                             std::span<const Material> materials, std::uint32_t textures = 0);
-[[nodiscard]] MaterialContent material_content(std::span<const Material> materials);
+/// `textures`: FEATURE_TEXTURE_* of the scene, which may make less of a material's values.
+[[nodiscard]] MaterialContent material_content(std::span<const Material> materials,
+                                               std::uint32_t textures = 0);
 
 /// What the features depend on.
 struct SceneContent {
@@ -34,7 +33,6 @@ struct SceneContent {
   std::uint32_t top_levels = 0;              ///< of the top table
   std::array<std::uint32_t, POOLS> pages{};  ///< Paging::pages
   std::uint32_t page_shift = 0;              ///< Paging::page_shift
-  std::uint32_t surfaces = 0;                ///< surface_features
   std::uint32_t textures = 0;                ///< texture_features()
   bool lights = false;                       ///< there are lights
   bool sized_lights = false;                 ///< some light has a size

@@ -45,6 +45,7 @@ void Runner::bind(const Buffer& accumulation_buffer) {
   Bindings& bindings = scene.bindings();
   bindings.bind(BIND_ACCUMULATION, accumulation_buffer);
   bindings.bind(BIND_AOV, *aov);
+  bindings.bind(BIND_RAYS, *rays);
   bindings.bind(BIND_HITS, *hits);
   bindings.bind(BIND_GROUPS, *groups_);
   bindings.bind(BIND_PATHS, *paths_);
@@ -52,11 +53,6 @@ void Runner::bind(const Buffer& accumulation_buffer) {
 }
 
 double Runner::run(const Dispatch& dispatch) {
-  if (dispatch.program == Program::light || dispatch.program == Program::empty_light) {
-    scene.bind_light();
-  } else {
-    scene.bindings().bind(BIND_RAYS, *rays);
-  }
   const Ran ran = queue->run(dispatch, scene.bindings());
   if (dispatch.counts_work())
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += ran.counted[i];

@@ -1,28 +1,27 @@
 #include "engine/image/look.h"
 
-#include "engine/scene/surface.h"
+#include <algorithm>
 
 namespace splatray {
 namespace {
 
-bool same_emission(const ObjectLooks& a, const ObjectLooks& b) {
-  if (a.surfaces.size() != b.surfaces.size()) return false;
-  for (std::size_t i = 0; i < a.surfaces.size(); ++i)
-    if (shown_emission(a, i) != shown_emission(b, i)) return false;
-  return true;
+bool same_emission(const std::vector<Material>& a, const std::vector<Material>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Material& x, const Material& y) {
+    return shown_emission(x) == shown_emission(y);
+  });
 }
 
 }  // namespace
 
 Look look_of(const Scene& scene) {
-  Look look{.objects = {}, .lights = scene.lights, .emitters = {}, .environment = {}, .up = scene.up};
-  show_objects(scene, {scene.materials, surfaces_of(scene)}, look);
+  Look look{.materials = {}, .lights = scene.lights, .emitters = {}, .environment = {}, .up = scene.up};
+  show_materials(scene, scene.materials, look);
   return look;
 }
 
-void show_objects(const Scene& scene, ObjectLooks objects, Look& look) {
-  if (!same_emission(objects, look.objects)) look.emitters = find_emitters(scene, objects);
-  look.objects = std::move(objects);
+void show_materials(const Scene& scene, std::vector<Material> materials, Look& look) {
+  if (!same_emission(materials, look.materials)) look.emitters = find_emitters(scene, materials);
+  look.materials = std::move(materials);
 }
 
 }  // namespace splatray

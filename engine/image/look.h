@@ -10,9 +10,9 @@
 namespace splatray {
 
 struct Look {
-  ObjectLooks objects;             ///< one for each object of the scene
-  std::vector<SceneLight> lights;  ///< at most LIGHTS_MOST, of them LIGHTS_SIZED_MOST that have a size
-  /// Where paths look for light that objects send out: find_emitters() of the scene and the objects, or null, where such light is
+  std::vector<Material> materials;  ///< one for each object of the scene
+  std::vector<SceneLight> lights;   ///< at most LIGHTS_MOST, of them LIGHTS_SIZED_MOST that have a size
+  /// Where paths look for light that objects send out: find_emitters() of the scene and the materials, or null, where such light is
   /// met by chance alone: correct, but noisier.
   Emitters emitters;
   /// Null: black all around. Shared, and compared by its address, as it may be large.
@@ -23,7 +23,7 @@ struct Look {
 /// A scene's own look, in a black environment. The scene has its pools.
 [[nodiscard]] Look look_of(const Scene& scene);
 
-/// Gives a look these objects, and their emitters where they send out other light than before. The scene has its pools.
-void show_objects(const Scene& scene, ObjectLooks objects, Look& look);
+/// Gives a look these materials, and their emitters where they send out other light than before. The scene has its pools.
+void show_materials(const Scene& scene, std::vector<Material> materials, Look& look);
 
 }  // namespace splatray

@@ -167,12 +167,11 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   return frame;
 }
 
-void set_media(FrameParams& frame, std::span<const Material> materials, std::span<const Surface> surfaces) {
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    const Material& material = materials[i];
+void set_media(FrameParams& frame, std::span<const Material> materials) {
+  for (const Material& material : materials) {
     if ((material.flags & MATERIAL_DIELECTRIC) == 0) continue;
     frame.media[material.mask_bit / 4][static_cast<glm::length_t>(material.mask_bit % 4)] = material.ior;
-    frame.absorption[material.mask_bit] = vec4(surfaces[i].absorption * frame.root_unit_world, 0.0F);
+    frame.absorption[material.mask_bit] = vec4(material.absorption * frame.root_unit_world, 0.0F);
   }
 }
 

@@ -171,8 +171,8 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 /// view, non-finite values, fov outside (0, 180), a lens shift or pixel aspect beyond the above, zero sizes.
 [[nodiscard]] FrameParams make_frame_params(const Scene& scene, const View& view, const Settings& settings);
 
-/// FrameParams::media of these materials, and the absorption of their surfaces, which are beside them.
-void set_media(FrameParams& frame, std::span<const Material> materials, std::span<const Surface> surfaces);
+/// FrameParams::media and absorption of these materials.
+void set_media(FrameParams& frame, std::span<const Material> materials);
 
 /// Lights in root space, as the engine uploads them: those with a size first, of these those at infinity last; how often each is
 /// chosen.

@@ -14,14 +14,9 @@ auto order(const uvec4& words) { return std::tuple(words.w, words.z, words.x, wo
 
 }  // namespace
 
-vec3 shown_emission(const ObjectLooks& objects, std::size_t object) {
-  const bool hidden = (objects.materials[object].flags & MATERIAL_HIDDEN) != 0;
-  return hidden ? vec3(0.0F) : objects.surfaces[object].emission;
-}
-
-Emitters find_emitters(const Scene& scene, const ObjectLooks& objects) {
-  std::vector<vec3> of_objects(objects.materials.size());
-  for (std::size_t i = 0; i < of_objects.size(); ++i) of_objects[i] = shown_emission(objects, i);
+Emitters find_emitters(const Scene& scene, const std::vector<Material>& materials) {
+  std::vector<vec3> of_objects;
+  for (const Material& material : materials) of_objects.push_back(shown_emission(material));
   if (std::all_of(of_objects.begin(), of_objects.end(), [](const vec3& one) { return one == vec3(0.0F); }))
     return {};
   const SplatEmission emission(scene);

@@ -19,11 +19,13 @@ struct Emitter {
 /// Each once; null: none. Shared, and compared by its address, as there may be many.
 using Emitters = std::shared_ptr<const std::vector<Emitter>>;
 
-/// Radiance that an object sends out as it is shown: none where it is hidden.
-[[nodiscard]] vec3 shown_emission(const ObjectLooks& objects, std::size_t object);
+/// Radiance that an object of this material sends out: none where it is hidden.
+[[nodiscard]] inline vec3 shown_emission(const Material& material) {
+  return (material.flags & MATERIAL_HIDDEN) != 0 ? vec3(0.0F) : material.emission;
+}
 
-/// The splats of all objects that are to be seen and whose surface sends out light.
-[[nodiscard]] Emitters find_emitters(const Scene& scene, const ObjectLooks& objects);
+/// The splats of all objects that are to be seen and whose material sends out light. `materials`: one for each object.
+[[nodiscard]] Emitters find_emitters(const Scene& scene, const std::vector<Material>& materials);
 
 /// About the irradiance of a surface at the scene's centre that faces the light of emitters, mean of rgb, if nothing is in its
 /// way and each splat shines as a ball of its surface does.

@@ -1,4 +1,4 @@
-/// What objects look like, and the lights they are seen by. Materials and surfaces are of shaders/layout.h.
+/// What objects look like, and the lights they are seen by. Materials are of shaders/layout.h.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -42,22 +42,11 @@ inline constexpr std::uint32_t LIGHT_KIND_LAST = LIGHT_RECTANGLE;
 /// Whether a light is a spot.
 [[nodiscard]] inline bool is_spot(const SceneLight& light) { return light.spot_axis != glm::dvec3(0.0); }
 
-/// What objects look like: beside each other, one for each.
-struct ObjectLooks {
-  std::vector<Material> materials;
-  std::vector<Surface> surfaces;
-};
-
 /// Whether two lists are equal bit for bit.
 template <class Element>
 [[nodiscard]] bool same_bytes(const std::vector<Element>& a, const std::vector<Element>& b) {
   if (a.size() != b.size()) return false;
   return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0;
-}
-
-/// Whether the two are equal bit for bit.
-[[nodiscard]] inline bool same_looks(const ObjectLooks& a, const ObjectLooks& b) {
-  return same_bytes(a.materials, b.materials) && same_bytes(a.surfaces, b.surfaces);
 }
 
 /// Most dielectrics that a ray can be inside of at once.

@@ -8,11 +8,11 @@
 namespace splatray {
 
 struct LookStyle {
-  bool paths;     ///< light is followed from surface to surface
-  bool surfaces;  ///< materials are seen
-  bool colors;    ///< the points' colours are seen
-  bool lights;    ///< lights light it
-  bool opaque;    ///< nothing is looked through: glass shows both of its sides
+  bool paths;      ///< light is followed from surface to surface
+  bool materials;  ///< are seen
+  bool colors;     ///< the points' colours are seen
+  bool lights;     ///< lights light it
+  bool opaque;     ///< nothing is looked through: glass shows both of its sides
 };
 
 [[nodiscard]] constexpr LookStyle look_style(std::uint32_t look) {

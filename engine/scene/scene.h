@@ -70,7 +70,6 @@ struct Scene {
   std::vector<Column> columns;            ///< attributes beside data_pool, kept on the host; may be empty
   std::vector<Station> stations;          ///< of all objects' scans: what COLUMN_SCAN counts; may be empty
   std::vector<Material> materials;        ///< one per object
-  std::vector<Surface> surfaces;          ///< beside materials, or empty: those that surface_of makes of them
   std::vector<std::string> object_names;  ///< beside materials
   std::vector<SceneLight> lights;         ///< as the input has them; may be empty
   std::optional<Camera> camera;           ///< the input's first camera

@@ -8,8 +8,8 @@
 #include "engine/base/number_text.h"
 #include "engine/scene/leaf/empty_box.h"
 #include "engine/scene/leaf/slab.h"
+#include "engine/scene/material_fields.h"
 #include "engine/scene/pool_table.h"
-#include "engine/scene/surface_fields.h"
 
 namespace splatray {
 namespace {
@@ -156,24 +156,24 @@ bool is_share(const glm::vec3& color) {
 bool is_share(float value) { return value >= 0.0F && value <= 1.0F; }
 
 /// Ranges: layout.h.
+Defect check_phong(const Phong& phong) {
+  if (!is_share(phong.diffuse)) return SceneDefect{"a diffuse reflectance", "0 to 1"};
+  if (!is_share(phong.tint)) return SceneDefect{"a tint", "0 to 1"};
+  if (!is_share(phong.specular)) return SceneDefect{"a specular reflectance", "0 to 1"};
+  if (!is_share(phong.mirror)) return SceneDefect{"a mirror", "0 to 1"};
+  if (!finite(phong.shininess) || phong.shininess < 1.0F) return SceneDefect{"a shininess", "1 or more"};
+  return {};
+}
+
 Defect check_material(const Material& material) {
   constexpr std::uint32_t KNOWN_FLAGS = MATERIAL_DIELECTRIC | MATERIAL_TWO_SIDED | MATERIAL_HIDDEN;
-  if (!is_share(material.diffuse)) return SceneDefect{"a diffuse reflectance", "0 to 1"};
-  if (!is_share(material.tint)) return SceneDefect{"a tint", "0 to 1"};
-  if (!is_share(material.specular)) return SceneDefect{"a specular reflectance", "0 to 1"};
-  if (!is_share(material.mirror)) return SceneDefect{"a mirror", "0 to 1"};
-  if (!finite(material.shininess) || material.shininess < 1.0F)
-    return SceneDefect{"a shininess", "1 or more"};
+  if (const Defect defect = check_phong(material.phong)) return defect;
   if (!finite(material.ior) || !(material.ior > 0.0F))
     return SceneDefect{"an index of refraction", "more than 0"};
   if ((material.flags & ~KNOWN_FLAGS) != 0) return SceneDefect{"flags", "known ones"};
   if (material.mask_bit >= MASK_BITS) return SceneDefect{"a mask bit", "0 to 31"};
-  return {};
-}
-
-Defect check_surface(const Surface& surface) {
-  for (const SurfaceField& field : surface_fields()) {
-    const vec3 value = field.of(surface);
+  for (const MaterialField& field : material_fields()) {
+    const vec3 value = field.of(material);
     if (glm::all(glm::greaterThanEqual(value, vec3(field.least))) &&
         glm::all(glm::lessThanEqual(value, vec3(field.most))))
       continue;
@@ -287,27 +287,20 @@ std::optional<SceneDefect> find_tree_defect(std::span<const std::uint32_t> nodes
 }
 
 std::optional<SceneDefect> find_content_defect(const Scene& scene) {
-  const auto check_look = [](const Scene& of) {
-    return find_look_defect({of.materials, of.surfaces}, of.lights);
-  };
+  const auto check_look = [](const Scene& of) { return find_look_defect(of.materials, of.lights); };
   for (const auto check :
        {check_header, check_sizes, check_lists, check_slabs, check_splats, +check_look, check_camera})
     if (const Defect defect = check(scene)) return defect;
   return {};
 }
 
-std::optional<SceneDefect> find_look_defect(const ObjectLooks& objects,
+std::optional<SceneDefect> find_look_defect(const std::vector<Material>& materials,
                                             const std::vector<SceneLight>& lights) {
   const auto in = [](const char* kind, std::size_t index, const SceneDefect& defect) {
     return SceneDefect{at(kind, index) + " with " + defect.found + " out of range", defect.expected};
   };
-  for (std::size_t i = 0; i < objects.materials.size(); ++i)
-    if (const Defect defect = check_material(objects.materials[i])) return in("material", i, *defect);
-  if (!objects.surfaces.empty() && objects.surfaces.size() != objects.materials.size())
-    return SceneDefect{std::to_string(objects.surfaces.size()) + " surfaces",
-                       "none or the " + std::to_string(objects.materials.size()) + " of the objects"};
-  for (std::size_t i = 0; i < objects.surfaces.size(); ++i)
-    if (const Defect defect = check_surface(objects.surfaces[i])) return in("surface", i, *defect);
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (const Defect defect = check_material(materials[i])) return in("material", i, *defect);
   if (lights.size() > LIGHTS_MOST)
     return SceneDefect{std::to_string(lights.size()) + " lights", "at most " + std::to_string(LIGHTS_MOST)};
   for (std::size_t i = 0; i < lights.size(); ++i)

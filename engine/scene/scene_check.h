@@ -30,8 +30,8 @@ struct SceneDefect {
 /// lights and camera are finite and in range.
 [[nodiscard]] std::optional<SceneDefect> find_content_defect(const Scene& scene);
 
-/// Checks materials and lights alone. `objects` may be without surfaces.
-[[nodiscard]] std::optional<SceneDefect> find_look_defect(const ObjectLooks& objects,
+/// Checks materials and lights alone.
+[[nodiscard]] std::optional<SceneDefect> find_look_defect(const std::vector<Material>& materials,
                                                           const std::vector<SceneLight>& lights);
 
 }  // namespace splatray

@@ -9,28 +9,28 @@ namespace splatray {
 namespace {
 
 constexpr TextureFactor number(std::string_view column, std::uint32_t word, std::uint32_t shift,
-                               float Surface::*member) {
+                               float Material::*member) {
   return {column, word, shift, member, nullptr, 0};
 }
 constexpr TextureFactor color(std::string_view column, std::uint32_t word, std::uint32_t shift,
-                              vec3 Surface::*member, int channel) {
+                              vec3 Material::*member, int channel) {
   return {column, word, shift, nullptr, member, channel};
 }
 
 constexpr TextureFactor FACTORS[] = {
-    number("texture-metallic", FEATURE_TEXTURE_LAYER, 0, &Surface::metallic),
-    number("texture-roughness", FEATURE_TEXTURE_LAYER, 8, &Surface::roughness),
-    number("texture-transmission", FEATURE_TEXTURE_LAYER, 16, &Surface::transmission),
+    number("texture-metallic", FEATURE_TEXTURE_LAYER, 0, &Material::metallic),
+    number("texture-roughness", FEATURE_TEXTURE_LAYER, 8, &Material::roughness),
+    number("texture-transmission", FEATURE_TEXTURE_LAYER, 16, &Material::transmission),
     number(COLUMN_OPACITY, FEATURE_TEXTURE_LAYER, 24, nullptr),
-    color("texture-emission-r", FEATURE_TEXTURE_GLOW, 0, &Surface::emission, 0),
-    color("texture-emission-g", FEATURE_TEXTURE_GLOW, 8, &Surface::emission, 1),
-    color("texture-emission-b", FEATURE_TEXTURE_GLOW, 16, &Surface::emission, 2),
-    number("texture-specular", FEATURE_TEXTURE_GLOW, 24, &Surface::specular),
-    color("texture-specular-r", FEATURE_TEXTURE_COLOR, 0, &Surface::specular_color, 0),
-    color("texture-specular-g", FEATURE_TEXTURE_COLOR, 8, &Surface::specular_color, 1),
-    color("texture-specular-b", FEATURE_TEXTURE_COLOR, 16, &Surface::specular_color, 2),
-    number("texture-coat", FEATURE_TEXTURE_COLOR, 24, &Surface::coat),
-    number("texture-coat-roughness", FEATURE_TEXTURE_NORMAL, 24, &Surface::coat_roughness),
+    color("texture-emission-r", FEATURE_TEXTURE_GLOW, 0, &Material::emission, 0),
+    color("texture-emission-g", FEATURE_TEXTURE_GLOW, 8, &Material::emission, 1),
+    color("texture-emission-b", FEATURE_TEXTURE_GLOW, 16, &Material::emission, 2),
+    number("texture-specular", FEATURE_TEXTURE_GLOW, 24, &Material::specular),
+    color("texture-specular-r", FEATURE_TEXTURE_COLOR, 0, &Material::specular_color, 0),
+    color("texture-specular-g", FEATURE_TEXTURE_COLOR, 8, &Material::specular_color, 1),
+    color("texture-specular-b", FEATURE_TEXTURE_COLOR, 16, &Material::specular_color, 2),
+    number("texture-coat", FEATURE_TEXTURE_COLOR, 24, &Material::coat),
+    number("texture-coat-roughness", FEATURE_TEXTURE_NORMAL, 24, &Material::coat_roughness),
 };
 
 constexpr std::uint32_t WORDS =
@@ -60,11 +60,11 @@ std::uint8_t encode_factor(const TextureFactor& factor, float value) {
       std::lround(255.0F * (factor.color != nullptr ? std::sqrt(clamped) : clamped)));
 }
 
-void multiply(const TextureFactor& factor, float value, Surface& surface) {
+void multiply(const TextureFactor& factor, float value, Material& material) {
   if (factor.number != nullptr)
-    surface.*factor.number *= value;
+    material.*factor.number *= value;
   else if (factor.color != nullptr)
-    (surface.*factor.color)[factor.channel] *= value;
+    (material.*factor.color)[factor.channel] *= value;
 }
 
 std::uint16_t absent_value(std::string_view column) {
@@ -115,7 +115,7 @@ std::vector<std::uint32_t> texture_words(const std::vector<Column>& columns,
 
 SplatEmission::SplatEmission(const Scene& scene) {
   for (const TextureFactor& factor : FACTORS)
-    if (factor.color == &Surface::emission)
+    if (factor.color == &Material::emission)
       channels_[factor.channel] = bytes_of(scene.columns, factor.column);
 }
 

@@ -1,4 +1,4 @@
-/// What textures make of single splats: numbers that multiply their surface's values, as glTF 2.0's textures multiply its
+/// What textures make of single splats: numbers that multiply their material's values, as glTF 2.0's textures multiply its
 /// factors. They stand in columns of bytes (columns.h) that only scenes with such textures have; the device gets them packed as
 /// words (shaders/layout.h).
 #pragma once
@@ -15,11 +15,11 @@ namespace splatray {
 /// stored. Points without it have 255, which changes nothing.
 struct TextureFactor {
   std::string_view column;
-  std::uint32_t word;      ///< FEATURE_TEXTURE_*: the device's word
-  std::uint32_t shift;     ///< of its lowest bit there
-  float Surface::*number;  ///< the value that it multiplies, or
-  vec3 Surface::*color;    ///< a channel of this one; both null: how opaque the splat is
-  int channel;             ///< of the colour
+  std::uint32_t word;       ///< FEATURE_TEXTURE_*: the device's word
+  std::uint32_t shift;      ///< of its lowest bit there
+  float Material::*number;  ///< the value that it multiplies, or
+  vec3 Material::*color;    ///< a channel of this one; both null: how opaque the splat is
+  int channel;              ///< of the colour
 };
 
 /// How much of a splat is there: 0 nothing, 255 all of it. Paths meet it by chance, light is weakened by it.
@@ -32,7 +32,7 @@ inline constexpr std::string_view COLUMN_OPACITY = "texture-opacity";
 [[nodiscard]] std::uint8_t encode_factor(const TextureFactor& factor, float value);
 
 /// Multiplies what a factor is of.
-void multiply(const TextureFactor& factor, float value, Surface& surface);
+void multiply(const TextureFactor& factor, float value, Material& material);
 
 /// Columns of uint16 with a normal map's normal, octahedral: u + NORMAL_MAP_SCALE and v, world axes. ABSENT_NORMAL: the splat's
 /// own.
@@ -54,12 +54,12 @@ inline constexpr std::uint16_t ABSENT_NORMAL = 4095;
 [[nodiscard]] std::vector<std::uint32_t> texture_words(const std::vector<Column>& columns,
                                                        std::span<const std::uint32_t> splats);
 
-/// Radiance that splats send out: their surface's times their own factor.
+/// Radiance that splats send out: their material's times their own factor.
 class SplatEmission {
  public:
   /// The scene must outlive it.
   explicit SplatEmission(const Scene& scene);
-  /// Radiance of one splat whose surface sends out `radiance`.
+  /// Radiance of one splat whose material sends out `radiance`.
   [[nodiscard]] vec3 of(std::size_t splat, const vec3& radiance) const;
 
  private:

@@ -86,7 +86,6 @@ InputObject join_scans(std::vector<NamedScan> scans, std::vector<std::string>& n
   judge_colors(scans, notes);
   InputObject object;
   object.name = scans.size() == 1 ? scans.front().name : "scans";
-  object.material = default_material();
   std::size_t stations = 0;
   for (NamedScan& scan : scans) {
     name_stations(scan);
@@ -105,7 +104,7 @@ InputObject join_scans(std::vector<NamedScan> scans, std::vector<std::string>& n
     points.station.resize(points.size(), 0);  // where all points are of the first station it is still empty
     points.columns.push_back({std::string(COLUMN_SCAN), points.station});
   }
-  if (!points.color.empty()) object.material.diffuse = COLORED_DIFFUSE;
+  object.material = default_material(!points.color.empty());
   return object;
 }
 

@@ -6,6 +6,7 @@
 #include "engine/base/one_line.h"
 #include "engine/base/utf8.h"
 #include "engine/file/file_roles.h"
+#include "engine/scene/phong.h"
 #include "preprocess/base/counted_list.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/quoted_list.h"
@@ -32,16 +33,13 @@ Input read_geometry(const std::filesystem::path& path, const ReadOptions& option
   Input input;
   InputObject object;
   object.name = path_text(path.stem());
-  object.material = default_material();
   object.meshes.push_back(read_mesh(path, options, listener));
   if (object.meshes.front().triangles.empty())
     remove_no_data(path, object.meshes.front().vertices, input.scan_counts, listener);
   listener.show(object.meshes.front().vertices, object.meshes.front().triangles.empty());
   input.crs = object.meshes.front().vertices.crs;
   input.up = object.meshes.front().vertices.up;
-  if (!object.meshes.front().vertices.color.empty()) {
-    object.material.diffuse = COLORED_DIFFUSE;
-  }
+  object.material = default_material(!object.meshes.front().vertices.color.empty());
   input.objects.push_back(std::move(object));
   return input;
 }
@@ -196,14 +194,15 @@ void note_missing_attributes(Input& input, const std::vector<std::string>& asked
 
 }  // namespace
 
-Material default_material() {
+Material default_material(bool colored) {
   Material material{};
-  material.diffuse = {0.64F, 0.61F, 0.57F};
-  material.specular = 0.05F;
-  material.tint = glm::vec3(1.0F);
-  material.shininess = 40.0F;
+  material.phong.diffuse = colored ? glm::vec3(0.9F) : glm::vec3(0.64F, 0.61F, 0.57F);
+  material.phong.specular = 0.05F;
+  material.phong.tint = glm::vec3(1.0F);
+  material.phong.shininess = 40.0F;
   material.ior = 1.5F;
   material.flags = MATERIAL_TWO_SIDED;
+  follow_phong(material);
   return material;
 }
 

@@ -38,21 +38,21 @@ struct Bsdf {
   float layer_chosen;
 };
 
-/// What a surface and a splat's colour say; bsdf_seen() makes the rest.
-Bsdf bsdf_of(Surface surface, vec3 color, float eta) {
+/// What a material and a splat's colour say; bsdf_seen() makes the rest.
+Bsdf bsdf_of(Material material, vec3 color, float eta) {
   Bsdf bsdf;
-  bsdf.base = surface.base * color;
-  bsdf.metallic = surface.metallic;
-  float ior = LOBE_TRANSMISSION && surface.transmission > 0.0f ? eta : surface.ior;
+  bsdf.base = material.base * color;
+  bsdf.metallic = material.metallic;
+  float ior = LOBE_TRANSMISSION && material.transmission > 0.0f ? eta : material.layer_ior;
   float facing = (ior - 1.0f) / (ior + 1.0f);
-  bsdf.f0 = min(surface.specular_color * (facing * facing * surface.specular), vec3(1.0f));
-  bsdf.f90 = surface.specular;
-  bsdf.alpha = surface.roughness * surface.roughness;
-  bsdf.transmission = surface.transmission;
+  bsdf.f0 = min(material.specular_color * (facing * facing * material.specular), vec3(1.0f));
+  bsdf.f90 = material.specular;
+  bsdf.alpha = material.roughness * material.roughness;
+  bsdf.transmission = material.transmission;
   bsdf.eta = eta;
   bsdf.tint = bsdf.base;
-  bsdf.coat = surface.coat;
-  bsdf.coat_alpha = surface.coat_roughness * surface.coat_roughness;
+  bsdf.coat = material.coat;
+  bsdf.coat_alpha = material.coat_roughness * material.coat_roughness;
   return bsdf;
 }
 

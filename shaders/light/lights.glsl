@@ -8,7 +8,7 @@
 
 /// Phong shading of the hit by the dispatch's lights: diffuse / pi and the energy-normalised specular lobe, per unit irradiance.
 /// Where `scatters` is false no ray is traced: the sum is of no use.
-vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Material material, uint inside, bool scatters,
+vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Phong phong, uint inside, bool scatters,
                   INOUT(uint) shadow_rays, INOUT(Tally) tally) {
   vec3 mirrored = reflect(view_dir, hit.normal);
   vec3 sum = vec3(0.0f);
@@ -32,8 +32,8 @@ vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Material material, uint 
     }
     float falloff = point ? light_falloff(light, dir, distance_squared) : 1.0f;
     vec3 irradiance = light.power * (falloff * max(cosine, 0.0f) / distance_squared);
-    float lobe = pow(max(dot(mirrored, dir), 1e-4f), material.shininess) * (material.shininess + 2.0f) * 0.5f;
-    sum += visible * irradiance * (diffuse + vec3(material.specular * lobe)) * (1.0f / PI);
+    float lobe = pow(max(dot(mirrored, dir), 1e-4f), phong.shininess) * (phong.shininess + 2.0f) * 0.5f;
+    sum += visible * irradiance * (diffuse + vec3(phong.specular * lobe)) * (1.0f / PI);
     index += 1u;
   } while (index < frame.light_end);
   return sum;

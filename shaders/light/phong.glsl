@@ -14,12 +14,12 @@ const float THROUGHPUT_LEAST = 0.001953125f;  ///< 2^-9: a path that carries les
 /// Light sent back from the surface itself, without what it mirrors or refracts. `counts`: a full mirror has no use for it.
 vec3 local_light(Hit hit, Ray ray, Material material, bool counts, INOUT(uint) shadow_rays, INOUT(Tally) tally) {
   bool dielectric = (material.flags & MATERIAL_DIELECTRIC) != 0u;
-  vec3 diffuse = material.diffuse * hit.color;
+  vec3 diffuse = material.phong.diffuse * hit.color;
   if (GLASS) diffuse = dielectric ? vec3(0.0f) : diffuse;
   vec3 light = diffuse * environment_diffuse(hit.normal);
   if (LIGHTS) {
-    bool scatters = counts && max(max(diffuse.x, diffuse.y), max(diffuse.z, material.specular)) > 0.0f;
-    light += shade_lights(hit, ray.dir, diffuse, material, ray.inside, scatters, shadow_rays, tally);
+    bool scatters = counts && max(max(diffuse.x, diffuse.y), max(diffuse.z, material.phong.specular)) > 0.0f;
+    light += shade_lights(hit, ray.dir, diffuse, material.phong, ray.inside, scatters, shadow_rays, tally);
   }
   return light;
 }
@@ -31,7 +31,7 @@ void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) t
     if (hit.found) {
       Material material = material_at(hit.object);
       bool dielectric = GLASS && (material.flags & MATERIAL_DIELECTRIC) != 0u;
-      float mirror = MIRRORS && !dielectric ? material.mirror : 0.0f;
+      float mirror = MIRRORS && !dielectric ? material.phong.mirror : 0.0f;
       path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
       vec3 local = local_light(hit, path.ray, material, mirror < 1.0f, path.shadow, tally);
       path.radiance += path.throughput * local * (1.0f - mirror);
@@ -43,7 +43,7 @@ void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) t
           float choice = path_random(pixel, sample_index, path.bounce, frame.seed);
           next = dielectric_ray(hit, path.ray, material, choice, reflected);
         }
-        path.throughput *= dielectric ? (reflected ? vec3(1.0f) : material.tint) : material.tint * mirror;
+        path.throughput *= dielectric ? (reflected ? vec3(1.0f) : material.phong.tint) : material.phong.tint * mirror;
         bool bright = max(path.throughput.x, max(path.throughput.y, path.throughput.z)) >= THROUGHPUT_LEAST;
         bool cut = path.alive && (path.bounce >= frame.max_bounces || !bright);
         path.cut = cut ? 1u : path.cut;

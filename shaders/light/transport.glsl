@@ -1,7 +1,7 @@
 // Path tracing (Kajiya 1986, "The Rendering Equation"): at each of a path's vertices light is looked for and one direction
 // followed, both joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
 // ch. 9). The blended normal is the geometric one too, but for normal maps: discs stand in for the smooth surface that it
-// estimates, not the other way round. Needs surface_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK,
+// estimates, not the other way round. Needs material_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK,
 // LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, STAGE and those of bsdf.glsl.
 #ifndef SPLATRAY_TRANSPORT_GLSL
 #define SPLATRAY_TRANSPORT_GLSL
@@ -20,8 +20,8 @@ const float CLAY_ALBEDO = 0.8f;
 const float SCAN_SKY = 0.75f;
 
 /// What scatters light at a hit, seen at this cosine. `eta` as Bsdf has it.
-Bsdf bsdf_at(Hit hit, Surface surface, float eta, float cosine) {
-  Bsdf bsdf = bsdf_of(surface, hit.color, eta);
+Bsdf bsdf_at(Hit hit, Material material, float eta, float cosine) {
+  Bsdf bsdf = bsdf_of(material, hit.color, eta);
   if (!hit.front) bsdf.tint = vec3(1.0f);  // once, in and out together: a pane's two sides are one pane
   if (LOOK == LOOK_SCAN) bsdf.base = hit.color;
   if (LOOK == LOOK_CLAY) bsdf.base = vec3(CLAY_ALBEDO);
@@ -136,7 +136,7 @@ vec3 emitter_light(EmissionSample probe, Hit hit) {
   bool seen = hit.found && hit.target_fraction > 0.0f;
   if (SIZES && seen && light_hides(ray, NO_LIGHT)) seen = false;
   if (!seen) return vec3(0.0f);
-  vec3 sent = textured(surface_at(hit.object), hit.factors).emission;
+  vec3 sent = textured(material_at(hit.object), hit.factors).emission;
   float share = hit.target_fraction * (1.0f - emitter_share(max(probe.pdf, 1e-30f), ray, sent));
   return probe.light * sent * medium_left(ray.inside, hit.t) * share;
 }
@@ -242,21 +242,20 @@ void show_seen(INOUT(Path) path, Hit hit, Bsdf bsdf, vec3 to_eye, uint pixel) {
 /// What a path finds at a hit, and whether and how it goes on. `emitter` as sample_lights has it.
 void shade_hit(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(EmissionSample) emitter, INOUT(Tally) tally) {
   path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
-  Surface surface = textured(surface_at(hit.object), hit.factors);
+  Material material = textured(material_at(hit.object), hit.factors);
   float eta = 1.0f;
   if (GLASS) {
-    if ((material_at(hit.object).flags & MATERIAL_DIELECTRIC) != 0u)
-      eta = eta_at(hit, path.ray.inside, material_at(hit.object));
+    if ((material.flags & MATERIAL_DIELECTRIC) != 0u) eta = eta_at(hit, path.ray.inside, material);
     path.throughput *= medium_left(path.ray.inside, hit.t);
   }
   if (EMISSION) {
-    vec3 sent = surface.emission;
+    vec3 sent = material.emission;
     float share = path.pdf > 0.0f ? emitter_share(path.pdf, path.ray, sent) : 1.0f;
     path.radiance += clamped(path.throughput * sent * share, max(path.bounce, 1u) - 1u);
   }
   Basis basis = basis_of(hit.normal);
   vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));
-  Bsdf bsdf = bsdf_at(hit, surface, eta, to_eye.z);
+  Bsdf bsdf = bsdf_at(hit, material, eta, to_eye.z);
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
   if (LIGHTS || SKY || EMISSION || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
     sample_lights(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, emitter, tally);

@@ -69,9 +69,7 @@ layout(std430, binding = BIND_ACCUMULATION) buffer Accumulation { vec4 accumulat
 layout(std430, binding = BIND_GROUPS) readonly buffer GroupList { uint group_list[]; };
 layout(std430, binding = BIND_AOV) writeonly buffer AovTable { AovPixel aov[]; };
 layout(binding = BIND_ENVIRONMENT) uniform sampler2D environment_map;
-#ifdef LIT
-layout(std430, binding = BIND_SURFACES) readonly buffer SurfaceTable { Surface surfaces[]; };
-#else
+#ifndef LIT
 layout(std430, binding = BIND_RAYS) readonly buffer RayTable { RayQuery rays[]; };
 layout(std430, binding = BIND_HITS) writeonly buffer HitTable { RayHit hits[]; };
 #endif
@@ -120,7 +118,6 @@ uint splat_at(uint place) { return REFERENCES ? reference_word(place) : place; }
 Material material_at(uint object) { return materials[object]; }
 Light light_at(uint index) { return lights[index]; }
 #ifdef LIT
-Surface surface_at(uint object) { return surfaces[object]; }
 ARRAY_OF(BIND_LIGHT_TABLES, light_tables, uint, )
 ARRAY_OF(BIND_LIGHT_TREE, light_tree, uvec4, )
 float albedo_at(uint index) { return uintBitsToFloat(READ_uint(light_tables, index)); }

@@ -110,23 +110,23 @@ Factors mean_factors(FactorSums sums, float inverse) {
   return factors;
 }
 
-/// A surface as its textures have it. What it sends out, `emission`, is the surface's times the splats' own factor.
-Surface textured(Surface surface, Factors factors) {
+/// A material as its textures have it. What it sends out, `emission`, is the material's times the splats' own factor.
+Material textured(Material material, Factors factors) {
   if (TEXTURE_LAYER) {
-    surface.metallic *= factors.layer.x;
-    surface.roughness *= factors.layer.y;
-    surface.transmission *= factors.layer.z;
+    material.metallic *= factors.layer.x;
+    material.roughness *= factors.layer.y;
+    material.transmission *= factors.layer.z;
   }
   if (TEXTURE_GLOW) {
-    surface.emission *= vec3(factors.glow);
-    surface.specular *= factors.glow.w;
+    material.emission *= vec3(factors.glow);
+    material.specular *= factors.glow.w;
   }
   if (TEXTURE_COLOR) {
-    surface.specular_color *= vec3(factors.color);
-    surface.coat *= factors.color.w;
+    material.specular_color *= vec3(factors.color);
+    material.coat *= factors.color.w;
   }
-  if (TEXTURE_NORMAL) surface.coat_roughness *= factors.coat_roughness;
-  return surface;
+  if (TEXTURE_NORMAL) material.coat_roughness *= factors.coat_roughness;
+  return material;
 }
 
 #endif

@@ -89,9 +89,10 @@ bool pass_glass(uvec4 words, INOUT(vec3) light, INOUT(uint) passed) {
   Material material = material_at(splat_object(words));
   bool glass = TINTED && (material.flags & MATERIAL_DIELECTRIC) != 0u;
   uint object_bit = 1u << material.mask_bit;
-  vec3 tint = material.tint * material.tint;
 #ifdef LIT
-  if (TINTED) tint = surface_at(splat_object(words)).base;
+  vec3 tint = material.base;
+#else
+  vec3 tint = material.phong.tint * material.phong.tint;
 #endif
   light = glass && (passed & object_bit) == 0u ? light * tint : light;
   passed |= glass ? object_bit : 0u;

@@ -57,10 +57,10 @@ TEST(PictureNotes, LightThatIsNotThere) {
   look.lights.push_back({LIGHT_POINT, {}, vec3(1.0F)});
   EXPECT_EQ(missing_light(look, settings), std::vector<std::string>{"1 of 2 lights have no power"});
   look.lights = {};
-  look.objects = {{Material{}}, {Surface{}}};
-  look.objects.surfaces[0].emission = vec3(0.0F, 1.0F, 0.0F);
+  look.materials = {Material{}};
+  look.materials[0].emission = vec3(0.0F, 1.0F, 0.0F);
   EXPECT_TRUE(missing_light(look, settings).empty()) << "an object sends out light";
-  look.objects = {};
+  look.materials = {};
   show({0, 0, {}, vec3(1.0F)});
   EXPECT_TRUE(missing_light(look, settings).empty());
   settings.environment_strength = 0.0F;

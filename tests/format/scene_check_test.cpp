@@ -153,20 +153,23 @@ TEST(SceneCheck, FindsMaterialsOutOfRange) {
   const auto found = [](auto member, auto value) {
     return found_after([=](Scene& s) { s.materials[1].*member = value; });
   };
+  const auto found_in_phong = [](auto member, auto value) {
+    return found_after([=](Scene& s) { s.materials[1].phong.*member = value; });
+  };
   for (const float wrong : {-1e30F, -0.01F, 1.01F, 1e30F, INFINITY, NAN}) {
-    EXPECT_EQ(found(&Material::mirror, wrong), "material 1 with a mirror out of range");
-    EXPECT_EQ(found(&Material::specular, wrong), "material 1 with a specular reflectance out of range");
-    EXPECT_EQ(found(&Material::tint, vec3(0.5F, wrong, 0.5F)), "material 1 with a tint out of range");
-    EXPECT_EQ(found(&Material::diffuse, vec3(0.5F, 0.5F, wrong)),
+    EXPECT_EQ(found_in_phong(&Phong::mirror, wrong), "material 1 with a mirror out of range");
+    EXPECT_EQ(found_in_phong(&Phong::specular, wrong), "material 1 with a specular reflectance out of range");
+    EXPECT_EQ(found_in_phong(&Phong::tint, vec3(0.5F, wrong, 0.5F)), "material 1 with a tint out of range");
+    EXPECT_EQ(found_in_phong(&Phong::diffuse, vec3(0.5F, 0.5F, wrong)),
               "material 1 with a diffuse reflectance out of range");
   }
   for (const float wrong : {-1e30F, 0.99F, INFINITY, NAN})
-    EXPECT_EQ(found(&Material::shininess, wrong), "material 1 with a shininess out of range");
+    EXPECT_EQ(found_in_phong(&Phong::shininess, wrong), "material 1 with a shininess out of range");
   for (const float wrong : {-1.0F, 0.0F, INFINITY, NAN})
     EXPECT_EQ(found(&Material::ior, wrong), "material 1 with an index of refraction out of range");
   EXPECT_EQ(found(&Material::mask_bit, 32U), "material 1 with a mask bit out of range");
   EXPECT_EQ(found(&Material::flags, 8U), "material 1 with flags out of range");
-  for (const float right : {0.0F, 1.0F}) EXPECT_EQ(found(&Material::mirror, right), "");
+  for (const float right : {0.0F, 1.0F}) EXPECT_EQ(found_in_phong(&Phong::mirror, right), "");
 }
 
 TEST(SceneCheck, FindsLightsOutOfRange) {

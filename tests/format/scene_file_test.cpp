@@ -73,7 +73,6 @@ TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   scene.stations.clear();
   scene.camera.reset();
   scene.lights.clear();
-  scene.surfaces.clear();
   scene.environment_path.clear();
   scene.build.normal_fields = false;
   const Bytes least = written(scene);
@@ -144,11 +143,13 @@ TEST_F(SceneFile, ForgedContentIsRefused) {
   says("node_pool", 8, 0x80000001, "empty leaf 2 whose box reaches over a filled leaf");
   says("node_pool", 32, 0x80000000, "1 filled leaves that are not in the tree");
   says("slab_pool", 4, 0x20F803E0, "slab 1 whose halves leave out 1");
-  says("materials", 28, std::bit_cast<std::uint32_t>(-1e30F),
+  says("materials", 96 + 28, std::bit_cast<std::uint32_t>(-1e30F),
        "material 0 with a shininess out of range, expected 1 or more");
-  says("materials", 32, std::bit_cast<std::uint32_t>(1e30F),
+  says("materials", 96 + 32, std::bit_cast<std::uint32_t>(1e30F),
        "material 0 with a mirror out of range, expected 0 to 1");
-  says("materials", 44, 32, "material 0 with a mask bit");
+  says("materials", 28, std::bit_cast<std::uint32_t>(1.5F),
+       "material 0 with a roughness out of range, expected 0 to 1");
+  says("materials", 84, 32, "material 0 with a mask bit");
   says("lights", 32, std::bit_cast<std::uint32_t>(-1.0F), "light 0 with a power");
   says("stations", 24, 2, "a station's flag above 1");
   says("stations", 4, 0x7FF00000, "a station whose place is not finite");

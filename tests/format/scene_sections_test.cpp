@@ -2,6 +2,7 @@
 #include "engine/file/scene_sections.h"
 
 #include "engine/file/scene_file.h"
+#include "engine/scene/phong.h"
 #include "tests/format/same_scene.h"
 #include "tests/format/scene_file_fixture.h"
 #include "tests/format/scene_of_sections.h"
@@ -70,8 +71,7 @@ TEST_F(SceneSections, OfOneNameAreRefused) {
 }
 
 TEST_F(SceneSections, TailsOfLongerRecordsAreLeftOut) {
-  for (const char* name :
-       {"lights", "stations", "camera", "root", "build", "world", "materials", "surfaces"}) {
+  for (const char* name : {"lights", "stations", "camera", "root", "build", "world", "materials"}) {
     FileSections longer = sections;
     FileSection& section = section_in(longer, name);
     for (std::size_t end = section.content.size(); end > 0; end -= section.element_bytes)
@@ -80,6 +80,24 @@ TEST_F(SceneSections, TailsOfLongerRecordsAreLeftOut) {
     SCOPED_TRACE(name);
     expect_same_scene(read(file_of(longer)), scene);
   }
+}
+
+/// As files of versions 10 to 14 have materials, and the first ones of version 15.
+TEST_F(SceneSections, OldMaterialsStandBesideSurfacesOrAlone) {
+  FileSection& materials = section_in(sections, "materials");
+  FileSection old{"materials", 0, 48, 0, {}}, surfaces{"surfaces", 0, 80, 0, {}};
+  for (std::size_t at = 0; at < materials.content.size(); at += 144) {
+    const Bytes record = materials.content.substr(at, 144);
+    old.content += record.substr(96, 36) + record.substr(76, 12);  // phong; ior, flags, mask_bit
+    surfaces.content += record.substr(0, 76) + Bytes(4, '\0');
+  }
+  materials = old;
+  sections.push_back(surfaces);
+  expect_same_scene(read(file_of(sections)), scene);
+  sections.back().content.resize(80);
+  expect_refusal(file_of(sections), "1 surfaces, expected none or the 2 of the objects");
+  for (Material& material : scene.materials) follow_phong(material);
+  expect_same_scene(read(file_of(without(sections, "surfaces"))), scene);
 }
 
 TEST_F(SceneSections, WhatShorterRecordsDoNotHoldIsZero) {

@@ -1,9 +1,9 @@
 /// A complete small scene: two objects, five references in two filled leaves, colours, normal fields, columns of each
 /// type, stations, lights, camera, names.
 #pragma once
+#include "engine/scene/phong.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/splat.h"
-#include "engine/scene/surface.h"
 
 namespace splatray {
 
@@ -33,21 +33,20 @@ inline Scene tiny_scene() {
                    {"time", std::vector<double>{1e9 + 1e-6, 0.0, -1.0, 1e-300}}};
   scene.stations = {{"door", glm::dvec3(1.5, -2.5, 3.5), 2, 3}, {"", std::nullopt, 0, 0}};
   Material glass{};
-  glass.tint = vec3(0.5F, 0.25F, 1.0F);
-  glass.shininess = 1.0F;
+  glass.phong.tint = vec3(0.5F, 0.25F, 1.0F);
+  glass.phong.shininess = 1.0F;
   glass.ior = 1.5F;
   glass.flags = MATERIAL_DIELECTRIC;
   Material matte{};
-  matte.diffuse = vec3(0.75F);
-  matte.shininess = 32.0F;
+  matte.phong.diffuse = vec3(0.75F);
+  matte.phong.shininess = 32.0F;
   matte.ior = 1.0F;
   matte.flags = MATERIAL_TWO_SIDED;
+  follow_phong(glass);
+  follow_phong(matte);
+  glass.base = glass.phong.tint;
+  matte.emission = vec3(2.0F, 1.5F, 1.0F);
   scene.materials = {glass, matte};
-  Surface lamp = surface_of(matte);
-  lamp.emission = vec3(2.0F, 1.5F, 1.0F);
-  Surface pane = surface_of(glass);
-  pane.base = glass.tint;
-  scene.surfaces = {pane, lamp};
   scene.object_names = {"glass", ""};
   scene.lights = {{LIGHT_POINT, {1.0, 2.0, 3.0}, vec3(4.0F, 5.0F, 6.0F)}};
   scene.camera = Camera{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, {0.0, 0.0, 1.0}, 35.0, 0.0};

@@ -28,12 +28,12 @@ TEST(Features, FacesFollowTheMaterials) {
 
 TEST(Features, OnlyWhatTheSceneHasIsOn) {
   std::vector<Material> materials = {with_flags(0)};
-  materials[0].diffuse = glm::vec3(0.5F);
+  materials[0].phong.diffuse = glm::vec3(0.5F);
   const SceneContent nothing{.materials = material_content(materials)};
   EXPECT_EQ(picture_features(nothing, {})[SPEC_FEATURES], 0U);
 
   materials.push_back(with_flags(MATERIAL_DIELECTRIC));
-  materials[0].mirror = 0.5F;
+  materials[0].phong.mirror = 0.5F;
   const SceneContent everything{.materials = material_content(materials),
                                 .pools = FEATURE_COLORS | FEATURE_FIELDS | FEATURE_CLIPS,
                                 .ellipses = true,
@@ -49,16 +49,16 @@ TEST(Features, OnlyWhatTheSceneHasIsOn) {
 
 TEST(Features, LightsThatNoMaterialScattersAreOff) {
   Material gold = with_flags(MATERIAL_TWO_SIDED), glass = with_flags(MATERIAL_DIELECTRIC);
-  gold.mirror = 1.0F;
-  gold.diffuse = glass.diffuse = glm::vec3(0.5F);
+  gold.phong.mirror = 1.0F;
+  gold.phong.diffuse = glass.phong.diffuse = glm::vec3(0.5F);
   const auto lit = [](const std::vector<Material>& materials) {
     const SceneContent content{.materials = material_content(materials), .lights = true};
     return (picture_features(content, {})[SPEC_FEATURES] & FEATURE_LIGHTS) != 0;
   };
   EXPECT_FALSE(lit({gold, glass}));
-  glass.specular = 0.05F;
+  glass.phong.specular = 0.05F;
   EXPECT_TRUE(lit({gold, glass}));
-  gold.mirror = 0.9F;
+  gold.phong.mirror = 0.9F;
   EXPECT_TRUE(lit({gold}));
 }
 

@@ -58,7 +58,7 @@ TEST_F(FramesTest, PixelsThatSeeNothingTakeOneMorePipelineOnce) {
 }
 
 TEST_F(FramesTest, MaterialsChange) {
-  scene.materials[0].diffuse = {1.0F, 0.0F, 0.0F};
+  scene.materials[0].phong.diffuse = {1.0F, 0.0F, 0.0F};
   tracer.set_materials(scene.materials);
   expect_changed_without_rebuilding();
 }
@@ -94,12 +94,12 @@ TEST_F(FramesTest, EnvironmentIsSeenAroundTheDisc) {
 }
 
 TEST_F(FramesTest, FeaturesThatReturnAreNotRebuilt) {
-  scene.materials[0].mirror = 1.0F;
-  scene.materials[0].tint = glm::vec3(1.0F);
+  scene.materials[0].phong.mirror = 1.0F;
+  scene.materials[0].phong.tint = glm::vec3(1.0F);
   tracer.set_materials(scene.materials);
   (void)center();
   EXPECT_EQ(tracer.pipelines_built(), built + 1);
-  scene.materials[0].mirror = 0.0F;
+  scene.materials[0].phong.mirror = 0.0F;
   tracer.set_materials(scene.materials);
   EXPECT_EQ(center(), first);
   EXPECT_EQ(tracer.pipelines_built(), built + 1);
@@ -107,7 +107,7 @@ TEST_F(FramesTest, FeaturesThatReturnAreNotRebuilt) {
 
 TEST_F(FramesTest, SceneIsReplaced) {
   Scene other = disc_scene(2);
-  other.materials[0].diffuse = glm::vec3(0.0F);
+  other.materials[0].phong.diffuse = glm::vec3(0.0F);
   tracer.upload(other);
   EXPECT_NE(center(), first);
   EXPECT_EQ(tracer.pools_uploaded(), 2U);

@@ -1,7 +1,7 @@
 /// A tracer for tests and benchmarks that change one thing after the other of what a scene is seen in.
 #pragma once
 #include "engine/gpu/tracer.h"
-#include "engine/scene/surface.h"
+#include "engine/scene/phong.h"
 
 namespace splatray {
 
@@ -22,9 +22,8 @@ class ShownTracer : public Tracer {
     look.environment = std::make_shared<const Environment>(std::move(environment));
   }
   void set_materials(std::vector<Material> materials) {
-    std::vector<Surface> surfaces;
-    for (const Material& material : materials) surfaces.push_back(surface_of(material));
-    look.objects = {std::move(materials), std::move(surfaces)};
+    for (Material& material : materials) follow_phong(material);
+    look.materials = std::move(materials);
   }
 
   [[nodiscard]] Image render(const View& view, const Settings& settings, const Progress& progress = {},

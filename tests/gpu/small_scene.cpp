@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/scene/phong.h"
 #include "engine/scene/splat.h"
 
 namespace splatray {
@@ -14,9 +15,10 @@ Scene disc_scene(std::uint32_t objects) {
   scene.bounds_max_world = glm::dvec3(DISC_RADIUS_WORLD);
   const double radius = DISC_RADIUS_WORLD / scene.root.unit_world;
   Material matte{};
-  matte.diffuse = glm::vec3(1.0F);
-  matte.shininess = 1.0F;
+  matte.phong.diffuse = glm::vec3(1.0F);
+  matte.phong.shininess = 1.0F;
   matte.ior = 1.0F;
+  follow_phong(matte);
   for (std::uint32_t i = 0; i < objects; ++i) {
     const glm::dvec3 center = glm::round(scene.root.to_root({0.0, 0.0, -0.2 * i}));
     scene.data_pool.push_back(pack_splat({center, {0.0, 0.0, 1.0}, radius * radius, i}));

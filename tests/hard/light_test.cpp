@@ -119,8 +119,8 @@ TEST(Shadow, TerminatorHasNoDarkFacets) {
 /// The square [-1, 1]^2 at y = 0, white and matte, seen from above; orthographic.
 Scene white_floor() {
   Material white = test_material(0);
-  white.diffuse = vec3(1.0F);
-  white.specular = 0.0F;
+  white.phong.diffuse = vec3(1.0F);
+  white.phong.specular = 0.0F;
   return scene_of({{rectangle({.count = 20000}, {-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), white}});
 }
 

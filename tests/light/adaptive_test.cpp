@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/device/vulkan/vulkan_device.h"
-#include "engine/scene/surface.h"
 #include "tests/all_tests.h"
 #include "tests/light/lit.h"
 
@@ -87,8 +86,7 @@ TEST_F(Adaptive, HardlyDarkensWhatIsRare) {
     append(balls, ball_at(center, 0.004, 24));
   }
   Scene glowing = scene_of({{balls, test_material(MATERIAL_TWO_SIDED)}});
-  glowing.surfaces = surfaces_of(glowing);
-  glowing.surfaces[0].emission = vec3(1000.0F);
+  glowing.materials[0].emission = vec3(1000.0F);
   tracer_.upload(glowing);
   tracer_.set_environment(Environment{0, 0, {}, vec3(1.0F)});
   settings_.samples = 2048;

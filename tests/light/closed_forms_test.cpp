@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "engine/scene/surface.h"
 #include "tests/all_tests.h"
 #include "tests/light/lit.h"
 
@@ -64,7 +63,7 @@ class Pane : public Lit {
   static Material clear(float tint) {
     Material material = test_material(MATERIAL_DIELECTRIC);
     material.ior = 1.0F;
-    material.tint = vec3(tint);
+    material.phong.tint = vec3(tint);
     return material;
   }
 };
@@ -73,8 +72,7 @@ TEST_F(Pane, TintsLightOnce) {
   for (const bool thin : {true, false}) {
     Scene scene = thin ? pane(clear(1.0F))
                        : scene_of({{sphere({.count = 5000, .even = true, .seed = 3}, 1.0), clear(1.0F)}});
-    scene.surfaces = surfaces_of(scene);
-    scene.surfaces.front().base = vec3(0.4F);
+    scene.materials.front().base = vec3(0.4F);
     EXPECT_NEAR(light_through(scene), 0.4, 1e-6) << (thin ? "a pane" : "a ball");
   }
   EXPECT_NEAR(light_through(pane(clear(0.7F))), 0.49, 1e-6) << "the paper's tint is of each side";
@@ -89,10 +87,9 @@ TEST_F(Plane, StraightShadowsAreTintedOnce) {
   }
   Material clear = test_material(MATERIAL_DIELECTRIC);
   clear.ior = 1.0F;
-  clear.tint = vec3(1.0F);
+  clear.phong.tint = vec3(1.0F);
   Scene scene = scene_of({floor(), {pane, clear}});
-  scene.surfaces = surfaces_of(scene);
-  scene.surfaces.back().base = vec3(0.4F);
+  scene.materials.back().base = vec3(0.4F);
   show(scene, constant(0.0F), {{LIGHT_DIRECTIONAL, {0.0, 1.0, 0.0}, vec3(2.0F)}});
   const Camera below{dvec3(0.0, 1.5, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 30.0, 0.001};
   Settings settings = lit(4);

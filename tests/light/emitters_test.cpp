@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/splat.h"
-#include "engine/scene/surface.h"
 #include "tests/light/lit.h"
 
 namespace splatray::testing {
@@ -13,24 +12,22 @@ namespace {
 /// The last object sends out this radiance.
 Scene glowing(const std::vector<TestObject>& objects, const vec3& radiance) {
   Scene scene = scene_of(objects);
-  scene.surfaces = surfaces_of(scene);
-  scene.surfaces.back().emission = radiance;
+  scene.materials.back().emission = radiance;
   return scene;
 }
 
 TEST(Emitters, OnlyOfWhatIsSeenAndSendsOutLight) {
   Scene scene = glowing({{ball_at({}, 1.0, 50), grey(0.5F)}, {ball_at({3.0, 0.0, 0.0}, 0.1, 50), grey(0.5F)}},
                         vec3(1.0F));
-  ObjectLooks objects{scene.materials, scene.surfaces};
-  EXPECT_EQ(find_emitters(scene, objects)->size(), 50U);
-  objects.materials.back().flags |= MATERIAL_HIDDEN;
-  EXPECT_EQ(find_emitters(scene, objects), nullptr);
+  EXPECT_EQ(find_emitters(scene, scene.materials)->size(), 50U);
+  scene.materials.back().flags |= MATERIAL_HIDDEN;
+  EXPECT_EQ(find_emitters(scene, scene.materials), nullptr);
 }
 
 TEST(Emitters, EachOnce) {
   Scene scene = glowing({{ball_at({}, 1.0, 50), grey(0.5F)}}, vec3(1.0F));
   scene.data_pool.push_back(scene.data_pool.front());
-  EXPECT_EQ(find_emitters(scene, {scene.materials, scene.surfaces})->size(), 50U);
+  EXPECT_EQ(find_emitters(scene, scene.materials)->size(), 50U);
 }
 
 /// A lamp above a plane.
@@ -91,8 +88,8 @@ TEST_F(Lamp, BesideOtherLights) {
 
 TEST_F(Lamp, OverAMirrorWithAMatteBase) {
   Scene scene = glowing({floor(), {ball_at(CENTER, RADIUS, 4000), grey(0.0F)}}, vec3(float(RADIANCE)));
-  scene.surfaces.front().specular = 1.0F;
-  scene.surfaces.front().roughness = 0.0F;
+  scene.materials.front().specular = 1.0F;
+  scene.materials.front().roughness = 0.0F;
   show(scene, constant(0.0F), {});
   const Mean sampled = irradiance_shown(1024);
   tracer_.look.emitters = {};

@@ -22,8 +22,8 @@ using std::numbers::pi;
 
 inline Material grey(float albedo) {
   Material material = test_material(MATERIAL_TWO_SIDED);
-  material.diffuse = vec3(albedo);
-  material.specular = material.mirror = 0.0F;
+  material.phong.diffuse = vec3(albedo);
+  material.phong.specular = material.phong.mirror = 0.0F;
   return material;
 }
 

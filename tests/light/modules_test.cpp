@@ -16,7 +16,7 @@ class Modules : public Lit {
     TestObject mirror{rectangle_surface("mirror", {-1.0, 0.0, -0.8}, {2.0, 0.0, 0.0}, {0.0, 1.5, 0.0})
                           .make({.count = 1000, .even = true}),
                       grey(0.5F)};
-    mirror.material.mirror = 0.8F;
+    mirror.material.phong.mirror = 0.8F;
     return scene_of(
         {floor, mirror, {ball_at({0.2, 0.5, 0.2}, 0.4, 1000), test_material(MATERIAL_DIELECTRIC)}});
   }

@@ -2,7 +2,6 @@
 #include "engine/device/host/host_device.h"
 #include "engine/scene/octahedral.h"
 #include "engine/scene/splat.h"
-#include "engine/scene/surface.h"
 #include "engine/scene/texture_factors.h"
 #include "tests/all_tests.h"
 #include "tests/light/lit.h"
@@ -13,29 +12,32 @@ namespace {
 constexpr std::uint8_t FACTOR = 100;
 
 /// Something of each lobe.
-Surface rich_surface() {
-  Surface surface{};
-  surface.base = {0.8F, 0.5F, 0.2F};
-  surface.metallic = 0.6F;
-  surface.specular_color = {0.9F, 0.6F, 0.8F};
-  surface.roughness = 0.6F;
-  surface.emission = {2.0F, 1.0F, 0.5F};
-  surface.specular = 0.9F;
-  surface.transmission = 0.8F;
-  surface.coat = 0.8F;
-  surface.coat_roughness = 0.6F;
-  surface.ior = 2.0F;
-  return surface;
+Material rich_material() {
+  Material material{};
+  material.base = {0.8F, 0.5F, 0.2F};
+  material.metallic = 0.6F;
+  material.specular_color = {0.9F, 0.6F, 0.8F};
+  material.roughness = 0.6F;
+  material.emission = {2.0F, 1.0F, 0.5F};
+  material.specular = 0.9F;
+  material.transmission = 0.8F;
+  material.coat = 0.8F;
+  material.coat_roughness = 0.6F;
+  material.layer_ior = 2.0F;
+  return material;
 }
 
 class Textures : public Plane {
  protected:
   /// The floor; where x < 0 its splats have FACTOR in this column.
-  static Scene scene_with(std::uint32_t flags, const Surface& surface, std::string_view column) {
+  static Scene scene_with(std::uint32_t flags, Material material, std::string_view column) {
     TestObject object = floor();
     object.material.flags = flags;
     Scene scene = scene_of({object});
-    scene.surfaces = {surface};
+    material.phong = scene.materials.front().phong;
+    material.ior = scene.materials.front().ior;
+    material.flags = flags;
+    scene.materials = {material};
     if (column.empty()) return scene;
     std::vector<std::uint8_t> bytes;
     for (const uvec4& words : scene.data_pool)
@@ -47,7 +49,7 @@ class Textures : public Plane {
   /// itself: beside such light, which lights are looked for is chance.
   vec3 radiance(const Scene& scene, double x) {
     std::vector<SceneLight> sun = {{LIGHT_DIRECTIONAL, {0.6, 1.0, 0.2}, vec3(3.0F)}};
-    if (scene.surfaces.front().emission != vec3(0.0F)) sun.clear();
+    if (scene.materials.front().emission != vec3(0.0F)) sun.clear();
     show(scene, constant(0.3F), sun);
     const Camera camera{dvec3(x - 0.8, 1.0, 0.0), dvec3(x, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), 10.0, 0.001};
     vec3 sum(0.0F);
@@ -57,18 +59,18 @@ class Textures : public Plane {
   }
 };
 
-TEST_F(Textures, MultiplyTheirSurfacesValues) {
+TEST_F(Textures, MultiplyTheirMaterialsValues) {
   SPLATRAY_NIGHTLY();
   for (const TextureFactor& factor : texture_factors()) {
     if (factor.column == COLUMN_OPACITY) continue;
     SCOPED_TRACE(factor.column);
-    const bool glass = factor.number == &Surface::transmission;
+    const bool glass = factor.number == &Material::transmission;
     const std::uint32_t flags = glass ? MATERIAL_DIELECTRIC : MATERIAL_TWO_SIDED;
     const float value = float(FACTOR) / 255.0F;
-    Surface changed = rich_surface();
+    Material changed = rich_material();
     multiply(factor, factor.color != nullptr ? value * value : value, changed);
-    Surface before = rich_surface();
-    if (factor.color != &Surface::emission) changed.emission = before.emission = vec3(0.0F);
+    Material before = rich_material();
+    if (factor.color != &Material::emission) changed.emission = before.emission = vec3(0.0F);
     const vec3 plain = radiance(scene_with(flags, before, ""), -1.0);
     const vec3 truth = radiance(scene_with(flags, changed, ""), -1.0);
     const Scene halves = scene_with(flags, before, factor.column);
@@ -79,9 +81,9 @@ TEST_F(Textures, MultiplyTheirSurfacesValues) {
   }
 }
 
-TEST_F(Textures, EmissionIsTheSurfacesTimesTheFactor) {
-  Surface lamp{};
-  lamp.ior = 1.5F;
+TEST_F(Textures, EmissionIsTheMaterialsTimesTheFactor) {
+  Material lamp{};
+  lamp.layer_ior = 1.5F;
   lamp.emission = {2.0F, 1.0F, 0.5F};
   const Scene scene = scene_with(MATERIAL_TWO_SIDED, lamp, "texture-emission-g");
   const float value = float(FACTOR) / 255.0F;
@@ -93,9 +95,8 @@ TEST_F(Textures, EmissionIsTheSurfacesTimesTheFactor) {
     EXPECT_FLOAT_EQ(pixel.z, 0.5F);
   }
   const SplatEmission emission(scene);
-  const ObjectLooks objects{scene.materials, scene.surfaces};
   double power = 0.0;
-  const Emitters emitters = find_emitters(scene, objects);
+  const Emitters emitters = find_emitters(scene, scene.materials);
   for (const Emitter& emitter : *emitters) power += double(emitter.power);
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     const bool left = scene.root.to_world(unpack_splat(scene.data_pool[i]).center).x < 0.0;
@@ -130,8 +131,7 @@ class SeeThrough : public Lit {
         objects.push_back({std::move(points), grey(0.0F)});
     }
     Scene scene = scene_of(objects);
-    scene.surfaces = surfaces_of(scene);
-    for (Surface& surface : scene.surfaces) surface.specular = 0.0F;
+    for (Material& material : scene.materials) material.specular = 0.0F;
     std::vector<std::uint8_t> bytes;
     for (const uvec4& words : scene.data_pool)
       bytes.push_back(unpack_splat(words).object == 0 ? 255 : std::uint8_t(255.0 * OPACITY));
@@ -144,7 +144,7 @@ TEST_F(SeeThrough, PathsPassEachSheetAsOftenAsItsOpacitySays) {
   SPLATRAY_NIGHTLY();
   for (const bool joined : {false, true}) {
     Scene scene = sheets(heights(joined), joined);
-    scene.surfaces[0].emission = vec3(1.0F);
+    scene.materials[0].emission = vec3(1.0F);
     show(scene, constant(0.0F), {});
     for (const dvec3 eye : {dvec3(0.0, 3.0, 0.0), dvec3(1.5, 3.0, 0.0)}) {
       const Camera camera{eye, dvec3(0.0), dvec3(0.0, 0.0, -1.0), 10.0, 0.001};
@@ -159,8 +159,7 @@ TEST_F(SeeThrough, PathsPassEachSheetAsOftenAsItsOpacitySays) {
 /// white in white.
 TEST_F(SeeThrough, PathsLeaveSheetsThatTheyMeetAgain) {
   Scene scene = scene_of({{torus({.count = 60, .even = false}, 0.35, 0.005, 0.0, 2.0 * pi), grey(1.0F)}});
-  scene.surfaces = surfaces_of(scene);
-  for (Surface& surface : scene.surfaces) surface.specular = 0.0F;
+  for (Material& material : scene.materials) material.specular = 0.0F;
   scene.columns.push_back(
       {std::string(COLUMN_OPACITY), std::vector<std::uint8_t>(scene.data_pool.size(), 13)});
   show(scene, constant(1.0F), {});
@@ -174,7 +173,7 @@ TEST_F(SeeThrough, PathsLeaveSheetsThatTheyMeetAgain) {
 TEST_F(SeeThrough, LightOfLightsIsWeakenedByEachSheet) {
   for (const bool joined : {false, true}) {
     Scene scene = sheets(heights(joined), joined);
-    scene.surfaces[0].base = vec3(1.0F);
+    scene.materials[0].base = vec3(1.0F);
     show(scene, constant(0.0F), {{LIGHT_DIRECTIONAL, {0.5, 1.0, 0.0}, vec3(float(pi))}});
     const double cosine = 1.0 / std::sqrt(1.25);
     // From below all sheets, so that nothing but the shadow rays meets them.
@@ -214,8 +213,8 @@ TEST_F(Textures, NormalMapsTurnTheNormalAndNotThePlane) {
   const dvec3 tilted = glm::normalize(dvec3(0.5, 1.0, 0.3));
   const glm::ivec2 code = octahedral_nearest(tilted, NORMAL_MAP_SCALE) + NORMAL_MAP_SCALE;
   Scene scene = scene_with(MATERIAL_TWO_SIDED, {}, "");
-  scene.surfaces[0].base = vec3(1.0F);
-  scene.surfaces[0].ior = 1.5F;
+  scene.materials[0].base = vec3(1.0F);
+  scene.materials[0].layer_ior = 1.5F;
   const std::size_t splats = scene.data_pool.size();
   scene.columns = {{std::string(COLUMN_NORMAL_U), std::vector<std::uint16_t>(splats, std::uint16_t(code.x))},
                    {std::string(COLUMN_NORMAL_V), std::vector<std::uint16_t>(splats, std::uint16_t(code.y))}};
@@ -233,7 +232,7 @@ TEST_F(Textures, NormalMapsTurnTheNormalAndNotThePlane) {
 /// All data pools, with and without pages, give the same picture.
 TEST_F(Textures, AreTheSplatsOwnWhereverTheyLie) {
   SPLATRAY_NIGHTLY();
-  Scene scene = scene_with(MATERIAL_TWO_SIDED, rich_surface(), "texture-roughness");
+  Scene scene = scene_with(MATERIAL_TWO_SIDED, rich_material(), "texture-roughness");
   std::vector<std::uint8_t> bytes;
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i)
     bytes.push_back(static_cast<std::uint8_t>(i * 37 % 256));

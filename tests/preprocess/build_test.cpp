@@ -119,7 +119,7 @@ TEST(Build, RefusesLooksThatSceneFilesDoNotHold) {
     return "";
   };
   EXPECT_EQ(refusal([](Input&) {}), "");
-  EXPECT_EQ(refusal([](Input& i) { i.objects[0].material.mirror = 1e30F; }),
+  EXPECT_EQ(refusal([](Input& i) { i.objects[0].material.phong.mirror = 1e30F; }),
             "the input has material 0 with a mirror out of range, expected 0 to 1");
   EXPECT_EQ(refusal([](Input& i) {
               i.lights = {{LIGHT_POINT, glm::dvec3(0.0), vec3(-1.0F)}};

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "engine/scene/phong.h"
+
 namespace splatray::test {
 namespace {
 
@@ -69,14 +71,12 @@ InputObject square_lattice(std::size_t side, double spacing) {
 
 Input input_of(InputObject object) {
   Input input;
-  object.material = Material{.diffuse = vec3(0.8F),
-                             .specular = 0.0F,
-                             .tint = vec3(1.0F),
-                             .shininess = 1.0F,
-                             .mirror = 0.0F,
-                             .ior = 1.0F,
-                             .flags = 0,
-                             .mask_bit = 0};
+  object.material = {};
+  object.material.phong.diffuse = vec3(0.8F);
+  object.material.phong.tint = vec3(1.0F);
+  object.material.phong.shininess = 1.0F;
+  object.material.ior = 1.0F;
+  follow_phong(object.material);
   input.objects.push_back(std::move(object));
   return input;
 }

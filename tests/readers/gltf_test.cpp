@@ -106,7 +106,7 @@ TEST(Gltf, PointsPrimitivesAndVertexColours) {
                              R"(,"mode":0,"material":0)"))},
       {});
   EXPECT_EQ(input.objects[0].points.size(), 12U);  // the indices name twelve
-  EXPECT_FLOAT_EQ(input.objects[0].material.diffuse.y, 0.25F);
+  EXPECT_FLOAT_EQ(input.objects[0].material.phong.diffuse.y, 0.25F);
   EXPECT_EQ(input.objects[0].material.flags, 0U);
 }
 
@@ -137,22 +137,22 @@ TEST(Gltf, MaterialsBecomeGlassMirrorsAndPlastic) {
       R"("attenuationDistance":1,"attenuationColor":[0.25,1,1]}}})");
   EXPECT_EQ(glass.flags, MATERIAL_DIELECTRIC);
   EXPECT_FLOAT_EQ(glass.ior, 1.33F);
-  EXPECT_FLOAT_EQ(glass.tint.x, 0.25F);
-  EXPECT_FLOAT_EQ(glass.tint.y, 0.5F);
+  EXPECT_FLOAT_EQ(glass.phong.tint.x, 0.25F);
+  EXPECT_FLOAT_EQ(glass.phong.tint.y, 0.5F);
   const Material mirror = material(R"({"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.8,0.7,1],)"
                                    R"("metallicFactor":1,"roughnessFactor":0.1}})");
-  EXPECT_FLOAT_EQ(mirror.mirror, 1.0F);
-  EXPECT_FLOAT_EQ(mirror.tint.z, 0.7F);
+  EXPECT_FLOAT_EQ(mirror.phong.mirror, 1.0F);
+  EXPECT_FLOAT_EQ(mirror.phong.tint.z, 0.7F);
   const Material rough_metal = material(R"({"pbrMetallicRoughness":{"roughnessFactor":0.8}})");
-  EXPECT_FLOAT_EQ(rough_metal.mirror, 0.0F);
-  EXPECT_FLOAT_EQ(rough_metal.diffuse.x, 0.6F);
+  EXPECT_FLOAT_EQ(rough_metal.phong.mirror, 0.0F);
+  EXPECT_FLOAT_EQ(rough_metal.phong.diffuse.x, 0.6F);
   const Material plastic =
       material(R"({"doubleSided":true,"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.5},)"
                R"("extras":{"mirror":0.25,"shininess":77}})");
   EXPECT_EQ(plastic.flags, MATERIAL_TWO_SIDED);
-  EXPECT_FLOAT_EQ(plastic.mirror, 0.25F);
-  EXPECT_FLOAT_EQ(plastic.shininess, 77.0F);
-  EXPECT_NEAR(plastic.specular, 0.105F, 1e-4F);
+  EXPECT_FLOAT_EQ(plastic.phong.mirror, 0.25F);
+  EXPECT_FLOAT_EQ(plastic.phong.shininess, 77.0F);
+  EXPECT_NEAR(plastic.phong.specular, 0.105F, 1e-4F);
 }
 
 TEST(Gltf, AnyShareOfTransmissionIsKept) {
@@ -164,11 +164,10 @@ TEST(Gltf, AnyShareOfTransmissionIsKept) {
     const Input input = read_input(
         {folder.write("t.gltf", embedded(R"({"mesh":0})", more, R"(,"material":0)"))}, keeping_meshes());
     EXPECT_EQ(input.objects[0].material.flags, MATERIAL_DIELECTRIC);
-    ASSERT_TRUE(input.objects[0].surface.has_value());
-    EXPECT_FLOAT_EQ(input.objects[0].surface->transmission, std::stof(share));
+    EXPECT_FLOAT_EQ(input.objects[0].material.transmission, std::stof(share));
     EXPECT_EQ(input.objects[0].material.ior, 1.0F) << "a pane";
-    EXPECT_EQ(input.objects[0].surface->coat, 1.0F) << "which mirrors as glass does";
-    EXPECT_EQ(input.objects[0].surface->coat_roughness, input.objects[0].surface->roughness);
+    EXPECT_EQ(input.objects[0].material.coat, 1.0F) << "which mirrors as glass does";
+    EXPECT_EQ(input.objects[0].material.coat_roughness, input.objects[0].material.roughness);
   }
 }
 
@@ -182,10 +181,9 @@ TEST(Gltf, NumbersOutOfRangeAreNotedAndTheNearestTaken) {
   const Input odd = read(
       R"({"name":"odd","pbrMetallicRoughness":{"roughnessFactor":-3},"emissiveFactor":[1,1,1],"extensions":{)"
       R"("KHR_materials_ior":{"ior":0.5},"KHR_materials_emissive_strength":{"emissiveStrength":1e38}}})");
-  ASSERT_TRUE(odd.objects[0].surface.has_value());
-  EXPECT_EQ(odd.objects[0].surface->roughness, 0.0F);
-  EXPECT_EQ(odd.objects[0].surface->ior, 1.0F);
-  EXPECT_EQ(odd.objects[0].surface->emission, glm::vec3(1e9F));
+  EXPECT_EQ(odd.objects[0].material.roughness, 0.0F);
+  EXPECT_EQ(odd.objects[0].material.layer_ior, 1.0F);
+  EXPECT_EQ(odd.objects[0].material.emission, glm::vec3(1e9F));
   EXPECT_TRUE(
       has_note(odd, "material odd: roughnessFactor: found -3, expected 0 to 1; the nearest is taken"));
   EXPECT_TRUE(has_note(odd, "ior: found 0.5, expected 1 or more"));

@@ -72,10 +72,9 @@ TEST(GltfTextures, AreSampledWherePointsAre) {
     EXPECT_EQ(halves_of(object, of + "g"), (Halves{118, 0}));
     EXPECT_EQ(halves_of(object, of + "b"), (Halves{0, 255}));
   }
-  ASSERT_TRUE(object.surface.has_value());
-  EXPECT_EQ(object.surface->emission, glm::vec3(4.0F, 4.0F, 2.0F)) << "the factor, not the texture's mean";
-  EXPECT_EQ(object.surface->metallic, 0.5F);
-  EXPECT_EQ(object.surface->roughness, 1.0F);
+  EXPECT_EQ(object.material.emission, glm::vec3(4.0F, 4.0F, 2.0F)) << "the factor, not the texture's mean";
+  EXPECT_EQ(object.material.metallic, 0.5F);
+  EXPECT_EQ(object.material.roughness, 1.0F);
 }
 
 TEST(GltfTextures, CountByTheirMeanWithoutCoordinates) {
@@ -85,11 +84,11 @@ TEST(GltfTextures, CountByTheirMeanWithoutCoordinates) {
   const Input input = read_quad(quad(material));
   const InputObject& object = input.objects[0];
   EXPECT_EQ(object.points.columns.size(), 3U) << "the emissive texture's alone";
-  EXPECT_FLOAT_EQ(object.surface->metallic, 0.5F);
-  EXPECT_FLOAT_EQ(object.surface->roughness, 64.0F / 255.0F);
+  EXPECT_FLOAT_EQ(object.material.metallic, 0.5F);
+  EXPECT_FLOAT_EQ(object.material.roughness, 64.0F / 255.0F);
   const Input bare = read_quad(quad(material, ""));
   EXPECT_TRUE(bare.objects[0].points.columns.empty());
-  EXPECT_FLOAT_EQ(bare.objects[0].surface->emission.z, 0.5F);
+  EXPECT_FLOAT_EQ(bare.objects[0].material.emission.z, 0.5F);
 }
 
 TEST(GltfTextures, AlphaThatBlendsIsOpacity) {

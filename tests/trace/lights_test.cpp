@@ -15,9 +15,9 @@ namespace {
 
 Scene ball_scene(std::uint32_t flags, float mirror = 0.0F) {
   Material material = test_material(flags);
-  material.mirror = mirror;
-  material.specular = 0.3F;
-  material.shininess = 20.0F;
+  material.phong.mirror = mirror;
+  material.phong.specular = 0.3F;
+  material.phong.shininess = 20.0F;
   return scene_of({{sphere({.count = 2000, .even = true, .seed = 3}, 1.0), material}});
 }
 
@@ -124,24 +124,24 @@ TEST(Lights, NoShadowRayIsTracedWhoseLightIsMultipliedByZero) {
   Scene scene = ball_scene(MATERIAL_TWO_SIDED);
   const std::uint64_t matte = shadow_rays(scene);
   EXPECT_GT(matte, 0U);
-  scene.materials[0].mirror = 1.0F;
+  scene.materials[0].phong.mirror = 1.0F;
   EXPECT_EQ(shadow_rays(scene), 0U) << "a full mirror";
-  scene.materials[0].mirror = 0.5F;
+  scene.materials[0].phong.mirror = 0.5F;
   EXPECT_GE(shadow_rays(scene), matte) << "half a mirror";
-  scene.materials[0].mirror = 0.0F;
-  scene.materials[0].diffuse = glm::vec3(0.0F);
+  scene.materials[0].phong.mirror = 0.0F;
+  scene.materials[0].phong.diffuse = glm::vec3(0.0F);
   EXPECT_EQ(shadow_rays(scene), matte) << "a highlight";
-  scene.materials[0].specular = 0.0F;
+  scene.materials[0].phong.specular = 0.0F;
   EXPECT_EQ(shadow_rays(scene), 0U) << "black";
   Scene glass = ball_scene(MATERIAL_DIELECTRIC);
   EXPECT_GT(shadow_rays(glass), 0U) << "glass with a highlight";
-  glass.materials[0].specular = 0.0F;
+  glass.materials[0].phong.specular = 0.0F;
   EXPECT_EQ(shadow_rays(glass), 0U) << "clear glass";
 }
 
 TEST(Lights, OnlyTheMaterialThatScattersTracesShadowRays) {
   Material gold = test_material(MATERIAL_TWO_SIDED), matte = test_material(MATERIAL_TWO_SIDED);
-  gold.mirror = 1.0F;
+  gold.phong.mirror = 1.0F;
   auto apart = sphere({.count = 2000, .even = true, .seed = 3}, 1.0);
   for (glm::dvec3& position : apart.position) position.x += 2.5;
   const auto near = sphere({.count = 2000, .even = true, .seed = 4}, 1.0);

@@ -8,8 +8,8 @@
 #include <array>
 #include <iostream>
 
-#include "app/library/picture/compare.h"
 #include "app/library/image_file.h"
+#include "app/library/picture/compare.h"
 #include "data/shapes.h"
 #include "engine/device/host/host_device.h"
 #include "engine/device/vulkan/vulkan_device.h"
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// A ball of glass on a floor that is half a mirror.
 Scene ball_on_mirror() {
   Material mirror = test_material(MATERIAL_TWO_SIDED);
-  mirror.mirror = 0.5F;
+  mirror.phong.mirror = 0.5F;
   return scene_of(
       {{sphere({.count = 4000}, 1.0), test_material(MATERIAL_DIELECTRIC)},
        {rectangle({.count = 4000}, {-3.0, -1.0, -3.0}, {0.0, 0.0, 6.0}, {6.0, 0.0, 0.0}), mirror}});
@@ -250,11 +250,11 @@ TEST(Picture, AMovedSplatIsNoticed) {
 /// bounce limit cuts.
 TEST(Picture, WhiteFurnaceReturnsAllEnergy) {
   Material mirror = test_material(0);
-  mirror.mirror = 1.0F;
-  mirror.tint = vec3(1.0F);
+  mirror.phong.mirror = 1.0F;
+  mirror.phong.tint = vec3(1.0F);
   Material glass = test_material(MATERIAL_DIELECTRIC);
-  glass.tint = vec3(1.0F);
-  glass.specular = 0.0F;
+  glass.phong.tint = vec3(1.0F);
+  glass.phong.specular = 0.0F;
   for (const Material& material : {mirror, glass}) {
     const Scene scene = scene_of({{sphere({.count = 20000}, 1.0), material}});
     static VulkanDevice device;

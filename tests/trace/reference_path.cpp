@@ -134,7 +134,7 @@ class Renderer {
     for (const std::uint32_t object : brute_.objects_met(ray, settings_, t_max)) {
       const Material& material = scene_.materials[object];
       if ((material.flags & MATERIAL_DIELECTRIC) == 0) return dvec3(0.0);
-      if (!passed[object]) light *= dvec3(material.tint) * dvec3(material.tint);
+      if (!passed[object]) light *= dvec3(material.phong.tint) * dvec3(material.phong.tint);
       passed[object] = true;
     }
     return light;
@@ -142,7 +142,7 @@ class Renderer {
 
   [[nodiscard]] dvec3 local(const RayQuery& ray, const TrueHit& hit, const Material& material) const {
     const bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0;
-    const dvec3 diffuse = glass ? dvec3(0.0) : dvec3(material.diffuse) * hit.color;
+    const dvec3 diffuse = glass ? dvec3(0.0) : dvec3(material.phong.diffuse) * hit.color;
     dvec3 sum = diffuse * sky_diffuse(hit.normal);
     const dvec3 position = dvec3(ray.origin) + hit.t * dvec3(ray.dir);
     const dvec3 mirrored = glm::reflect(dvec3(ray.dir), hit.normal);
@@ -156,10 +156,10 @@ class Renderer {
       dvec3 visible(1.0);
       if (settings_.shadows)
         visible = light_through(leaving(ray, hit, dir, ray.inside), point ? distance : INFINITY);
-      const double lobe = std::pow(std::max(glm::dot(mirrored, dir), 0.0), double(material.shininess)) *
-                          (double(material.shininess) + 2.0) / 2.0;
+      const double lobe = std::pow(std::max(glm::dot(mirrored, dir), 0.0), double(material.phong.shininess)) *
+                          (double(material.phong.shininess) + 2.0) / 2.0;
       sum += visible * dvec3(light.power) * (cosine / (distance * distance)) *
-             (diffuse + double(material.specular) * lobe) / pi;
+             (diffuse + double(material.phong.specular) * lobe) / pi;
     }
     return sum;
   }
@@ -189,7 +189,7 @@ class Renderer {
     const double cosine = std::clamp(-glm::dot(dir, hit.normal), 0.0, 1.0);
     if (choice < reflectance(here, behind, cosine))
       return leaving(ray, hit, glm::reflect(dir, hit.normal), ray.inside);
-    throughput *= dvec3(material.tint);
+    throughput *= dvec3(material.phong.tint);
     return leaving(ray, hit, glm::refract(dir, hit.normal, here / behind),
                    ray.inside ^ (1U << material.mask_bit));
   }
@@ -204,13 +204,13 @@ class Renderer {
       covered = true;
       const Material& material = scene_.materials[hit.object];
       const bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0;
-      const double mirror = glass ? 0.0 : double(material.mirror);
+      const double mirror = glass ? 0.0 : double(material.phong.mirror);
       sum += throughput * local(ray, hit, material) * (1.0 - mirror);
       if (glass) {
         const double choice = choice_of(pixel_number, sample, bounce, settings_.seed);
         ray = through_glass(ray, hit, material, choice, throughput);
       } else {
-        throughput *= dvec3(material.tint) * mirror;
+        throughput *= dvec3(material.phong.tint) * mirror;
         ray = leaving(ray, hit, glm::reflect(dvec3(ray.dir), hit.normal), ray.inside);
       }
       const double brightest = std::max({throughput.x, throughput.y, throughput.z});

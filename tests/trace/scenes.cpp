@@ -3,18 +3,20 @@
 #include <cstdlib>
 
 #include "data/models.h"
+#include "engine/scene/phong.h"
 #include "preprocess/build.h"
 
 namespace splatray::testing {
 
 Material test_material(std::uint32_t flags) {
   Material material{};
-  material.diffuse = vec3(0.7F, 0.6F, 0.5F);
-  material.specular = 0.1F;
-  material.shininess = 30.0F;
-  material.tint = (flags & MATERIAL_DIELECTRIC) != 0 ? vec3(0.95F, 1.0F, 0.97F) : vec3(0.0F);
+  material.phong.diffuse = vec3(0.7F, 0.6F, 0.5F);
+  material.phong.specular = 0.1F;
+  material.phong.shininess = 30.0F;
+  material.phong.tint = (flags & MATERIAL_DIELECTRIC) != 0 ? vec3(0.95F, 1.0F, 0.97F) : vec3(0.0F);
   material.ior = 1.5F;
   material.flags = flags;
+  follow_phong(material);
   return material;
 }
 
@@ -27,6 +29,7 @@ Scene scene_of(const std::vector<TestObject>& objects, std::uint32_t leaf_size) 
     for (const glm::dvec3& normal : object.points.normal) added.points.normal.emplace_back(normal);
     for (const glm::dvec3& color : object.points.color) added.points.color.emplace_back(color);
     added.material = object.material;
+    follow_phong(added.material);
     added.oriented = true;
   }
   BuildParams params;

@@ -20,7 +20,7 @@ class Stages : public ::testing::Test {
  protected:
   Stages() {
     Material mirror = test_material(0);
-    mirror.mirror = 0.8F;
+    mirror.phong.mirror = 0.8F;
     Scene scene = scene_of({ball({0, 0, 0}, test_material(MATERIAL_DIELECTRIC)), ball({2.2, 0, 0}, mirror),
                             ball({1, 2, 0}, test_material(MATERIAL_TWO_SIDED))});
     camera = default_camera(scene, 1.5);

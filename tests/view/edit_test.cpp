@@ -246,10 +246,9 @@ class EditPanels : public ::testing::Test {
  protected:
   void SetUp() override {
     gui.document = box_document({1.0, 2.0, 3.0}, 2.0);
-    gui.document.looks.materials.resize(1);
-    gui.document.looks.surfaces.resize(1);
+    gui.document.materials.resize(1);
     LoadedPart loaded;
-    loaded.looks = gui.document.looks;
+    loaded.materials = gui.document.materials;
     loaded.object_names = {"scan"};
     loaded.is_scan = true;
     gui.document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));

@@ -4,7 +4,6 @@
 
 #include "app/view/model/document_request.h"
 #include "app/view/thread/live_scene.h"
-#include "engine/scene/surface.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -17,9 +16,9 @@ inline SharedScene shared_discs(std::uint32_t count = 2) {
 /// Shows them before a white environment.
 inline Document disc_document(const Scene& scene) {
   Document document;
-  document.loaded = std::make_shared<const LoadedPart>(
-      LoadedPart{{}, {}, {}, scene.object_names, {scene.materials, surfaces_of(scene)}});
-  document.looks = document.loaded->looks;
+  document.loaded =
+      std::make_shared<const LoadedPart>(LoadedPart{{}, {}, {}, scene.object_names, scene.materials});
+  document.materials = document.loaded->materials;
   document.request.look.style = LOOK_PAPER;
   document.request.look.tone = Tone::neutral;
   document.request.look.lights = requested_lights(scene.lights);

@@ -14,7 +14,6 @@
 #include "app/view/ui/panel_parts.h"
 #include "engine/gpu/pools.h"
 #include "engine/scene/splat.h"
-#include "engine/scene/surface.h"
 #include "tests/readers/read_error.h"
 #include "tests/view/documents.h"
 #include "tests/view/gui_driver.h"
@@ -27,9 +26,8 @@ Document document_of(std::size_t objects) {
   LoadedPart loaded;
   for (std::size_t i = 0; i < objects; ++i)
     loaded.object_names.push_back(i == 1 ? "" : "part " + std::to_string(i));
-  loaded.looks.materials = std::vector<Material>(objects, named_material("matte"));
-  loaded.looks.surfaces = std::vector<Surface>(objects, surface_of(named_material("matte")));
-  document.looks = loaded.looks;
+  loaded.materials = std::vector<Material>(objects, named_material("matte"));
+  document.materials = loaded.materials;
   document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
   document.request.look.style = LOOK_PAPER;
   if (objects > 0) lights_of(document).resize(2);
@@ -51,18 +49,18 @@ Frame some_frame(ViewMode mode) {
 }
 
 bool hidden(const Document& document, std::size_t object) {
-  return (document.looks.materials[object].flags & MATERIAL_HIDDEN) != 0;
+  return (document.materials[object].flags & MATERIAL_HIDDEN) != 0;
 }
 
 /// All members of a document: whoever adds one must name it here.
 bool same(const Document& a, const Document& b) {
   const auto members = [](const Document& document) {
-    const auto& [loaded, request, camera, looks, mode, eye_dome, point_size, measures, bounds_min_world,
+    const auto& [loaded, request, camera, materials, mode, eye_dome, point_size, measures, bounds_min_world,
                  bounds_max_world] = document;
     return std::tie(loaded, request, camera, mode, eye_dome, point_size, measures, bounds_min_world,
                     bounds_max_world);
   };
-  return same_looks(a.looks, b.looks) && members(a) == members(b);
+  return same_bytes(a.materials, b.materials) && members(a) == members(b);
 }
 
 TEST(PanelsTest, AllPanelsRunOverAnyDocumentAndChangeNothing) {
@@ -127,16 +125,16 @@ TEST(PanelsTest, HideAllMeansTheObjectsListed) {
 TEST(PanelsTest, APresetReplacesTheMaterialButKeepsItHidden) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(3);
-  gui.document.looks.materials[1].flags |= MATERIAL_HIDDEN;
+  gui.document.materials[1].flags |= MATERIAL_HIDDEN;
   gui.click("/objects", {1, "object 1"});
   EXPECT_EQ(gui.state.object, 1U);
   gui.click("##column", {1, "preset"});
   gui.click("##Combo", {"gold"});
-  EXPECT_EQ(gui.document.looks.materials[1].tint, named_material("gold").tint);
+  EXPECT_EQ(gui.document.materials[1].phong.tint, named_material("gold").phong.tint);
   EXPECT_TRUE(hidden(gui.document, 1));
-  EXPECT_EQ(gui.document.looks.materials[0].tint, named_material("matte").tint);
+  EXPECT_EQ(gui.document.materials[0].phong.tint, named_material("matte").phong.tint);
   gui.click("##column", {1, "as loaded"});
-  EXPECT_TRUE(same_looks(gui.document.looks, gui.document.loaded->looks));
+  EXPECT_TRUE(same_bytes(gui.document.materials, gui.document.loaded->materials));
 }
 
 TEST(PanelsTest, ALookWithoutMaterialsSaysSoAndOffersOneThatHasThem) {
@@ -210,16 +208,16 @@ TEST(PanelsTest, CoordinatesFitIntoTheirBoxes) {
 TEST(PanelsTest, GlassObjectsKeepTheirBit) {
   GuiDriver gui(1280, 720);
   gui.document = document_of(3);
-  gui.document.looks.materials[2].mask_bit = 1;
+  gui.document.materials[2].mask_bit = 1;
   for (const int object : {2, 0}) {
     gui.state.object = static_cast<std::uint32_t>(object);
     gui.click("##column", {object, "glass"});
-    const Material& material = gui.document.looks.materials[static_cast<std::size_t>(object)];
+    const Material& material = gui.document.materials[static_cast<std::size_t>(object)];
     EXPECT_EQ(material.flags, MATERIAL_DIELECTRIC);
     EXPECT_GT(material.ior, 1.0F);
   }
-  EXPECT_EQ(gui.document.looks.materials[0].mask_bit, 0U);
-  EXPECT_EQ(gui.document.looks.materials[2].mask_bit, 1U);
+  EXPECT_EQ(gui.document.materials[0].mask_bit, 0U);
+  EXPECT_EQ(gui.document.materials[2].mask_bit, 1U);
 }
 
 TEST(PanelsTest, LightsAreAddedAndRemoved) {

@@ -14,7 +14,7 @@
 #include "app/view/window/display_table.h"
 #include "app/view/window/drop.h"
 #include "app/view/window/mouse.h"
-#include "engine/scene/surface.h"
+#include "engine/scene/phong.h"
 #include "tests/temp_folder.h"
 #include "tests/view/live_documents.h"
 
@@ -153,10 +153,10 @@ TEST(DocumentRequest, ComeBackThroughTheCommandLine) {
   part.asked.source.inputs = {"my scene.ply"};
   document.loaded = std::make_shared<const LoadedPart>(std::move(part));
   document.camera.fov_y_deg = DEFAULT_FOV_Y_DEG;  // orthographic cameras keep none
-  document.looks.materials[0].mirror = 0.3F;
-  document.looks.surfaces[0] = surface_of(document.looks.materials[0]);
-  document.looks.surfaces[0].coat = 0.25F;
-  document.looks.materials[0].flags |= MATERIAL_HIDDEN;
+  document.materials[0].phong.mirror = 0.3F;
+  follow_phong(document.materials[0]);
+  document.materials[0].coat = 0.25F;
+  document.materials[0].flags |= MATERIAL_HIDDEN;
   lights_of(document).push_back({{LIGHT_POINT, {0.1, 0.2, 0.3}, {0.5F, 0.25F, 0.75F}}, {}, true});
   document.request.look.exposure_ev = -0.75;
   document.request.settings.max_bounces = 3;
@@ -166,7 +166,7 @@ TEST(DocumentRequest, ComeBackThroughTheCommandLine) {
   const Document again = first_document(scene, facts_of(scene), request);
   EXPECT_TRUE(again.camera == document.camera);
   EXPECT_TRUE(again.request.look.lights == document.request.look.lights);
-  EXPECT_TRUE(same_looks(again.looks, document.looks));
+  EXPECT_TRUE(same_bytes(again.materials, document.materials));
   EXPECT_EQ(again.request.settings.max_bounces, 3U);
   EXPECT_EQ(again.request.settings.environment_turn, 0.4F);
   EXPECT_EQ(again.request.look.environment, "white");
@@ -193,7 +193,7 @@ TEST(DocumentRequest, ACommandOfTheSceneShownChangesTheLookAlone) {
   changed.request.look.up = glm::dvec3(1.0, 0.0, 0.0);
   changed.camera.eye.x += 1.0;
   changed.request.look.style = LOOK_CLAY;
-  changed.looks.materials[0].flags |= MATERIAL_HIDDEN;
+  changed.materials[0].flags |= MATERIAL_HIDDEN;
   Request request = copied_from(changed);
   ASSERT_TRUE(is_of_scene(document, request));
   const Document shown = shown_as(scene, document, request);
@@ -201,7 +201,7 @@ TEST(DocumentRequest, ACommandOfTheSceneShownChangesTheLookAlone) {
   EXPECT_EQ(shown.camera.eye, changed.camera.eye);
   EXPECT_EQ(up_of(shown), up_of(changed));
   EXPECT_EQ(look_of(shown), LOOK_CLAY);
-  EXPECT_TRUE(same_looks(shown.looks, changed.looks));
+  EXPECT_TRUE(same_bytes(shown.materials, changed.materials));
 
   request.source.inputs = {std::filesystem::current_path() / "x" / ".." / "discs.ply"};
   EXPECT_TRUE(is_of_scene(document, request)) << "the same file by another path";
@@ -235,7 +235,7 @@ TEST(DocumentRequest, AnotherSceneKeepsWhatAPersonChose) {
 TEST(DocumentRequest, MoreFilesComeBesideTheSceneAsItIsShown) {
   const Scene scene = disc_scene(1);
   Document document = loaded_document(scene);
-  document.looks.materials[0].flags |= MATERIAL_HIDDEN;
+  document.materials[0].flags |= MATERIAL_HIDDEN;
   const Request request = request_with(document, {"folder/more.ply", scene.object_names[0] + ".obj"});
   EXPECT_EQ(request.source.inputs,
             (SceneFiles{"discs.ply", "folder/more.ply", scene.object_names[0] + ".obj"}));

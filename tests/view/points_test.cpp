@@ -185,7 +185,7 @@ TEST(PointSampler, ShowsARoomAsItsSceneIsShown) {
   EXPECT_LT(glm::length(opened.document.camera.eye - document.camera.eye), 0.1);
   EXPECT_LT(glm::length(opened.document.camera.target - document.camera.target), 0.1);
   EXPECT_NEAR(opened.points->spacing_world, 0.1, 0.04);
-  EXPECT_TRUE(opened.document.looks.materials.empty());
+  EXPECT_TRUE(opened.document.materials.empty());
   EXPECT_EQ(opened.document.request.view.look_in, !opened.points->normal.empty());
 }
 

@@ -38,8 +38,7 @@ class ProgressiveTest : public DeviceTest {
   Image headless(bool denoises = false) {
     ShownTracer tracer(device);
     Scene shown = *scene;
-    shown.materials = document.looks.materials;
-    shown.surfaces = document.looks.surfaces;
+    shown.materials = document.materials;
     shown.lights = resolve_lights(shown, document.request, document.camera);
     shown.up = up_of(document);
     tracer.upload(shown);
@@ -79,15 +78,15 @@ TEST_F(ProgressiveTest, Camera) {
 }
 
 TEST_F(ProgressiveTest, Materials) {
-  document.looks.materials[0].diffuse = {0.5F, 0.25F, 0.125F};
-  document.looks.materials[0].mirror = 0.5F;
-  document.looks.materials[0].tint = vec3(1.0F);
+  document.materials[0].phong.diffuse = {0.5F, 0.25F, 0.125F};
+  document.materials[0].phong.mirror = 0.5F;
+  document.materials[0].phong.tint = vec3(1.0F);
   expect_live_change();
 }
 
 TEST_F(ProgressiveTest, HiddenObject) {
-  document.looks.materials[0].flags |= MATERIAL_HIDDEN;
-  document.looks.materials[1].diffuse = vec3(0.25F);
+  document.materials[0].flags |= MATERIAL_HIDDEN;
+  document.materials[1].phong.diffuse = vec3(0.25F);
   expect_live_change();
 }
 
@@ -124,7 +123,7 @@ TEST_F(ProgressiveTest, WhatMovesIsSeenWithoutNoise) {
     ++hits;
     EXPECT_NEAR(pixel.w, document.camera.eye.z, 1e-3)
         << "the discs' plane, whatever the device clips rays to";
-    EXPECT_EQ(vec3(pixel), vec3(document.looks.materials[0].diffuse)) << "facing the eye: its colour";
+    EXPECT_EQ(vec3(pixel), vec3(document.materials[0].phong.diffuse)) << "facing the eye: its colour";
   }
   EXPECT_GT(hits, moving.image.rgba.size() / 20);
 }
@@ -209,8 +208,8 @@ TEST_F(ProgressiveTest, FacingShowsBackFacesOfOneSidedObjects) {
   const AovPixel& middle = frame->image.aov[SIZE.y / 2 * SIZE.x + SIZE.x / 2];
   EXPECT_NE(middle.object, NO_OBJECT);
   EXPECT_EQ(middle.splat & 1U, 0U) << "its back";
-  document.looks.materials[0].flags |= MATERIAL_HIDDEN;
-  document.looks.materials[1].flags |= MATERIAL_HIDDEN;
+  document.materials[0].flags |= MATERIAL_HIDDEN;
+  document.materials[1].flags |= MATERIAL_HIDDEN;
   for (const AovPixel& pixel : finish().back()->image.aov) EXPECT_EQ(pixel.object, NO_OBJECT);
 }
 

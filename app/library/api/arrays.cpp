@@ -8,6 +8,7 @@
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
 #include "app/library/attributes.h"
+#include "engine/scene/phong.h"
 #include "preprocess/read/scan/narrow_column.h"
 #include "preprocess/read/scan/scan_stations.h"
 
@@ -91,8 +92,7 @@ InputObject described_object(const Object& object, std::span<const Double3> posi
   check_attributes(object.attributes, positions.size());
   InputObject made;
   made.name = object.name;
-  made.material = default_material();
-  if (!object.colors.empty()) made.material.diffuse = COLORED_DIFFUSE;
+  made.material = default_material(!object.colors.empty());
   return made;
 }
 
@@ -132,7 +132,10 @@ InputObject input_object(const Points& points) {
 InputObject input_object(const Mesh& mesh) {
   check_triangles(mesh);
   InputObject object = described_object(mesh, mesh.vertices);
-  if (mesh.material && mesh.material->glass) object.material.flags = MATERIAL_DIELECTRIC;
+  if (mesh.material && mesh.material->glass) {
+    object.material.flags = MATERIAL_DIELECTRIC;
+    follow_phong(object.material);
+  }
   splatray::Mesh& made = object.meshes.emplace_back();
   made.vertices = vertices_of(mesh, mesh.vertices);
   for (const auto& [a, b, c] : mesh.triangles) made.triangles.emplace_back(a, b, c);

@@ -48,11 +48,11 @@ ObjectChange object_change(const std::string& object, const Material& material) 
 Material described(const splatray::Material& material) {
   const auto has = [&material](std::uint32_t flag) { return (material.flags & flag) != 0; };
   Material described;
-  described.diffuse = array(material.diffuse);
-  described.specular = material.specular;
-  described.shininess = material.shininess;
-  described.tint = array(material.tint);
-  described.mirror = material.mirror;
+  described.diffuse = array(material.phong.diffuse);
+  described.specular = material.phong.specular;
+  described.shininess = material.phong.shininess;
+  described.tint = array(material.phong.tint);
+  described.mirror = material.phong.mirror;
   described.ior = material.ior;
   described.glass = has(MATERIAL_DIELECTRIC);
   described.two_sided = has(MATERIAL_TWO_SIDED);

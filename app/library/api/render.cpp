@@ -33,25 +33,25 @@ splatray::Request request_for(const splatray::Request& opened, const splatray::R
 /// A shot, and what the scene's objects look like in it.
 struct Resolved {
   Shot shot;
-  ObjectLooks objects;
+  std::vector<splatray::Material> materials;
 };
 
 /// Refuses a camera and lights before a device is opened.
 Resolved resolve_for(const Scene::Impl& impl, const splatray::Request& asked) {
   const splatray::Scene& scene = impl.loaded.scene;
   const splatray::Request request = request_for(impl.asked, asked);
-  Resolved resolved{{}, choose_objects(scene, request)};
+  Resolved resolved{{}, choose_materials(scene, request)};
   const Shot& shot = resolved.shot = resolve(request, scene, impl.loaded.facts);
   (void)make_frame_params(scene, {shot.view.camera, shot.view.width, shot.view.height}, shot.settings);
   if (const auto defect =
-          find_look_defect(resolved.objects, resolve_lights(scene, request, shot.view.camera)))
+          find_look_defect(resolved.materials, resolve_lights(scene, request, shot.view.camera)))
     refuse(defect->found, defect->expected);
   return resolved;
 }
 
 void show(Resolved& resolved, SceneOnDevice& shown) {
   shown.show_environment(resolved.shot.environment);
-  shown.show_objects(std::move(resolved.objects));
+  shown.show_materials(std::move(resolved.materials));
   expose(resolved.shot, shown);
 }
 

@@ -24,7 +24,7 @@ class Probe {
   Probe(const Scene& scene, const Scene& earlier, SceneOnDevice& shown)
       : scene_(scene), earlier_(earlier), shown_(shown) {
     look_ = shown.look();
-    for (Material& material : look_.objects.materials) material.flags |= MATERIAL_TWO_SIDED;
+    for (Material& material : look_.materials) material.flags |= MATERIAL_TWO_SIDED;
   }
 
   /// How far the surface lies from the splats from `begin` on, along their normals (1) or against them (-1).

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
-#include <cstring>
 #include <functional>
 #include <sstream>
 
@@ -12,8 +11,8 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest_name.h"
 #include "engine/base/number_text.h"
-#include "engine/scene/surface.h"
-#include "engine/scene/surface_fields.h"
+#include "engine/scene/material_fields.h"
+#include "engine/scene/phong.h"
 #include "preprocess/base/quoted_list.h"
 
 namespace splatray {
@@ -23,14 +22,8 @@ namespace {
   throw Error(ExitCode::usage, "--object: found '" + found + "', expected " + expected);
 }
 
-/// An object as it looks.
-struct ObjectLook {
-  Material material;
-  Surface surface;
-};
-
-/// What a key changes, in the order in which keys are applied: the surface follows the material.
-enum class Part { preset, material, surface };
+/// What a key changes, in the order in which keys are applied: glTF's numbers follow from Phong's.
+enum class Part { preset, phong, gltf };
 
 struct Key {
   std::string name;
@@ -38,8 +31,8 @@ struct Key {
   Part part;
   /// The value as text that reads back to the same; refuses what is out of range.
   std::function<std::string(const std::string& value)> check;
-  std::function<void(ObjectLook&, const std::string& value)> set;
-  std::function<std::string(const ObjectLook&)> get;  ///< empty function: a look does not show it
+  std::function<void(Material&, const std::string& value)> set;
+  std::function<std::string(const Material&)> get;  ///< empty function: a material does not show it
 };
 
 Key preset_key() {
@@ -49,11 +42,7 @@ Key preset_key() {
       refuse("preset=" + value, "one of " + quoted_list(names) + did_you_mean(value, names));
     return value;
   };
-  const auto set = [](ObjectLook& look, const std::string& value) {
-    change_material(look.material, value);
-    look.surface = surface_of(look.material);
-  };
-  return {"preset", "preset (a name of --material)", Part::preset, check, set, {}};
+  return {"preset", "preset (a name of --material)", Part::preset, check, change_material, {}};
 }
 
 vec3 read_color(const std::string& text) {
@@ -63,7 +52,7 @@ vec3 read_color(const std::string& text) {
 
 float read_float(const std::string& text) { return static_cast<float>(split_numbers(text, '/', 1)[0]); }
 
-/// `member`: a colour of a look.
+/// `member`: a colour of a material.
 template <class Member>
 Key color_key(const std::string& name, Part part, Member member, double most = 1.0) {
   const auto check = [=](const std::string& value) {
@@ -77,11 +66,11 @@ Key color_key(const std::string& name, Part part, Member member, double most = 1
           name + "=r/g/b",
           part,
           check,
-          [=](ObjectLook& look, const std::string& value) { member(look) = read_color(value); },
-          [=](const ObjectLook& look) { return number_text(member(look), '/'); }};
+          [=](Material& material, const std::string& value) { member(material) = read_color(value); },
+          [=](const Material& material) { return number_text(member(material), '/'); }};
 }
 
-/// `member`: a number of a look.
+/// `member`: a number of a material.
 template <class Member>
 Key number_key(const std::string& name, Part part, Member member, double least, double most) {
   const auto check = [=](const std::string& value) {
@@ -94,8 +83,8 @@ Key number_key(const std::string& name, Part part, Member member, double least, 
           name,
           part,
           check,
-          [=](ObjectLook& look, const std::string& value) { member(look) = read_float(value); },
-          [=](const ObjectLook& look) { return number_text(member(look)); }};
+          [=](Material& material, const std::string& value) { member(material) = read_float(value); },
+          [=](const Material& material) { return number_text(member(material)); }};
 }
 
 Key flag_key(const std::string& name, std::uint32_t flag) {
@@ -103,42 +92,42 @@ Key flag_key(const std::string& name, std::uint32_t flag) {
     if (value != "on" && value != "off") refuse(name + "=" + value, "on or off");
     return value;
   };
-  const auto set = [=](ObjectLook& look, const std::string& value) {
-    std::uint32_t& flags = look.material.flags;
-    flags = value == "on" ? flags | flag : flags & ~flag;
+  const auto set = [=](Material& material, const std::string& value) {
+    material.flags = value == "on" ? material.flags | flag : material.flags & ~flag;
   };
-  const auto get = [=](const ObjectLook& look) -> std::string {
-    return (look.material.flags & flag) != 0 ? "on" : "off";
+  const auto get = [=](const Material& material) -> std::string {
+    return (material.flags & flag) != 0 ? "on" : "off";
   };
-  return {name, name + "=on|off", Part::material, check, set, get};
+  return {name, name + "=on|off", Part::phong, check, set, get};
 }
 
-Key surface_key(const SurfaceField& field) {
+Key gltf_key(const MaterialField& field) {
   if (field.number != nullptr)
     return number_key(
-        field.key, Part::surface, [=](auto& look) -> auto& { return look.surface.*field.number; },
-        field.least, field.most);
+        field.key, Part::gltf, [=](auto& material) -> auto& { return material.*field.number; }, field.least,
+        field.most);
   return color_key(
-      field.key, Part::surface, [=](auto& look) -> auto& { return look.surface.*field.color; }, field.most);
+      field.key, Part::gltf, [=](auto& material) -> auto& { return material.*field.color; }, field.most);
 }
 
 std::vector<Key> make_keys() {
   constexpr double MOST = 1e6, LEAST_IOR = 1e-3;
   const auto of = [](auto member) {
-    return [=](auto& look) -> auto& { return look.material.*member; };
+    return [=](auto& material) -> auto& { return material.phong.*member; };
   };
+  const auto ior = [](auto& material) -> auto& { return material.ior; };
   std::vector<Key> keys = {preset_key(),
-                           color_key("diffuse", Part::material, of(&Material::diffuse)),
-                           number_key("specular", Part::material, of(&Material::specular), 0.0, 1.0),
-                           number_key("shininess", Part::material, of(&Material::shininess), 1.0, MOST),
-                           number_key("mirror", Part::material, of(&Material::mirror), 0.0, 1.0),
-                           number_key("ior", Part::material, of(&Material::ior), LEAST_IOR, MOST),
-                           color_key("tint", Part::material, of(&Material::tint)),
+                           color_key("diffuse", Part::phong, of(&Phong::diffuse)),
+                           number_key("specular", Part::phong, of(&Phong::specular), 0.0, 1.0),
+                           number_key("shininess", Part::phong, of(&Phong::shininess), 1.0, MOST),
+                           number_key("mirror", Part::phong, of(&Phong::mirror), 0.0, 1.0),
+                           number_key("ior", Part::phong, ior, LEAST_IOR, MOST),
+                           color_key("tint", Part::phong, of(&Phong::tint)),
                            flag_key("glass", MATERIAL_DIELECTRIC),
                            flag_key("two-sided", MATERIAL_TWO_SIDED),
                            flag_key("hidden", MATERIAL_HIDDEN)};
-  for (const SurfaceField& field : surface_fields())
-    if (field.key != nullptr) keys.push_back(surface_key(field));
+  for (const MaterialField& field : material_fields())
+    if (field.key != nullptr) keys.push_back(gltf_key(field));
   return keys;
 }
 
@@ -188,15 +177,15 @@ std::string object_key(std::size_t object, const std::vector<std::string>& names
 }
 
 /// Sets the keys of a part that are said.
-void apply(Part part, const ObjectChange& change, ObjectLook& look) {
+void apply(Part part, const ObjectChange& change, Material& material) {
   for (const Key& key : keys()) {
     const auto value = change.values.find(key.name);
-    if (key.part == part && value != change.values.end()) key.set(look, value->second);
+    if (key.part == part && value != change.values.end()) key.set(material, value->second);
   }
 }
 
 /// The keys of a part whose values differ.
-void add_difference(Part part, const ObjectLook& from, const ObjectLook& to, ObjectChange& change) {
+void add_difference(Part part, const Material& from, const Material& to, ObjectChange& change) {
   for (const Key& key : keys())
     if (key.part == part && key.get(from) != key.get(to)) change.values[key.name] = key.get(to);
 }
@@ -236,50 +225,40 @@ std::string object_text(const ObjectChange& change) {
   return change.object + text;
 }
 
-Surface surface_after(const Material& before, const Surface& surface, const Material& after) {
-  const Surface from = surface_of(before), to = surface_of(after);
-  if (std::memcmp(&from, &to, sizeof(Surface)) == 0) return surface;
-  Surface next = to;
-  for (const SurfaceField& field : surface_fields())
-    if (field.key != nullptr && field.of(surface) != field.of(from)) field.set(next, field.of(surface));
-  return next;
-}
-
 bool changes_look(const ObjectChange& change) {
   return std::any_of(change.values.begin(), change.values.end(),
                      [](const auto& value) { return value.first != "two-sided" && value.first != "hidden"; });
 }
 
 void apply_object_changes(const std::vector<ObjectChange>& changes, const std::vector<std::string>& names,
-                          ObjectLooks& looks) {
+                          std::vector<Material>& materials) {
   std::map<std::size_t, ObjectChange> said;
   for (const ObjectChange& change : changes) {
     ObjectChange& all = said[find_object(change.object, names)];
     for (const auto& [key, value] : change.values) all.values[key] = value;
   }
   for (const auto& [object, change] : said) {
-    ObjectLook look{looks.materials[object], looks.surfaces[object]};
-    apply(Part::preset, change, look);
-    const Material before = look.material;
-    apply(Part::material, change, look);
-    look.surface = surface_after(before, look.surface, look.material);
-    apply(Part::surface, change, look);
-    looks.materials[object] = look.material;
-    looks.surfaces[object] = look.surface;
+    Material& material = materials[object];
+    apply(Part::preset, change, material);
+    const Material before = material;
+    apply(Part::phong, change, material);
+    follow_change(before, material);
+    apply(Part::gltf, change, material);
   }
 }
 
-std::vector<ObjectChange> object_changes_between(const ObjectLooks& loaded, const ObjectLooks& shown,
+std::vector<ObjectChange> object_changes_between(const std::vector<Material>& loaded,
+                                                 const std::vector<Material>& shown,
                                                  const std::vector<std::string>& names) {
-  assert(loaded.materials.size() == shown.materials.size() && names.size() == shown.materials.size());
+  assert(loaded.size() == shown.size() && names.size() == shown.size());
   std::vector<ObjectChange> changes;
-  for (std::size_t i = 0; i < shown.materials.size(); ++i) {
-    ObjectLook from{loaded.materials[i], loaded.surfaces[i]};
-    const ObjectLook to{shown.materials[i], shown.surfaces[i]};
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    Material from = loaded[i];
     ObjectChange change{object_key(i, names)};
-    add_difference(Part::material, from, to, change);
-    from.surface = surface_after(from.material, from.surface, to.material);
-    add_difference(Part::surface, from, to, change);
+    add_difference(Part::phong, from, shown[i], change);
+    apply(Part::phong, change, from);
+    follow_change(loaded[i], from);
+    add_difference(Part::gltf, from, shown[i], change);
     if (!change.values.empty()) changes.push_back(std::move(change));
   }
   return changes;

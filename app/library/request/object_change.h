@@ -29,23 +29,19 @@ struct ObjectChange {
 /// The text that reads back to an equal change.
 [[nodiscard]] std::string object_text(const ObjectChange& change);
 
-/// What a surface becomes when its material changes: surface_of the material after, but for the numbers that have keys
-/// (surface_fields.h) where the surface said something else than its material before. As it is where surface_of does not see the
-/// change.
-[[nodiscard]] Surface surface_after(const Material& before, const Surface& surface, const Material& after);
-
 /// Whether a change is of more than which sides of an object are seen.
 [[nodiscard]] bool changes_look(const ObjectChange& change);
 
-/// Changes the looks of the objects named `names`; each keeps its mask_bit. All that is said of an object is one change, whatever
+/// Changes the materials of the objects named `names`; each keeps its mask_bit, and glTF's numbers follow from Phong's
+/// (follow_change in engine/scene/phong.h) unless they are said. All that is said of an object is one change, whatever
 /// its order; of a key said twice the last holds. Throws Error (usage) for an object that does not exist or a name that several
 /// have.
 void apply_object_changes(const std::vector<ObjectChange>& changes, const std::vector<std::string>& names,
-                          ObjectLooks& looks);
+                          std::vector<Material>& materials);
 
 /// The changes that make `loaded` look like `shown`, one for each object that differs; mask_bit is not looked at.
-[[nodiscard]] std::vector<ObjectChange> object_changes_between(const ObjectLooks& loaded,
-                                                               const ObjectLooks& shown,
+[[nodiscard]] std::vector<ObjectChange> object_changes_between(const std::vector<Material>& loaded,
+                                                               const std::vector<Material>& shown,
                                                                const std::vector<std::string>& names);
 
 }  // namespace splatray

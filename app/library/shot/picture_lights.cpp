@@ -41,7 +41,7 @@ std::optional<SceneLight> headlight(SceneOnDevice& shown, const Camera& camera, 
   const bool within = glm::all(glm::greaterThan(camera.eye, scene.bounds_min_world)) &&
                       glm::all(glm::lessThan(camera.eye, scene.bounds_max_world));
   if (!within || camera.ortho_height > 0.0 || !look_style(settings.look).paths || !scene.lights.empty() ||
-      sends_out_light(shown.look().objects))
+      sends_out_light(shown.look().materials))
     return {};
   std::vector<double> distances;
   for (const RayHit& hit : shown.tracer().intersect(shown.look(), rays_around(scene, camera.eye), settings))

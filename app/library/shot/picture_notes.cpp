@@ -35,7 +35,7 @@ std::string users_of(const Field& field) {
 
 std::vector<std::string> ignored_options(const Request& request, std::uint32_t look) {
   std::vector<std::string> notes;
-  if (asks_for_materials(request.look) && !look_style(look).surfaces)
+  if (asks_for_materials(request.look) && !look_style(look).materials)
     notes.emplace_back("this --look does not use materials, --look lit does");
   for (const Field& field : fields()) {
     if (field.used_by(look) || !field.write) continue;
@@ -48,10 +48,9 @@ std::vector<std::string> ignored_options(const Request& request, std::uint32_t l
   return notes;
 }
 
-bool sends_out_light(const ObjectLooks& objects) {
-  for (std::size_t i = 0; i < objects.surfaces.size(); ++i)
-    if (!is_black(shown_emission(objects, i))) return true;
-  return false;
+bool sends_out_light(const std::vector<Material>& materials) {
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material& material) { return !is_black(shown_emission(material)); });
 }
 
 std::vector<std::string> missing_light(const Look& look, const Settings& settings) {
@@ -63,7 +62,7 @@ std::vector<std::string> missing_light(const Look& look, const Settings& setting
     notes.push_back(std::to_string(powerless) + " of " + std::to_string(look.lights.size()) +
                     " lights have no power");
   const bool lit =
-      powerless < std::ssize(look.lights) || (settings.look == LOOK_LIT && sends_out_light(look.objects));
+      powerless < std::ssize(look.lights) || (settings.look == LOOK_LIT && sends_out_light(look.materials));
   const bool sky = look.environment && settings.environment_strength > 0.0F && !is_black(*look.environment);
   if (!lit && !sky)
     notes.push_back(

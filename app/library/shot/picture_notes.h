@@ -16,6 +16,6 @@ namespace splatray {
 [[nodiscard]] std::vector<std::string> missing_light(const Look& look, const Settings& settings);
 
 /// Whether some object that is shown sends out light.
-[[nodiscard]] bool sends_out_light(const ObjectLooks& objects);
+[[nodiscard]] bool sends_out_light(const std::vector<Material>& materials);
 
 }  // namespace splatray

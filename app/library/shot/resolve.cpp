@@ -126,9 +126,9 @@ Camera placed_camera(const Scene& scene, const Request& request, double aspect) 
 
 /// Whether a material is another than readers give to points, whose base colour alone depends on them.
 bool is_chosen(const Material& material) {
-  const Material plain = default_material();
-  return material.specular != plain.specular || material.shininess != plain.shininess ||
-         material.mirror != plain.mirror || (material.flags & MATERIAL_DIELECTRIC) != 0;
+  const Phong &phong = material.phong, plain = default_material().phong;
+  return phong.specular != plain.specular || phong.shininess != plain.shininess ||
+         phong.mirror != plain.mirror || (material.flags & MATERIAL_DIELECTRIC) != 0;
 }
 
 }  // namespace

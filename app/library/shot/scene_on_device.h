@@ -24,7 +24,9 @@ class SceneOnDevice {
   [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
 
   /// Shows other materials; the scene has its pools.
-  void show_objects(ObjectLooks objects) { splatray::show_objects(*scene_, std::move(objects), look_); }
+  void show_materials(std::vector<Material> materials) {
+    splatray::show_materials(*scene_, std::move(materials), look_);
+  }
   /// Shows the environment of a name, as load_environment has it. Throws Error (input_unreadable), once: the one before stays.
   /// `note` hears of what is odd in its file.
   void show_environment(const std::string& name, const std::function<void(const std::string&)>& note = {});

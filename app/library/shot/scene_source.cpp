@@ -9,7 +9,6 @@
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/file/scene_file.h"
-#include "engine/scene/surface.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/scan/missing_attributes.h"
@@ -47,11 +46,7 @@ void build(Input input, const Request& request, const LoadListener& listener, co
 /// Applies --material, --object, --up (else upright of upright.h), and shows the attributes that are asked for or suit the scene.
 void show_as_asked(const Request& request, const LoadListener& listener, LoadedScene& loaded) {
   Scene& scene = loaded.scene;
-  if (!request.look.material.empty() || !request.look.objects.empty()) {
-    ObjectLooks objects = choose_objects(scene, request);
-    scene.materials = std::move(objects.materials);
-    scene.surfaces = std::move(objects.surfaces);
-  }
+  scene.materials = choose_materials(scene, request);
   const glm::dvec3 format_up = std::exchange(scene.up, resolve_up(scene, request));
   if (listener.note && !request.look.up && scene.up != format_up) listener.note(up_note(scene.up));
   loaded.facts = facts_of(scene);
@@ -97,8 +92,8 @@ LoadedScene load_objects(Input input, const Request& request, const LoadListener
   return loaded;
 }
 
-ObjectLooks choose_objects(const Scene& scene, const Request& request) {
-  ObjectLooks objects{scene.materials, surfaces_of(scene)};
+std::vector<Material> choose_materials(const Scene& scene, const Request& request) {
+  std::vector<Material> materials = scene.materials;
   std::vector<ObjectChange> changes;
   if (!request.look.material.empty()) {
     const std::size_t shown = scene.materials.size() - (scene.build.ground ? 1 : 0);
@@ -109,8 +104,8 @@ ObjectLooks choose_objects(const Scene& scene, const Request& request) {
     changes.push_back(read_object_change("0:preset=" + request.look.material));
   }
   changes.insert(changes.end(), request.look.objects.begin(), request.look.objects.end());
-  apply_object_changes(changes, scene.object_names, objects);
-  return objects;
+  apply_object_changes(changes, scene.object_names, materials);
+  return materials;
 }
 
 }  // namespace splatray

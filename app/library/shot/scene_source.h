@@ -32,6 +32,6 @@ struct LoadListener {
 [[nodiscard]] LoadedScene load_objects(Input input, const Request& request, const LoadListener& listener);
 
 /// What the scene's objects look like with --material and --object. Throws Error (usage).
-[[nodiscard]] ObjectLooks choose_objects(const Scene& scene, const Request& request);
+[[nodiscard]] std::vector<Material> choose_materials(const Scene& scene, const Request& request);
 
 }  // namespace splatray

@@ -18,7 +18,7 @@ class Material:
     diffuse: reflectance, times the points' colours where they have some. specular, shininess: share of light in Phong's highlight, and
     its exponent. mirror, tint: share of light mirrored, and its colour; of glass, transmittance of each crossing. ior: index of refraction
     of glass, whose object must be closed with normals outwards. two_sided: both faces are seen. hidden: no ray hits it. Of path tracing, None for what
-    follows from the others: metallic, roughness (glTF's), coat, coat_roughness (a clear layer), 0..1; emission: radiance sent out.
+    follows from these, the numbers of the look "paper": metallic, roughness (glTF's), coat, coat_roughness (a clear layer), 0..1; emission: radiance sent out.
     """
 
     diffuse: Color = (0.64, 0.61, 0.57)

@@ -31,7 +31,7 @@ struct LoadedPart {
   Request first;                             ///< what was shown of it first, as Document::request
   SceneFacts facts{};                        ///< of the scene in its own colours
   std::vector<std::string> object_names;     ///< one per object
-  ObjectLooks looks{};                       ///< one per object, as the scene has them
+  std::vector<Material> materials{};         ///< one per object, as the scene has them
   std::vector<std::string> color_sources{};  ///< attributes that colours may show (attributes.h)
   std::vector<Category> classes{}, scans{};  ///< of the points; empty = not known
   std::string crs{};                         ///< Scene::crs
@@ -45,7 +45,7 @@ struct Document {
   /// tracer needs follows from it (resolve_settings, resolve_lights).
   Request request;
   Camera camera;
-  ObjectLooks looks;  ///< as shown; hidden objects have MATERIAL_HIDDEN
+  std::vector<Material> materials;  ///< one per object, as shown; hidden objects have MATERIAL_HIDDEN
   ViewMode mode = ViewMode::shaded;
   double eye_dome = 1.0;          ///< strength of the shading of what moves and of points, as eye_dome has it
   double point_size = 1.0;        ///< of points, in their spacings

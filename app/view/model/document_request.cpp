@@ -4,7 +4,6 @@
 
 #include "app/library/shot/lights.h"
 #include "app/library/shot/resolve.h"
-#include "engine/scene/surface.h"
 
 namespace splatray {
 namespace {
@@ -45,8 +44,8 @@ Document shown_in(const Scene& scene, const Document& document, const Shot& shot
   Document shown = document;
   shown.request = shown_request(scene, document.loaded->asked, shot);
   shown.camera = shot.view.camera;
-  shown.looks = document.loaded->looks;
-  apply_object_changes(look.objects, scene.object_names, shown.looks);
+  shown.materials = document.loaded->materials;
+  apply_object_changes(look.objects, scene.object_names, shown.materials);
   shown.bounds_min_world = scene.bounds_min_world;
   shown.bounds_max_world = scene.bounds_max_world;
   return shown;
@@ -66,7 +65,7 @@ Request request_of(const Document& document, std::uint32_t width, std::uint32_t 
   request.view.height = height;
   set_camera(request.view, document.camera);
   request.look.objects =
-      object_changes_between(document.loaded->looks, document.looks, document.loaded->object_names);
+      object_changes_between(document.loaded->materials, document.materials, document.loaded->object_names);
   request.look.exposure_ev.reset();
   if (document.loaded->is_scan || exposure_of(document) != 0.0)
     request.look.exposure_ev = exposure_of(document);
@@ -105,16 +104,10 @@ Document first_document(const Scene& scene, const SceneFacts& facts, const Reque
 
 Document first_document(const Scene& scene, const SceneFacts& facts, const Request& asked, const Shot& shot) {
   Document document;
-  document.loaded = std::make_shared<const LoadedPart>(LoadedPart{asked,
-                                                                  shown_request(scene, asked, shot),
-                                                                  facts,
-                                                                  scene.object_names,
-                                                                  {scene.materials, surfaces_of(scene)},
-                                                                  color_sources(scene),
-                                                                  categories_of(scene, COLUMN_CLASS),
-                                                                  categories_of(scene, COLUMN_SCAN),
-                                                                  scene.crs,
-                                                                  !scene.stations.empty()});
+  document.loaded = std::make_shared<const LoadedPart>(
+      LoadedPart{asked, shown_request(scene, asked, shot), facts, scene.object_names, scene.materials,
+                 color_sources(scene), categories_of(scene, COLUMN_CLASS), categories_of(scene, COLUMN_SCAN),
+                 scene.crs, !scene.stations.empty()});
   return shown_in(scene, document, shot);
 }
 
@@ -149,7 +142,7 @@ Request request_with(const Document& document, const SceneFiles& more) {
     request.source.inputs.push_back(file);
     std::replace(names.begin(), names.end(), file.stem().string(), std::string());  // no longer one object's
   }
-  request.look.objects = object_changes_between(loaded.looks, document.looks, names);
+  request.look.objects = object_changes_between(loaded.materials, document.materials, names);
   return request;
 }
 

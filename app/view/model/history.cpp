@@ -6,7 +6,7 @@ namespace {
 /// But for the camera.
 bool same(const Document& a, const Document& b) {
   return a.request == b.request && a.mode == b.mode && a.measures == b.measures &&
-         same_looks(a.looks, b.looks);
+         same_bytes(a.materials, b.materials);
 }
 
 }  // namespace

@@ -6,10 +6,10 @@ namespace splatray {
 namespace {
 
 /// So that back faces are seen too.
-ObjectLooks two_sided(ObjectLooks looks) {
-  for (Material& material : looks.materials)
+std::vector<Material> two_sided(std::vector<Material> materials) {
+  for (Material& material : materials)
     material.flags = (material.flags & MATERIAL_HIDDEN) | MATERIAL_TWO_SIDED;
-  return looks;
+  return materials;
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ void LiveScene::open(SharedScene scene, const AttributeOptions& attributes) {
 
 void LiveScene::match(const Document& document, ViewMode mode) {
   match_attributes(document.request.look.attributes, up_of(document));
-  shown_.show_objects(mode == ViewMode::facing ? two_sided(document.looks) : document.looks);
+  shown_.show_materials(mode == ViewMode::facing ? two_sided(document.materials) : document.materials);
   shown_.show_lights(
       lights_of_look(look_of(document), resolve_lights(*scene_, document.request, document.camera)));
   shown_.show_up(up_of(document));

@@ -213,7 +213,6 @@ std::vector<std::uint32_t> PointSampler::own_colors() const {
 Scene PointSampler::small_scene() const {
   Input input;
   InputObject object;
-  object.material = default_material();
   object.measured = measured_;
   const std::vector<std::uint32_t> colors = own_colors();
   const bool colored = has_colors();
@@ -262,7 +261,7 @@ OpenedPoints PointSampler::make() const {
   if (opened.document.request.view.look_in)
     cloud.normal = normals_near(kept_.position, scene, CELLS_OF_SPACING * spacing_of(scene));
   keep_region(region_of(asked_.view.region, scene.up), cloud);
-  opened.document.looks = {};
+  opened.document.materials = {};
   opened.points = std::make_shared<const PointCloud>(std::move(cloud));
   return opened;
 }

@@ -24,7 +24,7 @@ bool same_picture(const Document& a, const Document& b) {
   request.look.exposure_ev = b.request.look.exposure_ev;
   request.look.tone = b.request.look.tone;
   return request == b.request && a.camera == b.camera && a.mode == b.mode && a.eye_dome == b.eye_dome &&
-         same_looks(a.looks, b.looks);
+         same_bytes(a.materials, b.materials);
 }
 
 Display display_of(const Document& document) {

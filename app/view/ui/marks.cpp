@@ -115,7 +115,7 @@ void measure_marks(const Document& document, Marks& marks) {
 }  // namespace
 
 void scene_marks(const Document& document, const PanelState& state, const PanelView& view, float width_px) {
-  if (view.picture_px.x == 0 || view.picture_px.y == 0 || document.looks.materials.empty()) return;
+  if (view.picture_px.x == 0 || view.picture_px.y == 0 || document.materials.empty()) return;
   Marks marks(document, view, width_px);
   if (state.shows_handles) region_marks(document, view.handle, marks);
   measure_marks(document, marks);

@@ -7,8 +7,8 @@
 #include "app/library/shot/scene_source.h"
 #include "app/view/ui/panel_parts.h"
 #include "engine/scene/look_style.h"
-#include "engine/scene/surface.h"
-#include "engine/scene/surface_fields.h"
+#include "engine/scene/material_fields.h"
+#include "engine/scene/phong.h"
 
 namespace splatray {
 namespace {
@@ -29,14 +29,14 @@ std::string shown_name(const Document& document, std::size_t object) {
 
 std::vector<std::size_t> filtered_objects(const Document& document, const std::string& filter) {
   std::vector<std::size_t> objects;
-  for (std::size_t i = 0; i < document.looks.materials.size(); ++i)
+  for (std::size_t i = 0; i < document.materials.size(); ++i)
     if (filter.empty() || shown_name(document, i).find(filter) != std::string::npos) objects.push_back(i);
   return objects;
 }
 
 void object_row(Document& document, PanelState& state, std::size_t object) {
   ImGui::PushID(static_cast<int>(object));
-  Material& material = document.looks.materials[object];
+  Material& material = document.materials[object];
   bool visible = !has(material, MATERIAL_HIDDEN);
   if (ImGui::Checkbox("##visible", &visible)) set(material, MATERIAL_HIDDEN, !visible);
   tip("shown or hidden");
@@ -55,19 +55,16 @@ void visibility_buttons(Document& document, const std::vector<std::size_t>& obje
   const bool invert = ImGui::SmallButton("invert");
   if (!all && !none && !invert) return;
   for (const std::size_t object : objects) {
-    Material& material = document.looks.materials[object];
+    Material& material = document.materials[object];
     set(material, MATERIAL_HIDDEN, none || (invert && !has(material, MATERIAL_HIDDEN)));
   }
 }
 
-/// Replaces material and surface by those of a name.
-void preset_combo(Material& material, Surface& surface) {
+/// Replaces a material by that of a name.
+void preset_combo(Material& material) {
   if (!ImGui::BeginCombo("preset", "choose")) return;
-  for (const std::string& name : material_names()) {
-    if (!ImGui::Selectable(name.c_str())) continue;
-    change_material(material, name);
-    surface = surface_of(material);
-  }
+  for (const std::string& name : material_names())
+    if (ImGui::Selectable(name.c_str())) change_material(material, name);
   ImGui::EndCombo();
 }
 
@@ -78,19 +75,19 @@ void glass_switch(Material& material) {
   set(material, MATERIAL_DIELECTRIC, glass);
   set(material, MATERIAL_TWO_SIDED, !glass);
   if (glass && material.ior == 1.0F) material.ior = GLASS_IOR;
-  if (glass && material.tint == vec3(0.0F)) material.tint = vec3(1.0F);
+  if (glass && material.phong.tint == vec3(0.0F)) material.phong.tint = vec3(1.0F);
 }
 
 void share(const char* label, float& value) {
   ImGui::SliderFloat(label, &value, 0.0F, 1.0F, "%.3f", ImGuiSliderFlags_AlwaysClamp);
 }
 
-void surface_controls(Material& material) {
-  color_edit("diffuse", material.diffuse);
-  share("specular", material.specular);
-  ImGui::SliderFloat("shininess", &material.shininess, 1.0F, MOST_SHININESS, "%.0f",
+void phong_controls(Material& material) {
+  color_edit("diffuse", material.phong.diffuse);
+  share("specular", material.phong.specular);
+  ImGui::SliderFloat("shininess", &material.phong.shininess, 1.0F, MOST_SHININESS, "%.0f",
                      ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-  share("mirror", material.mirror);
+  share("mirror", material.phong.mirror);
   tip("share of the light that is mirrored; the rest is shaded");
   bool two_sided = has(material, MATERIAL_TWO_SIDED);
   if (ImGui::Checkbox("two-sided", &two_sided)) set(material, MATERIAL_TWO_SIDED, two_sided);
@@ -106,16 +103,16 @@ void radiance_edit(const char* label, vec3& radiance, float most) {
 }
 
 /// Of what path tracing sees.
-void light_controls(Surface& surface) {
-  for (const SurfaceField& field : surface_fields()) {
+void light_controls(Material& material) {
+  for (const MaterialField& field : material_fields()) {
     if (field.key == nullptr) continue;
     std::string label = field.key;
     std::replace(label.begin(), label.end(), '-', ' ');
     if (field.number != nullptr)
-      ImGui::SliderFloat(label.c_str(), &(surface.*field.number), field.least, field.most, "%.3f",
+      ImGui::SliderFloat(label.c_str(), &(material.*field.number), field.least, field.most, "%.3f",
                          ImGuiSliderFlags_AlwaysClamp);
     else
-      radiance_edit(label.c_str(), surface.*field.color, field.most);
+      radiance_edit(label.c_str(), material.*field.color, field.most);
   }
 }
 
@@ -125,14 +122,14 @@ void material_controls(Material& material) {
   if (glass)
     ImGui::SliderFloat("ior", &material.ior, LEAST_IOR, MOST_IOR, "%.3f", ImGuiSliderFlags_AlwaysClamp);
   else
-    surface_controls(material);
-  color_edit("tint", material.tint);
+    phong_controls(material);
+  color_edit("tint", material.phong.tint);
   tip(glass ? "transmittance of each crossing" : "reflectance of the mirror");
 }
 
 /// Says where a look shows no materials, and offers one that does.
 void look_note(Document& document) {
-  if (look_style(look_of(document)).surfaces) return;
+  if (look_style(look_of(document)).materials) return;
   ImGui::TextWrapped("This look shows no materials.");
   if (ImGui::SmallButton("look lit")) document.request.look.style = LOOK_LIT;
 }
@@ -141,7 +138,7 @@ void look_note(Document& document) {
 
 void object_panel(Document& document, PanelState& state) {
   const float em = ImGui::GetFontSize();
-  if (document.looks.materials.size() > 1) {
+  if (document.materials.size() > 1) {
     ImGui::SetNextItemWidth(-em);
     ImGui::InputTextWithHint("##filter", "part of a name", &state.object_filter);
   }
@@ -158,22 +155,18 @@ void object_panel(Document& document, PanelState& state) {
 }
 
 void material_panel(Document& document, PanelState& state) {
-  if (document.looks.materials.empty()) return;
-  state.object = std::min(state.object, static_cast<std::uint32_t>(document.looks.materials.size() - 1));
+  if (document.materials.empty()) return;
+  state.object = std::min(state.object, static_cast<std::uint32_t>(document.materials.size() - 1));
   ImGui::PushID(static_cast<int>(state.object));
   ImGui::TextUnformatted(shown_name(document, state.object).c_str());
-  Material& material = document.looks.materials[state.object];
-  Surface& surface = document.looks.surfaces[state.object];
-  preset_combo(material, surface);
+  Material& material = document.materials[state.object];
+  preset_combo(material);
   const Material before = material;
   material_controls(material);
-  surface = surface_after(before, surface, material);
+  follow_change(before, material);
   look_note(document);
-  if (look_of(document) == LOOK_LIT) light_controls(surface);
-  if (ImGui::Button("as loaded")) {
-    material = document.loaded->looks.materials[state.object];
-    surface = document.loaded->looks.surfaces[state.object];
-  }
+  if (look_of(document) == LOOK_LIT) light_controls(material);
+  if (ImGui::Button("as loaded")) material = document.loaded->materials[state.object];
   ImGui::PopID();
 }
 

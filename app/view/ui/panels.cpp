@@ -41,7 +41,7 @@ bool section(const char* title, bool open_first) {
 
 void column(Document& document, PanelState& state, const PanelView& view, Requests& requests) {
   toolbar(requests);
-  if (document.looks.materials.empty()) return;
+  if (document.materials.empty()) return;
   if (section("Points", document.loaded->is_scan)) {
     if (!document.loaded->color_sources.empty()) attribute_panel(document, view);
     drawing_controls(document);
@@ -97,7 +97,7 @@ Requests draw_panels(Document& document, PanelState& state, const PanelView& vie
   const float window_px = ImGui::GetIO().DisplaySize.x;
   const float column_px = panel_column_px(state, window_px), picture_px = window_px - column_px;
   if (column_px > 0.0F) column_window(document, state, view, column_px, requests);
-  if (document.looks.materials.empty() && view.work == nullptr) welcome(state, picture_px, requests);
+  if (document.materials.empty() && view.work == nullptr) welcome(state, picture_px, requests);
   scene_marks(document, state, view, picture_px);
   legend(view, picture_px);
   status_line(document, state, view, picture_px);

@@ -5,7 +5,8 @@
 #include <string_view>
 
 #include "engine/base/number_text.h"
-#include "engine/scene/surface_fields.h"
+#include "engine/scene/material_fields.h"
+#include "engine/scene/phong.h"
 #include "engine/scene/texture_factors.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
 #include "preprocess/read/gltf/gltf_texture.h"
@@ -14,7 +15,8 @@
 namespace splatray {
 namespace {
 
-struct GltfSurface {
+/// What is shown of textures by their mean.
+struct PlainNumbers {
   glm::vec3 base{1.0F};
   float metallic = 1.0F;
   float roughness = 1.0F;
@@ -55,13 +57,13 @@ bool is_thin(const tinygltf::Material& source) {
          find_extension(source.extensions, "KHR_materials_volume") == nullptr;
 }
 
-void make_dielectric(Material& material, const tinygltf::Material& source, const GltfSurface& surface) {
+void make_dielectric(Material& material, const tinygltf::Material& source, const PlainNumbers& plain) {
   constexpr double GLASS = 1.5;
   const tinygltf::Value* ior = find_extension(source.extensions, "KHR_materials_ior");
   const double found = ior == nullptr ? GLASS : number_in(*ior, "ior").value_or(GLASS);
   material.flags |= MATERIAL_DIELECTRIC;
   material.ior = is_thin(source) ? 1.0F : static_cast<float>(found > 0.0 ? found : GLASS);
-  material.tint = surface.base * attenuation(source);
+  material.phong.tint = plain.base * attenuation(source);
 }
 
 float alpha_of(const tinygltf::Material& from) {
@@ -69,30 +71,30 @@ float alpha_of(const tinygltf::Material& from) {
   return factor.size() == 4 ? unit_clamp(factor[3]) : 1.0F;
 }
 
-void make_opaque(Material& material, const GltfSurface& surface, bool colored) {
-  const glm::vec3 base = colored ? glm::vec3(1.0F) : surface.base;
-  const float smooth = 1.0F - surface.roughness;
-  if (surface.metallic > 0.5F && surface.roughness < 0.35F && !colored) {
-    material.mirror = 1.0F;
-    material.tint = surface.base;
-  } else if (surface.metallic > 0.5F) {
-    material.diffuse = 0.6F * base;
-    material.specular = 0.3F + 0.6F * smooth * smooth;
+void make_opaque(Phong& phong, const PlainNumbers& plain, bool colored) {
+  const glm::vec3 base = colored ? glm::vec3(1.0F) : plain.base;
+  const float smooth = 1.0F - plain.roughness;
+  if (plain.metallic > 0.5F && plain.roughness < 0.35F && !colored) {
+    phong.mirror = 1.0F;
+    phong.tint = plain.base;
+  } else if (plain.metallic > 0.5F) {
+    phong.diffuse = 0.6F * base;
+    phong.specular = 0.3F + 0.6F * smooth * smooth;
   } else {
-    material.diffuse = base;
-    material.specular = 0.04F + 0.26F * smooth * smooth;
+    phong.diffuse = base;
+    phong.specular = 0.04F + 0.26F * smooth * smooth;
   }
 }
 
-void apply_extras(Material& material, const tinygltf::Value& extras) {
+void apply_extras(Phong& phong, const tinygltf::Value& extras) {
   if (const auto mirror = number_in(extras, "mirror")) {
-    material.mirror = unit_clamp(*mirror);
+    phong.mirror = unit_clamp(*mirror);
   }
   if (const auto specular = number_in(extras, "specular")) {
-    material.specular = unit_clamp(*specular);
+    phong.specular = unit_clamp(*specular);
   }
   if (const auto shininess = number_in(extras, "shininess")) {
-    material.shininess = static_cast<float>(std::max(*shininess, 1.0));
+    phong.shininess = static_cast<float>(std::max(*shininess, 1.0));
   }
 }
 
@@ -143,28 +145,26 @@ std::optional<double> number_of(const tinygltf::Material& from, const RangedNumb
   return extension == nullptr ? std::nullopt : number_in(*extension, ranged.name);
 }
 
-/// What a material's emission and extensions say.
-Surface extension_surface(const tinygltf::Material& from) {
+/// Gives a material the numbers of another's emission and extensions.
+void take_extensions(const tinygltf::Material& from, Material& material) {
   const auto extension = [&](const char* name) { return find_extension(from.extensions, name); };
-  Surface surface{};
-  surface.ior = std::max(number_of(extension("KHR_materials_ior"), "ior", 1.5), 1.0F);
+  material.layer_ior = std::max(number_of(extension("KHR_materials_ior"), "ior", 1.5), 1.0F);
   const tinygltf::Value* specular = extension("KHR_materials_specular");
-  surface.specular = unit_clamp(number_of(specular, "specularFactor", 1.0));
-  surface.specular_color = color_of(specular, "specularColorFactor");
+  material.specular = unit_clamp(number_of(specular, "specularFactor", 1.0));
+  material.specular_color = color_of(specular, "specularColorFactor");
   const tinygltf::Value* coat = extension("KHR_materials_clearcoat");
-  surface.coat = unit_clamp(number_of(coat, "clearcoatFactor", 0.0));
-  surface.coat_roughness = unit_clamp(number_of(coat, "clearcoatRoughnessFactor", 0.0));
-  surface.transmission =
+  material.coat = unit_clamp(number_of(coat, "clearcoatFactor", 0.0));
+  material.coat_roughness = unit_clamp(number_of(coat, "clearcoatRoughnessFactor", 0.0));
+  material.transmission =
       unit_clamp(number_of(extension("KHR_materials_transmission"), "transmissionFactor", 0.0));
-  surface.absorption = volume_absorption(extension("KHR_materials_volume"));
+  material.absorption = volume_absorption(extension("KHR_materials_volume"));
   const float strength =
       std::max(number_of(extension("KHR_materials_emissive_strength"), "emissiveStrength", 1.0), 0.0F);
   if (from.emissiveFactor.size() == 3) {
     const glm::vec3 factor(from.emissiveFactor[0], from.emissiveFactor[1], from.emissiveFactor[2]);
-    surface.emission =
+    material.emission =
         glm::clamp(std::min(strength, EMISSION_MOST) * factor, glm::vec3(0.0F), glm::vec3(EMISSION_MOST));
   }
-  return surface;
 }
 
 TextureWrap wrap_of(int gltf_wrap) {
@@ -221,33 +221,33 @@ void GltfMaterials::note_ranges(int index) {
   }
 }
 
-Material GltfMaterials::material(int index, bool colored) {
+Material GltfMaterials::phong_material(int index, bool colored) {
   Material material = default_material();
   if (index < 0) {
-    material.diffuse = colored ? glm::vec3(1.0F) : material.diffuse;
+    material.phong.diffuse = colored ? glm::vec3(1.0F) : material.phong.diffuse;
     return material;
   }
   const tinygltf::Material& from = source(index);
   note_ranges(index);
   material.flags = from.doubleSided ? MATERIAL_TWO_SIDED : 0U;
-  material.diffuse = glm::vec3(0.0F);
-  GltfSurface surface{color_factor(from), unit_clamp(from.pbrMetallicRoughness.metallicFactor),
-                      unit_clamp(from.pbrMetallicRoughness.roughnessFactor)};
+  material.phong.diffuse = glm::vec3(0.0F);
+  PlainNumbers plain{color_factor(from), unit_clamp(from.pbrMetallicRoughness.metallicFactor),
+                     unit_clamp(from.pbrMetallicRoughness.roughnessFactor)};
   if (from.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0) {
     if (const auto picture = image(from.pbrMetallicRoughness.metallicRoughnessTexture.index)) {
       const glm::vec4 mean = picture->mean();
-      surface.metallic *= mean.z;
-      surface.roughness *= mean.y;
+      plain.metallic *= mean.z;
+      plain.roughness *= mean.y;
     }
   }
   const tinygltf::Value* transmission = find_extension(from.extensions, "KHR_materials_transmission");
-  material.shininess = phong_exponent(surface.roughness);
+  material.phong.shininess = phong_exponent(plain.roughness);
   if (transmission != nullptr && number_in(*transmission, "transmissionFactor").value_or(0.0) > 0.0) {
-    make_dielectric(material, from, surface);
+    make_dielectric(material, from, plain);
   } else {
-    make_opaque(material, surface, colored);
+    make_opaque(material.phong, plain, colored);
   }
-  apply_extras(material, from.extras);
+  apply_extras(material.phong, from.extras);
   return material;
 }
 
@@ -317,26 +317,30 @@ std::shared_ptr<const Texture> GltfMaterials::even_texture(int index, bool varie
   return texture;
 }
 
-std::optional<Surface> GltfMaterials::surface(int index, bool colored, const std::vector<bool>& sampled) {
-  if (index < 0 || changes_look(source(index).extras)) return {};
+Material GltfMaterials::material(int index, bool colored, const std::vector<bool>& sampled) {
+  Material material = phong_material(index, colored);
+  if (index < 0 || changes_look(source(index).extras)) {
+    follow_phong(material);
+    return material;
+  }
   const tinygltf::Material& from = source(index);
   const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-  Surface surface = extension_surface(from);
-  surface.base = colored ? glm::vec3(1.0F) : color_factor(from);
-  surface.metallic = unit_clamp(pbr.metallicFactor);
-  surface.roughness = unit_clamp(pbr.roughnessFactor);
+  take_extensions(from, material);
+  material.base = colored ? glm::vec3(1.0F) : color_factor(from);
+  material.metallic = unit_clamp(pbr.metallicFactor);
+  material.roughness = unit_clamp(pbr.roughnessFactor);
   const std::vector<Map>& known = maps(index);
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (i < sampled.size() && sampled[i]) continue;
     const glm::vec4 mean = known[i].map.texture->image->mean();
-    for (const auto& [factor, channel] : known[i].map.channels) multiply(*factor, mean[channel], surface);
+    for (const auto& [factor, channel] : known[i].map.channels) multiply(*factor, mean[channel], material);
   }
   // A pane mirrors as glass does, though its index of refraction is 1.
-  if (surface.transmission > 0.0F && surface.coat <= 0.0F && is_thin(from)) {
-    surface.coat = surface.specular;
-    surface.coat_roughness = surface.roughness;
+  if (material.transmission > 0.0F && material.coat <= 0.0F && is_thin(from)) {
+    material.coat = material.specular;
+    material.coat_roughness = material.roughness;
   }
-  return surface;
+  return material;
 }
 
 glm::vec3 GltfMaterials::base_color(int index) const {

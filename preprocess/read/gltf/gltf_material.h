@@ -16,7 +16,7 @@ namespace splatray {
 /// together may have MOST_FREE_PIXELS, and MOST_PIXELS_PER_BYTE for each byte of its buffers and images beyond that: more
 /// is refused before it is decoded.
 ///
-/// pbrMetallicRoughness becomes diffuse + Phong specular, mirror or dielectric, whichever is nearest:
+/// Material::phong is diffuse + Phong specular, mirror or dielectric, whichever is nearest to pbrMetallicRoughness:
 /// - transmissionFactor > 0: dielectric, which path tracing shows as the mixture that it is; ior of KHR_materials_ior (1.5), or 1
 /// when neither that nor
 ///   KHR_materials_volume is there (a thin pane, which does not bend light); tint = base colour, times the
@@ -38,22 +38,18 @@ class GltfMaterials {
 
   GltfMaterials(const GltfFile& file, std::vector<std::string>& notes);
 
-  /// The material with this index, default_material() for -1. `colored`: points bring the base colour
-  /// themselves, so `diffuse` leaves it out. Throws Error (input_unreadable) for an index out of range.
-  [[nodiscard]] Material material(int index, bool colored);
-
-  /// The surface that material() stands for, as glTF has it, with KHR_materials_ior, _specular, _clearcoat, _transmission,
-  /// _volume and _emissive_strength. `sampled`: of its maps(), those that points bring as texture factors; the others count by
-  /// their mean. Nothing for -1, and where `extras` change the material.
-  [[nodiscard]] std::optional<Surface> surface(int index, bool colored,
-                                               const std::vector<bool>& sampled = {});
+  /// The material with this index, default_material() for -1, with KHR_materials_ior, _specular, _clearcoat, _transmission,
+  /// _volume and _emissive_strength; where `extras` change its phong, all follows from that. `colored`: points bring the base
+  /// colour themselves, so that it is left out. `sampled`: of its maps(), those that points bring as texture factors; the others
+  /// count by their mean. Throws Error (input_unreadable) for an index out of range.
+  [[nodiscard]] Material material(int index, bool colored, const std::vector<bool>& sampled = {});
 
   /// A texture of factors, and which TEXCOORD_n it uses; -1: none, as it is the same all over.
   struct Map {
     SurfaceMap map;  ///< without coordinates
     int texcoord = 0;
   };
-  /// A material's textures of factors that can be decoded (others are noted); none where surface() is nothing.
+  /// A material's textures of factors that can be decoded (others are noted); none where `extras` change its phong.
   [[nodiscard]] const std::vector<Map>& maps(int index);
 
   /// Linear base colour factor; white for -1.
@@ -75,6 +71,8 @@ class GltfMaterials {
 
  private:
   [[nodiscard]] const tinygltf::Material& source(int index) const;
+  /// material() with its phong, flags and ior alone.
+  [[nodiscard]] Material phong_material(int index, bool colored);
   /// Gives a base colour texture its factors and its cutoff.
   void set_alpha(int index, Texture& texture) const;
   [[nodiscard]] std::shared_ptr<const TextureImage> image(int texture);

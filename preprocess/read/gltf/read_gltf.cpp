@@ -157,8 +157,7 @@ class SceneReader {
         object.name += "/" + file_.model.materials[static_cast<std::size_t>(material)].name;
       }
       const bool colored = make_colors_complete(meshes, material);
-      object.material = materials_.material(material, colored);
-      object.surface = materials_.surface(material, colored, sampled_maps(meshes, material));
+      object.material = materials_.material(material, colored, sampled_maps(meshes, material));
       object.meshes = std::move(meshes);
       object.samples = by_material.size() == 1 ? requested_samples(node) : 0;
       input_.objects.push_back(std::move(object));
@@ -212,7 +211,6 @@ class SceneReader {
     InputObject object;
     object.name = name_of(node);
     object.material = materials_.material(material, !mesh.vertices.color.empty());
-    object.surface = materials_.surface(material, !mesh.vertices.color.empty());
     object.meshes.push_back(std::move(mesh));
     object.samples = requested_samples(node);
     input_.objects.push_back(std::move(object));

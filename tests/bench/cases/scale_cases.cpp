@@ -1,5 +1,7 @@
 #include "tests/bench/cases/scale_cases.h"
 
+#include "engine/scene/phong.h"
+
 namespace splatray::testing {
 namespace {
 
@@ -41,11 +43,12 @@ std::vector<Case> scale_scenes(bool quick) {
 
 Material scale_material() {
   Material material{};
-  material.diffuse = vec3(0.7F);
-  material.tint = vec3(1.0F);
-  material.shininess = 30.0F;
+  material.phong.diffuse = vec3(0.7F);
+  material.phong.tint = vec3(1.0F);
+  material.phong.shininess = 30.0F;
   material.ior = 1.0F;
   material.flags = MATERIAL_TWO_SIDED;
+  follow_phong(material);
   return material;
 }
 

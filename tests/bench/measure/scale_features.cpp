@@ -39,7 +39,7 @@ struct Entry {
 
 Material mirror() {
   Material material = scale_material();
-  material.mirror = 0.9F;
+  material.phong.mirror = 0.9F;
   return material;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 Material material_of(Frame frame) {
   Material material = scale_material();
-  material.mirror = frame == Frame::inside || frame == Frame::mirror ? 1.0F : 0.0F;
+  material.phong.mirror = frame == Frame::inside || frame == Frame::mirror ? 1.0F : 0.0F;
   return material;
 }
 

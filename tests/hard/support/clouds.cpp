@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/phong.h"
 #include "engine/scene/splat.h"
 
 namespace splatray::testing {
@@ -42,17 +43,17 @@ double uniform(std::mt19937_64& random, double low, double high) {
 
 Material mirror_material() {
   Material material = test_material(0);
-  material.diffuse = vec3(0.0F);
-  material.specular = 0.0F;
-  material.mirror = 1.0F;
-  material.tint = vec3(1.0F);
+  material.phong.diffuse = vec3(0.0F);
+  material.phong.specular = 0.0F;
+  material.phong.mirror = 1.0F;
+  material.phong.tint = vec3(1.0F);
   return material;
 }
 
 Material glass_material(float ior) {
   Material material = test_material(MATERIAL_DIELECTRIC);
-  material.tint = vec3(1.0F);
-  material.specular = 0.0F;
+  material.phong.tint = vec3(1.0F);
+  material.phong.specular = 0.0F;
   material.ior = ior;
   return material;
 }
@@ -60,6 +61,7 @@ Material glass_material(float ior) {
 InputObject disc_object(const std::vector<Disc>& discs, const Material& material) {
   InputObject object;
   object.material = material;
+  follow_phong(object.material);
   object.oriented = true;
   for (const Disc& disc : discs) {
     object.points.position.push_back(disc.center);

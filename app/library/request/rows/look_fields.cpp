@@ -35,7 +35,8 @@ Field object_row() {
   Field row =
       value_row("object", LOOK, "OBJECT:KEY=VALUE,...",
                 "change the material of one object, given by its index or name; keys: " + object_keys_help() +
-                    "; the last are of what path tracing sees; repeatable, the last change holds",
+                    "; diffuse, specular, shininess, mirror and tint are of --look paper, and what path tracing sees "
+                    "follows from them unless the keys from metallic on say it; repeatable, the last change holds",
                 [](Request& request, const std::string& text) {
                   request.look.objects.push_back(read_object_change(to_utf8(text)));
                 },
