@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "engine/cpu/wide/wide_walk.h"
+#include "engine/cpu/wide/wide_functions.h"
 #include "engine/device/bindings.h"
 #include "engine/device/spec_constants.h"
 #include "shaders/layout.h"

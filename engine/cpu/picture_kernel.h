@@ -2,10 +2,13 @@
 #pragma once
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/cpu/kernel.h"
@@ -25,12 +28,20 @@ namespace {
 #include "engine/cpu/wide_trace.h"
 //
 #include "engine/cpu/wide_shadow.h"
+//
+#include "engine/cpu/picture_tile.h"
 
 void run_pictures(const KernelWork& work, std::uint32_t group, Counts& counts) {
-  run_group(work, group, counts, [] {
+  bool opened = false;
+  run_group(work, group, counts, [&] {
     Work found{};
-    if (find_work(found)) trace_work(found);
+    if (!find_work(found)) return;
+    if (!std::exchange(opened, true)) tile_now = open_group_tile();
+    const uvec2 in_tile = tile_pixel(0u);
+    slot_now = ORDER == ORDER_LINEAR ? in_tile.x : in_tile.y * 8u + in_tile.x;
+    trace_work(found);
   });
+  tile_now = nullptr;
 }
 
 void run_misses(const KernelWork& work, std::uint32_t group, Counts& counts) {

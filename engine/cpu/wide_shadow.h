@@ -16,7 +16,7 @@ vec3 trace_shadow(Ray ray, Tally& tally) {
   std::vector<Meeting>& met_through = sheets_met;
   met_through.clear();
 #endif
-  visit_hits(ray, 0.0f, ray.t_max, tally, [&](const Meeting& met) {
+  visit_hits(ray, 0.0f, ray.t_max, /*by_tile=*/false, tally, [&](const Meeting& met) {
     if (TINTED && pass_glass(met.words, light, passed)) return INFINITY_F;
 #ifdef LIT
     if (OPACITY) {

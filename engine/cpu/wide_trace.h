@@ -25,12 +25,8 @@ PlaneHit hit_of(const WideWalk& walk, uint lane) {
   return hit;
 }
 
-/// Calls visit(meeting) for the ray's hits with t in [t_in, t_end), all but those behind the least end that it returns, in no
-/// strict order.
-template <class Visit>
-void visit_hits(const Ray& ray, float t_in, float t_end, Tally& tally, const Visit& visit) {
-  const WideView& tree = bound->tree;
-  WideWalk walk;
+/// Sets a ray's numbers for hits with t in [t_in, t_end).
+void set_ray(const Ray& ray, float t_in, float t_end, WideWalk& walk) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<uint>(axis);
     walk.origin[i] = ray.origin[axis];
@@ -41,13 +37,60 @@ void visit_hits(const Ray& ray, float t_in, float t_end, Tally& tally, const Vis
   }
   walk.t_min = max(ray.t_min, t_in);
   walk.t_max = t_end;
+}
+
+/// What rays of the group's pixels may meet; null: they are traced one by one. And the pixel's place in it.
+__attribute__((tls_model("initial-exec"))) thread_local WideTile* tile_now = nullptr;
+__attribute__((tls_model("initial-exec"))) thread_local uint slot_now = 0;
+
+/// Whether the tile knows what a ray meets: those from the camera have left no object.
+bool is_of_tile(const Ray& ray) {
+  return tile_now != nullptr && !tile_now->full && ray.from_object == NO_OBJECT;
+}
+
+/// Whether it goes through its pixel, as slot_now has it.
+[[maybe_unused]] bool is_in_pixel(const Ray& ray, const WideTile& tile) {
+  const dvec3 place = dvec3(ray.origin) - dvec3(tile.middle[0], tile.middle[1], tile.middle[2]) +
+                      dvec3(ray.dir) * double(ROOT_SIZE);
+  const auto along = [&](const std::array<float, 3>& axis) {
+    return glm::dot(dvec3(axis[0], axis[1], axis[2]), place);
+  };
+  const double w = tile.w_begin + along(tile.w_ahead);
+  const glm::dvec2 at(tile.scale[0] * along(tile.right) / w - slot_now % tile.width,
+                      tile.scale[1] * along(tile.down) / w - slot_now / tile.width);
+  return at.x > tile.first[0] - 0.01 && at.y > tile.first[1] - 0.01 && at.x < tile.last[0] + 0.01 &&
+         at.y < tile.last[1] + 0.01;
+}
+
+/// Where a ray of the tile is in its pixel's list.
+WideCursor cursor_of(const Ray& ray, const WideTile& tile) {
+  assert(is_in_pixel(ray, tile));
+  WideCursor cursor{slot_now, 0.0f, 0.0f};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<uint>(axis);
+    cursor.begin += tile.ahead[i] * (ray.origin[axis] - tile.middle[i]);
+    cursor.per_t += tile.ahead[i] * ray.dir[axis];
+  }
+  return cursor;
+}
+
+/// Calls visit(meeting) for the ray's hits with t in [t_in, t_end), all but those behind the least end that it returns, in no
+/// strict order; `by_tile`: the ray is of the tile, and where that is full behind it, some may be missing.
+template <class Visit>
+void visit_hits(const Ray& ray, float t_in, float t_end, bool by_tile, Tally& tally, const Visit& visit) {
+  const WideView& tree = bound->tree;
+  WideWalk walk;
+  set_ray(ray, t_in, t_end, walk);
   walk.stack[0] = {walk.t_min, tree.levels, 0};
   walk.boxes_met = tree.levels > 0 ? 1 : 0;
-  while (uint met = bound->functions.step(tree, walk)) {
+  WideCursor cursor{};
+  if (by_tile) cursor = cursor_of(ray, *tile_now);
+  while (uint met = by_tile ? bound->functions.step_tile(tree, *tile_now, cursor, walk)
+                            : bound->functions.step(tree, walk)) {
     for (; met != 0; met &= met - 1) {
       const auto lane = static_cast<uint>(findLSB(met));
       Meeting meeting;
-      meeting.splat = walk.leaf * WIDE + lane;
+      meeting.splat = by_tile ? tile_now->part[cursor.part].splat[lane] : walk.leaf * WIDE + lane;
       meeting.words = splat_words(meeting.splat);
       meeting.hit = hit_of(walk, lane);
       if (ELLIPSES) meeting.hit = ellipse_hit(clip_word(meeting.splat), meeting.words, meeting.hit);
@@ -102,11 +145,11 @@ struct Found {
 };
 
 /// Finds the first hit and, with BLEND_WINDOW, all meetings that may be of its cluster.
-Found find_cluster(const Ray& ray, float kappa, Tally& tally, WideMeetings& all) {
+Found find_cluster(const Ray& ray, float kappa, bool by_tile, Tally& tally, WideMeetings& all) {
   Found found{no_first(), 0.0f, true};
   float end = ray.t_max, least_end = ray.t_max;
   all.count = 0;
-  visit_hits(ray, -INFINITY_F, ray.t_max, tally, [&](const Meeting& met) {
+  visit_hits(ray, -INFINITY_F, ray.t_max, by_tile, tally, [&](const Meeting& met) {
     const uvec4 before = found.first.words;
     take_first(met.splat, met.words, met.hit, true, found.first);
     if (BLEND == BLEND_NEAREST) return std::nextafter(found.first.t.x, INFINITY_F);
@@ -124,7 +167,7 @@ Found find_cluster(const Ray& ray, float kappa, Tally& tally, WideMeetings& all)
   // A first hit found later may have a window that reaches further than one that the walk has gone by.
   if (end > least_end) {
     drop_behind(least_end, all);
-    visit_hits(ray, least_end, end, tally, [&](const Meeting& met) {
+    visit_hits(ray, least_end, end, by_tile, tally, [&](const Meeting& met) {
       found.all = found.all && add_meeting(met, all);
       return end;
     });
@@ -176,7 +219,7 @@ Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uv
 /// All that the ray hits, and what of it comes first.
 Found count_hits(const Ray& ray, Tally& tally, Cluster& cluster) {
   Found found{no_first(), 0.0f, true};
-  visit_hits(ray, -INFINITY_F, ray.t_max, tally, [&](const Meeting& met) {
+  visit_hits(ray, -INFINITY_F, ray.t_max, /*by_tile=*/false, tally, [&](const Meeting& met) {
     take_first(met.splat, met.words, met.hit, true, found.first);
     cluster.members += 1u;
     return INFINITY_F;
@@ -199,7 +242,11 @@ Hit trace_watching(Ray ray, float kappa, uvec4 target, Tally& tally) {
     found = count_hits(ray, tally, cluster);
   } else if (enters) {
     WideMeetings all;
-    found = find_cluster(ray, kappa, tally, all);
+    bool by_tile = false;
+    do {
+      by_tile = is_of_tile(given);
+      found = find_cluster(ray, kappa, by_tile, tally, all);
+    } while (by_tile && tile_now->full);
     if (!found.all) return trace_octree(given, kappa, target, tally);
     if (all.count > 0) cluster = blend_meetings(all, found, ray, target);
   }

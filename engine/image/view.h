@@ -71,7 +71,8 @@ struct Settings {
   bool cull = true;
   /// On CPUs: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same.
   bool stages = true;
-  bool counters = false;  ///< compile the counters in
+  /// Count the work: the host then traces the camera's rays one by one, not by tiles; pictures are the same.
+  bool counters = false;
   /// Also estimate the picture's error, by how much the second half of its samples changes what the first half showed: too high
   /// rather than too low, as samples of both halves complete each other. Needs two samples.
   bool estimate_error = false;

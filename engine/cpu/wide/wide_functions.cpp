@@ -1,4 +1,4 @@
-#include "engine/cpu/wide/wide_walk.h"
+#include "engine/cpu/wide/wide_functions.h"
 
 namespace splatray {
 

@@ -1,10 +1,12 @@
 #include "engine/cpu/wide/wide_step.h"
 //
 #include "engine/cpu/wide/wide_blend.h"
+//
+#include "engine/cpu/wide/wide_gather.h"
 
 namespace splatray {
 
 extern const WideFunctions WIDE_SSE;
-const WideFunctions WIDE_SSE{step, blend};
+const WideFunctions WIDE_SSE{step, blend, open_tile, step_tile};
 
 }  // namespace splatray

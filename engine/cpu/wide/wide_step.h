@@ -2,7 +2,7 @@
 #define HWY_COMPILE_ONLY_STATIC
 #include <hwy/highway.h>
 
-#include "engine/cpu/wide/wide_walk.h"
+#include "engine/cpu/wide/wide_functions.h"
 #include "shaders/layout.h"
 
 namespace splatray {
@@ -59,13 +59,6 @@ std::uint32_t meet_boxes(const WideNode& node, const WideWalk& walk, WideFloats&
   return met;
 }
 
-/// Splats as tests read them, all exact.
-struct alignas(64) Decoded {
-  std::array<WideFloats, 3> center;  ///< lattice units
-  std::array<WideFloats, 3> normal;  ///< integers, |x| + |y| + |z| = OCT_SCALE
-  WideFloats radius_squared;         ///< lattice units^2
-};
-
 Words masked(Words words, std::uint32_t mask) { return hn::And(words, hn::Set(WORD_TAG, mask)); }
 Lanes number(Words words) { return hn::ConvertTo(TAG, hn::BitCast(INT_TAG, words)); }
 
@@ -88,7 +81,7 @@ Lanes decode_radius_squared(Words word) {
                      hn::Or(hn::ShiftRight<2>(masked(word, 0xFFFF0000U)), hn::Set(WORD_TAG, 0x40000000U)));
 }
 
-void decode(const WideLeaf& leaf, Decoded& splats) {
+void decode(const WideLeaf& leaf, WideDiscs& splats) {
   for (std::uint32_t from = 0; from < WIDE; from += LANES) {
     const auto word = [&](std::uint32_t i) { return hn::Load(WORD_TAG, &leaf.words[i][from]); };
     const Words y = hn::Or(hn::ShiftLeft<10>(masked(word(0), 0x7FFU)), hn::ShiftRight<22>(word(1)));
@@ -104,7 +97,7 @@ void decode(const WideLeaf& leaf, Decoded& splats) {
 }
 
 /// Splats of a leaf that the ray may hit, as splat_maybe_hit of shaders/primitive/disc.glsl decides it.
-std::uint32_t maybe_hits(const Decoded& leaf, const WideWalk& walk) {
+std::uint32_t maybe_hits(const WideDiscs& leaf, const WideWalk& walk) {
   const Lanes dx = hn::Set(TAG, walk.dir[0]), dy = hn::Set(TAG, walk.dir[1]), dz = hn::Set(TAG, walk.dir[2]);
   std::uint32_t met = 0;
   for (std::uint32_t from = 0; from < WIDE; from += LANES) {
@@ -131,7 +124,7 @@ std::uint32_t maybe_hits(const Decoded& leaf, const WideWalk& walk) {
 
 /// Where the ray meets the planes of those splats, by the operations of splat_plane_hit in their order; which it meets on the
 /// disc.
-std::uint32_t meet_splats(const Decoded& leaf, std::uint32_t maybe, WideWalk& walk) {
+std::uint32_t meet_splats(const WideDiscs& leaf, std::uint32_t maybe, WideWalk& walk) {
   std::uint32_t met = 0;
   for (std::uint32_t from = 0; from < WIDE; from += DOUBLE_LANES) {
     if ((maybe >> from & ((1U << DOUBLE_LANES) - 1U)) == 0) continue;
@@ -192,7 +185,7 @@ std::uint32_t step(const WideView& tree, WideWalk& walk) {
     }
     if (box.level > 0) continue;
     ++walk.leaves;
-    Decoded leaf;
+    WideDiscs leaf;
     decode(tree.leaves[box.number], leaf);
     std::uint32_t met = maybe_hits(leaf, walk);
     if (box.number == tree.last_leaf) met &= tree.last_mask;

@@ -29,6 +29,13 @@ struct alignas(64) WideLeaf {
   std::array<WideWords, 4> words;
 };
 
+/// Splats as tests read them, all exact.
+struct alignas(64) WideDiscs {
+  std::array<WideFloats, 3> center;  ///< lattice units
+  std::array<WideFloats, 3> normal;  ///< integers, |x| + |y| + |z| = OCT_SCALE
+  WideFloats radius_squared;         ///< lattice units^2
+};
+
 /// The tree as a walk reads it.
 struct WideView {
   const WideNode* nodes = nullptr;
@@ -112,15 +119,5 @@ struct WideSums {
 
 /// Blends them as accumulate_candidates does with KERNEL_RIM and BLEND_WINDOW, to the same bits.
 using WideBlender = WideSums (*)(WideMeetings& meetings, const WideWindow& window);
-
-/// The functions for one kind of CPU.
-struct WideFunctions {
-  WideStepper step;
-  WideBlender blend;
-};
-
-/// The fastest that this CPU runs, of vectors of at most `vector_bits`: 512, 256 and 128 on x86-64, else those of any CPU that
-/// the compiler is asked for. All give the same bits.
-[[nodiscard]] const WideFunctions& wide_functions(std::uint32_t vector_bits);
 
 }  // namespace splatray
