@@ -41,16 +41,16 @@ class Pictures(unittest.TestCase):
             self.assertEqual(self.scene.make(turn, turntable=2, resolution=(16, 16), samples=2).files,
                              [turn.replace("##", number) for number in ("00", "01")])
             self.scene.make(page, orbit=(4, 1), resolution=(30, 30), samples=2)
-            self.assertIn(b"<html", open(page, "rb").read())
+            self.assertIn(b"<html", pathlib.Path(page).read_bytes())
             self.scene.make(plan, sheet="plan:scale=50,dpi=40", samples=2)
             self.assertTrue(os.path.exists(plan + ".sheet.json"))
-            size = png_size(open(plan, "rb").read())
+            size = png_size(pathlib.Path(plan).read_bytes())
             drawn = self.scene.render(request=sr.Request(sheet="plan:scale=50,dpi=40", samples=2))
             self.assertEqual((drawn.width, drawn.height), size)
             with self.assertRaisesRegex(ValueError, "expected one picture; make"):
                 self.scene.render(request=sr.Request(turntable=3, output="a.#.png"))
             with self.assertRaisesRegex(ValueError, "expected one of them"):
-                self.scene.make(plan, sheet="plan", turntable=3)
+                self.scene.make(turn, sheet="plan", turntable=3)
 
     def test_five_lines(self):
         image = self.scene.render(sr.frame(self.scene, azimuth=30, fov=35), (160, 90), samples=4)
