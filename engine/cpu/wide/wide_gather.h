@@ -68,7 +68,7 @@ void open_node(const WideView& tree, const WideBox& box, WideTile& tile) {
 }
 
 /// The first pixel along an axis of the picture that may see each splat, and the one behind the last.
-struct Reach {
+struct alignas(64) Reach {
   WideWords first, last;
 };
 
