@@ -98,15 +98,16 @@ TEST(ReadPoints, AreShownOnceAsTheyAreRead) {
     std::vector<glm::dvec3> seen;
     std::size_t times = 0;
     ReadOptions options;
+    const bool measured = std::string(name) != "c.obj";  // not in the closure: Clang 14 takes no bindings there
     options.points = [&](const SeenPoints& points) {
       EXPECT_EQ(points.first, seen.size());
-      EXPECT_EQ(points.measured, std::string(name) != "c.obj");
+      EXPECT_EQ(points.measured, measured);
       seen.insert(seen.end(), points.points.position.begin() + static_cast<std::ptrdiff_t>(points.first),
                   points.points.position.end());
       ++times;
     };
     const Input input = read_input({folder.write(name, bytes)}, options);
-    if (std::string(name) == "c.obj") {
+    if (!measured) {
       EXPECT_EQ(seen.size(), 400U) << "its vertices";
     } else {
       EXPECT_TRUE(seen == input.objects[0].points.position) << name;
