@@ -58,8 +58,10 @@ bool is_of_tile(const Ray& ray) {
   const double w = tile.w_begin + along(tile.w_ahead);
   const glm::dvec2 at(tile.scale[0] * along(tile.right) / w - slot_now % tile.width,
                       tile.scale[1] * along(tile.down) / w - slot_now / tile.width);
-  return at.x > tile.first[0] - 0.01 && at.y > tile.first[1] - 0.01 && at.x < tile.last[0] + 0.01 &&
-         at.y < tile.last[1] + 0.01;
+  // Where pixels are tiny, float32 has less of a ray than they ask for; the slack is in lattice units.
+  const glm::dvec2 more = 0.01 + glm::dvec2(tile.scale[0], tile.scale[1]) * (tile.slack / w);
+  return at.x > tile.first[0] - more.x && at.y > tile.first[1] - more.y && at.x < tile.last[0] + more.x &&
+         at.y < tile.last[1] + more.y;
 }
 
 /// Where a ray of the tile is in its pixel's list.

@@ -33,7 +33,7 @@ Camera camera(glm::dvec3 eye, glm::dvec3 target, double fov_y_deg = 40.0, double
   return {eye, target, {0.1, 1.0, 0.0}, fov_y_deg, ortho_height};
 }
 
-/// From outside, within, beside a wall, far and very far away, without perspective, and askew.
+/// From outside, within, beside a wall, far and very far away, without perspective, of pixels below a lattice unit, and askew.
 std::vector<Camera> cameras() {
   std::vector<Camera> all{camera({0.4, 0.3, 4.0}, {0.0, 0.0, 0.0}),
                           camera({0.9, 0.2, 0.3}, {-1.0, -0.1, 0.0}, 110.0),
@@ -42,7 +42,9 @@ std::vector<Camera> cameras() {
                           camera({30.0, 10.0, 40.0}, {0.0, 0.0, 0.0}, 4.0),
                           camera({3e5, 1e5, 4e6}, {0.0, 0.0, 0.0}, 4e-5),
                           camera({0.5, 1.0, 3.0}, {0.0, 0.0, 0.0}, 40.0, 2.6),
-                          camera({0.1, 0.1, 0.2}, {-1.0, 0.0, 0.1}, 40.0, 1.5)};
+                          camera({0.1, 0.1, 0.2}, {-1.0, 0.0, 0.1}, 40.0, 1.5),
+                          camera({0.4, 0.3, 4.0}, {0.1, 0.2, 0.0}, 1e-4),
+                          camera({0.4, 0.3, 4.0}, {0.1, 0.2, 0.0}, 40.0, 1e-5)};
   all.push_back(all.front());
   all.back().lens_shift = {0.4, -0.2};
   all.back().pixel_aspect = 3.0;
