@@ -98,7 +98,8 @@ TEST(ReadPoints, AreShownOnceAsTheyAreRead) {
     std::vector<glm::dvec3> seen;
     std::size_t times = 0;
     ReadOptions options;
-    const bool measured = std::string(name) != "c.obj";  // not in the closure: Clang 14 takes no bindings there
+    const bool measured =
+        std::string(name) != "c.obj";  // not in the closure: Clang 14 takes no bindings there
     options.points = [&](const SeenPoints& points) {
       EXPECT_EQ(points.first, seen.size());
       EXPECT_EQ(points.measured, measured);

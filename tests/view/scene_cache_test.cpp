@@ -6,8 +6,8 @@
 #include <chrono>
 #include <fstream>
 
-#include "app/library/shot/scene_source.h"
 #include "app/library/request/command_line.h"
+#include "app/library/shot/scene_source.h"
 #include "app/view/model/document_request.h"
 #include "engine/base/error.h"
 #include "tests/temp_folder.h"

@@ -32,15 +32,15 @@ Field material_row() {
 }
 
 Field object_row() {
-  Field row =
-      value_row("object", LOOK, "OBJECT:KEY=VALUE,...",
-                "change the material of one object, given by its index or name; keys: " + object_keys_help() +
-                    "; diffuse, specular, shininess, mirror and tint are of --look paper, and what path tracing sees "
-                    "follows from them unless the keys from metallic on say it; repeatable, the last change holds",
-                [](Request& request, const std::string& text) {
-                  request.look.objects.push_back(read_object_change(to_utf8(text)));
-                },
-                {});
+  Field row = value_row(
+      "object", LOOK, "OBJECT:KEY=VALUE,...",
+      "change the material of one object, given by its index or name; keys: " + object_keys_help() +
+          "; diffuse, specular, shininess, mirror and tint are of --look paper, and what path tracing sees "
+          "follows from them unless the keys from metallic on say it; repeatable, the last change holds",
+      [](Request& request, const std::string& text) {
+        request.look.objects.push_back(read_object_change(to_utf8(text)));
+      },
+      {});
   row.repeated = row.adds = true;
   row.clear = [](Request& request) { request.look.objects.clear(); };
   row.write = [](const Request& request) {
