@@ -12,7 +12,7 @@
 namespace splatray::testing {
 namespace {
 
-constexpr std::uint32_t VECTOR_BITS[] = {512, 256, 128, 32};
+constexpr std::uint32_t NARROW_VECTOR_BITS[] = {256, 128, 32};
 
 /// A ball of glass with colours in a box that is open to +z, points on its walls.
 Scene ball_in_box() {
@@ -51,6 +51,12 @@ std::vector<Camera> cameras() {
   return all;
 }
 
+/// From outside, within, and without perspective.
+std::vector<Camera> some_cameras() {
+  const std::vector<Camera> all = cameras();
+  return {all[0], all[1], all[6]};
+}
+
 /// Pixels whose bits differ between tiles and single rays.
 std::size_t different_pixels(ShownTracer& tracer, const View& view, Settings settings) {
   settings.aov = true;
@@ -74,7 +80,7 @@ void expect_same_pictures(const Scene& scene, const std::vector<Camera>& cameras
   ShownTracer tracer(device, {.vector_bits = vector_bits});
   tracer.upload(scene);
   for (std::size_t i = 0; i < cameras.size(); ++i)
-    EXPECT_EQ(different_pixels(tracer, {cameras[i], 61, 43}, settings), 0U)
+    EXPECT_EQ(different_pixels(tracer, {cameras[i], 45, 35}, settings), 0U)
         << "camera " << i << ", vectors of " << vector_bits << " bits";
 }
 
@@ -83,22 +89,24 @@ TEST(Tile, HasTheBitsOfSingleRays) {
   ASSERT_FALSE(scene.field_pool.empty());
   Settings settings;
   settings.samples = 2;
-  for (const std::uint32_t bits : VECTOR_BITS) expect_same_pictures(scene, cameras(), settings, bits);
-  settings.samples = 20;
   expect_same_pictures(scene, cameras(), settings);
+  for (const std::uint32_t bits : NARROW_VECTOR_BITS)
+    expect_same_pictures(scene, some_cameras(), settings, bits);
+  settings.samples = 20;
+  expect_same_pictures(scene, some_cameras(), settings);
 }
 
 TEST(Tile, InEveryLookAndOrder) {
   const Scene scene = ball_in_box();
   Settings settings;
-  settings.samples = 3;
+  settings.samples = 2;
   for (const std::uint32_t look : {LOOK_LIT, LOOK_AO, LOOK_SCAN, LOOK_BASE, LOOK_SEEN, LOOK_CLAY}) {
     settings.look = look;
-    expect_same_pictures(scene, cameras(), settings);
+    expect_same_pictures(scene, some_cameras(), settings);
   }
   settings.look = LOOK_PAPER;
   settings.order = ORDER_LINEAR;
-  expect_same_pictures(scene, cameras(), settings);
+  expect_same_pictures(scene, some_cameras(), settings);
 }
 
 TEST(Tile, WithEveryBlendAndRegions) {

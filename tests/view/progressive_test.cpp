@@ -145,12 +145,12 @@ TEST_F(ProgressiveTest, WhatMovesIsAsBrightAsThePictureAtRest) {
 
 TEST_F(ProgressiveTest, EndsWithoutNoiseAsASavedPictureDoes) {
   document.request.look.style = LOOK_LIT;
-  document.request.settings.samples = 7;
+  document.request.settings.samples = 5;
   const std::vector<SharedFrame> frames = finish();
   ASSERT_GE(frames.size(), 3U);
   const Frame &traced = **(frames.end() - 2), &end = *frames.back();
   EXPECT_TRUE(end.denoised && !traced.denoised);
-  EXPECT_EQ(end.samples, 7U);
+  EXPECT_EQ(end.samples, 5U);
   EXPECT_TRUE(traced.image.rgba == headless().rgba);
   EXPECT_TRUE(end.image.rgba == headless(true).rgba);
   EXPECT_FALSE(end.image.rgba == traced.image.rgba);
@@ -158,20 +158,20 @@ TEST_F(ProgressiveTest, EndsWithoutNoiseAsASavedPictureDoes) {
   LoadedPart loaded = *document.loaded;
   loaded.asked.output.denoise = false;
   document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
-  document.request.settings.samples = 6;
+  document.request.settings.samples = 2;
   EXPECT_FALSE(finish().back()->denoised) << "--keep-noise";
 }
 
 TEST_F(ProgressiveTest, AChangeDropsTheFilteredPicture) {
   document.request.look.style = LOOK_LIT;
-  document.request.settings.samples = 4;
+  document.request.settings.samples = 3;
   progressive.show(document, SIZE);
   SharedFrame frame;
   const auto work = [&] {
     std::this_thread::sleep_until(progressive.next_work().value());
     if (SharedFrame next = progressive.work([] { return false; })) frame = next;
   };
-  while (!frame || frame->samples < 4) work();
+  while (!frame || frame->samples < 3) work();
   EXPECT_FALSE(progressive.work([] { return true; }))
       << "who waits is not kept waiting by what guides the filter";
   work();  // the filter has begun
