@@ -113,6 +113,14 @@ TEST(Hostile, VtpCompressedBlocksBeyondTheFile) {
       "1 compressed blocks of 1099511627776 bytes");
 }
 
+TEST(Hostile, VtpCompressedBlocksOfNothing) {
+  const TempFolder folder;
+  // base64 of the words 1, 0, 36: VTK divides by the second
+  expect_cheap_refusal(folder.write("a.vtp", vtp(" compressor=\"vtkZLibDataCompressor\"", "3",
+                                                 points_array("binary", "AQAAAAAAAAAkAAAA"))),
+                       "1 compressed blocks of 0 bytes");
+}
+
 TEST(Hostile, VtpAppendedArraysBeyondTheFile) {
   const TempFolder folder;
   const std::string array =

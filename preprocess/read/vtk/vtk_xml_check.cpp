@@ -195,7 +195,7 @@ class XmlScan {
     const auto [first, block, last] = words;
     const std::uint64_t most = size_ * MOST_GROWTH;
     const bool fits = compressed_ ? first <= size_ / word_bytes_ && block <= most && last <= most &&
-                                        (first == 0 || block <= most / first)
+                                        (first == 0 || (block > 0 && block <= most / first))
                                   : first <= size_;
     if (!fits) {
       fail(compressed_ ? "found an array of " + std::to_string(first) + " compressed blocks of " +
