@@ -412,6 +412,7 @@ SPLATRAY_CONST FEATURE_METAL = 8192u;       ///< some material is a metal
 SPLATRAY_CONST FEATURE_COAT = 16384u;       ///< some material has a clearcoat
 SPLATRAY_CONST FEATURE_EMISSION = 32768u;   ///< some material sends out light
 SPLATRAY_CONST FEATURE_LENS = 65536u;       ///< the lens has a size
+SPLATRAY_CONST FEATURE_PANES = 268435456u;  ///< light of lights passes panes as paths do, some material is one
 SPLATRAY_CONST FEATURE_STRAIGHT = 131072u;  ///< light of lights passes dielectrics unbent, tinted
 
 SPLATRAY_CONST LOOK_PAPER = 0u;  ///< Phong, hard shadows, mirrors and glass (Goradia et al. 2010)

@@ -35,6 +35,7 @@ struct Feature {
 #define WATCHES EMISSION
 #else
 #define TINTED GLASS
+#define PANES false
 #define WATCHES false
 #endif
 

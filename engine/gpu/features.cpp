@@ -44,7 +44,9 @@ MaterialContent material_content(std::span<const Material> materials, std::uint3
     all_one_sided = all_one_sided && material.flags == 0;
     content.open = content.open && material.flags != 0 && (material.flags & MATERIAL_HIDDEN) == 0;
     content.mirrors = content.mirrors || material.phong.mirror > 0.0F;
-    content.glass = content.glass || (material.flags & MATERIAL_DIELECTRIC) != 0;
+    const bool glass = (material.flags & MATERIAL_DIELECTRIC) != 0;
+    content.glass = content.glass || glass;
+    content.panes = content.panes || (glass && material.ior == 1.0F);
     content.scatters = content.scatters || scatters(material);
     content.lobes |= lobes_of(material, textures);
   }
@@ -66,6 +68,7 @@ std::uint32_t light_features(const SceneContent& content, const Settings& settin
   add(sky, FEATURE_SKY);
   add((lights || sky) && settings.shadows, FEATURE_SHADOWS);
   add(all && settings.straight_shadows, FEATURE_STRAIGHT);
+  add(all && content.materials.panes && (lights || sky) && settings.shadows, FEATURE_PANES);
   add(settings.lens_radius_world > 0.0, FEATURE_LENS);
   return features;
 }

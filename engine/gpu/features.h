@@ -16,6 +16,7 @@ struct MaterialContent {
   bool open = false;                  ///< every object is two-sided or a dielectric, none is hidden
   bool mirrors = false;               ///< some mirror; Phong
   bool glass = false;                 ///< some are dielectrics
+  bool panes = false;                 ///< some of these do not bend light
   bool scatters = false;              ///< some send light of lights back, diffusely or as a highlight; Phong
   std::uint32_t lobes = 0;            ///< FEATURE_* of the lobes that they have, and of their emission
 };

@@ -27,7 +27,7 @@ vec3 shade_lights(Hit hit, vec3 view_dir, vec3 diffuse, Phong phong, uint inside
       Ray ray = ray_from_hit(hit, dir, inside);
       ray.t_max = point ? light_distance : INFINITY_F;
       ray.t_max = lit ? ray.t_max : -1.0f;
-      visible *= trace_shadow(ray, tally);
+      visible *= trace_shadow(ray, tally).light;
       shadow_rays += lit ? 1u : 0u;
     }
     float falloff = point ? light_falloff(light, dir, distance_squared) : 1.0f;

@@ -2,13 +2,14 @@
 // followed, both joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
 // ch. 9). The blended normal is the geometric one too, but for normal maps: discs stand in for the smooth surface that it
 // estimates, not the other way round. Needs material_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK,
-// LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, STAGE and those of bsdf.glsl.
+// LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, PANES, STAGE and those of bsdf.glsl.
 #ifndef SPLATRAY_TRANSPORT_GLSL
 #define SPLATRAY_TRANSPORT_GLSL
 #include "lang/sobol.glsl"
 #include "light/bsdf.glsl"
 #include "light/light_samples.glsl"
 #include "light/material.glsl"
+#include "light/pane.glsl"
 #include "light/path.glsl"
 #include "trace/blend.glsl"
 #include "trace/shadow.glsl"
@@ -44,6 +45,7 @@ bool through_plane(Hit hit, vec3 dir, float cosine) { return TEXTURE_NORMAL && d
 struct EmissionSample {
   Ray ray;      ///< ends before it starts where it brings none
   vec3 light;   ///< sent on to the eye from a hit; of splats that send out light: where they send out 1
+  float share;  ///< of it that counts where paths find it, too
   uvec4 splat;  ///< words of one, which the ray looks for; else NO_SPLAT
   float pdf;    ///< how often the path would go on that way, per solid angle
 };
@@ -52,6 +54,7 @@ EmissionSample no_emission_sample() {
   EmissionSample probe;
   probe.ray = secondary_ray(vec3(0.0f), vec3(0.0f), 0u, vec3(0.0f), NO_OBJECT);
   probe.light = vec3(0.0f);
+  probe.share = 1.0f;
   probe.splat = NO_SPLAT;
   probe.pdf = 0.0f;
   return probe;
@@ -65,8 +68,8 @@ EmissionSample sample_emitter(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3
   vec3 value = bsdf_value(bsdf, to_eye, to_light, probe.pdf);
   probe.splat = chosen.splat;
   bool emitter = EMISSION && probe.splat != NO_SPLAT;
-  float share = LOOK == LOOK_SCAN || emitter ? 1.0f : mis_weight(chosen.pdf, probe.pdf);
-  probe.light = value * chosen.radiance * share;
+  probe.share = LOOK == LOOK_SCAN || emitter ? 1.0f : mis_weight(chosen.pdf, probe.pdf);
+  probe.light = value * chosen.radiance;
   if (through_plane(hit, chosen.dir, to_light.z)) probe.light = vec3(0.0f);
   uint object_bit = 0u;
   if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
@@ -175,10 +178,12 @@ void sample_lights(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_ey
       probe.light = vec3(0.0f);
     }
     if (SHADOWS || sky) {
-      probe.light *= trace_shadow(probe.ray, tally);
+      Passing passing = trace_shadow(probe.ray, tally);
+      if ((TINTED || PANES) && passing.glass != 0u) probe.share = 1.0f;
+      probe.light *= passing.light;
       path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
     }
-    path.radiance += clamped(path.throughput * probe.light, path.bounce);
+    path.radiance += clamped(path.throughput * (probe.light * probe.share), path.bounce);
     sky = false;
   } while (to_lights);
 }
@@ -209,7 +214,9 @@ void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec
   bool transmitted = (chosen.event & BSDF_TRANSMITTED) != 0u;
   uint inside = path.ray.inside;
   if (GLASS && transmitted) inside ^= 1u << material_at(hit.object).mask_bit;
-  bool found_straight = STRAIGHT && transmitted && path.pdf != 0.0f;
+  bool straight = STRAIGHT;
+  if (PANES) straight = straight || is_pane(material_at(hit.object));
+  bool found_straight = straight && transmitted && path.pdf != 0.0f;
   path.pdf = found_straight ? -1.0f : ((chosen.event & BSDF_DELTA) != 0u ? 0.0f : chosen.pdf);
   path.ray = ray_from_hit(hit, dir * inversesqrt(dot(dir, dir)), inside);
   path.throughput = throughput;
@@ -220,7 +227,7 @@ void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec
 
 /// What a path finds where it meets nothing.
 void meet_environment(INOUT(Path) path) {
-  float share = path.pdf < 0.0f ? 0.0f : 1.0f;
+  float share = 1.0f;
   if (SKY) share = mis_weight(path.pdf, path.pdf > 0.0f ? sky_pdf(path.ray.dir) * frame.sky_share : 0.0f);
   if (path.bounce == 0u) {
     path.radiance += path.throughput * background_radiance(path.ray.dir);

@@ -18,6 +18,7 @@ struct Ray {
   float t_min;        ///< hits need t > t_min
   float t_max;        ///< and t < t_max
   uint inside;        ///< mask of the dielectrics the ray is inside of
+  bool to_light;      ///< PANES: looks for light, and so meets panes from both sides
   vec3 from_normal;   ///< secondary rays: blended normal of the sheet left, on the side its splats' normals point to
   uint from_object;   ///< secondary rays: object left; NO_OBJECT for primary rays
   bool bounded;       ///< REGION: meets only what the region keeps

@@ -30,6 +30,7 @@ const bool TINTED = STRAIGHT && GLASS;
 const bool WATCHES = EMISSION;
 #else
 const bool TINTED = GLASS;
+const bool PANES = false;
 const bool WATCHES = false;
 #endif
 

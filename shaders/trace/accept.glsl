@@ -40,13 +40,17 @@ bool is_two_sided(uint object) {
   return (own & flags) != 0u || (REGION && (own & MATERIAL_DIELECTRIC) == 0u);
 }
 
+/// Whether a dielectric does not bend light: nothing says what is behind its surface.
+bool is_pane(Material material) { return (material.flags & MATERIAL_DIELECTRIC) != 0u && material.ior == 1.0f; }
+
 /// The side a ray expects (Goradia et al. 2010, sec. IV-C2, made per object): fronts outside, backs inside.
-bool side_expected(uint object, float facing, uint inside) {
+bool side_expected(uint object, float facing, Ray ray) {
   if (FACES == FACES_BOTH || FACES == FACES_CUT) return true;
   if (FACES == FACES_FRONT) return SIDE != SIDE_SIDE || facing < 0.0f;
   Material material = material_at(object);
-  bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((inside >> material.mask_bit) & 1u) != 0u;
+  bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((ray.inside >> material.mask_bit) & 1u) != 0u;
   bool as_expected = is_inside ? facing > 0.0f : facing < 0.0f;
+  if (PANES) as_expected = as_expected || (ray.to_light && is_pane(material));
   return (material.flags & MATERIAL_HIDDEN) == 0u && (SIDE != SIDE_SIDE || is_two_sided(object) || as_expected);
 }
 
@@ -60,7 +64,7 @@ bool hit_allowed(uvec4 words, PlaneHit hit, Ray ray) {
   uint object = splat_object(words);
   bool own = false;
   if (SIDE == SIDE_SIDE) own = ray.from_object != NO_OBJECT && splat_of_sheet_left(words, ray, is_two_sided(object));
-  return !own && side_expected(object, hit.facing, ray.inside);
+  return !own && side_expected(object, hit.facing, ray);
 }
 
 /// Where a ray meets a splat's plane, measured as the splat's shape has it.

@@ -11,6 +11,7 @@ const float REGION_SLACK = 4.0f;
 
 /// A ray that no region ends.
 Ray unbounded(Ray ray) {
+  ray.to_light = false;
   ray.bounded = false;
   ray.t_drop_in = INFINITY_F;
   ray.t_drop_out = INFINITY_F;

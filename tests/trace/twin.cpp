@@ -43,6 +43,7 @@ struct Feature {
 #define SPLATRAY_FEATURE(NAME, BIT) constexpr Feature<BIT> NAME;
 #include "shaders/scene/features.glsl"
 #define WATCHES false
+#define PANES false
 
 #define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
   Value reader(uint index) { return bound->pool.at(index); }
