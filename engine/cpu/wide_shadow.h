@@ -12,11 +12,16 @@ Passing trace_shadow(Ray ray, Tally& tally) {
   if (REGION) clip_to_region(ray);
   if (!(ray.t_max >= 0.0f)) return passing;
   bool ends = false;
+  const bool some = some_pass();
 #ifdef LIT
   std::vector<Meeting>& met_through = sheets_met;
   met_through.clear();
 #endif
   visit_hits(ray, 0.0f, ray.t_max, /*by_tile=*/false, tally, [&](const Meeting& met) {
+    if (!some) {
+      ends = true;
+      return -INFINITY_F;
+    }
 #ifdef LIT
     if (OPACITY || (PANES && is_pane(material_at(splat_object(met.words))))) {
       met_through.push_back(met);

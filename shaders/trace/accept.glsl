@@ -50,7 +50,7 @@ bool side_expected(uint object, float facing, Ray ray) {
   Material material = material_at(object);
   bool is_inside = (material.flags & MATERIAL_DIELECTRIC) != 0u && ((ray.inside >> material.mask_bit) & 1u) != 0u;
   bool as_expected = is_inside ? facing > 0.0f : facing < 0.0f;
-  if (PANES) as_expected = as_expected || (ray.to_light && is_pane(material));
+  if (!as_expected && PANES) as_expected = ray.to_light && is_pane(material);
   return (material.flags & MATERIAL_HIDDEN) == 0u && (SIDE != SIDE_SIDE || is_two_sided(object) || as_expected);
 }
 
