@@ -57,12 +57,10 @@ class Panes : public Plane {
     const Mean radiance = mean_of(tracer.render({below, 4, 4}, lit(samples)));
     return {pi * radiance.value / ALBEDO, pi * radiance.error / ALBEDO};
   }
-  /// On the device, by the kernels of GPUs there, and on the host.
+  /// On the device and on the host.
   template <class Check>
   void on_all(const Check& check) {
     check(tracer_, "device");
-    ShownTracer by_gpus(device_, {.kernels = Kernels::gpu});
-    check(by_gpus, "kernels of GPUs");
     const HostDevice host;
     ShownTracer on_host(host, {});
     check(on_host, "host");
@@ -79,6 +77,13 @@ TEST_F(Panes, PassLightWithoutSizeByItsAngle) {
           << where << ", angle " << angle;
     }
   });
+}
+
+TEST_F(Panes, PassLightByTheKernelsOfGpus) {
+  ShownTracer by_gpus(device_, {.kernels = Kernels::gpu});
+  const SceneLight sun{LIGHT_DIRECTIONAL, {0.0, 1.0, 0.0}, vec3(2.0F)};
+  EXPECT_NEAR(irradiance_below(by_gpus, floor_below({1.0}), {sun}, 16).value, 2.0 * passed(1.0),
+              6e-3 * passed(1.0));
 }
 
 /// As near as their windows of depth allow.
