@@ -32,7 +32,7 @@ Passing trace_shadow(Ray ray, Tally& tally) {
     return ends ? -INFINITY_F : INFINITY_F;
   });
 #ifdef LIT
-  if (OPACITY || PANES) {
+  if (!ends && (OPACITY || PANES)) {
     std::sort(met_through.begin(), met_through.end(), [](const Meeting& a, const Meeting& b) {
       return df_less(a.hit.t, b.hit.t) || (a.hit.t == b.hit.t && words_less(a.words, b.words));
     });

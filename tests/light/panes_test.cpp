@@ -1,6 +1,4 @@
 // Light of lights through panes, dielectrics that do not bend it: as much as paths carry through them, straight.
-#include <numbers>
-
 #include "engine/device/host/host_device.h"
 #include "tests/light/lit.h"
 
