@@ -108,7 +108,7 @@ TEST(Region, EndsRaysWhereBruteForceSaysSo) {
     for (const Region& region : regions_of(scene)) {
       Settings settings;
       settings.region = region;
-      compare(scene, settings, 5000,
+      compare(scene, settings, 3000,
               "region " + std::to_string(number++) + " of flags " + std::to_string(flags));
     }
   }

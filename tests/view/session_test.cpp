@@ -336,7 +336,7 @@ std::optional<std::pair<int, int>> find_disc(const std::vector<std::uint32_t>& p
 }
 
 TEST_F(ViewSession, ABoxIsDraggedAPointIsMeasuredAndBothAreUndone) {
-  start({first});
+  start({first, "--look=paper"});
   const unsigned long window = desktop.wait_for_window("first.ply");
   ASSERT_NE(window, 0U);
   await_finished_picture();
