@@ -203,6 +203,7 @@ Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uv
   wide.t = window.t.x;
   wide.t_low = window.t.y;
   wide.inverse_depth = window.inverse_depth;
+  wide.back = window.back;
   wide.object = window.object;
   wide.fields = FIELDS;
   wide.leans = LEANS;

@@ -1,6 +1,6 @@
-// The cluster of the first splat that a ray hits: the splats of the same object with like normals in a window of depth behind it,
-// which are blended. Sums are integers, so the blend does not depend on the order in which splats are found. Needs, beside
-// accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS, LEANS, WATCHES.
+// The cluster of the first splat that a ray hits: the splats of the same object with like normals, met from the same side, in a
+// window of depth behind it, which are blended. Sums are integers, so the blend does not depend on the order in which splats are
+// found. Needs, beside accept.glsl: color_at(splat), field_word(splat), and the constants KERNEL, COLORS, FIELDS, LEANS, WATCHES.
 #ifndef SPLATRAY_CLUSTER_GLSL
 #define SPLATRAY_CLUSTER_GLSL
 #include "trace/accept.glsl"
@@ -39,10 +39,14 @@ Cluster empty_cluster() {
   return cluster;
 }
 
+vec3 unit_normal(uvec4 words) {
+  vec3 normal = splat_normal(words);
+  return normal * inversesqrt(dot(normal, normal));
+}
+
 /// Unit normal turned against the ray.
 vec3 normal_against(uvec4 words, vec3 dir) {
-  vec3 normal = splat_normal(words);
-  normal = normal * inversesqrt(dot(normal, normal));
+  vec3 normal = unit_normal(words);
   return dot(normal, dir) > 0.0f ? -normal : normal;
 }
 
@@ -75,8 +79,7 @@ struct Facet {
 
 /// The disc itself, or what its normal field makes of it. A field's normal turns at most until it is square to the ray.
 Facet facet_at(uvec4 words, uint splat, vec3 from_center, float inverse_radius, vec3 dir) {
-  vec3 normal = splat_normal(words);
-  normal = normal * inversesqrt(dot(normal, normal));
+  vec3 normal = unit_normal(words);
   float cosine = dot(normal, dir);
   Facet facet;
   facet.normal = cosine > 0.0f ? -normal : normal;
@@ -93,7 +96,8 @@ Facet facet_at(uvec4 words, uint splat, vec3 from_center, float inverse_radius, 
 
 /// What of a first hit the splats of its cluster are compared with.
 struct Window {
-  vec3 normal;  ///< of the first splat, against the ray
+  vec3 normal;  ///< of the first splat, as it is stored
+  bool back;    ///< its back is hit
   uint object;
   vec2 t;       ///< of the first hit
   float inverse_depth;
@@ -101,7 +105,8 @@ struct Window {
 
 Window window_of(First first, Ray ray, float depth) {
   Window window;
-  window.normal = normal_against(first.words, ray.dir);
+  window.normal = unit_normal(first.words);
+  window.back = dot(window.normal, ray.dir) > 0.0f;
   window.object = splat_object(first.words);
   window.t = first.t;
   window.inverse_depth = 1.0f / depth;
@@ -111,11 +116,13 @@ Window window_of(First first, Ray ray, float depth) {
 /// Where in its window a splat is met: 0 at the first hit, 1 at the end behind it.
 float window_share(PlaneHit hit, Window window) { return df_add(hit.t, -window.t).x * window.inverse_depth; }
 
-/// Whether a splat that is hit belongs to the first splat's cluster.
+/// Whether a splat that is hit belongs to the first splat's cluster: the other side of a plate thinner than the window does not.
 bool is_member(uvec4 words, PlaneHit hit, Ray ray, Window window, Cluster cluster) {
   float share = window_share(hit, window);
-  return share <= 1.0f && share >= -1.0f && splat_object(words) == window.object &&
-         dot(normal_against(words, ray.dir), window.normal) > 0.5f && cluster.members < MEMBERS_MOST;
+  vec3 normal = unit_normal(words);
+  bool same_side = (dot(normal, ray.dir) > 0.0f) == window.back;
+  return share <= 1.0f && share >= -1.0f && splat_object(words) == window.object && same_side &&
+         dot(normal, window.normal) > 0.5f && cluster.members < MEMBERS_MOST;
 }
 
 /// Adds a splat where it is met to the cluster if it is a member, else nothing.

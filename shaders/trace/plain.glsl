@@ -60,6 +60,7 @@ Finding nothing_found() {
   finding.first = no_first();
   finding.found = false;
   finding.window.normal = vec3(0.0f);
+  finding.window.back = false;
   finding.window.object = NO_OBJECT;
   finding.window.t = vec2(0.0f);
   finding.window.inverse_depth = 0.0f;

@@ -57,18 +57,36 @@ TEST(Sheet, ThinWalls) {
     for (const std::uint32_t flags : {0U, MATERIAL_TWO_SIDED}) {
       const Scene scene = scene_of({{wall(thickness), test_material(flags)}});
       const std::vector<RayQuery> rays = rays_at_wall(scene, thickness);
-      // A two-sided object's sheets blend whichever way they face, so a hit may lie within a thin wall.
-      const double depth = flags == 0 ? 1e-4 : thickness + 1e-4;
       std::size_t i = 0;
       conclude(count_wrong(scene, rays,
                            std::string(flags == 0 ? "one" : "two") + "-sided walls " +
                                short_number(thickness_r) + " r apart: the near wall and its normal",
                            [&](const dvec3& at, const dvec3& normal) {
                              const double side = rays[i++].dir.y < 0.0F ? 1.0 : -1.0;
-                             return std::abs(at.y - side * 0.5 * thickness) < depth &&
+                             return std::abs(at.y - side * 0.5 * thickness) < 1e-4 &&
                                     side * normal.y > 0.9999;
                            }));
     }
+  }
+}
+
+/// Nothing of a panel's back shows in its front, though its discs are as wide as it is thick, or wider.
+TEST(Sheet, ThinPanelsHaveAColourOnEachSide) {
+  for (const double thickness_r : {0.1, 0.3, 1.0, 3.0}) {
+    const double thickness = thickness_r * WALL_RADIUS;
+    const Scene scene =
+        scene_of({{painted(wall(thickness), [](dvec3 p) { return dvec3(p.y > 0.0 ? 0.8 : 0.1); }),
+                   test_material(MATERIAL_TWO_SIDED)}});
+    const std::vector<RayQuery> rays = rays_at_wall(scene, thickness);
+    DeviceScene device(scene);
+    const std::vector<RayHit> hits = device.intersect(rays);
+    CaseRow row = device.row("panels " + short_number(thickness_r) + " r thick: the near side's colour");
+    row.count = rays.size();
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const double seen = unpack_color(hits[i].color).x, near = rays[i].dir.y < 0.0F ? 0.8 : 0.1;
+      row.exceptions += std::abs(seen - near) > 0.01 ? 1 : 0;
+    }
+    conclude(row);
   }
 }
 

@@ -237,7 +237,7 @@ TrueHit BruteForce::nearest(const RayQuery& query, const Settings& settings) con
     const double share = (m.t - first.t) / depth;
     const bool alone = settings.blend == BLEND_NEAREST;
     if (alone ? m.index != first.index : share > 1.0 || splats_[m.index].object != hit.object) continue;
-    if (glm::dot(against(m), against(first)) <= 0.5) continue;
+    if ((m.cosine > 0.0) != (first.cosine > 0.0) || glm::dot(against(m), against(first)) <= 0.5) continue;
     const double weight = std::max(kernel_of(settings, m.u_squared) * fall_of(share), 1.0 / 256.0);
     const Facet surface = facet(m, query);
     weight_sum += weight;

@@ -98,14 +98,16 @@ void blend_lanes(WideMeetings& meetings, std::uint32_t from, const WideWindow& w
   const Vectors stored = decode_normal(hn::Load(WORD_TAG, &meetings.normal[from]));
   const Vectors plane_normal = stored * inverse_sqrt(dot(stored, stored));
   const Lanes cosine = dot(plane_normal, dir);
-  Vectors normal = turned_where(cosine > of(0.0F), plane_normal);
+  const auto back = cosine > of(0.0F);
+  Vectors normal = turned_where(back, plane_normal);
   const Lanes inverse_depth = of(window.inverse_depth);
   Lanes share = behind * inverse_depth;
   const auto there = hn::RebindMask(TAG, hn::Iota(INT_TAG, static_cast<std::int32_t>(from)) <
                                              hn::Set(INT_TAG, static_cast<std::int32_t>(meetings.count)));
   const auto of_object =
       hn::RebindMask(TAG, masked(radius_object, OBJECT_MASK) == hn::Set(WORD_TAG, window.object));
-  const auto like = dot(normal, vectors_of(window.normal)) > of(0.5F);
+  const auto same_side = window.back ? back : hn::Not(back);
+  const auto like = hn::And(same_side, dot(plane_normal, vectors_of(window.normal)) > of(0.5F));
   const auto in_window = hn::And(share <= of(1.0F), share >= of(-1.0F));
   const auto member = hn::And(hn::And(there, of_object), hn::And(like, in_window));
   const Lanes weight = hn::IfThenElseZero(member, weight_at(u_squared, share) * of(WEIGHT_UNIT));

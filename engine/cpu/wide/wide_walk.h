@@ -107,6 +107,7 @@ struct WideWindow {
   float t, t_low;
   float inverse_depth;
   std::uint32_t object;
+  bool back;
   bool fields, leans, colors;
 };
 
