@@ -298,6 +298,8 @@ struct RayQuery {
   uint inside;       ///< mask of the dielectrics the ray is inside of
   vec3 from_normal;  ///< secondary rays: blended normal of the sheet left; else zero
   uint from_object;  ///< secondary rays: object left, NO_OBJECT for primary rays
+  float t_max;       ///< hits need t < t_max; 0: a ray without end
+  uint unused_0, unused_1, unused_2;
 };
 
 /// The answer. Misses have t = +inf, object = NO_OBJECT.
@@ -446,6 +448,7 @@ SPLATRAY_CONST BLEND_PAPER = 1u;    ///< Goradia et al. 2010, sec. IV-C1
 SPLATRAY_CONST BLEND_NEAREST = 2u;  ///< first splat only
 SPLATRAY_CONST BLEND_LEAF = 3u;  ///< first leaf only: the wrong blending of Goradia et al. 2010, Fig. 7 (a)
 SPLATRAY_CONST BLEND_COUNT = 4u;  ///< of ray queries alone: no cluster, members = all splats that the ray hits
+SPLATRAY_CONST BLEND_ANY = 5u;    ///< of ray queries alone: no cluster, and any splat that the ray hits in place of the first
 SPLATRAY_CONST KERNEL_RIM = 0u;  ///< (1 - u^2)^2, zero at the rim
 SPLATRAY_CONST KERNEL_GAUSSIAN = 1u;  ///< exp(-2 u^2)
 SPLATRAY_CONST SIDE_SIDE = 0u;        ///< expected side per object and own-sheet exclusion
@@ -463,7 +466,7 @@ SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixel
 #ifdef __cplusplus
 static_assert(sizeof(Material) == 144 && sizeof(Light) == 96 &&
               sizeof(LightNode) == 16 * LIGHT_NODE_TEXELS &&
-              sizeof(RayQuery) == 48 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
+              sizeof(RayQuery) == 64 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
               sizeof(FrameParams) == 1456 && sizeof(PathState) == 16 * PATH_TEXELS);
 }  // namespace splatray
 #endif

@@ -345,10 +345,25 @@ struct Hits {
 };
 /// Traces rays exactly: a ray hits what brute force over all discs finds, of the ray rounded to float32 in a cube about the scene
 /// (so t errs by up to 1e-6 of the scene's size). Directions have any length > 0; rays outside one-sided objects see front faces
-/// alone. `origins` and `directions` are of one length. Throws Error (usage) with the number of a ray that is not finite or has
+/// alone. `origins` and `directions` are of one length. `t_max`, world units, 0 and more: rays whose first disc is not nearer than that
+/// miss; one of each ray, one of all, or none: rays without end. Throws Error (usage) with the number of a ray that is not finite or has
 /// no direction.
 [[nodiscard]] SPLATRAY_API Hits trace(const Scene& scene, std::span<const Double3> origins,
-                                      std::span<const Double3> directions, const Progress& progress = {});
+                                      std::span<const Double3> directions, std::span<const double> t_max = {},
+                                      const Progress& progress = {});
+[[nodiscard]] SPLATRAY_API Hits trace(const Scene& scene, std::span<const Float3> origins,
+                                      std::span<const Float3> directions, std::span<const double> t_max = {},
+                                      const Progress& progress = {});
+
+/// Whether rays hit anything, 1 or 0, of rays and errors as of trace(), in less time: each ends at whatever it hits.
+[[nodiscard]] SPLATRAY_API std::vector<std::uint8_t> occluded(const Scene& scene, std::span<const Double3> origins,
+                                                              std::span<const Double3> directions,
+                                                              std::span<const double> t_max = {},
+                                                              const Progress& progress = {});
+[[nodiscard]] SPLATRAY_API std::vector<std::uint8_t> occluded(const Scene& scene, std::span<const Float3> origins,
+                                                              std::span<const Float3> directions,
+                                                              std::span<const double> t_max = {},
+                                                              const Progress& progress = {});
 
 /// Where to measure: a place, which goes to the nearest surface and is refused where that is farther than four spacings of its points, or
 /// a ray from there, whose first hit counts.

@@ -51,16 +51,30 @@ api::Image* make_picture(const api::Request& request, const nb::object& progress
   return unlocked([&] { return new api::Image(api::make_picture(request, relay)); });
 }
 
-nb::tuple trace(const api::Scene& scene, const Rows<double>& origins, const Rows<double>& directions,
-                const nb::object& progress) {
+std::span<const double> numbers(const Numbers<double>& array) { return {array.data(), array.shape(0)}; }
+
+template <typename Value>
+nb::tuple trace(const api::Scene& scene, const Rows<Value>& origins, const Rows<Value>& directions,
+                const Numbers<double>& t_max, const nb::object& progress) {
   const api::Progress relay = progress_of(progress);
-  api::Hits hits = unlocked([&] { return api::trace(scene, rows(origins), rows(directions), relay); });
+  api::Hits hits =
+      unlocked([&] { return api::trace(scene, rows(origins), rows(directions), numbers(t_max), relay); });
   const std::size_t count = hits.t.size();
   return nb::make_tuple(owning_array<double>(std::move(hits.t), {count}),
                         owning_array<float>(std::move(hits.normal), {count, 3}),
                         owning_array<std::int32_t>(std::move(hits.object), {count}),
                         owning_array<std::int64_t>(std::move(hits.splat), {count}),
                         owning_array<std::int64_t>(std::move(hits.point), {count}));
+}
+
+template <typename Value>
+nb::object occluded(const api::Scene& scene, const Rows<Value>& origins, const Rows<Value>& directions,
+                    const Numbers<double>& t_max, const nb::object& progress) {
+  const api::Progress relay = progress_of(progress);
+  std::vector<std::uint8_t> met =
+      unlocked([&] { return api::occluded(scene, rows(origins), rows(directions), numbers(t_max), relay); });
+  const std::size_t count = met.size();
+  return owning_array<bool>(std::move(met), {count});
 }
 
 using PythonPlace = std::pair<api::Double3, std::optional<api::Double3>>;
@@ -169,7 +183,14 @@ void add_scene(nb::module_& module) {
            nb::arg("aspect"))
       .def("render", render, nb::arg("request"), nb::arg("progress").none())
       .def("make", make, nb::arg("request"), nb::arg("progress").none())
-      .def("trace", trace, nb::arg("origins"), nb::arg("directions"), nb::arg("progress").none())
+      .def("trace", trace<double>, nb::arg("origins"), nb::arg("directions"), nb::arg("t_max"),
+           nb::arg("progress").none())
+      .def("trace", trace<float>, nb::arg("origins"), nb::arg("directions"), nb::arg("t_max"),
+           nb::arg("progress").none())
+      .def("occluded", occluded<double>, nb::arg("origins"), nb::arg("directions"), nb::arg("t_max"),
+           nb::arg("progress").none())
+      .def("occluded", occluded<float>, nb::arg("origins"), nb::arg("directions"), nb::arg("t_max"),
+           nb::arg("progress").none())
       .def("measure", measure, nb::arg("kind"), nb::arg("places"), nb::arg("reach"), nb::arg("request"),
            nb::arg("progress").none());
   module.def("open", open, nb::arg("files"), nb::arg("request"), nb::arg("progress").none());

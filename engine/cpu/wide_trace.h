@@ -154,6 +154,7 @@ Found find_cluster(const Ray& ray, float kappa, bool by_tile, Tally& tally, Wide
   visit_hits(ray, -INFINITY_F, ray.t_max, by_tile, tally, [&](const Meeting& met) {
     const uvec4 before = found.first.words;
     take_first(met.splat, met.words, met.hit, true, found.first);
+    if (BLEND == BLEND_ANY) return -INFINITY_F;
     if (BLEND == BLEND_NEAREST) return std::nextafter(found.first.t.x, INFINITY_F);
     if (found.first.words != before) {
       found.depth = window_depth(found.first, ray.dir, kappa);
@@ -231,8 +232,7 @@ Found count_hits(const Ray& ray, Tally& tally, Cluster& cluster) {
 }
 
 Hit trace_watching(Ray ray, float kappa, uvec4 target, Tally& tally) {
-  const bool wide =
-      BLEND == BLEND_NEAREST || BLEND == BLEND_COUNT || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
+  const bool wide = !has_cluster() || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
   if (!wide) return trace_octree(ray, kappa, target, tally);
   const Ray given = ray;
   bool enters = true;

@@ -87,8 +87,7 @@ std::uint32_t phong_features(const SceneContent& content, const Settings& settin
 }  // namespace
 
 SpecConstants picture_features(const SceneContent& content, const Settings& settings) {
-  const bool flat_blend =
-      settings.blend == BLEND_PAPER || settings.blend == BLEND_LEAF || settings.blend == BLEND_COUNT;
+  const bool flat_blend = settings.blend != BLEND_WINDOW && settings.blend != BLEND_NEAREST;
   SpecConstants constants{};
   const auto add = [&](bool needed, std::uint32_t feature) {
     if (needed) constants[SPEC_FEATURES] |= feature;

@@ -9,7 +9,7 @@ Ray query_ray(RayQuery query, float delta) {
   ray.origin_low = vec3(0.0f);
   ray.dir = query.dir;
   ray.t_min = SIDE == SIDE_DELTA && query.from_object != NO_OBJECT ? max(query.t_min, delta) : query.t_min;
-  ray.t_max = INFINITY_F;
+  ray.t_max = query.t_max > 0.0f ? query.t_max : INFINITY_F;
   ray.inside = query.inside;
   ray.from_normal = query.from_normal;
   ray.from_object = query.from_object;

@@ -7,6 +7,9 @@
 
 const float WINDOW_SLACK = 1.0f;            ///< lattice units; float32's step of t: no leaf with a member is left out
 
+/// Whether the first hit is to be blended with others.
+bool has_cluster() { return BLEND != BLEND_NEAREST && BLEND != BLEND_COUNT && BLEND != BLEND_ANY; }
+
 /// Integer sums over a cluster.
 struct Cluster {
   int weight;
@@ -166,7 +169,7 @@ Hit finish_hit(Ray ray, First first, Cluster cluster, float depth, float shift, 
   hit.factors = no_factors();
   vec3 tilt = vec3(0.0f);
 #endif
-  if (BLEND != BLEND_NEAREST && cluster.weight > 0) {
+  if (has_cluster() && cluster.weight > 0) {
     float inverse = 1.0f / float(cluster.weight);
     t = df_add(t, vec2(depth * (float(cluster.depth) * inverse), 0.0f));
     normal = vec3(cluster.normal);

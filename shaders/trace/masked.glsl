@@ -132,7 +132,7 @@ Hit trace_octree(Ray ray, float kappa, uvec4 target, INOUT(Tally) tally) {
   float depth = 0.0f;
   if (BLEND == BLEND_COUNT) {
     cluster.members = counted;
-  } else if (BLEND != BLEND_NEAREST) {
+  } else if (has_cluster()) {
     depth = window_depth(first, ray.dir, kappa);
     float t_end = BLEND == BLEND_WINDOW ? window_end(first, depth) : ray.t_max;
     uint last_leaf = BLEND == BLEND_WINDOW ? MAX_LEAVES : (BLEND == BLEND_PAPER ? walk.leaves + 1u : walk.leaves);

@@ -99,12 +99,13 @@ bool take_leaf(Walk walk, Ray ray, float kappa, uvec4 target, INOUT(Finding) fin
   uint any = 0u;
   for (uint pass = 0u; pass < passes; pass += 1u) {
     for (uint chunk = walk.begin; chunk < walk.end; chunk += CHUNK) {
+      if (BLEND == BLEND_ANY && is_found(finding.first)) break;
       uint candidates = chunk == walk.begin ? finding.hits.x : finding.hits.y;
       if (pass == 0u || walk.end - walk.begin > 2u * CHUNK) candidates = test_chunk(chunk, walk, ray, tally);
       any |= candidates;
       take_hits(chunk, candidates, ray, walk, target, finding);
     }
-    if (BLEND != BLEND_COUNT && BLEND != BLEND_NEAREST && !finding.found && is_found(finding.first)) {
+    if (has_cluster() && !finding.found && is_found(finding.first)) {
       finding.found = true;
       finding.depth = window_depth(finding.first, ray.dir, kappa);
       finding.window = window_of(finding.first, ray, finding.depth);
@@ -127,7 +128,7 @@ Hit trace_octree(Ray ray, float kappa, uvec4 target, INOUT(Tally) tally) {
   while (enters && walk_on(walk, ray, t_end, tally)) {
     bool behind = take_leaf(walk, ray, kappa, target, finding, tally);
     if (BLEND == BLEND_WINDOW && finding.found) t_end = min(window_end(finding.first, finding.depth), ray.t_max);
-    if (BLEND == BLEND_NEAREST) enters = !is_found(finding.first);
+    if (BLEND == BLEND_NEAREST || BLEND == BLEND_ANY) enters = !is_found(finding.first);
     if (BLEND == BLEND_LEAF) enters = !finding.found;
     if (BLEND == BLEND_PAPER) enters = !behind;
   }

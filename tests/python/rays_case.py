@@ -67,6 +67,35 @@ class Rays(unittest.TestCase):
         miss = scene.trace([[0, 0, 5]], [[0, 0, 1]])
         self.assertEqual((miss.t[0], miss.object[0], miss.splat[0], miss.point[0]), (np.inf, -1, -1, -1))
 
+    def test_ends_and_any_hit(self):
+        points, normals = sphere(3000)
+        scene = sr.points(points, normals=normals)
+        random = np.random.default_rng(3)
+        origins = random.normal(size=(4000, 3)) * 2.0
+        directions = random.normal(size=(4000, 3))
+        hits = scene.trace(origins, directions)
+        met = scene.occluded(origins, directions)
+        self.assertEqual((met.dtype, met.shape), (np.bool_, (4000,)))
+        np.testing.assert_array_equal(met, hits.object >= 0)
+        self.assertGreater(met.sum(), 300)
+        self.assertGreater((~met).sum(), 300)
+        for t_max in (0.5, random.uniform(0.0, 4.0, 4000)):
+            nearer, ended = scene.occluded(origins, directions, t_max=t_max), scene.trace(origins, directions, t_max=t_max)
+            np.testing.assert_array_equal(nearer, ended.object >= 0)
+            sure = np.abs(hits.t - t_max) > 0.05  # t is that of the blended surface, which the first disc is near
+            np.testing.assert_array_equal(nearer[sure], (hits.t < t_max)[sure])
+            self.assertTrue(0 < nearer.sum() < met.sum())
+            np.testing.assert_array_equal(ended.t[nearer], hits.t[nearer])
+        self.assertFalse(scene.occluded(origins, directions, t_max=0.0).any())
+        single = scene.trace(origins.astype(np.float32), directions.astype(np.float32))
+        self.assertEqual(single.t.dtype, np.float32)
+        both = np.isfinite(single.t) & np.isfinite(hits.t)
+        self.assertGreater(both.mean() / met.mean(), 0.99)
+        self.assertLess(np.median(np.abs(single.t - hits.t)[both]), 1e-5)
+        for wrong in (-1.0, np.nan, np.ones(3), "far"):
+            with self.assertRaises((sr.Error, ValueError, TypeError)):
+                scene.occluded(origins, directions, t_max=wrong)
+
     def test_rows_that_are_not_finite_are_left_out(self):
         points, normals = plane()
         points[5] = np.nan

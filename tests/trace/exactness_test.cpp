@@ -301,7 +301,8 @@ TEST(Exactness, BothTextsFindTheSameWithAllBlends) {
   for (const std::uint32_t leaf_size : {10U, 150U}) {
     const Scene scene = scene_of({sphere_object(5000, false, MATERIAL_DIELECTRIC)}, leaf_size);
     const std::vector<RayQuery> rays = random_primary_rays(scene, 10000, 5);
-    for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST, BLEND_PAPER, BLEND_LEAF, BLEND_COUNT}) {
+    for (const std::uint32_t blend :
+         {BLEND_WINDOW, BLEND_NEAREST, BLEND_PAPER, BLEND_LEAF, BLEND_COUNT, BLEND_ANY}) {
       Settings settings;
       settings.blend = blend;
       const auto answers = gpu_intersect(scene, rays, settings);
@@ -309,6 +310,33 @@ TEST(Exactness, BothTextsFindTheSameWithAllBlends) {
           << blend;
       EXPECT_EQ(different_bits(answers, twin_intersect(scene, rays, settings)), 0U) << blend;
     }
+  }
+}
+
+/// Rays that end at any hit, before t_max: whether they have one is what the first hit says.
+TEST(Exactness, AnyHitIsOneOfThem) {
+  const Scene scene = scene_of({sphere_object(5000, false, MATERIAL_TWO_SIDED)});
+  std::vector<RayQuery> rays = random_primary_rays(scene, 10000, 5);
+  const BruteForce brute(scene);
+  Settings any;
+  any.blend = BLEND_ANY;
+  for (const bool ended : {false, true}) {
+    const std::vector<TrueHit> truth = all_nearest(brute, rays, {});
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> share(0.5, 1.5);
+    if (ended)
+      for (std::size_t i = 0; i < rays.size(); ++i)
+        if (truth[i].found) rays[i].t_max = static_cast<float>(truth[i].t_first * share(random));
+    const std::vector<RayHit> found[] = {gpu_intersect(scene, rays, any), twin_intersect(scene, rays, any),
+                                         intersect_on(HostDevice(), scene, rays, any)};
+    std::size_t met = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool expected = truth[i].found && (!ended || truth[i].t_first < double(rays[i].t_max));
+      met += expected ? 1 : 0;
+      for (const std::vector<RayHit>& hits : found) EXPECT_EQ(hits[i].object != NO_OBJECT, expected) << i;
+    }
+    EXPECT_GT(met, rays.size() / 8);
+    EXPECT_LT(met, rays.size());
   }
 }
 

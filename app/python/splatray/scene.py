@@ -188,20 +188,25 @@ class Scene:
             raise OSError(str(error)) from None
         return Made(files, dict(choices), notes)
 
-    def trace(self, origins: Any, directions: Any, *, progress: Optional[_check.Progress] = None) -> Hits:
+    def trace(self, origins: Any, directions: Any, *, t_max: Any = None, progress: Optional[_check.Progress] = None) -> Hits:
         """Traces rays exactly, as brute force over all discs would.
 
-        origins, directions: (n, 3) each, or one of them (3,) for all rays; float64 arrays are not copied. Directions have any length
-        above 0.
+        origins, directions: (n, 3) each, or one of them (3,) for all rays; float64 and float32 arrays are not copied. Directions have any
+        length above 0. t_max: number or (n,), world units: rays whose first disc is not nearer than that miss. t of the hits is float32
+        where both arrays are.
         """
         core = self._open_core()
-        given = [_check.array(name, value, np.float64) for name, value in (("origins", origins), ("directions", directions))]
-        count = max((len(value) for value in given if value.ndim == 2), default=1)
-        origins, directions = (_check.rows(name, np.broadcast_to(value, (count, 3)) if value.shape == (3,) else value, np.float64)
-                               for name, value in zip(("origins", "directions"), given))
-        if len(origins) != len(directions):
-            raise ValueError(f"found {len(origins)} origins and {len(directions)} directions, expected as many of each")
-        return Hits(*core.trace(origins, directions, _check.progress(progress)))
+        rays = _rays(origins, directions, t_max)
+        hits = Hits(*core.trace(*rays, _check.progress(progress)))
+        return hits._replace(t=hits.t.astype(np.float32)) if rays[0].dtype == np.float32 else hits
+
+    def occluded(self, origins: Any, directions: Any, *, t_max: Any = None, progress: Optional[_check.Progress] = None) -> np.ndarray:
+        """Whether rays hit anything nearer than t_max: bool (n,), of rays as trace() takes them, in less time.
+
+        Between two places: origins a, directions b - a, t_max the distance less a little, as surfaces at b count too.
+        """
+        core = self._open_core()
+        return core.occluded(*_rays(origins, directions, t_max), _check.progress(progress))
 
     def measure(self, kind: Literal["point", "distance", "height", "angle", "area", "sphere", "cylinder"], places: Sequence[Any], *,
                 reach: float = 0.0, request: Optional[Request] = None, progress: Optional[_check.Progress] = None) -> Measure:
@@ -217,6 +222,20 @@ class Scene:
         asked = Request() if request is None else request
         points, values = core.measure(kind, [_place(place) for place in places], float(reach), asked._core, _check.progress(progress))
         return Measure(points, {name: MeasureValue(*rest) for name, *rest in values})
+
+
+def _rays(origins: Any, directions: Any, t_max: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Origins and directions as many and of one type, and where rays end: one number of each, or none."""
+    single = all(getattr(value, "dtype", None) == np.float32 for value in (origins, directions))
+    number_type = np.float32 if single else np.float64
+    given = [_check.array(name, value, number_type) for name, value in (("origins", origins), ("directions", directions))]
+    count = max((len(value) for value in given if value.ndim == 2), default=1)
+    origins, directions = (_check.rows(name, np.broadcast_to(value, (count, 3)) if value.shape == (3,) else value, number_type)
+                           for name, value in zip(("origins", "directions"), given))
+    if len(origins) != len(directions):
+        raise ValueError(f"found {len(origins)} origins and {len(directions)} directions, expected as many of each")
+    ends = _check.numbers("t_max", np.zeros(0) if t_max is None else np.atleast_1d(t_max), np.float64)
+    return origins, directions, ends
 
 
 def _place(place: Any) -> Tuple[Tuple[float, ...], Optional[Tuple[float, ...]]]:

@@ -103,7 +103,23 @@ void check_rays() {
     expect(
         std::isinf(missed.t[i]) && missed.object[i] == -1 && missed.splat[i] == -1 && missed.point[i] == -1,
         "a ray that misses hit something");
-  expect(sr::trace(scene, {}, {}).t.empty(), "no rays gave hits");
+  const std::vector<sr::Double3> no_rays;
+  const std::vector<sr::Double3> at_plane = {{0.1, 0.1, 1}, {9, 9, 1}}, downwards = {{0, 0, -2}, {0, 0, -2}};
+  const double near[] = {0.9}, far[] = {1.1, 1.1}, none_ahead[] = {-1.0};
+  using Met = std::vector<std::uint8_t>;
+  expect(sr::occluded(scene, at_plane, downwards) == Met{1, 0}, "any hit is not a hit");
+  expect(sr::occluded(scene, at_plane, downwards, near) == Met{0, 0}, "a ray goes on behind its end");
+  expect(sr::occluded(scene, at_plane, downwards, far) == Met{1, 0}, "a ray ends before its end");
+  expect(sr::trace(scene, at_plane, downwards, near).object[0] == -1, "trace goes on behind t_max");
+  expect(sr::trace(scene, at_plane, downwards, far).object[0] == 0, "trace ends before t_max");
+  const std::vector<sr::Float3> single = {{0.1F, 0.1F, 1.0F}}, down = {{0.0F, 0.0F, -1.0F}};
+  expect(sr::occluded(scene, single, down) == Met{1} &&
+             std::abs(sr::trace(scene, single, down).t[0] - 1.0) < 1e-6,
+         "rays of float32 hit something else");
+  expect_error(
+      sr::ErrorKind::usage, [&] { (void)sr::occluded(scene, at_plane, downwards, none_ahead); },
+      "t_max below 0");
+  expect(sr::trace(scene, no_rays, no_rays).t.empty(), "no rays gave hits");
 }
 
 void check_errors(const std::filesystem::path& folder) {
