@@ -133,6 +133,16 @@ std::string OptionList::unknown_word() const {
   return {};
 }
 
+std::string OptionList::missing_word() const {
+  for (const OptionEntry& known : page_.entries) {
+    const std::string name = known.names().back();
+    if (!known.required || parser_->get_option(name)->count() > 0) continue;
+    return "found no " + name + ", expected " +
+           (known.is_named() ? known.names().front() + " " + known.value : "at least one");
+  }
+  return {};
+}
+
 bool OptionList::parse(int argc, char** argv) { return parse(Words(argv + std::min(argc, 1), argv + argc)); }
 
 bool OptionList::parse(const Words& words) {
@@ -144,6 +154,8 @@ bool OptionList::parse(const Words& words) {
   } catch (const CLI::ParseError& error) {
     std::string sentence = unknown_word();
     if (sentence.ends_with('?')) throw Error(ExitCode::usage, sentence);
+    if (sentence.empty() && error.get_exit_code() == int(CLI::ExitCodes::RequiredError))
+      sentence = missing_word();
     if (sentence.empty()) sentence = error.what();
     std::replace(sentence.begin(), sentence.end(), '\n', ' ');
     throw Error(ExitCode::usage, sentence + " (--help lists the options)");

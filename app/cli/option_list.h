@@ -70,6 +70,8 @@ class OptionList {
   OptionEntry& entry(const std::string& name);
   /// The sentence about the first word that no option takes; empty where there is none.
   [[nodiscard]] std::string unknown_word() const;
+  /// The sentence about the first word that is required and was not given; empty where there is none.
+  [[nodiscard]] std::string missing_word() const;
 
   std::unique_ptr<Parser> parser_;
   HelpPage page_;

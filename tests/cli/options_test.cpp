@@ -92,8 +92,8 @@ TEST_F(CliOptions, MissingPartsAreRefused) {
   expect_refused([&] { return run_program({RENDER, grid, "-o", file("a.gif")}); }, 2, ".webp or .exr");
   expect_refused([&] { return run_program({RENDER, grid, "-o", file("a")}); }, 2, ".webp or .exr");
   expect_refused([&] { return run_program({RENDER, grid, "a.soct", "-o", file("a.png")}); }, 2, ".soct");
-  expect_refused([&] { return run_program({PREPROCESS}); }, 2, "INPUT");
-  expect_refused([&] { return run_program({PREPROCESS, grid}); }, 2, "--output");
+  expect_refused([&] { return run_program({PREPROCESS}); }, 2, "found no INPUT, expected at least one");
+  expect_refused([&] { return run_program({PREPROCESS, grid}); }, 2, "found no --output, expected -o FILE");
   expect_refused([&] { return preprocess({grid, "--leaf-size=65537"}); }, 2, "--leaf-size");
   expect_refused([&] { return preprocess({grid, "--insertion=some"}); }, 2, "--insertion");
   expect_refused([&] { return preprocess({grid, "--no-such-option"}); }, 2, "--no-such-option");

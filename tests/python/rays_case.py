@@ -77,8 +77,8 @@ class Rays(unittest.TestCase):
         met = scene.occluded(origins, directions)
         self.assertEqual((met.dtype, met.shape), (np.bool_, (4000,)))
         np.testing.assert_array_equal(met, hits.object >= 0)
-        self.assertGreater(met.sum(), 300)
-        self.assertGreater((~met).sum(), 300)
+        self.assertGreater(met.sum(), 200)
+        self.assertGreater((~met).sum(), 200)
         for t_max in (0.5, random.uniform(0.0, 4.0, 4000)):
             nearer, ended = scene.occluded(origins, directions, t_max=t_max), scene.trace(origins, directions, t_max=t_max)
             np.testing.assert_array_equal(nearer, ended.object >= 0)
@@ -93,7 +93,7 @@ class Rays(unittest.TestCase):
         self.assertGreater(both.mean() / met.mean(), 0.99)
         self.assertLess(np.median(np.abs(single.t - hits.t)[both]), 1e-5)
         for wrong in (-1.0, np.nan, np.ones(3), "far"):
-            with self.assertRaises((sr.Error, ValueError, TypeError)):
+            with self.assertRaises((ValueError, TypeError)):
                 scene.occluded(origins, directions, t_max=wrong)
 
     def test_rows_that_are_not_finite_are_left_out(self):
