@@ -322,15 +322,17 @@ struct SPLATRAY_API Image {
                                         const Progress& progress = {});
 /// What make() has written.
 struct Made {
-  std::vector<std::filesystem::path> files{};  ///< pictures, drawings or a page; without what lies beside a drawing
-  std::vector<Choice> choices{};               ///< as Image::choices
-  std::vector<std::string> notes{};            ///< sentences
+  /// Pictures, drawings or a page; without what lies beside a drawing.
+  std::vector<std::filesystem::path> files{};
+  std::vector<Choice> choices{};     ///< as Image::choices
+  std::vector<std::string> notes{};  ///< sentences
 };
 /// Writes what a request asks for to its "output", as splatray-render does, with what made it inside: a picture, a sequence
 /// ("turntable", "camera-path"), a page ("orbit", .html) or a drawing to scale ("sheet", .png .tif .svg .pdf .exr). Drawings other than
 /// .png and .exr need the package splatray-sheet, which wheels do not have. Throws Error: usage, also where a file that was read would be
 /// replaced, and failed; then a file is whole or as it was.
-[[nodiscard]] SPLATRAY_API Made make(const Scene& scene, const Request& request, const Progress& progress = {});
+[[nodiscard]] SPLATRAY_API Made make(const Scene& scene, const Request& request,
+                                     const Progress& progress = {});
 /// The picture of the files that the request names as "inputs". Throws Error.
 [[nodiscard]] SPLATRAY_API Image make_picture(const Request& request, const Progress& progress = {});
 
@@ -356,11 +358,13 @@ struct Hits {
                                       const Progress& progress = {});
 
 /// Whether rays hit anything, 1 or 0, of rays and errors as of trace(), in less time: each ends at whatever it hits.
-[[nodiscard]] SPLATRAY_API std::vector<std::uint8_t> occluded(const Scene& scene, std::span<const Double3> origins,
+[[nodiscard]] SPLATRAY_API std::vector<std::uint8_t> occluded(const Scene& scene,
+                                                              std::span<const Double3> origins,
                                                               std::span<const Double3> directions,
                                                               std::span<const double> t_max = {},
                                                               const Progress& progress = {});
-[[nodiscard]] SPLATRAY_API std::vector<std::uint8_t> occluded(const Scene& scene, std::span<const Float3> origins,
+[[nodiscard]] SPLATRAY_API std::vector<std::uint8_t> occluded(const Scene& scene,
+                                                              std::span<const Float3> origins,
                                                               std::span<const Float3> directions,
                                                               std::span<const double> t_max = {},
                                                               const Progress& progress = {});

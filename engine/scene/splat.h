@@ -35,8 +35,8 @@ struct Splat {
 /// Its normal as it is stored: integers, |x| + |y| + |z| = OCT_SCALE.
 [[nodiscard]] inline glm::dvec3 unpack_stored_normal(const uvec4& words) {
   constexpr int SCALE = OCT_SCALE;
-  return octahedral_vector(static_cast<int>(words.z & 0xFFFFU) - SCALE, static_cast<int>(words.z >> 16) - SCALE,
-                           SCALE);
+  return octahedral_vector(static_cast<int>(words.z & 0xFFFFU) - SCALE,
+                           static_cast<int>(words.z >> 16) - SCALE, SCALE);
 }
 /// The exact splat of 128 bits. The reference implementation of the decoding, in float64; without branches, for loops.
 [[nodiscard]] inline Splat unpack_splat(const uvec4& words) {

@@ -17,8 +17,7 @@ EmitterSample emitter_sample(uint emitter, vec3 position, vec2 random) {
   EmitterSample chosen;
   chosen.words = emitter_words(emitter);
   float radius_squared = splat_radius_squared(chosen.words);
-  vec3 normal = splat_normal(chosen.words);
-  normal *= inversesqrt(dot(normal, normal));
+  vec3 normal = unit_normal(chosen.words);
   Basis basis = basis_of(normal);
   vec2 at = disc_sample(random) * sqrt(radius_squared);
   vec3 to_point = splat_center(chosen.words) + basis.u * at.x + basis.v * at.y - position;

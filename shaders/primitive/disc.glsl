@@ -44,6 +44,12 @@ vec3 splat_normal(uvec4 words) {
   return octahedral(float(words.z & 0xFFFFu) - float(OCT_SCALE), float(words.z >> 16u) - float(OCT_SCALE), float(OCT_SCALE));
 }
 
+/// The normal as it is stored, of length 1 to float32.
+vec3 unit_normal(uvec4 words) {
+  vec3 normal = splat_normal(words);
+  return normal * inversesqrt(dot(normal, normal));
+}
+
 /// Squared radius, lattice units^2.
 float splat_radius_squared(uvec4 words) { return uintBitsToFloat(((words.w & 0xFFFF0000u) >> 2u) | 0x40000000u); }
 

@@ -42,11 +42,6 @@ Cluster empty_cluster() {
   return cluster;
 }
 
-vec3 unit_normal(uvec4 words) {
-  vec3 normal = splat_normal(words);
-  return normal * inversesqrt(dot(normal, normal));
-}
-
 /// Unit normal turned against the ray.
 vec3 normal_against(uvec4 words, vec3 dir) {
   vec3 normal = unit_normal(words);

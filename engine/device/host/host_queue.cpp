@@ -30,7 +30,8 @@ Kernel kernel_of(Program program) {
 }  // namespace
 
 HostBuffer::HostBuffer(std::uint64_t bytes)
-    : Buffer(std::max(bytes, LEAST_HOST_BYTES)), bytes_(std::make_unique_for_overwrite<std::byte[]>(size())) {}
+    : Buffer(std::max(bytes, LEAST_HOST_BYTES)),
+      bytes_(std::make_unique_for_overwrite<std::byte[]>(size())) {}
 
 HostTexture::HostTexture(const Environment& environment)
     : width_(environment.width),
