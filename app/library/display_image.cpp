@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/all_cores.h"
 #include "engine/base/srgb.h"
 
 namespace splatray {
@@ -67,13 +68,16 @@ vec3 toned(vec3 radiance, const Display& display) {
 vec3 display_value(vec3 radiance, const Display& display) { return linear_to_srgb(toned(radiance, display)); }
 
 DisplayImage display_image(const Image& image, const Display& display) {
-  DisplayImage shown{image.width, image.height, {}};
-  shown.rgb.reserve(image.rgba.size());
-  for (const vec4& pixel : image.rgba) {
-    const float alpha = display.transparent ? std::clamp(pixel.w, 0.0F, 1.0F) : 1.0F;
-    shown.rgb.push_back(alpha > 0.0F ? display_value(vec3(pixel) / alpha, display) : vec3(0.0F));
-    if (display.transparent) shown.alpha.push_back(alpha);
-  }
+  DisplayImage shown{image.width, image.height, std::vector<vec3>(image.rgba.size())};
+  if (display.transparent) shown.alpha.resize(image.rgba.size());
+  on_all_cores(image.height, [&](std::size_t row) {
+    for (std::size_t i = row * image.width; i < (row + 1) * image.width; ++i) {
+      const vec4& pixel = image.rgba[i];
+      const float alpha = display.transparent ? std::clamp(pixel.w, 0.0F, 1.0F) : 1.0F;
+      shown.rgb[i] = alpha > 0.0F ? display_value(vec3(pixel) / alpha, display) : vec3(0.0F);
+      if (display.transparent) shown.alpha[i] = alpha;
+    }
+  });
   return shown;
 }
 

@@ -168,14 +168,15 @@ DisplayContents display_contents(const DisplayImage& image) {
                             .attributes = {{"oiio:ColorSpace", "sRGB"}},
                             .dots_per_inch = image.dots_per_inch},
                            {}};
-  const auto put = [&contents](float value) {
-    contents.bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0F * value)));
-  };
   if (!image.alpha.empty()) contents.header.channels.emplace_back("A");
-  contents.bytes.reserve(contents.header.channels.size() * image.rgb.size());
-  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
-    for (int channel = 0; channel < 3; ++channel) put(image.rgb[i][channel]);
-    if (!image.alpha.empty()) put(image.alpha[i]);
+  const std::size_t channels = contents.header.channels.size();
+  contents.bytes.resize(channels * image.rgb.size());
+  // In float64, as float32 would round twice.
+  const auto byte_of = [](float value) { return static_cast<std::uint8_t>(double(255.0F * value) + 0.5); };
+  std::uint8_t* pixel = contents.bytes.data();
+  for (std::size_t i = 0; i < image.rgb.size(); ++i, pixel += channels) {
+    for (int channel = 0; channel < 3; ++channel) pixel[channel] = byte_of(image.rgb[i][channel]);
+    if (!image.alpha.empty()) pixel[3] = byte_of(image.alpha[i]);
   }
   return contents;
 }

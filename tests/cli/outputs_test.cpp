@@ -152,7 +152,7 @@ TEST_F(CliOutputs, SignalsLeaveNoFrame) {
 TEST_F(CliOutputs, FullDiskLeavesTheOlderFile) {
   const auto refuse = [&](const std::string& output, std::vector<std::string> command) {
     write(output, "older");
-    expect_refused([&] { return run_program(command, {}, {}, SIGINT, {.most_bytes = 2048}); }, 1,
+    expect_refused([&] { return run_program(command, {}, {}, SIGINT, {.most_bytes = 512}); }, 1,
                    "cannot write '" + file(output));
     EXPECT_EQ(std::filesystem::file_size(file(output)), 5U) << output;
     std::filesystem::remove(file(output));

@@ -1,5 +1,5 @@
-// The library of image_codec.h that writes pictures: EXR by OpenEXR, PNG by stb, which also reads JPEG and Radiance HDR. What
-// metadata a PNG has are its text chunks.
+// The library of image_codec.h that writes pictures: EXR by OpenEXR, PNG by png_writer.h, JPEG by stb, which also reads PNG and
+// Radiance HDR. What metadata a PNG has are its text chunks.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -8,6 +8,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
+#include <OpenEXR/ImfThreading.h>
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
@@ -16,11 +17,14 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <thread>
 #include <utility>
 
 #include "app/library/codec/image_codec.h"
 #include "app/library/codec/kept_text.h"
 #include "app/library/codec/png_text.h"
+#include "app/library/codec/png_writer.h"
 
 namespace splatray {
 namespace {
@@ -168,11 +172,37 @@ class MemoryStream : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
+/// OpenEXR's threads while a file is written. There are none before and after, as a process that is forked off would wait for its
+/// parent's; whoever writes meanwhile does so alone.
+class WritingThreads {
+ public:
+  WritingThreads() : lock_(mutex(), std::try_to_lock) {
+    if (lock_) Imf::setGlobalThreadCount(count());
+  }
+  ~WritingThreads() {
+    if (lock_) Imf::setGlobalThreadCount(0);
+  }
+  WritingThreads(const WritingThreads&) = delete;
+  WritingThreads& operator=(const WritingThreads&) = delete;
+  [[nodiscard]] int count() const {
+    return lock_ ? static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U)) : 0;
+  }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  std::unique_lock<std::mutex> lock_;
+};
+
 void encode_exr(const PictureHeader& header, const float* values, std::vector<unsigned char>& bytes) {
   const Imath::V2i corner(header.x, header.y), size(header.width, header.height);
   const Imath::V2i whole = header.full_width > 0 ? Imath::V2i(header.full_width, header.full_height) : size;
   Imf::Header file_header({Imath::V2i(0), whole - Imath::V2i(1)}, {corner, corner + size - Imath::V2i(1)});
-  file_header.compression() = Imf::ZIP_COMPRESSION;
+  // Rows one by one and little effort: 0.6 of the time that OpenEXR takes by itself, 1.1 of the bytes.
+  file_header.compression() = Imf::ZIPS_COMPRESSION;
+  file_header.zipCompressionLevel() = 2;
   for (const auto& [name, value] : header.attributes)
     if (name.starts_with("splatray.")) file_header.insert(name, Imf::StringAttribute(value));
   const std::size_t step = sizeof(float) * header.channels.size();
@@ -184,7 +214,8 @@ void encode_exr(const PictureHeader& header, const float* values, std::vector<un
                                    step * static_cast<std::size_t>(header.width)));
   }
   MemoryStream stream(bytes);
-  Imf::OutputFile file(stream, file_header);
+  const WritingThreads threads;
+  Imf::OutputFile file(stream, file_header, threads.count());
   file.setFrameBuffer(buffer);
   file.writePixels(header.height);
 }
@@ -194,14 +225,6 @@ void append(void* to, void* data, int size) {
   const auto* from = static_cast<const unsigned char*>(data);
   auto& list = *static_cast<std::vector<unsigned char>*>(to);
   list.insert(list.end(), from, from + size);
-}
-
-bool encode_png(const PictureHeader& header, const void* values, std::vector<unsigned char>& bytes) {
-  const auto channels = static_cast<int>(header.channels.size());
-  const bool made = stbi_write_png_to_func(append, &bytes, header.width, header.height, channels, values,
-                                           header.width * channels) != 0;
-  if (made) add_png_chunks(bytes, header.attributes, header.dots_per_inch);
-  return made;
 }
 
 bool encode_jpeg(const PictureHeader& header, const void* values, std::vector<unsigned char>& bytes) {
@@ -219,9 +242,12 @@ bool encode(const char* format, const PictureHeader& header, const void* values,
       encode_exr(header, static_cast<const float*>(values), bytes);
       return true;
     }
-    const bool jpeg = std::strcmp(format, "jpeg") == 0;
-    if (jpeg ? encode_jpeg(header, values, bytes) : encode_png(header, values, bytes)) return true;
-    error = jpeg ? "a JPEG could not be made" : "a PNG could not be made";
+    if (std::strcmp(format, "png") == 0) {
+      bytes = encode_png(header, static_cast<const unsigned char*>(values));
+      return true;
+    }
+    if (encode_jpeg(header, values, bytes)) return true;
+    error = "a JPEG could not be made";
   } catch (const std::exception& thrown) {
     error = thrown.what();
   }

@@ -1,6 +1,6 @@
-/// What image_file.cpp loads as libraries of their own, by engine/base/module.h: splatray_image_codec (EXR by OpenEXR; PNG, HDR and
-/// JPEG by stb), and splatray_oiio (OpenImageIO and the 200 libraries it needs), which writes WebP and reads files of other formats.
-/// Strings and vectors cross the border as between any two C++ libraries of one compiler.
+/// What image_file.cpp loads as libraries of their own, by engine/base/module.h: splatray_image_codec (EXR by OpenEXR, PNG by
+/// libdeflate and stb, HDR and JPEG by stb), and splatray_oiio (OpenImageIO and the 200 libraries it needs), which writes WebP and
+/// reads files of other formats. Strings and vectors cross the border as between any two C++ libraries of one compiler.
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,6 @@
 #include "app/library/codec/png_text.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -12,27 +10,6 @@ namespace {
 constexpr std::size_t SIGNATURE = 8;
 constexpr std::size_t HEADER_END = SIGNATURE + 4 + 4 + 13 + 4;  ///< of the chunk IHDR, which is first
 constexpr std::string_view MAGIC{"\x89PNG"};
-
-std::string big_endian(std::uint32_t value) {
-  std::string bytes;
-  for (const unsigned shift : {24U, 16U, 8U, 0U}) bytes += static_cast<char>(value >> shift & 0xFFU);
-  return bytes;
-}
-
-/// CRC-32 of a chunk's name and data (annex D).
-std::uint32_t checksum(const std::string& bytes) {
-  std::uint32_t crc = ~0U;
-  for (const char byte : bytes) {
-    crc ^= static_cast<unsigned char>(byte);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1U ^ 0xEDB88320U : crc >> 1U;
-  }
-  return ~crc;
-}
-
-std::string chunk(const std::string& name, const std::string& data) {
-  return big_endian(static_cast<std::uint32_t>(data.size())) + name + data +
-         big_endian(checksum(name + data));
-}
 
 }  // namespace
 
@@ -69,20 +46,6 @@ PngText read_png_text(const std::string& path) {
     file.seekg(4, std::ios::cur);
   }
   return text;
-}
-
-void add_png_chunks(std::vector<unsigned char>& bytes, const PngText& text, double dots_per_inch) {
-  constexpr double INCHES_PER_METRE = 1.0 / 0.0254;
-  constexpr char PER_METRE = 1;
-  std::string chunks = chunk("sRGB", std::string(1, '\0'));
-  if (dots_per_inch > 0.0) {
-    const std::string dots =
-        big_endian(static_cast<std::uint32_t>(std::lround(dots_per_inch * INCHES_PER_METRE)));
-    chunks += chunk("pHYs", dots + dots + PER_METRE);
-  }
-  for (const auto& [name, value] : text)
-    if (name.starts_with("splatray.")) chunks += chunk("tEXt", name + '\0' + value);
-  bytes.insert(bytes.begin() + HEADER_END, chunks.begin(), chunks.end());
 }
 
 }  // namespace splatray

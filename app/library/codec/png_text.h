@@ -1,4 +1,4 @@
-/// What a PNG's file says beside its pixels (PNG specification, third edition, 2025, sections 5.3, 11.3.3 and 11.3.4.3).
+/// What a PNG's file says beside its pixels (PNG specification, third edition, 2025, sections 5.3 and 11.3.3).
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,9 +14,5 @@ using PngText = std::vector<std::pair<std::string, std::string>>;
 
 /// The keywords and texts of a PNG's plain text chunks; empty for files that are none.
 [[nodiscard]] PngText read_png_text(const std::string& path);
-
-/// Adds to a whole PNG in memory that its colours are sRGB, how large its pixels are on paper unless `dots_per_inch` is 0, and text
-/// chunks of the pairs whose names begin with "splatray.".
-void add_png_chunks(std::vector<unsigned char>& bytes, const PngText& text, double dots_per_inch);
 
 }  // namespace splatray
