@@ -7,12 +7,25 @@
 namespace splatray::testing {
 namespace {
 
-/// What Embree hands to the intersection function: its own context, and the ray's gathering.
+/// What Embree hands to the intersection function: its own context, and the rays' gatherings.
 struct ClusterTraversal {
   RTCIntersectContext context;
-  vec3 dir;
-  Gathering gathered;
+  Gathering* gathered;  ///< by the rays' ids
 };
+
+/// What of a ray is looked at.
+RTCRay ray_of(RTCRayN* rays, unsigned count, unsigned lane) {
+  RTCRay ray{};
+  ray.org_x = RTCRayN_org_x(rays, count, lane);
+  ray.org_y = RTCRayN_org_y(rays, count, lane);
+  ray.org_z = RTCRayN_org_z(rays, count, lane);
+  ray.tnear = RTCRayN_tnear(rays, count, lane);
+  ray.dir_x = RTCRayN_dir_x(rays, count, lane);
+  ray.dir_y = RTCRayN_dir_y(rays, count, lane);
+  ray.dir_z = RTCRayN_dir_z(rays, count, lane);
+  ray.tfar = RTCRayN_tfar(rays, count, lane);
+  return ray;
+}
 
 /// Numbers of a disc that are tested.
 constexpr std::size_t NUMBERS = 7;
@@ -100,14 +113,15 @@ std::vector<float> in_groups(const std::vector<Disc>& discs, const std::vector<s
 }  // namespace
 
 EmbreeClusters::EmbreeClusters(const Discs& discs, const Settings& settings, std::size_t group,
-                               RTCBuildQuality quality)
+                               unsigned width, RTCBuildQuality quality)
     : discs_(discs),
       settings_(settings),
       group_(group),
+      width_(width),
       order_(fitted_order(discs.list, group)),
       groups_(in_groups(discs.list, order_, group)),
       embree_(quality) {
-  assert(group >= 1 && group <= GROUP_MOST);
+  assert(group >= 1 && group <= GROUP_MOST && (width == 1 || width == 8 || width == 16));
   RTCGeometry geometry = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>((discs.size() + group - 1) / group));
   rtcSetGeometryUserData(geometry, this);
@@ -143,42 +157,71 @@ void EmbreeClusters::visit_meetings(unsigned primitive, const RTCRay& ray, const
 }
 
 void EmbreeClusters::intersect(const RTCIntersectFunctionNArguments* args) {
-  assert(args->N == 1);
-  if (args->valid[0] == 0) return;
   const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
   auto& traversal = *reinterpret_cast<ClusterTraversal*>(args->context);
-  auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;  // what an RTCRayHitN of one ray is
-  self.visit_meetings(args->primID, ray, [&](std::size_t disc, float t) {
-    traversal.gathered.add(disc, t, traversal.dir, self.discs_, self.settings_);
-  });
-  ray.tfar = traversal.gathered.end();
+  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] == 0) continue;
+    const RTCRay ray = ray_of(rays, args->N, lane);
+    const vec3 dir(ray.dir_x, ray.dir_y, ray.dir_z);
+    Gathering& gathered = traversal.gathered[RTCRayN_id(rays, args->N, lane)];
+    self.visit_meetings(args->primID, ray, [&](std::size_t disc, float t) {
+      gathered.add(disc, t, dir, self.discs_, self.settings_);
+    });
+    RTCRayN_tfar(rays, args->N, lane) = gathered.end();
+  }
 }
 
 void EmbreeClusters::occlude(const RTCOccludedFunctionNArguments* args) {
-  assert(args->N == 1);
-  if (args->valid[0] == 0) return;
   const auto& self = *static_cast<const EmbreeClusters*>(args->geometryUserPtr);
-  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  self.visit_meetings(args->primID, ray, [&](std::size_t, float) { ray.tfar = -INFINITY; });
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] == 0) continue;
+    self.visit_meetings(args->primID, ray_of(args->ray, args->N, lane),
+                        [&](std::size_t, float) { RTCRayN_tfar(args->ray, args->N, lane) = -INFINITY; });
+  }
+}
+
+template <unsigned WIDTH>
+void EmbreeClusters::trace_together(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
+  std::array<Gathering, WIDTH> gathered;
+  ClusterTraversal traversal{{}, gathered.data()};
+  rtcInitIntersectContext(&traversal.context);
+  traversal.context.flags = flags();
+  if constexpr (WIDTH == 1) {
+    RTCRayHit query = embree_ray(rays.front());
+    rtcIntersect1(embree_.scene(), &traversal.context, &query);
+  } else {
+    EmbreeBundle<WIDTH>(rays).intersect(embree_.scene(), traversal.context);
+  }
+  for (std::size_t lane = 0; lane < rays.size(); ++lane)
+    hits[lane] = gathered[lane].blended(rays[lane], discs_, settings_);
 }
 
 void EmbreeClusters::trace(std::span<const RayQuery> rays, std::span<RayHit> hits) const {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    ClusterTraversal traversal{{}, rays[i].dir, {}};
-    rtcInitIntersectContext(&traversal.context);
-    RTCRayHit query = embree_ray(rays[i]);
-    rtcIntersect1(embree_.scene(), &traversal.context, &query);
-    hits[i] = traversal.gathered.blended(rays[i], discs_, settings_);
+  for (std::size_t begin = 0; begin < rays.size(); begin += width_) {
+    const std::size_t count = std::min<std::size_t>(width_, rays.size() - begin);
+    const auto some = rays.subspan(begin, count);
+    const auto answers = hits.subspan(begin, count);
+    if (width_ == 1) trace_together<1>(some, answers);
+    if (width_ == 8) trace_together<8>(some, answers);
+    if (width_ == 16) trace_together<16>(some, answers);
   }
 }
 
 void EmbreeClusters::occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray = embree_ray(rays[i]).ray;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = flags();
+  for (std::size_t begin = 0; begin < rays.size(); begin += width_) {
+    const std::size_t count = std::min<std::size_t>(width_, rays.size() - begin);
+    const auto some = rays.subspan(begin, count);
+    const auto answers = blocked.subspan(begin, count);
+    if (width_ == 8) EmbreeBundle<8>(some).occluded(embree_.scene(), context, answers);
+    if (width_ == 16) EmbreeBundle<16>(some).occluded(embree_.scene(), context, answers);
+    if (width_ != 1) continue;
+    RTCRay ray = embree_ray(some.front()).ray;
     rtcOccluded1(embree_.scene(), &context, &ray);
-    blocked[i] = ray.tfar < 0.0F ? 1 : 0;
+    answers.front() = ray.tfar < 0.0F ? 1 : 0;
   }
 }
 

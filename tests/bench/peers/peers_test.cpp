@@ -55,10 +55,12 @@ void expect_brute_force(std::uint32_t material_flags, std::uint32_t blend) {
   BruteForce brute(scene);
   const EmbreeDiscs built_in(discs, settings);
   EXPECT_LE(count_differences(built_in, brute, scene, settings), FEW);
-  for (const std::size_t group : {1, 8, 64}) {
-    const EmbreeClusters clusters(discs, settings, group);
-    EXPECT_LE(count_differences(clusters, brute, scene, settings), FEW) << "groups of " << group;
-  }
+  for (const std::size_t group : {1, 8, 64})
+    for (const unsigned width : {1U, 8U, 16U}) {
+      const EmbreeClusters clusters(discs, settings, group, width);
+      EXPECT_LE(count_differences(clusters, brute, scene, settings), FEW)
+          << "groups of " << group << ", " << width << " rays a call";
+    }
   for (std::size_t i = 0; i < discs.size(); i += 20) brute.move_splat(i, glm::dvec3(2e4));
   EXPECT_GT(count_differences(built_in, brute, scene, settings), 5 * FEW) << "moved splats must be seen";
 }
@@ -119,9 +121,9 @@ TEST(EmbreePeers, ShadowRaysAreBlockedWhereBruteForceHits) {
     for (std::size_t i = 0; i < RAYS; i += 2) rays[i].dir = -rays[i].dir;
     const std::vector<TrueHit> truth = all_nearest(brute, rays, settings);
     const EmbreeDiscs built_in(discs, settings);
-    const EmbreeClusters clusters(discs, settings, 8);
     EXPECT_LE(count_wrongly_blocked(built_in, rays, truth), FEW);
-    EXPECT_LE(count_wrongly_blocked(clusters, rays, truth), FEW);
+    for (const unsigned width : {1U, 16U})
+      EXPECT_LE(count_wrongly_blocked(EmbreeClusters(discs, settings, 8, width), rays, truth), FEW);
     for (std::size_t i = 0; i < discs.size(); ++i) brute.move_splat(i, glm::dvec3(2e5));
     EXPECT_GT(count_wrongly_blocked(built_in, rays, all_nearest(brute, rays, settings)), 5 * FEW)
         << "moved splats must be seen";

@@ -1,8 +1,7 @@
 /// splatray-bench race SCENE.soct... -o MODELS.json [--rounds N] [--device D]: splatray and Embree, each in all its settings,
 /// one frame of primary rays of the same view each in turn, on scanned models. JSON: a list of {case, splats, coverage, method,
 /// settings, commit, date, device, ms: [of each round], wall_ms: [likewise], unlike_ppm}. splatray's ms are those of its
-/// dispatches, its wall_ms of the whole call with shading and read-back; Embree's are both the wall time of tracing. splatray
-/// runs with culling of pixels that no leaf projects to ("cull") and without; Embree has none.
+/// dispatches, its wall_ms of the whole call with shading and read-back; Embree's are both the wall time of tracing.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -35,18 +34,17 @@ struct Entry {
   std::function<std::vector<float>()> depths;      ///< of the pixels; +inf on a miss
 };
 
-Settings settings_of(std::uint32_t blend, bool cull) {
+Settings settings_of(std::uint32_t blend) {
   Settings settings;
   settings.samples = 1;
   settings.shadows = false;
   settings.blend = blend;
-  settings.cull = cull;
   return settings;
 }
 
-Entry own_entry(const Device& device, ShownTracer& tracer, const View& view, std::uint32_t blend, bool cull) {
-  const Settings settings = settings_of(blend, cull);
-  Entry entry{{{"method", blend_word(blend)}, {"settings", {{"cull", cull}}}}, {}, {}};
+Entry own_entry(const Device& device, ShownTracer& tracer, const View& view, std::uint32_t blend) {
+  const Settings settings = settings_of(blend);
+  Entry entry{{{"method", blend_word(blend)}, {"settings", Json::object()}}, {}, {}};
   entry.record["device"] = {{"name", device.info().name}, {"driver", device.info().driver}};
   entry.run = [&tracer, view, settings] {
     static_cast<void>(tracer.render(view, settings));
@@ -82,15 +80,17 @@ void add_peers(const Discs& discs, const FrameParams& frame, std::vector<Entry>&
   for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST})
     for (const RTCBuildQuality quality : {RTC_BUILD_QUALITY_MEDIUM, RTC_BUILD_QUALITY_HIGH}) {
       const char* word = quality == RTC_BUILD_QUALITY_HIGH ? "high" : "medium";
-      const Settings settings = settings_of(blend, false);
-      for (const unsigned width : {1U, 8U, 16U})
+      const Settings settings = settings_of(blend);
+      for (const unsigned width : {1U, 8U, 16U}) {
         entries.push_back(peer_entry(std::make_shared<EmbreeDiscs>(discs, settings, width, quality), frame,
                                      "embree discs " + blend_word(blend),
                                      {{"width", width}, {"quality", word}}));
-      for (const std::size_t group : {8, 16, 32})
-        entries.push_back(peer_entry(std::make_shared<EmbreeClusters>(discs, settings, group, quality), frame,
-                                     "embree clusters " + blend_word(blend),
-                                     {{"leaf_size", group}, {"quality", word}}));
+        for (const std::size_t group : {8, 16, 32})
+          entries.push_back(
+              peer_entry(std::make_shared<EmbreeClusters>(discs, settings, group, width, quality), frame,
+                         "embree clusters " + blend_word(blend),
+                         {{"leaf_size", group}, {"width", width}, {"quality", word}}));
+      }
     }
 }
 
@@ -111,12 +111,12 @@ void race(const std::string& name, const Device& device, const Scene& scene, std
           Json& records) {
   const View view{framing_camera(scene, 1.0), SIZE, SIZE};
   const Discs discs = discs_of(scene);
-  const FrameParams frame = make_frame_params(scene, view, settings_of(BLEND_WINDOW, false));
+  const FrameParams frame = make_frame_params(scene, view, settings_of(BLEND_WINDOW));
   ShownTracer tracer(device);
   tracer.upload(scene);
   std::vector<Entry> entries;
   for (const std::uint32_t blend : {BLEND_WINDOW, BLEND_NEAREST})
-    for (const bool cull : {false, true}) entries.push_back(own_entry(device, tracer, view, blend, cull));
+    entries.push_back(own_entry(device, tracer, view, blend));
   add_peers(discs, frame, entries);
   for (std::size_t round = 0; round < 1 + rounds; ++round)
     for (Entry& entry : entries) {
@@ -125,7 +125,7 @@ void race(const std::string& name, const Device& device, const Scene& scene, std
       entry.record["ms"].push_back(ms);
       entry.record["wall_ms"].push_back(wall_ms);
     }
-  const std::vector<float> window = entries[0].depths(), nearest = entries[2].depths();
+  const std::vector<float> window = entries[0].depths(), nearest = entries[1].depths();
   const auto hits = std::count_if(window.begin(), window.end(), [](float z) { return std::isfinite(z); });
   for (Entry& entry : entries) {
     const bool blends = entry.record["method"].get<std::string>().ends_with("window");
