@@ -1,4 +1,4 @@
-# cmake -DSPIRV_OPT=spirv-opt -DSPIRV=in.spv -DHEADER=shaders/spirv.h -DNAME=TRACE_CPU -DOUTPUT=out.cpp -P embed_spirv.cmake
+# cmake -DSPIRV_OPT=spirv-opt -DSPIRV=in.spv -DHEADER=shaders/spirv.h -DNAME=TRACE -DOUTPUT=out.cpp -P embed_spirv.cmake
 # Optimises a SPIR-V file and writes its little-endian words as the array that the header declares under that name.
 
 # Drivers make pipelines of the result in 0.6 of the time (tests/bench/ideas.md). Not spirv-opt's own -O: its merge-return

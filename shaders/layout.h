@@ -238,13 +238,9 @@ struct FrameParams {
   vec3 environment;     ///< radiance factor of the texture, or the constant radiance
   uint tile_first;      ///< where the accumulation holds this dispatch's first pixel
   vec3 environment_up;  ///< unit vector the environment's +y (its pole) points to
-  uint first_group;     ///< where the group list holds this dispatch's groups
+  uint light_begin;     ///< from 1 on `environment` and `irradiance` are zero: another dispatch added them
   vec3 environment_right;  ///< unit vector the environment's +x points to; its +z is cross(right, up)
-  uint group_count;        ///< and how many
-  uint path_count;         ///< STAGE_NEXT: paths that go on
-  uint path_bounce;        ///< and how many secondary rays each has behind it
-  uint light_begin;        ///< from 1 on `environment` and `irradiance` are zero: another dispatch added them
-  uint loop_probe;         ///< LOOP_PROBE
+  uint group_count;        ///< groups of pixels of this dispatch
   vec4 irradiance[9];  ///< environment's irradiance / pi in 9 spherical harmonics of the environment's frame
                        ///< (Ramamoorthi, Hanrahan 2001), rgb
   vec4 media[8];       ///< index of refraction inside each bit of a ray's mask, 4 bits in each
@@ -269,26 +265,11 @@ struct FrameParams {
   uint region_kept;     ///< FEATURE_REGION: planes on whose inner side a ray meets splats
   uint region_dropped;  ///< planes on whose inner sides, all of them together, it meets none
   uint region_light;    ///< whether secondary rays, too, meet only what the region keeps
-  uint region_unused;
+  uint loop_probe;      ///< LOOP_PROBE
   /// Planes n.x >= w, n a unit vector, root space: those kept, then those dropped.
   vec4 region[REGION_PLANES_MOST + REGION_BOX_PLANES];
 };
-SPLATRAY_CONST FUSED_ROWS = REGION_PLANES_MOST + REGION_BOX_PLANES;  ///< STAGE_FUSED: products in `region`
-
-/// A path between two of its rays, where paths are traced in stages (STAGE_*). Five texels.
-struct PathState {
-  vec3 origin;  ///< of the next ray
-  uint place;   ///< its pixel's in the accumulation
-  vec3 dir;
-  uint inside;
-  vec3 from_normal;
-  uint from_object;
-  vec3 throughput;
-  float pdf;      ///< Path::pdf
-  vec3 radiance;  ///< found so far
-  uint unused;
-};
-SPLATRAY_CONST PATH_TEXELS = 5u;
+SPLATRAY_CONST FUSED_ROWS = REGION_PLANES_MOST + REGION_BOX_PLANES;  ///< fused.comp.glsl: products in `region`
 
 /// One ray of a query (rays.comp.glsl). Root space; the hits are those of exactly this ray.
 struct RayQuery {
@@ -339,10 +320,9 @@ SPLATRAY_CONST COUNT_LEAKED = 9u;         ///< rays that left the scene while in
 SPLATRAY_CONST COUNT_NON_FINITE = 10u;    ///< samples with a non-finite colour
 SPLATRAY_CONST COUNT_BOUNCE_LIMIT = 11u;  ///< paths cut by the bounce limit
 SPLATRAY_CONST COUNT_ENERGY_LOST = 12u;   ///< sum of their throughput, in units of 1/1024
-SPLATRAY_CONST COUNT_QUEUED = 13u;        ///< paths that go on to the next stage
-SPLATRAY_CONST COUNT_BELOW = 14u;         ///< directions chosen below the surface: light lost
-SPLATRAY_CONST COUNT_BELOW_ENERGY = 15u;  ///< sum of their paths' throughput, in units of 1/1024
-SPLATRAY_CONST COUNTER_COUNT = 16u;
+SPLATRAY_CONST COUNT_BELOW = 13u;         ///< directions chosen below the surface: light lost
+SPLATRAY_CONST COUNT_BELOW_ENERGY = 14u;  ///< sum of their paths' throughput, in units of 1/1024
+SPLATRAY_CONST COUNTER_COUNT = 15u;
 
 /// Descriptor bindings (set 0).
 SPLATRAY_CONST BIND_FRAME = 0u;
@@ -355,12 +335,9 @@ SPLATRAY_CONST BIND_COUNTERS = 6u;
 SPLATRAY_CONST BIND_RAYS = 7u;
 SPLATRAY_CONST BIND_HITS = 8u;
 SPLATRAY_CONST BIND_GROUPS = 9u;  ///< group list: 32 bits a group of pixels, column | row << 16 in the tile
-SPLATRAY_CONST BIND_PATHS = 10u;  ///< of this stage
-SPLATRAY_CONST BIND_PATHS_QUEUED = 11u;  ///< of the next
-// Read as the pools are:
-SPLATRAY_CONST BIND_LIGHT_TABLES = 12u;  ///< words: the albedo table, then the sky table
-SPLATRAY_CONST BIND_LIGHT_TREE = 13u;    ///< texels: the light tree, then the words of the splats that send out light
-SPLATRAY_CONST BIND_POOLS = 14u;         ///< the first of the pools (pools.glsl), which come last
+SPLATRAY_CONST BIND_LIGHT_TABLES = 10u;  ///< words: the albedo table, then the sky table
+SPLATRAY_CONST BIND_LIGHT_TREE = 11u;    ///< texels: the light tree, then the words of the splats that send out light
+SPLATRAY_CONST BIND_POOLS = 12u;         ///< the first of the pools (pools.glsl), which come last
 
 /// How many pools there are.
 #define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) +1u
@@ -381,7 +358,7 @@ SPLATRAY_CONST SPEC_KERNEL = 2u;      ///< KERNEL_*
 SPLATRAY_CONST SPEC_SIDE = 3u;        ///< SIDE_*
 SPLATRAY_CONST SPEC_FACES = 4u;       ///< FACES_*
 SPLATRAY_CONST SPEC_ORDER = 5u;       ///< ORDER_*
-SPLATRAY_CONST SPEC_STAGE = 6u;       ///< STAGE_*
+SPLATRAY_CONST SPEC_OUTPUT = 6u;      ///< OUTPUT_*
 SPLATRAY_CONST SPEC_TOP_LEVELS = 7u;  ///< levels of the top table: it has 8^TOP_LEVELS entries
 SPLATRAY_CONST SPEC_PAGE_SHIFT = 8u;  ///< a buffer of a pool that has several holds 2^PAGE_SHIFT elements
 SPLATRAY_CONST SPEC_LOOK = 9u;        ///< LOOK_*
@@ -399,7 +376,7 @@ SPLATRAY_CONST FEATURE_COUNTERS = 256u;     ///< counters
 SPLATRAY_CONST FEATURE_ELLIPSES = 524288u; ///< some splat is an ellipse
 SPLATRAY_CONST FEATURE_LEANS = 33554432u;  ///< some normal field is a constant term
 SPLATRAY_CONST FEATURE_REGION = 67108864u;  ///< rays meet only what a region keeps (trace/region.glsl)
-SPLATRAY_CONST FEATURE_FUSED = 134217728u;  ///< fma() rounds once (STAGE_FUSED)
+SPLATRAY_CONST FEATURE_FUSED = 134217728u;  ///< fma() rounds once (stage/fused.comp.glsl)
 SPLATRAY_CONST FEATURE_OPACITY = 16777216u;  ///< some splat is see-through, and has the texture word LAYER
 SPLATRAY_CONST FEATURE_TEXTURE_LAYER = 1048576u;  ///< splats have this texture word
 SPLATRAY_CONST FEATURE_TEXTURE_GLOW = 2097152u;
@@ -429,11 +406,8 @@ SPLATRAY_CONST LOOK_SEEN = 6u;
 
 SPLATRAY_CONST PAGES_MOST = 8u;  ///< of a pool: buffers one behind the other, where one cannot be as large
 
-SPLATRAY_CONST STAGE_ALL = 0u;    ///< whole paths
-SPLATRAY_CONST STAGE_FIRST = 1u;  ///< primary rays; paths that go on are queued
-SPLATRAY_CONST STAGE_NEXT = 2u;   ///< one ray of each path queued before
-SPLATRAY_CONST STAGE_AOV = 3u;    ///< no paths: AovPixel of the ray through each pixel's centre
-SPLATRAY_CONST STAGE_FUSED = 4u;  ///< no pixels: whether fma() rounds once (stage/empty.comp.glsl)
+SPLATRAY_CONST OUTPUT_PICTURE = 0u;  ///< the mean of paths
+SPLATRAY_CONST OUTPUT_AOV = 1u;      ///< no paths: AovPixel of the ray through each pixel's centre
 
 /// Iterations of a loop that shows whether a driver cuts loops short (stage/paths.glsl).
 SPLATRAY_CONST LOOP_PROBE = 8u;
@@ -467,7 +441,7 @@ SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixel
 static_assert(sizeof(Material) == 144 && sizeof(Light) == 96 &&
               sizeof(LightNode) == 16 * LIGHT_NODE_TEXELS &&
               sizeof(RayQuery) == 64 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
-              sizeof(FrameParams) == 1456 && sizeof(PathState) == 16 * PATH_TEXELS);
+              sizeof(FrameParams) == 1440);
 }  // namespace splatray
 #endif
 #endif

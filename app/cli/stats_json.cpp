@@ -49,7 +49,6 @@ Json bytes_json(const PoolBytes& bytes) {
   for (std::size_t i = 0; i < POOLS; ++i) json[pool_kinds()[i].key] = bytes.pools[i];
   json["environment"] = bytes.environment;
   json["frame"] = bytes.frame;
-  json["texel_buffers"] = bytes.texel_buffers;
   json["pages"] = bytes.pages;
   return json;
 }

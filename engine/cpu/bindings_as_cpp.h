@@ -1,6 +1,5 @@
 /// The C++ side of shaders/scene/bindings.glsl, after shaders/lang/glsl_as_cpp.h in the same namespace. Hits are decided in
-/// float64; paths are followed to their end by one thread. LIT as there.
-#define CPU
+/// float64. LIT as there.
 #define HOST
 
 /// What the thread of the host works at. One word each, so that a library that is loaded late has room for them.
@@ -17,7 +16,7 @@ __attribute__((tls_model("initial-exec"))) thread_local uint lane_now = 0;
 #define SIDE (bound->constants[SPEC_SIDE])
 #define FACES (bound->constants[SPEC_FACES])
 #define ORDER (bound->constants[SPEC_ORDER])
-#define STAGE (bound->constants[SPEC_STAGE])
+#define OUTPUT (bound->constants[SPEC_OUTPUT])
 #define TOP_LEVELS (bound->constants[SPEC_TOP_LEVELS])
 
 /// Whether the pipeline has a feature.

@@ -30,8 +30,6 @@ using Kernel = void (*)(const KernelWork& work, std::uint32_t group, Counts& cou
 /// Those of Program's names.
 void run_trace_kernel(const KernelWork& work, std::uint32_t group, Counts& counts);
 void run_light_kernel(const KernelWork& work, std::uint32_t group, Counts& counts);
-void run_empty_kernel(const KernelWork& work, std::uint32_t group, Counts& counts);
-void run_empty_light_kernel(const KernelWork& work, std::uint32_t group, Counts& counts);
 void run_rays_kernel(const KernelWork& work, std::uint32_t group, Counts& counts);
 
 }  // namespace splatray

@@ -7,8 +7,4 @@ void run_light_kernel(const KernelWork& work, std::uint32_t group, Counts& count
   run_pictures(work, group, counts);
 }
 
-void run_empty_light_kernel(const KernelWork& work, std::uint32_t group, Counts& counts) {
-  run_misses(work, group, counts);
-}
-
 }  // namespace splatray

@@ -22,7 +22,6 @@ namespace {
 //
 #include "engine/cpu/bindings_as_cpp.h"
 //
-#include "stage/empty.glsl"
 #include "stage/trace.glsl"
 //
 #include "engine/cpu/wide_trace.h"
@@ -34,21 +33,14 @@ namespace {
 void run_pictures(const KernelWork& work, std::uint32_t group, Counts& counts) {
   bool opened = false;
   run_group(work, group, counts, [&] {
-    Work found{};
-    if (!find_work(found)) return;
+    uvec2 in_tile(0);
+    if (!find_pixel(in_tile)) return;
     if (!std::exchange(opened, true)) tile_now = open_group_tile();
-    const uvec2 in_tile = tile_pixel(0u);
-    slot_now = ORDER == ORDER_LINEAR ? in_tile.x : in_tile.y * 8u + in_tile.x;
-    trace_work(found);
+    const uvec2 in_group = tile_pixel(0u);
+    slot_now = ORDER == ORDER_LINEAR ? in_group.x : in_group.y * 8u + in_group.x;
+    trace_pixel(in_tile);
   });
   tile_now = nullptr;
-}
-
-void run_misses(const KernelWork& work, std::uint32_t group, Counts& counts) {
-  run_group(work, group, counts, [] {
-    uvec2 in_tile(0);
-    if (find_pixel(in_tile)) miss_all(in_tile);
-  });
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ struct RayPlaces {
 
 RayPlaces ray_places() {
   const RayPlaces middle{vec2(0.5f), vec2(0.5f)}, all{vec2(0.0f), vec2(1.0f)};
-  if (STAGE == STAGE_AOV) return middle;
+  if (OUTPUT == OUTPUT_AOV) return middle;
 #ifdef LIT
   return LOOK == LOOK_SEEN ? middle : all;
 #else
@@ -83,11 +83,11 @@ WideTile* open_group_tile() {
   thread_local std::unique_ptr<WideTile> kept;
   bool single = COUNTERS || group_number() >= frame.group_count;
 #ifdef LIT
-  single = single || (LENS && STAGE != STAGE_AOV);
+  single = single || (LENS && OUTPUT != OUTPUT_AOV);
 #endif
   if (single) return nullptr;
   if (!kept) kept.reset(new WideTile);  // NOLINT: not filled with zeros, as make_unique does
-  const uint word = group_list[frame.first_group + group_number()];
+  const uint word = group_list[group_number()];
   const uvec2 pixels = ORDER == ORDER_LINEAR ? uvec2(GROUP_SIZE, 1u) : uvec2(8u);
   const uvec2 first = uvec2(word & 0xFFFFu, word >> 16u) * pixels + uvec2(frame.tile_x, frame.tile_y);
   if (!set_tile_camera(first, pixels, *kept)) return nullptr;

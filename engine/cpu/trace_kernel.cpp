@@ -6,8 +6,4 @@ void run_trace_kernel(const KernelWork& work, std::uint32_t group, Counts& count
   run_pictures(work, group, counts);
 }
 
-void run_empty_kernel(const KernelWork& work, std::uint32_t group, Counts& counts) {
-  run_misses(work, group, counts);
-}
-
 }  // namespace splatray

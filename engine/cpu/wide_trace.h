@@ -64,6 +64,9 @@ bool is_of_tile(const Ray& ray) {
          at.y < tile.last[1] + more.y;
 }
 
+/// Whether the tile has found out that its pixel's rays meet nothing.
+bool pixel_is_empty(const WideTile& tile) { return tile.boxes == 0 && tile.count[slot_now] == 0; }
+
 /// Where a ray of the tile is in its pixel's list.
 WideCursor cursor_of(const Ray& ray, const WideTile& tile) {
   assert(is_in_pixel(ray, tile));
@@ -153,7 +156,7 @@ Found find_cluster(const Ray& ray, float kappa, bool by_tile, Tally& tally, Wide
   all.count = 0;
   visit_hits(ray, -INFINITY_F, ray.t_max, by_tile, tally, [&](const Meeting& met) {
     const uvec4 before = found.first.words;
-    take_first(met.splat, met.words, met.hit, true, found.first);
+    take_first(met.splat, met.words, met.hit, found.first);
     if (BLEND == BLEND_ANY) return -INFINITY_F;
     if (BLEND == BLEND_NEAREST) return std::nextafter(found.first.t.x, INFINITY_F);
     if (found.first.words != before) {
@@ -224,17 +227,27 @@ Cluster blend_meetings(WideMeetings& all, const Found& found, const Ray& ray, uv
 Found count_hits(const Ray& ray, Tally& tally, Cluster& cluster) {
   Found found{no_first(), 0.0f, true};
   visit_hits(ray, -INFINITY_F, ray.t_max, /*by_tile=*/false, tally, [&](const Meeting& met) {
-    take_first(met.splat, met.words, met.hit, true, found.first);
+    take_first(met.splat, met.words, met.hit, found.first);
     cluster.members += 1u;
     return INFINITY_F;
   });
   return found;
 }
 
-Hit trace_watching(Ray ray, float kappa, uvec4 target, Tally& tally) {
+Hit no_hit() {
+  Hit hit{};
+  hit.object = NO_OBJECT;
+  hit.front = true;
+  hit.t = hit.t_first = INFINITY_F;
+  return hit;
+}
+
+/// A reference, as a copy would wait for the ray's numbers to be stored one by one.
+Hit trace_watching(const Ray& given, float kappa, uvec4 target, Tally& tally) {
   const bool wide = !has_cluster() || (BLEND == BLEND_WINDOW && KERNEL == KERNEL_RIM);
-  if (!wide) return trace_octree(ray, kappa, target, tally);
-  const Ray given = ray;
+  if (!wide) return trace_octree(given, kappa, target, tally);
+  if (is_of_tile(given) && pixel_is_empty(*tile_now)) return no_hit();
+  Ray ray = given;
   bool enters = true;
   float t_start = 0.0f;
   const float shift = clip_to_root(ray, enters, t_start);

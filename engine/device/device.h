@@ -23,16 +23,13 @@ struct DeviceInfo {
 
 /// What a device allows.
 struct DeviceLimits {
-  std::uint64_t texel_elements = 0;    ///< most elements of a texel buffer; 0 where a format is not supported
   std::uint64_t storage_bytes = 0;     ///< largest storage buffer
   std::uint64_t allocation_bytes = 0;  ///< largest allocation
-  std::uint32_t texel_buffers = 0;     ///< most texel buffers of a program for pools
   std::uint32_t storage_buffers = 0;   ///< most storage buffers of a program for pools
   std::uint32_t texture_size = 0;      ///< most texels of a texture, across and down
 };
 
 struct QueueOptions {
-  Kernels kernels = Kernels::automatic;
   /// Where compiled programs are kept between runs; empty = nowhere.
   std::filesystem::path pipeline_folder{};
   unsigned threads = 0;  ///< of the host; 0 = one a core
@@ -49,10 +46,9 @@ class Device {
 
   [[nodiscard]] virtual const DeviceInfo& info() const = 0;
   [[nodiscard]] virtual const DeviceLimits& limits() const = 0;
-  /// How much it is given to do. `requested` is for tests and benchmarks. Throws Error (failed) where it lacks what these kernels
-  /// need.
-  [[nodiscard]] virtual DeviceProfile profile(Kernels requested = Kernels::automatic) const = 0;
-  /// The device must outlive it. Throws as profile().
+  /// How much it is given to do.
+  [[nodiscard]] virtual DeviceProfile profile() const = 0;
+  /// The device must outlive it.
   [[nodiscard]] virtual std::unique_ptr<Queue> make_queue(const QueueOptions& options = {}) const = 0;
   /// Messages of Vulkan's validation layers so far; from any thread.
   [[nodiscard]] virtual std::uint32_t validation_messages() const { return 0; }
@@ -61,7 +57,7 @@ class Device {
 /// What a user asks for who wants no Vulkan device but the host's CPU (engine/cpu).
 inline constexpr const char* HOST_DEVICE = "cpu";
 
-/// The device that a user asks for: "" = Vulkan's best (discrete > integrated > virtual > other > CPU), or the host where
+/// The device that a user asks for: "" = Vulkan's best GPU (discrete > integrated > virtual > other), or the host where
 /// Vulkan has none, a number of list_devices, or part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not
 /// even loaded. Throws Error (no_device) with every device's reason when none fits.
 [[nodiscard]] std::unique_ptr<Device> open_device(const std::string& wanted);

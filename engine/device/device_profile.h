@@ -7,21 +7,6 @@
 
 namespace splatray {
 
-/// How shaders read the pools.
-enum class PoolAccess {
-  automatic,  ///< texel where the device's limits allow it, else storage
-  texel,      ///< uniform texel buffers
-  storage,    ///< storage buffers
-};
-
-/// Which programs a device runs.
-enum class Kernels {
-  automatic,  ///< cpu on CPU devices that have what these need, else gpu
-  gpu,        ///< pools in storage buffers, hits in double-float (shaders/variants.cmake)
-  cpu,        ///< pools in texel buffers, hits in float64, wavefront stages
-  host,       ///< C++ (engine/cpu), on the host itself, which runs no others
-};
-
 /// Work of one thread in one dispatch.
 struct ThreadWork {
   std::uint32_t samples = 1;  ///< of a pixel, >= 1
@@ -29,18 +14,12 @@ struct ThreadWork {
 };
 
 struct DeviceProfile {
-  Kernels kernels = Kernels::gpu;  ///< never automatic
-  bool culls = false;              ///< pixels that no leaf projects to are left to a program of their own
-  bool stages = false;  ///< secondary rays of scenes with dielectrics are traced in wavefront stages
-  bool slow = false;    ///< a processor's: a sample of a large tile takes seconds
+  bool slow = false;                        ///< a processor's: a sample of a large tile takes seconds
   std::uint32_t samples_most = UINT32_MAX;  ///< of a pixel in a dispatch, of one ray each and its shadow rays
   std::uint32_t paths_most = UINT32_MAX;    ///< of a pixel in a dispatch, of several rays each
   std::uint32_t rays_most = UINT32_MAX;     ///< of a thread in a dispatch
   std::uint32_t lights_most = LIGHTS_MOST;  ///< of a dispatch
 
-  [[nodiscard]] PoolAccess access() const {
-    return kernels == Kernels::cpu ? PoolAccess::texel : PoolAccess::storage;
-  }
   /// The most work of a thread whose paths have up to `path_rays` rays, >= 1, and meet `lights` lights.
   [[nodiscard]] ThreadWork work(std::uint32_t path_rays, std::uint32_t lights) const;
 };

@@ -10,7 +10,8 @@ namespace splatray {
 std::unique_ptr<Device> open_device(const std::string& wanted) {
   if (wanted == HOST_DEVICE) return std::make_unique<HostDevice>();
   try {
-    return std::make_unique<VulkanDevice>(wanted);
+    auto vulkan = std::make_unique<VulkanDevice>(wanted);
+    if (!wanted.empty() || !vulkan->is_cpu()) return vulkan;
   } catch (const Error& error) {
     if (!wanted.empty() || error.code() != ExitCode::no_device) throw;
     const std::vector<DeviceInfo> devices =

@@ -5,13 +5,13 @@
 
 namespace splatray {
 
-PagedBuffer::PagedBuffer(Queue& queue, std::uint64_t bytes, std::uint64_t page_bytes, BufferKind kind)
+PagedBuffer::PagedBuffer(Queue& queue, std::uint64_t bytes, std::uint64_t page_bytes)
     : page_bytes_(page_bytes) {
   assert(page_bytes > 0);
   std::uint64_t left = bytes;
   do {
     const std::uint64_t page = std::min(left, page_bytes);
-    pages_.push_back(queue.make_buffer(page, kind));
+    pages_.push_back(queue.make_buffer(page));
     left -= page;
   } while (left > 0);
 }

@@ -11,8 +11,8 @@ namespace splatray {
 class PagedBuffer {
  public:
   PagedBuffer() = default;
-  /// As Queue::make_buffer; `page_bytes` is a whole number of texels.
-  PagedBuffer(Queue& queue, std::uint64_t bytes, std::uint64_t page_bytes, BufferKind kind);
+  /// As Queue::make_buffer; `page_bytes` is a whole number of elements.
+  PagedBuffer(Queue& queue, std::uint64_t bytes, std::uint64_t page_bytes);
 
   /// As Queue::upload.
   void upload(Queue& queue, std::span<const std::byte> bytes, std::uint64_t begin = 0);

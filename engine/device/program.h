@@ -8,11 +8,9 @@
 namespace splatray {
 
 enum class Program {
-  trace,        ///< trace.comp.glsl: a tile of an image, or what its centre rays hit
-  empty,        ///< empty.comp.glsl: the same where no primary ray hits anything
-  light,        ///< trace.comp.glsl, path tracing and its like (LOOK_*)
-  empty_light,  ///< empty.comp.glsl for it
-  rays,         ///< rays.comp.glsl: ray queries
+  trace,  ///< trace.comp.glsl: a tile of an image, or what its centre rays hit
+  light,  ///< trace.comp.glsl, path tracing and its like (LOOK_*)
+  rays,   ///< rays.comp.glsl: ray queries
 };
 
 /// Which program, with which constants and parameters, over how many groups.
@@ -25,10 +23,6 @@ struct Dispatch {
 
   /// Sets the numbers of groups so that there are at least `count`; none for 0.
   void set_groups(std::uint32_t count);
-  /// Whether it is a wavefront stage, which counts the paths that go on (COUNT_QUEUED).
-  [[nodiscard]] bool is_staged() const {
-    return constants[SPEC_STAGE] == STAGE_FIRST || constants[SPEC_STAGE] == STAGE_NEXT;
-  }
   [[nodiscard]] bool counts_work() const { return has(constants, FEATURE_COUNTERS); }
 };
 

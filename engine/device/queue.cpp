@@ -20,8 +20,8 @@ std::unique_ptr<SplatTree> Queue::make_tree(std::span<const uvec4>, std::vector<
   return nullptr;
 }
 
-void Queue::reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind) {
-  if (!buffer || buffer->size() < bytes) buffer = make_buffer(bytes, kind);
+void Queue::reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes) {
+  if (!buffer || buffer->size() < bytes) buffer = make_buffer(bytes);
 }
 
 }  // namespace splatray

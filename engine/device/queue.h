@@ -14,13 +14,6 @@
 
 namespace splatray {
 
-/// How programs read a buffer.
-enum class BufferKind {
-  storage,  ///< as they like
-  words,    ///< also as texels of one uint
-  texels,   ///< also as texels of four uint
-};
-
 /// Memory on a device, of at least 16 bytes, so that an empty array is a buffer too.
 class Buffer {
  public:
@@ -58,9 +51,8 @@ class SplatTree {
 
 class PagedBuffer;
 
-/// How pools are read, and in how many buffers each is.
+/// In how many buffers each pool is.
 struct Paging {
-  PoolAccess access = PoolAccess::storage;   ///< never automatic
   std::array<std::uint32_t, POOLS> pages{};  ///< of each pool, at least 1; in the order of their bindings
   std::uint32_t page_shift = 0;              ///< SPEC_PAGE_SHIFT; 0 where no pool has several pages
 
@@ -93,7 +85,7 @@ using Counters = std::array<std::uint64_t, COUNTER_COUNT>;
 /// What a dispatch did.
 struct Ran {
   double ms = 0.0;     ///< on the device, or on the wall clock where it has no timestamps
-  Counters counted{};  ///< of dispatches that count, and of stages
+  Counters counted{};  ///< of dispatches that count
 };
 
 /// Does one thing after the other and waits for each. One thread at a time.
@@ -107,7 +99,7 @@ class Queue {
   /// Whether programs may take fma() to round once (FEATURE_FUSED).
   [[nodiscard]] virtual bool fuses() const { return false; }
   /// Throws Error (out_of_memory) naming the size.
-  [[nodiscard]] virtual std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) = 0;
+  [[nodiscard]] virtual std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes) = 0;
   /// The texture of an environment that has texels, at most DeviceLimits::texture_size across and down.
   [[nodiscard]] virtual std::unique_ptr<Texture> make_texture(const Environment& environment) = 0;
   [[nodiscard]] virtual std::unique_ptr<Bindings> make_bindings(const Paging& paging) = 0;
@@ -125,7 +117,7 @@ class Queue {
   [[nodiscard]] virtual std::uint32_t programs_built() const = 0;
 
   /// Makes a buffer at least that large; keeps it when it is.
-  void reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind = BufferKind::storage);
+  void reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes);
 };
 
 }  // namespace splatray

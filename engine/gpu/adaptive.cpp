@@ -30,11 +30,10 @@ struct Half {
 /// A tile that is traced until it is good enough.
 class AdaptiveTile {
  public:
-  AdaptiveTile(Runner& runner, const Dispatch& dispatch, const Tile& tile, const Footprint& footprint)
+  AdaptiveTile(Runner& runner, const Dispatch& dispatch, const Tile& tile)
       : runner_(runner),
         dispatch_(dispatch),
         tile_(tile),
-        footprint_(footprint),
         columns_((tile.width + REGION - 1) / REGION),
         regions_(columns_ * ((tile.height + REGION - 1) / REGION)) {
     for (Half& half : halves_) {
@@ -113,7 +112,7 @@ class AdaptiveTile {
     Dispatch dispatch = dispatch_;
     dispatch.frame.seed += which * SEED_STEP;
     dispatch.frame.tile_first = static_cast<std::uint32_t>(which * tile_.pixels());
-    TileDispatch aimed = aim(dispatch, tile_, footprint_);
+    TileDispatch aimed = aim(dispatch, tile_);
     aimed.keep([&](std::uint32_t x, std::uint32_t y) { return chosen[region_at(x, y)]; });
     const auto run = [&](std::uint32_t begin, std::uint32_t end) {
       half.means_before = half.means;
@@ -164,7 +163,6 @@ class AdaptiveTile {
   Runner& runner_;
   const Dispatch dispatch_;
   const Tile tile_;
-  const Footprint& footprint_;
   const std::uint32_t columns_;
   const std::size_t regions_;
   std::array<Half, 2> halves_;
@@ -192,7 +190,7 @@ Image Tracer::render_until(const Look& look, const View& view, const Settings& w
     const double share = static_cast<double>(tile.pixels()) / static_cast<double>(pixels);
     const double end_ms = 1e3 * goal.seconds * (done + share);
     double first_error = 0.0;
-    AdaptiveTile adaptive(runner, picture.dispatch, tile, picture.footprint);
+    AdaptiveTile adaptive(runner, picture.dispatch, tile);
     adaptive.trace(goal, [&](double error) {
       first_error = std::max(first_error, error);
       const double ms = milliseconds_since(start);
@@ -208,7 +206,7 @@ Image Tracer::render_until(const Look& look, const View& view, const Settings& w
     impl.stats.trace_ms += adaptive.trace_ms();
     samples += adaptive.samples();
     done += share;
-    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov, image.width);
+    if (settings.aov) runner.trace_aov(tile, picture.aov_dispatch, image.aov, image.width);
   }
   impl.finish(start);
   impl.stats.samples = samples / static_cast<double>(pixels);

@@ -27,12 +27,8 @@ const Environment BLACK{1, 1, {glm::vec3(0.0F)}, glm::vec3(0.0F)};
 
 }  // namespace
 
-DeviceScene::DeviceScene(const Device& device, Queue& queue, const PoolRequest& request, bool culls)
-    : device_(device),
-      queue_(queue),
-      request_(request),
-      culls_(culls),
-      environment_(queue.make_texture(BLACK)) {
+DeviceScene::DeviceScene(const Device& device, Queue& queue, const PoolRequest& request)
+    : device_(device), queue_(queue), request_(request), environment_(queue.make_texture(BLACK)) {
   upload_tables({});
 }
 
@@ -41,7 +37,6 @@ void DeviceScene::upload(const Scene& scene, Scene* spent) {
   splat_tree_.reset();
   pools_ = {};  // the device may not have room for two scenes
   shows_look_ = false;
-  if (culls_) cells_ = filled_cells(scene);
   clip_content_ = clip_content(scene.clip_pool);
   leans_ = any_leans(scene.field_pool);
   std::vector<std::uint32_t> order;
@@ -110,7 +105,7 @@ void DeviceScene::upload_tree(const Emitters& emitters) {
   if (!texels.empty()) std::memcpy(texels.data(), tree_.nodes.data(), std::span(tree_.nodes).size_bytes());
   if (emitters)
     for (const Emitter& emitter : *emitters) texels.push_back(emitter.words);
-  reserve_read(tree_buffer_, std::span(texels).size_bytes(), BufferKind::texels);
+  queue_.reserve(tree_buffer_, std::span(texels).size_bytes());
   queue_.upload(*tree_buffer_, std::as_bytes(std::span(texels)));
   tree_nodes_ = static_cast<std::uint32_t>(tree_.nodes.size());
   release(tree_.nodes);
@@ -132,17 +127,12 @@ void DeviceScene::show_environment(const Environment& environment) {
   release(sky_.words);
 }
 
-/// As Queue::reserve, of what is read as the pools are.
-void DeviceScene::reserve_read(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind) {
-  queue_.reserve(buffer, bytes, request_.access == PoolAccess::texel ? kind : BufferKind::storage);
-}
-
 /// What path tracing reads beside the scene.
 void DeviceScene::upload_tables(const SkyTable& sky) {
   std::vector<std::uint32_t> words;
   for (const float albedo : ALBEDO_TABLE) words.push_back(std::bit_cast<std::uint32_t>(albedo));
   words.insert(words.end(), sky.words.begin(), sky.words.end());
-  reserve_read(table_buffer_, std::span(words).size_bytes(), BufferKind::words);
+  queue_.reserve(table_buffer_, std::span(words).size_bytes());
   queue_.upload(*table_buffer_, std::as_bytes(std::span(words)));
 }
 
@@ -220,12 +210,6 @@ FrameParams DeviceScene::query_params(const Settings& settings) const {
   frame.delta = static_cast<float>(settings.delta_world / outline_.root.unit_world);
   set_region(outline_.root, settings.region, frame);
   return frame;
-}
-
-Footprint DeviceScene::footprint(const View& view, const Settings& settings) const {
-  const bool sized = settings.look != LOOK_PAPER && (settings.lens_radius_world > 0.0 || lights_sized_ > 0);
-  if (!settings.cull || !culls_ || sized) return {view.width, view.height};
-  return {cells_, outline_.root, view};
 }
 
 }  // namespace splatray

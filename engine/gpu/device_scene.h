@@ -9,7 +9,6 @@
 #include "engine/device/device.h"
 #include "engine/gpu/features.h"
 #include "engine/gpu/pools.h"
-#include "engine/image/footprint.h"
 #include "engine/image/look.h"
 #include "engine/image/view.h"
 #include "engine/light/light_tree.h"
@@ -22,8 +21,7 @@ namespace splatray {
 class DeviceScene {
  public:
   /// Nothing yet, black all around. The device and the queue must outlive it.
-  /// `culls`: footprint() leaves out pixels that no leaf projects to.
-  DeviceScene(const Device& device, Queue& queue, const PoolRequest& request, bool culls);
+  DeviceScene(const Device& device, Queue& queue, const PoolRequest& request);
 
   /// As the tracer's functions of these names.
   void upload(const Scene& scene) { upload(scene, nullptr); }
@@ -44,13 +42,10 @@ class DeviceScene {
   /// Parameters of a picture, and of ray queries.
   [[nodiscard]] FrameParams picture_params(const View& view, const Settings& settings) const;
   [[nodiscard]] FrameParams query_params(const Settings& settings) const;
-  /// The pixels whose rays must be traced.
-  [[nodiscard]] Footprint footprint(const View& view, const Settings& settings) const;
 
  private:
   /// `spent`: as Pools has it.
   void upload(const Scene& scene, Scene* spent);
-  void reserve_read(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes, BufferKind kind);
   void upload_tables(const SkyTable& sky);
   void show_materials(const std::vector<Material>& materials);
   void show_lights(const Look& look);
@@ -61,7 +56,6 @@ class DeviceScene {
   const Device& device_;
   Queue& queue_;
   const PoolRequest request_;
-  const bool culls_;
   std::unique_ptr<Bindings> bindings_;  ///< of the pools
 
   Scene outline_;  ///< the scene without its arrays: transform, bounds, up
@@ -69,10 +63,9 @@ class DeviceScene {
   Pools pools_;
   std::unique_ptr<SplatTree> splat_tree_;  ///< null where programs walk the octree
   ClipContent clip_content_;
-  bool leans_ = false;             ///< any_leans
-  std::vector<OctreeCell> cells_;  ///< that hold the scene's filled leaves
-  Look shown_;                     ///< as uploaded
-  bool shows_look_ = false;        ///< else the pools are another scene's
+  bool leans_ = false;       ///< any_leans
+  Look shown_;               ///< as uploaded
+  bool shows_look_ = false;  ///< else the pools are another scene's
   MaterialContent material_content_;
   std::unique_ptr<Buffer> material_buffer_, light_buffer_, table_buffer_, tree_buffer_;
   std::uint32_t lights_ = 0;

@@ -1,33 +1,30 @@
-/// The dispatches of a picture's tile, and how large the next ones should be.
+/// The dispatch of a picture's tile, and how large the next ones should be.
 #pragma once
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "engine/device/program.h"
-#include "engine/gpu/features.h"
 #include "engine/gpu/tiles.h"
-#include "engine/image/footprint.h"
 #include "shaders/layout.h"
 
 namespace splatray {
 
-/// The dispatches of a picture's tile: of the groups of pixels that may see something, and of the rest.
+/// The dispatch of a picture's tile, and its groups of pixels.
 struct TileDispatch {
-  Dispatch seen, empty;
-  std::vector<std::uint32_t> group_list;  ///< of both (BIND_GROUPS)
+  Dispatch dispatch;
+  std::vector<std::uint32_t> group_list;  ///< BIND_GROUPS
 
   /// Leaves only those groups of pixels for whose corner, in pixels of the tile, `keeps` is true.
   void keep(const std::function<bool(std::uint32_t x, std::uint32_t y)>& keeps);
-  /// Has them trace samples [begin, end) of each pixel, whose mean runs from sample `mean_begin` on.
+  /// Has it trace samples [begin, end) of each pixel.
   void set_samples(std::uint32_t begin, std::uint32_t end);
-  void set_mean_begin(std::uint32_t mean_begin);
-  /// Has them add the light of lights [begin, end) alone.
+  /// Has it add the light of lights [begin, end) alone.
   void set_lights(std::uint32_t begin, std::uint32_t end);
 };
 
 /// Points a picture's dispatch to a tile. A dispatch of no groups is not needed.
-[[nodiscard]] TileDispatch aim(const Dispatch& dispatch, const Tile& tile, const Footprint& footprint);
+[[nodiscard]] TileDispatch aim(const Dispatch& dispatch, const Tile& tile);
 
 /// Samples of the next dispatch after one of `batch` samples that took `ms`: long enough to hide the cost of a
 /// submission, short enough for progress and for drivers that stop long work.

@@ -117,19 +117,11 @@ SpecConstants picture_features(const SceneContent& content, const Settings& sett
   if (!settings.region.empty() && constants[SPEC_FACES] == FACES_FRONT) constants[SPEC_FACES] = FACES_BOTH;
   if (settings.cutaway && constants[SPEC_FACES] == FACES_BOTH) constants[SPEC_FACES] = FACES_CUT;
   constants[SPEC_ORDER] = settings.order;
-  constants[SPEC_STAGE] = STAGE_ALL;
   constants[SPEC_LOOK] = settings.look;
   constants[SPEC_TOP_LEVELS] = content.top_levels;
   for (std::uint32_t i = 0; i < POOLS; ++i) constants[SPEC_PAGES + i] = std::max(content.pages[i], 1U) - 1;
   constants[SPEC_PAGE_SHIFT] = content.page_shift;
   return constants;
-}
-
-SpecConstants empty_features(const SpecConstants& constants) {
-  SpecConstants kept{};
-  kept[SPEC_FEATURES] = constants[SPEC_FEATURES] & (FEATURE_ENVIRONMENT | FEATURE_COUNTERS | FEATURE_LENS);
-  for (const std::uint32_t constant : {SPEC_ORDER, SPEC_STAGE}) kept[constant] = constants[constant];
-  return kept;
 }
 
 SpecConstants query_features(const SceneContent& content, const Settings& settings) {

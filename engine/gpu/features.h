@@ -42,10 +42,8 @@ struct SceneContent {
   bool fused = false;                        ///< Queue::fuses
 };
 
-/// Constants of images (trace.comp.glsl), STAGE_ALL; of Program::light where the look is not LOOK_PAPER.
+/// Constants of images (trace.comp.glsl); of Program::light where the look is not LOOK_PAPER.
 [[nodiscard]] SpecConstants picture_features(const SceneContent& content, const Settings& settings);
-/// Those of them that matter where no primary ray hits anything.
-[[nodiscard]] SpecConstants empty_features(const SpecConstants& constants);
 /// Constants of ray queries (rays.comp.glsl): those of images without what only shading needs.
 [[nodiscard]] SpecConstants query_features(const SceneContent& content, const Settings& settings);
 

@@ -30,7 +30,7 @@ double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, st
                      const ThreadWork& work, std::uint32_t& batch,
                      const std::function<void(std::uint32_t)>& advance) {
   // The device counts in 32 bits, which many samples of a large tile would overflow.
-  const std::uint32_t most = has(tile.seen.constants, FEATURE_COUNTERS) ? 1 : work.samples;
+  const std::uint32_t most = has(tile.dispatch.constants, FEATURE_COUNTERS) ? 1 : work.samples;
   double all_ms = 0.0;
   for (std::uint32_t sample = begin; sample < end;) {
     const std::uint32_t next = sample + std::min(batch, end - sample);
@@ -50,14 +50,8 @@ void refuse_cut_loops() {
       "expected fewer (another Vulkan driver may do it)");
 }
 
-Passes::Passes(Runner& runner, const Dispatch& dispatch, const Footprint& footprint,
-               std::span<const Tile> tiles, std::uint32_t first)
-    : runner_(runner),
-      dispatch_(dispatch),
-      footprint_(footprint),
-      tiles_(tiles),
-      work_(runner.work(dispatch)),
-      pass_(first) {
+Passes::Passes(Runner& runner, const Dispatch& dispatch, std::span<const Tile> tiles, std::uint32_t first)
+    : runner_(runner), dispatch_(dispatch), tiles_(tiles), work_(runner.work(dispatch)), pass_(first) {
   std::size_t pixels = 0;
   for (const Tile& tile : tiles) pixels += tile.pixels();
   block_.resize(pixels);
@@ -96,8 +90,8 @@ void Passes::add(std::uint32_t end, const Advance& advance) {
 bool Passes::trace(const Tile& tile, std::span<vec4> means, std::uint32_t end, const Advance& advance) {
   const std::uint32_t offset = dispatch_.frame.sample_begin;
   if (in_block_ > 0) runner_.queue->upload(*runner_.accumulation, std::as_bytes(means));
-  TileDispatch aimed = aim(dispatch_, tile, footprint_);
-  aimed.set_mean_begin(offset + before_.samples());
+  TileDispatch aimed = aim(dispatch_, tile);
+  aimed.dispatch.frame.mean_begin = offset + before_.samples();
   std::uint32_t batch = 1;
   trace_ms_ += trace_samples(runner_, aimed, offset + samples(), offset + end, work_, batch,
                              [&](std::uint32_t count) { advance(tile.pixels() * count); });

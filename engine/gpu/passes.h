@@ -17,8 +17,7 @@ class Passes {
 
   /// `tiles` must outlive it, and fit the runner's accumulation buffer one by one. The first pass has `first` samples, later ones
   /// what about a second is enough for.
-  Passes(Runner& runner, const Dispatch& dispatch, const Footprint& footprint, std::span<const Tile> tiles,
-         std::uint32_t first);
+  Passes(Runner& runner, const Dispatch& dispatch, std::span<const Tile> tiles, std::uint32_t first);
 
   /// Adds samples to every pixel, so that each has at most `end`. Where `advance` throws, all pixels stay as they were. Throws
   /// Error (failed) where the driver cuts a single ray's loops.
@@ -34,7 +33,6 @@ class Passes {
 
   Runner& runner_;
   const Dispatch& dispatch_;
-  const Footprint& footprint_;
   const std::span<const Tile> tiles_;
   ThreadWork work_;
   SampleMean before_;           ///< of whole blocks

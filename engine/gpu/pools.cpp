@@ -32,57 +32,33 @@ static_assert(
     }(),
     "the places of shaders/pools.glsl do not count its rows");
 
-/// The kind of a pool's buffer.
-BufferKind buffer_kind(const PoolKind& kind, PoolAccess access) {
-  if (access != PoolAccess::texel) return BufferKind::storage;
-  return kind.element_bytes == sizeof(uvec4) ? BufferKind::texels : BufferKind::words;
-}
-
 /// Most elements of that size in one buffer.
-std::uint64_t most_elements(const DeviceLimits& limits, PoolAccess access, std::uint64_t element_bytes) {
-  const bool texel = access == PoolAccess::texel;
-  return std::min(texel ? limits.texel_elements : limits.storage_bytes / element_bytes,
-                  limits.allocation_bytes / element_bytes);
+std::uint64_t most_elements(const DeviceLimits& limits, std::uint64_t element_bytes) {
+  return std::min(limits.storage_bytes, limits.allocation_bytes) / element_bytes;
 }
 
-/// Pools of these sizes read this way, or why they cannot be.
-std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const DeviceLimits& limits,
-                                             PoolAccess access) {
-  const bool texel = access == PoolAccess::texel;
-  const std::uint64_t page = std::bit_floor(most_elements(limits, access, sizeof(uvec4)));
-  if (page == 0) return std::string("it has no such buffers");
-  Paging paging{access};
+/// In how many buffers pools of these sizes are, or why they cannot be.
+std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const DeviceLimits& limits) {
+  const std::uint64_t page = std::bit_floor(most_elements(limits, sizeof(uvec4)));
+  Paging paging;
   std::uint64_t all = 0;
   for (std::size_t i = 0; i < POOLS; ++i) {
     const auto [name, key, element_bytes] = pool_kinds()[i];
     const std::uint64_t elements = bytes.pools[i] / element_bytes;
-    const bool fits = elements <= most_elements(limits, access, element_bytes);
+    const bool fits = elements <= most_elements(limits, element_bytes);
     const std::uint64_t pages = fits ? 1 : (elements + page - 1) / page;
     if (pages > PAGES_MOST)
       return std::string("the ") + name + " has " + bytes_text(bytes.pools[i]) + ", more than " +
-             std::to_string(PAGES_MOST) + " of its largest " + (texel ? "texel" : "storage") +
-             " buffers with " + bytes_text(page * element_bytes) + " each";
+             std::to_string(PAGES_MOST) + " of its largest buffers with " + bytes_text(page * element_bytes) +
+             " each";
     paging.pages[i] = static_cast<std::uint32_t>(pages);
     all += pages;
   }
-  const std::uint32_t most = texel ? limits.texel_buffers : limits.storage_buffers;
-  if (all > most)
-    return "the pools take " + std::to_string(all) + (texel ? " texel" : " storage") +
-           " buffers, a program has room for " + std::to_string(most);
+  if (all > limits.storage_buffers)
+    return "the pools take " + std::to_string(all) + " buffers, a program has room for " +
+           std::to_string(limits.storage_buffers);
   if (paging.paged()) paging.page_shift = static_cast<std::uint32_t>(std::countr_zero(page));
   return paging;
-}
-
-/// What choose_paging chooses, or why there is no way.
-std::variant<Paging, std::string> best_paging(const PoolBytes& bytes, const DeviceLimits& limits,
-                                              PoolAccess wanted) {
-  if (wanted != PoolAccess::automatic) return try_paging(bytes, limits, wanted);
-  const auto texel = try_paging(bytes, limits, PoolAccess::texel);
-  const auto storage = try_paging(bytes, limits, PoolAccess::storage);
-  const auto* first = std::get_if<Paging>(&texel);
-  const auto* second = std::get_if<Paging>(&storage);
-  if (second == nullptr) return texel;
-  return first != nullptr && (!first->paged() || second->paged()) ? texel : storage;
 }
 
 /// Uploads the pool gathered by `references` in parts: a whole list beside the buffer would take its memory twice.
@@ -145,21 +121,20 @@ std::uint64_t total_bytes(const PoolBytes& bytes) {
   return std::accumulate(bytes.pools.begin(), bytes.pools.end(), std::uint64_t{0});
 }
 
-bool choose_references(const PoolCounts& counts, const DeviceLimits& limits, PoolAccess access,
-                       DataPool wanted) {
+bool choose_references(const PoolCounts& counts, const DeviceLimits& limits, DataPool wanted) {
   PoolBytes copies;  // no pool needs pages before the data pool does
   copies.at(BIND_DATA_POOL) = counts.references * sizeof(uvec4);
-  const auto paging = best_paging(copies, limits, access);
+  const auto paging = try_paging(copies, limits);
   const auto* ways = std::get_if<Paging>(&paging);
   const bool fit = copies_fit(counts) && ways != nullptr && !ways->paged();
   return wanted == DataPool::references || (wanted == DataPool::automatic && !fit);
 }
 
-Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits, PoolAccess wanted) {
-  const auto best = best_paging(bytes, limits, wanted);
-  if (const auto* reason = std::get_if<std::string>(&best))
+Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits) {
+  const auto paging = try_paging(bytes, limits);
+  if (const auto* reason = std::get_if<std::string>(&paging))
     throw Error(ExitCode::out_of_memory, "the scene does not fit the device: " + *reason);
-  return std::get<Paging>(best);
+  return std::get<Paging>(paging);
 }
 
 Pools::Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
@@ -168,10 +143,9 @@ Pools::Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene
   top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
   std::vector<std::uint32_t> top = top_table(scene, top_levels);
   DeviceLimits limits = device_limits;
-  limits.texel_elements = std::min(limits.texel_elements, request.page_elements);
   limits.storage_bytes =
       std::min(limits.storage_bytes / sizeof(uvec4), request.page_elements) * sizeof(uvec4);
-  references = !order.empty() || choose_references(pool_counts(scene), limits, request.access, request.data);
+  references = !order.empty() || choose_references(pool_counts(scene), limits, request.data);
   const auto list = references ? order : std::span<const std::uint32_t>(scene.reference_pool);
   const bool lists = !list.empty();
   std::uint32_t binding = BIND_POOLS;
@@ -187,13 +161,12 @@ Pools::Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene
   bytes.at(BIND_TEXTURE_POOL) = (lists ? list.size() : scene.data_pool.size()) *
                                 texture_word_count(texture_features) * sizeof(std::uint32_t);
   bytes.at(BIND_TOP_TABLE) = std::span(top).size_bytes();
-  paging = choose_paging(bytes, limits, request.access);
-  bytes.texel_buffers = paging.access == PoolAccess::texel;
+  paging = choose_paging(bytes, limits);
   bytes.pages = *std::max_element(paging.pages.begin(), paging.pages.end());
   for (std::size_t i = 0; i < POOLS; ++i) {
     const PoolKind& kind = pool_kinds()[i];
     const std::uint64_t page = paging.pages[i] > 1 ? kind.element_bytes << paging.page_shift : UINT64_MAX;
-    buffers[i] = PagedBuffer(queue, bytes.pools[i], page, buffer_kind(kind, paging.access));
+    buffers[i] = PagedBuffer(queue, bytes.pools[i], page);
   }
   buffers.back().upload(queue, std::as_bytes(std::span(top)));
   std::exchange(top, {});

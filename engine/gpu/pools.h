@@ -21,7 +21,6 @@ enum class DataPool {
 
 /// How the pools are to be held. Anything but automatic is for tests and benchmarks.
 struct PoolRequest {
-  PoolAccess access = PoolAccess::automatic;
   DataPool data = DataPool::automatic;
   std::uint64_t page_elements = UINT64_MAX;  ///< most elements of the data pool in a page
 };
@@ -30,9 +29,8 @@ struct PoolRequest {
 struct PoolBytes {
   std::array<std::uint64_t, POOLS> pools{};  ///< in the order of their bindings, from BIND_POOLS on
   std::uint64_t environment = 0;
-  std::uint64_t frame = 0;     ///< picture, AOVs, ray queries, queues of paths: as large as pictures are
-  bool texel_buffers = false;  ///< pools are read through texel buffers
-  std::uint32_t pages = 0;     ///< of the pool with most
+  std::uint64_t frame = 0;  ///< picture, AOVs, ray queries: as large as pictures are
+  std::uint32_t pages = 0;  ///< of the pool with most
 
   /// Bytes of the pool with this binding.
   [[nodiscard]] std::uint64_t& at(std::uint32_t binding) { return pools[binding - BIND_POOLS]; }
@@ -50,13 +48,12 @@ struct PoolKind {
 /// Sum over all pools and the top table, without environment and frame.
 [[nodiscard]] std::uint64_t total_bytes(const PoolBytes& bytes);
 
-/// Whether the data pool of such a scene is read through references, `access`: how pools may be read.
-[[nodiscard]] bool choose_references(const PoolCounts& counts, const DeviceLimits& limits, PoolAccess access,
-                                     DataPool wanted);
+/// Whether the data pool of such a scene is read through references.
+[[nodiscard]] bool choose_references(const PoolCounts& counts, const DeviceLimits& limits, DataPool wanted);
 
-/// How to read pools of these sizes: without pages, then with, in texel buffers, then storage buffers. Throws Error
-/// (out_of_memory) naming a pool, its size and the limit when none of the ways that `wanted` allows will do.
-[[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits, PoolAccess wanted);
+/// How many buffers pools of these sizes take. Throws Error (out_of_memory) naming a pool, its size and the limit where they
+/// do not fit.
+[[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits);
 
 /// The uploaded pools; move-only.
 struct Pools {

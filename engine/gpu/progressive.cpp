@@ -25,7 +25,6 @@ void Tracer::begin(const Look& look, const View& wanted, const Settings& setting
   runner.queue->reserve(accumulation, bytes);
   progressive = {.look = look,
                  .dispatch = runner.picture_dispatch(view, settings),
-                 .footprint = runner.scene.footprint(view, settings),
                  .accumulation = std::move(accumulation),
                  .before = {},
                  .upload = impl.uploads};
@@ -45,9 +44,8 @@ bool Tracer::advance(double wanted_ms) {
   const auto start = std::chrono::steady_clock::now();
   impl.runner.scene.show(progressive.look);
   impl.runner.bind(*progressive.accumulation);
-  TileDispatch tile =
-      aim(progressive.dispatch, {0, progressive.next_row, frame.width, rows}, progressive.footprint);
-  tile.set_mean_begin(frame.sample_begin + progressive.before.samples());
+  TileDispatch tile = aim(progressive.dispatch, {0, progressive.next_row, frame.width, rows});
+  tile.dispatch.frame.mean_begin = frame.sample_begin + progressive.before.samples();
   ThreadWork work = impl.runner.work(progressive.dispatch);
   const std::uint32_t sample = frame.sample_begin + progressive.samples;
   const double trace_ms = impl.runner.run_samples(tile, sample, sample + 1, {1, work.lights});

@@ -19,7 +19,7 @@ class Runner {
 
   /// Binds everything a dispatch reads or writes; to be called where any of it may have changed.
   void bind(const Buffer& accumulation);
-  /// Runs one dispatch, or those of a tile, and waits; returns the device's milliseconds and adds what was counted to `counts`.
+  /// Runs one dispatch, or that of a tile, and waits; returns the device's milliseconds and adds what was counted to `counts`.
   double run(const Dispatch& dispatch);
   double run(const TileDispatch& tile);
 
@@ -32,8 +32,8 @@ class Runner {
   /// Runs samples [begin, end) of a tile, the lights spread over as many dispatches as `work` asks for.
   double run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end, const ThreadWork& work);
   /// AovPixels of a tile, put into `image` of `width` columns, top row first. `dispatch`: aov_dispatch's.
-  void trace_aov(const Tile& tile, const Dispatch& dispatch, const Footprint& footprint,
-                 std::vector<AovPixel>& image, std::uint32_t width);
+  void trace_aov(const Tile& tile, const Dispatch& dispatch, std::vector<AovPixel>& image,
+                 std::uint32_t width);
 
   /// Throws Error (failed) unless there is a scene: `call` was made before upload().
   void require_scene(const char* call) const;
@@ -50,12 +50,8 @@ class Runner {
   Counters counts{};                        ///< summed over dispatches that count
 
  private:
-  double run_in_stages(const Dispatch& dispatch);
-  void reserve_queues(std::uint32_t pixel_groups);
-
-  std::unique_ptr<Buffer> groups_, paths_, queued_paths_;
+  std::unique_ptr<Buffer> groups_;
   std::vector<std::uint32_t> group_list_;  ///< what groups_ holds
-  std::uint32_t queued_ = 0;               ///< paths that the last stage queued
 };
 
 /// Puts a tile's values into an image of `width` columns.

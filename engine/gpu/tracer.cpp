@@ -56,7 +56,6 @@ Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Se
       "a picture of " + std::to_string(made.width) + "x" + std::to_string(made.height) + " pixels");
   Picture picture{runner.picture_dispatch(view, settings),
                   runner.aov_dispatch(view, settings),
-                  runner.scene.footprint(view, settings),
                   cut_into_tiles(made.width, made.height, tile_means / means),
                   {made.width, made.height, {}, {}, {}}};
   picture.image.rgba.resize(pixels);
@@ -120,7 +119,7 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
   const std::size_t together = keeps ? picture.tiles.size() : 1;
   for (std::size_t first = 0; first < picture.tiles.size(); first += together) {
     const auto tiles = std::span<const Tile>(picture.tiles).subspan(first, together);
-    Passes passes(runner, picture.dispatch, picture.footprint, tiles, keeps ? 1 : BLOCK_SAMPLES);
+    Passes passes(runner, picture.dispatch, tiles, keeps ? 1 : BLOCK_SAMPLES);
     add_samples(passes, half, stopped, advance);
     if (half > 0) place_tiles(tiles, passes.means(), first_half, image.width);
     if (passes.samples() == half) add_samples(passes, settings.samples, stopped, advance);
@@ -128,8 +127,7 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
     impl.stats.trace_ms += passes.trace_ms();
     impl.stats.samples = passes.samples();
     if (!settings.aov) continue;
-    for (const Tile& tile : tiles)
-      runner.trace_aov(tile, picture.aov_dispatch, picture.footprint, image.aov, image.width);
+    for (const Tile& tile : tiles) runner.trace_aov(tile, picture.aov_dispatch, image.aov, image.width);
   }
   impl.finish(start);
   if (settings.estimate_error && settings.samples > 1) {
@@ -148,14 +146,13 @@ std::vector<AovPixel> Tracer::trace_aov(const Look& look, const View& view, cons
   impl.start();
   runner.scene.show(look);
   const Dispatch dispatch = runner.aov_dispatch(view, settings);
-  const Footprint footprint = runner.scene.footprint(view, settings);
   const PixelWindow made = view.made();
   const auto tiles = cut_into_tiles(made.width, made.height, progress ? PROMPT_PIXELS : TILE_PIXELS);
   runner.queue->reserve(runner.aov, tiles.front().pixels() * sizeof(AovPixel));
   runner.bind(*runner.accumulation);
   std::vector<AovPixel> pixels(std::size_t{made.width} * made.height);
   for (const Tile& tile : tiles) {
-    runner.trace_aov(tile, dispatch, footprint, pixels, made.width);
+    runner.trace_aov(tile, dispatch, pixels, made.width);
     report(progress, double(tile.y + tile.height) / made.height);
   }
   impl.finish(start);

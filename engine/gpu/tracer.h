@@ -38,7 +38,6 @@ struct TracerOptions {
   /// Where compiled pipelines are kept between runs; empty = nowhere.
   std::filesystem::path pipeline_folder{};
   PoolRequest pools{};                     ///< for tests and benchmarks
-  Kernels kernels = Kernels::automatic;    ///< for tests and benchmarks
   unsigned threads = 0;                    ///< of the host's CPU as the device; 0 = one a core
   std::uint32_t vector_bits = UINT32_MAX;  ///< QueueOptions::vector_bits, for tests and benchmarks
 };

@@ -14,7 +14,6 @@ namespace splatray {
 struct GrowingPicture {
   Look look;
   Dispatch dispatch;
-  Footprint footprint;
   /// Means of all pixels over the samples behind those of `before`, vec4; none before the first begin().
   std::unique_ptr<Buffer> accumulation;
   SampleMean before;           ///< of whole blocks
@@ -27,7 +26,6 @@ struct GrowingPicture {
 /// An image that is traced tile by tile.
 struct Picture {
   Dispatch dispatch, aov_dispatch;
-  Footprint footprint;
   std::vector<Tile> tiles;
   Image image;  ///< rgba and, where they are wanted, aov have room for all pixels
 };

@@ -67,10 +67,6 @@ struct Settings {
   std::uint32_t side = SIDE_SIDE;
   double delta_world = 0.0;  ///< SIDE_DELTA: minimum distance, world units
   std::uint32_t order = ORDER_Z;
-  /// On CPUs: do not trace outside the footprint (footprint.h); pictures are the same.
-  bool cull = true;
-  /// On CPUs: secondary rays of scenes with dielectrics in stages (tracer.cpp); pictures are the same.
-  bool stages = true;
   /// Count the work: the host then traces the camera's rays one by one, not by tiles; pictures are the same.
   bool counters = false;
   /// Also estimate the picture's error, by how much the second half of its samples changes what the first half showed: too high

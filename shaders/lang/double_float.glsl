@@ -53,7 +53,7 @@ float fused_low(float a, float b, float p) {
 }
 #endif
 
-#if defined(CPU) || defined(__cplusplus)
+#ifdef __cplusplus
 /// a * b exactly (barring underflow).
 vec2 two_product(float a, float b) { return two_product_split(a, split_float(a), b, split_float(b)); }
 

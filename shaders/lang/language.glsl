@@ -7,8 +7,5 @@
 #define INOUT(type) inout type
 #define PRECISE precise
 #define INFINITY_F uintBitsToFloat(0x7F800000u)
-#ifdef CPU
-#define MASKED  // llvmpipe masks lanes off instead of branching
-#endif
 #endif
 #endif

@@ -1,6 +1,6 @@
 // One light path through a pixel: trace, shade, follow the mirror or glass, until it ends. At glass one of
 // the two branches is followed, chosen by Fresnel's share with a stratified random number, so both are
-// accounted for over a pixel's samples. Needs the constants MIRRORS, GLASS, LIGHTS, STAGE.
+// accounted for over a pixel's samples. Needs the constants MIRRORS, GLASS, LIGHTS.
 #ifndef SPLATRAY_PHONG_GLSL
 #define SPLATRAY_PHONG_GLSL
 #include "lang/random.glsl"
@@ -60,7 +60,7 @@ void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) t
       path.leaked = path.ray.inside != 0u ? 1u : 0u;
       path.alive = false;
     }
-  } while (path.alive && STAGE == STAGE_ALL);
+  } while (path.alive);
 }
 
 #endif

@@ -2,7 +2,7 @@
 // followed, both joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
 // ch. 9). The blended normal is the geometric one too, but for normal maps: discs stand in for the smooth surface that it
 // estimates, not the other way round. Needs material_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK,
-// LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, PANES, STAGE and those of bsdf.glsl.
+// LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, PANES and those of bsdf.glsl.
 #ifndef SPLATRAY_TRANSPORT_GLSL
 #define SPLATRAY_TRANSPORT_GLSL
 #include "lang/sobol.glsl"
@@ -309,7 +309,7 @@ void follow_path(INOUT(Path) path, uint pixel, uint sample_index, INOUT(Tally) t
       meet(path, hit, pixel, sample_index, emitter, tally);
     }
     looks = EMISSION && emitter.splat != NO_SPLAT;
-  } while (looks || (path.alive && STAGE == STAGE_ALL));
+  } while (looks || path.alive);
 }
 
 #endif

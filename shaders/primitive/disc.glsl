@@ -77,7 +77,7 @@ bool splat_maybe_hit(uvec4 words, vec3 origin, vec3 dir, float t_in, float t_out
   return !(outside > 33.0f * slack * slack) && !(t + slack < t_in) && !(t - slack >= t_out);
 }
 
-/// A ray's meeting with a disc's plane, in double-float. CPU: computed in float64, at which CPU devices are fast.
+/// A ray's meeting with a disc's plane, in double-float. HOST: computed in float64, at which processors are fast.
 struct PlaneHit {
   vec2 t;             ///< ray parameter
   vec2 rho_squared;   ///< squared distance from the centre, lattice units^2
@@ -86,13 +86,13 @@ struct PlaneHit {
   float facing;       ///< n.d: negative = front face
 };
 
-#ifdef CPU
+#ifdef HOST
 vec2 two_floats(double x) {
   float high = float(x);
   return vec2(high, float(x - double(high)));
 }
 
-/// As below, by float64 of the device: to about 2^-50.
+/// As below, by float64: to about 2^-50.
 PlaneHit splat_plane_hit(uvec4 words, vec3 origin, vec3 origin_low, vec3 dir) {
   PRECISE dvec3 to_center = (dvec3(splat_center(words)) - dvec3(origin)) - dvec3(origin_low);
   dvec3 n = dvec3(splat_normal(words));
@@ -152,8 +152,8 @@ float clip_limit(uint line, uvec4 words) {
   return (float((line >> 8u) & 255u) - float(CLIP_ZERO)) * (0.5f * float(OCT_SCALE)) * bound;
 }
 
-/// The product of a clip line's normal and a meeting's offset from the centre: two floats, on CPUs a double.
-#ifdef CPU
+/// The product of a clip line's normal and a meeting's offset from the centre: two floats, on the host a double.
+#ifdef HOST
 double along_clip(uint line, uvec4 words, PlaneHit hit) {
   vec3 across = clip_normal(line, splat_normal(words));
   PRECISE double along = dot(dvec3(across), dvec3(hit.from_center) + dvec3(hit.from_center_low));
@@ -171,7 +171,7 @@ vec2 along_clip(uint line, uvec4 words, PlaneHit hit) {
 
 /// Whether a meeting with the disc's plane is on the clip line's inner side.
 bool line_keeps(uint line, uvec4 words, PlaneHit hit) {
-#ifdef CPU
+#ifdef HOST
   return along_clip(line, words, hit) <= double(clip_limit(line, words));
 #else
   return !df_less(vec2(clip_limit(line, words), 0.0f), along_clip(line, words, hit));
@@ -186,7 +186,7 @@ PlaneHit ellipse_hit(uint clip, uvec4 words, PlaneHit hit) {
   uint code = clip >> 23u;
   float factor = float(8u + (code & 7u)) * uintBitsToFloat((82u + (code >> 3u)) << 23u);
   uint direction = (clip >> 16u) & 0x7Fu;
-#ifdef CPU
+#ifdef HOST
   PRECISE double along = along_clip(direction, words, hit);
   PRECISE double squared = double(hit.rho_squared.x) + double(hit.rho_squared.y) + double(factor) * (along * along);
   vec2 rho_squared = two_floats(squared);

@@ -1,13 +1,10 @@
 // The GPU's side of what the other .glsl files need: specialization constants, pools, tables; engine/cpu/bindings_as_cpp.h is the
-// C++ side. CPU: for CPU devices, see variants.cmake. PAGED: some pool is in several buffers. LIT: path tracing.
+// C++ side. PAGED: some pool is in several buffers. LIT: path tracing.
 #ifndef SPLATRAY_BINDINGS_GLSL
 #define SPLATRAY_BINDINGS_GLSL
 #include "layout.h"
 #ifdef LIT
 #include "lang/albedo_layout.h"
-#endif
-#ifdef CPU
-#define STAGED
 #endif
 
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = 0u;
@@ -16,7 +13,7 @@ layout(constant_id = SPEC_KERNEL) const uint KERNEL = KERNEL_RIM;
 layout(constant_id = SPEC_SIDE) const uint SIDE = SIDE_SIDE;
 layout(constant_id = SPEC_FACES) const uint FACES = FACES_MIXED;
 layout(constant_id = SPEC_ORDER) const uint ORDER = ORDER_Z;
-layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_ALL;
+layout(constant_id = SPEC_OUTPUT) const uint OUTPUT = OUTPUT_PICTURE;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
 #ifdef PAGED
 layout(constant_id = SPEC_PAGE_SHIFT) const uint PAGE_SHIFT = 0u;
@@ -38,30 +35,15 @@ layout(local_size_x = GROUP_SIZE) in;
 
 // No uniform block: Mesa's lavapipe compiles a shader anew, 0.3 s and more, for other values of uniforms that a branch
 // depends on, so for each camera.
-#ifdef CPU
-layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame_block; };
-FrameParams frame;
-
-/// main() begins with it. llvmpipe reads storage buffers lane by lane, except in uniform control flow, so before any
-/// branch or loop.
-void read_frame() { frame = frame_block; }
-
-/// Index of refraction in the dielectric that has this bit of a ray's mask. Not of the copy: llvmpipe would look
-/// through all of an array there.
-float medium_at(uint bit) { return frame_block.media[bit >> 2u][bit & 3u]; }
-vec3 absorption_at(uint bit) { return frame_block.absorption[bit].xyz; }
-vec4 region_plane(uint index) { return frame_block.region[index]; }
-#else
 layout(std140, binding = BIND_FRAME) readonly buffer FrameBlock { FrameParams frame; };
-void read_frame() {}  // a copy would take 116 registers
+
+/// Index of refraction in the dielectric that has this bit of a ray's mask.
 float medium_at(uint bit) { return frame.media[bit >> 2u][bit & 3u]; }
 vec3 absorption_at(uint bit) { return frame.absorption[bit].xyz; }
 vec4 region_plane(uint index) { return frame.region[index]; }
-#endif
 uint region_kept() { return frame.region_kept; }
 uint region_dropped() { return frame.region_dropped; }
 bool region_light() { return frame.region_light != 0u; }
-
 
 layout(std430, binding = BIND_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
 layout(std430, binding = BIND_LIGHTS) readonly buffer LightTable { Light lights[]; };
@@ -75,41 +57,32 @@ layout(std430, binding = BIND_RAYS) readonly buffer RayTable { RayQuery rays[]; 
 layout(std430, binding = BIND_HITS) writeonly buffer HitTable { RayHit hits[]; };
 #endif
 
-#ifdef CPU
-#define READ_uvec4(page, at) texelFetch(page, int(at))
-#define READ_uint(page, at) texelFetch(page, int(at)).x
-#define ARRAY_OF(number, name, Value, pages) layout(binding = number) uniform usamplerBuffer name pages;
-#else
-#define READ_uvec4(page, at) page.values[at]
-#define READ_uint(page, at) page.values[at]
 #define ARRAY_OF(number, name, Value, pages) \
   layout(std430, binding = number) readonly buffer name##_block { Value values[]; } name pages;
-#endif
 
 #ifdef PAGED
 // By constants: not all devices let an array of buffers be indexed by anything else.
-#define READ_PAGE(number, pool, Value) \
-  if (pool##_more >= number && index >> PAGE_SHIFT == number) \
-    return READ_##Value(pool[number], index & ((1u << PAGE_SHIFT) - 1u));
+#define READ_PAGE(number, pool) \
+  if (pool##_more >= number && index >> PAGE_SHIFT == number) return pool[number].values[index & ((1u << PAGE_SHIFT) - 1u)];
 #define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
   layout(constant_id = SPEC_PAGES + place) const uint pool##_more = 0u; \
   ARRAY_OF(BIND_##NAME, pool, Value, [pool##_more + 1u]) \
   Value reader(uint index) { \
-    if (pool##_more == 0u) return READ_##Value(pool[0u], index); \
-    READ_PAGE(0u, pool, Value) \
-    READ_PAGE(1u, pool, Value) \
-    READ_PAGE(2u, pool, Value) \
-    READ_PAGE(3u, pool, Value) \
-    READ_PAGE(4u, pool, Value) \
-    READ_PAGE(5u, pool, Value) \
-    READ_PAGE(6u, pool, Value) \
-    READ_PAGE(7u, pool, Value) \
+    if (pool##_more == 0u) return pool[0u].values[index]; \
+    READ_PAGE(0u, pool) \
+    READ_PAGE(1u, pool) \
+    READ_PAGE(2u, pool) \
+    READ_PAGE(3u, pool) \
+    READ_PAGE(4u, pool) \
+    READ_PAGE(5u, pool) \
+    READ_PAGE(6u, pool) \
+    READ_PAGE(7u, pool) \
     return Value(0u); \
   }
 #else
 #define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
   ARRAY_OF(BIND_##NAME, pool, Value, ) \
-  Value reader(uint index) { return READ_##Value(pool, index); }
+  Value reader(uint index) { return pool.values[index]; }
 #endif
 #include "pools.glsl"
 
@@ -121,9 +94,9 @@ Light light_at(uint index) { return lights[index]; }
 #ifdef LIT
 ARRAY_OF(BIND_LIGHT_TABLES, light_tables, uint, )
 ARRAY_OF(BIND_LIGHT_TREE, light_tree, uvec4, )
-float albedo_at(uint index) { return uintBitsToFloat(READ_uint(light_tables, index)); }
-uint sky_word(uint index) { return READ_uint(light_tables, ALBEDO_WORDS + index); }
-uvec4 light_texel(uint index) { return READ_uvec4(light_tree, index); }
+float albedo_at(uint index) { return uintBitsToFloat(light_tables.values[index]); }
+uint sky_word(uint index) { return light_tables.values[ALBEDO_WORDS + index]; }
+uvec4 light_texel(uint index) { return light_tree.values[index]; }
 #endif
 
 /// Where splats must face to be there at all (FACES_CUT), root space.

@@ -26,7 +26,7 @@ uvec2 tile_pixel(uint group_word) {
 /// Whether this thread has a pixel; which, in the tile.
 bool find_pixel(OUT(uvec2) in_tile) {
   uint group = group_number();
-  in_tile = tile_pixel(group_list[frame.first_group + min(group, frame.group_count - 1u)]);
+  in_tile = tile_pixel(group_list[min(group, frame.group_count - 1u)]);
   return group < frame.group_count && in_tile.x < frame.tile_width && in_tile.y < frame.tile_height;
 }
 

@@ -5,7 +5,6 @@
 #include "stage/rays.glsl"
 
 void main() {
-  read_frame();
   uint index = gl_GlobalInvocationID.x;
   if (index >= frame.tile_width) return;
   answer_ray(index);

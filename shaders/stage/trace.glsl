@@ -19,15 +19,17 @@ void write_aov(uvec2 pixel, uint index) {
 }
 #endif
 
-/// Traces what find_work has found.
-void trace_work(INOUT(Work) work) {
+/// Traces a pixel of the tile.
+void trace_pixel(uvec2 in_tile) {
+  uvec2 pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);
+  uint index = in_tile.y * frame.tile_width + in_tile.x;
 #ifndef LIT
-  if (STAGE == STAGE_AOV) {
-    write_aov(work.pixel, work.place - frame.tile_first);
+  if (OUTPUT == OUTPUT_AOV) {
+    write_aov(pixel, index);
   } else
 #endif
   {
-    add_samples(work);
+    add_samples(pixel, frame.tile_first + index);
   }
 }
 

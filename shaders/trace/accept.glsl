@@ -86,15 +86,6 @@ bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, float t_in, fl
       !df_less(vec2(splat_radius_squared(words), 0.0f), hit.rho_squared) && hit.rho_squared.x >= 0.0f;
   bool in_range = hit.t.x >= t_in && hit.t.x < t_out && hit.t.x > ray.t_min && hit.t.x < ray.t_max;
   // Without paths there is no chance to be had: what is see-through is cut out.
-#ifdef MASKED
-  bool kept = true;
-  if (REGION) kept = region_keeps(ray, hit.t.x);
-  if (CLIPS) kept = kept && clip_keeps(clip_word(splat), words, hit);
-#ifndef LIT
-  if (OPACITY) kept = kept && opacity_at(splat) >= 0.5f;
-#endif
-  return on_disc && in_range && kept && hit_allowed(words, hit, ray);
-#else
   // Most are rejected by the first two: the rest is skipped where that is so for a whole warp.
   bool accepted = on_disc && in_range;
   if (accepted) {
@@ -109,11 +100,10 @@ bool hit_accepted(uvec4 words, uint splat, PlaneHit hit, Ray ray, float t_in, fl
     accepted = accepted && hit_allowed(words, hit, ray);
   }
   return accepted;
-#endif
 }
 
-/// Makes a hit the first one, if it comes before that; `wanted`: else never.
-void take_first(uint splat, uvec4 words, PlaneHit hit, bool wanted, INOUT(First) first) {
+/// Makes a hit the first one, if it comes before that.
+void take_first(uint splat, uvec4 words, PlaneHit hit, INOUT(First) first) {
   float share = 0.0f;
   bool before = df_less(hit.t, first.t);
   bool beside = hit.t.x == first.t.x && hit.t.y == first.t.y;
@@ -122,7 +112,7 @@ void take_first(uint splat, uvec4 words, PlaneHit hit, bool wanted, INOUT(First)
     before = share < first.share;
     beside = share == first.share;
   }
-  if (wanted && (before || (beside && words_less(words, first.words)))) {
+  if (before || (beside && words_less(words, first.words))) {
     first.t = hit.t;
     first.share = share;
     first.from_center = hit.from_center;

@@ -123,28 +123,25 @@ bool is_member(uvec4 words, PlaneHit hit, Ray ray, Window window, Cluster cluste
          dot(normal, window.normal) > 0.5f && cluster.members < MEMBERS_MOST;
 }
 
-/// Adds a splat where it is met to the cluster if it is a member, else nothing.
-void add_splat(uint splat, uvec4 words, PlaneHit hit, bool member, Ray ray, Window window, uvec4 target,
-               INOUT(Cluster) cluster) {
+/// Adds a member, where it is met, to the cluster.
+void add_splat(uint splat, uvec4 words, PlaneHit hit, Ray ray, Window window, uvec4 target, INOUT(Cluster) cluster) {
   float behind = df_add(hit.t, -window.t).x;
   float inverse_radius = inversesqrt(splat_radius_squared(words));
   float u_squared = hit.rho_squared.x * (inverse_radius * inverse_radius);
   Facet facet = facet_at(words, splat, hit.from_center, inverse_radius, ray.dir);
-  float weight = max(blend_kernel(u_squared) * window_fall(behind * window.inverse_depth), WEIGHT_LEAST);
-  weight = member ? weight * WEIGHT_UNIT : 0.0f;
-  float share = member ? clamp((behind + facet.behind) * window.inverse_depth, -1.0f, 1.0f) : 0.0f;
+  float weight = max(blend_kernel(u_squared) * window_fall(behind * window.inverse_depth), WEIGHT_LEAST) * WEIGHT_UNIT;
+  float share = clamp((behind + facet.behind) * window.inverse_depth, -1.0f, 1.0f);
   cluster.weight += int(weight + 0.5f);
-  vec3 normal = member ? facet.normal * weight : vec3(0.0f);  // a plane that the ray runs in has NaN here
-  cluster.normal += ivec3(floor(normal + vec3(0.5f)));
+  cluster.normal += ivec3(floor(facet.normal * weight + vec3(0.5f)));
   cluster.depth += int(floor(weight * share + 0.5f));
   if (COLORS) cluster.color += ivec3(color_at(splat) * weight + vec3(0.5f));
-  if (WATCHES) cluster.target_members += member && words == target ? 1u : 0u;
+  if (WATCHES) cluster.target_members += words == target ? 1u : 0u;
 #ifdef LIT
   add_factors(cluster.factors, factors_at(splat), weight);
-  if (TEXTURE_NORMAL && member)
+  if (TEXTURE_NORMAL)
     cluster.tilt += ivec3(floor(tilt_at(splat, normal_against(words, ray.dir)) * weight + vec3(0.5f)));
 #endif
-  cluster.members += member ? 1u : 0u;
+  cluster.members += 1u;
 }
 
 /// The nearest hit and its cluster (the first splat alone where it grazes the ray so much that float32 finds

@@ -28,7 +28,7 @@ struct PlaneCrossing {
 
 PlaneCrossing cross_plane(vec4 plane, Ray ray) {
   PlaneCrossing crossing;
-#ifdef CPU
+#ifdef HOST
   dvec3 n = dvec3(vec3(plane));
   PRECISE double height = dot(n, dvec3(ray.origin)) + dot(n, dvec3(ray.origin_low)) - double(plane.w);
   PRECISE double facing = dot(n, dvec3(ray.dir));

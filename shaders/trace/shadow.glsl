@@ -162,46 +162,6 @@ void end_passing(bool ends, INOUT(Passing) passing) {
 /// ray starts inside the root; one that ends before it starts is not traced. HOST: engine/cpu/wide_shadow.h, by the wide tree.
 #ifdef HOST
 Passing trace_shadow(Ray ray, INOUT(Tally) tally);
-#elif defined(MASKED)
-Passing trace_shadow(Ray ray, INOUT(Tally) tally) {
-  First first = no_first();
-  ray.to_light = true;
-  bool traced = ray.t_max >= 0.0f;
-  float t_start = 0.0f;
-  if (REGION) {
-    clip_to_region(ray);
-    traced = traced && ray.t_min < ray.t_max && ray.t_max >= 0.0f;
-    t_start = region_start(ray, t_start);
-  }
-  Walk walk = walk_start(ray, t_start, traced);
-  Passing passing = all_passing();
-  bool ends = false;
-  do {
-    uint chunk = 0u;
-    uint candidates = walk_candidates(walk, ray, ray.t_max, false, chunk, tally);
-    uint accepted = accept_candidates(chunk, candidates, ray, walk, false, first);
-    bool opaque = accepted != 0u;
-    if (some_pass()) {
-      opaque = false;
-      do {
-        if (accepted != 0u) {
-          uint bit = uint(findLSB(accepted));
-          accepted &= accepted - 1u;
-          uint splat = splat_at(chunk + bit);
-          uvec4 words = splat_words(splat);
-          opaque = meet_passing(splat, words, meet_splat(splat, words, ray), ray, passing) || opaque;
-        }
-      } while (accepted != 0u);
-#ifdef LIT
-      if (OPACITY) opaque = opaque || sheets_hide(passing.sheets, walk.t_in);
-#endif
-    }
-    ends = ends || opaque;
-    walk.inside = walk.inside && !opaque;
-  } while (walk.inside);
-  end_passing(ends, passing);
-  return passing;
-}
 #else
 /// The same for a chunk of the current leaf.
 bool meet_chunk(uint chunk, Walk walk, Ray ray, INOUT(Passing) passing, INOUT(Tally) tally) {
@@ -226,7 +186,7 @@ Passing trace_shadow(Ray ray, INOUT(Tally) tally) {
     traced = traced && ray.t_min < ray.t_max && ray.t_max >= 0.0f;
     t_start = region_start(ray, t_start);
   }
-  Walk walk = walk_start(ray, t_start, traced);
+  Walk walk = walk_start(ray, t_start);
   Passing passing = all_passing();
   bool ends = false;
   while (traced && !ends && walk_on(walk, ray, ray.t_max, tally)) {

@@ -17,7 +17,6 @@ const uint CHUNK = 32u;                  ///< splats whose candidates one word r
 
 /// Where a ray is in the octree.
 struct Walk {
-  bool inside;     ///< the ray is still in the root and before its end
   vec3 inverse;    ///< 1 / direction
   bvec3 parallel;  ///< to the planes of an axis, so that `inverse` is unused there
   uint ahead;      ///< the bits of an empty leaf's word that hold the space ahead
@@ -29,7 +28,6 @@ struct Walk {
   uint filled;     ///< its index in Begin-End, NO_LEAF where it is empty or the ray passes beside its slab
   uint begin;      ///< its splats that the ray may meet, none where there is no such leaf
   uint end;
-  uint next;       ///< the first of them not looked at yet
   uint leaves;     ///< visited
 };
 
@@ -150,9 +148,8 @@ uint walk_descend(INOUT(Walk) walk, Ray ray) {
 }
 
 /// Before the first leaf of a ray that is inside the root at t_start.
-Walk walk_start(Ray ray, float t_start, bool inside) {
+Walk walk_start(Ray ray, float t_start) {
   Walk walk;
-  walk.inside = inside;
   walk.inverse = vec3(1.0f / ray.dir.x, 1.0f / ray.dir.y, 1.0f / ray.dir.z);
   walk.parallel = bvec3(abs(ray.dir.x) < PARALLEL, abs(ray.dir.y) < PARALLEL, abs(ray.dir.z) < PARALLEL);
   walk.ahead = steps_ahead(ray.dir);
@@ -164,7 +161,6 @@ Walk walk_start(Ray ray, float t_start, bool inside) {
   walk.filled = NO_LEAF;
   walk.begin = 0u;
   walk.end = 0u;
-  walk.next = 0u;
   walk.leaves = 0u;
   return walk;
 }

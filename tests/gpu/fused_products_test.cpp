@@ -29,10 +29,7 @@ TEST(FusedProducts, AreUsedWhereTheDeviceFindsThem) {
   const VulkanDevice device;
   CommandQueue commands(device);
   const bool finds = finds_remainders(device, commands, exact_products());
-  EXPECT_EQ(device.make_queue({.kernels = Kernels::gpu})->fuses(), finds);
-  if (device.profile().kernels == Kernels::cpu) {
-    EXPECT_FALSE(device.make_queue({.kernels = Kernels::cpu})->fuses()) << "float64 needs none";
-  }
+  EXPECT_EQ(device.make_queue()->fuses(), finds);
 }
 
 }  // namespace

@@ -12,12 +12,8 @@
 namespace splatray {
 namespace {
 
-// 512 elements of any kind in a page of texel buffers, 256 in one of storage buffers.
-constexpr DeviceLimits LIMITS{.texel_elements = 1000,
-                              .storage_bytes = 8000,
-                              .allocation_bytes = 20000,
-                              .texel_buffers = 20,
-                              .storage_buffers = 16};
+// 256 elements in a page.
+constexpr DeviceLimits LIMITS{.storage_bytes = 8000, .allocation_bytes = 20000, .storage_buffers = 17};
 
 /// Sizes of some pools by binding, the others empty.
 PoolBytes pool_bytes(std::initializer_list<std::pair<std::uint32_t, std::uint64_t>> sizes) {
@@ -26,9 +22,9 @@ PoolBytes pool_bytes(std::initializer_list<std::pair<std::uint32_t, std::uint64_
   return bytes;
 }
 
-std::string refusal(const PoolBytes& bytes, PoolAccess wanted) {
+std::string refusal(const PoolBytes& bytes) {
   try {
-    (void)choose_paging(bytes, LIMITS, wanted);
+    (void)choose_paging(bytes, LIMITS);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::out_of_memory);
     return error.what();
@@ -38,117 +34,67 @@ std::string refusal(const PoolBytes& bytes, PoolAccess wanted) {
 
 using Pages = std::array<std::uint32_t, POOLS>;
 
-TEST(Paging, PrefersTexelBuffersWithinTheirLimit) {
+TEST(Paging, TakesOneBufferWhereThatHoldsAll) {
   const PoolBytes bytes =
-      pool_bytes({{BIND_NODE_POOL, 4000}, {BIND_BEGIN_END, 4000}, {BIND_DATA_POOL, 16000}});
-  const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
-  EXPECT_EQ(paging.access, PoolAccess::texel);
+      pool_bytes({{BIND_NODE_POOL, 8000}, {BIND_BEGIN_END, 4000}, {BIND_DATA_POOL, 8000}});
+  const Paging paging = choose_paging(bytes, LIMITS);
   EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
   EXPECT_FALSE(paging.paged());
   EXPECT_EQ(paging.page_shift, 0U) << "the same pipeline for all";
 }
 
-TEST(Paging, TakesOneStorageBufferRatherThanPages) {
-  const PoolBytes bytes =
-      pool_bytes({{BIND_NODE_POOL, 4004}, {BIND_BEGIN_END, 4000}, {BIND_DATA_POOL, 8000}});
-  const Paging paging = choose_paging(bytes, LIMITS, PoolAccess::automatic);
-  EXPECT_EQ(paging.access, PoolAccess::storage);
-  EXPECT_FALSE(paging.paged());
-}
-
 TEST(Paging, PagesWhatOneBufferDoesNotHold) {
-  const PoolBytes bytes =
-      pool_bytes({{BIND_NODE_POOL, 4004}, {BIND_DATA_POOL, 16 * 1537}, {BIND_COLOR_POOL, 4 * 1000}});
-  const Paging texel = choose_paging(bytes, LIMITS, PoolAccess::automatic);
-  EXPECT_EQ(texel.access, PoolAccess::texel);
-  EXPECT_EQ(texel.pages, (Pages{2, 1, 1, 1, 4, 1, 1, 1, 1, 1}));
-  EXPECT_TRUE(texel.paged());
-  EXPECT_EQ(texel.page_shift, 9U);
-  const Paging storage = choose_paging(bytes, LIMITS, PoolAccess::storage);
-  EXPECT_EQ(storage.pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(storage.page_shift, 8U);
-}
-
-TEST(Paging, CanBeForced) {
-  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16}}), LIMITS, PoolAccess::storage).access,
-            PoolAccess::storage);
-  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16 * 900}}), LIMITS, PoolAccess::texel).access,
-            PoolAccess::texel);
+  const Paging paging = choose_paging(
+      pool_bytes({{BIND_NODE_POOL, 4004}, {BIND_DATA_POOL, 16 * 1537}, {BIND_COLOR_POOL, 4 * 1000}}), LIMITS);
+  EXPECT_EQ(paging.pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1, 1, 1}));
+  EXPECT_TRUE(paging.paged());
+  EXPECT_EQ(paging.page_shift, 8U);
 }
 
 TEST(Paging, RefusalNamesPoolSizeAndLimit) {
-  const std::string sentence =
-      refusal(pool_bytes({{BIND_NODE_POOL, 4}, {BIND_DATA_POOL, 30 << 20}}), PoolAccess::automatic);
+  const std::string sentence = refusal(pool_bytes({{BIND_NODE_POOL, 4}, {BIND_DATA_POOL, 30 << 20}}));
   EXPECT_NE(sentence.find("data pool"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("30.0 MiB"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("8 of its largest texel buffers"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("8 of its largest buffers"), std::string::npos) << sentence;
 }
 
 TEST(Paging, EndsAtTheMostPagesOfAPool) {
-  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16 * 4096}}), LIMITS, PoolAccess::texel).pages[4],
-            PAGES_MOST);
-  EXPECT_NE(refusal(pool_bytes({{BIND_DATA_POOL, 16 * 4097}}), PoolAccess::automatic), "");
+  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16 * 2048}}), LIMITS).pages[4], PAGES_MOST - 1);
+  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16 * 2049}}), LIMITS).pages[4], PAGES_MOST);
+  EXPECT_NE(refusal(pool_bytes({{BIND_DATA_POOL, 16 * 2305}})), "");
 }
 
 TEST(Paging, EndsAtTheMostBuffersOfAProgram) {
-  PoolBytes bytes = pool_bytes({{BIND_DATA_POOL, 16 * 4096}, {BIND_COLOR_POOL, 4 * 2048}});
-  EXPECT_EQ(choose_paging(bytes, LIMITS, PoolAccess::texel).pages, (Pages{1, 1, 1, 1, 8, 4, 1, 1, 1, 1}));
-  bytes.at(BIND_FIELD_POOL) = 4 * 1025;
-  const std::string sentence = refusal(bytes, PoolAccess::automatic);
-  EXPECT_NE(sentence.find("22 texel buffers"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("room for 20"), std::string::npos) << sentence;
-}
-
-TEST(Paging, NeedsBuffersOfItsKind) {
-  DeviceLimits none = LIMITS;
-  none.texel_elements = 0;
-  EXPECT_THROW((void)choose_paging(pool_bytes({{BIND_DATA_POOL, 16}}), none, PoolAccess::texel), Error);
-  EXPECT_EQ(choose_paging(pool_bytes({{BIND_DATA_POOL, 16}}), none, PoolAccess::automatic).access,
-            PoolAccess::storage);
+  PoolBytes bytes = pool_bytes({{BIND_DATA_POOL, 16 * 1537}});
+  EXPECT_EQ(choose_paging(bytes, LIMITS).pages, (Pages{1, 1, 1, 1, 7, 1, 1, 1, 1, 1}));
+  bytes.at(BIND_FIELD_POOL) = 8004;
+  const std::string sentence = refusal(bytes);
+  EXPECT_NE(sentence.find("23 buffers"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("room for 17"), std::string::npos) << sentence;
 }
 
 /// Whether `automatic` takes references for a scene of `splats` splats with `references` references, where LIMITS hold.
-bool automatic_references(std::size_t splats, std::size_t references,
-                          PoolAccess access = PoolAccess::automatic) {
-  return choose_references({splats, references, 1, 1}, LIMITS, access, DataPool::automatic);
+bool automatic_references(std::size_t splats, std::size_t references) {
+  return choose_references({splats, references, 1, 1}, LIMITS, DataPool::automatic);
 }
 
 TEST(DataPool, HasCopiesWhereTheyFit) {
-  EXPECT_FALSE(automatic_references(400, 1000));
-  EXPECT_TRUE(automatic_references(200, 1000)) << "80 bytes a splat";
+  EXPECT_FALSE(automatic_references(200, 500));
+  EXPECT_TRUE(automatic_references(100, 500)) << "80 bytes a splat";
 }
 
 TEST(DataPool, HasReferencesWhereOneBufferDoesNotHoldCopies) {
-  EXPECT_FALSE(automatic_references(400, 500, PoolAccess::storage));
-  EXPECT_TRUE(automatic_references(400, 501, PoolAccess::storage)) << "8016 bytes of storage buffer";
-  EXPECT_TRUE(automatic_references(1000, 1001)) << "1001 texels";
+  EXPECT_FALSE(automatic_references(400, 500));
+  EXPECT_TRUE(automatic_references(400, 501)) << "8016 bytes";
 }
 
 TEST(DataPool, CanBeForced) {
   const PoolCounts counts{200, 1000, 1, 1};
-  EXPECT_FALSE(choose_references(counts, LIMITS, PoolAccess::automatic, DataPool::copies));
-  EXPECT_TRUE(choose_references({400, 500, 1, 1}, LIMITS, PoolAccess::automatic, DataPool::references));
+  EXPECT_FALSE(choose_references(counts, LIMITS, DataPool::copies));
+  EXPECT_TRUE(choose_references({400, 500, 1, 1}, LIMITS, DataPool::references));
 }
 
 using PoolUpload = DeviceTest;
-
-/// The kernels that the device can run.
-std::vector<Kernels> all_kernels(const Device& device) {
-  if (device.profile().kernels == Kernels::gpu) return {Kernels::gpu};
-  return {Kernels::cpu, Kernels::gpu};
-}
-
-TEST_F(PoolUpload, AllKernelsGiveTheSamePicture) {
-  const Scene scene = disc_scene(3);
-  std::vector<std::vector<vec4>> pictures;
-  for (const Kernels kernels : all_kernels(device)) {
-    ShownTracer tracer(device, {.kernels = kernels});
-    tracer.upload(scene);
-    EXPECT_EQ(tracer.pool_bytes().texel_buffers, kernels == Kernels::cpu);
-    pictures.push_back(tracer.render(disc_view(50, 40), plain_settings()).rgba);
-  }
-  for (const auto& picture : pictures) EXPECT_TRUE(picture == pictures.front());
-}
 
 TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
   SPLATRAY_NIGHTLY();
@@ -165,16 +111,14 @@ TEST_F(PoolUpload, AllDataPoolsGiveTheSamePicture) {
     EXPECT_EQ(tracer.pool_bytes().pages, pages);
     return tracer.render(disc_view(50, 40), plain_settings()).rgba;
   };
-  for (const Kernels kernels : all_kernels(device)) {
-    const auto with = [kernels](DataPool data, std::uint64_t page_elements = UINT64_MAX) {
-      return TracerOptions{.pools = {.data = data, .page_elements = page_elements}, .kernels = kernels};
-    };
-    const auto copies = picture(with(DataPool::copies), 1);
-    EXPECT_TRUE(copies == picture(with(DataPool::references), 1));
-    EXPECT_TRUE(copies == picture(with(DataPool::copies, 1), 3)) << "a page for each splat";
-    EXPECT_TRUE(copies == picture(with(DataPool::references, 1), 3));
-    EXPECT_TRUE(copies == picture(with(DataPool::references, 2), 2));
-  }
+  const auto with = [](DataPool data, std::uint64_t page_elements = UINT64_MAX) {
+    return TracerOptions{.pools = {.data = data, .page_elements = page_elements}};
+  };
+  const auto copies = picture(with(DataPool::copies), 1);
+  EXPECT_TRUE(copies == picture(with(DataPool::references), 1));
+  EXPECT_TRUE(copies == picture(with(DataPool::copies, 1), 3)) << "a page for each splat";
+  EXPECT_TRUE(copies == picture(with(DataPool::references, 1), 3));
+  EXPECT_TRUE(copies == picture(with(DataPool::references, 2), 2));
 }
 
 TEST_F(PoolUpload, ReportsBytesByPool) {
@@ -196,14 +140,6 @@ TEST_F(PoolUpload, ReportsBytesOfTheFrame) {
   const std::uint64_t picture = tracer.pool_bytes().frame;
   EXPECT_GE(picture - before, 50U * 40U * sizeof(vec4));
   EXPECT_LT(picture - before, 2U * 50U * 40U * sizeof(vec4));
-  Scene glass = disc_scene();
-  glass.materials[0].flags = MATERIAL_DIELECTRIC;
-  tracer.upload(glass);
-  Settings settings = plain_settings();
-  settings.max_bounces = 2;
-  static_cast<void>(tracer.render(disc_view(50, 40), settings));
-  const bool stages = device.profile().stages;
-  EXPECT_EQ(tracer.pool_bytes().frame > picture, stages) << "queues, where a scene is traced in stages";
 }
 
 TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
@@ -244,7 +180,7 @@ TEST_F(PoolUpload, PoolBeyondTheLargestStorageBufferIsPaged) {
   scene.node_pool.resize(children);
   scene.node_pool[0] = NODE_INNER << NODE_TAG_SHIFT | children;
   scene.node_pool.insert(scene.node_pool.end(), 8, leaf);
-  ShownTracer tracer(device, {.kernels = Kernels::gpu});
+  ShownTracer tracer(device);
   tracer.upload(scene);
   EXPECT_GT(tracer.pool_bytes().pages, 1U);
   const auto paged = tracer.render(disc_view(50, 40), plain_settings()).rgba;

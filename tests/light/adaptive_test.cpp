@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "engine/device/vulkan/vulkan_device.h"
 #include "tests/all_tests.h"
 #include "tests/light/lit.h"
 
@@ -26,15 +25,15 @@ class Adaptive : public ::testing::Test {
     many.seed = 77;
     truth_ = tracer_.render(view(), many).rgba;
   }
-  void TearDown() override { EXPECT_EQ(device_.validation_messages(), 0U); }
+  void TearDown() override { EXPECT_EQ(device_->validation_messages(), 0U); }
 
   [[nodiscard]] View view() const { return {camera_, WIDTH, HEIGHT}; }
 
   const Scene scene_ =
       scene_of({{sphere({.count = 2000, .even = true, .seed = 3}, 1.0), test_material(MATERIAL_TWO_SIDED)}});
   const Camera camera_;
-  VulkanDevice device_;
-  ShownTracer tracer_{device_, tested_kernels()};
+  const std::unique_ptr<Device> device_ = tested_device();
+  ShownTracer tracer_{*device_};
   Settings settings_;
   std::vector<vec4> truth_;
 };
@@ -114,17 +113,6 @@ TEST_F(Adaptive, FixedSamplesReportNoLessThanTheirError) {
   EXPECT_LT(tracer_.stats().error, 3.0 * error_against(image, truth_));
   settings_.estimate_error = false;
   EXPECT_EQ(tracer_.render(view(), settings_).rgba, image.rgba);
-}
-
-TEST_F(Adaptive, SameBytesInStagesOrNotCulledOrNot) {
-  settings_.samples = 4;
-  const Image image = tracer_.render(view(), settings_);
-  Settings other = settings_;
-  other.stages = false;
-  EXPECT_EQ(tracer_.render(view(), other).rgba, image.rgba);
-  other = settings_;
-  other.cull = false;
-  EXPECT_EQ(tracer_.render(view(), other).rgba, image.rgba);
 }
 
 }  // namespace

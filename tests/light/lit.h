@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -67,10 +68,10 @@ inline OrientedPoints ball_at(const dvec3& center, double radius, std::size_t sp
   return points;
 }
 
-/// The kernels that suit the device; with SPLATRAY_LIGHT_KERNELS=gpu those that GPUs run, on any device.
-inline TracerOptions tested_kernels() {
-  const char* wanted = std::getenv("SPLATRAY_LIGHT_KERNELS");
-  return {.kernels = wanted != nullptr && std::string(wanted) == "gpu" ? Kernels::gpu : Kernels::automatic};
+/// The device that light is tested on: Vulkan's, or what SPLATRAY_LIGHT_DEVICE names.
+inline std::unique_ptr<Device> tested_device() {
+  const char* wanted = std::getenv("SPLATRAY_LIGHT_DEVICE");
+  return wanted == nullptr ? std::make_unique<VulkanDevice>() : open_device(wanted);
 }
 
 /// A scene on a device, and pictures of it.
@@ -87,10 +88,10 @@ class Lit : public ::testing::Test {
     EXPECT_EQ(tracer_.stats().counters[COUNT_LOST], 0U);
     return image;
   }
-  void TearDown() override { EXPECT_EQ(device_.validation_messages(), 0U); }
+  void TearDown() override { EXPECT_EQ(device_->validation_messages(), 0U); }
 
-  VulkanDevice device_;
-  ShownTracer tracer_{device_, tested_kernels()};
+  const std::unique_ptr<Device> device_ = tested_device();
+  ShownTracer tracer_{*device_};
 };
 
 /// A plane of splats, 4 x 4 in y = 0, seen from straight above at its middle.

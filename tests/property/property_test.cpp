@@ -34,12 +34,12 @@ int body(int argc, char** argv) {
   list.add_value("--seed", read_seed, "of the first round, or random; default 1", "N|random");
   if (!list.parse(argc, argv)) return static_cast<int>(ExitCode::done);
   const VulkanDevice device;
-  ShownTracer tracers[] = {ShownTracer(device), ShownTracer(device, {.kernels = Kernels::gpu})};
+  ShownTracer tracer(device);
   RoundCounts counts;
   const auto start = std::chrono::steady_clock::now();
   do {
     const std::uint64_t round = seed + counts.rounds;
-    run_round(round, tracers[round % 2], counts, std::cout);
+    run_round(round, tracer, counts, std::cout);
   } while (counts.rounds < rounds ||
            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds);
   std::cout << "--seed " << seed << ": " << counts.rounds << " rounds, " << counts.rays << " rays, "

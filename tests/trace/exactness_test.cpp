@@ -81,38 +81,31 @@ void compare_gpu(const std::vector<Scene>& scenes, std::size_t count) {
   const Settings settings;
   const BruteForce brute(scenes.front());
   const Truth truth(scenes.front(), brute, all_or(count, count / 8), settings);
-  const auto gpu_kernels = gpu_intersect(scenes.front(), truth.rays, settings, {.kernels = Kernels::gpu});
-  expect_exact(agreement_of(brute, truth.hits, gpu_kernels), "kernels of GPUs");
+  const auto first_answers = gpu_intersect(scenes.front(), truth.rays, settings);
   const auto host = intersect_on(HostDevice(), scenes.front(), truth.rays, settings);
-  const DeviceAgreement with_host = device_agreement(truth.rays, host, gpu_kernels);
-  std::cout << "host and kernels of GPUs: " << with_host << '\n';
+  const DeviceAgreement with_host = device_agreement(truth.rays, host, first_answers);
+  std::cout << "host and device: " << with_host << '\n';
   // The host's float64 and double-float may round a blended normal apart: 1 of 150 000 rays to the armadillo, by a last bit.
   EXPECT_EQ(with_host.unlike, 0U) << with_host;
   const bool is_cpu = shared_device().is_cpu();
   const auto twin = twin_intersect(scenes.front(), truth.rays, settings);
-  EXPECT_EQ(unlike_answers(truth.rays, twin, gpu_kernels, is_cpu), 0U)
+  EXPECT_EQ(unlike_answers(truth.rays, twin, first_answers, is_cpu), 0U)
       << "double-float, the twin and the device";
-  std::vector<RayHit> first_answers;
   for (const Scene& scene : scenes) {
     const std::vector<RayHit> answers = gpu_intersect(scene, truth.rays, settings);
     expect_exact(agreement_of(brute, truth.hits, answers),
                  "leaf size " + std::to_string(scene.build.leaf_size));
-    if (first_answers.empty()) first_answers = answers;
     EXPECT_EQ(different_bits(answers, first_answers), 0U) << "other bits for another leaf size";
     const auto through_references =
         gpu_intersect(scene, truth.rays, settings, {.pools = {.data = DataPool::references}});
     EXPECT_EQ(different_bits(answers, through_references), 0U) << "other bits through references";
   }
-  EXPECT_EQ(unlike_answers(truth.rays, host, first_answers, is_cpu), 0U) << "the host and the device";
   // Not PAGES_MOST: a program's count of buffers is limited.
   const std::uint64_t page = std::bit_ceil(scenes.front().reference_pool.size()) / (PAGES_MOST / 2);
   for (const DataPool data : {DataPool::copies, DataPool::references}) {
-    for (const Kernels kernels : {Kernels::automatic, Kernels::gpu}) {
-      const auto paged = gpu_intersect(scenes.front(), truth.rays, settings,
-                                       {.pools = {.data = data, .page_elements = page}, .kernels = kernels});
-      EXPECT_EQ(different_bits(kernels == Kernels::gpu ? gpu_kernels : first_answers, paged), 0U)
-          << "other bits from pages";
-    }
+    const auto paged =
+        gpu_intersect(scenes.front(), truth.rays, settings, {.pools = {.data = data, .page_elements = page}});
+    EXPECT_EQ(different_bits(first_answers, paged), 0U) << "other bits from pages";
   }
 }
 
@@ -295,9 +288,8 @@ TEST(Exactness, GaussianKernelAndNearestAgreeToo) {
   }
 }
 
-/// Both texts of the walk (shaders/trace/masked.glsl, plain.glsl), also in leaves of more chunks than they remember the hits of.
-TEST(Exactness, BothTextsFindTheSameWithAllBlends) {
-  if (!shared_device().is_cpu()) GTEST_SKIP() << "the device runs one of them alone";
+/// Also in leaves of more chunks than the walk remembers the hits of.
+TEST(Exactness, DeviceAndTwinFindTheSameWithAllBlends) {
   for (const std::uint32_t leaf_size : {10U, 150U}) {
     const Scene scene = scene_of({sphere_object(5000, false, MATERIAL_DIELECTRIC)}, leaf_size);
     const std::vector<RayQuery> rays = random_primary_rays(scene, 10000, 5);
@@ -306,9 +298,9 @@ TEST(Exactness, BothTextsFindTheSameWithAllBlends) {
       Settings settings;
       settings.blend = blend;
       const auto answers = gpu_intersect(scene, rays, settings);
-      EXPECT_EQ(different_bits(answers, gpu_intersect(scene, rays, settings, {.kernels = Kernels::gpu})), 0U)
+      EXPECT_EQ(
+          unlike_answers(rays, twin_intersect(scene, rays, settings), answers, shared_device().is_cpu()), 0U)
           << blend;
-      EXPECT_EQ(different_bits(answers, twin_intersect(scene, rays, settings)), 0U) << blend;
     }
   }
 }

@@ -79,10 +79,6 @@ TEST(Lights, MirrorsAndGlassShowManyToo) {
   SharedSun mirror(ball_scene(MATERIAL_TWO_SIDED, 0.5F)), glass(ball_scene(MATERIAL_DIELECTRIC));
   EXPECT_LT(mirror.difference(300, settings), ROUNDING);
   EXPECT_LT(glass.difference(300, settings), ROUNDING);
-  if (testing::all_tests()) {
-    settings.stages = false;  // whose pictures are those with stages (stages_test)
-    EXPECT_LT(glass.difference(300, settings), ROUNDING);
-  }
   settings.max_bounces = 64;
   EXPECT_LT(mirror.difference(50, settings), ROUNDING);
 }

@@ -97,8 +97,6 @@ void compare(const Scene& scene, const Settings& settings, std::size_t count, co
   EXPECT_EQ(different_bits(host, twin_intersect(scene, rays, settings)), 0U) << what << ", twin and host";
   EXPECT_EQ(unlike_answers(rays, device, host, shared_device().is_cpu(), settings), 0U)
       << what << ", host: " << device_agreement(rays, device, host, settings);
-  const auto gpu_kernels = answers_of(shared_device(), scene, rays, settings, {.kernels = Kernels::gpu});
-  EXPECT_EQ(agreement_of(brute, truth, gpu_kernels).exceptions(), 0U) << what << ", kernels of GPUs";
 }
 
 TEST(Region, EndsRaysWhereBruteForceSaysSo) {

@@ -18,5 +18,5 @@ class Device(NamedTuple):
 
 def devices() -> List[Device]:
     """All devices, by number; none without Vulkan (Debian's packages libvulkan1 and mesa-vulkan-drivers).
-    The device "cpu" needs none."""
+    The device "cpu", which is taken where none of them is a GPU, needs none."""
     return [Device(*device) for device in _core.devices()]

@@ -78,8 +78,7 @@ void Presenter::set_picture(std::span<const std::uint8_t> rgba, std::uint32_t wi
     memory_ = allocate_memory(vulkan_, needs, Residence::device);
     check(vkBindImageMemory(vulkan_.device, picture_.get(), memory_.handle.get(), 0),
           "binding the shown picture's memory");
-    if (pixels_.size() < rgba.size())
-      pixels_ = VulkanBuffer(vulkan_, rgba.size(), 0, VK_FORMAT_UNDEFINED, Residence::host);
+    if (pixels_.size() < rgba.size()) pixels_ = VulkanBuffer(vulkan_, rgba.size(), 0, Residence::host);
   }
   std::memcpy(pixels_.mapped(), rgba.data(), rgba.size());
   copied_ = false;

@@ -23,9 +23,7 @@ const DeviceLimits& HostDevice::limits() const {
   return LIMITS;
 }
 
-DeviceProfile HostDevice::profile(Kernels) const {
-  return {.kernels = Kernels::host, .culls = true, .slow = true};
-}
+DeviceProfile HostDevice::profile() const { return {.slow = true}; }
 
 std::unique_ptr<Queue> HostDevice::make_queue(const QueueOptions& options) const {
   return std::make_unique<HostQueue>(options.threads, options.vector_bits);

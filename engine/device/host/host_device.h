@@ -8,8 +8,7 @@ class HostDevice final : public Device {
  public:
   [[nodiscard]] const DeviceInfo& info() const override;
   [[nodiscard]] const DeviceLimits& limits() const override;
-  /// Always of its own kernels.
-  [[nodiscard]] DeviceProfile profile(Kernels requested = Kernels::automatic) const override;
+  [[nodiscard]] DeviceProfile profile() const override;
   [[nodiscard]] std::unique_ptr<Queue> make_queue(const QueueOptions& options = {}) const override;
 };
 

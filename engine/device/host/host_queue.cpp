@@ -14,10 +14,6 @@ constexpr std::uint64_t LEAST_HOST_BYTES = 16;
 
 Kernel kernel_of(Program program) {
   switch (program) {
-    case Program::empty:
-      return run_empty_kernel;
-    case Program::empty_light:
-      return run_empty_light_kernel;
     case Program::light:
       return run_light_kernel;
     case Program::rays:
@@ -57,7 +53,7 @@ void HostBindings::bind(const SplatTree& tree) {
   work_.tree = static_cast<const HostTree&>(tree).tree().view();
 }
 
-std::unique_ptr<Buffer> HostQueue::make_buffer(std::uint64_t bytes, BufferKind) {
+std::unique_ptr<Buffer> HostQueue::make_buffer(std::uint64_t bytes) {
   return std::make_unique<HostBuffer>(bytes);
 }
 

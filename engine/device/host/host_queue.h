@@ -59,7 +59,7 @@ class HostQueue final : public Queue {
   HostQueue(unsigned threads, std::uint32_t vector_bits)
       : threads_(threads), functions_(wide_functions(vector_bits)) {}
 
-  [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) override;
+  [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes) override;
   [[nodiscard]] std::unique_ptr<Texture> make_texture(const Environment& environment) override;
   [[nodiscard]] std::unique_ptr<Bindings> make_bindings(const Paging& paging) override;
   [[nodiscard]] std::unique_ptr<SplatTree> make_tree(std::span<const uvec4> splats,

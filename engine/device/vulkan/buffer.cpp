@@ -49,7 +49,7 @@ Memory allocate_memory(const VulkanDevice& vulkan, const VkMemoryRequirements& n
 }
 
 VulkanBuffer::VulkanBuffer(const VulkanDevice& vulkan, VkDeviceSize bytes, VkBufferUsageFlags usage,
-                           VkFormat texel_format, Residence residence)
+                           Residence residence)
     : Buffer(std::max(bytes, LEAST_BYTES)) {
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -69,15 +69,6 @@ VulkanBuffer::VulkanBuffer(const VulkanDevice& vulkan, VkDeviceSize bytes, VkBuf
           "mapping a buffer");
     mapped_ = static_cast<std::byte*>(pointer);
   }
-  if (texel_format == VK_FORMAT_UNDEFINED) return;
-  VkBufferViewCreateInfo view_info{};
-  view_info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
-  view_info.buffer = buffer;
-  view_info.format = texel_format;
-  view_info.range = VK_WHOLE_SIZE;
-  VkBufferView view = VK_NULL_HANDLE;
-  check(vkCreateBufferView(vulkan.device, &view_info, nullptr, &view), "making a texel view of a buffer");
-  view_ = {vulkan.device, view};
 }
 
 }  // namespace splatray

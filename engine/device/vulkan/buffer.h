@@ -1,4 +1,4 @@
-/// Vulkan's buffers, with a texel view where asked.
+/// Vulkan's buffers.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -30,21 +30,17 @@ enum class Residence {
 class VulkanBuffer final : public Buffer {
  public:
   VulkanBuffer() = default;
-  /// Transfers to and from it are always allowed. `texel_format` other than undefined adds a view of the
-  /// whole buffer.
+  /// Transfers to and from it are always allowed.
   VulkanBuffer(const VulkanDevice& vulkan, VkDeviceSize bytes, VkBufferUsageFlags usage,
-               VkFormat texel_format = VK_FORMAT_UNDEFINED, Residence residence = Residence::device);
+               Residence residence = Residence::device);
 
   [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
-  /// The texel view, or VK_NULL_HANDLE.
-  [[nodiscard]] VkBufferView view() const { return view_.get(); }
   /// The content in host memory, or null where the memory is not mappable.
   [[nodiscard]] std::byte* mapped() const { return mapped_; }
 
  private:
   Memory memory_;
   Handle<VkBuffer, vkDestroyBuffer> buffer_;
-  Handle<VkBufferView, vkDestroyBufferView> view_;
   std::byte* mapped_ = nullptr;
 };
 

@@ -167,8 +167,7 @@ void CommandQueue::download(const VulkanBuffer& buffer, std::span<std::byte> byt
 
 const VulkanBuffer& CommandQueue::staging(VkDeviceSize bytes) {
   const VkDeviceSize wanted = std::min(bytes, STAGING_BYTES);
-  if (staging_.size() < wanted)
-    staging_ = VulkanBuffer(vulkan_, wanted, 0, VK_FORMAT_UNDEFINED, Residence::host);
+  if (staging_.size() < wanted) staging_ = VulkanBuffer(vulkan_, wanted, 0, Residence::host);
   return staging_;
 }
 

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "engine/device/vulkan/pipeline.h"
-#include "engine/device/vulkan/program_code.h"
 #include "engine/device/vulkan/texture.h"
+#include "shaders/spirv.h"
 
 namespace splatray {
 
@@ -33,9 +33,7 @@ bool finds_remainders(const VulkanDevice& vulkan, CommandQueue& commands, const 
   Paging paging;
   paging.pages.fill(1);
   VulkanBindings bindings(vulkan, paging);
-  const VulkanBuffer unused(vulkan, sizeof(uvec4),
-                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                            VK_FORMAT_R32G32B32A32_UINT);
+  const VulkanBuffer unused(vulkan, sizeof(uvec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   for (std::uint32_t binding = 0; binding < BINDINGS; ++binding)
     if (binding != BIND_ENVIRONMENT) bindings.bind(binding, unused, 0);
   const EnvironmentTexture no_environment(vulkan, commands, {1, 1, {glm::vec3(0.0F)}, glm::vec3(0.0F)});
@@ -44,10 +42,7 @@ bool finds_remainders(const VulkanDevice& vulkan, CommandQueue& commands, const 
   VulkanBuffer counters(vulkan, COUNTER_COUNT * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   bindings.bind(BIND_FRAME, frame_buffer, 0);
   bindings.bind(BIND_COUNTERS, counters, 0);
-  PipelineKey key{Program::empty, {}};
-  key.constants[SPEC_STAGE] = STAGE_FUSED;
-  const auto pipeline = make_pipeline(vulkan, key, program_code(key.program, Kernels::gpu, false),
-                                      bindings.layout(), VK_NULL_HANDLE);
+  const auto pipeline = make_pipeline(vulkan, {}, FUSED, bindings.layout(), VK_NULL_HANDLE);
   std::array<std::uint32_t, COUNTER_COUNT> counted{};
   commands.upload(frame_buffer, std::as_bytes(std::span(&frame, 1)));
   commands.upload(counters, std::as_bytes(std::span(counted)));

@@ -8,11 +8,9 @@
 namespace splatray {
 namespace {
 
-VkDescriptorType descriptor_type(std::uint32_t binding, PoolAccess access) {
-  if (binding == BIND_PATHS || (is_read_as_pools(binding) && access == PoolAccess::texel))
-    return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-  if (binding == BIND_ENVIRONMENT) return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-  return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+VkDescriptorType descriptor_type(std::uint32_t binding) {
+  return binding == BIND_ENVIRONMENT ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 std::uint32_t descriptor_count(std::uint32_t binding, const Paging& paging) {
@@ -34,7 +32,6 @@ Handle<VkShaderModule, vkDestroyShaderModule> make_module(const VulkanDevice& vu
 
 VulkanBindings::VulkanBindings(const VulkanDevice& vulkan, const Paging& paging)
     : vulkan_(vulkan), paging_(paging) {
-  assert(paging.access != PoolAccess::automatic);
   create_layout();
   create_set();
 }
@@ -42,8 +39,7 @@ VulkanBindings::VulkanBindings(const VulkanDevice& vulkan, const Paging& paging)
 void VulkanBindings::create_layout() {
   std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
   for (std::uint32_t i = 0; i < BINDINGS; ++i)
-    bindings[i] = {i, descriptor_type(i, paging_.access), descriptor_count(i, paging_),
-                   VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+    bindings[i] = {i, descriptor_type(i), descriptor_count(i, paging_), VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   info.bindingCount = BINDINGS;
@@ -64,8 +60,7 @@ void VulkanBindings::create_layout() {
 
 void VulkanBindings::create_set() {
   std::array<VkDescriptorPoolSize, BINDINGS> sizes{};
-  for (std::uint32_t i = 0; i < BINDINGS; ++i)
-    sizes[i] = {descriptor_type(i, paging_.access), descriptor_count(i, paging_)};
+  for (std::uint32_t i = 0; i < BINDINGS; ++i) sizes[i] = {descriptor_type(i), descriptor_count(i, paging_)};
   VkDescriptorPoolCreateInfo pool_info{};
   pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   pool_info.maxSets = 1;
@@ -87,16 +82,14 @@ void VulkanBindings::create_set() {
 void VulkanBindings::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) {
   const auto& bound = static_cast<const VulkanBuffer&>(buffer);
   const VkDescriptorBufferInfo buffer_info{bound.get(), 0, VK_WHOLE_SIZE};
-  const VkBufferView view = bound.view();
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set_;
   write.dstBinding = binding;
   write.dstArrayElement = page;
   write.descriptorCount = 1;
-  write.descriptorType = descriptor_type(binding, paging_.access);
+  write.descriptorType = descriptor_type(binding);
   write.pBufferInfo = &buffer_info;
-  write.pTexelBufferView = &view;
   vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
 }
 
@@ -141,7 +134,7 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const VulkanDevice& vulkan, 
 VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const auto code = program_code(key.program, kernels_, is_paged(key.constants));
+    const auto code = program_code(key.program, is_paged(key.constants));
     found = pipelines_.emplace(key, make_pipeline(vulkan_, key, code, layout, store_.get())).first;
   }
   return found->second.get();

@@ -54,8 +54,8 @@ struct PipelineKey {
 class PipelineCache {
  public:
   /// `folder`: where pipelines are kept between runs (pipeline_store.h); empty = nowhere.
-  PipelineCache(const VulkanDevice& vulkan, Kernels kernels, const std::filesystem::path& folder)
-      : vulkan_(vulkan), kernels_(kernels), store_(vulkan, folder) {}
+  PipelineCache(const VulkanDevice& vulkan, const std::filesystem::path& folder)
+      : vulkan_(vulkan), store_(vulkan, folder) {}
 
   /// The pipeline of the key, with that layout; built when it is the first such.
   [[nodiscard]] VkPipeline get(const PipelineKey& key, VkPipelineLayout layout);
@@ -64,7 +64,6 @@ class PipelineCache {
 
  private:
   const VulkanDevice& vulkan_;
-  const Kernels kernels_;
   PipelineStore store_;
   std::map<PipelineKey, Handle<VkPipeline, vkDestroyPipeline>> pipelines_;
 };

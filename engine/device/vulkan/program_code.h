@@ -3,12 +3,11 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/device/device_profile.h"
 #include "engine/device/program.h"
 
 namespace splatray {
 
 /// That of a program (shaders/variants.cmake); `paged`: some pool is in several buffers.
-[[nodiscard]] std::span<const std::uint32_t> program_code(Program program, Kernels kernels, bool paged);
+[[nodiscard]] std::span<const std::uint32_t> program_code(Program program, bool paged);
 
 }  // namespace splatray

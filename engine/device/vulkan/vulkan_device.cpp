@@ -40,26 +40,12 @@ bool validation_in_environment() {
   return value != nullptr && std::strcmp(value, "1") == 0;
 }
 
-bool texel_format_supported(VkPhysicalDevice device, VkFormat format) {
-  VkFormatProperties properties{};
-  vkGetPhysicalDeviceFormatProperties(device, format, &properties);
-  return (properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) != 0;
-}
-
-DeviceLimits device_limits(VkPhysicalDevice device, const VkPhysicalDeviceLimits& limits,
-                           std::uint64_t allocation_bytes) {
-  const bool texel_formats = texel_format_supported(device, VK_FORMAT_R32_UINT) &&
-                             texel_format_supported(device, VK_FORMAT_R32G32B32A32_UINT);
-  const auto beside = [](std::uint32_t of_stage, std::uint32_t of_set, std::uint32_t others) {
-    return std::max(std::min(of_stage, of_set), others) - others;
-  };
-  return {.texel_elements = texel_formats ? limits.maxTexelBufferElements : 0,
-          .storage_bytes = limits.maxStorageBufferRange,
+DeviceLimits device_limits(const VkPhysicalDeviceLimits& limits, std::uint64_t allocation_bytes) {
+  const std::uint32_t buffers =
+      std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
+  return {.storage_bytes = limits.maxStorageBufferRange,
           .allocation_bytes = allocation_bytes,
-          .texel_buffers = beside(limits.maxPerStageDescriptorSampledImages,
-                                  limits.maxDescriptorSetSampledImages, OTHER_SAMPLED_IMAGES),
-          .storage_buffers = beside(limits.maxPerStageDescriptorStorageBuffers,
-                                    limits.maxDescriptorSetStorageBuffers, OTHER_STORAGE_BUFFERS),
+          .storage_buffers = std::max(buffers, OTHER_STORAGE_BUFFERS) - OTHER_STORAGE_BUFFERS,
           .texture_size = limits.maxImageDimension2D};
 }
 
@@ -134,25 +120,15 @@ void VulkanDevice::choose_device(const VulkanStart& started, const std::string& 
 }
 
 void VulkanDevice::create_device(const DeviceNeeds& needs) {
-  VkPhysicalDeviceSubgroupProperties subgroup{};
-  subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
   VkPhysicalDeviceMaintenance3Properties limits{};
   limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
-  limits.pNext = &subgroup;
   VkPhysicalDeviceProperties2 chain{};
   chain.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   chain.pNext = &limits;
   vkGetPhysicalDeviceProperties2(physical_device, &chain);
   properties = chain.properties;
-  ballot = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
-           (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
   vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
-  limits_ = device_limits(physical_device, properties.limits, limits.maxMemoryAllocationSize);
-
-  VkPhysicalDeviceFeatures supported{}, features{};
-  vkGetPhysicalDeviceFeatures(physical_device, &supported);
-  features.shaderFloat64 = supported.shaderFloat64;
-  float64 = supported.shaderFloat64 == VK_TRUE;
+  limits_ = device_limits(properties.limits, limits.maxMemoryAllocationSize);
 
   queue_family = compute_queue_family(physical_device);
   const float priority = 1.0F;
@@ -168,7 +144,6 @@ void VulkanDevice::create_device(const DeviceNeeds& needs) {
   info.pQueueCreateInfos = &queue_info;
   info.enabledExtensionCount = static_cast<std::uint32_t>(needs.device_extensions.size());
   info.ppEnabledExtensionNames = needs.device_extensions.data();
-  info.pEnabledFeatures = &features;
   check(vkCreateDevice(physical_device, &info, nullptr, &device), "opening the Vulkan device");
   vkGetDeviceQueue(device, queue_family, 0, &queue);
 

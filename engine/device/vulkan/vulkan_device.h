@@ -34,7 +34,7 @@ class VulkanDevice final : public Device {
 
   [[nodiscard]] const DeviceInfo& info() const override { return info_; }
   [[nodiscard]] const DeviceLimits& limits() const override { return limits_; }
-  [[nodiscard]] DeviceProfile profile(Kernels requested = Kernels::automatic) const override;
+  [[nodiscard]] DeviceProfile profile() const override;
   [[nodiscard]] std::unique_ptr<Queue> make_queue(const QueueOptions& options = {}) const override;
   [[nodiscard]] std::uint32_t validation_messages() const override { return validation_messages_; }
   /// Whether the device is a software driver on the CPU.
@@ -48,8 +48,6 @@ class VulkanDevice final : public Device {
   VkCommandPool command_pool = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
-  bool float64 = false;  ///< shaders may use float64
-  bool ballot = false;   ///< compute shaders may use ballots of their subgroups
 
  private:
   VulkanStart start(bool validation, const DeviceNeeds& needs);

@@ -1,25 +1,16 @@
 // What Vulkan's devices are given to do.
-#include "engine/base/error.h"
 #include "engine/device/vulkan/vulkan_device.h"
 
 namespace splatray {
 
-DeviceProfile VulkanDevice::profile(Kernels requested) const {
-  const bool able = float64 && ballot && limits_.texel_elements > 0;
-  if (requested == Kernels::cpu && !able)
-    throw Error(ExitCode::failed,
-                "found a device without float64, ballots or texel buffers, expected all three "
-                "for the kernels of CPU devices");
-  const bool cpu = requested == Kernels::automatic ? is_cpu() && able : requested == Kernels::cpu;
+DeviceProfile VulkanDevice::profile() const {
   DeviceProfile profile;
-  profile.kernels = cpu ? Kernels::cpu : Kernels::gpu;
   if (is_cpu()) {
     // Mesa's llvmpipe silently ends all loops of a thread after 65 535 iterations in all (loops_were_cut): about 40 for a ray of
     // a sphere of 2000 splats, 150 for one of a scan of a million.
     profile.samples_most = 16;
     profile.paths_most = 1;
     profile.rays_most = 128;
-    profile.culls = profile.stages = cpu;
     profile.slow = true;
   } else {
     // A dispatch of more would take long enough for drivers that stop long work.

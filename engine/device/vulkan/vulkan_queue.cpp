@@ -6,35 +6,17 @@
 #include "engine/device/vulkan/texture.h"
 
 namespace splatray {
-namespace {
-
-VkFormat texel_format(BufferKind kind) {
-  switch (kind) {
-    case BufferKind::words:
-      return VK_FORMAT_R32_UINT;
-    case BufferKind::texels:
-      return VK_FORMAT_R32G32B32A32_UINT;
-    default:
-      return VK_FORMAT_UNDEFINED;
-  }
-}
-
-}  // namespace
 
 VulkanQueue::VulkanQueue(const VulkanDevice& vulkan, const QueueOptions& options)
     : vulkan_(vulkan),
       commands_(vulkan),
-      pipelines_(vulkan, vulkan.profile(options.kernels).kernels, options.pipeline_folder),
+      pipelines_(vulkan, options.pipeline_folder),
       frame_(vulkan, sizeof(FrameParams), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
       counters_(vulkan, COUNTER_COUNT * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
-      fuses_(vulkan.profile(options.kernels).kernels == Kernels::gpu &&
-             finds_remainders(vulkan, commands_, exact_products())) {}
+      fuses_(finds_remainders(vulkan, commands_, exact_products())) {}
 
-std::unique_ptr<Buffer> VulkanQueue::make_buffer(std::uint64_t bytes, BufferKind kind) {
-  const VkBufferUsageFlags texels =
-      kind == BufferKind::storage ? 0 : VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-  return std::make_unique<VulkanBuffer>(vulkan_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | texels,
-                                        texel_format(kind));
+std::unique_ptr<Buffer> VulkanQueue::make_buffer(std::uint64_t bytes) {
+  return std::make_unique<VulkanBuffer>(vulkan_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
 std::unique_ptr<Texture> VulkanQueue::make_texture(const Environment& environment) {
@@ -58,7 +40,7 @@ void VulkanQueue::download(const Buffer& buffer, std::span<std::byte> bytes) {
 
 Ran VulkanQueue::run(const Dispatch& dispatch, const Bindings& bindings) {
   const auto& bound = static_cast<const VulkanBindings&>(bindings);
-  const bool reads_counters = dispatch.counts_work() || dispatch.is_staged();
+  const bool reads_counters = dispatch.counts_work();
   const VkPipeline pipeline = pipelines_.get({dispatch.program, dispatch.constants}, bound.layout());
   Ran ran;
   ran.ms = commands_.run([&](VkCommandBuffer commands) {

@@ -12,7 +12,7 @@ class VulkanQueue final : public Queue {
   VulkanQueue(const VulkanDevice& vulkan, const QueueOptions& options);
 
   [[nodiscard]] bool fuses() const override { return fuses_; }
-  [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes, BufferKind kind) override;
+  [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes) override;
   [[nodiscard]] std::unique_ptr<Texture> make_texture(const Environment& environment) override;
   [[nodiscard]] std::unique_ptr<Bindings> make_bindings(const Paging& paging) override;
   void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) override;

@@ -24,7 +24,6 @@ SplatrayRacer::SplatrayRacer(const Device& device, ShownTracer& tracer, const Co
 Settings SplatrayRacer::settings_of(Frame frame) const {
   Settings settings;
   settings.samples = 1;
-  settings.cull = false;  // the peers trace every pixel's ray
   settings.blend = blend_;
   settings.shadows = frame == Frame::shadow;
   settings.max_bounces = frame == Frame::mirror ? MIRRORED : 0;

@@ -36,10 +36,8 @@ CLASSES = {
 NOTES = """
 - Times are medians over rounds in which splatray and one peer trace one frame each in turn; a ratio is that of the two in
   the same rounds. splatray's are those of the dispatches and include shading, Embree's are wall times of tracing alone on
-  all threads. Shadow rays stop at any hit in both. Beside Embree splatray traces every pixel's ray; elsewhere it leaves
-  out the pixels that no leaf projects to.
-- Models: splatray's ratio is of every pixel's ray, as Embree traces; with culling it leaves out the pixels that no leaf
-  projects to. "wall" is the whole call, with shading and read-back.
+  all threads. Shadow rays stop at any hit in both.
+- Models: "wall" is the whole call, with shading and read-back.
 - Embree's shadow and mirrored rays start 0.1 median radii off the surface; splatray's know the sheet that they leave.
   Embree's rays are traced in bundles of eight (of models: see the table), declared incoherent in the random class.
 - Errors are measured in the same run: of primary rays against the exact sphere's picture, of random rays against the
@@ -194,8 +192,7 @@ def median(values):
 
 def settings_text(record):
     words = {"width": "rtcIntersect{}", "leaf_size": "{} discs", "quality": "{} quality"}
-    said = [words[key].format(value) for key, value in record["settings"].items() if key in words]
-    return ", ".join(said + [{True: "culled", False: "every pixel"}[value] for key, value in record["settings"].items() if key == "cull"])
+    return ", ".join(words[key].format(value) for key, value in record["settings"].items() if key in words)
 
 
 def best_of(records, method):
@@ -208,7 +205,7 @@ def models_parts(records):
     parts = ["## Models, side by side\n"]
     for model in dict.fromkeys(record["case"] for record in records):
         runs = [record for record in records if record["case"] == model]
-        own = {r["method"]: r for r in runs if r["settings"].get("cull") is False}
+        own = {r["method"]: r for r in runs if not r["method"].startswith("embree")}
         parts.append(f"### {model}, {splats_text(runs[0]['splats'])} splats, {100 * runs[0]['coverage']:.0f} % of the pixels hit\n")
         rows = []
         for run in runs:

@@ -80,9 +80,10 @@ std::vector<Field> quality_fields() {
           .of_looks({LOOK_LIT, LOOK_CLAY}),
       shadows_row().of_looks({LOOK_PAPER, LOOK_LIT, LOOK_CLAY, LOOK_SCAN}),
       seed_row().marked(OF_SCENES | OF_PICTURES),
-      text_row("device", QUALITY, MEMBER(settings.device),
-               "device number or part of its name, or cpu: the CPU without Vulkan; default the best",
-               "N|NAME")
+      text_row(
+          "device", QUALITY, MEMBER(settings.device),
+          "device number or part of its name, or cpu: the CPU without Vulkan; default the best GPU, else cpu",
+          "N|NAME")
           .marked(OF_SCENES | NOT_OF_LIGHT),
       with(path_row("cache", QUALITY, MEMBER(settings.cache),
                     "folder that compiled pipelines are kept in between runs; default nowhere"),
