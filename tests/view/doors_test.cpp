@@ -266,7 +266,7 @@ TEST_F(ViewerDoor, DrawsTheProgramsSheet) {
       set_axis_view(document, shown.view);
       SheetRequest like;
       like.scale = 100.0;
-      like.dpi = 40.0;
+      like.dpi = 25.0;
       save.view.sheet = section_sheet(document, like);
       save.view.ink = shown.kind == SheetKind::section;
       save.output.path.replace_extension(shown.extension);

@@ -20,7 +20,7 @@ bool is_sound(const RayHit& hit) {
 }
 
 constexpr std::size_t DEFAULT_RAYS = 1'000'000;
-constexpr std::size_t RAYS_OF_A_LANDING = 20'000;
+constexpr std::size_t RAYS_OF_A_LANDING = 10'000;
 constexpr int MOST_AT_ONE_T = 64;          ///< discs that are met at the same t
 constexpr double TIES_PER_MILLION = 20.0;  ///< measured: 1, of rays through lattice points 160
 constexpr std::uint64_t TIES_OF_FEW = 20;  ///< where there are few rays, made to meet splats at equal t
