@@ -84,4 +84,22 @@ void EmbreeBundle<WIDTH>::occluded(RTCScene scene, RTCIntersectContext& context,
 template struct EmbreeBundle<8>;
 template struct EmbreeBundle<16>;
 
+void find_occluded(RTCScene scene, unsigned width, RTCIntersectContextFlags flags,
+                   std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = flags;
+  for (std::size_t begin = 0; begin < rays.size(); begin += width) {
+    const std::size_t count = std::min<std::size_t>(width, rays.size() - begin);
+    const auto some = rays.subspan(begin, count);
+    const auto answers = blocked.subspan(begin, count);
+    if (width == 8) EmbreeBundle<8>(some).occluded(scene, context, answers);
+    if (width == 16) EmbreeBundle<16>(some).occluded(scene, context, answers);
+    if (width != 1) continue;
+    RTCRay ray = embree_ray(some.front()).ray;
+    rtcOccluded1(scene, &context, &ray);
+    answers.front() = ray.tfar < 0.0F ? 1 : 0;
+  }
+}
+
 }  // namespace splatray::testing

@@ -47,4 +47,8 @@ struct EmbreeBundle {
   std::conditional_t<WIDTH == 8, RTCRayHit8, RTCRayHit16> query;
 };
 
+/// Sets 1 for each ray that anything lies on, else 0; `width` rays (1, 8 or 16) in a call.
+void find_occluded(RTCScene scene, unsigned width, RTCIntersectContextFlags flags,
+                   std::span<const RayQuery> rays, std::span<std::uint8_t> blocked);
+
 }  // namespace splatray::testing

@@ -209,20 +209,7 @@ void EmbreeClusters::trace(std::span<const RayQuery> rays, std::span<RayHit> hit
 }
 
 void EmbreeClusters::occluded(std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = flags();
-  for (std::size_t begin = 0; begin < rays.size(); begin += width_) {
-    const std::size_t count = std::min<std::size_t>(width_, rays.size() - begin);
-    const auto some = rays.subspan(begin, count);
-    const auto answers = blocked.subspan(begin, count);
-    if (width_ == 8) EmbreeBundle<8>(some).occluded(embree_.scene(), context, answers);
-    if (width_ == 16) EmbreeBundle<16>(some).occluded(embree_.scene(), context, answers);
-    if (width_ != 1) continue;
-    RTCRay ray = embree_ray(some.front()).ray;
-    rtcOccluded1(embree_.scene(), &context, &ray);
-    answers.front() = ray.tfar < 0.0F ? 1 : 0;
-  }
+  find_occluded(embree_.scene(), width_, flags(), rays, blocked);
 }
 
 std::uint64_t EmbreeClusters::bytes() const {
