@@ -232,16 +232,14 @@ ExrPicture exr_picture(const Image& image, AovSet aovs, const Metadata& metadata
 }
 
 std::vector<unsigned char> encode_exr(const ExrPicture& picture) {
-  // An empty DateTime: else it is the time of writing, and the same picture would make another file.
-  PictureHeader header{
-      .width = static_cast<int>(picture.window.width),
-      .height = static_cast<int>(picture.window.height),
-      .x = static_cast<int>(picture.window.x),
-      .y = static_cast<int>(picture.window.y),
-      .full_width = static_cast<int>(picture.width),
-      .full_height = static_cast<int>(picture.height),
-      .channels = picture.channels,
-      .attributes = {{"oiio:ColorSpace", "Linear"}, {"compression", "zip"}, {"DateTime", ""}}};
+  PictureHeader header{.width = static_cast<int>(picture.window.width),
+                       .height = static_cast<int>(picture.window.height),
+                       .x = static_cast<int>(picture.window.x),
+                       .y = static_cast<int>(picture.window.y),
+                       .full_width = static_cast<int>(picture.width),
+                       .full_height = static_cast<int>(picture.height),
+                       .channels = picture.channels,
+                       .attributes = {}};
   return encode(std::move(header), picture.metadata, picture.values.data(), "openexr", "an EXR");
 }
 

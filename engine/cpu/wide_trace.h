@@ -234,6 +234,7 @@ Found count_hits(const Ray& ray, Tally& tally, Cluster& cluster) {
   return found;
 }
 
+/// What finish_hit makes of nothing found, as far as it is read.
 Hit no_hit() {
   Hit hit{};
   hit.object = NO_OBJECT;

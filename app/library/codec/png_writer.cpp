@@ -85,10 +85,11 @@ Bytes filtered_rows(const PictureHeader& header, const unsigned char* values) {
   for (std::size_t row = 0; row < rows; ++row) {
     std::copy_n(values + row * count, count, now.data() + pixel);
     filter_row(now.data() + pixel, above.data() + pixel, pixel, count, filtered);
-    const auto least = std::min_element(filtered.begin(), filtered.end(), [](const Bytes& a, const Bytes& b) {
-      return size_of(a) < size_of(b);
-    });
-    all.insert(all.end(), least->begin(), least->end());
+    std::array<std::uint64_t, FILTERS> sizes{};
+    std::transform(filtered.begin(), filtered.end(), sizes.begin(), size_of);
+    const auto least = std::min_element(sizes.begin(), sizes.end()) - sizes.begin();
+    const Bytes& chosen = filtered[static_cast<std::size_t>(least)];
+    all.insert(all.end(), chosen.begin(), chosen.end());
     std::swap(now, above);
   }
   return all;
