@@ -9,6 +9,9 @@
 /// more than float32 may be off there.
 const float REGION_SLACK = 4.0f;
 
+/// Beyond it, lattice units, there is nothing to meet: so far float32's t tells enough, and no quotient overflows.
+const float REGION_FAR = 1e12f;
+
 /// A ray that no region ends.
 Ray unbounded(Ray ray) {
   ray.to_light = false;
@@ -42,7 +45,8 @@ PlaneCrossing cross_plane(vec4 plane, Ray ray) {
     height = df_add(height, df_scale(vec2(ray.origin[axis], ray.origin_low[axis]), plane[axis]));
     facing = df_add(facing, two_product(plane[axis], ray.dir[axis]));
   }
-  crossing.t = df_divide(-height, facing).x;
+  crossing.t = -height.x / facing.x;
+  if (abs(crossing.t) < REGION_FAR) crossing.t = df_divide(-height, facing).x;
   crossing.facing = facing.x;
   crossing.inside = height.x >= 0.0f;
 #endif

@@ -51,7 +51,8 @@ def check_programs(root, work):
     (work / "cloud.xyz").write_text("".join(f"{i % 20} {i // 20} {(i % 7) * 0.1}\n" for i in range(400)))
     render = root / "usr/bin/splatray-render"
     run(root / "usr/bin/splatray-preprocess", work / "cloud.xyz", "-o", work / "cloud.soct")
-    run(render, work / "cloud.soct", "-o", work / "a.png", "--resolution", "64x36", "--samples", "1", "--quiet")
+    picture = [render, work / "cloud.soct", "--resolution", "64x36", "--samples", "1", "--quiet", "-o"]
+    run(*picture, work / "a.png")
     for program in ("splatray-render", "splatray-view"):
         run(root / "usr/bin" / program, "--version")
     if shutil.which("man") is None:
@@ -61,7 +62,7 @@ def check_programs(root, work):
         if "--turntable" not in page.replace("\u2010", "-") or "EXIT STATUS" not in page:
             sys.exit("the man page says nothing of --turntable or the exit status")
     shutil.move(root / "usr/lib/splatray", root / "usr/lib/elsewhere")
-    if subprocess.run([render, work / "cloud.soct", "-o", work / "b.png", "--quiet"], capture_output=True).returncode != 1:
+    if subprocess.run([*picture, work / "b.png"], capture_output=True).returncode != 1:
         sys.exit("splatray-render wrote a picture without its library of codecs: it was not the packages' one")
 
 
