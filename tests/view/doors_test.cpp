@@ -52,6 +52,17 @@ std::string cube_obj() {
   return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 }
 
+/// A triangle of brass.
+std::string triangle_gltf() {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"doubleSided":true,
+"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.7,0.3,1],"metallicFactor":0.8,"roughnessFactor":0.4}}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,
+"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+
 /// What a picture's file says but for who wrote it by which command, when.
 std::map<std::string, std::string> said_in(const std::filesystem::path& picture, bool choices = true) {
   std::map<std::string, std::string> said;
@@ -66,6 +77,7 @@ class Doors : public CliTest {
     write("room.pcd", scan_pcd());
     write("cube.obj", cube_obj());
     write("grid.ply", grid_ply(true));
+    write("brass.gltf", triangle_gltf());
   }
 
   /// The file that splatray-render makes of a scene of the folder, and the request that it was given.
@@ -102,12 +114,13 @@ class Doors : public CliTest {
   }
 
   /// Of drawings and pages the whole files but for what names them and their command.
-  void expect_equal(const std::string& made, const std::string& other, const std::string& options) {
+  void expect_equal(const std::string& made, const std::string& other, const std::string& options,
+                    bool choices = true) {
     if (lower_extension(made) == ".html") {
       EXPECT_TRUE(bytes_of(made) == bytes_of(other)) << options;
       return;
     }
-    EXPECT_EQ(said_in(made), said_in(other)) << options;
+    EXPECT_EQ(said_in(made, choices), said_in(other, choices)) << options;
     if (lower_extension(made) == ".exr") {
       const ExrPicture a = read_exr(made), b = read_exr(other);
       EXPECT_TRUE(a.values == b.values && a.channels == b.channels) << options;
@@ -144,6 +157,7 @@ TEST_F(Doors, MakeOnePictureOfARequest) {
   expect_same("cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1", ".png");
   expect_same("cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9",
               ".png");
+  expect_same("brass.gltf", small + "--mesh-points=500", ".exr");
   expect_same("grid.ply", small + "--despeckle --exposure=auto", ".png");
 }
 
@@ -182,8 +196,10 @@ class ViewerDoor : public Doors {
   using Change = std::function<void(Document&, Request& save)>;
 
   /// The file that it saves of a scene opened with options, once `change` has changed what is shown and what is saved.
-  std::string saved(const std::string& scene, const std::string& options, const Change& change = {}) {
+  std::string saved(const std::string& scene, const std::string& options, const Change& change = {},
+                    const std::string& extension = ".png") {
     Request asked = parse_command_line("splatray-render x --device=cpu " + options);
+    asked.output.path = file("saved" + std::to_string(++saves) + extension);
     asked.source.inputs = {file(scene)};
     Request loading = asked;  // as the viewer loads: the document has materials and colours
     loading.look.objects.clear();
@@ -191,11 +207,14 @@ class ViewerDoor : public Doors {
     loading.look.attributes.color_by = "rgb";
     LoadedScene loaded = load_scene(loading, {});
     const SharedScene shared = std::make_shared<const Scene>(std::move(loaded.scene));
-    Document document = first_document(*shared, loaded.facts, asked);
+    Shot first = resolve(asked, *shared, loaded.facts);
+    Document document = first_document(*shared, loaded.facts, asked, first);
     LiveScene live(*device);
     live.open(shared, document.request.look.attributes);
+    live.match(document, ViewMode::shaded);
+    expose(first, live.shown());
+    choices = choices_text(first);
     Request save = asked;
-    save.output.path = file("saved" + std::to_string(++saves) + ".png");
     if (change) change(document, save);
     const Shot shot =
         resolve(request_of(document, asked.view.width, asked.view.height), *shared, document.loaded->facts);
@@ -211,23 +230,34 @@ class ViewerDoor : public Doors {
 
   const std::unique_ptr<Device> device = open_device(HOST_DEVICE);
   int saves = 0;
-  std::string command;  ///< of splatray-render, for the file saved last
+  std::string choices;  ///< what was chosen when the scene of the file saved last was opened
+  std::string command;  ///< of splatray-render, for that file
 };
 
 /// Its document of a request is saved as the program's picture, though all that was chosen is said by then.
 TEST_F(ViewerDoor, SavesTheProgramsPicture) {
   const std::string small = "--resolution=24x16 --samples=4 ";
-  for (const auto& [scene, options] : std::vector<std::pair<std::string, std::string>>{
+  const std::string mesh = small + "--mesh-points=2000 ";
+  struct Saved {
+    std::string scene, options, extension = ".png";
+  };
+  for (const auto& [scene, options, extension] : std::vector<Saved>{
            {"room.pcd", small},
+           {"room.pcd", small + "--aov=depth,normal", ".exr"},
+           {"room.pcd", small + "--keep-box=-1,-1,-2,1,1,2 --look=ao"},
+           {"room.pcd", small + "--view=inside --color-by=height", ".exr"},
+           {"cube.obj", mesh, ".exr"},
+           {"cube.obj", mesh + "--material=glass --environment=sky:30,120"},
+           {"brass.gltf", small + "--mesh-points=500"},
            {"room.pcd", small + "--keep-noise --view=dollhouse"},
            {"cube.obj", small + "--mesh-points=2000"},
            {"cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9"},
            {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1"},
            {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=paper"}}) {
-    const std::string made = by_program(scene, options, "program.png"), other = saved(scene, options);
-    EXPECT_TRUE(read_display_image(made, {}).rgb == read_display_image(other, {}).rgb)
-        << scene << " " << options;
-    EXPECT_EQ(said_in(made, false), said_in(other, false)) << scene << " " << options;
+    const std::string made = by_program(scene, options, "program" + extension);
+    const std::string other = saved(scene, options, {}, extension);
+    expect_equal(made, other, scene + " " + options, /*choices=*/false);
+    EXPECT_EQ(said_in(made)["choices"], choices.empty() ? "none" : choices) << scene << " " << options;
   }
   // An area light stays one when the paper's look, which has none, is left.
   const std::string lamp = small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=";
