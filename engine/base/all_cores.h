@@ -2,22 +2,35 @@
 #pragma once
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
 namespace splatray {
 
-/// Calls work(i) once for each 0 <= i < count, in any order, on as many threads as there are cores; `work` must not throw.
+/// Calls work(i) once for each 0 <= i < count, in any order, on as many threads as there are cores. What a call throws first is thrown
+/// again when all threads have ended; calls that have not begun by then are left out.
 template <class Work>
 void on_all_cores(std::size_t count, const Work& work) {
   std::atomic<std::size_t> next{0};
+  std::once_flag once;
+  std::exception_ptr thrown;
   const auto take = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
+    try {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      std::call_once(once, [&] { thrown = std::current_exception(); });
+      next = count;
+    }
   };
-  std::vector<std::jthread> others;
-  for (std::size_t i = 1; i < std::thread::hardware_concurrency() && i < count; ++i)
-    others.emplace_back(take);
-  take();
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t i = 1; i < std::thread::hardware_concurrency() && i < count; ++i)
+      others.emplace_back(take);
+    take();
+  }
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace splatray

@@ -1,14 +1,11 @@
-// The library of image_codec.h that writes pictures: EXR by OpenEXR, PNG by png_writer.h, JPEG by stb, which also reads PNG and
-// Radiance HDR. What metadata a PNG has are its text chunks.
+// The library of image_codec.h that writes pictures: EXR by exr_writer.h, which OpenEXR reads, PNG by png_writer.h, JPEG by stb, which
+// also reads PNG and Radiance HDR. What metadata a PNG has are its text chunks.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
-#include <OpenEXR/ImfThreading.h>
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
@@ -17,10 +14,9 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <utility>
 
+#include "app/library/codec/exr_writer.h"
 #include "app/library/codec/image_codec.h"
 #include "app/library/codec/kept_text.h"
 #include "app/library/codec/png_text.h"
@@ -63,7 +59,9 @@ void read_exr_header(const std::string& path, std::uint64_t file_bytes, PictureH
   header.full_height = whole.max.y - whole.min.y + 1;
   header.channels = ordered_channels(file.header().channels());
   for (auto attribute = file.header().begin(); attribute != file.header().end(); ++attribute)
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
+    // The type says what kind of file this is, nothing of the picture.
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
+        text != nullptr && std::strcmp(attribute.name(), "type") != 0)
       header.attributes.emplace_back(attribute.name(), text->value());
   const Imf::Compression compression = file.header().compression();
   const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
@@ -154,72 +152,6 @@ bool read_pixels(const std::string& path, int first_row, int channels, const Pix
   }
 }
 
-/// A file in memory.
-class MemoryStream : public Imf::OStream {
- public:
-  explicit MemoryStream(std::vector<unsigned char>& bytes) : OStream("memory"), bytes_(bytes) {}
-  void write(const char values[], int count) override {
-    const std::size_t end = at_ + static_cast<std::size_t>(count);
-    if (bytes_.size() < end) bytes_.resize(end);
-    std::memcpy(bytes_.data() + at_, values, static_cast<std::size_t>(count));
-    at_ = end;
-  }
-  std::uint64_t tellp() override { return at_; }
-  void seekp(std::uint64_t position) override { at_ = position; }
-
- private:
-  std::vector<unsigned char>& bytes_;
-  std::size_t at_ = 0;
-};
-
-/// OpenEXR's threads while a file is written. There are none before and after, as a process that is forked off would wait for its
-/// parent's; whoever writes meanwhile does so alone.
-class WritingThreads {
- public:
-  WritingThreads() : lock_(mutex(), std::try_to_lock) {
-    if (lock_) Imf::setGlobalThreadCount(count());
-  }
-  ~WritingThreads() {
-    if (lock_) Imf::setGlobalThreadCount(0);
-  }
-  WritingThreads(const WritingThreads&) = delete;
-  WritingThreads& operator=(const WritingThreads&) = delete;
-  [[nodiscard]] int count() const {
-    return lock_ ? static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U)) : 0;
-  }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-  std::unique_lock<std::mutex> lock_;
-};
-
-void encode_exr(const PictureHeader& header, const float* values, std::vector<unsigned char>& bytes) {
-  const Imath::V2i corner(header.x, header.y), size(header.width, header.height);
-  const Imath::V2i whole = header.full_width > 0 ? Imath::V2i(header.full_width, header.full_height) : size;
-  Imf::Header file_header({Imath::V2i(0), whole - Imath::V2i(1)}, {corner, corner + size - Imath::V2i(1)});
-  // Rows one by one and little effort: 0.6 of the time that OpenEXR takes by itself, 1.1 of the bytes.
-  file_header.compression() = Imf::ZIPS_COMPRESSION;
-  file_header.zipCompressionLevel() = 2;
-  for (const auto& [name, value] : header.attributes)
-    if (name.starts_with("splatray.")) file_header.insert(name, Imf::StringAttribute(value));
-  const std::size_t step = sizeof(float) * header.channels.size();
-  Imf::FrameBuffer buffer;
-  for (std::size_t i = 0; i < header.channels.size(); ++i) {
-    file_header.channels().insert(header.channels[i], Imf::Channel(Imf::FLOAT));
-    buffer.insert(header.channels[i],
-                  Imf::Slice::Make(Imf::FLOAT, values + i, corner, header.width, header.height, step,
-                                   step * static_cast<std::size_t>(header.width)));
-  }
-  MemoryStream stream(bytes);
-  const WritingThreads threads;
-  Imf::OutputFile file(stream, file_header, threads.count());
-  file.setFrameBuffer(buffer);
-  file.writePixels(header.height);
-}
-
 /// Behind the bytes of a file, as stb's writers ask for.
 void append(void* to, void* data, int size) {
   const auto* from = static_cast<const unsigned char*>(data);
@@ -239,7 +171,7 @@ bool encode(const char* format, const PictureHeader& header, const void* values,
             std::vector<unsigned char>& bytes, std::string& error) {
   try {
     if (std::strcmp(format, "openexr") == 0) {
-      encode_exr(header, static_cast<const float*>(values), bytes);
+      bytes = encode_exr(header, static_cast<const float*>(values));
       return true;
     }
     if (std::strcmp(format, "png") == 0) {
