@@ -47,7 +47,7 @@ void refuse_cut_loops() {
   throw Error(
       ExitCode::failed,
       "found a pixel whose ray takes more steps through the scene than this driver lets a thread make, "
-      "expected fewer (another Vulkan driver may do it)");
+      "expected fewer (--device cpu does it, and other Vulkan drivers may)");
 }
 
 Passes::Passes(Runner& runner, const Dispatch& dispatch, std::span<const Tile> tiles, std::uint32_t first)

@@ -33,7 +33,7 @@ TEST_F(Lit, WhiteBallUnderWhiteSkyIsWhite) {
   RecordProperty("lost", std::to_string(lost / double(image.rgba.size())));
 }
 
-TEST_F(Lit, WhiteBallUnderAWhitePictureIsWhiteOnTheMean) {
+TEST_F(LitOnHost, WhiteBallUnderAWhitePictureIsWhiteOnTheMean) {
   SPLATRAY_NIGHTLY();
   const Scene scene = ball(1.0F, 5000);
   show(scene, {64, 32, std::vector<glm::vec3>(64 * 32, vec3(1.0F)), vec3(0.0F)}, {});
@@ -120,7 +120,7 @@ TEST_F(Plane, SpotsShineInTheirCone) {
 }
 
 /// All bounces at once: the light that a wall gets from the rest of a ball does not depend on where it is.
-TEST_F(Lit, IntegratingSphere) {
+TEST_F(LitOnHost, IntegratingSphere) {
   SPLATRAY_NIGHTLY();
   constexpr double INTENSITY = 2.0;
   // A direction just above the blended normal's plane can lead below a neighbour's disc and out of the ball: of each bounce's light.

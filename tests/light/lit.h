@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/shapes.h"
@@ -77,6 +78,7 @@ inline std::unique_ptr<Device> tested_device() {
 /// A scene on a device, and pictures of it.
 class Lit : public ::testing::Test {
  protected:
+  explicit Lit(std::unique_ptr<Device> device = tested_device()) : device_(std::move(device)) {}
   void show(const Scene& scene, const Environment& environment, const std::vector<SceneLight>& lights) {
     tracer_.upload(scene);
     tracer_.set_environment(environment);
@@ -90,8 +92,14 @@ class Lit : public ::testing::Test {
   }
   void TearDown() override { EXPECT_EQ(device_->validation_messages(), 0U); }
 
-  const std::unique_ptr<Device> device_ = tested_device();
+  const std::unique_ptr<Device> device_;
   ShownTracer tracer_{*device_};
+};
+
+/// The same on the host, for paths of so many bounces that llvmpipe would cut a thread's loops.
+class LitOnHost : public Lit {
+ protected:
+  LitOnHost() : Lit(open_device("cpu")) {}
 };
 
 /// A plane of splats, 4 x 4 in y = 0, seen from straight above at its middle.
