@@ -157,7 +157,7 @@ struct Material {
   float coat;           ///< clearcoat, 0..1
   float coat_roughness;
   float layer_ior;  ///< index of refraction where nothing is transmitted, >= 1
-  float ior;        ///< inside dielectrics, > 0; 1 in thin panes, whatever their layer_ior
+  float ior;        ///< inside dielectrics, > 0; 1 in thin panes: rays pass unbent, layer_ior reflects
   uint flags;       ///< MATERIAL_*
   /// The object's bit, 0..31, in a ray's mask of the dielectrics it is inside of; where they overlap, light runs in the one with
   /// the highest bit.

@@ -7,7 +7,7 @@ namespace splatray {
 /// Times of the program's own stages, milliseconds.
 struct StageTimes {
   double device_ms = 0.0, upload_ms = 0.0;
-  /// Of the preview that the exposure is taken from, its program's building included.
+  /// Time of the preview that the exposure is taken from, its program's building included.
   double exposure_ms = 0.0;
 };
 

@@ -44,7 +44,7 @@ bool set_tile_camera(uvec2 first_pixel, uvec2 pixels, WideTile& tile) {
   const bool perspective = frame.dir_dx != vec3(0.0f);
   const dvec3 right = perspective ? frame.dir_dx : frame.origin_dx;
   const dvec3 down = perspective ? frame.dir_dy : frame.origin_dy;
-  // Of p - middle: how far along the middle ray, and how far beside it in pixels times that.
+  // Takes p - middle apart: how far along the middle ray, and how far beside it in pixels times that.
   const glm::dmat3 parts = glm::transpose(glm::inverse(glm::dmat3(dir, right, down)));
   const double length = glm::length(parts[0]);
   const double distance = glm::length(middle - dvec3(0.5 * ROOT_SIZE)) / ROOT_SIZE;

@@ -31,7 +31,7 @@ struct View {
   }
 };
 
-/// Of the scene's diagonal: how far away something darkens a point by occlusion where nothing is said of it.
+/// Default distance within which occlusion darkens a point, as a fraction of the scene's diagonal.
 inline constexpr double REACH_SHARE = 0.1;
 
 /// What make_frame_params accepts of Camera::lens_shift (its length) and Camera::pixel_aspect (and its inverse).

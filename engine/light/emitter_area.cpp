@@ -14,7 +14,7 @@ using glm::dvec3;
 
 /// Points of each disc that are looked at: enough for a share to some per cent.
 constexpr int POINTS = 16;
-/// Of more splats, looking takes longer than it saves, and each matters less.
+/// Most splats that are looked at: with more, looking takes longer than it saves, and each matters less.
 constexpr std::size_t MOST = 65536;
 constexpr double USUAL_SHARE = 0.45;  // discs overlap 2.2 times
 /// Where the golden angle divides a turn, points of a spiral lie evenly.

@@ -81,7 +81,7 @@ vec3 tilted(vec3 normal, vec3 tilt, vec3 dir) {
   return mapped * inversesqrt(dot(mapped, mapped));
 }
 
-/// Of one splat.
+/// The factors of one splat.
 Factors factors_at(uint splat) {
   Factors factors = no_factors();
   uint layer = TEXTURE_LAYER ? 1u : 0u, glow = TEXTURE_GLOW ? 1u : 0u, color = TEXTURE_COLOR ? 1u : 0u;

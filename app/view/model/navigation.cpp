@@ -21,7 +21,7 @@ constexpr double LOOK_SHARE = 0.5;         ///< of the angle that the same drag 
 constexpr double NEAREST_RADII = 1e-6, FARTHEST_RADII = 100.0;
 /// How far from the scene's centre the pivot goes, scene radii; with FARTHEST_RADII within what make_frame_params takes.
 constexpr double LOST_RADII = 1000.0;
-/// Of a scene whose points all lie in one place: the radius that preprocess gives them.
+/// Radius that preprocess gives points that all lie in one place.
 constexpr double LONE_RADIUS_WORLD = 1.0;
 /// Coordinates this many rounding steps apart still give directions of three digits.
 constexpr double STEPS_APART = 1e4;

@@ -34,7 +34,7 @@ struct UserState {
 };
 
 inline constexpr std::size_t RECENT_COUNT = 10;
-/// Of a window where none is remembered.
+/// Size of a window where none is remembered.
 inline constexpr glm::uvec2 DEFAULT_WINDOW{1280, 720};
 
 /// Where it is kept; empty when neither XDG_STATE_HOME (absolute) nor HOME is set.

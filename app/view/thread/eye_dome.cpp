@@ -10,7 +10,7 @@ namespace splatray {
 namespace {
 
 constexpr float NO_LEVEL = std::numeric_limits<float>::infinity();
-/// Of a step of one octave of distance to all neighbours, as an exponent, at USUAL_HEIGHT.
+/// Darkening, as an exponent, by a step of one octave of distance to all neighbours, at USUAL_HEIGHT.
 constexpr double DARKENING = 120.0;
 constexpr double USUAL_HEIGHT = 720.0;  ///< pixels
 constexpr double USUAL_PIXEL = 1.0e-3;  ///< of perspective pictures: a pixel's width over its distance

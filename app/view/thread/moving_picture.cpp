@@ -13,7 +13,7 @@ constexpr double MOST_GAIN = 4.0;  ///< and its inverse: beyond, the picture at 
 
 float brightness(const vec3& linear) { return 0.2126F * linear.x + 0.7152F * linear.y + 0.0722F * linear.z; }
 
-/// Of what pixels show that show something; nothing where none does.
+/// Mean of the pixels that show something; nothing where none does.
 template <class Linear>
 std::optional<double> mean_brightness(const Image& image, const Linear& linear) {
   double sum = 0.0;

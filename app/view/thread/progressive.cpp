@@ -14,7 +14,7 @@ constexpr double MOVING_MS = 1000.0 / 20.0;  ///< of a coarse picture
 constexpr double SLOWEST_MS = 1000.0 / 11.0;
 constexpr double BAND_MS = 30.0;  ///< of work before changes are looked for
 constexpr std::chrono::milliseconds SETTLING{150};
-/// Of trace_samples, so that reading back costs little.
+/// Least time between the pictures of trace_samples, so that reading back costs little.
 constexpr std::chrono::milliseconds BETWEEN_PICTURES{33};
 constexpr std::chrono::milliseconds BETWEEN_LOOKS{20};  ///< at a filter that works
 

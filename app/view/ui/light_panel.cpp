@@ -68,7 +68,7 @@ void angle_control(const char* label, double least, double most, double& radians
     radians = std::clamp(static_cast<double>(angle), least, most);
 }
 
-/// Of a point light: how far it shines; of a spot: where to.
+/// Controls how far a point light shines, and where a spot shines to.
 void reach_controls(const Document& document, SceneLight& light) {
   const auto speed = static_cast<float>(scene_radius_world(document) / 200.0);
   const double nothing = 0.0;
@@ -112,7 +112,7 @@ void sun_controls(const Document& document, SceneLight& light) {
                                      level * std::cos(double(azimuth)));
 }
 
-/// Of what path tracing sees.
+/// Controls the size of a light, which path tracing alone sees.
 void size_controls(const Document& document, SceneLight& light) {
   if (is_flat(light.kind)) return;
   if (light.kind == LIGHT_POINT) {

@@ -102,7 +102,7 @@ void radiance_edit(const char* label, vec3& radiance, float most) {
   if (changed) radiance = strength * color;
 }
 
-/// Of what path tracing sees.
+/// Controls the numbers of a material that path tracing alone sees.
 void light_controls(Material& material) {
   for (const MaterialField& field : material_fields()) {
     if (field.key == nullptr) continue;

@@ -70,7 +70,7 @@ Window::~Window() {
   glfwTerminate();
 }
 
-/// Of a window that is larger than what the first monitor has beside bars and docks, controls would be out of sight.
+/// Shrinks a window that is larger than the first monitor's work area: its controls would be out of sight.
 void Window::fit_monitor() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   if (monitor == nullptr) return;

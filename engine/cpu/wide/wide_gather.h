@@ -183,7 +183,7 @@ std::uint32_t step_tile(const WideView& tree, WideTile& tile, WideCursor& cursor
       cursor.seen += tested;
       if (part.nearest > cursor.begin + cursor.per_t * walk.t_max + tile.slack) continue;
       const std::uint32_t new_ones = ((1U << tested) - 1U) << place;
-      // Of few the exact test alone costs less.
+      // For few splats the exact test alone costs less.
       std::uint32_t met = new_ones;
       if (tested > DOUBLE_LANES) met &= maybe_hits(part.discs, walk);
       if (met != 0) met = meet_splats(part.discs, met, walk);

@@ -62,10 +62,10 @@ class ScanDecoder {
   std::uint64_t decoded_ = 0;
   std::uint64_t origins_ = 0;  ///< points at the frame's origin
   ScanBox box_;                ///< without these
-  // Of the batch:
+  // State of the batch:
   std::vector<std::uint32_t> kept_;  ///< records that have a position
   std::vector<glm::dvec3> world_;    ///< beside kept_
-  // Of the grid; up to finish(), Points::grid_cell holds the rows.
+  // State of the grid; up to finish(), Points::grid_cell holds the rows.
   std::vector<std::uint32_t> column_;  ///< of this scan's points
   std::uint32_t row_maximum_ = 0;      ///< of all records, with a position or without
   std::uint32_t column_maximum_ = 0;

@@ -58,7 +58,7 @@ class GltfMaterials {
   /// The base colour texture times its factor, nullptr when there is none or it cannot be decoded (noted).
   [[nodiscard]] std::shared_ptr<const Texture> base_texture(int index);
 
-  /// Of alphaMode BLEND: below it, a byte of opacity would be 0, and nothing is there.
+  /// Least alpha of alphaMode BLEND: below it, a byte of opacity would be 0, and nothing is there.
   static constexpr float LEAST_ALPHA = 0.5F / 255.0F;
   /// A texture of the base colour's factor alone, the same all over: for surfaces without a texture whose alpha matters. Null
   /// where it does not: of alphaMode OPAQUE, and where neither the vertices have any (`varies`) nor a mask cuts out all.

@@ -40,7 +40,7 @@ class DifferenceModels {
     return code + is_upper - (((1U << width) - 1) & (is_upper - 1));
   }
 
-  /// Of the last difference.
+  /// Width of the last difference, as read() has it.
   [[nodiscard]] unsigned width() const { return width_; }
 
  private:
