@@ -30,12 +30,12 @@ class Buffer {
 };
 
 /// The environment's texture: bilinear, repeating in columns, clamped in rows.
-class Texture {
+class DeviceTexture {
  public:
-  Texture() = default;
-  virtual ~Texture() = default;
-  Texture(const Texture&) = delete;
-  Texture& operator=(const Texture&) = delete;
+  DeviceTexture() = default;
+  virtual ~DeviceTexture() = default;
+  DeviceTexture(const DeviceTexture&) = delete;
+  DeviceTexture& operator=(const DeviceTexture&) = delete;
   [[nodiscard]] virtual std::uint64_t size() const = 0;  ///< bytes of its texels
 };
 
@@ -73,7 +73,7 @@ class Bindings {
   /// Points one binding to a buffer, or to a page of a pool.
   virtual void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page = 0) = 0;
   /// Points the environment's binding to a texture.
-  virtual void bind(const Texture& texture) = 0;
+  virtual void bind(const DeviceTexture& texture) = 0;
   /// Has programs walk a tree. Of a device that makes trees.
   virtual void bind([[maybe_unused]] const SplatTree& tree) {}
   /// Points a pool's binding to all of its pages.
@@ -101,7 +101,7 @@ class Queue {
   /// Throws Error (out_of_memory) naming the size.
   [[nodiscard]] virtual std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes) = 0;
   /// The texture of an environment that has texels, at most DeviceLimits::texture_size across and down.
-  [[nodiscard]] virtual std::unique_ptr<Texture> make_texture(const Environment& environment) = 0;
+  [[nodiscard]] virtual std::unique_ptr<DeviceTexture> make_texture(const Environment& environment) = 0;
   [[nodiscard]] virtual std::unique_ptr<Bindings> make_bindings(const Paging& paging) = 0;
   /// Makes the tree over a data pool's splats, if the device has one of its own, and sets `order` to their indices in the order
   /// that the tree has them in, as what lies beside the data pool must then lie too. Null and no order: programs walk the

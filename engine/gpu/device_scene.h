@@ -74,7 +74,7 @@ class DeviceScene {
   std::uint32_t tree_nodes_ = 0;
   std::vector<bool> two_sided_;    ///< of each object, whether its light leaves both faces
   double light_irradiance_ = 0.0;  ///< at the scene's centre, facing all, the mean of rgb
-  std::unique_ptr<Texture> environment_;
+  std::unique_ptr<DeviceTexture> environment_;
   bool environment_texture_ = false;
   glm::vec3 environment_constant_{0.0F};
   SkyTable sky_;  ///< without its words

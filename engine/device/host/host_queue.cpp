@@ -42,7 +42,7 @@ void HostBindings::bind(std::uint32_t binding, const Buffer& buffer, [[maybe_unu
   work_.bound[binding] = static_cast<const HostBuffer&>(buffer).data();
 }
 
-void HostBindings::bind(const Texture& texture) {
+void HostBindings::bind(const DeviceTexture& texture) {
   const auto& environment = static_cast<const HostTexture&>(texture);
   bind(BIND_ENVIRONMENT, environment.texels(), 0);
   work_.environment_width = environment.width();
@@ -57,7 +57,7 @@ std::unique_ptr<Buffer> HostQueue::make_buffer(std::uint64_t bytes) {
   return std::make_unique<HostBuffer>(bytes);
 }
 
-std::unique_ptr<Texture> HostQueue::make_texture(const Environment& environment) {
+std::unique_ptr<DeviceTexture> HostQueue::make_texture(const Environment& environment) {
   return std::make_unique<HostTexture>(environment);
 }
 

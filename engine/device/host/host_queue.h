@@ -15,7 +15,7 @@ class HostBuffer final : public Buffer {
   std::unique_ptr<std::byte[]> bytes_;
 };
 
-class HostTexture final : public Texture {
+class HostTexture final : public DeviceTexture {
  public:
   explicit HostTexture(const Environment& environment);
   [[nodiscard]] std::uint64_t size() const override { return texels_.size(); }
@@ -43,7 +43,7 @@ class HostBindings final : public Bindings {
  public:
   using Bindings::bind;
   void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) override;
-  void bind(const Texture& texture) override;
+  void bind(const DeviceTexture& texture) override;
   void bind(const SplatTree& tree) override;
 
   /// By binding; constants and parameters are left.
@@ -60,7 +60,7 @@ class HostQueue final : public Queue {
       : threads_(threads), functions_(wide_functions(vector_bits)) {}
 
   [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes) override;
-  [[nodiscard]] std::unique_ptr<Texture> make_texture(const Environment& environment) override;
+  [[nodiscard]] std::unique_ptr<DeviceTexture> make_texture(const Environment& environment) override;
   [[nodiscard]] std::unique_ptr<Bindings> make_bindings(const Paging& paging) override;
   [[nodiscard]] std::unique_ptr<SplatTree> make_tree(std::span<const uvec4> splats,
                                                      std::vector<std::uint32_t>& order) override;

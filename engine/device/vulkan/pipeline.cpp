@@ -93,7 +93,7 @@ void VulkanBindings::bind(std::uint32_t binding, const Buffer& buffer, std::uint
   vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
 }
 
-void VulkanBindings::bind(const Texture& texture) {
+void VulkanBindings::bind(const DeviceTexture& texture) {
   const auto& environment = static_cast<const EnvironmentTexture&>(texture);
   const VkDescriptorImageInfo image_info{environment.sampler(), environment.view(),
                                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};

@@ -20,7 +20,7 @@ class VulkanBindings final : public Bindings {
 
   using Bindings::bind;
   void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) override;
-  void bind(const Texture& texture) override;
+  void bind(const DeviceTexture& texture) override;
 
   [[nodiscard]] VkDescriptorSet set() const { return set_; }
   [[nodiscard]] VkPipelineLayout layout() const { return pipeline_layout_.get(); }

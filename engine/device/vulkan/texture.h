@@ -7,7 +7,7 @@
 namespace splatray {
 
 /// A sampled image of 4 floats a texel (of 16 bits where the device does not filter 32).
-class EnvironmentTexture final : public Texture {
+class EnvironmentTexture final : public DeviceTexture {
  public:
   /// Uploads the texels and waits.
   EnvironmentTexture(const VulkanDevice& vulkan, CommandQueue& queue, const Environment& environment);

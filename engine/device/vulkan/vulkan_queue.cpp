@@ -19,7 +19,7 @@ std::unique_ptr<Buffer> VulkanQueue::make_buffer(std::uint64_t bytes) {
   return std::make_unique<VulkanBuffer>(vulkan_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
-std::unique_ptr<Texture> VulkanQueue::make_texture(const Environment& environment) {
+std::unique_ptr<DeviceTexture> VulkanQueue::make_texture(const Environment& environment) {
   return std::make_unique<EnvironmentTexture>(vulkan_, commands_, environment);
 }
 

@@ -13,7 +13,7 @@ class VulkanQueue final : public Queue {
 
   [[nodiscard]] bool fuses() const override { return fuses_; }
   [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes) override;
-  [[nodiscard]] std::unique_ptr<Texture> make_texture(const Environment& environment) override;
+  [[nodiscard]] std::unique_ptr<DeviceTexture> make_texture(const Environment& environment) override;
   [[nodiscard]] std::unique_ptr<Bindings> make_bindings(const Paging& paging) override;
   void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) override;
   void download(const Buffer& buffer, std::span<std::byte> bytes) override;
